@@ -28,11 +28,10 @@ const { wasm, glue, out, check, address, words = join(here, "src/words.json") } 
 /** The texts stand in the page by themselves, where an editor finds them. */
 const wordsOfThePage = {
   name: "words",
-  setup: ({ onLoad }) =>
-    onLoad({ filter: /words\.json$/ }, () => ({
-      contents: 'export default JSON.parse(document.getElementById("words").textContent)',
-      loader: "js",
-    })),
+  setup: ({ onLoad }) => {
+    const contents = 'export default JSON.parse(document.getElementById("words").textContent)';
+    onLoad({ filter: /words\.json$/ }, () => ({ contents, loader: "js" }));
+  },
 };
 
 const licence = readFileSync(join(here, "node_modules/uqr/LICENSE"), "utf8");
@@ -40,16 +39,8 @@ const licence = readFileSync(join(here, "node_modules/uqr/LICENSE"), "utf8");
 /** The text of a script's bundle, and of the style sheets that it imports. */
 async function bundled(entry) {
   const { outputFiles } = await build({
-    absWorkingDir: here,
-    entryPoints: [entry],
-    outdir: "unused",
-    write: false,
-    bundle: true,
-    minify: true,
-    charset: "utf8",
-    format: "iife",
-    target: ["es2022"],
-    legalComments: "none",
+    ...{ absWorkingDir: here, entryPoints: [entry], outdir: "unused", write: false, bundle: true, minify: true },
+    ...{ charset: "utf8", format: "iife", target: ["es2022"], legalComments: "none" },
     // Whoever passes the page on passes on the licence of what is in it.
     banner: entry === "src/main.ts" ? { js: `/* uqr\n${licence.trim()}\n*/` } : {},
     logLevel: "warning",
@@ -68,12 +59,8 @@ const sha256 = (text) => `'sha256-${createHash("sha256").update(text).digest("ba
 const version = (content) => createHash("sha256").update(content).digest("hex").slice(0, 10);
 
 const policy = (...rules) =>
-  `<meta http-equiv="Content-Security-Policy" content="${[
-    "default-src 'none'",
-    ...rules,
-    "base-uri 'none'",
-    "form-action 'none'",
-  ].join("; ")}" />`;
+  `<meta http-equiv="Content-Security-Policy" content="default-src 'none'; ${rules.join("; ")}; ` +
+  `base-uri 'none'; form-action 'none'" />`;
 
 /** Replaced text can have dollar signs in it. */
 function filled(html, parts) {

@@ -19,21 +19,18 @@ export class Address {
   private forbidden = false;
 
   /** `arrived` gets the state of an address that the page has not written itself. */
-  constructor(private readonly arrived: (state: State, problems: string[]) => void) {
+  constructor(private readonly arrived: (read: ReturnType<typeof fromHash>) => void) {
     window.addEventListener("hashchange", () => {
       if (location.hash === this.written) return;
       clearTimeout(this.timer);
-      this.timer = undefined;
-      this.waiting = null;
-      this.written = this.settled = location.hash;
-      const { state, problems } = fromHash(location.hash);
-      this.arrived(state, problems);
+      Object.assign(this, { timer: undefined, waiting: null, written: location.hash, settled: location.hash });
+      this.arrived(fromHash(location.hash));
     });
     window.addEventListener("pagehide", () => this.flush());
   }
 
   /** The state of the address with which the page was opened. */
-  opened(): { state: State; problems: string[] } {
+  opened(): ReturnType<typeof fromHash> {
     this.written = this.settled = location.hash;
     return fromHash(location.hash);
   }

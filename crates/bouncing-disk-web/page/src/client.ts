@@ -32,15 +32,11 @@ export function makeClient(source: Source): Client {
 }
 
 /** What both lanes share: where the worker's script is, and the module, once one of them has compiled it. */
-interface Workshop {
-  readonly script: string;
-  module: ModuleSource;
-}
+type Workshop = { readonly script: string; module: ModuleSource };
 
 function workshopOf(source: Source): Workshop {
-  if ("worker" in source) {
+  if ("worker" in source)
     return { script: source.worker, module: { address: new URL(source.module, document.baseURI).href } };
-  }
   const script = URL.createObjectURL(new Blob([source.script], { type: "text/javascript" }));
   return { script, module: { base64: source.base64 } };
 }
@@ -56,11 +52,7 @@ interface Job {
   next?: number;
 }
 
-interface Running {
-  readonly id: number;
-  readonly job: Job;
-  wanted: boolean;
-}
+type Running = { readonly id: number; readonly job: Job; wanted: boolean };
 
 /** One honest sentence about a worker's end. */
 function sentence(message: string, starting: boolean): Error {
@@ -105,8 +97,7 @@ class Lane {
   warm(): void {
     if (this.worker !== null) return;
     const worker = new Worker(this.workshop.script);
-    this.worker = worker;
-    this.ready = false;
+    Object.assign(this, { worker, ready: false });
     worker.onmessage = ({ data }: MessageEvent<FromWorker>) => {
       if (this.worker === worker) this.hear(data);
     };
@@ -132,10 +123,7 @@ class Lane {
   }
 
   private hear(message: FromWorker): void {
-    if (message.kind === "failed") {
-      this.fail(message.message, message.id === null && !this.ready);
-      return;
-    }
+    if (message.kind === "failed") return this.fail(message.message, message.id === null && !this.ready);
     const running = this.running;
     if (message.kind === "ready") {
       if (message.module !== null) this.workshop.module = { compiled: message.module };
@@ -180,9 +168,7 @@ class Lane {
 
   private replace(hopeless = false): void {
     this.worker?.terminate();
-    this.worker = null;
-    this.ready = false;
-    this.running = null;
+    Object.assign(this, { worker: null, ready: false, running: null });
     if (hopeless) this.deaths = 0;
     else this.warm();
     this.pump();

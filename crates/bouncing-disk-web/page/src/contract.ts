@@ -2,9 +2,13 @@
 
 import type { FlightStart, ImpactStart, Range, Refusal, Request, Response, SystemParameters } from "./protocol";
 
-export type ViewName = "toss" | "diagram" | "basins" | "motor" | "compare" | "scan";
+/** In the order of their tabs. */
+export const VIEW_NAMES = ["toss", "diagram", "basins", "motor", "compare", "scan"] as const;
+export type ViewName = (typeof VIEW_NAMES)[number];
 
-export type Quantity = "impact_phase" | "normalised_speed" | "angular_speed";
+/** What the orbit diagram shows, in the order in which it is offered. */
+export const QUANTITIES = ["impact_phase", "normalised_speed", "angular_speed"] as const;
+export type Quantity = (typeof QUANTITIES)[number];
 
 /** How the platform moves in the orbit diagram. */
 export const DRIVES = ["sine", "triangle", "sawtooth", "parabolas"] as const;

@@ -2,9 +2,8 @@
 
 import type { Change, State } from "./contract";
 import { button, element, rich, setText } from "./elements";
-import {
-  basins, bouncing, diagram, motor, multipleToss, REST, stateOf, toss, tossOf, withForcing, withTwist,
-} from "./presets"; // prettier-ignore
+import { basins, bouncing, diagram, motor, multipleToss, REST, stateOf } from "./presets";
+import { toss, tossOf, withForcing, withTwist } from "./presets";
 import type { Range } from "./protocol";
 import { nextDouble } from "./views/compare/parting";
 import { say, WORDS } from "./words";
@@ -65,13 +64,8 @@ const STEPS: { readonly [Course in Id]: Readonly<Record<keyof Words[Course]["ste
   },
 };
 
-interface StepWords {
-  readonly title: string;
-  readonly text: string;
-  /** Something to do on the page, and what comes of it. */
-  readonly task?: string;
-  readonly answer?: string;
-}
+/** A task is something to do on the page, and its answer what comes of it. */
+type StepWords = Readonly<Record<"title" | "text", string> & Partial<Record<"task" | "answer", string>>>;
 
 /** In the order in which they are offered. */
 export const COURSES = (Object.keys(STEPS) as Id[]).map((id) => {
@@ -138,18 +132,16 @@ export class CoursePanel {
   private go(step: number): void {
     const { title, steps } = this.course as Course;
     const shown = steps[step];
-    if (shown === undefined) {
-      if (step >= steps.length) this.end();
-      return;
-    }
+    if (shown === undefined) return step >= steps.length ? this.end() : undefined;
     this.step = step;
     setText(this.place, say(TEXTS.place, { course: title, step: step + 1, steps: steps.length }));
     setText(this.title, shown.title);
     const { text, task, answer } = shown;
-    const asked = task && element("p", {}, element("b", {}, TEXTS.task), " ", ...rich(task));
-    const told =
-      answer && element("details", {}, element("summary", {}, TEXTS.answer), element("p", {}, ...rich(answer)));
-    this.text.replaceChildren(element("p", {}, ...rich(text)), ...[asked, told].flatMap((part) => part || []));
+    const paragraph = (words: string) => element("p", {}, ...rich(words));
+    const parts: HTMLElement[] = [paragraph(text)];
+    if (task) parts.push(element("p", {}, element("b", {}, TEXTS.task), " ", ...rich(task)));
+    if (answer) parts.push(element("details", {}, element("summary", {}, TEXTS.answer), paragraph(answer)));
+    this.text.replaceChildren(...parts);
     this.back.disabled = step === 0;
     setText(this.next, step === steps.length - 1 ? TEXTS.finish : TEXTS.next);
     this.open(shown.state);

@@ -64,11 +64,20 @@ export function button(label: string | Node[], press: () => void, attributes: At
 export const closeButton = (label: string, close: () => void): HTMLButtonElement =>
   button("×", close, { class: "quiet close", "aria-label": label });
 
-/** Where an arrow key, Home or End leads in a row of so many, round its ends; `undefined` for other keys. */
-export function roved(key: string, at: number, count: number): number | undefined {
-  const by = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[key];
-  if (by !== undefined) return (at + by + count) % count;
-  return { Home: 0, End: count - 1 }[key];
+/** Lets arrow keys, Home and End move between the buttons of a row, round its ends; `arrived` is called where they lead. */
+export function rove(row: HTMLElement, arrived: (button: HTMLButtonElement) => void = () => {}): void {
+  row.addEventListener("keydown", (event) => {
+    const buttons = [...row.querySelectorAll("button")];
+    const at = buttons.indexOf(document.activeElement as HTMLButtonElement);
+    const [next, previous, last] = [at + 1, at - 1 + buttons.length, buttons.length - 1];
+    const arrows = { ArrowRight: next, ArrowDown: next, ArrowLeft: previous, ArrowUp: previous };
+    const target = { ...arrows, Home: 0, End: last }[event.key];
+    const found = buttons[(target ?? 0) % buttons.length];
+    if (at < 0 || target === undefined || found === undefined) return;
+    event.preventDefault();
+    arrived(found);
+    found.focus();
+  });
 }
 
 /** Puts text into the clipboard; false where the browser does not let it. */
@@ -145,3 +154,15 @@ export function debounced<Values extends unknown[]>(
   later.stop = () => clearTimeout(timer);
   return later;
 }
+
+/** A choice among values with their texts. */
+export function choice(label: string, options: readonly (readonly [string, string])[], choose: (value: string) => void): HTMLSelectElement {
+  const all = options.map(([value, text]) => element("option", { value }, text));
+  const made = element("select", { "aria-label": label, onchange: () => choose(made.value) }, ...all);
+  return made;
+}
+
+export const labelled = (text: string, field: HTMLElement): HTMLElement => element("label", {}, `${text} `, field);
+
+/** Whether the form stands below the view, as in `screens.css`. */
+export const isNarrow = (): boolean => window.matchMedia("(max-width: 860px)").matches;

@@ -97,19 +97,16 @@ const STROKES = new WeakMap<Readonly<SystemParameters>, StrokeSides>();
 
 type StrokeSides = Readonly<Record<"stroke" | "angle", number>>;
 
-const ofStroke = (given: (system: State["system"]) => StrokeSides, { system }: State): Change => {
-  const { stroke, angle } = given(system);
-  const twist_amplitude = (stroke * Math.sin(angle)) / system.contact_radius;
+function ofStroke({ stroke, angle }: StrokeSides, { contact_radius }: State["system"]): Change {
+  const twist_amplitude = (stroke * Math.sin(angle)) / contact_radius;
   return { system: { amplitude: stroke * Math.cos(angle), twist_amplitude } };
-};
+}
 
 /** Forcings between which a disk bounces once, twice, and so on up to chaos. */
 const CASCADE: Range = [0.25, 0.75];
 
 const FORCING: Parameter = {
-  name: "axial_forcing",
-  symbol: "Γ",
-  unit: "",
+  ...{ name: "axial_forcing", symbol: "Γ", unit: "", refusedAs: ["amplitude", "peak_acceleration"] },
   slider: ({ system }) => {
     const forcing = axialForcing(system);
     return forcing >= CASCADE[0] && forcing <= CASCADE[1] ? CASCADE : [0, 2 * forcing || 1];
@@ -118,7 +115,6 @@ const FORCING: Parameter = {
     summary && asTyped(summary.axial_forcing, (forcing) => amplitudeOf(forcing, system) === system.amplitude),
   // Gamma = A omega²/(pi g) is a definition (Sec. I); what comes of it is checked like any amplitude.
   change: (value, { system }) => ({ system: { amplitude: amplitudeOf(value, system) } }),
-  refusedAs: ["amplitude", "peak_acceleration"],
 };
 
 /** What a newcomer changes first stands open; the rest is folded. */
@@ -135,55 +131,39 @@ const GROUPS: Readonly<Record<keyof typeof WORDS.form.groups, readonly Parameter
       hint: (_, { system }) => `ωΦ ${shown(system.angular_frequency * system.twist_amplitude, 4)} rad/s`,
     }),
     {
-      name: "stroke",
-      symbol: "c",
-      unit: "m",
-      slider: LOGARITHMIC,
+      ...{ name: "stroke", symbol: "c", unit: "m", slider: LOGARITHMIC, hint: metres },
       value: ({ system }) => strokeOf(system).stroke,
-      change: (stroke, state) => ofStroke((system) => ({ ...strokeOf(system), stroke }), state),
-      hint: metres,
+      change: (stroke, { system }) => ofStroke({ ...strokeOf(system), stroke }, system),
     },
     {
-      name: "amplitude_angle",
-      symbol: "φ_L",
-      unit: "rad",
+      ...{ name: "amplitude_angle", symbol: "φ_L", unit: "rad", angle: true, hint: inPi },
       slider: () => [0, Math.PI / 2],
-      angle: true,
       value: ({ system }) => strokeOf(system).angle,
-      change: (angle, state) => ofStroke((system) => ({ ...strokeOf(system), angle }), state),
-      hint: inPi,
+      change: (angle, { system }) => ofStroke({ ...strokeOf(system), angle }, system),
     },
     ofSystem("angular_frequency", "ω", "rad/s", LOGARITHMIC, { hint: hertz }),
     ofSystem("phase_lag", "θ", "rad", () => [-Math.PI, Math.PI], { angle: true, hint: inPi }),
   ],
   disk: [
     {
-      name: "contact_time",
-      symbol: "T_c",
-      unit: "2π/ω",
+      ...{ name: "contact_time", symbol: "T_c", unit: "2π/ω", refusedAs: ["contact.time", "contact time"] },
       slider: () => [0, 2],
       value: ({ system }) =>
         asTyped(contactPeriods(system), (periods) => contactTime(periods, system) === system.contact_time),
       change: (value, { system }) => ({ system: { contact_time: contactTime(value, system) } }),
-      refusedAs: ["contact.time", "contact time"],
-      hint: (_, { system }) =>
-        system.contact_time === 0 ? WORDS.form.rigid : measured(system.contact_time, "s"),
+      hint: (_, { system: { contact_time } }) => (contact_time === 0 ? WORDS.form.rigid : measured(contact_time, "s")),
     },
     ofSystem("contact_radius", "a_e", "m", LOGARITHMIC, { hint: metres }),
     ofSystem("gyration_radius", "a_g", "m", LOGARITHMIC, { hint: metres }),
     ofSystem("preload_acceleration", "g", "m/s²", LOGARITHMIC),
-    ofSystem("load_acceleration", "α_L", "rad/s²",
-      (state) => [-frictionScale(state), frictionScale(state)], {
-      hint: (value, { system, mass }) =>
-        value === 0 ? "" : `${shown(value * mass * system.gyration_radius ** 2, 3)} N m`,
-    }), // prettier-ignore
+    ofSystem("load_acceleration", "α_L", "rad/s²", (state) => [-frictionScale(state), frictionScale(state)], {
+      hint: (value, { system: { gyration_radius }, mass }) =>
+        value === 0 ? "" : `${shown(value * mass * gyration_radius ** 2, 3)} N m`,
+    }),
     {
-      name: "mass",
-      symbol: "m",
-      unit: "kg",
-      slider: LOGARITHMIC,
-      value: (state) => state.mass,
-      change: (value) => ({ mass: value }),
+      ...{ name: "mass", symbol: "m", unit: "kg", slider: LOGARITHMIC },
+      value: ({ mass }) => mass,
+      change: (mass) => ({ mass }),
     },
   ],
   start: [
@@ -200,6 +180,8 @@ const GROUPS: Readonly<Record<keyof typeof WORDS.form.groups, readonly Parameter
 export const PARAMETERS: readonly Parameter[] = Object.values(GROUPS).flat();
 
 export const labelOf = ({ name }: Parameter): string => WORDS.form.labels[name];
+/** "axial forcing", without what it sets. */
+export const shortLabelOf = (parameter: Parameter): string => labelOf(parameter).split(",")[0] ?? "";
 
 export class Parameters {
   private readonly fields: Field[] = [];
@@ -231,11 +213,9 @@ export class Parameters {
       ["T_c", readout.contact, contact?.[0][1] ?? WORDS.form.rigid],
       ["mg/kA", readout.indentation, contact?.[1][1] ?? readout.none],
     ] as const;
-    this.list.replaceChildren(
-      ...rows.map(([sign, name, value]) =>
-        element("div", {}, element("dt", {}, symbol(sign), ` ${name}`), element("dd", {}, value)),
-      ),
-    );
+    const row = (sign: string, name: string, value: string) =>
+      element("div", {}, element("dt", {}, symbol(sign), ` ${name}`), element("dd", {}, value));
+    this.list.replaceChildren(...rows.map(([sign, name, value]) => row(sign, name, value)));
     this.sentence.textContent = summary.bounces ? readout.bounces : readout.never_bounces;
   }
 
@@ -253,8 +233,9 @@ class Field {
   readonly element: HTMLElement;
   private readonly slider: HTMLInputElement;
   private readonly input: HTMLInputElement;
-  private readonly hint: HTMLElement;
+  private readonly hint = element("span", { class: "hint" });
   private readonly error: HTMLElement;
+  private readonly logarithmic: boolean;
   private state: State | null = null;
   private value: number | null = null;
   private range: Range = [0, 1];
@@ -263,29 +244,25 @@ class Field {
     private readonly parameter: Parameter,
     private readonly propose: Propose,
   ) {
-    const { name, unit } = parameter;
+    const { name, unit, slider } = parameter;
     const label = labelOf(parameter);
-    const spoken = `${label}${unit ? `, ${unit}` : ""}`;
+    this.logarithmic = slider === LOGARITHMIC;
     this.slider = element("input", {
-      type: "range", min: 0, max: POSITIONS, step: 1, "aria-label": say(WORDS.form.slider, { name: spoken }),
-      oninput: () => this.slid(false), onchange: () => this.slid(true),
+      type: "range", min: 0, max: POSITIONS, step: 1, oninput: () => this.slid(false), onchange: () => this.slid(true),
+      "aria-label": say(WORDS.form.slider, { name: `${label}${unit ? `, ${unit}` : ""}` }),
     }); // prettier-ignore
     this.input = element("input", {
       type: "text", id: `field-${name}`, inputmode: "decimal", autocomplete: "off", spellcheck: "false",
       "aria-describedby": `error-${name}`, onchange: () => this.entered(), onfocus: () => this.focused(),
       onblur: () => this.print(), onkeydown: (event: KeyboardEvent) => this.pressed(event),
     }); // prettier-ignore
-    this.hint = element("span", { class: "hint" });
     this.error = element("p", { class: "error", id: `error-${name}`, role: "alert", hidden: true });
+    const words = [symbol(parameter.symbol), element("span", { class: "label" }, label)];
     this.element = element(
       "div",
       { class: "field", "data-name": name },
-      element("label", { for: `field-${name}` }, symbol(parameter.symbol), element("span", { class: "label" }, label)),
-      this.hint,
-      this.slider,
-      this.input,
-      element("span", { class: "unit" }, unit),
-      this.error,
+      element("label", { for: `field-${name}` }, ...words),
+      ...[this.hint, this.slider, this.input, element("span", { class: "unit" }, unit), this.error],
     );
   }
 
@@ -306,54 +283,46 @@ class Field {
 
   private suitable(value: number, state: State): Range {
     const { slider } = this.parameter;
-    if (slider === LOGARITHMIC) {
-      const size = value > 0 ? value : 1;
-      return [size / REACH, size * REACH];
-    }
+    const size = value > 0 ? value : 1;
+    if (slider === LOGARITHMIC) return [size / REACH, size * REACH];
     const [low, high] = slider(state);
     return [Math.min(low, value), Math.max(high, value)];
   }
 
   private position(value: number): number {
     const [low, high] = this.range;
-    const logarithmic = this.parameter.slider === LOGARITHMIC;
-    const share = logarithmic ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low);
+    const share = this.logarithmic ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low);
     return Math.round(POSITIONS * Math.min(1, Math.max(0, share)));
   }
 
   private slid(settled: boolean): void {
     const [low, high] = this.range;
     const share = Number(this.slider.value) / POSITIONS;
-    const logarithmic = this.parameter.slider === LOGARITHMIC;
-    const exact = logarithmic ? low * (high / low) ** share : low + share * (high - low);
+    const exact = this.logarithmic ? low * (high / low) ** share : low + share * (high - low);
     // No more digits than a position means, so that the number can be read, typed and cited.
-    const digit = logarithmic
-      ? 10 ** (Math.floor(Math.log10(exact)) - 3)
-      : 10 ** Math.floor(Math.log10(high - low) - 3);
+    const digit = 10 ** (this.logarithmic ? Math.floor(Math.log10(exact)) - 3 : Math.floor(Math.log10(high - low) - 3));
     this.ask(Number((Math.round(exact / digit) * digit).toPrecision(12)), settled);
   }
 
   private entered(): void {
     const text = this.input.value;
-    if (this.value !== null && (text === String(this.value) || text === abridged(this.value))) {
-      this.complain(null);
-      return;
-    }
-    const { unit, angle } = this.parameter;
-    const value = typed(text, unit, angle === true);
+    if (this.value !== null && (text === String(this.value) || text === abridged(this.value))) return this.complain(null);
+    const { unit, angle = false } = this.parameter;
+    const value = typed(text, unit, angle);
     const { no_number, no_angle, thousands } = WORDS.form;
-    const problem = mayBeThousands(text) ? thousands : angle === true ? no_angle : no_number;
+    const problem = mayBeThousands(text) ? thousands : angle ? no_angle : no_number;
     if (value !== null) this.ask(value, true);
     else this.complain(say(problem, { text: text.slice(0, 24) }));
   }
 
   private pressed(event: KeyboardEvent): void {
+    const direction = { ArrowUp: 1 as const, ArrowDown: -1 as const }[event.key];
     if (event.key === "Escape") {
       this.complain(null);
       this.focused();
-    } else if ((event.key === "ArrowUp" || event.key === "ArrowDown") && this.value !== null) {
+    } else if (direction !== undefined && this.value !== null) {
       event.preventDefault();
-      this.ask(stepped(this.value, event.key === "ArrowUp" ? 1 : -1, event.shiftKey, 0.01), true);
+      this.ask(stepped(this.value, direction, event.shiftKey, 0.01), true);
     }
   }
 
@@ -369,13 +338,12 @@ class Field {
     });
   }
 
-  private words(refusal: Refusal, value: number): string {
-    const { quantity, message } = refusal;
+  private words({ quantity, message, range: own }: Refusal, value: number): string {
     const { name, refusedAs } = this.parameter;
     const ranges: Readonly<Record<string, string>> = tables.ranges;
-    const range = refusedAs?.includes(quantity ?? "") ? (ranges[name] ?? null) : quantity === name ? refusal.range : null;
+    const range = refusedAs?.includes(quantity ?? "") ? (ranges[name] ?? null) : quantity === name ? own : null;
     if (range === null) return `${message}${/[.!]$/.test(message) ? "" : "."}`;
-    return say(WORDS.form.refused, { value: shown(value), name: labelOf(this.parameter).split(",")[0] ?? "", range });
+    return say(WORDS.form.refused, { value: shown(value), name: shortLabelOf(this.parameter), range });
   }
 
   /** What is wrong stays until something legal is typed, and so does the text. */
@@ -395,8 +363,7 @@ class Field {
   /** All digits while somebody edits, as many as fit otherwise. */
   private print(): void {
     if (this.value === null || !this.error.hidden) return;
-    const editing = document.activeElement === this.input;
-    this.input.value = editing ? String(this.value) : abridged(this.value);
     this.input.title = String(this.value);
+    this.input.value = document.activeElement === this.input ? this.input.title : abridged(this.value);
   }
 }

@@ -19,6 +19,7 @@ import { openingPanel, PRESETS, stateOf, type Panel, type Preset } from "./prese
 import { SYSTEM_NAMES } from "./protocol";
 import { printSheet } from "./sheet";
 import { choices, helpDialog, shortcutsOn, Stage, Tabs, Themes } from "./shell";
+import type { fromHash } from "./state";
 import { Store } from "./store";
 import { basins } from "./views/basins";
 import { compare } from "./views/compare";
@@ -28,7 +29,6 @@ import { scan } from "./views/scan";
 import { toss } from "./views/toss";
 import { say, WORDS } from "./words";
 
-/** In the order of their tabs. */
 const VIEWS: readonly ViewKind[] = [toss, diagram, basins, motor, compare, scan];
 
 /** No ultrasonic motor has a drive as slow as this (rad/s). */
@@ -70,10 +70,11 @@ function begin(): void {
     fresh = true;
     store.change(state);
   };
-  const address = new Address((state, messages) => {
+  const arrived = ({ state, problems: messages }: ReturnType<typeof fromHash>): void => {
     problems.replace(messages);
     void store.open(state);
-  });
+  };
+  const address = new Address(arrived);
 
   let clock: number | undefined;
   const context: Context = {
@@ -103,16 +104,15 @@ function begin(): void {
   let aside: State | null = null;
   const visit = (view: ViewName): void => {
     const { system } = store.state();
-    const guest = aside !== null && SYSTEM_NAMES.every((name) => system[name] === MOTOR_STATE.system[name]);
+    const guest = SYSTEM_NAMES.every((name) => system[name] === MOTOR_STATE.system[name]);
+    const { compare, scan } = store.state();
     if (view === "motor" && system.angular_frequency < SLOWEST_MOTOR) {
       aside = store.state();
-      open({ ...MOTOR_STATE, compare: aside.compare, scan: aside.scan });
+      open({ ...MOTOR_STATE, compare, scan });
       context.announce(WORDS.status.motor_put_in);
-    } else if (guest && aside !== null && view !== "motor" && view !== "scan") {
       // A scan may be that of the motor.
-      const { compare, scan } = store.state();
-      open({ ...aside, view, compare, scan });
-    } else store.change({ view });
+    } else if (guest && aside !== null && view !== "motor" && view !== "scan") open({ ...aside, view, compare, scan });
+    else store.change({ view });
   };
   const tabs = new Tabs(byId("tabs"), VIEWS, visit);
   const side = byId("parameters");
@@ -123,17 +123,13 @@ function begin(): void {
     open(stateOf(panel));
   };
   const notes = new Notes(byId("note"), choose);
-  const presets = choices(
-    WORDS.page.figures_choose,
-    "presets",
-    WORDS.page.figures_what,
-    () =>
-      PRESETS.map((preset) => ({
-        label: preset.place,
-        note: preset.title,
-        attributes: { "data-preset": preset.id },
-        act: () => choose(preset, openingPanel(preset)),
-      })),
+  const presets = choices(WORDS.page.figures_choose, "presets", WORDS.page.figures_what, () =>
+    PRESETS.map((preset) => ({
+      label: preset.place,
+      note: preset.title,
+      attributes: { "data-preset": preset.id },
+      act: () => choose(preset, openingPanel(preset)),
+    })),
   );
   const help = helpDialog();
   const course = new CoursePanel(() => store.state(), open);
@@ -150,6 +146,7 @@ function begin(): void {
   const tool = (name: string): HTMLButtonElement => byId<HTMLButtonElement>(`${name}-button`);
   const themes = new Themes(tool("theme"), () => stage.redraw());
   const copy = (): void => void copyLink(context, tool("link"));
+  const offers = (): Offer[] => stage.view?.offers() ?? [];
   const saved = async (offer: Offer): Promise<void> => {
     const name = fileName(offer);
     try {
@@ -159,21 +156,11 @@ function begin(): void {
       problems.add(say(WORDS.page.not_saved, { name, why: String(error) }));
     }
   };
-  const print = async (): Promise<void> => {
-    try {
-      await printSheet(store.state(), stage.view?.offers() ?? []);
-    } catch (error) {
-      problems.add(messageOf(error));
-    }
-  };
+  const print = () => void printSheet(store.state(), offers()).catch((error) => problems.add(messageOf(error)));
   const exports = choices(WORDS.page.export, "export", WORDS.page.export_what, () => [
-    ...(stage.view?.offers() ?? []).map((offer) => ({
-      label: offer.name,
-      note: noteOf(offer),
-      act: () => void saved(offer),
-    })),
+    ...offers().map((offer) => ({ label: offer.name, note: noteOf(offer), act: () => void saved(offer) })),
     { label: WORDS.page.link_offer, note: WORDS.page.copy, act: copy },
-    { label: WORDS.sheet.label, note: "PRINT", act: () => void print() },
+    { label: WORDS.sheet.label, note: "PRINT", act: print },
     { label: WORDS.embed.label, note: WORDS.page.copy, act: () => void copyFrame(context) },
   ]);
   /** The tools with the keys that do the same. */
@@ -192,15 +179,9 @@ function begin(): void {
   });
 
   document.addEventListener("keydown", (event) => {
-    const busy = document.querySelector("dialog[open]") !== null || event.ctrlKey || event.altKey || event.metaKey;
-    const target = event.target as HTMLElement;
-    if (
-      busy ||
-      event.defaultPrevented ||
-      !shortcutsOn() ||
-      target.closest("input, select, textarea, [contenteditable]")
-    )
-      return;
+    const taken = event.defaultPrevented || event.ctrlKey || event.altKey || event.metaKey;
+    const typing = (event.target as HTMLElement).closest("input, select, textarea");
+    if (taken || typing || document.querySelector("dialog[open]") || !shortcutsOn()) return;
     const view = VIEWS[Number(event.key) - 1]?.name;
     const own = tools.find(([key]) => key === event.key)?.[2];
     if (view !== undefined) visit(view);
@@ -215,9 +196,7 @@ function begin(): void {
     [WORDS.opening.lessons, courses],
   ]);
   if (location.hash === "") opening.show();
-  const first = address.opened();
-  problems.replace(first.problems);
-  void store.open(first.state);
+  arrived(address.opened());
 }
 
 async function copyFrame(context: Context): Promise<void> {

@@ -1,7 +1,7 @@
 /** What stands above a view: the note on a preset, and sentences about what could not be done. */
 
 import type { State } from "./contract";
-import { button, closeButton, element, kept, rich } from "./elements";
+import { button, closeButton, element, isNarrow, kept, rich } from "./elements";
 import { PRESETS, stateOf, type Panel, type Preset } from "./presets";
 import { toHash } from "./state";
 import { say, WORDS } from "./words";
@@ -43,7 +43,7 @@ export class Notes {
     else this.draw(this.shown.preset, found?.panel ?? null);
   }
 
-  /** `active` is null where the parameters have been changed since. */
+  /** `active` is null where the parameters have been changed since. On a narrow screen the picture comes first. */
   private draw(preset: Preset, active: Panel | null): void {
     const panels = preset.panels.length > 1 || active === null ? preset.panels : [];
     const chips = panels.map((panel) => {
@@ -52,18 +52,20 @@ export class Notes {
     });
     const place = element("span", { class: "place" }, preset.place);
     const changed = active === null ? element("span", { class: "changed" }, WORDS.notes.changed) : null;
-    // The focus stays on the panel that was just chosen.
-    const focused = [...this.host.querySelectorAll(".chip")].indexOf(document.activeElement as HTMLElement);
-    this.host.hidden = false;
-    this.host.replaceChildren(
-      element("h2", {}, place, ` ${preset.title}`, changed),
+    const { host } = this;
+    // What is chosen or folded stays so.
+    const focused = [...host.querySelectorAll(".chip")].indexOf(document.activeElement as HTMLElement);
+    const open = host.querySelector("details")?.open ?? !isNarrow();
+    const heading = element("h2", {}, place, ` ${preset.title}`, changed);
+    const group = { class: "chips", role: "group", "aria-label": WORDS.notes.panels };
+    const parts = [element("p", {}, ...rich(preset.text)), chips.length > 0 ? element("div", group, ...chips) : null];
+    host.hidden = false;
+    host.replaceChildren(
+      element("details", { open }, element("summary", {}, heading), ...parts),
       closeButton(WORDS.notes.close, () => this.close()),
-      element("p", {}, ...rich(preset.text)),
     );
-    if (chips.length > 0)
-      this.host.append(element("div", { class: "chips", role: "group", "aria-label": WORDS.notes.panels }, ...chips));
     if (focused >= 0) chips[focused]?.focus({ preventScroll: true });
-  } // prettier-ignore
+  }
 
   close(): void {
     this.shown = null;

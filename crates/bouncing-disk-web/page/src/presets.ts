@@ -6,18 +6,9 @@ import { amplitudeOf, changed, DEFAULT_STATE, DEFAULT_SYSTEM, systemOf } from ".
 import tables from "./tables.json";
 import { WORDS } from "./words";
 
-export interface Panel {
-  readonly label: string;
-  readonly change: Change;
-}
+export type Panel = Readonly<{ label: string; change: Change }>;
 
-export interface Preset {
-  readonly id: string;
-  readonly place: string;
-  readonly title: string;
-  readonly text: string;
-  readonly panels: readonly Panel[];
-}
+export type Preset = Readonly<Record<"id" | "place" | "title" | "text", string>> & { readonly panels: readonly Panel[] };
 
 const { PI } = Math;
 
@@ -38,10 +29,7 @@ export function tossOf({
 const TABLE_ONE: Readonly<SystemParameters> = { ...DEFAULT_SYSTEM, ...tossOf({}) };
 
 /** Multiple tosses with the semielliptical motion of Fig. 6(d): theta = -0.26 pi, Gamma_T = 1. */
-export const multipleToss: Readonly<SystemParameters> = {
-  ...DEFAULT_SYSTEM,
-  ...withTwist({ ...DEFAULT_SYSTEM, phase_lag: -0.26 * PI }, 1),
-};
+export const multipleToss = withTwist({ ...DEFAULT_SYSTEM, phase_lag: -0.26 * PI }, 1);
 
 /** The same system with the amplitude of this axial forcing, Gamma = A omega²/(pi g). */
 export const withForcing = (system: SystemParameters, forcing: number): SystemParameters => ({
@@ -76,11 +64,9 @@ const MASS = Number(SHEET.mass.toPrecision(3));
 const MOTOR: Readonly<SystemParameters> = { ...systemOf(SHEET), ...motorOf({}) };
 
 /** A single toss: the dough lies on the hand at its lowest point. */
-export const toss = (change: Change["system"]): Change => ({
-  view: "toss",
-  system: { ...TABLE_ONE, ...change },
-  start: REST,
-});
+export const toss = (change: Change["system"]): Change => {
+  return { view: "toss", system: { ...TABLE_ONE, ...change }, start: REST };
+};
 
 /** The orbit diagram of Fig. 6, whose columns begin with this impact. */
 export const diagram = (quantity: Quantity, system: SystemParameters, axial_forcing: Range = [0.3, 0.65]): Change => ({
@@ -162,10 +148,7 @@ const PANELS: Readonly<Record<Id, readonly [Change, ...Change[]]>> = {
     motor(motorOf({ frequency: 184e3, preload: 8.51 })),
     motor(motorOf({ frequency: 184e3, preload: 2.43 })),
   ],
-  fig12: [
-    motor({ amplitude: 1e-7, preload_acceleration: 0.5 }),
-    motor({ amplitude: 1e-8, preload_acceleration: 1 }),
-  ],
+  fig12: [motor({ amplitude: 1e-7, preload_acceleration: 0.5 }), motor({ amplitude: 1e-8, preload_acceleration: 1 })],
   fig13: [
     motor({}),
     motor({ friction: 0.2 }),

@@ -85,55 +85,42 @@ export interface Refusal {
 /** Contact time over the period and m g/(k A), each with its name in the library. */
 export type ContactJson = readonly [[string, string], [string, string]];
 
-export type Summary = Readonly<Record<"axial_forcing" | "period" | "peak_acceleration" | "stroke", number>> &
-  Readonly<Record<"angular_forcing" | "rise_time", number | null>> & {
-    readonly bounces: boolean;
-    readonly contact: ContactJson | null;
-  };
+type Numbers<Name extends string> = Readonly<Record<Name, number>>;
+type Nullable<Name extends string> = Readonly<Record<Name, number | null>>;
 
-export interface MotionJson {
-  readonly samples: number;
-  readonly events: number;
-  readonly energy: Readonly<
-    Record<"platform_work" | "restitution_loss" | "friction_loss" | "load_work" | "stored", number>
-  >;
-}
+export type Summary = Numbers<"axial_forcing" | "period" | "peak_acceleration" | "stroke"> &
+  Nullable<"angular_forcing" | "rise_time"> & { readonly bounces: boolean; readonly contact: ContactJson | null };
 
-export type DiagramJson = Readonly<Record<"resting" | "unsettled" | "left_out", number>>;
+export type MotionJson = Numbers<"samples" | "events"> & {
+  readonly energy: Numbers<"platform_work" | "restitution_loss" | "friction_loss" | "load_work" | "stored">;
+};
 
-export interface VerdictJson {
+export type DiagramJson = Numbers<"resting" | "unsettled" | "left_out">;
+
+export type VerdictJson = Nullable<"impacts" | "platform_periods" | "exponent" | "exponent_error"> & {
   readonly kind: "periodic" | "chaotic" | "chattering" | "at-rest" | "undecided";
-  readonly impacts: number | null;
-  readonly platform_periods: number | null;
   readonly multipliers: [number, number][] | null;
-  readonly exponent: number | null;
-  readonly exponent_error: number | null;
   readonly rounding_dependent: boolean;
   readonly text: string;
-}
+};
 
 export interface BranchesJson {
   readonly branches: number;
   readonly bifurcations: readonly ({ readonly kind: string; readonly axial_forcing: number } & ImpactStart)[];
 }
 
-export interface AttractorJson {
-  readonly label: number | null;
+export type AttractorJson = Nullable<"label" | "leads_to"> & {
   readonly text: string;
   readonly share: number;
   readonly interval: Range;
   readonly lasts: boolean;
-  readonly leads_to: number | null;
   readonly impact: ImpactStart | null;
-}
+};
 
-export interface AttractorsJson {
+export type AttractorsJson = Numbers<"undecided" | "starts" | "fastest_start"> & {
   readonly attractors: readonly AttractorJson[];
   readonly kinds: Readonly<Record<"rest" | "periodic" | "chaotic", IntervalJson>>;
-  readonly undecided: number;
-  readonly starts: number;
-  readonly fastest_start: number;
-}
+};
 
 /** What a data sheet says of the shared state. */
 export interface SheetJson {
@@ -142,29 +129,27 @@ export interface SheetJson {
   readonly mass: number;
 }
 
-export interface ReportJson {
-  readonly axial_forcing: number;
+export type ReportJson = Numbers<"axial_forcing" | "largest_torque"> & {
   readonly angular_forcing: number | null;
   readonly regime: string;
   readonly contact: ContactJson;
-  readonly largest_torque: number;
   readonly warnings: readonly string[];
   readonly text: string;
   /** Whether the stator yields: regime and forcing are then those of its motion without a rotor. */
   readonly yields: boolean;
   readonly system: SystemParameters;
   readonly trap: TrapJson | null;
-}
+};
 
 /** The performance of a single toss; the library's `TossPerformance`. */
-export type TossJson = Readonly<Record<"airborne_speed" | "efficiency", number>> & { readonly speed_ratio: number | null };
+export type TossJson = Numbers<"airborne_speed" | "efficiency"> & Nullable<"speed_ratio">;
 
-export type TrapJson = Readonly<Record<"preload_acceleration" | "relative_distance", number>> & {
+export type TrapJson = Numbers<"preload_acceleration" | "relative_distance"> & {
   readonly caught: boolean;
   readonly forcing_from_to: Range;
 };
 
-export type IntervalJson = Readonly<Record<"value" | "low" | "high", number>>;
+export type IntervalJson = Numbers<"value" | "low" | "high">;
 
 export interface TransientJson {
   readonly points: number;
@@ -172,9 +157,4 @@ export interface TransientJson {
   readonly refusal: string | null;
 }
 
-export interface StallJson {
-  readonly torque: number | null;
-  readonly torque_error: number | null;
-  readonly no_load_speed: number;
-  readonly no_load_speed_error: number | null;
-}
+export type StallJson = Nullable<"torque" | "torque_error" | "no_load_speed_error"> & Numbers<"no_load_speed">;

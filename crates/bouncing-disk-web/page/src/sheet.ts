@@ -5,7 +5,7 @@ import { isLocal, link } from "./address";
 import type { Offer, State } from "./contract";
 import { PARTS, valuesOf } from "./drawing/files";
 import { div, element, rich } from "./elements";
-import { labelOf } from "./form";
+import { shortLabelOf } from "./form";
 import { toHash } from "./state";
 import { say, WORDS } from "./words";
 
@@ -48,14 +48,14 @@ async function pictureOf(offer: Offer): Promise<HTMLImageElement> {
 /** What the lesson or the note above the view says, without the answer, and room to write. */
 function openTask(): Node[] {
   const open = document.querySelector(".tour:not([hidden]), #note:not([hidden])");
-  const words = [...(open?.querySelectorAll("h2, p:not(details p)") ?? [])].map((part) => part.cloneNode(true));
+  const words = [...(open?.querySelectorAll("h2, p:not(.tour details p)") ?? [])].map((part) => part.cloneNode(true));
   if (words.length === 0) words.push(element("h2", {}, WORDS.sheet.task));
   return [...words, ...Array.from({ length: LINES }, () => div("printed-line"))];
 }
 
 function parameters(state: State): HTMLElement[] {
   return valuesOf({ state, names: PARTS.all }).map(({ parameter, value }) => {
-    const [label] = labelOf(parameter).split(",");
-    return element("div", {}, element("dt", {}, `${label} `, ...rich(parameter.symbol)), element("dd", {}, value));
+    const name = element("dt", {}, `${shortLabelOf(parameter)} `, ...rich(parameter.symbol));
+    return element("div", {}, name, element("dd", {}, value));
   });
 }

@@ -1,7 +1,7 @@
 /** What stands around the views: tabs, the stage, dialogs and the theme. */
 
 import type { Context, State, View, ViewKind, ViewName } from "./contract";
-import { button, closeButton, div, element, kept, oncePerFrame, roved } from "./elements";
+import { button, closeButton, div, element, kept, oncePerFrame, rove } from "./elements";
 import { say, WORDS } from "./words";
 
 /** The tabs of the views: arrow keys move between them, as everywhere. */
@@ -17,14 +17,7 @@ export class Tabs {
       button(title, () => choose(name), { role: "tab", id: `tab-${name}`, "aria-controls": `view-${name}` }),
     );
     list.append(...this.buttons);
-    list.addEventListener("keydown", (event) => {
-      const at = this.buttons.indexOf(document.activeElement as HTMLButtonElement);
-      const target = roved(event.key, at, kinds.length);
-      if (at < 0 || target === undefined) return;
-      event.preventDefault();
-      this.buttons[target]?.click();
-      this.buttons[target]?.focus();
-    });
+    rove(list, (tab) => tab.click());
   }
 
   show(present: ViewName): void {
@@ -51,12 +44,12 @@ export class Stage {
     private readonly context: Context,
   ) {
     this.hosts = new Map(
-      kinds.map(({ name, description }) => [
-        name,
-        element("div", { class: `view view-${name}`, id: `view-${name}`, role: "tabpanel", tabindex: -1,
-          "aria-labelledby": `tab-${name}`, "aria-description": description, hidden: true }),
-      ]),
-    ); // prettier-ignore
+      kinds.map(({ name, description }) => {
+        const said = { "aria-labelledby": `tab-${name}`, "aria-description": description };
+        const own = { class: `view view-${name}`, id: `view-${name}`, role: "tabpanel", tabindex: -1, hidden: true };
+        return [name, element("div", { ...own, ...said })];
+      }),
+    );
     place.append(...this.hosts.values());
     const observer = new ResizeObserver(() => this.redraw());
     for (const host of this.hosts.values()) observer.observe(host);
@@ -147,23 +140,13 @@ interface Choice {
 export function choices(title: string, name: string, words: string, choicesNow: () => Choice[]): () => void {
   const cards = div("cards");
   const made = dialog(title, name, element("p", {}, words), cards);
-  made.addEventListener("keydown", (event) => {
-    const buttons = [...cards.querySelectorAll("button")];
-    const at = buttons.indexOf(document.activeElement as HTMLButtonElement);
-    const target = roved(event.key, at, buttons.length);
-    if (target === undefined || at < 0) return;
-    event.preventDefault();
-    buttons[target]?.focus();
-  });
+  rove(cards);
+  // It is closed before the choice acts, which may open another one.
+  cards.addEventListener("click", (event) => event.target !== cards && made.close(), { capture: true });
   return () => {
-    const buttons = choicesNow().map(({ label, note, attributes, act }) => {
-      const chosen = () => {
-        made.close();
-        act();
-      };
-      return button([element("b", {}, label), element("span", {}, note)], chosen, { class: "card", ...attributes });
-    });
-    cards.replaceChildren(...buttons);
+    const card = ({ label, note, attributes, act }: Choice) =>
+      button([element("b", {}, label), element("span", {}, note)], act, { class: "card", ...attributes });
+    cards.replaceChildren(...choicesNow().map(card));
     made.showModal();
   };
 }
@@ -181,14 +164,9 @@ export function helpDialog(): HTMLDialogElement {
   });
   const paragraph = (...parts: (Node | string)[]): HTMLElement => element("p", {}, ...parts);
   const [before = "", after = ""] = texts.model.split("{paper}");
-  return dialog(
-    texts.title,
-    "help",
-    element("dl", { class: "keys" }, ...keys),
-    paragraph(element("label", {}, box, ` ${texts.on}`)),
-    element("h3", {}, texts.what),
-    paragraph(say(texts.about, WORDS.opening)),
-    paragraph(before, element("cite", {}, texts.paper), after),
-    paragraph(texts.licence),
-  );
+  const about = [paragraph(say(texts.about, WORDS.opening)), paragraph(before, element("cite", {}, texts.paper), after)];
+  const list = element("dl", { class: "keys" }, ...keys);
+  const switched = paragraph(element("label", {}, box, ` ${texts.on}`));
+  const rest = [element("h3", {}, texts.what), ...about, paragraph(texts.licence)];
+  return dialog(texts.title, "help", list, switched, ...rest);
 }

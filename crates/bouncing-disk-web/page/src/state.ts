@@ -1,12 +1,11 @@
 /** The state that a link reproduces: its defaults, changes of it, and its form in the hash of the address. */
 
-import { DRIVES, OPTIMA, RESULTS, type Change, type Quantity, type State, type ViewName } from "./contract";
+import { DRIVES, OPTIMA, QUANTITIES, RESULTS, VIEW_NAMES, type Change, type State } from "./contract";
 import { SYSTEM_NAMES, type FlightStart, type Range, type SystemParameters } from "./protocol";
 import tables from "./tables.json";
 import { say, WORDS } from "./words";
 
-export const VIEW_NAMES: readonly ViewName[] = ["toss", "diagram", "basins", "motor", "compare", "scan"];
-const QUANTITIES: readonly Quantity[] = ["impact_phase", "normalised_speed", "angular_speed"];
+export { VIEW_NAMES };
 
 /** Loads of a curve, and rise times of a run-up, beyond which a page would compute for minutes. */
 export const MOST_POINTS = 200;
@@ -16,9 +15,8 @@ export const MOST_PERIODS = 500;
 export const MOST_VALUES = 5;
 
 /** The parameters of a system among the numbers of a table, in the order of the address; 0 where the table has none. */
-export function systemOf(table: Readonly<Record<string, number>>): SystemParameters {
-  return Object.fromEntries(SYSTEM_NAMES.map((name) => [name, table[name] ?? 0])) as SystemParameters;
-}
+export const systemOf = (table: Readonly<Record<string, number>>): SystemParameters =>
+  Object.fromEntries(SYSTEM_NAMES.map((name) => [name, table[name] ?? 0])) as SystemParameters;
 
 const HAND = systemOf(tables.table_one);
 
@@ -92,25 +90,51 @@ interface Form<Value> {
   read(text: string): Value;
 }
 
-const NUMBER: Form<number> = {
+/** A number of which `message` says what it has to be. */
+const numberThat = (message: string, legal: (value: number) => boolean = () => true): Form<number> => ({
   print: printed,
   read(text) {
     const value = readNumber(text);
-    if (value === null) throw new Unreadable(WORDS.address.number);
+    if (value === null || !legal(value)) throw new Unreadable(message);
     return value;
   },
-};
+});
 
-function within(low: number, high: number, whole: boolean): Form<number> {
-  return {
-    print: printed,
-    read(text) {
-      const value = NUMBER.read(text);
-      if (value >= low && value <= high && (!whole || Number.isInteger(value))) return value;
-      throw new Unreadable(say(whole ? WORDS.address.whole : WORDS.address.bounded, { low, high }));
-    },
-  };
-}
+const NUMBER = numberThat(WORDS.address.number);
+
+const whole = (low: number, high: number): Form<number> =>
+  numberThat(say(WORDS.address.whole, { low, high }), (one) => one >= low && one <= high && Number.isInteger(one));
+
+const bounded = (low: number, high: number): Form<number> =>
+  numberThat(say(WORDS.address.bounded, { low, high }), (value) => value >= low && value <= high);
+
+/** Several numbers with commas between them. */
+const numbersThat = (message: string, legal: (values: number[]) => boolean): Form<readonly number[]> => ({
+  print: (values) => values.map(printed).join(","),
+  read(text) {
+    const values = text.split(",").flatMap((one) => readNumber(one) ?? []);
+    if (values.length !== text.split(",").length || !legal(values)) throw new Unreadable(message);
+    return values;
+  },
+});
+
+const range = (lowest = -Infinity): Form<Range> =>
+  numbersThat(
+    lowest === -Infinity ? WORDS.address.range : say(WORDS.address.range_from, { lowest }),
+    ([low = NaN, high = NaN, ...more]) => more.length === 0 && low < high && low >= lowest,
+  ) as Form<Range>;
+
+const VALUES = numbersThat(say(WORDS.address.up_to, { most: MOST_VALUES }), (values) => values.length <= MOST_VALUES);
+
+/** A throw that the library may still refuse, such as one that starts on the platform and goes downwards. */
+const FOUR = numbersThat(WORDS.address.throw, ({ length, 1: gap = NaN }) => length === 4 && gap >= 0);
+const THROW: Form<FlightStart> = {
+  print: ({ phase, gap, relative_velocity, angular_speed }) => FOUR.print([phase, gap, relative_velocity, angular_speed]),
+  read(text) {
+    const [phase = 0, gap = 0, relative_velocity = 0, angular_speed = 0] = FOUR.read(text);
+    return { phase, gap, relative_velocity, angular_speed };
+  },
+};
 
 function oneOf<Name extends string>(names: readonly Name[]): Form<Name> {
   return {
@@ -128,105 +152,69 @@ const SWITCH: Form<boolean> = {
   read: (text) => oneOf(["on", "off"]).read(text) === "on",
 };
 
-function range(lowest: number): Form<Range> {
-  return {
-    print: (ends) => ends.map(printed).join(","),
-    read(text) {
-      const [low, high, more] = text.split(",").map(readNumber);
-      if (low == null || high == null || more !== undefined || low >= high || low < lowest)
-        throw new Unreadable(lowest === -Infinity ? WORDS.address.range : say(WORDS.address.range_from, { lowest }));
-      return [low, high];
-    },
-  };
-}
-
-const NUMBERS: Form<readonly number[]> = {
-  print: (values) => values.map(printed).join(","),
-  read(text) {
-    const values = text.split(",").map(readNumber);
-    const known = values.filter((value) => value !== null);
-    if (known.length === values.length && known.length <= MOST_VALUES) return known;
-    throw new Unreadable(say(WORDS.address.up_to, { most: MOST_VALUES }));
-  },
-};
-
 /** A word for what is not there. */
-function orNone<Value>(word: string, { print, read }: Form<Value>): Form<Value | null> {
-  return {
-    print: (value) => (value === null ? word : print(value)),
-    read: (text) => (text === word ? null : read(text)),
-  };
-}
-
-/** A throw that the library may still refuse, such as one that starts on the platform and goes downwards. */
-const THROW: Form<FlightStart> = {
-  print: ({ phase, gap, relative_velocity, angular_speed }) =>
-    [phase, gap, relative_velocity, angular_speed].map(printed).join(","),
-  read(text) {
-    const [phase, gap, relative_velocity, angular_speed, more] = text.split(",").map(readNumber);
-    if (phase == null || gap == null || relative_velocity == null || angular_speed == null || more !== undefined || gap < 0)
-      throw new Unreadable(WORDS.address.throw);
-    return { phase, gap, relative_velocity, angular_speed };
-  },
-}; // prettier-ignore
+const orNone = <Value>(word: string, { print, read }: Form<Value>): Form<Value | null> => ({
+  print: (value) => (value === null ? word : print(value)),
+  read: (text) => (text === word ? null : read(text)),
+});
 
 interface Key {
   print(state: State): string;
   read(text: string): Change;
 }
 
-const whole = <Part extends "view" | "mass" | "thrown">(part: Part, { print, read }: Form<State[Part]>): Key => ({
+const all = <Part extends "view" | "mass" | "thrown">(part: Part, { print, read }: Form<State[Part]>): Key => ({
   print: (state) => print(state[part]),
   read: (text) => ({ [part]: read(text) }),
 });
 
-type Parts = Pick<State, "system" | "start" | "diagram" | "basins" | "motor" | "compare" | "scan">;
+type Parts = Omit<State, "view" | "mass" | "thrown">;
 
-function keyOf<Part extends keyof Parts, Name extends keyof Parts[Part]>(
+const of = <Part extends keyof Parts, Name extends keyof Parts[Part]>(
   part: Part,
   name: Name,
   { print, read }: Form<Parts[Part][Name]>,
-): Key {
-  return { print: (state) => print((state as Parts)[part][name]), read: (text) => ({ [part]: { [name]: read(text) } }) };
-} // prettier-ignore
+): Key => ({
+  print: (state) => print((state as Parts)[part][name]),
+  read: (text) => ({ [part]: { [name]: read(text) } }),
+});
 
 /** The hash's keys, in the order in which they are written. */
 const KEYS: Readonly<Record<string, Key>> = {
-  view: whole("view", oneOf(VIEW_NAMES)),
-  ...Object.fromEntries(SYSTEM_NAMES.map((name) => [name, keyOf("system", name, NUMBER)])),
-  mass: whole("mass", NUMBER),
-  impact_phase: keyOf("start", "impact_phase", NUMBER),
-  normalised_speed: keyOf("start", "normalised_speed", NUMBER),
-  angular_speed: keyOf("start", "angular_speed", NUMBER),
-  throw: whole("thrown", orNone("none", THROW)),
-  diagram_forcing: keyOf("diagram", "axial_forcing", range(0)),
-  diagram_quantity: keyOf("diagram", "quantity", oneOf(QUANTITIES)),
-  diagram_range: keyOf("diagram", "range", orNone("all", range(-Infinity))),
-  diagram_branches: keyOf("diagram", "branches", SWITCH),
-  diagram_drive: keyOf("diagram", "drive", oneOf(DRIVES)),
-  basins_phase: keyOf("basins", "phase_periods", range(-Infinity)),
-  basins_speed: keyOf("basins", "normalised_speed", range(0)),
-  motor_loads: keyOf("motor", "loads", range(-Infinity)),
-  motor_points: keyOf("motor", "points", within(2, MOST_POINTS, true)),
-  motor_rise_times: keyOf("motor", "rise_times", within(0.01, MOST_RISE_TIMES, false)),
-  compare_parameter: keyOf("compare", "parameter", oneOf(PARAMETER_NAMES)),
-  compare_value: keyOf("compare", "value", NUMBER),
-  compare_periods: keyOf("compare", "periods", within(1, MOST_PERIODS, true)),
-  compare_from: keyOf("compare", "from", orNone("parting", within(0, MOST_PERIODS, false))),
-  scan_over: keyOf("scan", "over", oneOf(PARAMETER_NAMES)),
-  scan_range: keyOf("scan", "range", range(-Infinity)),
-  scan_points: keyOf("scan", "points", within(2, MOST_POINTS, true)),
-  scan_result: keyOf("scan", "result", oneOf(RESULTS)),
-  scan_optimum: keyOf("scan", "optimum", oneOf(OPTIMA)),
-  scan_family: keyOf("scan", "family", orNone("none", oneOf(PARAMETER_NAMES))),
-  scan_values: keyOf("scan", "values", NUMBERS),
+  view: all("view", oneOf(VIEW_NAMES)),
+  ...Object.fromEntries(SYSTEM_NAMES.map((name) => [name, of("system", name, NUMBER)])),
+  mass: all("mass", NUMBER),
+  impact_phase: of("start", "impact_phase", NUMBER),
+  normalised_speed: of("start", "normalised_speed", NUMBER),
+  angular_speed: of("start", "angular_speed", NUMBER),
+  throw: all("thrown", orNone("none", THROW)),
+  diagram_forcing: of("diagram", "axial_forcing", range(0)),
+  diagram_quantity: of("diagram", "quantity", oneOf(QUANTITIES)),
+  diagram_range: of("diagram", "range", orNone("all", range())),
+  diagram_branches: of("diagram", "branches", SWITCH),
+  diagram_drive: of("diagram", "drive", oneOf(DRIVES)),
+  basins_phase: of("basins", "phase_periods", range()),
+  basins_speed: of("basins", "normalised_speed", range(0)),
+  motor_loads: of("motor", "loads", range()),
+  motor_points: of("motor", "points", whole(2, MOST_POINTS)),
+  motor_rise_times: of("motor", "rise_times", bounded(0.01, MOST_RISE_TIMES)),
+  compare_parameter: of("compare", "parameter", oneOf(PARAMETER_NAMES)),
+  compare_value: of("compare", "value", NUMBER),
+  compare_periods: of("compare", "periods", whole(1, MOST_PERIODS)),
+  compare_from: of("compare", "from", orNone("parting", bounded(0, MOST_PERIODS))),
+  scan_over: of("scan", "over", oneOf(PARAMETER_NAMES)),
+  scan_range: of("scan", "range", range()),
+  scan_points: of("scan", "points", whole(2, MOST_POINTS)),
+  scan_result: of("scan", "result", oneOf(RESULTS)),
+  scan_optimum: of("scan", "optimum", oneOf(OPTIMA)),
+  scan_family: of("scan", "family", orNone("none", oneOf(PARAMETER_NAMES))),
+  scan_values: of("scan", "values", VALUES),
 };
 
 /** `#view=toss&amplitude=0.0616&...`: all of the state, so that a link outlives other defaults. */
 export function toHash(state: State): string {
-  return `#${Object.entries(KEYS)
-    .map(([name, key]) => `${name}=${key.print(state)}`)
-    .join("&")}`;
+  const parts = Object.entries(KEYS).map(([name, key]) => `${name}=${key.print(state)}`);
+  return `#${parts.join("&")}`;
 }
 
 /** The state of a hash. What is missing has its default; what cannot be read is left out, with a sentence for each. */

@@ -20,19 +20,7 @@ interface Listener {
   refused(message: string): void;
 }
 
-interface Waiting {
-  change: Change;
-  options: ChangeOptions;
-}
-
-/** What the library calls the parts of a start where a motion begins with it; `check` knows nothing of them. */
-const START_NAMES: Readonly<Record<string, string>> = {
-  phase: "impact_phase",
-  axial_impact_velocity: "normalised_speed",
-  tangential_impact_velocity: "angular_speed",
-};
-/** The speed of an impact is its velocity (disk minus platform) without the sign. */
-const SPEEDS = "[0, inf)";
+type Waiting = Readonly<{ change: Change; options: ChangeOptions }>;
 
 /** The kind of a refusal that is none: there was no answer. */
 const BROKEN = "broken";
@@ -67,10 +55,7 @@ export class Store {
 
   change(change: Change, options: ChangeOptions = {}): void {
     const waiting = { change, options };
-    if (!this.busy() && !needsCheck(change)) {
-      this.commit(changed(this.present, change), [waiting]);
-      return;
-    }
+    if (!this.busy() && !needsCheck(change)) return this.commit(changed(this.present, change), [waiting]);
     this.queue.push(waiting);
     void this.pump();
   }
@@ -86,11 +71,9 @@ export class Store {
       const refusal = await this.refusalOf(candidate, { system: {}, start: {}, thrown, mass });
       if (address !== this.addresses) return;
       if (refusal === null) break;
-      if (refusal.kind === BROKEN) {
-        this.listener.refused(refusal.message);
-        break;
-      }
-      this.listener.refused(say(WORDS.address.impossible, { message: refusal.message }));
+      const broken = refusal.kind === BROKEN;
+      this.listener.refused(broken ? refusal.message : say(WORDS.address.impossible, { message: refusal.message }));
+      if (broken) break;
       candidate = changed(candidate, { thrown, ...mended(refusal, tries) });
     }
     this.opening = false;
@@ -134,22 +117,21 @@ export class Store {
   /** What the library says against a state, of which this change is new; `null` where it has nothing to say. */
   private async refusalOf(state: State, change: Change): Promise<Refusal | null> {
     const { system, mass, start, thrown } = state;
-    const motion = (start: MotionStart) =>
-      ({ call: "motion", system, start, periods: 1, samples_per_period: 2 }) as const;
+    const { client } = this;
+    const motion = (slot: string, start: MotionStart) =>
+      client.ask(slot, { call: "motion", system, start, periods: 1, samples_per_period: 2 });
     this.summary = null;
     try {
-      if (change.system) this.summary = (await this.client.ask<Summary>("check", { call: "check", system })).json;
-      if (change.start) {
-        const ask = this.client.ask("check start", motion({ kind: "impact", ...start }));
-        await only(ask, (refusal) => ofStart(refusal, change));
-      }
+      if (change.system) this.summary = (await client.ask<Summary>("check", { call: "check", system })).json;
+      if (change.start)
+        await only(motion("check start", { kind: "impact", ...start }), (refusal) => ofStart(refusal, change));
       if (change.thrown && thrown !== null) {
-        const ask = this.client.ask("check throw", motion({ kind: "flight", ...thrown }));
-        await only(ask, (refusal) => ({ ...refusal, quantity: "thrown" }));
+        const asked = motion("check throw", { kind: "flight", ...thrown });
+        await only(asked, (refusal) => ({ ...refusal, quantity: "thrown" }));
       }
       if (change.mass !== undefined) {
-        const ask = this.client.ask("check mass", { call: "sheet_of_system", system, mass });
-        await only(ask, (refusal) => (refusal.quantity?.includes("mass") ? refusal : null));
+        const asked = client.ask("check mass", { call: "sheet_of_system", system, mass });
+        await only(asked, (refusal) => (refusal.quantity?.includes("mass") ? refusal : null));
       }
       return null;
     } catch (error) {
@@ -171,6 +153,15 @@ async function only(answer: Promise<unknown>, of: (refusal: Refusal) => Refusal 
     if (own !== null) throw new Refused(own);
   }
 }
+
+/** What the library calls the parts of a start where a motion begins with it; `check` knows nothing of them. */
+const START_NAMES: Readonly<Record<string, string>> = {
+  phase: "impact_phase",
+  axial_impact_velocity: "normalised_speed",
+  tangential_impact_velocity: "angular_speed",
+};
+/** The speed of an impact is its velocity (disk minus platform) without the sign. */
+const SPEEDS = "[0, inf)";
 
 /** A refusal of the start in the words of the form; an impact so hard that its flight is too long is one, too. */
 function ofStart(refusal: Refusal, change: Change): Refusal | null {

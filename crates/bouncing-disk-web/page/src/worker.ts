@@ -16,19 +16,9 @@ export type FromWorker =
   /** `id` is null where the worker could not even start. The worker is of no use any more. */
   | { kind: "failed"; id: number | null; message: string };
 
-interface Reply {
-  readonly json: string;
-  readonly digest: string;
-  readonly refused: boolean;
-  /** Copies outside of the module's memory, which can change hands. */
-  readonly numbers: Float64Array;
-  readonly bytes: Uint8Array;
-  free(): void;
-}
-
-interface Explorer {
-  respond(request: string): Reply;
-}
+/** Its arrays are copies outside of the module's memory, which can change hands. */
+type Reply = Omit<Extract<FromWorker, { kind: "answer" }>, "kind" | "id"> & { refused: boolean; free(): void };
+type Explorer = { respond(request: string): Reply };
 
 declare const wasm_bindgen: {
   initSync(options: { module: WebAssembly.Module }): unknown;
@@ -36,29 +26,19 @@ declare const wasm_bindgen: {
 };
 
 /** The worker's global scope, of which the library for pages has no type. */
-interface Scope {
+const scope = globalThis as unknown as {
   onmessage: ((event: MessageEvent<ToWorker>) => void) | null;
   postMessage(message: FromWorker, transfer: Transferable[]): void;
-}
-
-const scope = globalThis as unknown as Scope;
+};
 let explorer: Explorer | null = null;
 
-function say(message: FromWorker, transfer: Transferable[] = []): void {
-  scope.postMessage(message, transfer);
-}
-
-function decoded(base64: string): Uint8Array<ArrayBuffer> {
-  const text = atob(base64);
-  const bytes = new Uint8Array(text.length);
-  for (let index = 0; index < text.length; index++) bytes[index] = text.charCodeAt(index);
-  return bytes;
-}
+const say = (message: FromWorker, transfer: Transferable[] = []): void => scope.postMessage(message, transfer);
 
 async function compiled(source: ModuleSource): Promise<WebAssembly.Module> {
   if ("compiled" in source) return source.compiled;
   if ("base64" in source) {
-    const inflated = new Blob([decoded(source.base64)]).stream().pipeThrough(new DecompressionStream("gzip"));
+    const bytes = Uint8Array.from(atob(source.base64), (letter) => letter.charCodeAt(0));
+    const inflated = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
     return WebAssembly.compile(await new Response(inflated).arrayBuffer());
   }
   const response = await fetch(source.address);

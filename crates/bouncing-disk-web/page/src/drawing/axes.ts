@@ -61,17 +61,12 @@ const share = ([low, high]: Range, value: number): number => (value - low) / (hi
 export const pixelX = (plot: Plot, value: number): number => plot.left + plot.width * share(plot.x.range, value);
 export const pixelY = (plot: Plot, value: number): number => plot.top + plot.height * (1 - share(plot.y.range, value));
 
-export function valueX({ left, width, x: { range } }: Plot, pixel: number): number {
-  return range[0] + ((pixel - left) / width) * (range[1] - range[0] || 1);
-}
+const valueAt = ([low, high]: Range, share: number): number => low + share * (high - low || 1);
+export const valueX = ({ left, width, x }: Plot, pixel: number): number => valueAt(x.range, (pixel - left) / width);
+export const valueY = ({ top, height, y }: Plot, pixel: number): number => valueAt(y.range, 1 - (pixel - top) / height);
 
-export function valueY({ top, height, y: { range } }: Plot, pixel: number): number {
-  return range[0] + (1 - (pixel - top) / height) * (range[1] - range[0] || 1);
-}
-
-export function inside(plot: Box, x: number, y: number): boolean {
-  return x >= plot.left && x <= plot.left + plot.width && y >= plot.top && y <= plot.top + plot.height;
-}
+export const inside = ({ left, top, width, height }: Box, x: number, y: number): boolean =>
+  x >= left && x <= left + width && y >= top && y <= top + height;
 
 /** Two lines of this half length through a point, upright or at 45 degrees. */
 export function crossAt(x: number, y: number, arm: number, upright = false): number[] {
@@ -89,55 +84,48 @@ export function hairsAt(plot: Plot, [x, y]: readonly [number, number]): number[]
 
 /** Faint lines behind the data. */
 export function paintGrid(pen: Pen, plot: Plot): void {
-  const points: number[] = [];
-  for (const { value } of plot.xTicks.major) {
-    const x = placed(pen, pixelX(plot, value));
-    points.push(x, plot.top, x, plot.top + plot.height, NaN, NaN);
-  }
-  for (const { value } of plot.yTicks.major) {
-    const y = placed(pen, pixelY(plot, value));
-    points.push(plot.left, y, plot.left + plot.width, y, NaN, NaN);
-  }
-  pen.path(points, { stroke: "--picture-grid", width: 1 });
+  const { left, top, width, height, xTicks, yTicks } = plot;
+  const lines = [
+    ...xTicks.major.map(({ value }) => placed(pen, pixelX(plot, value))).map((x) => [x, top, x, top + height]),
+    ...yTicks.major.map(({ value }) => placed(pen, pixelY(plot, value))).map((y) => [left, y, left + width, y]),
+  ];
+  pen.path(lines.flatMap((line) => [...line, NaN, NaN]), { stroke: "--picture-grid", width: 1 }); // prettier-ignore
 }
 
 /** Frame, ticks inwards on all four sides, numbers and labels. */
 export function paintAxes(pen: Pen, plot: Plot): void {
-  const { size } = plot;
+  const { size, xTicks, yTicks } = plot;
   // Ticks begin on the frame and not a pixel beside it.
   const [left, right] = [placed(pen, plot.left), placed(pen, plot.left + plot.width)];
   const [top, bottom] = [placed(pen, plot.top), placed(pen, plot.top + plot.height)];
-  const [width, height] = [right - left, bottom - top];
-  const long = Math.round(size * 0.45);
-  const short = Math.round(size * 0.25);
   const points: number[] = [];
-  const tickX = (value: number, length: number) => {
+  const withLengths = ({ major, minor }: Ticks) => [
+    ...major.map(({ value }) => [value, Math.round(size * 0.45)] as const),
+    ...minor.map((value) => [value, Math.round(size * 0.25)] as const),
+  ];
+  for (const [value, length] of withLengths(xTicks)) {
     const x = placed(pen, pixelX(plot, value));
     points.push(x, bottom, x, bottom - length, NaN, NaN, x, top, x, top + length, NaN, NaN);
-  };
-  const tickY = (value: number, length: number) => {
+  }
+  for (const [value, length] of withLengths(yTicks)) {
     const y = placed(pen, pixelY(plot, value));
     points.push(left, y, left + length, y, NaN, NaN, right, y, right - length, y, NaN, NaN);
-  };
-  for (const tick of plot.xTicks.major) tickX(tick.value, long);
-  for (const value of plot.xTicks.minor) tickX(value, short);
-  for (const tick of plot.yTicks.major) tickY(tick.value, long);
-  for (const value of plot.yTicks.minor) tickY(value, short);
+  }
   const frame = { stroke: "--picture-frame", width: 1 };
   pen.path(points, frame);
-  pen.rect(left, top, width, height, frame);
+  pen.rect(left, top, right - left, bottom - top, frame);
   const ink = { colour: "--picture-text", size };
-  for (const { value, label } of plot.xTicks.major) {
+  for (const { value, label } of xTicks.major) {
     // A long number at an end of the axis stays in the picture.
     const half = pen.measure(label, size) / 2;
-    const x = Math.max(Math.min(pixelX(plot, value), right + size - half), half);
+    const x = clamp(pixelX(plot, value), half, right + size - half);
     pen.text(label, x, bottom + size * 0.5, { ...ink, anchor: "middle", baseline: "top" });
   }
-  for (const { value, label } of plot.yTicks.major) {
+  for (const { value, label } of yTicks.major)
     pen.text(label, left - size * 0.5, pixelY(plot, value), { ...ink, anchor: "end", baseline: "middle" });
-  }
-  pen.text(plot.x.label, left + width / 2, bottom + size * 2, { ...ink, anchor: "middle", baseline: "top" });
-  pen.text(plot.y.label, size * 1.05, top + height / 2, { ...ink, anchor: "middle", upwards: true });
+  const middle = { ...ink, anchor: "middle" } as const;
+  pen.text(plot.x.label, (left + right) / 2, bottom + size * 2, { ...middle, baseline: "top" });
+  pen.text(plot.y.label, size * 1.05, (top + bottom) / 2, { ...middle, upwards: true });
 }
 
 /** On a screen a line of one pixel fills one row of pixels if it runs through their middle. */
@@ -149,9 +137,7 @@ function placed(pen: Pen, place: number): number {
 export function roundUp(value: number): number {
   if (!(value > 0) || !Number.isFinite(value)) return 1;
   const power = 10 ** Math.floor(Math.log10(value));
-  const lead = value / power;
-  const step = lead <= 1 ? 1 : lead <= 2 ? 2 : lead <= 5 ? 5 : 10;
-  return step * power;
+  return ([1, 2, 5].find((step) => value / power <= step) ?? 10) * power;
 }
 
 /** A range that has some room on both sides; never empty. */
@@ -159,6 +145,10 @@ export function padded([low, high]: Range, share = 0.05): Range {
   const room = high > low ? (high - low) * share : Math.abs(low) * 0.1 || 1;
   return [low - room, high + room];
 }
+
+/** So many numbers from one end of a range to the other. */
+export const evenly = ([low, high]: Range, count: number): number[] =>
+  Array.from({ length: count }, (_, index) => low + ((high - low) * index) / (count - 1));
 
 /** The least and the greatest finite number; null if there is none. */
 export function extent(values: ArrayLike<number>, start = 0, stride = 1): Range | null {
@@ -188,14 +178,11 @@ export function ticks([low, high]: Range, count: number, factor = 1): Ticks {
     const last = Math.floor((high * factor) / by + slack);
     return Array.from({ length: Math.max(last - first + 1, 0) }, (_, index) => first + index);
   };
+  const labelled = (index: number) => tickLabel(index * size, size, decimals);
+  const minor = between(size / parts).filter((index) => index % parts !== 0);
   return {
-    major: between(size).map((index) => ({
-      value: (index * size) / factor,
-      label: tickLabel(index * size, size, decimals),
-    })),
-    minor: between(size / parts)
-      .filter((index) => index % parts !== 0)
-      .map((index) => (index * (size / parts)) / factor),
+    major: between(size).map((index) => ({ value: (index * size) / factor, label: labelled(index) })),
+    minor: minor.map((index) => (index * (size / parts)) / factor),
   };
 }
 

@@ -5,9 +5,7 @@ import { element, placeOn, setText } from "../elements";
 import { plain, withError } from "../numbers";
 import type { Range } from "../protocol";
 import { say, WORDS } from "../words";
-import {
-  clamp, crossAt, layOut, paintAxes, paintGrid, pixelX, pixelY, valueX, type Axis, type Plot,
-} from "./axes"; // prettier-ignore
+import { clamp, crossAt, inside, layOut, paintAxes, paintGrid, pixelX, pixelY, valueX, type Axis, type Plot } from "./axes";
 import { ONE_COLUMN, pictureOffers, PRINT_SIZE, type Basis } from "./files";
 import { plainText, type Pen } from "./pen";
 import { Layers } from "./window";
@@ -52,7 +50,7 @@ export interface Chart {
   readonly lines?: readonly Line[];
   readonly marks?: readonly Mark[];
   /** A grey stretch of the x axis. */
-  readonly shade?: { readonly range: Range; readonly label: string };
+  readonly shade?: { readonly range: Readonly<Range>; readonly label: string };
 }
 
 function layOutChart(pen: Pen, { x, y, curves }: Chart, width: number, height: number, size: number): Plot {
@@ -63,62 +61,49 @@ function layOutChart(pen: Pen, { x, y, curves }: Chart, width: number, height: n
   return layOut(pen, width, height, { x, y: { ...y, range: [low, high + room * (high - low)] } }, size);
 }
 
-function paintChart(pen: Pen, chart: Chart, width: number, height: number, size: number): void {
-  const plot = layOutChart(pen, chart, width, height, size);
+function paintChart(pen: Pen, chart: Chart, plot: Plot): void {
   paintGrid(pen, plot);
   pen.clipped(plot, () => {
-    paintExtras(pen, chart, plot);
+    if (chart.shade !== undefined) paintShade(pen, chart.shade, plot);
+    const [zero, right] = [pixelY(plot, 0), plot.left + plot.width];
+    if (inside(plot, plot.left, zero)) pen.path([plot.left, zero, right, zero], { stroke: "--picture-muted", width: 1 });
+    for (const line of chart.lines ?? []) paintLine(pen, line, plot);
+    for (const { x, y, form, colour } of chart.marks ?? []) {
+      const [at, level, arm] = [pixelX(plot, x), pixelY(plot, y), plot.size * 0.4];
+      const stroke = { stroke: colour, width: 1.6 };
+      if (form === "circle") pen.circle(at, level, arm, { ...stroke, fill: "--picture-paper" });
+      else pen.path(crossAt(at, level, arm), stroke);
+    }
+    for (const curve of chart.curves) paintBand(pen, chart, curve, plot);
     for (const curve of chart.curves) paintCurve(pen, chart, curve, plot);
   });
   paintAxes(pen, plot);
   if (chart.curves.length > 1) paintLegend(pen, chart, plot);
 }
 
-/** Shaded stretches, lines, marks and bands, which lie below the curves. */
-function paintExtras(pen: Pen, chart: Chart, plot: Plot): void {
-  const bottom = plot.top + plot.height;
-  const zero = pixelY(plot, 0);
-  if (chart.shade !== undefined) {
-    const from = pixelX(plot, chart.shade.range[0]);
-    const to = pixelX(plot, chart.shade.range[1]);
-    pen.rect(from, plot.top, to - from, plot.height, { fill: "--runaway" });
-    const middle = Math.max(Math.min((from + Math.min(to, plot.left + plot.width)) / 2, to), from);
-    // Away from the zero, where the marks of runaway loads stand.
-    const below = zero < plot.top + plot.height / 2;
-    const end = below ? bottom - plot.size * 0.5 : plot.top + plot.size * 0.5;
-    const anchor = below ? "start" : "end";
-    const style = { colour: "--picture-text", size: plot.size, anchor, upwards: true } as const;
-    if (to - from > plot.size) pen.text(chart.shade.label, middle, end, style);
+function paintShade(pen: Pen, { range, label }: NonNullable<Chart["shade"]>, plot: Plot): void {
+  const { top, height, size } = plot;
+  const [from = NaN, to = NaN] = range.map((end) => pixelX(plot, end));
+  pen.rect(from, top, to - from, height, { fill: "--runaway" });
+  if (to - from <= size) return;
+  const middle = Math.max((from + Math.min(to, plot.left + plot.width)) / 2, from);
+  // Away from the zero, where the marks of runaway loads stand.
+  const below = pixelY(plot, 0) < top + height / 2;
+  const style = { colour: "--picture-text", size, anchor: below ? "start" : "end", upwards: true } as const;
+  pen.text(label, middle, below ? top + height - size * 0.5 : top + size * 0.5, style);
+}
+
+function paintLine(pen: Pen, { x, error, label, colour }: Line, plot: Plot): void {
+  const { left, top, width, height, size } = plot;
+  const at = pixelX(plot, x);
+  if (error !== undefined) {
+    const low = pixelX(plot, x - 2 * error);
+    pen.rect(low, top, pixelX(plot, x + 2 * error) - low, height, { fill: colour, opacity: 0.25 });
   }
-  if (zero > plot.top && zero < bottom) {
-    pen.path([plot.left, zero, plot.left + plot.width, zero], { stroke: "--picture-muted", width: 1 });
-  }
-  for (const line of chart.lines ?? []) {
-    const at = pixelX(plot, line.x);
-    if (line.error !== undefined) {
-      const low = pixelX(plot, line.x - 2 * line.error);
-      const band = { fill: line.colour, opacity: 0.25 };
-      pen.rect(low, plot.top, pixelX(plot, line.x + 2 * line.error) - low, plot.height, band);
-    }
-    pen.path([at, plot.top, at, bottom], { stroke: line.colour, width: 1.2, dash: [5, 3] });
-    const nearRight = at > plot.left + plot.width * 0.6;
-    pen.text(line.label, at + (nearRight ? -4 : 4), bottom - plot.size * 0.5, {
-      colour: line.colour,
-      size: plot.size,
-      anchor: nearRight ? "end" : "start",
-      baseline: "bottom",
-      halo: "--picture-paper",
-    });
-  }
-  for (const mark of chart.marks ?? []) {
-    const at = pixelX(plot, mark.x);
-    const level = pixelY(plot, mark.y);
-    const stroke = { stroke: mark.colour, width: 1.6 };
-    const arm = plot.size * 0.4;
-    if (mark.form === "circle") pen.circle(at, level, arm, { ...stroke, fill: "--picture-paper" });
-    else pen.path(crossAt(at, level, arm), stroke);
-  }
-  for (const curve of chart.curves) paintBand(pen, chart, curve, plot);
+  pen.path([at, top, at, top + height], { stroke: colour, width: 1.2, dash: [5, 3] });
+  const nearRight = at > left + width * 0.6;
+  const style = { colour, size, anchor: nearRight ? "end" : "start", baseline: "bottom", halo: "--picture-paper" } as const;
+  pen.text(label, at + (nearRight ? -4 : 4), top + height - size * 0.5, style);
 }
 
 /** Two standard errors on either side of a curve, or its interval. */
@@ -129,10 +114,10 @@ function paintBand(pen: Pen, { at }: Chart, { y, error, between, colour }: Curve
   for (let index = 0; index < at.length; index += 1) {
     const x = pixelX(plot, at[index] as number);
     const [value, by] = [y[index] ?? NaN, 2 * (error?.[index] ?? NaN)];
-    const [low, high] = between?.map((ends) => ends[index] ?? NaN) ?? [value - by, value + by];
+    const [low = NaN, high = NaN] = between?.map((ends) => ends[index] ?? NaN) ?? [value - by, value + by];
     if (!Number.isFinite(low) || !Number.isFinite(high)) continue;
-    upper.push(x, pixelY(plot, high as number));
-    lower.unshift(x, pixelY(plot, low as number));
+    upper.push(x, pixelY(plot, high));
+    lower.unshift(x, pixelY(plot, low));
   }
   if (upper.length > 2) pen.path([...upper, ...lower], { fill: colour, opacity: 0.25, close: true });
 }
@@ -153,17 +138,14 @@ function paintCurve(pen: Pen, { at }: Chart, { y, colour, dash, points: marked }
 
 function paintLegend(pen: Pen, chart: Chart, plot: Plot): void {
   const { size } = plot;
-  const widest = Math.max(...chart.curves.map((curve) => pen.measure(curve.label, size)));
-  const width = widest + size * 3.6;
-  const left = plot.left + plot.width - width - size * 0.6;
-  const top = plot.top + size * 0.6;
+  const width = Math.max(...chart.curves.map((curve) => pen.measure(curve.label, size))) + size * 3.6;
+  const [left, top] = [plot.left + plot.width - width - size * 0.6, plot.top + size * 0.6];
   const paper = { fill: "--picture-paper", stroke: "--picture-frame", width: 0.6 };
   pen.rect(left, top, width, chart.curves.length * size * 1.3 + size * 0.5, paper);
-  chart.curves.forEach((curve, index) => {
+  chart.curves.forEach(({ label, colour, dash = [] }, index) => {
     const y = top + size * (0.9 + 1.3 * index);
-    const style = { stroke: curve.colour, width: 1.4, dash: curve.dash ?? [] };
-    pen.path([left + size * 0.5, y, left + size * 2.4, y], style);
-    pen.text(curve.label, left + size * 2.9, y, { colour: "--picture-text", size, baseline: "middle" });
+    pen.path([left + size * 0.5, y, left + size * 2.4, y], { stroke: colour, width: 1.4, dash });
+    pen.text(label, left + size * 2.9, y, { colour: "--picture-text", size, baseline: "middle" });
   });
 }
 
@@ -184,7 +166,8 @@ export function chartOffers(
       const widest = numbers.reduce((one, other) => (long(other) > long(one) ? other : one), "");
       charts.forEach((chart, index) => {
         const aligned = { ...chart, y: { ...chart.y, widest } };
-        pen.moved(0, index * each, () => paintChart(pen, aligned, width, each, PRINT_SIZE));
+        const plot = layOutChart(pen, aligned, width, each, PRINT_SIZE);
+        pen.moved(0, index * each, () => paintChart(pen, aligned, plot));
       });
     },
   });
@@ -210,9 +193,8 @@ export class ScreenChart {
   private readonly word = element("p", { class: "chart-word" });
   private chart: Chart | null = null;
   private plot: Plot | null = null;
-  /** The number of the values under the cursor. */
+  /** The number of the values under the cursor, and the curve of which a point would be picked. */
   private at: number | null = null;
-  /** The curve of which a point would be picked. */
   private chosen = 0;
 
   constructor(
@@ -235,7 +217,7 @@ export class ScreenChart {
     this.chart = chart;
     this.word.replaceWith(layers.root);
     layers.root.style.height = `${this.height()}px`;
-    const keys = [KEYS, ...(this.picking === undefined ? [] : [this.picking.keys])].join(" ");
+    const keys = [KEYS, this.picking?.keys ?? ""].join(" ").trim();
     layers.surface.setAttribute("aria-label", say(WORDS.drawing.chart, { title: chart.title, text: alternative, keys }));
     setText(this.caption, alternative);
     layers.fit();
@@ -243,7 +225,7 @@ export class ScreenChart {
     if (width < 50) return;
     const pen = layers.data();
     this.plot = layOutChart(pen, chart, width, height, SIZE);
-    paintChart(pen, chart, width, height, SIZE);
+    paintChart(pen, chart, this.plot);
     this.paintCursor();
   }
 
@@ -261,25 +243,20 @@ export class ScreenChart {
   }
 
   private key(event: KeyboardEvent): void {
-    if (this.chart === null) return;
+    const { chart, at } = this;
+    const last = (chart?.at.length ?? 0) - 1;
+    if (chart === null || last < 0) return;
     const across = this.picking && { ArrowUp: -1, ArrowDown: 1 }[event.key];
-    if (event.key === "Enter") this.pick();
-    if (across !== undefined) {
-      event.preventDefault();
-      this.chosen = clamp(this.chosen + across, 0, this.chart.curves.length - 1);
-      this.read(this.at ?? 0);
-    }
-    const last = this.chart.at.length - 1;
-    const by = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
-    const from = this.at ?? (by === 1 ? -1 : last + 1);
-    const target = by === undefined ? { Home: 0, End: last }[event.key] : clamp(from + by, 0, last);
-    if (target === undefined || last < 0) return;
+    const along = { ArrowLeft: (at ?? last + 1) - 1, ArrowRight: (at ?? -1) + 1, Home: 0, End: last }[event.key];
+    if (event.key === "Enter") return this.pick();
+    if (across !== undefined) this.chosen = clamp(this.chosen + across, 0, chart.curves.length - 1);
+    else if (along === undefined) return;
     event.preventDefault();
-    this.read(target);
+    this.read(clamp(along ?? at ?? 0, 0, last));
   }
 
   private pick(): void {
-    if (this.at !== null && this.chart !== null) this.picking?.pick(this.at, this.chosen);
+    if (this.at !== null) this.picking?.pick(this.at, this.chosen);
   }
 
   private point(event: MouseEvent): void {
@@ -300,9 +277,9 @@ export class ScreenChart {
     const { chart, plot, at } = this;
     const pen = this.layers.cursor();
     const known = chart !== null && plot !== null && at !== null && at < chart.at.length;
-    const hint = known ? this.picking?.hint(plainText(chart.curves[this.chosen]?.label ?? "")) : undefined;
-    setText(this.reading, known ? [readingOf(chart, at), hint ?? ""].join(" ").trim() : "");
-    if (!known) return;
+    if (!known) return setText(this.reading, "");
+    const hint = this.picking?.hint(plainText(chart.curves[this.chosen]?.label ?? ""));
+    setText(this.reading, [readingOf(chart, at), hint ?? ""].join(" ").trim());
     const x = pixelX(plot, chart.at[at] as number);
     pen.path([x, plot.top, x, plot.top + plot.height], { stroke: "--picture-cursor", width: 1 });
     chart.curves.forEach(({ y, colour }, index) => {

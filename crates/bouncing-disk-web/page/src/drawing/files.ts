@@ -85,19 +85,27 @@ export function pictureOffers(picture: Picture): Offer[] {
   ];
 }
 
+/** What stands below a plot. */
+export interface Below {
+  readonly height: number;
+  paint(pen: Pen, top: number): void;
+}
+
+type PlotPicture = Omit<Picture, "paint"> & { axes: Axes; paint(pen: Pen, plot: Plot): void; below?: Below };
+
 /** A picture that is one plot with its axes. */
-export function plotOffers(
-  { axes, paint, ...picture }: Omit<Picture, "paint"> & { axes: Axes; paint(pen: Pen, plot: Plot): void },
-): Offer[] {
+export function plotOffers({ axes, paint, below, ...picture }: PlotPicture): Offer[] {
   return pictureOffers({
     ...picture,
-    paint(pen, width, height) {
-      const plot = layOut(pen, width, height, axes, PRINT_SIZE);
+    height: picture.height + (below?.height ?? 0),
+    paint(pen, width) {
+      const plot = layOut(pen, width, picture.height, axes, PRINT_SIZE);
       pen.clipped(plot, () => paint(pen, plot));
       paintAxes(pen, plot);
+      below?.paint(pen, picture.height);
     },
   });
-} // prettier-ignore
+}
 
 /** The browser draws the SVG. A page on the disk may read back what an address has all of in itself. */
 async function pngOf(svg: string, ...points: [width: number, height: number]): Promise<Blob> {
@@ -107,12 +115,9 @@ async function pngOf(svg: string, ...points: [width: number, height: number]): P
   const [width, height] = points.map((length) => Math.round(length * PRINT_DOTS_PER_POINT)) as [number, number];
   const canvas = element("canvas", { width, height });
   contextOf(canvas).drawImage(image, 0, 0, width, height);
-  return new Promise((resolve, reject) => {
-    canvas.toBlob(
-      (blob) => (blob === null ? reject(new Error("the picture is too large")) : resolve(blob)),
-      "image/png",
-    );
-  });
+  const blob = await new Promise<Blob | null>((resolve) => canvas.toBlob(resolve, "image/png"));
+  if (blob === null) throw new Error("the picture is too large");
+  return blob;
 }
 
 type Row = ArrayLike<number | string>;
@@ -134,20 +139,20 @@ export const tabbed = ({ columns, rows }: Table): string =>
   [columns, ...rows()].map((row) => Array.from(row).join("\t")).join("\n");
 
 export function tableOffers(table: Table): Offer[] {
-  const { name, parameters, columns } = table;
+  const { name, parameters, columns, most } = table;
   const comma = (row: Row) => Array.from(row, csvCell).join(",");
-  const csv = () => written(table, `# ${JSON.stringify(parameters)}\n${comma(columns)}\n`, comma, "\n", "\n", "text/csv");
-  const head = () => `${JSON.stringify({ parameters, columns }).slice(0, -1)},"rows":[\n`;
   const list = (row: Row) => JSON.stringify(Array.from(row));
-  const json = () => written(table, head(), list, ",\n", "\n]}\n", "application/json");
+  const csv = [`# ${JSON.stringify(parameters)}\n${comma(columns)}\n`, "\n", "\n", "text/csv"] as const;
+  const head = `${JSON.stringify({ parameters, columns }).slice(0, -1)},"rows":[\n`;
+  const json = [head, ",\n", "\n]}\n", "application/json"] as const;
   const [row = []] = table.rows();
   // Digits that end in zeros are shorter in the first row than in others.
-  const size = (text: string) => (table.most === undefined ? {} : { most: table.most * (text.length + 12) });
+  const size = (text: string) => (most === undefined ? {} : { most: most * (text.length + 12) });
   return [
-    { name, kind: "csv", make: csv, ...size(comma(row)) },
-    { name, kind: "json", make: json, ...size(list(row)) },
+    { name, kind: "csv", make: () => written(table, comma, ...csv), ...size(comma(row)) },
+    { name, kind: "json", make: () => written(table, list, ...json), ...size(list(row)) },
   ];
-} // prettier-ignore
+}
 
 function csvCell(value: number | string): string {
   if (typeof value === "number") return Number.isNaN(value) ? "" : String(value);
@@ -157,9 +162,9 @@ function csvCell(value: number | string): string {
 /** How long (ms) rows are written before the page gets its turn again. */
 const AT_ONCE = 10;
 
-async function written(
-  table: Table, head: string, line: (row: Row) => string, between: string, end: string, type: string,
-): Promise<Blob> {
+type Frame = [head: string, between: string, end: string, type: string];
+
+async function written(table: Table, line: (row: Row) => string, ...[head, between, end, type]: Frame): Promise<Blob> {
   // A blob of a few long parts is made at once, one of every row in half a second.
   const parts: string[] = [];
   let text = head;
@@ -175,12 +180,11 @@ async function written(
     began = performance.now();
   }
   return new Blob([...parts, text, end], { type });
-} // prettier-ignore
+}
 
 /** The decimals of this step: digits that no picture shows would be most of a file. */
-export function rounded(value: number, step: number): number {
-  return Number(value.toFixed(Math.min(Math.max(Math.ceil(-Math.log10(step)), 0), 20)));
-}
+export const rounded = (value: number, step: number): number =>
+  Number(value.toFixed(Math.min(Math.max(Math.ceil(-Math.log10(step)), 0), 20)));
 
 export function* rowsOf(numbers: Float64Array, width: number): Iterable<Float64Array> {
   for (let index = 0; index + width <= numbers.length; index += width) yield numbers.subarray(index, index + width);

@@ -30,22 +30,29 @@ export interface Box {
   readonly height: number;
 }
 
-export interface Pen {
-  /** On paper lines stand where they belong, on a screen in the middle of pixels. */
-  readonly printed: boolean;
-  readonly colour: Colours;
+export abstract class Pen {
+  constructor(
+    /** On paper lines stand where they belong, on a screen in the middle of pixels. */
+    readonly printed: boolean,
+    readonly colour: Colours,
+    protected readonly family: string,
+  ) {}
+
   /** A polyline through x, y, x, y, ...; NaN lifts the pen. */
-  path(points: ArrayLike<number>, style: PathStyle): void;
-  circle(x: number, y: number, radius: number, style: PathStyle): void;
-  rect(x: number, y: number, width: number, height: number, style: PathStyle): void;
+  abstract path(points: ArrayLike<number>, style: PathStyle): void;
+  abstract circle(x: number, y: number, radius: number, style: PathStyle): void;
+  abstract rect(x: number, y: number, width: number, height: number, style: PathStyle): void;
   /** Words with *italic* letters and subscripts_{like this}. */
-  text(text: string, x: number, y: number, style: TextStyle): void;
-  measure(text: string, size: number): number;
-  image(source: HTMLCanvasElement, x: number, y: number, width: number, height: number): void;
+  abstract text(text: string, x: number, y: number, style: TextStyle): void;
+  abstract image(source: HTMLCanvasElement, x: number, y: number, width: number, height: number): void;
   /** Draws nothing outside of a box. */
-  clipped(to: Box, draw: () => void): void;
+  abstract clipped(to: Box, draw: () => void): void;
   /** Draws on the sheet moved by so much: for pictures below each other, or in a corner. */
-  moved(right: number, down: number, draw: () => void): void;
+  abstract moved(right: number, down: number, draw: () => void): void;
+
+  measure(text: string, size: number): number {
+    return measureRuns(text, size, this.family);
+  }
 }
 
 /** The size of a subscript relative to its line, and how far it hangs below. */
@@ -83,15 +90,10 @@ function runsOf(text: string): Run[] {
 }
 
 /** The same without markup, for plain text. */
-export function plainText(text: string): string {
-  return runsOf(text)
-    .map((run) => run.text)
-    .join("");
-}
+export const plainText = (text: string): string => runsOf(text).reduce((plain, run) => plain + run.text, "");
 
-function fontOf({ italic, subscript }: Run, size: number, family: string): string {
-  return `${italic ? "italic " : ""}${subscript ? size * SUBSCRIPT_SIZE : size}px ${family}`;
-}
+const fontOf = ({ italic, subscript }: Run, size: number, family: string): string =>
+  `${italic ? "italic " : ""}${subscript ? size * SUBSCRIPT_SIZE : size}px ${family}`;
 
 let ruler: CanvasRenderingContext2D | undefined;
 
@@ -135,43 +137,41 @@ function trace(points: ArrayLike<number>, to: (x: number, y: number, down: boole
 }
 
 /** Draws on a canvas of the screen whose transform is set to CSS pixels already. */
-export class CanvasPen implements Pen {
-  readonly printed = false;
-  readonly colour = themeColour;
-
-  constructor(private readonly context: CanvasRenderingContext2D) {}
+export class CanvasPen extends Pen {
+  constructor(private readonly context: CanvasRenderingContext2D) {
+    super(false, themeColour, SCREEN_FONT);
+  }
 
   path(points: ArrayLike<number>, style: PathStyle): void {
-    const { context } = this;
-    context.beginPath();
-    trace(points, (x, y, down) => (down ? context.lineTo(x, y) : context.moveTo(x, y)));
-    if (style.close === true) context.closePath();
-    this.finish(style);
+    const shape = new Path2D();
+    trace(points, (x, y, down) => (down ? shape.lineTo(x, y) : shape.moveTo(x, y)));
+    if (style.close === true) shape.closePath();
+    this.draw(shape, style);
   }
 
   circle(x: number, y: number, radius: number, style: PathStyle): void {
-    this.context.beginPath();
-    this.context.arc(x, y, radius, 0, 2 * Math.PI);
-    this.finish(style);
+    const shape = new Path2D();
+    shape.arc(x, y, radius, 0, 2 * Math.PI);
+    this.draw(shape, style);
   }
 
   rect(x: number, y: number, width: number, height: number, style: PathStyle): void {
-    this.context.beginPath();
-    this.context.rect(x, y, width, height);
-    this.finish(style);
+    const shape = new Path2D();
+    shape.rect(x, y, width, height);
+    this.draw(shape, style);
   }
 
   text(text: string, x: number, y: number, style: TextStyle): void {
-    const { context } = this;
+    const { context, family } = this;
     const width = this.measure(text, style.size);
     context.save();
     context.translate(x, y);
     if (style.upwards === true) context.rotate(-Math.PI / 2);
     context.textAlign = "left";
     context.textBaseline = "alphabetic";
-    let left = style.anchor === "middle" ? -width / 2 : style.anchor === "end" ? -width : 0;
+    let left = -width * { start: 0, middle: 0.5, end: 1 }[style.anchor ?? "start"];
     for (const run of runsOf(text)) {
-      context.font = fontOf(run, style.size, SCREEN_FONT);
+      context.font = fontOf(run, style.size, family);
       const top = baselineOf(style) + (run.subscript ? SUBSCRIPT_DROP * style.size : 0);
       if (style.halo !== undefined) {
         context.lineJoin = "round";
@@ -184,10 +184,6 @@ export class CanvasPen implements Pen {
       left += context.measureText(run.text).width;
     }
     context.restore();
-  }
-
-  measure(text: string, size: number): number {
-    return measureRuns(text, size, SCREEN_FONT);
   }
 
   image(source: HTMLCanvasElement, x: number, y: number, width: number, height: number): void {
@@ -211,35 +207,35 @@ export class CanvasPen implements Pen {
     this.context.restore();
   }
 
-  private finish({ fill, stroke, width = 1, dash = [], opacity = 1 }: PathStyle): void {
+  private draw(shape: Path2D, { fill, stroke, width = 1, dash = [], opacity = 1 }: PathStyle): void {
     const { context } = this;
     context.globalAlpha = opacity;
     if (fill !== undefined) {
       context.fillStyle = this.colour(fill);
-      context.fill();
+      context.fill(shape);
     }
     if (stroke !== undefined) {
       context.strokeStyle = this.colour(stroke);
       context.lineWidth = width;
       context.lineJoin = "round";
       context.setLineDash([...dash]);
-      context.stroke();
+      context.stroke(shape);
     }
     context.globalAlpha = 1;
   }
 }
 
 /** Writes SVG with words as text, so that they can be edited and searched. */
-export class SvgPen implements Pen {
-  readonly printed = true;
-  readonly colour = printedColour;
+export class SvgPen extends Pen {
   private readonly parts: string[] = [];
   private clips = 0;
 
   constructor(
     private readonly width: number,
     private readonly height: number,
-  ) {}
+  ) {
+    super(true, printedColour, PRINT_FONT);
+  }
 
   path(points: ArrayLike<number>, style: PathStyle): void {
     let data = "";
@@ -269,15 +265,9 @@ export class SvgPen implements Pen {
       hung = drop;
       return `<tspan${step}${small}${slant}>${escape(run.text)}</tspan>`;
     });
-    this.parts.push(
-      `<text x="${short(x)}" y="${short(y + baselineOf(style))}" text-anchor="${anchor}"` +
-        ` fill="${printedColour(colour)}" font-size="${short(size)}"${margin}${turn}` +
-        ` xml:space="preserve">${runs.join("")}</text>`,
-    );
-  }
-
-  measure(text: string, size: number): number {
-    return measureRuns(text, size, PRINT_FONT);
+    const place = `x="${short(x)}" y="${short(y + baselineOf(style))}" text-anchor="${anchor}"`;
+    const letters = `fill="${printedColour(colour)}" font-size="${short(size)}"${margin}${turn} xml:space="preserve"`;
+    this.parts.push(`<text ${place} ${letters}>${runs.join("")}</text>`);
   }
 
   image(source: HTMLCanvasElement, x: number, y: number, width: number, height: number): void {
@@ -315,9 +305,8 @@ export class SvgPen implements Pen {
   }
 }
 
-function box(x: number, y: number, width: number, height: number): string {
-  return `x="${short(x)}" y="${short(y)}" width="${short(width)}" height="${short(height)}"`;
-}
+const box = (x: number, y: number, width: number, height: number): string =>
+  `x="${short(x)}" y="${short(y)}" width="${short(width)}" height="${short(height)}"`;
 
 function attributes({ fill, stroke, width = 1, dash = [], opacity }: PathStyle): string {
   const area = ` fill="${fill === undefined ? "none" : printedColour(fill)}"`;

@@ -3,9 +3,7 @@
 import { button, debounced, element, oncePerFrame, placeOn } from "../elements";
 import type { Range } from "../protocol";
 import { WORDS } from "../words";
-import {
-  clamp, hairsAt, inside, layOut, paintAxes, pixelX, pixelY, valueX, valueY, type Axes, type Plot,
-} from "./axes"; // prettier-ignore
+import { clamp, hairsAt, inside, layOut, paintAxes, valueX, valueY, type Axes, type Plot } from "./axes";
 import { CanvasPen, contextOf, type Box, type Pen } from "./pen";
 
 export interface Window2 {
@@ -51,15 +49,17 @@ export class WindowPicture {
   private readonly redrawCursor = oncePerFrame(() => this.paintCursor());
 
   constructor(readonly host: PictureHost) {
-    const label = [host.label, ...(host.move === undefined ? [] : [TEXTS.zoom_keys]), TEXTS.cross_keys].join(" ");
+    const label = [host.label, host.move ? TEXTS.zoom_keys : "", TEXTS.cross_keys].filter(Boolean).join(" ");
     this.layers = new Layers(host.className, label);
     const gestures = new Gestures(this);
+    const tool = (text: string, name: string, key: string, act: () => void) =>
+      button(text, act, { "aria-label": name, title: `${name} (${key})` });
     this.tools = element(
       "div",
       { class: "picture-tools", role: "group", "aria-label": TEXTS.zoom },
-      button("+", () => gestures.zoom(0.5), { "aria-label": TEXTS.in, title: `${TEXTS.in} (+)` }),
-      button("\u2212", () => gestures.zoom(2), { "aria-label": TEXTS.out, title: `${TEXTS.out} (-)` }),
-      button(TEXTS.all, () => host.reset?.(), { "aria-label": TEXTS.all_label, title: `${TEXTS.all_label} (0)` }),
+      tool("+", TEXTS.in, "+", () => gestures.zoom(0.5)),
+      tool("−", TEXTS.out, "-", () => gestures.zoom(2)),
+      tool(TEXTS.all, TEXTS.all_label, "0", () => host.reset?.()),
     );
   }
 
@@ -79,8 +79,7 @@ export class WindowPicture {
     this.layers.fit();
     const { width, height, ratio } = this.layers;
     if (width < 60 || height < 60) return null;
-    const size = width < 480 ? SMALL_LETTERS : LETTERS;
-    const plot = layOut(this.layers.more(), width, height, this.host.axes(), size);
+    const plot = layOut(this.layers.more(), width, height, this.host.axes(), width < 480 ? SMALL_LETTERS : LETTERS);
     this.plot = plot;
     return { plot, columns: Math.round(plot.width * ratio), rows: Math.round(plot.height * ratio) };
   }
@@ -115,13 +114,6 @@ export class WindowPicture {
   }
 }
 
-/** Draws a picture of one window into a plot of another, stretched as it has to be. */
-export function paintStretched(pen: Pen, plot: Plot, image: HTMLCanvasElement, { x, y }: Window2): void {
-  const left = pixelX(plot, x[0]);
-  const top = pixelY(plot, y[1]);
-  pen.image(image, left, top, pixelX(plot, x[1]) - left, pixelY(plot, y[0]) - top);
-}
-
 const SETTLE = 350;
 const SMALLEST_DRAG = 6;
 
@@ -133,7 +125,6 @@ class Gestures {
   private moved = false;
   private cross: [number, number] | null = null;
   private readonly settle = debounced(SETTLE, () => this.host.move?.(this.host.window(), true));
-
   private readonly surface: HTMLElement;
   private readonly host: PictureHost;
 
@@ -141,21 +132,30 @@ class Gestures {
     const { surface } = picture.layers;
     this.surface = surface;
     this.host = picture.host;
-    surface.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
-    surface.addEventListener("pointerdown", (event) => this.down(event));
-    surface.addEventListener("pointermove", (event) => this.follow(event));
-    surface.addEventListener("pointerup", (event) => this.up(event));
-    surface.addEventListener("pointercancel", (event) => this.abandon(event));
-    surface.addEventListener("pointerleave", (event) => {
+    const listen = <Name extends keyof HTMLElementEventMap>(
+      name: Name,
+      act: (event: HTMLElementEventMap[Name], plot: Plot) => void,
+    ) => {
+      const heard = (event: HTMLElementEventMap[Name]) => picture.plot !== null && act(event, picture.plot);
+      surface.addEventListener(name, heard, { passive: false });
+    };
+    listen("wheel", (event, plot) => this.wheel(event, plot));
+    listen("pointerdown", (event, plot) => this.down(event, plot));
+    listen("pointermove", (event, plot) => this.follow(event, plot));
+    listen("pointerup", (event, plot) => this.up(event, plot));
+    listen("pointercancel", (event) => {
+      this.release(event);
+      picture.rectangle(null);
+    });
+    listen("pointerleave", (event) => {
       if (event.pointerType === "mouse" && this.begun === null) picture.point(null);
     });
-    surface.addEventListener("keydown", (event) => this.key(event));
+    listen("keydown", (event) => this.key(event));
     // Two fingers zoom the picture and not the page; one finger still scrolls the page.
-    const keepTwo = (event: TouchEvent) => {
-      if (event.touches.length >= 2) event.preventDefault();
-    };
-    surface.addEventListener("touchstart", keepTwo, { passive: false });
-    surface.addEventListener("touchmove", keepTwo, { passive: false });
+    for (const name of ["touchstart", "touchmove"] as const)
+      listen(name, (event) => {
+        if (event.touches.length >= 2) event.preventDefault();
+      });
     surface.style.touchAction = "pan-y";
   }
 
@@ -164,9 +164,7 @@ class Gestures {
     this.host.move?.({ x: scaled(x, (x[0] + x[1]) / 2, factor), y: scaled(y, (y[0] + y[1]) / 2, factor) }, true);
   }
 
-  private wheel(event: WheelEvent): void {
-    const { plot } = this.picture;
-    if (plot === null) return;
+  private wheel(event: WheelEvent, plot: Plot): void {
     event.preventDefault();
     const { x, y } = placeOn(this.surface, event);
     const lines = event.deltaMode === 1 ? 16 : 1;
@@ -187,18 +185,17 @@ class Gestures {
     this.settle();
   }
 
-  private down(event: PointerEvent): void {
-    const { plot } = this.picture;
-    if (plot === null || event.button > 0) return;
+  private down(event: PointerEvent, plot: Plot): void {
+    if (event.button > 0) return;
     const at = placeOn(this.surface, event);
     this.pointers.set(event.pointerId, at);
     this.surface.setPointerCapture(event.pointerId);
     if (this.pointers.size === 2) {
       const [one, two] = [...this.pointers.values()] as [Place, Place];
-      const at: Point = [valueX(plot, (one.x + two.x) / 2), valueY(plot, (one.y + two.y) / 2)];
       this.begun = null;
       this.picture.rectangle(null);
-      this.pinch = { window: this.host.window(), distance: this.distance(), at };
+      const middle: Point = [valueX(plot, (one.x + two.x) / 2), valueY(plot, (one.y + two.y) / 2)];
+      this.pinch = { window: this.host.window(), distance: this.distance(), at: middle };
     } else if (this.pointers.size === 1 && inside(plot, at.x, at.y)) {
       this.begun = { ...at, window: this.host.window(), touch: event.pointerType === "touch" };
       this.moved = false;
@@ -211,60 +208,42 @@ class Gestures {
     return Math.max(Math.hypot(one.x - two.x, one.y - two.y), 10);
   }
 
-  private follow(event: PointerEvent): void {
-    const { plot } = this.picture;
-    if (plot === null) return;
+  private follow(event: PointerEvent, plot: Plot): void {
     const at = placeOn(this.surface, event);
+    const { pinch, begun } = this;
     if (this.pointers.has(event.pointerId)) this.pointers.set(event.pointerId, at);
-    if (this.pinch !== null && this.pointers.size >= 2) {
-      const { window, at: centre, distance } = this.pinch;
-      const factor = distance / this.distance();
+    if (pinch !== null && this.pointers.size >= 2) {
+      const { window, at: centre } = pinch;
+      const factor = pinch.distance / this.distance();
       this.moved = true;
       this.move({ x: scaled(window.x, centre[0], factor), y: scaled(window.y, centre[1], factor) });
-    } else if (this.begun !== null) {
-      const { begun } = this;
-      if (!this.moved && Math.hypot(at.x - begun.x, at.y - begun.y) < SMALLEST_DRAG) return;
-      this.moved = true;
-      if (begun.touch) {
-        const shift = ((begun.x - at.x) / plot.width) * (begun.window.x[1] - begun.window.x[0]);
-        this.move({ x: [begun.window.x[0] + shift, begun.window.x[1] + shift], y: begun.window.y });
-      } else {
-        this.picture.rectangle(boxOf(plot, begun, at));
-      }
-    } else {
-      this.picture.point(inside(plot, at.x, at.y) ? [valueX(plot, at.x), valueY(plot, at.y)] : null);
-    }
+    } else if (begun !== null) {
+      this.moved ||= Math.hypot(at.x - begun.x, at.y - begun.y) >= SMALLEST_DRAG;
+      const { x, y } = begun.window;
+      if (!this.moved) return;
+      if (begun.touch) this.move({ x: shifted(x, (begun.x - at.x) / plot.width), y });
+      else this.picture.rectangle(boxOf(plot, begun, at));
+    } else this.picture.point(inside(plot, at.x, at.y) ? [valueX(plot, at.x), valueY(plot, at.y)] : null);
   }
 
-  private up(event: PointerEvent): void {
-    const { plot } = this.picture;
+  private up(event: PointerEvent, plot: Plot): void {
     const { begun } = this;
     const at = placeOn(this.surface, event);
     this.release(event);
-    if (plot === null || begun === null) return;
+    if (begun === null) return;
     if (!this.moved) {
-      const value: [number, number] = [valueX(plot, at.x), valueY(plot, at.y)];
+      const value: Point = [valueX(plot, at.x), valueY(plot, at.y)];
       this.picture.point(value);
       this.host.pick(value);
     } else if (!begun.touch) {
-      const box = boxOf(plot, begun, at);
-      // A flat rectangle chooses a range of one axis.
-      const wide = box.width >= SMALLEST_DRAG;
-      const high = box.height >= SMALLEST_DRAG;
+      const { left, top, width, height } = boxOf(plot, begun, at);
+      const { x, y } = begun.window;
       this.picture.rectangle(null);
-      this.host.move?.(
-        {
-          x: wide ? [valueX(plot, box.left), valueX(plot, box.left + box.width)] : begun.window.x,
-          y: high ? [valueY(plot, box.top + box.height), valueY(plot, box.top)] : begun.window.y,
-        },
-        true,
-      );
+      // A flat rectangle chooses a range of one axis.
+      const across: Range = width >= SMALLEST_DRAG ? [valueX(plot, left), valueX(plot, left + width)] : x;
+      const up: Range = height >= SMALLEST_DRAG ? [valueY(plot, top + height), valueY(plot, top)] : y;
+      this.host.move?.({ x: across, y: up }, true);
     }
-  }
-
-  private abandon(event: PointerEvent): void {
-    this.release(event);
-    this.picture.rectangle(null);
   }
 
   private release(event: PointerEvent): void {
@@ -277,11 +256,10 @@ class Gestures {
     if (event.ctrlKey || event.metaKey) return;
     const window = this.host.window();
     const arrow = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
-    if (arrow !== undefined) {
-      const [right = 0, up = 0] = arrow;
-      if (event.shiftKey) this.moveCross(right, up, window);
-      else this.move({ x: shifted(window.x, right * 0.1), y: shifted(window.y, up * 0.1) });
-    } else if (event.key === "+" || event.key === "=") this.zoom(0.5);
+    const [right = 0, up = 0] = arrow ?? [];
+    if (arrow !== undefined && event.shiftKey) this.moveCross(right, up, window);
+    else if (arrow !== undefined) this.move({ x: shifted(window.x, right * 0.1), y: shifted(window.y, up * 0.1) });
+    else if (event.key === "+" || event.key === "=") this.zoom(0.5);
     else if (event.key === "-") this.zoom(2);
     else if (event.key === "0") this.host.reset?.();
     else if (event.key === "Enter" && this.cross !== null) this.host.pick(this.cross);
@@ -296,10 +274,8 @@ class Gestures {
   /** The keyboard's own cursor, by a fiftieth of the window; it begins in the middle. */
   private moveCross(right: number, up: number, { x, y }: Window2): void {
     const from = this.cross ?? [(x[0] + x[1]) / 2, (y[0] + y[1]) / 2];
-    this.cross = [
-      clamp(from[0] + (right * (x[1] - x[0])) / 50, x[0], x[1]),
-      clamp(from[1] + (up * (y[1] - y[0])) / 50, y[0], y[1]),
-    ];
+    const along = (range: Range, at: number, steps: number) => clamp(at + (steps * (range[1] - range[0])) / 50, ...range);
+    this.cross = [along(x, from[0], right), along(y, from[1], up)];
     this.picture.point(this.cross);
   }
 }
@@ -313,12 +289,10 @@ function shifted([low, high]: Range, share: number): Range {
   return [low + by, high + by];
 }
 
-function boxOf(plot: Plot, from: Place, to: Place): Box {
-  const x = (value: number) => clamp(value, plot.left, plot.left + plot.width);
-  const y = (value: number) => clamp(value, plot.top, plot.top + plot.height);
-  const left = Math.min(x(from.x), x(to.x));
-  const top = Math.min(y(from.y), y(to.y));
-  return { left, top, width: Math.abs(x(from.x) - x(to.x)), height: Math.abs(y(from.y) - y(to.y)) };
+function boxOf({ left, top, width, height }: Plot, from: Place, to: Place): Box {
+  const [x1, x2] = [from.x, to.x].map((x) => clamp(x, left, left + width)) as Range;
+  const [y1, y2] = [from.y, to.y].map((y) => clamp(y, top, top + height)) as Range;
+  return { left: Math.min(x1, x2), top: Math.min(y1, y2), width: Math.abs(x1 - x2), height: Math.abs(y1 - y2) };
 }
 
 /**
@@ -328,18 +302,15 @@ function boxOf(plot: Plot, from: Place, to: Place): Box {
 export function confined(wanted: Range, [least, most]: Range, [bottom, top]: Range, before?: Range): Range {
   const [low, high] = wanted;
   const width = clamp(high - low, least, Math.min(most, top - bottom));
-  const middle = clamp(middleOf(wanted, width, before), bottom + width / 2, top - width / 2);
-  return [middle - width / 2, middle + width / 2];
-}
-
-function middleOf([low, high]: Range, width: number, before: Range | undefined): number {
-  const middle = (low + high) / 2;
-  if (before === undefined || width === high - low) return middle;
-  const old = before[1] - before[0];
+  let middle = (low + high) / 2;
+  const old = before === undefined ? NaN : before[1] - before[0];
   const factor = (high - low) / old;
-  if (!(Math.abs(factor - 1) > 1e-9)) return middle;
-  const centre = (low - factor * before[0]) / (1 - factor);
-  return centre + ((before[0] + before[1]) / 2 - centre) * (width / old);
+  if (before !== undefined && width !== high - low && Math.abs(factor - 1) > 1e-9) {
+    const centre = (low - factor * before[0]) / (1 - factor);
+    middle = centre + ((before[0] + before[1]) / 2 - centre) * (width / old);
+  }
+  middle = clamp(middle, bottom + width / 2, top - width / 2);
+  return [middle - width / 2, middle + width / 2];
 }
 
 /** Two canvases on each other at the screen's own pixels: data below, and the cursor, which moves often, above. */

@@ -1,7 +1,7 @@
-/** Orbits asked for their verdict, what views do with answers that do not come, and cycles that rounding chose. */
+/** What views that compute have in common: when they ask, answers that do not come, verdicts, and what rounding chose. */
 
-import { Cancelled, messageOf, type Context, type State } from "../contract";
-import { element } from "../elements";
+import { Cancelled, messageOf, type Context, type Offer, type State, type View } from "../contract";
+import { debounced, element } from "../elements";
 import type { ImpactStart, MotionStart, VerdictJson } from "../protocol";
 import { axialForcing, contactPeriods } from "../state";
 import { say, WORDS } from "../words";
@@ -37,6 +37,40 @@ export async function verdictOf(
 /** Says what went wrong; a request that another one replaced went not wrong. */
 export function tellFailure(context: Context, error: unknown): void {
   if (!(error instanceof Cancelled)) context.status(messageOf(error), "error");
+}
+
+/** A view that computes something a little after the last change of the state, and ends with it when it is hidden. */
+export abstract class ComputingView implements View {
+  protected readonly compute: ReturnType<typeof debounced<[]>>;
+
+  constructor(
+    protected readonly context: Context,
+    pause: number,
+    private readonly slots: readonly string[],
+  ) {
+    this.compute = debounced(pause, () => this.attempt(() => this.fetch()));
+  }
+
+  abstract show(state: State): void;
+  abstract offers(): Offer[];
+  protected abstract readonly draw: () => void;
+  /** Asks for what is not there or on its way. */
+  protected abstract fetch(): Promise<void>;
+
+  hide(): void {
+    this.compute.stop();
+    for (const slot of this.slots) this.context.client.cancel(slot);
+  }
+
+  redraw(): void {
+    this.draw();
+    this.compute();
+  }
+
+  /** Says what goes wrong. */
+  protected attempt(act: () => Promise<void>): void {
+    act().catch((error: unknown) => tellFailure(this.context, error));
+  }
 }
 
 /** A disk at rest on the platform at its lowest point: the cycle after a rest does not depend on what was before. */

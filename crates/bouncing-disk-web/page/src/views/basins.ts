@@ -1,16 +1,16 @@
 /** Basins of attraction: where the orbit of every start ends. */
 
-import { Cancelled, type Context, type Offer, type State, type View, type ViewKind } from "../contract";
-import { crossAt, layOut, paintAxes, pixelX, pixelY, type Axes, type Plot } from "../drawing/axes";
-import { themeColour } from "../drawing/colours";
-import { ONE_COLUMN, PARTS, pictureOffers, PRINT_SIZE, tableOffers } from "../drawing/files";
+import { Cancelled, type Context, type Offer, type State, type ViewKind } from "../contract";
+import { crossAt, pixelX, pixelY, type Axes, type Plot } from "../drawing/axes";
+import { ONE_COLUMN, PARTS, plotOffers, tableOffers } from "../drawing/files";
 import type { Pen } from "../drawing/pen";
-import { confined, paintStretched, WindowPicture, type Point, type Window2 } from "../drawing/window";
-import { debounced, div, element, setText } from "../elements";
+import { confined, WindowPicture, type Point, type Window2 } from "../drawing/window";
+import { div, element, setText } from "../elements";
 import { brief, percent, plain } from "../numbers";
 import { say, WORDS } from "../words";
 import type { AttractorsJson, ImpactStart, Range } from "../protocol";
-import { mapOf, RoundingCaution, tellFailure, type MapParameters } from "./asking";
+import { DEFAULT_STATE } from "../state";
+import { ComputingView, mapOf, RoundingCaution, type MapParameters } from "./asking";
 import { Cells, computeCells, gridsOf, type Grid } from "./basins/cells";
 import { describe, labelsOf, Legend, printedLegend, undecidedShare } from "./basins/legend";
 
@@ -21,7 +21,7 @@ const PHASES: Range = [-1, 2];
 /** The smallest speed that a start can have. */
 const LEAST_SPEED = 1e-9;
 
-class BasinsView implements View {
+class BasinsView extends ComputingView {
   private readonly picture: WindowPicture;
   private readonly rounding = new RoundingCaution("basins-rest", WORDS.asking.rounding_basins);
   private readonly legend = new Legend(this.rounding.root);
@@ -36,12 +36,10 @@ class BasinsView implements View {
   private complete = false;
   /** The attractors of another map are being looked for: what is seen is of the one before. */
   private stale = false;
-  private readonly compute = debounced(60, () => void this.fetch());
+  protected readonly draw = (): void => this.picture.redraw();
 
-  constructor(
-    host: HTMLElement,
-    private readonly context: Context,
-  ) {
+  constructor(host: HTMLElement, context: Context) {
+    super(context, 60, ["basins"]);
     this.picture = new WindowPicture({
       className: "picture-basins",
       label: TEXTS.label,
@@ -49,7 +47,7 @@ class BasinsView implements View {
       paint: (pen, plot) => this.paint(pen, plot),
       window: () => ({ x: this.basins.phase_periods, y: this.basins.normalised_speed }),
       move: (window, settled) => this.move(window, settled),
-      reset: () => context.change({ basins: { phase_periods: [0, 1], normalised_speed: [0, 5] } }),
+      reset: () => context.change({ basins: DEFAULT_STATE.basins }),
       point: (at) => this.point(at),
       pick: (at) => this.choose(at),
     });
@@ -61,19 +59,7 @@ class BasinsView implements View {
 
   show(state: State): void {
     this.rounding.show(this.context, state);
-    this.picture.redraw();
-    this.compute();
-  }
-
-  hide(): void {
-    this.compute.stop();
-    this.context.client.cancel("basins");
-  }
-
-  redraw(): void {
-    for (const cells of [...this.layers, this.previous]) cells?.repaint(themeColour);
-    this.picture.redraw();
-    this.compute();
+    this.redraw();
   }
 
   offers(): Offer[] {
@@ -82,33 +68,26 @@ class BasinsView implements View {
     // What is half done is not given away: it has the labels of some of its cells.
     if (cells === undefined || found === null || this.stale || !this.complete) return [];
     const state = this.context.state();
-    const map = mapOf(state);
-    const legend = printedLegend(found, cells.shares());
     return [
       ...tableOffers({
         name: TEXTS.file,
-        parameters: { picture: "basins", ...map, basins, ...found },
+        parameters: { picture: "basins", ...mapOf(state), basins, ...found },
         columns: ["phase_periods", "normalised_speed", "label"],
         rows: () => cells.rows(),
         most: cells.grid.phases * cells.grid.speeds,
       }),
-      ...pictureOffers({
+      ...plotOffers({
         name: TEXTS.file,
         title: TEXTS.title,
         basis: { state, names: PARTS.map },
         width: ONE_COLUMN,
-        height: ONE_COLUMN * 0.9 + legend.height,
-        paint: (pen, width, height) => {
-          const plot = layOut(pen, width, height - legend.height, this.axes(), PRINT_SIZE);
-          cells.repaint(pen.colour);
-          pen.clipped(plot, () => {
-            paintStretched(pen, plot, cells.canvas, cells.window);
-            this.paintAttractors(pen, plot);
-          });
-          paintAxes(pen, plot);
-          legend.paint(pen, height - legend.height);
-          cells.repaint(themeColour);
+        height: ONE_COLUMN * 0.9,
+        axes: this.axes(),
+        paint: (pen, plot) => {
+          cells.paint(pen, plot);
+          this.paintAttractors(pen, plot);
         },
+        below: printedLegend(found, cells.shares()),
       }),
     ];
   }
@@ -131,7 +110,7 @@ class BasinsView implements View {
     this.context.change({ basins: { phase_periods, normalised_speed } }, { settled });
   }
 
-  private async fetch(): Promise<void> {
+  protected async fetch(): Promise<void> {
     const laid = this.picture.layOut();
     if (laid === null) return;
     const wanted = mapOf(this.context.state());
@@ -147,28 +126,28 @@ class BasinsView implements View {
     const began = performance.now();
     try {
       await this.fill(await this.attractorsOf(wanted), wanted, grids, laid.columns);
-      this.complete = true;
-      this.previous = null;
-      const seconds = ((performance.now() - began) / 1000).toFixed(2);
-      this.context.status(say(TEXTS.computed, { ...at, phases: fine.phases, speeds: fine.speeds, seconds }));
-      this.describe();
     } catch (error) {
       if (this.asked === key) this.asked = "";
       // Nor does a picture of another map stand where there is none of this one.
       if (!(error instanceof Cancelled)) {
         this.clear();
         setText(this.alternative, say(TEXTS.none, at));
-        this.picture.redraw();
+        this.draw();
       }
-      tellFailure(this.context, error);
+      throw error;
     }
+    this.complete = true;
+    this.previous = null;
+    const seconds = ((performance.now() - began) / 1000).toFixed(2);
+    this.context.status(say(TEXTS.computed, { ...at, phases: fine.phases, speeds: fine.speeds, seconds }));
+    this.describe();
   }
 
   private async attractorsOf(map: MapParameters): Promise<AttractorsJson> {
     const name = JSON.stringify(map);
     this.stale = this.found === null || name !== this.mapFound;
     this.legend.dim(this.stale);
-    this.picture.redraw();
+    this.draw();
     if (this.found !== null && !this.stale) return this.found;
     const request = { call: "attractors", ...map } as const;
     const { json } = await this.context.client.series<AttractorsJson>("basins", [request]);
@@ -177,15 +156,12 @@ class BasinsView implements View {
     this.found = json;
     this.mapFound = name;
     this.legend.show(json, null);
-    this.picture.redraw();
+    this.draw();
     return json;
   }
 
   private clear(): void {
-    this.stale = false;
-    this.found = null;
-    this.layers = [];
-    this.previous = null;
+    Object.assign(this, { stale: false, found: null, layers: [], previous: null });
     this.legend.clear();
   }
 
@@ -201,15 +177,13 @@ class BasinsView implements View {
       layers[index]?.add(labels, from);
       const done = say(TEXTS.progress, { percent: percent(from / grids[1].speeds, 0) });
       if (index === 1) this.context.status(done, "busy");
-      this.picture.redraw();
+      this.draw();
     });
     this.legend.show(found, layers[1]?.shares() ?? null);
   }
 
   private paint(pen: Pen, plot: Plot): void {
-    for (const cells of [this.previous, ...this.layers]) {
-      if (cells !== null) paintStretched(pen, plot, cells.canvas, cells.window);
-    }
+    for (const cells of [this.previous, ...this.layers]) cells?.paint(pen, plot);
     const paper = { fill: "--picture-paper", opacity: 0.75 };
     if (this.stale) pen.rect(plot.left, plot.top, plot.width, plot.height, paper);
     else this.paintAttractors(pen, plot);

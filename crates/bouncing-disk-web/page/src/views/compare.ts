@@ -1,19 +1,19 @@
 /** Two states that differ in one parameter, side by side: the shared one, A, and B. */
 
-import { Cancelled, messageOf, type Context, type Offer, type State, type View, type ViewKind } from "../contract";
+import { Cancelled, messageOf, type Context, type Offer, type State, type ViewKind } from "../contract";
 import { clamp, extent, padded } from "../drawing/axes";
 import { chartOffers, ScreenChart, type Chart, type Curve } from "../drawing/chart";
 import { ONE_COLUMN, PARTS, tableOffers } from "../drawing/files";
-import { button, debounced, div, element, oncePerFrame, rich, setText } from "../elements";
+import { button, div, element, labelled, oncePerFrame, rich, setText } from "../elements";
 import { plain, prefixOf, shown } from "../numbers";
 import { bouncing } from "../presets";
 import { MOTION_COLUMNS, type MotionJson, type Range, type VerdictJson } from "../protocol";
 import { DEFAULT_STATE, MOST_PERIODS } from "../state";
 import { say, WORDS } from "../words";
-import { Asked, impactOf, mapOf, motionStartOf, tellFailure, verdictOf } from "./asking";
+import { Asked, ComputingView, impactOf, mapOf, motionStartOf, verdictOf } from "./asking";
 import { GROWING, nextDouble, partingOf, type Parting } from "./compare/parting";
 import { behaviour } from "./diagram/words";
-import { exactText, labelled, settings, NumberField, parameterChoice, valueIn, varied, withValue } from "./varied";
+import { exactText, settings, NumberField, parameterChoice, valueIn, varied, withValue } from "./varied";
 
 const SAMPLES = 48;
 /** Periods that the heights and spins are shown for, and how many of them before the parting. */
@@ -45,42 +45,32 @@ interface Pair {
   readonly ends: Both<string> | null;
 }
 
-class CompareView implements View {
+class CompareView extends ComputingView {
   private readonly charts = [0, 1, 2].map(() => new ScreenChart(() => clamp(window.innerHeight / 2 - 230, 210, 520)));
-  private readonly parameter = parameterChoice(TEXT.parameter, (name) => void this.choose(name));
-  private readonly value: NumberField;
-  private readonly periods: NumberField;
-  private readonly from: NumberField;
+  private readonly parameter = parameterChoice(TEXT.parameter, (name) => this.attempt(() => this.choose(name)));
+  private readonly value = new NumberField(TEXT.value, this.context, ([value = 0]) => this.change({ value }));
+  private readonly periods = new NumberField(TEXT.periods, this.context, ([periods = 0]) => this.follow(periods));
+  private readonly from = new NumberField(TEXT.from, this.context, ([from = 0]) =>
+    this.change({ from: Math.max(from, 0) }),
+  );
   private readonly sentence = element("p", { class: "differs" });
   private readonly words = element("ul", { class: "remark optima", "aria-live": "polite" });
   private readonly asked = new Asked<void>();
   private pair: Pair | null = null;
   private problem = "";
-  private readonly compute = debounced(100, () => void this.fetch());
-  private readonly draw = oncePerFrame(() => this.paint());
+  protected readonly draw = oncePerFrame(() => this.paint());
 
-  constructor(
-    host: HTMLElement,
-    private readonly context: Context,
-  ) {
-    this.value = new NumberField(TEXT.value, context, ([value = 0]) => context.change({ compare: { value } }));
-    this.periods = new NumberField(TEXT.periods, context, ([periods = 0]) => this.follow(periods));
-    this.from = new NumberField(TEXT.from, context, ([from = 0]) =>
-      context.change({ compare: { from: Math.max(from, 0) } }),
-    );
+  constructor(host: HTMLElement, context: Context) {
+    super(context, 100, SLOTS);
+    const ready = READY.map(({ label, change }) => button(label, () => context.change(change)));
+    const next = button(TEXT.next, () => this.attempt(() => this.next()));
     const bars = [
-      div("bar", element("span", {}, TEXT.readyMade), ...READY.map((one) => button(one.label, () => context.change(one.change)))),
-      div("bar", labelled(TEXT.parameter, this.parameter), this.value.root,
-        button(TEXT.next, () => void this.next())),
-      div("bar", this.periods.root, this.from.root,
-        button(TEXT.parting, () => context.change({ compare: { from: null } }))),
-    ]; // prettier-ignore
-    host.append(
-      settings(TEXT.settings, bars),
-      this.sentence,
-      this.words,
-      div("compare", ...this.charts.map(({ root }) => root)),
-    );
+      div("bar", element("span", {}, TEXT.readyMade), ...ready),
+      div("bar", labelled(TEXT.parameter, this.parameter), this.value.root, next),
+      div("bar", this.periods.root, this.from.root, button(TEXT.parting, () => this.change({ from: null }))),
+    ];
+    const charts = div("compare", ...this.charts.map(({ root }) => root));
+    host.append(settings(TEXT.settings, bars), this.sentence, this.words, charts);
   }
 
   show(state: State): void {
@@ -88,18 +78,12 @@ class CompareView implements View {
     this.parameter.value = parameter;
     this.value.show([value], varied(parameter));
     this.periods.show([periods]);
-    this.compute();
-    this.draw();
+    this.redraw();
   }
 
-  hide(): void {
-    this.compute.stop();
-    for (const slot of SLOTS) this.context.client.cancel(slot);
+  override hide(): void {
+    super.hide();
     this.asked.forget();
-  }
-
-  redraw(): void {
-    this.draw();
   }
 
   offers(): Offer[] {
@@ -120,64 +104,53 @@ class CompareView implements View {
     ];
   }
 
+  private change(compare: Partial<State["compare"]>): void {
+    this.context.change({ compare });
+  }
+
   private follow(periods: number): void {
-    if (Number.isInteger(periods) && periods >= 1 && periods <= MOST_PERIODS)
-      this.context.change({ compare: { periods } });
+    if (Number.isInteger(periods) && periods >= 1 && periods <= MOST_PERIODS) this.change({ periods });
     else this.context.status(say(TEXT.wrongPeriods, { most: MOST_PERIODS }), "error");
   }
 
   /** Another parameter of B, which is A as long as nobody gives it another value. */
-  private async choose(name: string): Promise<void> {
+  private async choose(parameter: string): Promise<void> {
     const { context } = this;
-    try {
-      const value = await valueIn(context, SLOTS[0], varied(name), context.state());
-      context.change({ compare: { parameter: name, value } });
-    } catch (error) {
-      tellFailure(context, error);
-    }
+    this.change({ parameter, value: await valueIn(context, SLOTS[0], varied(parameter), context.state()) });
   }
 
   /** The next value that is another system at all. */
   private async next(): Promise<void> {
-    const { context } = this;
-    const state = context.state();
+    const state = this.context.state();
     const parameter = varied(state.compare.parameter);
-    try {
-      let value = await valueIn(context, SLOTS[0], parameter, state);
-      const same = JSON.stringify(state);
-      for (let step = 0; step < MOST_STEPS; step += 1) {
-        value = nextDouble(value);
-        if (JSON.stringify(withValue(parameter, value, state)) !== same) break;
-      }
-      context.change({ compare: { value } });
-    } catch (error) {
-      tellFailure(context, error);
+    const same = JSON.stringify(state);
+    let value = await valueIn(this.context, SLOTS[0], parameter, state);
+    for (let step = 0; step < MOST_STEPS; step += 1) {
+      value = nextDouble(value);
+      if (JSON.stringify(withValue(parameter, value, state)) !== same) break;
     }
+    this.change({ value });
   }
 
-  private async fetch(): Promise<void> {
+  protected async fetch(): Promise<void> {
     const { context } = this;
     const state = context.state();
-    const { system, mass, start, thrown, compare: { parameter, value, periods } } = state; // prettier-ignore
-    const wanted = [system, mass, start, thrown, parameter, value, periods];
+    const { system, mass, start, thrown, compare } = state;
+    const { parameter, value, periods } = compare;
     try {
-      await this.asked.get(wanted, async () => {
+      await this.asked.get([system, mass, start, thrown, parameter, value, periods], async () => {
         context.status(TEXT.busy, "busy");
         this.pair = await pairOf(context, state);
-        this.problem = "";
         context.status(say(TEXT.done, { periods, samples: SAMPLES }));
         this.draw();
       });
     } catch (error) {
-      tellFailure(context, error);
-      if (!(error instanceof Cancelled) && context.state() === state) this.fail(messageOf(error));
+      if (!(error instanceof Cancelled) && context.state() === state) {
+        Object.assign(this, { pair: null, problem: messageOf(error) });
+        this.draw();
+      }
+      throw error;
     }
-  }
-
-  private fail(problem: string): void {
-    this.pair = null;
-    this.problem = problem;
-    this.draw();
   }
 
   private paint(): void {
@@ -206,13 +179,8 @@ class CompareView implements View {
 
   private chartsOf(pair: Pair): Chart[] {
     const window = this.windowOf(pair);
-    const greatest = Math.max(
-      ...pair
-        .column("height")
-        .flatMap((heights) => extent(heights) ?? [])
-        .map(Math.abs),
-    );
-    const { factor, symbol } = prefixOf(greatest);
+    const heights = pair.column("height").flatMap((one) => extent(one) ?? []);
+    const { factor, symbol } = prefixOf(Math.max(...heights.map(Math.abs)));
     return [
       motionChart(pair, window, `${TEXT.heights} (${symbol}m)`, "height", "platform_height", factor),
       motionChart(pair, window, `${TEXT.spins} (rad/s)`, "angular_speed", "platform_angular_speed", 1),
@@ -243,9 +211,8 @@ function motionChart(pair: Pair, window: Range, label: string, disk: Column, pla
 /** The difference on an axis of powers of ten, with the line of its growth. */
 function differenceChart({ apart, parting: { largest, growth }, state }: Pair, window: Range): Chart {
   const step = Math.ceil(apart.length / MOST_DRAWN);
-  const logs = new Float64Array(Math.floor(apart.length / step)).map((_, bin) =>
-    Math.log10(Math.max(...apart.subarray(bin * step, (bin + 1) * step))),
-  );
+  const largestOf = (bin: number) => Math.max(...apart.subarray(bin * step, (bin + 1) * step));
+  const logs = new Float64Array(Math.floor(apart.length / step)).map((_, bin) => Math.log10(largestOf(bin)));
   const at = logs.map((_, bin) => (bin * step) / SAMPLES);
   const [low, high] = extent(logs.filter(Number.isFinite)) ?? [-16, 0];
   const ofPeriod = (value: (period: number) => number) => at.map((time) => value(Math.floor(time)));
@@ -268,15 +235,14 @@ function differenceChart({ apart, parting: { largest, growth }, state }: Pair, w
 }
 
 /** Why a disk at rest never reaches the fast orbit, and what the last digit of a number does to a chaotic one. */
-const READY = (
-  [
-    [TEXT.ready.rest, 0.45, "normalised_speed", 0],
-    [TEXT.ready.digit, 0.55, "restitution", nextDouble(0.5)],
-  ] as const
-).map(([label, forcing, parameter, value]) => {
+const ready = (label: string, forcing: number, parameter: string, value: number) => {
   const compare = { ...DEFAULT_STATE.compare, parameter, value };
   return { label, change: { ...bouncing(forcing), view: "compare", compare } as const };
-});
+};
+const READY = [
+  ready(TEXT.ready.rest, 0.45, "normalised_speed", 0),
+  ready(TEXT.ready.digit, 0.55, "restitution", nextDouble(0.5)),
+];
 
 /** All charts have one place for their numbers. */
 const WIDEST = "−00.00";
@@ -286,7 +252,7 @@ const COLUMNS = [
 ] as const; // prettier-ignore
 
 async function pairOf(context: Context, state: State): Promise<Pair> {
-  const { compare: { parameter, value, periods } } = state; // prettier-ignore
+  const { parameter, value, periods } = state.compare;
   const other = withValue(varied(parameter), value, state);
   const both = async <Value>(ask: (own: State, slot: string) => Promise<Value>): Promise<Both<Value>> =>
     Promise.all([ask(state, SLOTS[0]), ask(other, SLOTS[1])]);

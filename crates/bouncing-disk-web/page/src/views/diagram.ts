@@ -1,22 +1,20 @@
 /** The orbit diagram: what impacts repeat, over the forcing. */
 
-import type { Context, Drive, Offer, Quantity, State, View, ViewKind } from "../contract";
+import type { Context, Drive, Offer, Quantity, State, ViewKind } from "../contract";
 import { clamp, pixelX, type Axes, type Plot } from "../drawing/axes";
 import { PARTS, plotOffers, tabbed, tableOffers, TWO_COLUMNS, type Basis } from "../drawing/files";
 import type { Pen } from "../drawing/pen";
 import { confined, WindowPicture, type Window2 } from "../drawing/window";
-import { button, copied, debounced, div, element, setText } from "../elements";
+import { button, choice, copied, div, element, labelled, setText } from "../elements";
 import { plain } from "../numbers";
 import { say, WORDS } from "../words";
 import { DIAGRAM_COLUMNS, type DiagramJson, type Range, type VerdictJson } from "../protocol";
 import { amplitudeOf, axialForcing, contactPeriods, DEFAULT_STATE } from "../state";
-import { Asked, impactOf, tellFailure } from "./asking";
-import {
-  areDrawn, BRANCHES, branchesOf, describeBifurcations, isPlain, paintBranches, tablesOf, type Branches,
-} from "./diagram/branches"; // prettier-ignore
-import { computeColumns, DESCRIBED, distinctImpacts, PATIENCE, RECORDED, TRANSIENT, type Wanted } from "./diagram/columns";
+import { Asked, ComputingView, impactOf, tellFailure } from "./asking";
+import { areDrawn, BRANCHES, branchesOf, isPlain, paintBranches, tablesOf, type Branches } from "./diagram/branches";
+import { computeColumns, DESCRIBED, distinctImpacts, LENGTHS, RECORDED, TRANSIENT, type Wanted } from "./diagram/columns";
 import { Dots } from "./diagram/dots";
-import { cancelVerdicts, describeDiagram, Verdict, verdictsOf } from "./diagram/words";
+import { describeBifurcations, describeDiagram, SAMPLE_SLOTS, Verdict, verdictsOf } from "./diagram/words";
 
 const TEXTS = WORDS.diagram;
 
@@ -26,14 +24,21 @@ const FORCING_BOUNDS: Range = [1e-3, 1e3];
 /** Impacts in tables are rounded to this share of the window. */
 const FINENESS = 1e-6;
 
-class DiagramView implements View {
+class DiagramView extends ComputingView {
   private readonly picture: WindowPicture;
   private readonly verdict: Verdict;
-  private readonly quantity: HTMLSelectElement;
-  private readonly drive: HTMLSelectElement;
-  private readonly branchesBox: HTMLInputElement;
+  private readonly quantity = choice(TEXTS.quantity_label, Object.entries(TEXTS.quantities), (quantity) =>
+    this.context.change({ diagram: { quantity: quantity as Quantity, range: null } }),
+  );
+  private readonly drive = choice(TEXTS.platform_label, Object.entries(TEXTS.drives), (drive) =>
+    this.context.change({ diagram: { drive: drive as Drive } }),
+  );
+  private readonly branchesBox = element("input", {
+    type: "checkbox",
+    onchange: () => this.context.change({ diagram: { branches: this.branchesBox.checked } }),
+  });
   private readonly alternative = element("p", { class: "alternative" });
-  private readonly copy = button(WORDS.diagram.copy, () => void this.copyTable(), { hidden: true });
+  private readonly copy = button(TEXTS.copy, () => void this.copyTable(), { hidden: true });
   private readonly note = element("p", { class: "remark", hidden: true });
   private readonly dots = new Dots();
   private readonly columns = new Asked<void>();
@@ -43,16 +48,14 @@ class DiagramView implements View {
   private lines: (Branches & { readonly restitution: number }) | null = null;
   /** How often there has been something to ask for: only the last time counts. */
   private turn = 0;
-  /** What was computed, when all is there. */
+  /** What was computed, when all is there, and whether it was said. */
   private sentence = "";
-  private orbits: DiagramJson = { resting: 0, unsettled: 0, left_out: TRANSIENT };
   private told = false;
-  private readonly compute = debounced(60, () => void this.fetch());
+  private orbits: DiagramJson = { resting: 0, unsettled: 0, left_out: TRANSIENT };
+  protected readonly draw = (): void => this.picture.redraw();
 
-  constructor(
-    host: HTMLElement,
-    private readonly context: Context,
-  ) {
+  constructor(host: HTMLElement, context: Context) {
+    super(context, 60, ["diagram", BRANCHES, ...SAMPLE_SLOTS]);
     this.verdict = new Verdict(context);
     this.picture = new WindowPicture({
       className: "picture-wide",
@@ -65,30 +68,21 @@ class DiagramView implements View {
       point: (at) => {
         if (at !== null && isPlain(context.state())) this.verdict.point(at[0], context.state());
       },
-      pick: ([forcing]) => void this.choose(forcing),
+      pick: ([forcing]) => this.attempt(() => this.choose(forcing)),
     });
-    const optionsOf = (names: Readonly<Record<string, string>>) =>
-      Object.entries(names).map(([value, name]) => element("option", { value }, name));
-    const options = optionsOf(TEXTS.quantities);
-    const choose = () => context.change({ diagram: { quantity: this.quantity.value as Quantity, range: null } });
-    this.quantity = element("select", { "aria-label": TEXTS.quantity_label, onchange: choose }, ...options);
-    const drives = optionsOf(TEXTS.drives);
-    const move = () => context.change({ diagram: { drive: this.drive.value as Drive } });
-    this.drive = element("select", { "aria-label": TEXTS.platform_label, onchange: move }, ...drives);
-    const show = () => context.change({ diagram: { branches: this.branchesBox.checked } });
-    this.branchesBox = element("input", { type: "checkbox", onchange: show });
     const parts = TEXTS.legend.split(/\{(\w+)\}/);
     const lines = parts.map((part, index) => (index % 2 === 0 ? part : element("span", { class: `line ${part}` })));
     const legend = element("p", { class: "legend" }, ...lines);
-    const choices = [
-      [`${TEXTS.quantity} `, this.quantity],
-      [`${TEXTS.platform} `, this.drive],
-      [this.branchesBox, ` ${TEXTS.branches}`],
-    ] as const;
-    const picture = div("main-part", this.picture.layers.root, this.note);
+    const branches = element("label", {}, this.branchesBox, ` ${TEXTS.branches}`);
+    const [quantity, platform] = [labelled(TEXTS.quantity, this.quantity), labelled(TEXTS.platform, this.drive)];
     host.append(
-      div("bar", ...choices.map((parts) => element("label", {}, ...parts)), this.picture.tools),
-      div("beside", picture, this.verdict.root, element("div", {}, legend, this.alternative, this.copy)),
+      div("bar", quantity, platform, branches, this.picture.tools),
+      div(
+        "beside",
+        div("main-part", this.picture.layers.root, this.note),
+        this.verdict.root,
+        element("div", {}, legend, this.alternative, this.copy),
+      ),
     );
   }
 
@@ -101,24 +95,14 @@ class DiagramView implements View {
     this.branchesBox.disabled = rotation || !isPlain(state);
     this.note.hidden = !rotation;
     if (rotation) setText(this.note, noteOf(state));
-    this.picture.redraw();
-    this.compute();
+    this.redraw();
   }
 
-  hide(): void {
-    this.compute.stop();
+  override hide(): void {
+    super.hide();
     this.verdict.stop();
-    this.context.client.cancel("diagram");
-    this.context.client.cancel(BRANCHES);
-    cancelVerdicts(this.context);
     // The place for it is another view's now.
     this.told = false;
-  }
-
-  redraw(): void {
-    this.dots.recolour();
-    this.picture.redraw();
-    this.compute();
   }
 
   offers(): Offer[] {
@@ -131,10 +115,7 @@ class DiagramView implements View {
     return [
       ...tableOffers({
         name: TEXTS.file,
-        parameters: {
-          picture: "orbit diagram", system, start, diagram, transient: TRANSIENT, recorded: RECORDED, patience: PATIENCE,
-          rounded_to: step,
-        }, // prettier-ignore
+        parameters: { picture: "orbit diagram", system, start, diagram, ...LENGTHS, rounded_to: step },
         columns: [DIAGRAM_COLUMNS[0], "impact_phase_rad", "normalised_speed", "angular_speed_per_omega_phi", "impacts"],
         rows: () => distinctImpacts(fine, step),
         most: this.dots.count * RECORDED,
@@ -147,10 +128,7 @@ class DiagramView implements View {
         width: TWO_COLUMNS,
         height: TWO_COLUMNS * 0.5,
         axes: this.axes(),
-        paint: (pen, plot) => {
-          this.dots.paintPrinted(pen, plot, this.diagram);
-          this.paintLines(pen, plot);
-        },
+        paint: (pen, plot) => this.paint(pen, plot),
       }),
     ];
   }
@@ -178,7 +156,7 @@ class DiagramView implements View {
   }
 
   /** Asks for the columns, branches and verdicts of the present window, unless they are there or on their way. */
-  private async fetch(): Promise<void> {
+  protected async fetch(): Promise<void> {
     const laid = this.picture.layOut();
     if (laid === null) return;
     const turn = (this.turn += 1);
@@ -195,7 +173,7 @@ class DiagramView implements View {
     try {
       const name = keyOf(wanted);
       const columns = this.columns.get(name, () => this.fetchDots(name, wanted, laid.rows));
-      if (this.dots.arrange(diagram, laid.rows)) this.picture.redraw();
+      if (this.dots.arrange(diagram, laid.rows)) this.draw();
       await columns;
       if (turn !== this.turn) return;
       const { restitution } = system;
@@ -226,10 +204,10 @@ class DiagramView implements View {
     this.context.status(TEXTS.computing, "busy");
     this.orbits = await computeColumns(this.context, wanted, (columns) => {
       this.dots.take(columns, this.diagram, rows);
-      this.picture.redraw();
+      this.draw();
     });
     this.dots.end(this.diagram, rows);
-    this.picture.redraw();
+    this.draw();
     const seconds = ((performance.now() - began) / 1000).toFixed(2);
     const { resting, left_out } = this.orbits;
     const transient = left_out > TRANSIENT ? `${TRANSIENT}\u2013${left_out}` : TRANSIENT;
@@ -242,7 +220,7 @@ class DiagramView implements View {
     this.context.status(TEXTS.computing_branches, "busy");
     const branches = await branchesOf(this.context, state);
     this.lines = { ...branches, restitution: state.system.restitution };
-    this.picture.redraw();
+    this.draw();
   }
 
   private async copyTable(): Promise<void> {
@@ -250,7 +228,7 @@ class DiagramView implements View {
     const lines = this.linesOf(state);
     if (lines === null) return;
     const done = await copied(tabbed(tablesOf(lines, state)[0]));
-    this.context.status(done ? WORDS.diagram.copied : WORDS.diagram.not_copied, done ? "done" : "error");
+    this.context.status(done ? TEXTS.copied : TEXTS.not_copied, done ? "done" : "error");
   }
 
   /** Those of another window are the same lines; those of another coefficient of restitution are others. */
@@ -260,10 +238,6 @@ class DiagramView implements View {
 
   private paint(pen: Pen, plot: Plot): void {
     this.dots.paint(pen, plot, this.diagram.quantity);
-    this.paintLines(pen, plot);
-  }
-
-  private paintLines(pen: Pen, plot: Plot): void {
     const state = this.context.state();
     const x = pixelX(plot, axialForcing(state.system));
     pen.path([x, plot.top, x, plot.top + plot.height], { stroke: "--picture-muted", width: 1, dash: [2, 3] });
@@ -273,16 +247,13 @@ class DiagramView implements View {
 
   /** Gives the shared system the amplitude of this forcing, if the library takes it. */
   private async choose(forcing: number): Promise<void> {
-    const { system } = this.context.state();
+    const { client, state, change, status, announce } = this.context;
+    const { system } = state();
     const amplitude = amplitudeOf(forcing, system);
-    try {
-      await this.context.client.ask("diagram-check", { call: "check", system: { ...system, amplitude } });
-      this.context.change({ system: { amplitude } });
-      this.context.status(say(TEXTS.chosen, { forcing: plain(forcing, 6), amplitude: plain(amplitude, 5) }));
-      this.context.announce(say(TEXTS.chosen_short, { forcing: plain(forcing, 4) }));
-    } catch (error) {
-      tellFailure(this.context, error);
-    }
+    await client.ask("diagram-check", { call: "check", system: { ...system, amplitude } });
+    change({ system: { amplitude } });
+    status(say(TEXTS.chosen, { forcing: plain(forcing, 6), amplitude: plain(amplitude, 5) }));
+    announce(say(TEXTS.chosen_short, { forcing: plain(forcing, 4) }));
   }
 }
 

@@ -1,18 +1,18 @@
 /** The motor of the shared system: data sheet, run-up, and what it does under load. */
 
-import { Cancelled, messageOf, type Context, type Offer, type State, type View, type ViewKind } from "../contract";
-import { clamp } from "../drawing/axes";
+import { Cancelled, messageOf, type Context, type Offer, type State, type ViewKind } from "../contract";
+import { clamp, evenly } from "../drawing/axes";
 import { ScreenChart, type Chart } from "../drawing/chart";
 import { PARTS, rowsOf } from "../drawing/files";
-import { debounced, div, element, oncePerFrame, section, setText } from "../elements";
+import { div, element, oncePerFrame, section, setText } from "../elements";
 import { percent } from "../numbers";
 import { TRANSIENT_COLUMNS, type MotorSheet, type Range, type ReportJson, type SheetJson, type StallJson } from "../protocol";
 import { say, WORDS } from "../words";
-import { Asked, Attractors, tellFailure } from "./asking";
+import { Asked, Attractors, ComputingView } from "./asking";
 import { loadCharts, motorOffers, transientChart } from "./motor/charts";
-import {
-  membersOf, operate, PASSES, reportOf, sheetOf, SheetPanel, stallOf, transientOf, SLOT, type Operation, type Transient,
-} from "./motor/sheet"; // prettier-ignore
+import { membersOf, operate, PASSES, reportOf, sheetOf, stallOf, transientOf, SLOT } from "./motor/requests";
+import type { Operation, Pass, Transient } from "./motor/requests";
+import { SheetPanel } from "./motor/sheet";
 import { describeCurves, describeRunUp, ReportPanel, whyNothingTurns } from "./motor/words";
 
 const remarkOf = (sheet: MotorSheet | null): string => say(WORDS.motor.remark, { members: membersOf(sheet) });
@@ -42,7 +42,7 @@ class Known {
   stall: StallJson | null = null;
 }
 
-class MotorView implements View {
+class MotorView extends ComputingView {
   private readonly sheetPanel: SheetPanel;
   private readonly reportPanel = new ReportPanel();
   private readonly runUpChart = new ScreenChart(chartHeight);
@@ -54,13 +54,10 @@ class MotorView implements View {
   /** What the motor that is shown depends on. */
   private shown = "";
   private readonly all = new Asked<void>();
-  private readonly compute = debounced(150, () => void this.fetch());
-  private readonly draw = oncePerFrame(() => this.paint());
+  protected readonly draw = oncePerFrame(() => this.paint());
 
-  constructor(
-    host: HTMLElement,
-    private readonly context: Context,
-  ) {
+  constructor(host: HTMLElement, context: Context) {
+    super(context, 150, [SLOT]);
     this.sheetPanel = new SheetPanel(context, (imported) => {
       this.imported = imported;
       context.change({ system: imported.system, mass: imported.mass });
@@ -78,22 +75,10 @@ class MotorView implements View {
   show(state: State): void {
     const key = this.keyOf(state);
     // What is known of one motor never stands under another one, however long that one takes.
-    if (key !== this.shown) {
-      this.shown = key;
-      this.forget();
-    }
+    if (key !== this.shown) this.forget();
+    this.shown = key;
     this.attractors.show(this.context, state);
-    this.compute();
-    this.draw();
-  }
-
-  hide(): void {
-    this.compute.stop();
-    this.context.client.cancel(SLOT);
-  }
-
-  redraw(): void {
-    this.draw();
+    this.redraw();
   }
 
   offers(): Offer[] {
@@ -107,8 +92,8 @@ class MotorView implements View {
 
   private curves(): Chart[] {
     const { operations, loads, report, stall } = this.known;
-    return operations.length === 0 || report === null ? [] : loadCharts(operations, loads, report.largest_torque, stall);
-  } // prettier-ignore
+    return report === null ? [] : loadCharts(operations, loads, report.largest_torque, stall);
+  }
 
   private forget(): void {
     this.context.client.cancel(SLOT);
@@ -118,13 +103,9 @@ class MotorView implements View {
     this.reportPanel.clear();
   }
 
-  private async fetch(): Promise<void> {
+  protected async fetch(): Promise<void> {
     const state = this.context.state();
-    try {
-      await this.all.get(this.keyOf(state), () => this.computeAll(state, (this.known = new Known())));
-    } catch (error) {
-      tellFailure(this.context, error);
-    }
+    await this.all.get(this.keyOf(state), () => this.computeAll(state, (this.known = new Known())));
   }
 
   /** Fills in what is known of a motor; where another one is shown, what is asked for next is cancelled. */
@@ -144,21 +125,22 @@ class MotorView implements View {
     const still = whyNothingTurns(report);
     if (still !== null) {
       reportPanel.still();
-      context.status(still);
-      return;
+      return context.status(still);
     }
-    await this.runUp(sheet, state.motor.rise_times, known);
+    const { rise_times } = state.motor;
+    await this.runUp(sheet, rise_times, known);
     try {
       for (const pass of PASSES) {
         await this.sweep(sheet, report, state, pass, known);
-        if (known.rough) await this.runOn(sheet, state.motor.rise_times, known);
+        // A run-up is shown until it is steady, or said not to be.
+        for (let times = 1; known.rough && times <= LENGTHENINGS && !isSteady(known); times += 1)
+          await this.runUp(sheet, rise_times * 3 ** times, known);
         known.rough = false;
       }
       // It takes longest where nothing bounces, and is the last to be missed.
       await this.findStall(sheet, known);
     } catch (error) {
-      if (error instanceof Cancelled) throw error;
-      known.problems.curve = messageOf(error);
+      known.problems.curve = problemOf(error);
       this.draw();
       throw error;
     }
@@ -171,17 +153,10 @@ class MotorView implements View {
     try {
       known.transient = await transientOf(this.context, sheet, rise_times);
     } catch (error) {
-      if (error instanceof Cancelled) throw error;
-      known.problems.runUp = messageOf(error);
+      known.problems.runUp = problemOf(error);
     }
     this.reportPanel.runUp(known.transient, known.own, known.problems.runUp);
     this.draw();
-  }
-
-  /** A run-up is shown until it is steady, or said not to be. */
-  private async runOn(sheet: MotorSheet, rise_times: number, known: Known): Promise<void> {
-    for (let times = 1; times <= LENGTHENINGS && !isSteady(known); times += 1)
-      await this.runUp(sheet, rise_times * 3 ** times, known);
   }
 
   /** The loads of the curve, and with them that of the sheet, so that there is one steady speed on the page. */
@@ -189,11 +164,11 @@ class MotorView implements View {
     sheet: MotorSheet,
     report: ReportJson,
     { motor: { points, loads } }: State,
-    pass: (typeof PASSES)[number],
+    pass: Pass,
     known: Known,
   ): Promise<void> {
-    const [low, high] = [loads[0] * report.largest_torque, loads[1] * report.largest_torque];
-    const torques = Array.from({ length: points }, (_, index) => low + ((high - low) * index) / (points - 1));
+    const [low, high] = loads.map((load) => load * report.largest_torque) as Range;
+    const torques = evenly([low, high], points);
     const { load_torque } = sheet;
     const asked = torques.includes(load_torque) ? torques : [...torques, load_torque];
     const values = { loads: asked.length, error: percent(pass.relative_error, 0) };
@@ -214,8 +189,7 @@ class MotorView implements View {
     try {
       known.stall = await stallOf(this.context, sheet);
     } catch (error) {
-      if (error instanceof Cancelled) throw error;
-      problem = messageOf(error);
+      problem = problemOf(error);
     }
     this.reportPanel.stall(known.stall, problem);
     this.draw();
@@ -245,13 +219,19 @@ class MotorView implements View {
     }
     const charts = this.curves();
     const words = describeCurves(operations, stall);
+    const rough = this.known.rough ? `${WORDS.motor.rough} ` : "";
     this.curveCharts.forEach((place, index) => {
       const chart = charts[index];
-      const rough = this.known.rough ? `${WORDS.motor.rough} ` : "";
       if (chart === undefined) place.showWord(problems.curve ?? CURVES[index] ?? "");
       else place.show(chart, rough + (words[index] ?? ""));
     });
   }
+}
+
+/** What the library says against a motor; where another one is shown by now, nothing. */
+function problemOf(error: unknown): string {
+  if (error instanceof Cancelled) throw error;
+  return messageOf(error);
 }
 
 /** Whether the last quarter of the run-up is at the steady speed; nobody knows before there is one. */

@@ -1,104 +1,83 @@
 /** A scan: one result at points of a range of a parameter, for some values of a second one. */
 
-import {
-  Cancelled, OPTIMA, RESULTS, type Context, type Offer, type ResultName, type State, type View, type ViewKind,
-} from "../contract"; // prettier-ignore
-import { clamp } from "../drawing/axes";
+import { Cancelled, OPTIMA, RESULTS } from "../contract";
+import type { Context, Offer, ResultName, State, ViewKind } from "../contract";
+import { clamp, evenly } from "../drawing/axes";
 import { chartOffers, ScreenChart } from "../drawing/chart";
 import { ONE_COLUMN, PARTS, tableOffers } from "../drawing/files";
-import { button, debounced, div, element, oncePerFrame, rich } from "../elements";
+import { button, choice, div, element, labelled, oncePerFrame, rich } from "../elements";
 import type { Range } from "../protocol";
 import { axialForcing, changed, MOST_POINTS, MOST_VALUES } from "../state";
 import { say, WORDS } from "../words";
-import { tellFailure } from "./asking";
-import { chartOf, describeGaps, describeOptima, planOf, readingsOf, type Plan } from "./scan/curves";
+import { ComputingView } from "./asking";
+import { chartOf, describeGaps, describeOptima, planOf, readingsOf } from "./scan/curves";
 import { READY } from "./scan/ready";
 import { compute, RESULT, type Outcome } from "./scan/results";
-import { choice, labelled, NumberField, parameterChoice, rangeAbout, settings, valueIn, varied } from "./varied";
+import { NumberField, parameterChoice, rangeAbout, settings, valueIn, varied } from "./varied";
 
 /** Answers that are kept, so that another result or another curve of the same points comes at once. */
 const MOST_KNOWN = 3000;
 
 const TEXT = WORDS.scan;
 
-class ScanView implements View {
-  private readonly chart = new ScreenChart(
-    () => clamp(window.innerHeight - this.chart.root.offsetTop - 230, 300, 1100),
-    {
-      keys: TEXT.keys,
-      hint: (curve) => say(TEXT.hint, { curve }),
-      pick: (at, curve) => this.pick(at, curve),
-    },
-  );
-  private readonly over = parameterChoice(TEXT.over, (over) => void this.about(over, (range) => ({ over, range })));
+const short = (value: number): number => Number(value.toPrecision(3));
+
+class ScanView extends ComputingView {
+  private readonly chart = new ScreenChart(() => clamp(window.innerHeight - this.chart.root.offsetTop - 230, 300, 1100), {
+    keys: TEXT.keys,
+    hint: (curve) => say(TEXT.hint, { curve }),
+    pick: (at, curve) => this.pick(at, curve),
+  });
+  private readonly over = parameterChoice(TEXT.over, (over) => this.about(over, (range) => ({ over, range })));
   private readonly family = parameterChoice(TEXT.family, (name) => this.curvesOf(name), TEXT.noFamily);
-  private readonly result = choice(
-    TEXT.result,
-    RESULTS.map((name) => [name, TEXT.results[name]]),
-    (result) => this.context.change({ scan: { result: result as ResultName } }),
-  );
-  private readonly optimum = choice(
-    TEXT.optimum,
-    OPTIMA.map((name) => [name, TEXT.optima[name]]),
-    (optimum) => this.context.change({ scan: { optimum: optimum as (typeof OPTIMA)[number] } }),
-  );
-  private readonly low: NumberField;
-  private readonly high: NumberField;
-  private readonly points: NumberField;
-  private readonly values: NumberField;
+  private readonly result = choice(TEXT.result, RESULTS.map((name) => [name, TEXT.results[name]]), (result) =>
+    this.change({ result: result as ResultName }),
+  ); // prettier-ignore
+  private readonly optimum = choice(TEXT.optimum, OPTIMA.map((name) => [name, TEXT.optima[name]]), (optimum) =>
+    this.change({ optimum: optimum as (typeof OPTIMA)[number] }),
+  ); // prettier-ignore
+  private readonly low = this.field(TEXT.from, ([low = 0]) => ({ range: [low, this.scan.range[1]] }));
+  private readonly high = this.field(TEXT.to, ([high = 0]) => ({ range: [this.scan.range[0], high] }));
+  private readonly points = this.field(TEXT.points, ([points = 0]) => ({ points }));
+  private readonly values = this.field(TEXT.values, (values) => ({ values }), MOST_VALUES);
   private readonly optima = element("ul", { class: "remark optima" });
   private readonly gaps = element("p", { class: "remark" });
   private readonly known = new Map<string, Outcome>();
-  private plan: Plan;
+  private plan = planOf(this.context.state());
   private asked = "";
-  private readonly compute = debounced(150, () => void this.fetch());
-  private readonly draw = oncePerFrame(() => this.paint());
+  protected readonly draw = oncePerFrame(() => this.paint());
 
-  constructor(
-    host: HTMLElement,
-    private readonly context: Context,
-  ) {
-    const range = (low: number, high: number) => this.change({ range: [low, high] });
-    this.low = new NumberField(TEXT.from, context, ([low = 0]) => range(low, this.scan.range[1]));
-    this.high = new NumberField(TEXT.to, context, ([high = 0]) => range(this.scan.range[0], high));
-    this.points = new NumberField(TEXT.points, context, ([points = 0]) => this.change({ points }));
-    this.values = new NumberField(TEXT.values, context, (values) => this.change({ values }), MOST_VALUES);
+  constructor(host: HTMLElement, context: Context) {
+    super(context, 150, ["scan"]);
     const ready = READY.map((one) => button(one.label, () => context.change(one.change)));
+    const [result, over] = [labelled(TEXT.result, this.result), labelled(TEXT.over, this.over)];
+    const [family, optimum] = [labelled(TEXT.family, this.family), labelled(TEXT.optimum, this.optimum)];
     const bars = [
       div("bar", element("span", {}, TEXT.readyMade), ...ready),
-      div("bar", labelled(TEXT.result, this.result), labelled(TEXT.over, this.over), this.low.root, this.high.root),
-      div("bar", this.points.root, labelled(TEXT.family, this.family), this.values.root,
-        labelled(TEXT.optimum, this.optimum)),
-    ]; // prettier-ignore
+      div("bar", result, over, this.low.root, this.high.root),
+      div("bar", this.points.root, family, this.values.root, optimum),
+    ];
     host.append(settings(TEXT.settings, bars), this.chart.root, this.optima, this.gaps);
-    this.plan = planOf(context.state());
   }
 
   show(state: State): void {
-    const { scan } = state;
+    const { over, family, range, points, result, optimum, values } = state.scan;
     this.plan = planOf(state);
-    const over = varied(scan.over);
-    this.over.value = scan.over;
-    this.result.value = scan.result;
-    this.optimum.value = scan.optimum;
-    this.family.value = scan.family ?? "";
-    this.low.show([scan.range[0]], over);
-    this.high.show([scan.range[1]], over);
-    this.points.show([scan.points]);
-    this.values.root.hidden = scan.family === null;
-    this.values.show(scan.values, scan.family === null ? {} : varied(scan.family));
-    this.compute();
-    this.draw();
+    this.over.value = over;
+    this.result.value = result;
+    this.optimum.value = optimum;
+    this.family.value = family ?? "";
+    this.low.show([range[0]], varied(over));
+    this.high.show([range[1]], varied(over));
+    this.points.show([points]);
+    this.values.root.hidden = family === null;
+    this.values.show(values, family === null ? {} : varied(family));
+    this.redraw();
   }
 
-  hide(): void {
-    this.compute.stop();
-    this.context.client.cancel("scan");
+  override hide(): void {
+    super.hide();
     this.asked = "";
-  }
-
-  redraw(): void {
-    this.draw();
   }
 
   offers(): Offer[] {
@@ -127,6 +106,10 @@ class ScanView implements View {
     return this.context.state().scan;
   }
 
+  private field(label: string, of: (values: number[]) => Partial<State["scan"]>, most = 1): NumberField {
+    return new NumberField(label, this.context, (values) => this.change(of(values)), most);
+  }
+
   /** The numbers of a form that cannot be scanned are refused where they are typed. */
   private change(change: Partial<State["scan"]>): void {
     const { range, points } = { ...this.scan, ...change };
@@ -140,24 +123,20 @@ class ScanView implements View {
 
   /** Values of a second parameter, evenly within its range and without its ends, which may be alike. */
   private curvesOf(family: string): void {
-    if (family === "") return this.context.change({ scan: { family: null } });
-    const value = ([low, high]: Range, sixth: number) => Number((low + ((high - low) * sixth) / 6).toPrecision(3));
-    void this.about(family, (range) => ({ family, values: [1, 2, 3, 4, 5].map((sixth) => value(range, sixth)) }));
+    if (family === "") return this.change({ family: null });
+    this.about(family, (range) => ({ family, values: evenly(range, MOST_VALUES + 2).slice(1, -1).map(short) }));
   }
 
-  private async about(name: string, change: (range: Range) => Partial<State["scan"]>): Promise<void> {
-    const { context } = this;
-    const state = context.state();
+  private about(name: string, change: (range: Range) => Partial<State["scan"]>): void {
+    const state = this.context.state();
     const parameter = varied(name);
-    try {
-      const [low, high] = rangeAbout(await valueIn(context, "scan-value", parameter, state), parameter, state);
-      context.change({ scan: change([Number(low.toPrecision(3)), Number(high.toPrecision(3))]) });
-    } catch (error) {
-      tellFailure(context, error);
-    }
+    this.attempt(async () => {
+      const value = await valueIn(this.context, "scan-value", parameter, state);
+      this.change(change(rangeAbout(value, parameter, state).map(short) as Range));
+    });
   }
 
-  private async fetch(): Promise<void> {
+  protected async fetch(): Promise<void> {
     const { plan, known, context } = this;
     const states = plan.lines.flatMap((line) => line.states);
     const keys = plan.lines.flatMap((line) => line.keys);
@@ -188,7 +167,7 @@ class ScanView implements View {
     } catch (error) {
       if (this.asked === key) this.asked = "";
       if (!(error instanceof Cancelled)) this.gaps.textContent = "";
-      tellFailure(context, error);
+      throw error;
     }
   }
 

@@ -29,7 +29,7 @@ const AHEAD = 0.35;
 const COLUMNS = [
   "time_s", "height_m", "angle_rad", "axial_velocity_m_per_s", "angular_speed_rad_per_s", "platform_height_m",
   "platform_angle_rad", "platform_velocity_m_per_s", "platform_angular_speed_rad_per_s", "mode",
-] as const; // prettier-ignore
+]; // prettier-ignore
 
 class TossView implements View {
   private readonly scene = new Layers("picture-scene", TEXTS.scene);
@@ -45,13 +45,11 @@ class TossView implements View {
     () => this.recording?.periods ?? 0,
     () => this.draw(),
   );
-  private readonly controls = new Controls(
-    this.scene.surface,
-    this.player,
-    () => this.period(),
-    () => this.describe(),
-    (on) => this.sound.switch(on),
-  );
+  private readonly controls = new Controls(this.scene.surface, this.player, {
+    period: () => this.period(),
+    chosen: () => this.describe(),
+    heard: (on) => this.sound.switch(on),
+  });
   private readonly sound = new Sound();
   private recording: Recording | null = null;
   private stage: Stage | null = null;
@@ -93,13 +91,12 @@ class TossView implements View {
       this.sound.play(passed, begin, end, seconds);
     };
     const scene = [this.scene.root, this.controls.root, this.gains, this.thrown, this.rounding.root, this.alternative];
-    const charts = [this.heights.root, this.spins.root];
-    const readings = [...this.readings.elements, throwForm(throwing)];
+    const charts = section(TEXTS.traces, null, this.heights.root, this.spins.root);
+    const readings = section(TEXTS.readings, "panel", ...this.readings.elements, throwForm(throwing));
     const key = element("p", { class: "remark" }, TEXTS.impacts_key);
-    const portrait = [element("h3", {}, TEXTS.impacts), this.portrait.picture.layers.root, key];
-    const left = div("toss-left", element("div", {}, ...scene), section(TEXTS.traces, null, ...charts));
-    const right = [section(TEXTS.readings, "panel", ...readings), section(TEXTS.portrait, null, ...portrait)];
-    host.append(div("toss", left, div("toss-right", ...right)));
+    const parts = [element("h3", {}, TEXTS.impacts), this.portrait.picture.layers.root, key];
+    const right = div("toss-right", readings, section(TEXTS.portrait, null, ...parts));
+    host.append(div("toss", div("toss-left", element("div", {}, ...scene), charts), right));
   }
 
   show(state: State): void {
@@ -120,8 +117,7 @@ class TossView implements View {
   }
 
   redraw(): void {
-    this.tracesDrawn = -1;
-    this.anew = true;
+    Object.assign(this, { tracesDrawn: -1, anew: true });
     this.draw();
   }
 
@@ -130,11 +126,11 @@ class TossView implements View {
     if (recording === null) return [];
     const charts = traces(recording, Math.max(this.player.now, Math.min(recording.periods, 8)));
     const state = this.context.state();
-    const basis: Basis =
-      state.thrown === null
-        ? { state, names: PARTS.motion }
-        : { state, names: PARTS.system, more: [describeThrow(state.thrown)] };
-    const parameters = { system: state.system, start: this.start(), periods: recording.periods };
+    const { thrown, system } = state;
+    const own: Basis = { state, names: PARTS.motion };
+    const basis = thrown === null ? own : { ...own, names: PARTS.system, more: [describeThrow(thrown)] };
+    const parameters = { system, start: this.start(), periods: recording.periods };
+    const size = { width: ONE_COLUMN, height: ONE_COLUMN * 0.8 };
     return [
       ...tableOffers({ name: TEXTS.files.motion, parameters, columns: COLUMNS, rows: () => recording.table() }),
       ...tableOffers({
@@ -148,8 +144,7 @@ class TossView implements View {
         name: TEXTS.files.path,
         title: TEXTS.titles.path,
         basis: { state, names: PARTS.platform },
-        width: ONE_COLUMN,
-        height: ONE_COLUMN * 0.8,
+        ...size,
         axes: pathAxes(recording.system),
         paint: (pen, plot) => paintPath(pen, plot, recording),
       }),
@@ -157,8 +152,7 @@ class TossView implements View {
         name: TEXTS.files.portrait,
         title: TEXTS.titles.portrait,
         basis,
-        width: ONE_COLUMN,
-        height: ONE_COLUMN * 0.8,
+        ...size,
         axes: this.portrait.axes(),
         paint: (pen, plot) => paintImpacts(pen, plot, recording.impacts, 1.4),
       }),
@@ -181,8 +175,7 @@ class TossView implements View {
   /** The platform's phase now (rad). */
   private phase(): number {
     const start = this.start();
-    const first = start.kind === "impact" ? start.impact_phase : start.phase;
-    const phase = first + this.player.now * 2 * Math.PI;
+    const phase = (start.kind === "impact" ? start.impact_phase : start.phase) + this.player.now * 2 * Math.PI;
     return phase - 2 * Math.PI * Math.floor(phase / (2 * Math.PI));
   }
 
@@ -205,9 +198,7 @@ class TossView implements View {
   }
 
   private take(recording: Recording, same: boolean): void {
-    this.recording = recording;
-    this.tracesDrawn = -1;
-    this.anew = true;
+    Object.assign(this, { recording, tracesDrawn: -1, anew: true });
     if (!same) {
       this.player.now = 0;
       this.stage = null;
@@ -244,17 +235,15 @@ class TossView implements View {
     this.showTraces(recording);
     this.portrait.show(recording, context.state().start, impacts, this.anew);
     this.anew = false;
-    if (player.playing && player.now > recording.periods * (1 - AHEAD)) {
-      if (recording.periods < MOST_PERIODS) void this.fetch(recording.periods * 2);
-      else if (player.now >= recording.periods) this.stopAtEnd(recording);
+    const { periods } = recording;
+    if (!player.playing || player.now <= periods * (1 - AHEAD)) return;
+    if (periods < MOST_PERIODS) void this.fetch(periods * 2);
+    else if (player.now >= periods) {
+      player.pause();
+      this.controls.show(periods);
+      context.status(say(TEXTS.ends, { periods }));
+      this.describe();
     }
-  }
-
-  private stopAtEnd(recording: Recording): void {
-    this.player.pause();
-    this.controls.show(recording.periods);
-    this.context.status(say(TEXTS.ends, { periods: recording.periods }));
-    this.describe();
   }
 
   private stageOf(recording: Recording): Stage {

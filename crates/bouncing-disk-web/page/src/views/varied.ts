@@ -1,8 +1,8 @@
 /** The parameters that a scan or a comparison varies, and the fields that choose one and its values. */
 
 import type { Context, State } from "../contract";
-import { element } from "../elements";
-import { labelOf, PARAMETERS, type Parameter } from "../form";
+import { choice, element, isNarrow } from "../elements";
+import { PARAMETERS, shortLabelOf, type Parameter } from "../form";
 import { abridged, minus, typed } from "../numbers";
 import type { Range, Summary } from "../protocol";
 import { changed } from "../state";
@@ -25,15 +25,13 @@ export async function valueIn({ client }: Context, slot: string, parameter: Para
 export const rangeAbout = (value: number, { slider }: Parameter, state: State): Range =>
   typeof slider === "function" ? slider(state) : [value / 2, value * 2 || 1];
 
-/** "axial forcing", without what it sets. */
-const nameOf = (parameter: Parameter): string => labelOf(parameter).split(",")[0] ?? "";
 const unitOf = ({ unit }: Parameter, before: string, after = ""): string => (unit === "" ? "" : before + unit + after);
 
 /** The label of an axis: "amplitude angle *φ*_{L} (rad)". */
 export function axisOf(parameter: Parameter): string {
   const [base = "", below] = parameter.symbol.split("_");
   const symbol = `*${base}*${below === undefined ? "" : `_{${below}}`}`;
-  return `${nameOf(parameter)} ${symbol}${unitOf(parameter, " (", ")")}`;
+  return `${shortLabelOf(parameter)} ${symbol}${unitOf(parameter, " (", ")")}`;
 }
 
 /** A value as people would write it: a short multiple of π where it is one. */
@@ -52,31 +50,15 @@ export function valueText(parameter: Parameter, value: number): string {
 /** All digits: "0.5000000000000001 rad". */
 export const exactText = (parameter: Parameter, value: number): string => minus(String(value)) + unitOf(parameter, " ");
 
-type Choices = readonly (readonly [value: string, text: string])[];
-
-/** A choice with its label before it. */
-export function choice(label: string, options: Choices, choose: (value: string) => void): HTMLSelectElement {
-  const all = options.map(([value, text]) => element("option", { value }, text));
-  const made = element("select", { "aria-label": label, onchange: () => choose(made.value) }, ...all);
-  return made;
-}
-
 /** Chooses one of all parameters; `none` stands for no one at all. */
 export function parameterChoice(label: string, choose: (name: string) => void, none?: string): HTMLSelectElement {
-  const all = PARAMETERS.map((one) => [one.name, `${nameOf(one)} ${one.symbol.replace("_", "")}`] as const);
+  const all = PARAMETERS.map((one) => [one.name, `${shortLabelOf(one)} ${one.symbol.replace("_", "")}`] as const);
   return choice(label, none === undefined ? all : [["", none], ...all], choose);
 }
 
-export const labelled = (text: string, field: HTMLElement): HTMLElement => element("label", {}, `${text} `, field);
-
 /** What is chosen stands above the picture, and folded on a narrow screen, where the picture comes first. */
 export const settings = (title: string, bars: readonly HTMLElement[]): HTMLElement =>
-  element(
-    "details",
-    { open: !window.matchMedia("(max-width: 860px)").matches },
-    element("summary", {}, title),
-    ...bars,
-  );
+  element("details", { open: !isNarrow() }, element("summary", {}, title), ...bars);
 
 /** A field of one number, or of several with semicolons between them: a comma may belong to a number. */
 export class NumberField {
@@ -128,9 +110,8 @@ export class NumberField {
   /** All digits while somebody edits; what is wrong stays until something legal is typed. */
   private print(): void {
     if (this.input.hasAttribute("aria-invalid")) return;
-    const form =
-      document.activeElement === this.input ? String : (value: number) => written(value, this.parameter.angle);
-    this.input.value = this.values.map(form).join("; ");
+    const short = this.values.map((value) => written(value, this.parameter.angle));
     this.input.title = this.values.join("; ");
+    this.input.value = document.activeElement === this.input ? this.input.title : short.join("; ");
   }
 }

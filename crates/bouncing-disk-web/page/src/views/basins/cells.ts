@@ -1,11 +1,11 @@
 /** The cells of one window of starts, coloured by what became of them, and the requests for them: coarse ones first. */
 
 import type { Context } from "../../contract";
-import { pixelWord, themeColour, type Colours } from "../../drawing/colours";
+import type { Plot } from "../../drawing/axes";
+import { pixelWord } from "../../drawing/colours";
 import { rounded } from "../../drawing/files";
-import { contextOf } from "../../drawing/pen";
-import type { Window2 } from "../../drawing/window";
-import { element } from "../../elements";
+import type { Pen } from "../../drawing/pen";
+import { Raster } from "../../drawing/raster";
 import type { Range } from "../../protocol";
 import type { MapParameters } from "../asking";
 
@@ -23,58 +23,41 @@ export interface Grid {
 }
 
 export class Cells {
-  readonly canvas: HTMLCanvasElement;
+  private readonly raster: Raster;
   private readonly labels: Uint8Array;
 
-  /** A cell has `scale` by `scale` pixels, so that the pattern of undecided cells is seen. */
+  /** A cell has `scale` by `scale` pixels, so that the pattern of undecided cells is seen; `known` are the labels of the
+   * attractors, in the order of their colours; cells with others are undecided. */
   constructor(
     readonly grid: Grid,
     private readonly scale: number,
-    /** The labels of the attractors, in the order of their colours; cells with others are undecided. */
-    private readonly known: readonly number[],
+    known: readonly number[],
   ) {
-    this.labels = new Uint8Array(grid.phases * grid.speeds).fill(UNKNOWN);
-    this.canvas = element("canvas", { width: grid.phases * scale, height: grid.speeds * scale });
+    const { phases, speeds } = grid;
+    const labels = (this.labels = new Uint8Array(phases * speeds).fill(UNKNOWN));
+    this.raster = new Raster(phases * scale, speeds * scale, (colour) => {
+      const wordOf = (name: string) => pixelWord(colour(name));
+      const [undecided, stripe] = [wordOf("--undecided"), wordOf("--undecided-line")];
+      const table = new Map(known.map((label, index) => [label, wordOf(categoryColour(index))]));
+      const words = Uint32Array.from({ length: 256 }, (_, label) => (label === UNKNOWN ? 0 : (table.get(label) ?? 1)));
+      return (x, y) => {
+        const label = labels[(speeds - 1 - Math.floor(y / scale)) * phases + Math.floor(x / scale)] as number;
+        const word = words[label] as number;
+        return word !== 1 ? word : (x + y) % STRIPES < 2 ? stripe : undecided;
+      };
+    });
   }
 
-  get window(): Window2 {
-    return { x: this.grid.phase_periods, y: this.grid.normalised_speed };
-  }
-
+  /** Rows of cells; the lowest speed is at the bottom. */
   add(labels: Uint8Array, from: number): void {
-    this.labels.set(labels, from * this.grid.phases);
-    this.paint(from, from + labels.length / this.grid.phases, themeColour);
+    const { scale, grid } = this;
+    this.labels.set(labels, from * grid.phases);
+    const rows = labels.length / grid.phases;
+    this.raster.change(0, (grid.speeds - from - rows) * scale, grid.phases * scale, (grid.speeds - from) * scale);
   }
 
-  repaint(colour: Colours): void {
-    this.paint(0, this.grid.speeds, colour);
-  }
-
-  /** Colours rows of cells; the lowest speed is at the bottom. */
-  private paint(from: number, to: number, colour: Colours): void {
-    const { scale, grid, labels, known } = this;
-    if (to <= from) return;
-    const context = contextOf(this.canvas);
-    const width = grid.phases * scale;
-    const image = context.createImageData(width, (to - from) * scale);
-    const words = new Uint32Array(image.data.buffer);
-    const wordOf = (name: string) => pixelWord(colour(name));
-    const table = new Uint32Array(256).fill(wordOf("--undecided"));
-    const striped = new Uint8Array(256).fill(1);
-    const stripe = wordOf("--undecided-line");
-    known.forEach((label, index) => (table[label] = wordOf(categoryColour(index))));
-    table[UNKNOWN] = 0;
-    for (const label of [...known, UNKNOWN]) striped[label] = 0;
-    const top = (grid.speeds - to) * scale;
-    for (let y = 0; y < image.height; y += 1) {
-      const row = grid.speeds - 1 - Math.floor((top + y) / scale);
-      for (let x = 0; x < width; x += 1) {
-        const label = labels[row * grid.phases + Math.floor(x / scale)] as number;
-        const isStripe = striped[label] === 1 && (x + top + y) % STRIPES < 2;
-        words[y * width + x] = isStripe ? stripe : (table[label] as number);
-      }
-    }
-    context.putImageData(image, 0, top);
+  paint(pen: Pen, plot: Plot): void {
+    this.raster.paint(pen, plot, { x: this.grid.phase_periods, y: this.grid.normalised_speed });
   }
 
   /** The label of the cell with this start; null where it is not known or outside. */

@@ -1,6 +1,6 @@
 /** The attractors in words, with the shares of the starts that end on them: on the screen and in print. */
 
-import { ONE_COLUMN, PRINT_SIZE } from "../../drawing/files";
+import { ONE_COLUMN, PRINT_SIZE, type Below } from "../../drawing/files";
 import { wrapped, type Pen } from "../../drawing/pen";
 import { element, section, setText } from "../../elements";
 import { brief, grouped, percent } from "../../numbers";
@@ -43,16 +43,7 @@ export class Legend {
     this.dim(false);
     const starts = grouped(String(found.starts));
     this.note.textContent = say(TEXTS.note, { starts, fastest: brief(found.fastest_start, 3) });
-    const items = found.attractors.map((attractor, index) => {
-      const style = `background:var(${categoryColour(index)})`;
-      const [share = "", low = "", high = ""] = [attractor.share, ...attractor.interval].map((one) => percent(one));
-      const all = say(TEXTS.all, { share, low, high });
-      return item({ class: "swatch", style }, describe(attractor, found), windowShare(attractor, shares), all);
-    });
-    const share = undecidedShare(found, shares);
-    const all = say(TEXTS.all_undecided, { share: percent(found.undecided) });
-    items.push(item({ class: "swatch undecided" }, TEXTS.undecided, share, all));
-    this.list.replaceChildren(...items);
+    this.list.replaceChildren(...entriesOf(found, shares).map(itemOf));
   }
 
   point(text: string): void {
@@ -60,12 +51,37 @@ export class Legend {
   }
 }
 
+/** What a colour means: an attractor, with its share of the window, where that is known, and that of all starts. */
+interface Entry {
+  readonly colour: string;
+  readonly words: string;
+  readonly share: number | null;
+  readonly all: string;
+}
+
+const UNDECIDED = "--undecided";
+
+/** The attractors in the order of their colours, and at the end what is undecided. */
+function entriesOf(found: AttractorsJson, shares: Shares | null): Entry[] {
+  const known = found.attractors.map((attractor, index) => {
+    const [share = "", low = "", high = ""] = [attractor.share, ...attractor.interval].map((one) => percent(one));
+    const own = shares === null || attractor.label === null ? null : (shares.get(attractor.label) ?? 0);
+    const all = say(TEXTS.all, { share, low, high });
+    return { colour: categoryColour(index), words: describe(attractor, found), share: own, all };
+  });
+  const all = say(TEXTS.all_undecided, { share: percent(found.undecided) });
+  return [...known, { colour: UNDECIDED, words: TEXTS.undecided, share: undecidedShare(found, shares), all }];
+}
+
 /** The share of what is seen, as soon as it is known, is the answer; that of all starts has a line of its own. */
-function item(swatch: Record<string, string>, words: string, share: number | null, all: string): HTMLElement {
+function itemOf({ colour, words, share, all }: Entry): HTMLElement {
+  const swatch = element("span", { class: "swatch", "aria-hidden": "true" });
+  if (colour === UNDECIDED) swatch.classList.add("undecided");
+  else swatch.style.background = `var(${colour})`;
   const [before = "", after = ""] = TEXTS.window.split("{share}");
   const own = share === null ? [] : [" ", before, element("b", {}, percent(share)), after];
   const text = element("span", {}, words, ...own, element("small", {}, all));
-  return element("li", {}, element("span", { ...swatch, "aria-hidden": "true" }), text);
+  return element("li", {}, swatch, text);
 }
 
 /** The labels of cells that are decided. */
@@ -81,61 +97,46 @@ export function describe(attractor: AttractorJson, found: AttractorsJson): strin
   return say(TEXTS.leads, { text, target });
 }
 
-/** The share of the cells of the window; null where it is not known. An attractor that has none of them has 0. */
-function windowShare({ label }: AttractorJson, shares: Shares | null): number | null {
-  return shares === null || label === null ? null : (shares.get(label) ?? 0);
-}
-
 export function undecidedShare(found: AttractorsJson, shares: Shares | null): number | null {
   if (shares === null) return null;
   const known = labelsOf(found);
   return [...shares].reduce((sum, [label, share]) => sum + (known.includes(label) ? 0 : share), 0);
 }
 
-const LEFT = PRINT_SIZE;
 const INDENT = 0.5 * PRINT_SIZE;
 const LINE = 1.3 * PRINT_SIZE;
 const GAP = 0.3 * LINE;
-const SWATCH = 1.2 * PRINT_SIZE;
-const SWATCH_HEIGHT = 0.8 * PRINT_SIZE;
-/** Of the words beside a swatch. */
-const ROOM = ONE_COLUMN - 2 * LEFT - SWATCH - INDENT;
+const SWATCH = { width: 1.2 * PRINT_SIZE, height: 0.8 * PRINT_SIZE };
+/** Where the words stand beside a swatch. */
+const BESIDE = PRINT_SIZE + SWATCH.width + INDENT;
 /** More attractors than this are counted and not listed. */
 const MOST = 12;
 
 /** Below the plot: attractors by their shares of the window, those with the largest first. */
-export function printedLegend(found: AttractorsJson, shares: Shares) {
-  const entry = (swatch: string | null, words: string, share: number | null) => ({
-    swatch,
-    lines: wrapped(say(TEXTS.printed_share, { share: percent(share ?? 0), text: words }), PRINT_SIZE, ROOM),
+export function printedLegend(found: AttractorsJson, shares: Shares): Below {
+  const known = entriesOf(found, shares);
+  const undecided = known.splice(-1);
+  known.sort((one, other) => (other.share ?? 0) - (one.share ?? 0));
+  const rest = known.splice(MOST);
+  const share = rest.reduce((sum, entry) => sum + (entry.share ?? 0), 0);
+  const others = rest.length === 0 ? [] : [{ colour: "", words: say(TEXTS.others, { count: rest.length }), share }];
+  const entries = [...known, ...others, ...undecided].map(({ colour, words: text, share }) => {
+    const end = colour === UNDECIDED ? TEXTS.undecided_here : text;
+    const told = say(TEXTS.printed_share, { share: percent(share ?? 0), text: end });
+    return { colour, lines: wrapped(told, PRINT_SIZE, ONE_COLUMN - BESIDE - PRINT_SIZE) };
   });
-  const known = found.attractors.map((attractor, index) => ({
-    share: windowShare(attractor, shares) ?? 0,
-    swatch: categoryColour(index),
-    words: describe(attractor, found),
-  }));
-  const sorted = known.sort((one, other) => other.share - one.share);
-  const entries = sorted.slice(0, MOST).map(({ share, swatch, words }) => entry(swatch, words, share));
-  const rest = sorted.slice(MOST);
-  if (rest.length > 0) {
-    const together = rest.reduce((sum, { share }) => sum + share, 0);
-    entries.push(entry(null, say(TEXTS.others, { count: rest.length }), together));
-  }
-  entries.push(entry("--undecided", TEXTS.undecided_here, undecidedShare(found, shares)));
   const lines = entries.reduce((sum, { lines: { length } }) => sum + length, 0);
   return {
     height: (lines + 2) * LINE + GAP * entries.length,
-    paint(pen: Pen, top: number): void {
+    paint(pen, top) {
       const ink = { colour: "--picture-text", size: PRINT_SIZE, baseline: "top" } as const;
       let y = top + GAP;
-      pen.text(TEXTS.printed, LEFT, y, ink);
+      pen.text(TEXTS.printed, PRINT_SIZE, y, ink);
       y += 1.3 * LINE;
-      for (const { swatch, lines } of entries) {
-        const frame = { fill: swatch ?? "", stroke: "--picture-frame", width: 0.6 };
-        if (swatch !== null) pen.rect(LEFT, y, SWATCH, SWATCH_HEIGHT, frame);
-        if (swatch === "--undecided") stripes(pen, y);
+      for (const { colour, lines } of entries) {
+        if (colour !== "") paintSwatch(pen, y, colour);
         for (const line of lines) {
-          pen.text(line, LEFT + SWATCH + INDENT, y, ink);
+          pen.text(line, BESIDE, y, ink);
           y += LINE;
         }
         y += GAP;
@@ -144,10 +145,13 @@ export function printedLegend(found: AttractorsJson, shares: Shares) {
   };
 }
 
-/** The pattern by which undecided cells are told from others. */
-function stripes(pen: Pen, y: number): void {
-  const points: number[] = [];
-  for (let x = LEFT; x < LEFT + SWATCH - SWATCH_HEIGHT / 2; x += 3)
-    points.push(x, y + SWATCH_HEIGHT, x + SWATCH_HEIGHT / 2, y, NaN, NaN);
-  pen.path(points, { stroke: "--undecided-line", width: 1 });
+/** Undecided cells are told from others by their stripes. */
+function paintSwatch(pen: Pen, y: number, fill: string): void {
+  const { width, height } = SWATCH;
+  pen.rect(PRINT_SIZE, y, width, height, { fill, stroke: "--picture-frame", width: 0.6 });
+  if (fill !== UNDECIDED) return;
+  const stripes: number[] = [];
+  for (let x = PRINT_SIZE; x < PRINT_SIZE + width - height / 2; x += 3)
+    stripes.push(x, y + height, x + height / 2, y, NaN, NaN);
+  pen.path(stripes, { stroke: "--undecided-line", width: 1 });
 }

@@ -32,11 +32,7 @@ export function partingOf(apart: Float64Array, perPeriod: number): Parting {
   const largest = Array.from({ length: periods }, (_, period) =>
     Math.max(...apart.subarray(period * perPeriod, (period + 1) * perPeriod)),
   );
-  return {
-    largest,
-    first: first < 0 ? null : first / perPeriod,
-    growth: growthOf(largest),
-  };
+  return { largest, first: first < 0 ? null : first / perPeriod, growth: growthOf(largest) };
 }
 
 /** The longest stretch of periods in which neither rounding nor saturation makes the difference. */

@@ -4,9 +4,8 @@ import type { Context, Quantity, State } from "../../contract";
 import { crossAt, pixelX, pixelY, type Plot } from "../../drawing/axes";
 import { rounded, rowsOf, type Table } from "../../drawing/files";
 import type { Pen } from "../../drawing/pen";
-import { minus } from "../../numbers";
 import { BRANCH_COLUMNS, type BranchesJson, type Range } from "../../protocol";
-import { say, WORDS } from "../../words";
+import { WORDS } from "../../words";
 import { axisValue, columnOf } from "./columns";
 
 export const BRANCHES = "diagram-branches";
@@ -127,26 +126,3 @@ export function tablesOf({ json, numbers, axial_forcing }: Branches, { system }:
     },
   ];
 }
-
-/** "doubling at 0.4860, fold at 0.3333", for the text beside the picture; the first few. */
-export function describeBifurcations({ json }: Branches, window: Range): string {
-  const texts = WORDS.diagram;
-  const kinds: Readonly<Record<string, string>> = texts.bifurcation_kinds;
-  const words = json.bifurcations.map(({ kind, axial_forcing }) =>
-    say(texts.bifurcation, { kind: kinds[kind] ?? kind, forcing: forcingText(axial_forcing, window) }),
-  );
-  const distinct = [...new Set(words)];
-  if (json.branches === 0) return texts.no_branch;
-  if (distinct.length === 0) return texts.no_bifurcation;
-  const more = distinct.length > 6 ? [say(texts.more, { count: distinct.length - 6 })] : [];
-  return say(texts.bifurcations, { list: [...distinct.slice(0, 6), ...more].join(", ") });
-}
-
-/** Four decimals, or three more than the width of the window has zeros. */
-export function forcingText(value: number, [low, high]: Range): string {
-  const needed = 3 - Math.floor(Math.log10(high - low) + 1);
-  return minus(value.toFixed(Math.min(Math.max(4, needed), 17)));
-}
-
-/** The end of a window, without zeros that say nothing. */
-export const endText = (value: number, window: Range): string => forcingText(value, window).replace(/\.?0+$/, "");

@@ -17,24 +17,9 @@ export interface Described {
 
 /** In the order in which they are offered. */
 export const DESCRIBED: Readonly<Record<Quantity, Described>> = {
-  impact_phase: {
-    label: WORDS.axes.phase,
-    widest: "0.0",
-    widths: [1e-9, 1],
-    bounds: [-1, 2],
-  },
-  normalised_speed: {
-    label: WORDS.axes.speed,
-    widest: "00.0",
-    widths: [1e-9, 1000],
-    bounds: [0, 1000],
-  },
-  angular_speed: {
-    label: WORDS.axes.spin,
-    widest: "\u221200.0",
-    widths: [1e-9, 100],
-    bounds: [-100, 100],
-  },
+  impact_phase: { label: WORDS.axes.phase, widest: "0.0", widths: [1e-9, 1], bounds: [-1, 2] },
+  normalised_speed: { label: WORDS.axes.speed, widest: "00.0", widths: [1e-9, 1000], bounds: [0, 1000] },
+  angular_speed: { label: WORDS.axes.spin, widest: "−00.0", widths: [1e-9, 100], bounds: [-100, 100] },
 };
 
 /** Where the quantity is in a row of `DIAGRAM_COLUMNS` and, but for the last one, of `BRANCH_COLUMNS`. */
@@ -69,7 +54,7 @@ const shapeOf = (drive: Drive) => (drive === "sawtooth" ? { sawtooth: 0.25 } : d
 export const TRANSIENT = 300;
 export const RECORDED = 200;
 /** An orbit that has not settled is followed for so many impacts; near a doubling it would take any number. */
-export const PATIENCE = 3000;
+export const LENGTHS = { transient: TRANSIENT, recorded: RECORDED, patience: 3000 };
 /** A coarse column stands for so many. */
 export const COARSE = 8;
 /** Columns of a request: some 10 ms of work, so that one that is not wanted any more is soon over; their way between the
@@ -97,20 +82,19 @@ export async function computeColumns(
     count: coarse ? coarseCount : wanted.count,
     drive: shapeOf(wanted.drive),
     columns: [from, to],
-    transient: TRANSIENT,
-    recorded: RECORDED,
-    patience: coarse ? TRANSIENT : PATIENCE,
+    ...LENGTHS,
+    ...(coarse && { patience: TRANSIENT }),
   }));
   let told: DiagramJson = { resting: 0, unsettled: 0, left_out: TRANSIENT };
   await context.client.series<DiagramJson>("diagram", requests, ({ json, numbers }, index) => {
     const place = places[index] as (typeof places)[number];
-    if (!place.coarse) {
+    const { resting, unsettled, left_out } = told;
+    if (!place.coarse)
       told = {
-        resting: told.resting + json.resting,
-        unsettled: told.unsettled + json.unsettled,
-        left_out: Math.max(told.left_out, json.left_out),
+        resting: resting + json.resting,
+        unsettled: unsettled + json.unsettled,
+        left_out: Math.max(left_out, json.left_out),
       };
-    }
     take({ ...place, numbers });
   });
   return told;

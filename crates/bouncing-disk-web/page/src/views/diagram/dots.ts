@@ -2,10 +2,10 @@
 
 import type { Quantity, State } from "../../contract";
 import { clamp, extent, padded, type Plot } from "../../drawing/axes";
-import { colourScale, pixelWord, themeColour, type Colours } from "../../drawing/colours";
-import { contextOf, type Pen } from "../../drawing/pen";
-import { paintStretched, type Window2 } from "../../drawing/window";
-import { element } from "../../elements";
+import { colourScale, pixelWord } from "../../drawing/colours";
+import type { Pen } from "../../drawing/pen";
+import { Raster } from "../../drawing/raster";
+import type { Window2 } from "../../drawing/window";
 import { DIAGRAM_COLUMNS, type Range } from "../../protocol";
 import { axisValue, COARSE, columnOf, RECORDED, type Columns } from "./columns";
 
@@ -33,16 +33,12 @@ export class Dots {
 
   /** Others are on their way; the picture of the last ones stays until they come. */
   begin(name: string, count: number): void {
-    this.name = name;
-    this.count = count;
-    this.columns = [];
-    this.complete = false;
-    this.drawn = "";
+    Object.assign(this, { name, count, columns: [], complete: false, drawn: "" });
   }
 
   take(columns: Columns, diagram: Diagram, rows: number): void {
     this.columns.push(columns);
-    if (!this.arrange(diagram, rows)) this.shown?.add(columns, themeColour);
+    if (!this.arrange(diagram, rows)) this.shown?.add(columns);
   }
 
   end(diagram: Diagram, rows: number): void {
@@ -55,35 +51,19 @@ export class Dots {
   arrange(diagram: Diagram, rows: number): boolean {
     const { quantity } = diagram;
     this.automatic = this.followed(quantity);
-    const key = JSON.stringify([this.name, quantity, this.range(diagram), rows]);
+    const range = this.range(diagram);
+    const key = JSON.stringify([this.name, quantity, range, rows]);
     if (key === this.drawn || this.count === 0) return false;
     if (this.drawn === "" || this.shown?.quantity !== quantity) this.previous = this.complete ? null : this.shown;
-    if (this.previous?.quantity !== quantity) this.previous = null;
     this.drawn = key;
-    this.shown = this.pictureOf(diagram, this.count, rows, themeColour);
+    this.shown = new OrbitPicture({ x: diagram.axial_forcing, y: range }, quantity, this.count, rows);
+    for (const columns of this.columns) this.shown.add(columns);
     return true;
   }
 
-  recolour(): void {
-    for (const picture of [this.shown, this.previous]) picture?.recolour(themeColour);
-  }
-
+  /** Pictures of another quantity do not stand on this one's axis. */
   paint(pen: Pen, plot: Plot, quantity: Quantity): void {
-    this.previous?.paint(pen, plot);
-    if (this.shown?.quantity === quantity) this.shown.paint(pen, plot);
-  }
-
-  /** The same dots in the colours of print, finely enough for it. */
-  paintPrinted(pen: Pen, plot: Plot, diagram: Diagram): void {
-    const count = Math.max(this.count, 2);
-    this.pictureOf(diagram, count, Math.round(count * 0.5), pen.colour).paint(pen, plot);
-  }
-
-  private pictureOf(diagram: Diagram, count: number, rows: number, colour: Colours): OrbitPicture {
-    const window = { x: diagram.axial_forcing, y: this.range(diagram) };
-    const picture = new OrbitPicture(window, diagram.quantity, count, rows);
-    for (const columns of this.columns) picture.add(columns, colour);
-    return picture;
+    for (const picture of [this.previous, this.shown]) if (picture?.quantity === quantity) picture.paint(pen, plot);
   }
 
   /**
@@ -126,14 +106,14 @@ class OrbitPicture {
     this.coarse = new Density(Math.ceil(columns / COARSE), rows);
   }
 
-  /** Counts an answer with the columns `[from, to)`, fine or coarse, and colours them. */
-  add({ numbers, from, to, coarse }: Columns, colour: Colours): void {
+  /** Counts an answer with the columns `[from, to)`, fine or coarse. */
+  add({ numbers, from, to, coarse }: Columns): void {
     const density = coarse ? this.coarse : this.fine;
     const { x, y } = this.window;
     const field = columnOf(this.quantity);
     const columnScale = density.width / (x[1] - x[0]);
     const rowScale = density.height / (y[1] - y[0]);
-    density.filled.fill(1, from, to);
+    density.open(from, to);
     for (let row = 0; row + WIDTH <= numbers.length; row += WIDTH) {
       // The last column is that of the upper end itself; the half keeps rounding from moving a column to its neighbour.
       const place = ((numbers[row] as number) - x[0]) * columnScale * ((density.width - 1) / density.width);
@@ -141,38 +121,44 @@ class OrbitPicture {
       if (Number.isNaN(value)) continue;
       density.count(clamp(Math.floor(place + 0.5), from, to - 1), Math.floor((y[1] - value) * rowScale));
     }
-    density.paint(from, to, colour);
-  }
-
-  recolour(colour: Colours): void {
-    for (const density of [this.coarse, this.fine]) density.paint(0, density.width, colour);
   }
 
   paint(pen: Pen, plot: Plot): void {
-    for (const { canvas } of [this.coarse, this.fine]) paintStretched(pen, plot, canvas, this.window);
+    for (const { raster } of [this.coarse, this.fine]) raster.paint(pen, plot, this.window);
   }
 }
 
 const SHADES = 64;
+/** All of an orbit in one pixel has the last colour. */
+const SCALE = (SHADES - 1) / Math.log1p(RECORDED);
 
 /** Dots counted in the pixels of a picture and shown as densities: a cloud of dots costs no more than its pixels. */
 class Density {
-  readonly canvas: HTMLCanvasElement;
+  readonly raster: Raster;
   /** Columns that are taken as empty paper, in which dots are then counted; the others stay transparent. */
-  readonly filled: Uint8Array;
+  private readonly opened: Uint8Array;
   private readonly counts: Uint16Array;
-  private readonly image: ImageData;
-  private readonly words: Uint32Array;
 
   constructor(
     readonly width: number,
     readonly height: number,
   ) {
-    this.canvas = element("canvas", { width, height });
-    this.filled = new Uint8Array(width);
-    this.counts = new Uint16Array(width * height);
-    this.image = new ImageData(width, height);
-    this.words = new Uint32Array(this.image.data.buffer);
+    const opened = (this.opened = new Uint8Array(width));
+    const counts = (this.counts = new Uint16Array(width * height));
+    this.raster = new Raster(width, height, (colour) => {
+      const shades = colourScale([0, 1, 2, 3, 4].map((index) => colour(`--density-${index}`)), SHADES); // prettier-ignore
+      const paper = pixelWord(colour("--picture-paper"));
+      return (x, y) => {
+        const count = counts[y * width + x] as number;
+        if (count === 0) return opened[x] === 0 ? 0 : paper;
+        return shades[Math.min(Math.round(Math.log1p(count) * SCALE), SHADES - 1)] as number;
+      };
+    });
+  }
+
+  open(from: number, to: number): void {
+    this.opened.fill(1, from, to);
+    this.raster.change(from, 0, to, this.height);
   }
 
   /** One dot; what is outside is left out. */
@@ -180,24 +166,5 @@ class Density {
     if (column < 0 || column >= this.width || row < 0 || row >= this.height) return;
     const index = row * this.width + column;
     this.counts[index] = (this.counts[index] as number) + 1;
-  }
-
-  /** Colours the columns `[from, to)`. */
-  paint(from: number, to: number, colour: Colours): void {
-    const stops = [0, 1, 2, 3, 4].map((index) => colour(`--density-${index}`));
-    const shades = colourScale(stops, SHADES);
-    const paper = pixelWord(colour("--picture-paper"));
-    const { width, height, counts, words, filled } = this;
-    // All of an orbit in one pixel has the last colour.
-    const scale = (SHADES - 1) / Math.log1p(RECORDED);
-    for (let row = 0; row < height; row += 1) {
-      for (let index = row * width + from, column = from; column < to; column += 1, index += 1) {
-        if (filled[column] === 0) continue;
-        const count = counts[index] as number;
-        words[index] =
-          count === 0 ? paper : (shades[Math.min(Math.round(Math.log1p(count) * scale), SHADES - 1)] as number);
-      }
-    }
-    contextOf(this.canvas).putImageData(this.image, 0, 0, from, 0, to - from, height);
   }
 }

@@ -2,12 +2,12 @@
 
 import type { Context, State } from "../../contract";
 import { debounced, element, Facts, section, setText } from "../../elements";
-import { brief, grouped, plain, withError } from "../../numbers";
-import type { DiagramJson, VerdictJson } from "../../protocol";
+import { brief, grouped, minus, plain, withError } from "../../numbers";
+import type { DiagramJson, Range, VerdictJson } from "../../protocol";
 import { contactPeriods } from "../../state";
 import { counted, say, WORDS } from "../../words";
 import { impactOf, mapOf, tellFailure, verdictOf } from "../asking";
-import { areDrawn, endText, forcingText, isPlain } from "./branches";
+import { areDrawn, isPlain, type Branches } from "./branches";
 import { RECORDED, TRANSIENT } from "./columns";
 
 const TEXTS = WORDS.diagram;
@@ -71,19 +71,15 @@ function complex([real, imaginary]: readonly [number, number]): string {
 }
 
 const SAMPLES = 5;
-const slotOf = (sample: number): string => `diagram-words-${sample}`;
+export const SAMPLE_SLOTS = Array.from({ length: SAMPLES }, (_, sample) => `diagram-words-${sample}`);
 
 /** What some orbits of a diagram do for good: for those who do not see it. */
 export function verdictsOf(context: Context, state: State): Promise<VerdictJson[]> {
   if (!isPlain(state)) return Promise.resolve([]);
   const asked = samplesOf(state).map((axial_forcing, sample) =>
-    verdictOf(context, slotOf(sample), { ...mapOf(state), axial_forcing }, impactOf(state)),
+    verdictOf(context, SAMPLE_SLOTS[sample] ?? "", { ...mapOf(state), axial_forcing }, impactOf(state)),
   );
   return Promise.all(asked);
-}
-
-export function cancelVerdicts({ client }: Context): void {
-  for (let sample = 0; sample < SAMPLES; sample += 1) client.cancel(slotOf(sample));
 }
 
 export function describeDiagram(
@@ -131,3 +127,25 @@ function unsettled(orbits: number, { unsettled: count, left_out }: DiagramJson, 
 
 export const behaviour = ({ kind, impacts }: VerdictJson): string =>
   say(TEXTS.does[kind], { number: impacts ?? 0, impacts: counted(TEXTS.impacts, impacts ?? 0) });
+
+/** "doubling at 0.4860, fold at 0.3333", for the text beside the picture; the first few. */
+export function describeBifurcations({ json }: Branches, window: Range): string {
+  const kinds: Readonly<Record<string, string>> = TEXTS.bifurcation_kinds;
+  const words = json.bifurcations.map(({ kind, axial_forcing }) =>
+    say(TEXTS.bifurcation, { kind: kinds[kind] ?? kind, forcing: forcingText(axial_forcing, window) }),
+  );
+  const distinct = [...new Set(words)];
+  if (json.branches === 0) return TEXTS.no_branch;
+  if (distinct.length === 0) return TEXTS.no_bifurcation;
+  const more = distinct.length > 6 ? [say(TEXTS.more, { count: distinct.length - 6 })] : [];
+  return say(TEXTS.bifurcations, { list: [...distinct.slice(0, 6), ...more].join(", ") });
+}
+
+/** Four decimals, or three more than the width of the window has zeros. */
+export function forcingText(value: number, [low, high]: Range): string {
+  const needed = 3 - Math.floor(Math.log10(high - low) + 1);
+  return minus(value.toFixed(Math.min(Math.max(4, needed), 17)));
+}
+
+/** The end of a window, without zeros that say nothing. */
+export const endText = (value: number, window: Range): string => forcingText(value, window).replace(/\.?0+$/, "");

@@ -7,7 +7,7 @@ import { ONE_COLUMN, rowsOf, tableOffers, type Basis } from "../../drawing/files
 import { prefixOf } from "../../numbers";
 import { OPERATION_COLUMNS, TRANSIENT_COLUMNS, type MotorSheet, type Range, type StallJson } from "../../protocol";
 import { say, WORDS } from "../../words";
-import { membersOf, SEED, type Operation, type Transient } from "./sheet";
+import { membersOf, SEED, type Operation, type Transient } from "./requests";
 
 const { charts: TEXTS, files: FILES, titles: TITLES } = WORDS.motor;
 
@@ -44,90 +44,81 @@ interface Kind {
   readonly title: string;
   /** Of the axis. */
   readonly label: string;
-  readonly curves: readonly {
-    name: "speed" | "mechanical_power" | "input_power" | "efficiency";
-    label: string;
-    colour: string;
-    dash?: readonly number[];
-  }[];
+  readonly curves: readonly (Pick<Curve, "label" | "colour" | "dash"> & { readonly name: Name })[];
   /** The factor of the numbers; without it they have a prefix of their unit. */
   readonly factor?: number;
 }
 
+type Name = "speed" | "mechanical_power" | "input_power" | "efficiency";
+
 const KINDS: readonly Kind[] = [
   {
-    title: TEXTS.speed,
-    label: TEXTS.speed_axis,
+    ...{ title: TEXTS.speed, label: TEXTS.speed_axis, factor: 1 },
     curves: [{ name: "speed", label: TEXTS.speed_curve, colour: "--curve-speed" }],
-    factor: 1,
   },
   {
-    title: TEXTS.power,
-    label: TEXTS.power_axis,
+    ...{ title: TEXTS.power, label: TEXTS.power_axis },
     curves: [
       { name: "mechanical_power", label: TEXTS.to_load, colour: "--curve-power" },
       { name: "input_power", label: TEXTS.from_stator, colour: "--curve-input", dash: [6, 3] },
     ],
   },
   {
-    title: TEXTS.efficiency,
-    label: TEXTS.efficiency_axis,
+    ...{ title: TEXTS.efficiency, label: TEXTS.efficiency_axis, factor: 100 },
     curves: [{ name: "efficiency", label: TEXTS.efficiency_curve, colour: "--curve-efficiency" }],
-    factor: 100,
   },
 ];
 
-/** Speed, power and efficiency against load, with bands of two standard errors. */
+/** Speed, power and efficiency against load, with bands of two standard errors; nothing where there is no load. */
 export function loadCharts(
   operations: readonly Operation[],
   loads: Range,
   largestTorque: number,
   stall: StallJson | null,
 ): Chart[] {
+  if (operations.length === 0) return [];
   const torque = prefixOf(Math.max(Math.abs(loads[0]), Math.abs(loads[1])));
   const shown = [...operations].sort((one, two) => one.load_torque - two.load_torque);
   const span = padded([loads[0] * torque.factor, loads[1] * torque.factor], 0.03);
   const x = { label: say(TEXTS.load, { prefix: torque.symbol }), range: span };
+  const at = shown.map(({ load_torque }) => load_torque * torque.factor);
   const beyond = largestTorque * torque.factor;
+  const shade = { range: [beyond, span[1]] as const, label: TEXTS.runaway };
   const stop = (stall?.torque ?? NaN) * torque.factor;
-  const stopError = finite(stall?.torque_error ?? 0) * torque.factor;
+  const error = finite(stall?.torque_error ?? 0) * torque.factor;
+  const lines = Number.isNaN(stop) ? [] : [{ x: stop, error, label: TEXTS.stall, colour: "--stall" }];
   return KINDS.map(({ title, label, curves, factor }) => {
     const values = shown.flatMap((row) => curves.map(({ name }) => row[name]));
     const greatest = Math.max(...values.filter(Number.isFinite).map(Math.abs), 0);
     const prefix = factor === undefined ? prefixOf(greatest) : { factor, symbol: "" };
+    const column = (name: keyof Operation & (Name | `${Name}_error`)) => shown.map((row) => row[name] * prefix.factor);
     // A point that is not settled may have any error; it must not flatten the others.
     const most = 1.6 * greatest * prefix.factor;
-    const edges = shown.flatMap((row) =>
-      curves.flatMap(({ name }) =>
-        [-2, 2].map((errors) => clamp((row[name] + errors * finite(row[`${name}_error`])) * prefix.factor, -most, most)),
-      ),
-    ); // prettier-ignore
+    const edges = curves.flatMap(({ name }) => {
+      const errors = column(`${name}_error`).map(finite);
+      return column(name).flatMap((value, row) =>
+        [-2, 2].map((times) => clamp(value + times * (errors[row] ?? 0), -most, most)),
+      );
+    });
     const range = extent([0, ...edges]) ?? [0, 1];
     const [first] = curves as [Kind["curves"][number]];
-    const marks = shown.filter(({ status }) => status !== 0).map((row): Mark => {
-      const runaway = row.status === 2;
-      return {
-        x: row.load_torque * torque.factor,
-        y: runaway ? 0 : finite(row[first.name] * prefix.factor),
-        form: runaway ? "cross" : "circle",
-        colour: runaway ? "--warning" : first.colour,
-      };
-    }); // prettier-ignore
+    const marks = shown.flatMap((row, index): Mark[] => {
+      const place = { x: at[index] ?? NaN, y: finite(row[first.name] * prefix.factor) };
+      if (row.status === 2) return [{ ...place, y: 0, form: "cross", colour: "--warning" }];
+      return row.status === 0 ? [] : [{ ...place, form: "circle", colour: first.colour }];
+    });
     return {
       title,
       x,
       // Without any value but zero there is no scale to take from the numbers.
       y: { label: say(label, { prefix: prefix.symbol }), range: padded(greatest > 0 ? range : [0, 1], 0.08) },
-      at: shown.map(({ load_torque }) => load_torque * torque.factor),
-      curves: curves.map(({ name, ...curve }) => ({
-        ...curve,
-        y: shown.map((row) => row[name] * prefix.factor),
-        error: shown.map((row) => row[`${name}_error`] * prefix.factor),
-        points: true,
-      })),
+      at,
+      curves: curves.map(({ name, ...curve }) => {
+        return { ...curve, y: column(name), error: column(`${name}_error`), points: true };
+      }),
       marks,
-      lines: Number.isNaN(stop) ? [] : [{ x: stop, error: stopError, label: TEXTS.stall, colour: "--stall" }],
-      ...(span[1] > beyond * 1.001 ? { shade: { range: [beyond, span[1]], label: TEXTS.runaway } } : {}),
+      lines,
+      ...(span[1] > beyond * 1.001 && { shade }),
     };
   });
 }
@@ -135,7 +126,7 @@ export function loadCharts(
 const LOAD_UNITS = [
   "load_torque_N_m", "speed_rad_per_s", "speed_error_rad_per_s", "mechanical_power_W", "mechanical_power_error_W",
   "input_power_W", "input_power_error_W", "efficiency", "efficiency_error", "status",
-] as const; // prettier-ignore
+]; // prettier-ignore
 const STATUS = ["steady", "unsettled", "runaway"] as const;
 
 interface MotorParts {
@@ -167,7 +158,6 @@ export function motorOffers({ sheet, text, transient, operations, runUp, curves,
   }
   const each = ONE_COLUMN * 0.62;
   if (runUp !== null) offers.push(...chartOffers(FILES.run_up, TITLES.run_up, [runUp], each, basis));
-  if (curves.length > 0)
-    offers.push(...chartOffers(FILES.curve, TITLES.curve, curves, each, basis));
+  if (curves.length > 0) offers.push(...chartOffers(FILES.curve, TITLES.curve, curves, each, basis));
   return offers;
 }

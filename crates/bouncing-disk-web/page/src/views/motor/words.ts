@@ -4,7 +4,7 @@ import { element, Facts, section, setText } from "../../elements";
 import { grouped, plain, prefixOf, quantity, quantityWithError, toldApart, withError } from "../../numbers";
 import type { IntervalJson, ReportJson, StallJson, TrapJson } from "../../protocol";
 import { counted, say, WORDS } from "../../words";
-import type { Operation, Transient } from "./sheet";
+import type { Operation, Transient } from "./requests";
 
 const TEXTS = WORDS.motor;
 const NAMES = TEXTS.facts;

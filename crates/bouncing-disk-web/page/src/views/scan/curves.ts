@@ -1,7 +1,7 @@
 /** The curves of a scan: their points, their chart, and their optima in words. */
 
 import type { State } from "../../contract";
-import { extent, padded } from "../../drawing/axes";
+import { evenly, extent, padded } from "../../drawing/axes";
 import type { Chart } from "../../drawing/chart";
 import { plain, prefixOf, shown, withError } from "../../numbers";
 import type { Range } from "../../protocol";
@@ -29,9 +29,7 @@ export interface Plan {
 
 export function planOf(state: State): Plan {
   const { scan } = state;
-  const { points, values } = scan;
-  const [low, high] = scan.range;
-  const at = Array.from({ length: points }, (_, index) => low + ((high - low) * index) / (points - 1));
+  const at = evenly(scan.range, scan.points);
   const over = varied(scan.over);
   const lineOf = (base: State, label: string, value: number | null): Line => {
     const states = at.map((place) => withValue(over, place, base));
@@ -40,7 +38,7 @@ export function planOf(state: State): Plan {
   const { family: name } = scan;
   if (name === null) return { scan, at, lines: [lineOf(state, WORDS.scan.results[scan.result], null)] };
   const family = varied(name);
-  const lines = values.map((value) => lineOf(withValue(family, value, state), valueText(family, value), value));
+  const lines = scan.values.map((value) => lineOf(withValue(family, value, state), valueText(family, value), value));
   return { scan, at, lines };
 }
 
@@ -121,17 +119,22 @@ export function describeOptima({ scan, at, lines }: Plan, readings: readonly (re
     const best = bestOf(line, scan.optimum);
     const top = line[best];
     if (!counts(top)) return `${name}${WORDS.scan.none}`;
-    const [value = "", low = "", high = ""] = [top.value, ...(top.between ?? [])].map((one) => plain(one, 3));
-    const number = top.between ? say(WORDS.scan.interval, { value, low, high }) : top.error === undefined ? shown(top.value, 4) : withError(top.value, top.error);
     const found = say(WORDS.scan.best, {
       optimum: WORDS.scan.optima[scan.optimum],
       count: line.filter(counts).length,
-      value: unit === "" ? number : `${number.includes("±") ? `(${number})` : number} ${unit}`,
+      value: numberOf(top, unit),
       at: valueText(over, at[best] ?? NaN),
     });
     return [`${name}${found}`, ...caveats(scan.range, at, line, best)].join(" ");
   });
-} // prettier-ignore
+}
+
+function numberOf({ value, error, between }: Reading, unit: string): string {
+  const [own = "", low = "", high = ""] = [value, ...(between ?? [])].map((one) => plain(one, 3));
+  if (between) return say(WORDS.scan.interval, { value: own, low, high });
+  const number = error === undefined ? shown(value, 4) : withError(value, error);
+  return `${unit !== "" && number.includes("±") ? `(${number})` : number} ${unit}`.trim();
+}
 
 /** Which points cannot be told from the best one, and where a better one may lie that was not computed. */
 function caveats(range: Range, at: readonly number[], line: readonly (Reading | null)[], best: number): string[] {
@@ -166,11 +169,8 @@ export function describeGaps({ scan, at }: Plan, readings: readonly (readonly (R
   const gaps = [...reasons.values()].map((texts) => {
     const [text = ""] = texts;
     const alike = texts.every((other) => other === text);
-    return say(alike ? WORDS.scan.gaps : WORDS.scan.gapsSuch, {
-      count: texts.length,
-      all: all.length,
-      text: short(text),
-    });
+    const values = { count: texts.length, all: all.length, text: short(text) };
+    return say(alike ? WORDS.scan.gaps : WORDS.scan.gapsSuch, values);
   });
   if (moved.length > 0) gaps.push(say(WORDS.scan.moved, { count: moved.length, all: all.length, at: first }));
   return gaps.join(" ");

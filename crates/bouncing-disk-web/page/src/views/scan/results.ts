@@ -1,13 +1,12 @@
 /** What a scan computes: the requests of its points, and the numbers in the answers. */
 
 import { Refused, type Change, type Context, type ResultName, type State } from "../../contract";
-import {
-  OPERATION_COLUMNS, type AttractorsJson, type Request, type Response, type SheetJson, type TossJson, type VerdictJson,
-} from "../../protocol"; // prettier-ignore
+import { OPERATION_COLUMNS, type Request, type Response, type SheetJson } from "../../protocol";
+import type { AttractorsJson, TossJson, VerdictJson } from "../../protocol";
 import { say, WORDS } from "../../words";
 import { REST } from "../../presets";
 import { impactOf, mapOf } from "../asking";
-import { SEED } from "../motor/sheet";
+import { SEED } from "../motor/requests";
 
 type Answer = Response<unknown>;
 
@@ -24,46 +23,23 @@ export interface Reading {
 
 const missing = (lacks: string): Reading => ({ value: NaN, lacks });
 
-interface Call {
+interface Result {
   request(state: State): Request;
   /** The request that counts, where the first one prepares it. */
   then?(answer: Answer): Request;
   /** The view that shows a point, and what it needs besides the point's state. */
   readonly opens: Change;
+  readonly unit: string;
+  read(answer: Answer): Reading;
 }
 
 /** Steady speeds have this relative error, or the one that so many impacts leave: a second or so for each point. */
 const OPERATION = { relative_error: 0.02, most_impacts: 4_000_000, seed: SEED } as const;
 
-const toss: Call = {
-  request: ({ system }) => ({ call: "toss", system }),
-  opens: { view: "toss", start: REST },
-};
-const orbit: Call = {
-  request: (state) => ({ call: "orbit", ...mapOf(state), start: impactOf(state) }),
-  opens: { view: "diagram" },
-};
-const attractors: Call = {
-  request: (state) => ({ call: "attractors", ...mapOf(state) }),
-  opens: { view: "basins" },
-};
-const loads: Call = {
-  request: ({ system, mass }) => ({ call: "sheet_of_system", system, mass }),
-  then: ({ json }) => {
-    const { sheet } = json as SheetJson;
-    return { call: "motor_loads", sheet, load_torques: [sheet.load_torque], ...OPERATION };
-  },
-  opens: { view: "motor" },
-};
-
-interface Result extends Call {
-  readonly unit: string;
-  read(answer: Answer): Reading;
-}
-
 const ofToss = (unit: string, name: keyof TossJson): Result => ({
-  ...toss,
   unit,
+  opens: { view: "toss", start: REST },
+  request: ({ system }) => ({ call: "toss", system }),
   read({ json }) {
     const value = (json as TossJson)[name];
     return value === null ? missing(WORDS.scan.noTwist) : { value };
@@ -71,8 +47,9 @@ const ofToss = (unit: string, name: keyof TossJson): Result => ({
 });
 
 const ofOrbit = (read: (verdict: VerdictJson) => Reading | null): Result => ({
-  ...orbit,
   unit: "",
+  opens: { view: "diagram" },
+  request: (state) => ({ call: "orbit", ...mapOf(state), start: impactOf(state) }),
   read({ json }) {
     const verdict = json as VerdictJson;
     return read(verdict) ?? missing(say(WORDS.scan.orbitIs, { kind: WORDS.scan.kinds[verdict.kind] }));
@@ -80,8 +57,9 @@ const ofOrbit = (read: (verdict: VerdictJson) => Reading | null): Result => ({
 });
 
 const ofShare = (kind: keyof AttractorsJson["kinds"]): Result => ({
-  ...attractors,
   unit: "",
+  opens: { view: "basins" },
+  request: (state) => ({ call: "attractors", ...mapOf(state) }),
   read({ json }) {
     const { kinds, attractors } = json as AttractorsJson;
     const { value, low, high } = kinds[kind];
@@ -90,8 +68,13 @@ const ofShare = (kind: keyof AttractorsJson["kinds"]): Result => ({
 });
 
 const ofMotor = (unit: string, name: "speed" | "mechanical_power" | "efficiency"): Result => ({
-  ...loads,
   unit,
+  opens: { view: "motor" },
+  request: ({ system, mass }) => ({ call: "sheet_of_system", system, mass }),
+  then: ({ json }) => {
+    const { sheet } = json as SheetJson;
+    return { call: "motor_loads", sheet, load_torques: [sheet.load_torque], ...OPERATION };
+  },
   read({ json, numbers }) {
     const column = (wanted: (typeof OPERATION_COLUMNS)[number]) => numbers[OPERATION_COLUMNS.indexOf(wanted)] ?? NaN;
     const [lacks = null] = (json as { shortfalls: (string | null)[] }).shortfalls;
@@ -122,21 +105,19 @@ export type Outcome = Answer | string;
 /** Answers for these states, one by one, each with its number. */
 export async function compute(
   context: Context,
-  call: Call,
+  { request, then }: Result,
   states: readonly State[],
   take: (outcome: Outcome, index: number) => void,
 ): Promise<void> {
-  const { then } = call;
-  const first = states.map((state) => call.request(state));
+  const first = states.map((state) => request(state));
   if (then === undefined) return askEach(context, first, take);
   const prepared: [Request, number][] = [];
   await askEach(context, first, (outcome, index) => {
     if (typeof outcome === "string") take(outcome, index);
     else prepared.push([then(outcome), index]);
   });
-  return askEach(context, prepared.map(([request]) => request), (outcome, place) =>
-    take(outcome, (prepared[place] as [Request, number])[1]),
-  ); // prettier-ignore
+  const second = prepared.map(([wanted]) => wanted);
+  return askEach(context, second, (outcome, place) => take(outcome, prepared[place]?.[1] ?? NaN));
 }
 
 /** A refused request ends a series; the one that follows begins behind it. */

@@ -59,6 +59,15 @@ const SLOWEST = 0.02;
 const FASTEST = 20;
 const STEPS = 200;
 
+interface ControlsHost {
+  /** Of the platform (s). */
+  period(): number;
+  /** Another moment stands still. */
+  chosen(): void;
+  /** Sound is switched on or off. */
+  heard(on: boolean): void;
+}
+
 export class Controls {
   readonly root: HTMLElement;
   private readonly playButton = button(TEXT.play, () => this.toggle(), { class: "play" });
@@ -66,16 +75,12 @@ export class Controls {
     type: "range", min: 0, step: "any", "aria-label": TEXT.time_periods, oninput: () => this.scrub(),
   }); // prettier-ignore
   private readonly told = element("output", { class: "speed" });
-  private readonly sound = element("input", { type: "checkbox", onchange: () => this.heard(this.sound.checked) });
+  private readonly sound = element("input", { type: "checkbox", onchange: () => this.host.heard(this.sound.checked) });
 
-  /** `period` is that of the platform in seconds; `chosen` is called where another moment stands still, `heard`
-   * where sound is switched on or off. */
   constructor(
     surface: HTMLElement,
     private readonly player: Player,
-    private readonly period: () => number,
-    private readonly chosen: () => void,
-    private readonly heard: (on: boolean) => void,
+    private readonly host: ControlsHost,
   ) {
     const speed = element("input", { type: "range", min: 0, max: STEPS, step: 1, "aria-label": TEXT.speed_of });
     speed.value = String(Math.round((STEPS * Math.log(player.rate / SLOWEST)) / Math.log(FASTEST / SLOWEST)));
@@ -94,7 +99,7 @@ export class Controls {
       this.told,
     );
     surface.addEventListener("keydown", (event) => this.key(event));
-  } // prettier-ignore
+  }
 
   /** Follows the player; `end` is how far one can scrub, in periods. */
   show(end: number): void {
@@ -103,7 +108,7 @@ export class Controls {
     if (this.place.max !== String(end)) this.place.max = String(end);
     if (document.activeElement !== this.place || player.playing) this.place.value = String(player.now);
     this.place.setAttribute("aria-valuetext", say(TEXT.aria_time, { periods: player.now.toFixed(2) }));
-    const real = player.rate * this.period();
+    const real = player.rate * this.host.period();
     const ratio = say(real < 1 ? TEXT.slowed : TEXT.quickened, { times: plain(real < 1 ? 1 / real : real, 2) });
     const how = Math.abs(real - 1) < 0.05 ? TEXT.as_it_is : ratio;
     setText(this.told, say(TEXT.rate, { rate: plain(player.rate, 2), how }));
@@ -113,14 +118,14 @@ export class Controls {
     if (this.player.playing) this.player.pause();
     else this.player.play();
     this.show(Number(this.place.max));
-    if (!this.player.playing) this.chosen();
+    if (!this.player.playing) this.host.chosen();
   }
 
   private scrub(): void {
     this.player.pause();
     this.player.seek(Number(this.place.value));
     this.show(Number(this.place.max));
-    this.chosen();
+    this.host.chosen();
   }
 
   /** For as long as the picture has the focus. */
@@ -131,7 +136,7 @@ export class Controls {
     else if (step !== undefined || event.key === "Home") {
       if (step !== undefined) player.pause();
       player.seek(step === undefined ? 0 : player.now + step * (event.shiftKey ? 1 : 1 / 16));
-      this.chosen();
+      this.host.chosen();
     } else return;
     event.preventDefault();
   }

@@ -3,7 +3,7 @@
 import { crossAt, pixelX, pixelY, roundUp, type Axes, type Plot } from "../../drawing/axes";
 import type { Pen } from "../../drawing/pen";
 import { WindowPicture, type Point } from "../../drawing/window";
-import type { ImpactStart } from "../../protocol";
+import type { ImpactStart, Range } from "../../protocol";
 import { WORDS } from "../../words";
 import type { Impact, Recording } from "./recording";
 
@@ -44,10 +44,8 @@ export class Portrait {
   }
 
   axes(): Axes {
-    return {
-      x: { label: WORDS.axes.phase, range: [0, 1] },
-      y: { label: WORDS.axes.speed_short, range: [0, this.top] },
-    };
+    const y = { label: WORDS.axes.speed_short, range: [0, this.top] as Range };
+    return { x: { label: WORDS.axes.phase, range: [0, 1] }, y };
   }
 
   private paintMarks(pen: Pen, plot: Plot): void {
@@ -66,13 +64,11 @@ export class Portrait {
 
 export function paintImpacts(pen: Pen, plot: Plot, impacts: readonly Impact[], size = 2.6): void {
   // One path with small squares for all of them.
-  const points: number[] = [];
-  for (const impact of impacts) {
-    const x = pixelX(plot, periods(impact.phase));
-    const y = pixelY(plot, impact.normalised_speed);
-    const half = size / 2;
-    points.push(x - half, y - half, x + half, y - half, x + half, y + half, x - half, y + half, NaN, NaN);
-  }
+  const half = size / 2;
+  const points = impacts.flatMap((impact) => {
+    const [x, y] = [pixelX(plot, periods(impact.phase)), pixelY(plot, impact.normalised_speed)];
+    return [x - half, y - half, x + half, y - half, x + half, y + half, x - half, y + half, NaN, NaN];
+  });
   pen.path(points, { fill: "--impact", opacity: 0.75 });
 }
 

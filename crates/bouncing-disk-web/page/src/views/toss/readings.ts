@@ -51,12 +51,7 @@ export function describeMoment(moment: Moment, periods: number, impacts: number,
   const speed = (value: number) => plain(recording.settled(value, "angular_speed", "platform_angular_speed"), 3);
   const indented = gap < 0 && recording.system.contact_time > 0;
   const place = gap > 0 || indented ? say(indented ? TEXTS.into : TEXTS.above, { gap: quantity(Math.abs(gap), "m") }) : "";
-  return say(TEXTS.moment, {
-    periods: periods.toFixed(2),
-    impacts,
-    does: DOES[moment.mode] ?? moment.mode,
-    place,
-    speed: speed(moment.angular_speed),
-    platform: speed(moment.platform_angular_speed),
-  });
+  const speeds = { speed: speed(moment.angular_speed), platform: speed(moment.platform_angular_speed) };
+  const does = DOES[moment.mode] ?? moment.mode;
+  return say(TEXTS.moment, { periods: periods.toFixed(2), impacts, does, place, ...speeds });
 }

@@ -2,14 +2,13 @@
 
 import { extent, padded } from "../../drawing/axes";
 import type { Chart, Curve } from "../../drawing/chart";
+import { rowsOf } from "../../drawing/files";
 import { prefixOf } from "../../numbers";
-import {
-  EVENT_COLUMNS, MODES, MOTION_COLUMNS, type MotionJson, type Range, type Response, type SystemParameters,
-} from "../../protocol"; // prettier-ignore
+import { EVENT_COLUMNS, MODES, MOTION_COLUMNS } from "../../protocol";
+import type { MotionJson, Range, Response, SystemParameters } from "../../protocol";
 import { say, WORDS } from "../../words";
 
 const WIDTH = MOTION_COLUMNS.length;
-const EVENT_WIDTH = EVENT_COLUMNS.length;
 /** A sum of some doubles is rounded by so much of the largest of them. */
 export const ROUNDING = 8 * Number.EPSILON;
 
@@ -42,13 +41,10 @@ export class Recording {
     this.samples = numbers.subarray(0, json.samples * WIDTH);
     this.modes = bytes.subarray(0, json.samples);
     this.duration = this.value(json.samples - 1, 0);
-    const events = numbers.subarray(json.samples * WIDTH);
-    const impacts: Impact[] = [];
-    for (let event = 0; event < json.events; event += 1) {
-      const [time = NaN, phase = NaN, speed = NaN] = events.subarray(event * EVENT_WIDTH, event * EVENT_WIDTH + 3);
-      if (!Number.isNaN(speed)) impacts.push({ time, phase, normalised_speed: speed });
-    }
-    this.impacts = impacts;
+    const events = [...rowsOf(numbers.subarray(json.samples * WIDTH), EVENT_COLUMNS.length)];
+    this.impacts = events.flatMap(([time = NaN, phase = NaN, normalised_speed = NaN]) =>
+      Number.isNaN(normalised_speed) ? [] : [{ time, phase, normalised_speed }],
+    );
   }
 
   /** Of the platform, in seconds. */
@@ -90,8 +86,7 @@ export class Recording {
   }
 
   impactsUntil(time: number): number {
-    let low = 0;
-    let high = this.impacts.length;
+    let [low, high] = [0, this.impacts.length];
     while (low < high) {
       const middle = (low + high) >> 1;
       if ((this.impacts[middle] as Impact).time <= time) low = middle + 1;
@@ -102,9 +97,8 @@ export class Recording {
 
   /** Row by row, with the mode last. */
   *table(): Iterable<(number | string)[]> {
-    for (let row = 0; row < this.count; row += 1) {
+    for (let row = 0; row < this.count; row += 1)
       yield [...this.samples.subarray(row * WIDTH, (row + 1) * WIDTH), this.mode(row)];
-    }
   }
 
   private mode(row: number): string {
@@ -126,6 +120,8 @@ const TEXTS = WORDS.toss;
 
 /** Periods of a chart. */
 const SHOWN = 8;
+/** A number as wide as those of usual ranges, so that both charts have one axis of time. */
+const WIDEST = "−00.00";
 
 /** Heights and angular speeds of a recording up to a time in periods, for the last few of these. */
 export function traces(recording: Recording, now: number): [Chart, Chart] {
@@ -136,34 +132,17 @@ export function traces(recording: Recording, now: number): [Chart, Chart] {
   const at = recording.span("time", start, end, 1 / period);
   const heights = recording.extent("height", "platform_height");
   const metre = prefixOf(Math.max(...heights.map(Math.abs)));
-  // Both have one axis of time.
-  const widest = "−00.00";
-  const curves = (disk: Column, platform: Column, factor: number): Curve[] => [
-    { label: TEXTS.disk, y: recording.span(disk, start, end, factor), colour: "--disk" },
-    { label: TEXTS.platform, y: recording.span(platform, start, end, factor), colour: "--platform-line", dash: [6, 3] },
-  ];
+  const chart = (title: string, label: string, disk: Column, platform: Column, factor = 1): Chart => {
+    const [low, high] = recording.extent(disk, platform);
+    const curves: Curve[] = [
+      { label: TEXTS.disk, y: recording.span(disk, start, end, factor), colour: "--disk" },
+      { label: TEXTS.platform, y: recording.span(platform, start, end, factor), colour: "--platform-line", dash: [6, 3] },
+    ];
+    return { title, x, y: { label, range: padded([low * factor, high * factor]), widest: WIDEST }, at, curves };
+  };
+  const height = say(WORDS.axes.height, { prefix: metre.symbol });
   return [
-    {
-      title: TEXTS.heights,
-      x,
-      y: {
-        label: say(WORDS.axes.height, { prefix: metre.symbol }),
-        range: padded([heights[0] * metre.factor, heights[1] * metre.factor]),
-        widest,
-      },
-      at,
-      curves: curves("height", "platform_height", metre.factor),
-    },
-    {
-      title: TEXTS.angular_speeds,
-      x,
-      y: {
-        label: WORDS.axes.angular_speed,
-        range: padded(recording.extent("angular_speed", "platform_angular_speed")),
-        widest,
-      },
-      at,
-      curves: curves("angular_speed", "platform_angular_speed", 1),
-    },
+    chart(TEXTS.heights, height, "height", "platform_height", metre.factor),
+    chart(TEXTS.angular_speeds, WORDS.axes.angular_speed, "angular_speed", "platform_angular_speed"),
   ];
 }

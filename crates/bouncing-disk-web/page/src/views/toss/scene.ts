@@ -1,6 +1,7 @@
 /** Disk and platform in perspective, and the path of a point of the platform, drawn on a canvas. */
 
-import { layOut, NO_TICKS, padded, paintAxes, pixelX, pixelY, roundUp, type Axes, type Plot } from "../../drawing/axes";
+import { layOut, NO_TICKS, padded, paintAxes, pixelX, pixelY, roundUp } from "../../drawing/axes";
+import type { Axes, Plot, Ticks } from "../../drawing/axes";
 import type { Pen } from "../../drawing/pen";
 import { plain, prefixOf, quantity } from "../../numbers";
 import type { Range, SystemParameters } from "../../protocol";
@@ -133,22 +134,15 @@ export class Stage {
   }
 
   private spokes(pen: Pen, z: number, turn: number, radius: number, stroke: string, count: number): void {
-    const points: number[] = [];
-    for (let spoke = 0; spoke < count; spoke += 1) {
-      const angle = turn + (2 * Math.PI * spoke) / count;
-      points.push(...this.project(0, 0, z), ...this.onRing(radius, angle, z), NaN, NaN);
-    }
-    pen.path(points, { stroke, width: 1 });
+    const ends = Array.from({ length: count }, (_, spoke) => this.onRing(radius, turn + (2 * Math.PI * spoke) / count, z));
+    const middle = this.project(0, 0, z);
+    pen.path(ends.flatMap((end) => [...middle, ...end, NaN, NaN]), { stroke, width: 1 }); // prettier-ignore
   }
 
   /** The mark by which a rotation is seen, between two radii and half an angle to either side. */
   private wedge(pen: Pen, z: number, turn: number, [inner, outer, half]: [number, number, number], fill: string): void {
-    const angle = turn - Math.PI / 2;
-    const corners = [[inner, 0], [outer, -half], [outer, half]] as const; // prettier-ignore
-    pen.path(
-      corners.flatMap(([radius, by]) => this.onRing(radius, angle + by, z)),
-      { fill, close: true },
-    );
+    const at = (radius: number, by: number) => this.onRing(radius, turn - Math.PI / 2 + by, z);
+    pen.path([...at(inner, 0), ...at(outer, -half), ...at(outer, half)], { fill, close: true });
   }
 }
 
@@ -187,11 +181,13 @@ export function pathAxes({ amplitude, twist_amplitude }: Platform): Axes {
 export function paintPathInset(pen: Pen, recording: Recording, now: Moment, width: number): void {
   const narrow = width < NARROW;
   const [wide, high] = narrow ? [84, 84] : [200, 150];
-  const axes = pathAxes(recording.system);
-  const bare = { left: 4, top: 4, width: wide - 8, height: high - 8, ...axes, xTicks: NO_TICKS, yTicks: NO_TICKS, size: 10 };
+  const { x, y } = pathAxes(recording.system);
+  const bare = { left: 4, top: 4, width: wide - 8, height: high - 8, x, y, xTicks: NO_TICKS, yTicks: NO_TICKS, size: 10 };
+  const { amplitude, twist_amplitude } = recording.system;
   pen.moved(width - wide - 2, 2, () => {
-    const laid = () => layOut(pen, wide, high, { ...axes, y: { ...axes.y, widest: "−0000" } }, 11);
-    const plot = narrow ? bare : withAmplitudes(laid(), recording.system);
+    const laid = () => layOut(pen, wide, high, { x, y: { ...y, widest: "−0000" } }, 11);
+    const ticks = { xTicks: endTicks(twist_amplitude, x.factor), yTicks: endTicks(amplitude, y.factor) };
+    const plot: Plot = narrow ? bare : { ...laid(), ...ticks };
     pen.rect(0, 0, wide, high, { fill: "--picture-paper", opacity: 0.8 });
     paintPath(pen, plot, recording);
     const mark = { fill: "--platform-mark", stroke: "--picture-paper", width: 1 };
@@ -199,22 +195,18 @@ export function paintPathInset(pen: Pen, recording: Recording, now: Moment, widt
     if (narrow) pen.rect(plot.left, plot.top, plot.width, plot.height, { stroke: "--picture-frame", width: 1 });
     else paintAxes(pen, plot);
   });
-} // prettier-ignore
+}
 
 /** Few numbers have room: those of the amplitudes say most. */
-function withAmplitudes(plot: Plot, { amplitude, twist_amplitude }: Platform): Plot {
-  const numbers = (size: number, factor = 1) => ({
-    major: (size > 0 ? [-size, 0, size] : [0]).map((value) => ({ value, label: plain(value * factor, 3) })),
-    minor: [],
-  });
-  return { ...plot, xTicks: numbers(twist_amplitude, plot.x.factor), yTicks: numbers(amplitude, plot.y.factor) };
-}
+const endTicks = (size: number, factor = 1): Ticks => ({
+  major: (size > 0 ? [-size, 0, size] : [0]).map((value) => ({ value, label: plain(value * factor, 3) })),
+  minor: [],
+});
 
 export function paintPath(pen: Pen, plot: Plot, recording: Recording): void {
   const angles = recording.span("platform_angle", 0, recording.period);
   const heights = recording.span("platform_height", 0, recording.period);
-  const points: number[] = [];
-  angles.forEach((angle, index) => points.push(pixelX(plot, angle), pixelY(plot, heights[index] as number)));
+  const points = [...angles].flatMap((angle, index) => [pixelX(plot, angle), pixelY(plot, heights[index] ?? NaN)]);
   pen.path(points, { stroke: "--platform-line", width: 1.6, close: true });
 }
 

@@ -30,6 +30,8 @@ type Place = ReturnType<typeof placeOn> & { readonly time: number };
 export function attachThrowing(surface: HTMLElement, host: ThrowHost): void {
   let held: { from: Place; pose: Pose; trail: Place[] } | null = null;
   const place = (event: PointerEvent) => ({ ...placeOn(surface, event), time: event.timeStamp });
+  const recent = ({ trail }: NonNullable<typeof held>, at: Place) =>
+    trail.filter(({ time }) => at.time - time < LONGEST_PAUSE);
   const heldAt = (stage: Stage, { from, pose }: NonNullable<typeof held>, at: Place) => ({
     height: Math.max(pose.height + stage.metresOf(from.y - at.y), pose.platform_height),
     angle: pose.angle + stage.radiansOf(at.x - from.x),
@@ -54,29 +56,27 @@ export function attachThrowing(surface: HTMLElement, host: ThrowHost): void {
     const stage = host.stage();
     if (held === null || stage === null) return;
     const at = place(event);
-    held.trail = [...held.trail.filter(({ time }) => at.time - time < LONGEST_PAUSE), at];
+    held.trail = [...recent(held, at), at];
     host.hold(heldAt(stage, held, at));
   });
   surface.addEventListener("pointerup", (event) => {
     const stage = host.stage();
     if (held === null || stage === null) return;
     const at = place(event);
-    const { from, pose, trail } = held;
+    const { from, pose } = held;
     const { height } = heldAt(stage, held, at);
+    const [first = at] = recent(held, at);
     held = null;
     host.hold(null);
     if (Math.hypot(at.x - from.x, at.y - from.y) < 4) return;
-    const [first = at] = trail.filter(({ time }) => at.time - time < LONGEST_PAUSE);
     const seconds = Math.max((at.time - first.time) / 1000, 1e-3) * host.slowness();
-    const moving = at.time > first.time;
-    host.start(
-      bounded(host.system(), {
-        phase: host.phase(),
-        gap: height - pose.platform_height,
-        relative_velocity: moving ? stage.metresOf(first.y - at.y) / seconds : 0,
-        angular_speed: moving ? stage.radiansOf(at.x - first.x) / seconds : 0,
-      }),
-    );
+    const thrown = {
+      phase: host.phase(),
+      gap: height - pose.platform_height,
+      relative_velocity: stage.metresOf(first.y - at.y) / seconds,
+      angular_speed: stage.radiansOf(at.x - first.x) / seconds,
+    };
+    host.start(bounded(host.system(), thrown));
   });
   surface.addEventListener("pointercancel", () => {
     held = null;

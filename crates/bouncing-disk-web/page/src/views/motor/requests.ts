@@ -1,0 +1,75 @@
+/** What the motor's view asks for, in the order in which it matters to a reader. */
+
+import type { Context, State } from "../../contract";
+import { OPERATION_COLUMNS } from "../../protocol";
+import type { MotorSheet, ReportJson, SheetJson, StallJson, TransientJson } from "../../protocol";
+
+/** Of all that is asked of a motor, one after the other. */
+export const SLOT = "motor";
+/** The seed of all random numbers, so that everybody gets the same ones. */
+export const SEED = 1;
+/** Motors of a run-up; those whose contacts take time are nearly alike, and take longer, as those on a stator that yields. */
+export const membersOf = (sheet: MotorSheet | null): number =>
+  sheet?.contact?.time === undefined && !sheet?.stator ? 16 : 5;
+const TRANSIENT_POINTS = 160;
+/** The curve is there soon, roughly, and then sharpens: a motor that settles late takes more impacts. */
+export const PASSES = [
+  { relative_error: 0.1, most_impacts: 5_000_000 },
+  { relative_error: 0.02, most_impacts: 20_000_000 },
+] as const;
+export type Pass = (typeof PASSES)[number];
+const STALL_ERROR = 0.02;
+
+const WIDTH = OPERATION_COLUMNS.length;
+
+/** One load: a row by the names of `OPERATION_COLUMNS`. */
+export type Operation = Record<(typeof OPERATION_COLUMNS)[number], number> & {
+  readonly shortfall: string | null;
+  /** Of a stator that yields (m). */
+  readonly amplitude: number | null;
+  /** The relative error that was asked for. */
+  readonly wanted: number;
+};
+
+export interface Transient {
+  readonly json: TransientJson;
+  readonly numbers: Float64Array;
+}
+
+/** The sheet of the shared system. */
+export async function sheetOf({ client }: Context, { system, mass }: State): Promise<MotorSheet> {
+  return (await client.ask<SheetJson>(SLOT, { call: "sheet_of_system", system, mass })).json.sheet;
+}
+
+export async function reportOf({ client }: Context, sheet: MotorSheet): Promise<ReportJson> {
+  return (await client.series<ReportJson>(SLOT, [{ call: "motor_report", sheet }])).json;
+}
+
+export function transientOf({ client }: Context, sheet: MotorSheet, rise_times: number): Promise<Transient> {
+  const request = { sheet, members: membersOf(sheet), rise_times, points: TRANSIENT_POINTS, seed: SEED };
+  return client.series<TransientJson>(SLOT, [{ call: "motor_transient", ...request }]);
+}
+
+/** All loads on one vertical motion: points of a curve that share their impacts are told apart best, and cost little
+ * more than one of them. */
+export async function operate(
+  { client }: Context,
+  sheet: MotorSheet,
+  load_torques: readonly number[],
+  pass: Pass,
+): Promise<Operation[]> {
+  const request = { call: "motor_loads", sheet, load_torques, ...pass, seed: SEED } as const;
+  type Known = { shortfalls: (string | null)[]; amplitudes: (number | null)[] };
+  const { json, numbers } = await client.series<Known>(SLOT, [request]);
+  return load_torques.map((_, row) => {
+    const columns = OPERATION_COLUMNS.map((name, column) => [name, numbers[row * WIDTH + column]]);
+    const shortfall = json.shortfalls[row] ?? null;
+    const amplitude = json.amplitudes[row] ?? null;
+    return { ...Object.fromEntries(columns), shortfall, amplitude, wanted: pass.relative_error } as Operation;
+  });
+}
+
+export async function stallOf({ client }: Context, sheet: MotorSheet): Promise<StallJson> {
+  const request = { call: "motor_stall", sheet, relative_error: STALL_ERROR, seed: SEED } as const;
+  return (await client.series<StallJson>(SLOT, [request])).json;
+}
