@@ -327,39 +327,33 @@ fn columns_are_followed_until_they_have_settled() {
 fn a_single_toss_is_that_of_the_library() {
     let own = System::pizza_toss();
     let toss = |changes| json!({ "call": "toss", "system": with(pizza(), changes) });
-    let mut parameters = json!(own.platform().parameters());
-    parameters = with(parameters, json!(own.disk().parameters()));
+    let parameters = with(json!(own.platform()), json!(own.disk()));
     let (json, _) = answered(&toss(parameters));
     let expected = bouncing_disk::toss::single_toss(&own, InitialSpin::AbsoluteRest).expect("thrown");
     assert_eq!(json, json!(expected));
     assert!((number(&json, "airborne_speed") - 14.0).abs() < 0.5, "{json}");
-    let gentle = refused(&toss(json!({ "amplitude": 0.03 })));
-    assert!(gentle["message"].as_str().is_some_and(|text| text.contains("never")), "{gentle}");
+    let gentle = refused(&toss(json!({ "amplitude": 0.03 })))["message"].to_string();
+    assert!(gentle.contains("never"), "{gentle}");
     assert_eq!(refused(&toss(json!({ "contact_time": 0.03 })))["kind"], "computation");
 }
 
 #[test]
 fn shares_of_kinds_are_those_of_the_attractors_that_starts_end_on() {
     // At 0.51 a disk at rest is thrown onto a periodic orbit, whose share has that of the rest.
-    for (forcing, lasting) in [
-        (0.45, &["rest", "periodic"][..]),
-        (0.55, &["rest", "chaotic"]),
-        (0.2, &["rest"]),
-        (0.51, &["periodic", "chaotic"]),
-    ] {
-        let (json, _) =
-            answered(&json!({ "call": "attractors", "axial_forcing": forcing, "restitution": 0.5 }));
+    let known = [(0.45, "rest periodic"), (0.55, "rest chaotic"), (0.2, "rest"), (0.51, "periodic chaotic")];
+    for (forcing, lasting) in known {
+        let request = json!({ "call": "attractors", "axial_forcing": forcing, "restitution": 0.5 });
+        let (json, _) = answered(&request);
         let all = list(&json, "attractors");
-        assert_eq!(all[0]["leads_to"].is_u64(), forcing == 0.51, "{json}");
+        assert_eq!(all[0]["leads_to"].is_null(), lasting.contains("rest"), "{json}");
         for kind in ["rest", "periodic", "chaotic"] {
-            let last = |one: &Value| all[one["leads_to"].as_u64().unwrap_or(0) as usize]["kind"] == kind;
-            let own = all
-                .iter()
-                .filter(|one| if one["leads_to"].is_u64() { last(one) } else { one["kind"] == kind });
+            let end =
+                |one: &Value| one["leads_to"].as_u64().map_or(one.clone(), |last| all[last as usize].clone());
+            let own = all.iter().filter(|one| end(one)["kind"] == kind);
             let sum: f64 = own.map(|one| number(one, "share")).sum();
             let [low, share, high] = ["low", "value", "high"].map(|name| number(&json["kinds"][kind], name));
             assert!((share - sum).abs() < 1e-12, "{kind} at {forcing}: {json}");
-            assert_eq!(share > 0.0, lasting.contains(&kind), "{kind} at {forcing}: {json}");
+            assert_eq!(share > 0.0, lasting.contains(kind), "{kind} at {forcing}: {json}");
             assert!(low <= share && share <= high && high - low < 0.1, "{json}");
         }
     }
@@ -420,15 +414,11 @@ fn branches_go_through_the_doublings_of_the_cascade() {
         assert!((0.3..=0.62).contains(&row[0]) && row[3] < branches && stable, "{row:?}");
     }
     assert!(branches_in(0.5, [0.1, 0.2]).0 < 0.5);
-}
-
-#[test]
-fn a_window_may_begin_at_any_forcing() {
     for restitution in [0.0, 0.5, 0.999999] {
         for window in [[60.0, 60.1], [1e-3, 1e-2], [99.0, 100.0], [0.45, 0.45 + 1e-12], [0.7, 0.7 + 1e-12]] {
-            for row in branches_in(restitution, window).2.iter().flatten() {
-                assert!((window[0]..=window[1]).contains(&row[0]), "{restitution} {window:?}: {row:?}");
-            }
+            let (_, _, lines) = branches_in(restitution, window);
+            let is_inside = |row: &[f64; 6]| (window[0]..=window[1]).contains(&row[0]);
+            assert!(lines.iter().flatten().all(is_inside), "{restitution} {window:?}");
         }
     }
 }
