@@ -75,10 +75,8 @@ fn forcings(count: u32, low: f64, step: f64) -> Vec<f64> {
 
 fn starts(forcings: &[f64], restitution: f64) -> Result<Vec<(ImpactMap, ImpactState)>, Error> {
     let start = ImpactState::from_normalised(1.2, 1.3)?;
-    let maps = forcings
-        .iter()
-        .map(|forcing| Ok((ImpactMap::new(Vibration::from_axial_forcing(*forcing)?, restitution)?, start)));
-    maps.collect()
+    let map = |forcing: &f64| ImpactMap::new(Vibration::from_axial_forcing(*forcing)?, restitution);
+    forcings.iter().map(|forcing| Ok((map(forcing)?, start))).collect()
 }
 
 fn digest_of(numbers: impl IntoIterator<Item = f64>) -> Digest {
@@ -101,16 +99,14 @@ fn diagram(policy: ChatterPolicy) -> Result<Digest, Error> {
 }
 
 fn basins() -> Result<Digest, Error> {
-    let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
-    let start = ImpactState::from_normalised(1.2, 1.3)?;
+    let (map, start) = starts(&[0.45], 0.5)?[0];
     let mut digest = Digest::new();
     let Some(orbit) = map.settled_orbit(start, 2000, 64, 1e-7, &Unobserved)? else { return Ok(digest) };
     let radius = orbit.trapping_radius(&map, 64, &Unobserved)?;
     digest.number(radius);
     let grid = Grid::new(Axis::new(0.0, 1.0, 200)?, Axis::new(0.0, 3.0, 150)?)?;
-    let basins =
-        map.basins(grid, &[KnownOrbit::new(orbit, radius)?], BasinSettings::default(), &Unobserved)?;
-    digest.bytes(basins.labels());
+    let known = [KnownOrbit::new(orbit, radius)?];
+    digest.bytes(map.basins(grid, &known, BasinSettings::default(), &Unobserved)?.labels());
     Ok(digest)
 }
 
@@ -120,21 +116,20 @@ fn judged() -> Result<Digest, Error> {
     for verdict in verdicts(&starts(&forcings(100, 0.2, 0.005), 0.5)?, settings, &Unobserved)? {
         let (kind, numbers) = match verdict {
             Verdict::Periodic { impacts, platform_periods, .. } => {
-                (0, [Some(impacts as f64), Some(platform_periods as f64)])
+                (0, vec![impacts as f64, platform_periods as f64])
             }
-            Verdict::Chaotic { exponent, standard_error, .. } => (1, [Some(exponent), Some(standard_error)]),
-            Verdict::Chattering { cycle, after } => {
-                let exponent = match cycle.trust {
-                    CycleTrust::ChosenByRounding { exponent, .. } => exponent,
-                    _ => None,
-                };
-                (2, [Some(after as f64), exponent])
-            }
-            Verdict::AtRest { after, .. } => (3, [Some(after as f64), None]),
-            _ => (4, [None; 2]),
+            Verdict::Chaotic { exponent, standard_error, .. } => (1, vec![exponent, standard_error]),
+            Verdict::Chattering { cycle, after } => match cycle.trust {
+                CycleTrust::ChosenByRounding { exponent: Some(exponent), .. } => {
+                    (2, vec![after as f64, exponent])
+                }
+                _ => (2, vec![after as f64]),
+            },
+            Verdict::AtRest { after, .. } => (3, vec![after as f64]),
+            _ => (4, vec![]),
         };
         digest.bytes(&[kind]);
-        numbers.into_iter().flatten().for_each(|number| digest.number(number));
+        numbers.into_iter().for_each(|number| digest.number(number));
     }
     Ok(digest)
 }
@@ -145,8 +140,12 @@ fn tosses() -> Result<Digest, Error> {
         let system = System::pizza_toss().with_platform(|hand| hand.phase_lag = lag)?;
         for initial in [InitialSpin::AbsoluteRest, InitialSpin::RestRelativeToHand] {
             let toss = single_toss(&system, initial)?;
-            let [speed, efficiency] = [toss.airborne_speed, toss.efficiency];
-            numbers.extend([speed, efficiency, toss.launch_speed, toss.energy.friction_loss]);
+            numbers.extend([
+                toss.airborne_speed,
+                toss.efficiency,
+                toss.launch_speed,
+                toss.energy.friction_loss,
+            ]);
         }
     }
     Ok(digest_of(numbers))
@@ -165,8 +164,9 @@ fn spectra() -> Result<Digest, Error> {
     for outcome in lyapunov_spectra(&starts(&forcings(60, 0.2, 0.01), 0.5)?, 1000, 5000, &Unobserved)? {
         match outcome {
             LyapunovOutcome::Exponents(found) => {
-                for number in [Some(found.largest), Some(found.standard_error), found.second, found.exact_sum]
-                {
+                let numbers =
+                    [Some(found.largest), Some(found.standard_error), found.second, found.exact_sum];
+                for number in numbers {
                     digest.number(number.unwrap_or(f64::NEG_INFINITY));
                 }
             }
@@ -208,10 +208,9 @@ fn operations() -> Result<Digest, Error> {
         SweepAxis::new(MotorField::Friction, vec![0.1, 0.2]),
         SweepAxis::new(MotorField::Amplitude, vec![1e-8, 1.1e-8]),
     ];
-    let mut numbers = Vec::new();
-    for row in MotorSweep::new(motor, axes, settings)?.run(&Unobserved)?.matrix(SweepQuantity::Speed) {
-        numbers.extend(row.into_iter().map(|speed| speed.unwrap_or(f64::NAN)));
-    }
+    let sweep = MotorSweep::new(motor, axes, settings)?.run(&Unobserved)?;
+    let speeds = sweep.matrix(SweepQuantity::Speed).into_iter().flatten();
+    let mut numbers: Vec<_> = speeds.map(|speed| speed.unwrap_or(f64::NAN)).collect();
     let quantity = SensitivityQuantity::SteadySpeed;
     let near = SensitivitySettings { operating: settings, ..SensitivitySettings::default() };
     let slopes =
@@ -252,12 +251,10 @@ fn stators() -> Result<Digest, Error> {
         let motor = DrivenMotor::new(motor, Waveform::Sine, Waveform::Sine)?;
         let motor = if let Some(time) = contact_time { motor.with_contact_time(time)? } else { motor };
         let curve = motor.torque_speed_curve(&[0.0, 1e-5], &settings, &Unobserved)?;
-        let quantities =
-            [SweepQuantity::Speed, SweepQuantity::StatorAmplitude, SweepQuantity::ElectricalEfficiency];
-        let number =
-            |(quantity, point): (SweepQuantity, &_)| quantity.of(point).map_or(f64::NAN, |one| one.value);
-        numbers
-            .extend(quantities.into_iter().flat_map(|of| curve.iter().map(move |point| number((of, point)))));
+        for of in [SweepQuantity::Speed, SweepQuantity::StatorAmplitude, SweepQuantity::ElectricalEfficiency]
+        {
+            numbers.extend(curve.iter().map(|point| of.of(point).map_or(f64::NAN, |one| one.value)));
+        }
     }
     Ok(digest_of(numbers))
 }

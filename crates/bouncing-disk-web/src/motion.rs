@@ -2,8 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk::core::Phase;
-use bouncing_disk::core::{ChatterPolicy, Unobserved};
+use bouncing_disk::core::{ChatterPolicy, Phase, Unobserved};
 use bouncing_disk::driven::{DrivenEngine, DrivenSystem};
 use bouncing_disk::motion::{
     DiskState, EnergyLedger, EventKind, MAX_SAMPLES, Mode, PhaseSpan, PhaseTime, PlatformState,
@@ -183,9 +182,6 @@ fn condition(system: &System, start: MotionStart) -> Result<InitialCondition, Re
                 tangential_impact_velocity: speed(angular_speed) - platform_speed,
             };
             state.rebound(dimensionless)?
-        }
-        MotionStart::Contact { phase, angular_speed } => {
-            InitialCondition::Contact { phase: Phase::new(phase)?, angular_speed: speed(angular_speed) }
         }
         MotionStart::Flight { phase, angular_speed, gap, relative_velocity } => InitialCondition::Flight {
             phase: Phase::new(phase)?,

@@ -65,7 +65,6 @@ impl From<&ImpactState> for ImpactStart {
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 pub(crate) enum MotionStart {
     Impact { impact_phase: f64, normalised_speed: f64, angular_speed: f64 },
-    Contact { phase: f64, angular_speed: f64 },
     Flight { phase: f64, angular_speed: f64, gap: f64, relative_velocity: f64 },
 }
 
@@ -73,63 +72,27 @@ pub(crate) enum MotionStart {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(tag = "call", rename_all = "snake_case", deny_unknown_fields)]
 pub(crate) enum Request {
-    /// Are these parameters legal, and what follows from them?
-    Check {
-        system: SystemParameters,
-    },
-    Motion {
-        system: SystemParameters,
-        start: MotionStart,
-        periods: u64,
-        samples_per_period: u64,
-    },
-    /// The single toss of a disk that rests on the platform at its lowest point.
-    Toss {
-        system: SystemParameters,
-    },
+    // Are these parameters legal, and what follows from them?
+    Check { system: SystemParameters },
+    Motion { system: SystemParameters, start: MotionStart, periods: u64, samples_per_period: u64 },
+    // The single toss of a disk that rests on the platform at its lowest point.
+    Toss { system: SystemParameters },
     Diagram(DiagramRequest),
-    /// The long-term motion of the orbit from a start.
-    Orbit {
-        axial_forcing: f64,
-        restitution: f64,
-        #[serde(default)]
-        contact_periods: f64,
-        start: ImpactStart,
-    },
-    /// The branches of one impact every few periods in a range, stable and unstable, with their doublings.
-    Branches {
-        restitution: f64,
-        axial_forcing: [f64; 2],
-    },
-    /// All attractors of a map with the shares of the starts that end on them.
-    Attractors {
-        axial_forcing: f64,
-        restitution: f64,
-        #[serde(default)]
-        contact_periods: f64,
-    },
+    // The long-term motion of the orbit from a start.
+    Orbit { axial_forcing: f64, restitution: f64, contact_periods: Option<f64>, start: ImpactStart },
+    // The branches of one impact every few periods in a range, stable and unstable, with their doublings.
+    Branches { restitution: f64, axial_forcing: [f64; 2] },
+    // All attractors of a map with the shares of the starts that end on them.
+    Attractors { axial_forcing: f64, restitution: f64, contact_periods: Option<f64> },
     Basins(BasinsRequest),
-    /// The report of a data sheet before anything turns.
-    MotorReport {
-        sheet: MotorParameters,
-    },
+    // The report of a data sheet before anything turns.
+    MotorReport { sheet: MotorParameters },
     MotorTransient(TransientRequest),
     MotorLoads(LoadsRequest),
-    MotorStall {
-        sheet: MotorParameters,
-        relative_error: f64,
-        seed: u64,
-    },
-    SheetWrite {
-        sheet: MotorParameters,
-    },
-    SheetRead {
-        text: String,
-    },
-    SheetOfSystem {
-        system: SystemParameters,
-        mass: f64,
-    },
+    MotorStall { sheet: MotorParameters, relative_error: f64, seed: u64 },
+    SheetWrite { sheet: MotorParameters },
+    SheetRead { text: String },
+    SheetOfSystem { system: SystemParameters, mass: f64 },
 }
 
 /// The columns `[from, to)` of an orbit diagram of `count` forcings. Angular speeds follow from the angular
@@ -161,8 +124,7 @@ pub(crate) struct DiagramRequest {
 pub(crate) struct BasinsRequest {
     pub(crate) axial_forcing: f64,
     pub(crate) restitution: f64,
-    #[serde(default)]
-    pub(crate) contact_periods: f64,
+    pub(crate) contact_periods: Option<f64>,
     pub(crate) phase_periods: [f64; 2],
     pub(crate) phases: usize,
     pub(crate) normalised_speed: [f64; 2],
@@ -189,14 +151,13 @@ pub(crate) struct LoadsRequest {
     pub(crate) load_torques: Vec<f64>,
     pub(crate) relative_error: f64,
     /// Most impacts that the answer may take, up to 20 million; 5 million by default.
-    #[serde(default)]
     pub(crate) most_impacts: Option<u64>,
     pub(crate) seed: u64,
 }
 
-/// Refuses a contact time of so many periods, unless it is too short to matter ([`System::soft_contact`]).
-pub(crate) fn rigid(contact_periods: f64) -> Result<(), Refusal> {
-    if TAU * contact_periods < Compliance::CONTACT_TIMES[0] {
+/// Refuses a contact time of so many periods, none if they are not given, unless it is too short to matter ([`System::soft_contact`]).
+pub(crate) fn rigid(contact_periods: Option<f64>) -> Result<(), Refusal> {
+    if TAU * contact_periods.unwrap_or(0.0) < Compliance::CONTACT_TIMES[0] {
         return Ok(());
     }
     let message = "verdicts and basins are those of rigid impacts: set the contact time to 0";

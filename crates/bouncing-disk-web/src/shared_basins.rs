@@ -60,13 +60,7 @@ impl SharedAttractors {
 }
 
 fn kinds(found: &Attractors) -> Result<Value, Refusal> {
-    let kind = |one: &Attractor| {
-        let after = match &one.kind {
-            AttractorKind::Rest(after) => after.leads_to().and_then(|number| found.all().get(number)),
-            _ => None,
-        };
-        after.map_or(one.kind.name(), |last| last.kind.name())
-    };
+    let kind = |one| leads_to(one).and_then(|last| found.all().get(last)).unwrap_or(one).kind.name();
     let share = |name: &str| {
         let own = found.all().iter().filter(|one| kind(one) == name);
         let count = own.map(|one| one.starts.count()).sum();
@@ -77,11 +71,15 @@ fn kinds(found: &Attractors) -> Result<Value, Refusal> {
     Ok(json!({ "rest": share("rest")?, "periodic": share("periodic")?, "chaotic": share("chaotic")? }))
 }
 
-fn described(label: Option<u8>, attractor: &Attractor) -> Value {
-    let leads_to = match &attractor.kind {
+/// The number of the attractor on which a rest ends, where it ends on another one.
+fn leads_to(attractor: &Attractor) -> Option<usize> {
+    match &attractor.kind {
         AttractorKind::Rest(after) => after.leads_to(),
         _ => None,
-    };
+    }
+}
+
+fn described(label: Option<u8>, attractor: &Attractor) -> Value {
     let impact = attractor.kind.orbit().and_then(|orbit| orbit.states.first()).map(ImpactStart::from);
     json!({
         "label": label,
@@ -90,7 +88,7 @@ fn described(label: Option<u8>, attractor: &Attractor) -> Value {
         "share": attractor.starts.value(),
         "interval": attractor.starts.interval(),
         "lasts": attractor.kind.lasts(),
-        "leads_to": leads_to,
+        "leads_to": leads_to(attractor),
         "impact": impact,
     })
 }

@@ -89,33 +89,18 @@ onPage("the categories of basins differ for every kind of colour vision", {}, as
   }
 });
 
-onPage("what is tapped has 40 pixels at least", { width: 360, height: 740, hasTouch: true }, async (page) => {
+const PHONE = { width: 360, height: 740, hasTouch: true };
+onPage("on a telephone the picture comes first, and what is tapped has 40 pixels at least", PHONE, async (page) => {
   assert.ok(await page.evaluate(() => matchMedia("(pointer: coarse)").matches), "the page believes in fingers");
-  const small = () =>
-    page.evaluate((least) => {
-      const wanted = "button, select, summary, input:not([type=checkbox], [type=file]), label:has([type=checkbox])";
-      return [...document.querySelectorAll(wanted)]
-        .filter((one) => one.checkVisibility() && !one.disabled)
-        .map((one) => [one.getBoundingClientRect(), one])
-        .filter(([box]) => box.width < least - 0.5 || box.height < least - 0.5)
-        .map(([box, one]) => `${one.id || one.outerHTML.slice(0, 60)}: ${box.width} x ${box.height}`);
-    }, TARGET);
-  await page.locator("aside details").evaluateAll((all) => all.forEach((one) => (one.open = true)));
-  for (const view of VIEWS) {
-    await visit(page, view, "tap");
-    assert.deepEqual(await small(), [], view);
-  }
-  await page.tap("#presets-button");
-  assert.deepEqual(await small(), [], "figures");
-  await page.locator("dialog.presets .card").first().tap();
-  await settled(page);
-  assert.deepEqual(await small(), [], "note");
-  await page.tap("#courses-button");
-  await page.tap("[data-course='doubling']");
-  assert.deepEqual(await small(), [], "lesson");
-});
-
-onPage("on a telephone the picture comes first", { width: 360, height: 740, hasTouch: true }, async (page) => {
+  const small = (least) => {
+    const wanted = "button, select, summary, input:not([type=checkbox], [type=file]), label:has([type=checkbox])";
+    return [...document.querySelectorAll(wanted)]
+      .filter((one) => one.checkVisibility() && !one.disabled)
+      .map((one) => [one.getBoundingClientRect(), one])
+      .filter(([box]) => box.width < least - 0.5 || box.height < least - 0.5)
+      .map(([box, one]) => `${one.id || one.outerHTML.slice(0, 60)}: ${box.width} x ${box.height}`);
+  };
+  const isLarge = async (where) => assert.deepEqual(await page.evaluate(small, TARGET), [], where);
   for (const view of VIEWS) {
     await visit(page, view, "tap");
     const seen = await page.evaluate((name) => {
@@ -127,7 +112,7 @@ onPage("on a telephone the picture comes first", { width: 360, height: 740, hasT
         form: boxOf(document.getElementById("parameters")).top + scrollY,
         open: [...document.querySelectorAll("aside details[open]")].map((one) => one.className),
         sliders: boxOf(document.querySelector(".essentials")).bottom,
-        tabs: [...document.querySelectorAll('[role="tab"]')].map((tab) => boxOf(tab)).map(({ right }) => right),
+        tabs: [...document.querySelectorAll('[role="tab"]')].map((tab) => boxOf(tab).right),
       };
     }, view);
     assert.ok(seen.top < 250, `${view} begins at ${seen.top}`);
@@ -135,5 +120,16 @@ onPage("on a telephone the picture comes first", { width: 360, height: 740, hasT
     assert.ok(seen.form > seen.top + 250, `${view}: the form is at ${seen.form}`);
     // The three sliders stay under the thumb.
     assert.deepEqual([seen.open, seen.sliders], [["group essentials"], 740]);
+    await isLarge(view);
   }
+  await page.locator("aside details").evaluateAll((all) => all.forEach((one) => (one.open = true)));
+  await isLarge("all fields");
+  await page.tap("#presets-button");
+  await isLarge("figures");
+  await page.locator("dialog.presets .card").first().tap();
+  await settled(page);
+  await isLarge("note");
+  await page.tap("#courses-button");
+  await page.tap("[data-course='doubling']");
+  await isLarge("lesson");
 });

@@ -70,12 +70,10 @@ export const boxOf = (page, view) => page.locator(`#view-${view} .picture canvas
 export async function settled(page) {
   // Views wait for 60 ms before they begin, so that a slider does not ask for all that it passes.
   await page.waitForTimeout(150);
-  const timeout = (await page.isVisible("#view-motor")) ? 4000 : 60_000;
-  try {
-    await page.waitForFunction(() => document.getElementById("status").dataset.kind !== "busy", undefined, { timeout });
-  } catch (error) {
-    if (timeout === 60_000) throw error;
-  }
+  const isMotor = await page.isVisible("#view-motor");
+  const isDone = () => document.getElementById("status").dataset.kind !== "busy";
+  const done = page.waitForFunction(isDone, undefined, { timeout: isMotor ? 4000 : 60_000 });
+  await (isMotor ? done.catch(() => {}) : done);
   await page.waitForTimeout(40);
 }
 
@@ -100,22 +98,17 @@ export async function course(page, id) {
   await page.click(`[data-course="${id}"]`);
 }
 
+export const hashOf = (page) => page.evaluate(() => location.hash);
 export const stateOf = async (page) =>
-  Object.fromEntries(
-    (await page.evaluate(() => location.hash))
-      .slice(1)
-      .split("&")
-      .map((part) => part.split("=")),
-  );
+  Object.fromEntries((await hashOf(page)).slice(1).split("&").map((part) => part.split("=")));
 
 /** The address follows the state a little later when much changes at once. */
-export async function whenAddress(page, name, value) {
-  await page.waitForFunction(
+export const whenAddress = (page, name, value) =>
+  page.waitForFunction(
     ([key, expected]) => new URLSearchParams(location.hash.slice(1)).get(key) === expected,
     [name, value],
     { timeout: 5000 },
   );
-}
 
 export const whenText = (page, selector, pattern, timeout = 30_000) =>
   page.waitForFunction(
@@ -126,9 +119,7 @@ export const whenText = (page, selector, pattern, timeout = 30_000) =>
 
 export async function type(page, name, text) {
   const field = page.locator(`#field-${name}`);
-  await field.evaluate((input) => {
-    input.closest("details").open = true;
-  });
+  await field.evaluate((input) => (input.closest("details").open = true));
   await field.fill(text);
   await field.press("Enter");
 }
@@ -183,19 +174,21 @@ export async function placeOfDisk(page) {
   return [box.x + middle(0), box.y + middle(1)];
 }
 
-export async function savedBy(page, act) {
-  const [download] = await Promise.all([page.waitForEvent("download"), act()]);
+/** The file that a card of the list of files gives. */
+export async function savedBy(page, card) {
+  const [download] = await Promise.all([page.waitForEvent("download"), card.click()]);
   const chunks = [];
   for await (const chunk of await download.createReadStream()) chunks.push(chunk);
   return { name: download.suggestedFilename(), content: Buffer.concat(chunks) };
 }
 
-/** The text of the picture that a view offers by this name as SVG. */
-export async function svgOf(page, name) {
+/** The text of what a view offers by this name in this form (SVG, CSV, JSON). */
+export async function textOf(page, name, form) {
   await page.click("#export-button");
-  const item = page.locator("dialog.export .card", { hasText: name }).filter({ hasText: "SVG" });
-  return String((await savedBy(page, () => item.click())).content);
+  const card = page.locator("dialog.export .card", { hasText: name }).filter({ hasText: form }).first();
+  return String((await savedBy(page, card)).content);
 }
+export const svgOf = (page, name) => textOf(page, name, "SVG");
 
 /** A seeded stream of numbers in [0, 1), so that a failure comes back. */
 export function stream(seed) {

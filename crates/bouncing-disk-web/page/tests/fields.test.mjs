@@ -42,13 +42,14 @@ onPage("the list of fields is that of the page", "#view=toss", async (page) => {
   assert.deepEqual(names, Object.keys(FIELDS));
 });
 
-onPage("numbers are understood with a decimal comma and with a unit", "#view=toss", async (page) => {
+onPage("numbers are understood with a decimal comma, a true minus sign, multiples of pi and a unit", "#view=toss", async (page) => {
   const understood = {
     amplitude: { "62 mm": "0.062", "6,2cm": "0.062", "62.5e3 µm": "0.0625", "1,250 m": null },
     restitution: { "0,25": "0.25", "35 %": "0.35" },
     angular_frequency: { "2 Hz": String(Number((4 * Math.PI).toPrecision(15))), "15 rad/s": "15" },
-    phase_lag: { "-90°": String(Number((-Math.PI / 2).toPrecision(15))), "-π/2": String(-Math.PI / 2) },
+    phase_lag: { "−0.25π": String(-0.25 * Math.PI), "-90°": String(Number((-Math.PI / 2).toPrecision(15))), "-π/2": String(-Math.PI / 2) },
     mass: { "400 g": "0.4", "0,5 kg": "0.5", "5 mm": null },
+    axial_forcing: { "0.5": "0.5" },
   };
   for (const [name, texts] of Object.entries(understood))
     for (const [text, value] of Object.entries(texts)) {
@@ -56,6 +57,7 @@ onPage("numbers are understood with a decimal comma and with a unit", "#view=tos
       if (value !== null) await whenValue(page, name, value);
       else assert.match(await page.textContent(`#error-${name}`), /thousands or decimals|not a number/, text);
     }
+  assert.equal((await stateOf(page)).amplitude, String((0.5 * Math.PI * 9.8) / 225));
 });
 
 /** What has become of what was typed: the sentence of its refusal, or null once the state has this number. */

@@ -8,7 +8,7 @@ import { asker, sourceOf, WORDS } from "./module.mjs";
 const { COURSES } = await sourceOf("courses.ts");
 const { axialForcing } = await sourceOf("state.ts");
 const { partingOf } = await sourceOf("views/compare/parting.ts");
-const ask = asker();
+const { ask, motion } = asker();
 
 /** A step by the order in which it comes: its state, and what it says, of which all `words` have to be a part. */
 function step(id, number) {
@@ -35,14 +35,8 @@ async function cellsOf(state) {
 }
 
 /** The first separation of a motion. */
-async function thrown({ system, start }, change = {}) {
-  const motion = { system: { ...system, ...change }, start: { kind: "impact", ...start }, periods: 3, samples_per_period: 64 };
-  const { json, numbers, bytes } = await ask({ call: "motion", ...motion });
-  const first = json.event_kinds.findIndex((kind) => /separation/i.test(kind));
-  const event = bytes.subarray(json.samples).indexOf(first);
-  const [, phase, , , angular_speed] = numbers.subarray(9 * json.samples + 6 * event);
-  return { phase, angular_speed };
-}
+const thrown = async ({ system, start }, change = {}) =>
+  (await motion({ system: { ...system, ...change }, start }, 3)).separation;
 
 test("what a lesson names stands on the page", () => {
   const strings = (one) => (typeof one === "string" ? [one] : Object.values(one).flatMap(strings));

@@ -2,16 +2,8 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { onPage, preset, settled, stateOf, stream, valueOf, whenValue, within } from "./browser.mjs";
+import { hashOf, onPage, settled, stateOf, stream, valueOf, whenValue, within } from "./browser.mjs";
 import { WORDS } from "./module.mjs";
-
-/** The pixels of the diagram, with the pointer out of its way. */
-async function pictureOf(page) {
-  await page.mouse.move(5, 795);
-  await page.evaluate(() => document.activeElement.blur());
-  await page.waitForTimeout(300);
-  return page.locator("#view-diagram").screenshot();
-}
 
 onPage("states with awkward numbers come back to the bit", {}, async (page) => {
   const random = stream(7);
@@ -44,34 +36,11 @@ onPage("states with awkward numbers come back to the bit", {}, async (page) => {
     await page.evaluate((next) => (location.hash = next), hash);
     await page.waitForFunction((view) => document.querySelector(`#tab-${view}[aria-selected="true"]`), wanted.view);
     await whenValue(page, "amplitude", String(wanted.amplitude));
-    assert.equal(await page.evaluate(() => location.hash), hash);
-    for (const name of ["contact_radius", "gyration_radius", "restitution", "impact_phase", "mass", "phase_lag"]) {
+    assert.equal(await hashOf(page), hash);
+    for (const name of ["contact_radius", "gyration_radius", "restitution", "impact_phase", "mass", "phase_lag"])
       assert.equal(Number(await valueOf(page, name)), wanted[name], name);
-    }
     assert.equal(await page.isVisible("#problems"), false);
   }
-});
-
-onPage("the copied link opens the same state in a fresh page", {}, async (page) => {
-  await preset(page, "fig06");
-  await page.evaluate(() => {
-    document.execCommand = () => {
-      globalThis.copied = document.activeElement.value;
-      return true;
-    };
-    Object.defineProperty(navigator, "clipboard", {
-      value: { writeText: (text) => Promise.resolve(void (globalThis.copied = text)) },
-    });
-  });
-  await page.click("#link-button");
-  await page.waitForFunction(() => globalThis.copied);
-  const link = await page.evaluate(() => globalThis.copied);
-  const picture = await pictureOf(page);
-  await within({ hash: link.slice(link.indexOf("#")) }, async (fresh) => {
-    assert.deepEqual(await stateOf(fresh), await stateOf(page));
-    assert.match(await fresh.textContent("#note"), /Fig\. 6/);
-    assert.ok(picture.equals(await pictureOf(fresh)), "the pictures differ");
-  });
 });
 
 const UNREADABLE = ["throw has to be none, or", "four numbers"];

@@ -31,13 +31,28 @@ export function moduleOf(glue, wasm) {
   return module;
 }
 
-/** Gives the JSON and the arrays of answers by the module of the page. */
+/** Asks the module of the page: for the JSON and the arrays of an answer, and for a motion. */
 export function asker() {
   const site = join(dirname(file), "site");
   const explorer = new (moduleOf(join(site, "worker.js"), join(site, "module.wasm")).Explorer)();
-  return async (request) => {
+  const ask = async (request) => {
     const { json, refused, numbers, bytes } = explorer.respond(JSON.stringify(request));
     assert.equal(refused, false, `${JSON.stringify(request)}: ${json}`);
     return { json: JSON.parse(json), numbers, bytes };
   };
+  /** Samples and events of a motion from an impact, by the names of their columns, and the first separation. */
+  async function motion({ system, start }, periods = 20) {
+    const { MOTION_COLUMNS, EVENT_COLUMNS } = await sourceOf("protocol.ts");
+    const impact = { kind: "impact", ...start };
+    const { json, numbers, bytes } = await ask({ call: "motion", system, start: impact, periods, samples_per_period: 64 });
+    const width = MOTION_COLUMNS.length;
+    const row = (columns, first) => Object.fromEntries(columns.map((name, column) => [name, numbers[first + column]]));
+    const samples = Array.from({ length: json.samples }, (_, index) => row(MOTION_COLUMNS, index * width));
+    const events = Array.from({ length: json.events }, (_, index) => ({
+      ...row(EVENT_COLUMNS, json.samples * width + index * EVENT_COLUMNS.length),
+      kind: json.event_kinds[bytes[json.samples + index]],
+    }));
+    return { samples, events, separation: events.find(({ kind }) => /separation/i.test(kind)) };
+  }
+  return { ask, motion };
 }

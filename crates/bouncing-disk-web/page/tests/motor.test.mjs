@@ -2,25 +2,30 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { fact, savedBy, stateOf, type, whenAddress, whenText, within as open } from "./browser.mjs";
+import { fact, stateOf, textOf, type, whenAddress, whenText, within as open } from "./browser.mjs";
 import { sourceOf } from "./module.mjs";
 
 const words = await sourceOf("views/motor/words.ts");
 const numbers = await sourceOf("numbers.ts");
 
-const within = (hash, act) => open({ hash, settle: false }, act);
-const onPage = (title, hash, act) => test(title, () => within(hash, act));
+const onPage = (title, hash, act) => test(title, () => open({ hash, settle: false }, act));
 
 /** Fig. 10(c), whose impacts are few: its curves are there in a second or two. */
 const MOTOR =
   "#view=motor&amplitude=1e-7&twist_amplitude=6.820926132509799e-5&angular_frequency=439822.9715025711&phase_lag=0" +
   "&contact_radius=0.00125&gyration_radius=0.0063&friction=0.1&restitution=0.5&preload_acceleration=9.8&mass=0.0329";
+/** With a load, as an angular deceleration, of so many N m. */
+const loaded = (torque) => `&load_acceleration=${torque / (0.0329 * 0.0063 ** 2)}`;
 
-const done = (page) => whenText(page, "#status", /^Run-up and \d+ loads are computed/, 60_000);
+const onMotor = (title, changes, act) =>
+  onPage(title, MOTOR + changes, async (page) => {
+    await whenText(page, "#status", /^Run-up and \d+ loads are computed/, 60_000);
+    await act(page);
+  });
 const captions = (page) => page.locator("#view-motor .chart figcaption").allTextContents();
+const isFact = async (page, name, told) => assert.match(await fact(page, "motor", name), told);
 
-onPage("the curves of a motor are gone as soon as there is another one", MOTOR, async (page) => {
-  await done(page);
+onMotor("the curves of a motor are gone as soon as there is another one", "", async (page) => {
   for (const caption of await captions(page)) assert.match(caption, /\d/);
   const shown = await page.evaluate(async () => {
     const frame = () => new Promise((resolve) => requestAnimationFrame(resolve));
@@ -33,21 +38,16 @@ onPage("the curves of a motor are gone as soon as there is another one", MOTOR, 
     await frame();
     return {
       captions: texts("#view-motor .chart figcaption"),
-      words: texts("#view-motor .chart-word:not([hidden])"),
+      words: texts("#view-motor .chart-word:not([hidden])").filter((word) => /is being computed\.$/.test(word)).length,
       canvases: document.querySelectorAll("#view-motor .chart canvas").length,
-      facts: texts("#view-motor .facts dd").join(" "),
+      facts: texts("#view-motor .facts dd").filter((one) => /\d/.test(one)),
       offers: texts("dialog.export .card").filter((one) => /motor/i.test(one)),
     };
   });
-  assert.deepEqual(shown.captions, ["", "", "", ""]);
-  assert.equal(shown.words.filter((word) => /is being computed\.$/.test(word)).length, 4, `${shown.words}`);
-  assert.equal(shown.canvases, 0);
-  assert.doesNotMatch(shown.facts, /\d/);
-  assert.deepEqual(shown.offers, []);
+  assert.deepEqual(shown, { captions: ["", "", "", ""], words: 4, canvases: 0, facts: [], offers: [] });
 });
 
-onPage("the steady speed of the report is that of the run-up and of the curve without load", MOTOR, async (page) => {
-  await done(page);
+onMotor("the steady speed of the report is that of the run-up and of the curve without load", "", async (page) => {
   const [, speed] = /^(.* ± .*) rad\/s without load$/.exec(await fact(page, "motor", "Steady speed"));
   const [runUp, curve] = await captions(page);
   assert.ok(runUp.startsWith(`Steady speed: ${speed} rad/s without load.`), runUp);
@@ -55,25 +55,13 @@ onPage("the steady speed of the report is that of the run-up and of the curve wi
   assert.doesNotMatch(runUp, /tends to/);
 });
 
-/** The load of the system, as an angular deceleration, of so many N m. */
-const loaded = (torque) => `${MOTOR}&load_acceleration=${torque / (0.0329 * 0.0063 ** 2)}`;
+onMotor("a steady speed says under which load it is", loaded(10e-6), (page) =>
+  isFact(page, "Steady speed", /^15\.\d+ ± [\d.]+ rad\/s under the load of the sheet, 10\.0 µN m$/),
+);
 
-test("a steady speed says under which load it is, and a load that drives the rotor has none", async () => {
-  await within(loaded(10e-6), async (page) => {
-    await done(page);
-    assert.match(
-      await fact(page, "motor", "Steady speed"),
-      /^15\.\d+ ± [\d.]+ rad\/s under the load of the sheet, 10\.0 µN m$/,
-    );
-  });
-  await within(loaded(60e-6), async (page) => {
-    await done(page);
-    assert.match(
-      await fact(page, "motor", "Steady speed"),
-      /^none: the load of the sheet, 60\.0 µN m, is more than the 40\.3 µN m/,
-    );
-    assert.match((await captions(page))[0], /there is no steady speed\.$/);
-  });
+onMotor("a load that drives the rotor has no steady speed", loaded(60e-6), async (page) => {
+  await isFact(page, "Steady speed", /^none: the load of the sheet, 60\.0 µN m, is more than the 40\.3 µN m/);
+  assert.match((await captions(page))[0], /there is no steady speed\.$/);
 });
 
 onPage("a motor that nothing turns is said to be one, and keeps no curves of another", "#view=motor", async (page) => {
@@ -93,12 +81,17 @@ const operation = (row) => ({
   load_torque: 0, speed: 20, speed_error: 0.1, mechanical_power: 0, mechanical_power_error: 1e-9, input_power: 1e-3,
   input_power_error: 1e-6, efficiency: NaN, efficiency_error: NaN, status: 0, shortfall: null, wanted: 0.1, ...row,
 }); // prettier-ignore
+const curves = (...rows) => words.describeCurves(rows.map(operation), null);
 
-test("a load that puts power in is not said to take it", () => {
-  const driving = [operation({ load_torque: -2e-5, mechanical_power: -4.04 }), operation({ mechanical_power: 0 })];
-  const [, power, efficiency] = words.describeCurves(driving, null);
+test("a load that puts power in is not said to take it, and what has not settled has no error", () => {
+  const [, power, efficiency] = curves({ load_torque: -2e-5, mechanical_power: -4.04 }, {});
   assert.equal(power, "None of the loads computed takes power from the motor.");
   assert.doesNotMatch(efficiency, /best/);
+  const drifts = { status: 1, load_torque: 1e-5, mechanical_power: 4e-5, efficiency: 0.06, efficiency_error: 1e-4 };
+  for (const sentence of curves(drifts)) {
+    assert.match(sentence, /so far, not settled/);
+    assert.doesNotMatch(sentence, /±/);
+  }
 });
 
 test("points at zero stand inside the frame where there is nothing but zero", async () => {
@@ -117,44 +110,29 @@ test("numbers that the error hides have no digits and no sign, others no more th
   const rise = { form: "exponential", constant: { value: 0.83503, low: 0.83479, high: 0.83528 }, residual: 0.2 };
   const constant = words.timeConstant({ points: 9, rise, refusal: null }, null);
   assert.equal(constant, "835.03 ms (95 % interval 834.79 to 835.28 ms)");
-  const lost = words.steadySpeed(
-    operation({ status: 1, speed: 16.0763, speed_error: 8e-4, shortfall: "it drifts" }),
-    1,
-  );
-  assert.match(lost, /^not settled, 16\.1 rad\/s so far without load; it drifts$/);
-});
-
-test("what has not settled has no error, which would not hold its drift", () => {
-  const row = operation({
-    status: 1,
-    load_torque: 1e-5,
-    mechanical_power: 4e-5,
-    efficiency: 0.06,
-    efficiency_error: 1e-4,
-  });
-  const told = words.describeCurves([row], null);
-  for (const sentence of told) assert.match(sentence, /so far, not settled/);
-  assert.doesNotMatch(told.join(" "), /±/);
+  const lost = operation({ status: 1, speed: 16.0763, speed_error: 8e-4, shortfall: "it drifts" });
+  assert.match(words.steadySpeed(lost, 1), /^not settled, 16\.1 rad\/s so far without load; it drifts$/);
 });
 
 test("a trap is told with digits enough to find it", () => {
-  const report = { system: { preload_acceleration: 1 } };
+  const told = (preload_acceleration, trap) => words.describeTrap(trap, { system: { preload_acceleration } });
   const near = { preload_acceleration: 1.00000002, caught: false, relative_distance: 2e-8 };
-  const told = words.describeTrap({ ...near, forcing_from_to: [615.7521, 615.75212] }, report);
-  assert.match(told, /2\.0 × 10⁻⁶ % away: .* 1\.000000020 m\/s² .* Γ from 615\.752100 to 615\.752120\.$/);
+  assert.match(
+    told(1, { ...near, forcing_from_to: [615.7521, 615.75212] }),
+    /2\.0 × 10⁻⁶ % away: .* 1\.000000020 m\/s² .* Γ from 615\.752100 to 615\.752120\.$/,
+  );
   const caught = { preload_acceleration: 9.8, caught: true, relative_distance: 0, forcing_from_to: [6.2811, 6.2837] };
-  assert.match(words.describeTrap(caught, { system: { preload_acceleration: 9.8 } }), /^Trap: .*\.$/);
+  assert.match(told(9.8, caught), /^Trap: .*\.$/);
 });
 
-onPage("a contact time is stated, and what it rules out is said", `${MOTOR}&contact_time=1e-6`, async (page) => {
-  await done(page);
-  assert.equal(await fact(page, "motor", "Contact time over the period"), "0.07 (contacts take it)");
-  assert.match(await fact(page, "motor", "Regime"), /^of rigid impacts: /);
-  assert.match(await fact(page, "motor", "Stall load"), /bouncing-disk motor stall$/);
+onMotor("a contact time is stated, and what it rules out is said", "&contact_time=1e-6", async (page) => {
+  await isFact(page, "Contact time over the period", /^0\.07 \(contacts take it\)$/);
+  await isFact(page, "Regime", /^of rigid impacts: /);
+  await isFact(page, "Stall load", /bouncing-disk motor stall$/);
   await page.click("#tab-basins");
   await whenText(page, "#status", /set the contact time to 0$/);
   await type(page, "contact_time", "0.25");
-  await whenAddress(page, "contact_time", String(0.25 * 2 * Math.PI / 439822.9715025711));
+  await whenAddress(page, "contact_time", String((0.25 * 2 * Math.PI) / 439822.9715025711));
   assert.equal(await page.inputValue("#field-contact_time"), "0.25");
 });
 
@@ -177,20 +155,15 @@ onPage("the view of the motor starts with a motor, and the disk comes back", "#v
 /** Bounces once in every period from the shared start, and chatters from rest. */
 const BISTABLE = "#view=motor&amplitude=0.0616&phase_lag=-0.8168&impact_phase=0.4&normalised_speed=1.4";
 onPage("where the run-up and the other views end on two attractors, the page says so", BISTABLE, async (page) => {
-  await whenText(page, "#view-motor .caution:not([hidden])", /starts from rest, and ends with: rest after .*end with: 1 impact in 1 period of the platform\./);
+  const said = /starts from rest, and ends with: rest after .*end with: 1 impact in 1 period of the platform\./;
+  await whenText(page, "#view-motor .caution:not([hidden])", said);
   await type(page, "normalised_speed", "0.1");
   await page.waitForFunction(() => document.querySelector("#view-motor .caution").hidden);
 });
 
-onPage("a run-up goes on until it is steady", `${MOTOR}&motor_rise_times=0.5`, async (page) => {
-  await done(page);
-  const [runUp] = await captions(page);
-  assert.doesNotMatch(runUp, /ends before/);
+onMotor("a run-up goes on until it is steady", "&motor_rise_times=0.5", async (page) => {
+  assert.doesNotMatch((await captions(page))[0], /ends before/);
   // It was asked for half a rise time, in which no motor gets there.
-  const { content } = await savedBy(page, async () => {
-    await page.click("#export-button");
-    await page.locator("dialog.export .card", { hasText: "motor run-up" }).filter({ hasText: "CSV" }).click();
-  });
-  const last = String(content).trim().split("\n").at(-1).split(",").map(Number);
+  const last = (await textOf(page, "motor run-up", "CSV")).trim().split("\n").at(-1).split(",").map(Number);
   assert.ok(Math.abs(last[1] - parseFloat(await fact(page, "motor", "Steady speed"))) < 1.5, `${last}`);
 });

@@ -5,9 +5,8 @@ import { test } from "node:test";
 import { asker, sourceOf } from "./module.mjs";
 
 const { PRESETS, stateOf } = await sourceOf("presets.ts");
-const { MOTION_COLUMNS: MOTION, EVENT_COLUMNS: EVENT } = await sourceOf("protocol.ts");
 const presets = new Map(PRESETS.map((preset) => [preset.id, preset]));
-const ask = asker();
+const { ask, motion } = asker();
 
 /** The note of a preset, and the states of its panels by the beginnings of their labels. */
 function preset(id) {
@@ -19,22 +18,6 @@ function preset(id) {
   };
   const says = (words) => assert.ok(text.includes(words), `${words}: ${text}`);
   return { state, states: () => panels.map(stateOf), says };
-}
-
-/** A motion: its samples by the names of their columns, and its events. */
-async function motion({ system, start }, periods = 20) {
-  const request = { call: "motion", system, start: { kind: "impact", ...start }, periods, samples_per_period: 64 };
-  const { json, numbers, bytes } = await ask(request);
-  const rows = (columns, count, first) =>
-    Array.from({ length: count }, (_, row) =>
-      Object.fromEntries(columns.map((name, column) => [name, numbers[first + row * columns.length + column]])),
-    );
-  const samples = rows(MOTION, json.samples, 0);
-  const events = rows(EVENT, json.events, json.samples * MOTION.length).map((event, index) => ({
-    ...event,
-    kind: json.event_kinds[bytes[json.samples + index]],
-  }));
-  return { samples, events, separation: events.find(({ kind }) => /separation/i.test(kind)) };
 }
 
 const thrown = async (state) => (await motion(state)).separation.angular_speed;
@@ -57,8 +40,7 @@ test("Fig. 2: the lag parts turning from rising, and (f) does not throw", async 
   };
   assert.ok((await apart("(c)")) <= 1);
   assert.ok((await apart("(a)")) >= 15);
-  const { separation } = await motion(state("(f)"));
-  assert.equal(separation, undefined);
+  assert.equal((await motion(state("(f)"))).separation, undefined);
   for (const label of ["(a)", "(b)", "(c)", "(d)"]) assert.ok((await motion(state(label))).separation, label);
 });
 
@@ -79,11 +61,8 @@ test("Fig. 4: the fastest toss, and θ = 0 is best", async () => {
     const { system, start } = state("φ_L = 0.301π");
     // The stroke is that of the panel, c = 2 sqrt(A^2 + (a_e Phi)^2).
     const half = Math.hypot(system.amplitude, system.contact_radius * system.twist_amplitude);
-    const other = {
-      ...system,
-      amplitude: half * Math.cos(angle * Math.PI),
-      twist_amplitude: (half * Math.sin(angle * Math.PI)) / system.contact_radius,
-    };
+    const twist_amplitude = (half * Math.sin(angle * Math.PI)) / system.contact_radius;
+    const other = { ...system, amplitude: half * Math.cos(angle * Math.PI), twist_amplitude };
     assert.ok((await thrown({ system: other, start })) < best, `${angle}`);
   }
 });
@@ -137,13 +116,9 @@ test("Fig. 7: the basin grows to the doubling, and is gone beyond the crisis", a
 
 test("Fig. 9: how long the rotor takes to stop", async () => {
   const { states, says } = preset("fig09");
-  const times = [];
-  for (const state of states()) {
-    const { samples } = await motion(state, 60);
-    const stopped = samples.find(({ angular_speed }) => Math.abs(angular_speed) < 1e-3);
-    times.push(stopped.time.toFixed(1));
-  }
-  says(`${times[0]}, ${times[1]} and ${times[2]} s`);
+  const stops = async (state) => (await motion(state, 60)).samples.find((one) => Math.abs(one.angular_speed) < 1e-3).time;
+  const [first, second, third] = (await Promise.all(states().map(stops))).map((time) => time.toFixed(1));
+  says(`${first}, ${second} and ${third} s`);
 });
 
 const sheetOf = async ({ system, mass }) => (await ask({ call: "sheet_of_system", system, mass })).json.sheet;

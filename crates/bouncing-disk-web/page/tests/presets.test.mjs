@@ -1,32 +1,36 @@
-/** Every figure and table of the paper, all their panels, whose answers `native.test.mjs` waits for, and the courses. */
+/** What figures and tables say, whose panels `native.test.mjs` opens one by one, and the courses. */
 
 import assert from "node:assert/strict";
-import { course, isCalm, onPage, preset, settled, stateOf, type, whenText } from "./browser.mjs";
+import { test } from "node:test";
+import { course, hashOf, isCalm, onPage, preset, settled, type, whenText } from "./browser.mjs";
 import { patternOf, sourceOf, WORDS } from "./module.mjs";
 
-const { PRESETS } = await sourceOf("presets.ts");
+const { PRESETS, stateOf: panelState } = await sourceOf("presets.ts");
 const { COURSES } = await sourceOf("courses.ts");
 const { toHash } = await sourceOf("state.ts");
 
-for (const { id, panels } of PRESETS) {
-  onPage(`${id} opens with all its panels, says what to see and is legal`, {}, async (page) => {
+test("a figure says in some sentences what to see, and every panel is another state", () => {
+  for (const { id, text, panels } of PRESETS) {
+    assert.ok(text.length > 80 && text.split(/[.;:] /).length >= 2, `${id}: ${text}`);
+    assert.equal(new Set(panels.map((panel) => toHash(panelState(panel)))).size, panels.length, id);
+  }
+});
+
+onPage("a figure opens with its note, and its panels by their names, if it has several", {}, async (page) => {
+  for (const { id, text, panels } of [PRESETS.find((one) => one.panels.length === 1), PRESETS.find(({ id }) => id === "fig06")]) {
     await preset(page, id);
-    const text = await page.textContent("#note p");
-    const sentences = text.split(/[.;:] /).length;
-    assert.ok(text.length > 80 && sentences >= 2, text);
-    const chips = await page.locator(".chip").all();
-    assert.equal(chips.length, panels.length > 1 ? panels.length : 0);
-    const states = new Set();
-    for (let panel = 0; panel < panels.length; panel++) {
-      await chips[panel]?.click();
-      if (chips[panel]) await page.waitForSelector(`.chip:nth-child(${panel + 1})[aria-pressed="true"]`);
-      await page.waitForTimeout(300);
-      states.add(JSON.stringify(await stateOf(page)));
+    assert.equal(await page.textContent("#note p"), text);
+    const chips = page.locator(".chip");
+    const names = panels.length > 1 ? panels.map(({ label }) => label.replace("_", "")) : [];
+    assert.deepEqual(await chips.allTextContents(), names);
+    for (const index of names.keys()) {
+      await chips.nth(index).click();
+      await page.waitForSelector(`.chip:nth-child(${index + 1})[aria-pressed="true"]`);
+      await page.waitForFunction((hash) => location.hash === hash, toHash(panelState(panels[index])));
       await isCalm(page);
     }
-    assert.equal(states.size, panels.length, "every panel is another state");
-  });
-}
+  }
+});
 
 onPage("the note goes with its state, and where another view or another system has come", {}, async (page) => {
   await preset(page, "fig07");
@@ -50,11 +54,9 @@ onPage("the note goes with its state, and where another view or another system h
   await page.waitForSelector("#note", { state: "hidden" });
 });
 
-const stateNow = async (page) => JSON.stringify(await stateOf(page));
-
 for (const { id, steps } of COURSES)
   onPage(`the course ${id} leads through its states, and gives back the one that it found`, "#view=basins", async (page) => {
-    const before = await stateNow(page);
+    const before = await hashOf(page);
     await course(page, id);
     for (const [step, { state, answer }] of steps.entries()) {
       const place = patternOf(WORDS.course.place, { step: step + 1, steps: steps.length });
@@ -70,7 +72,7 @@ for (const { id, steps } of COURSES)
     assert.equal(await page.isVisible(".tour"), false);
     assert.equal(await page.evaluate(() => document.activeElement.id), "courses-button", "the focus goes back");
     await page.waitForTimeout(400);
-    assert.equal(await stateNow(page), before);
+    assert.equal(await hashOf(page), before);
   });
 
 onPage("a course ends where somebody wants to stay, and with a figure", {}, async (page) => {
@@ -80,7 +82,7 @@ onPage("a course ends where somebody wants to stay, and with a figure", {}, asyn
   await page.click(`.tour button:text-is("${WORDS.course.stay}")`);
   await page.waitForTimeout(400);
   assert.equal(await page.isVisible(".tour"), false);
-  assert.equal(await page.evaluate(() => location.hash), toHash(COURSES[0].steps[1].state));
+  assert.equal(await hashOf(page), toHash(COURSES[0].steps[1].state));
   await course(page, "rest");
   await preset(page, "fig07");
   assert.equal(await page.isVisible(".tour"), false);

@@ -2,56 +2,49 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { onPage, savedBy, settled, stateOf, svgOf, whenAddress, whenText } from "./browser.mjs";
+import { onPage, settled, stateOf, svgOf, textOf, whenAddress, whenText } from "./browser.mjs";
 import { sourceOf } from "./module.mjs";
 
+const scan = (title, hash, act) =>
+  onPage(title, { hash: `#view=scan&${hash}` }, async (page) => {
+    await whenText(page, "#status", /points computed in/, 60_000);
+    await act(page);
+  });
 const optima = (page) => page.locator("#view-scan .optima li").allTextContents();
-const done = (page) => whenText(page, "#status", /points computed in/, 60_000);
+const remark = (page) => page.textContent("#view-scan > .remark:last-child");
+const select = (page, index, value) => page.selectOption(`#view-scan select >> nth=${index}`, value);
+const saved = async (page, name) => JSON.parse(await textOf(page, name, "JSON"));
 
-async function saved(page, name) {
-  await page.click("#export-button");
-  const item = page.locator("dialog.export .card", { hasText: name }).filter({ hasText: "JSON" }).first();
-  return JSON.parse(String((await savedBy(page, () => item.click())).content));
+async function enter(page, field, text) {
+  await page.fill(field, text);
+  await page.press(field, "Enter");
 }
 
-onPage(
-  "the best hand motion: its optima are those of Fig. 4, and a point opens its toss",
-  "#view=scan",
-  async (page) => {
-    await page.click("text=Best hand motion");
-    await whenAddress(page, "friction", "0.6");
-    await done(page);
-    await whenText(
-      page,
-      "#view-scan .optima",
-      /θ = 0: The largest of 40 computed points is 2[12]\.\d+ rad\/s at φL = 0\.945 rad/,
-    );
-    assert.equal((await optima(page)).length, 5);
-    assert.match(
-      await page.textContent("#view-scan > .remark:last-child"),
-      /^Left out: 5 of 205 points, since the disk never leaves .*, not above 1 g\./,
-    );
-    const { columns, rows } = await saved(page, "scan");
-    assert.deepEqual(columns.slice(0, 3), ["phase_lag", "amplitude_angle", "toss_speed"]);
-    assert.equal(rows.length, 205);
-    const linear = rows.filter(([lag, , speed]) => lag === 0 && speed !== null).map(([, , speed]) => speed);
-    const [largest] = (await optima(page))[2].match(/[\d.]+(?= rad\/s)/);
-    assert.equal(Number(Math.max(...linear).toPrecision(4)), Number(largest));
-    assert.match(await svgOf(page, "scan"), /spin after a single toss/);
-    await page.focus("#view-scan .chart canvas[tabindex='0']");
-    await page.keyboard.press("Home");
-    for (const key of ["ArrowDown", "ArrowDown", "ArrowRight"]) await page.keyboard.press(key);
-    assert.match(await page.textContent("#view-scan .reading"), /0\.035.*opens the point of “θ = 0”/);
-    await page.keyboard.press("Enter");
-    await whenAddress(page, "view", "toss");
-    const { phase_lag, amplitude, normalised_speed } = await stateOf(page);
-    assert.deepEqual([phase_lag, normalised_speed], ["0", "0"]);
-    assert.equal(Number(amplitude).toPrecision(12), (0.25 * Math.cos(0.035)).toPrecision(12));
-  },
-);
+scan("the best hand motion: its optima are those of Fig. 4, and a point opens its toss", "", async (page) => {
+  await page.click("text=Best hand motion");
+  await whenAddress(page, "friction", "0.6");
+  const largest = /θ = 0: The largest of 40 computed points is 2[12]\.\d+ rad\/s at φL = 0\.945 rad/;
+  await whenText(page, "#view-scan .optima", largest, 60_000);
+  assert.equal((await optima(page)).length, 5);
+  assert.match(await remark(page), /^Left out: 5 of 205 points, since the disk never leaves .*, not above 1 g\./);
+  const { columns, rows } = await saved(page, "scan");
+  assert.deepEqual(columns.slice(0, 3), ["phase_lag", "amplitude_angle", "toss_speed"]);
+  assert.equal(rows.length, 205);
+  const linear = rows.filter(([lag, , speed]) => lag === 0 && speed !== null).map(([, , speed]) => speed);
+  const [told] = (await optima(page))[2].match(/[\d.]+(?= rad\/s)/);
+  assert.equal(Number(Math.max(...linear).toPrecision(4)), Number(told));
+  assert.match(await svgOf(page, "scan"), /spin after a single toss/);
+  await page.focus("#view-scan .chart canvas[tabindex='0']");
+  for (const key of ["Home", "ArrowDown", "ArrowDown", "ArrowRight"]) await page.keyboard.press(key);
+  assert.match(await page.textContent("#view-scan .reading"), /0\.035.*opens the point of “θ = 0”/);
+  await page.keyboard.press("Enter");
+  await whenAddress(page, "view", "toss");
+  const { phase_lag, amplitude, normalised_speed } = await stateOf(page);
+  assert.deepEqual([phase_lag, normalised_speed], ["0", "0"]);
+  assert.equal(Number(amplitude).toPrecision(12), (0.25 * Math.cos(0.035)).toPrecision(12));
+});
 
-onPage("a click opens the nearest point of the nearest curve", "#view=scan&scan_family=none", async (page) => {
-  await done(page);
+scan("a click opens the nearest point of the nearest curve", "scan_family=none", async (page) => {
   const box = await page.locator("#view-scan .chart canvas").last().boundingBox();
   await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
   await whenAddress(page, "view", "toss");
@@ -60,143 +53,94 @@ onPage("a click opens the nearest point of the nearest curve", "#view=scan&scan_
   assert.ok(Math.abs(angle / 0.03 - Math.round(angle / 0.03)) < 1e-9 && Math.abs(angle - 0.6) < 0.1, `${angle}`);
 });
 
-onPage("shares have intervals, and another kind of the same starts comes without computing", {
-  hash: "#view=scan&scan_over=axial_forcing&scan_range=0.3,0.51&scan_points=4&scan_result=share_periodic&scan_family=none",
-}, async (page) => {
-  await done(page);
+const SHARES = "scan_over=axial_forcing&scan_range=0.3,0.51&scan_points=4&scan_result=share_periodic&scan_family=none";
+scan("shares have intervals, and another kind of the same starts comes without computing", SHARES, async (page) => {
   assert.match((await optima(page))[0], /is 0\.97\d \(95 %: 0\.9\d+ to 0\.9\d+\) at Γ = 0\.51\..* end of the range/);
-  assert.match(await page.textContent("#view-scan > .remark:last-child"), /^At 1 of 4 points \(the first is Γ = 0\.51\) a disk at rest/);
-  await page.selectOption("#view-scan select >> nth=0", "share_rest");
+  assert.match(await remark(page), /^At 1 of 4 points \(the first is Γ = 0\.51\) a disk at rest/);
+  await select(page, 0, "share_rest");
   await whenText(page, "#view-scan .optima", /^The largest of 4 computed points is 1\.00 .* at Γ = 0\.3\./, 1000);
-  await page.selectOption("#view-scan select >> nth=3", "smallest");
+  await select(page, 3, "smallest");
   await whenText(page, "#view-scan .optima", /^The smallest of 4 .* is 0 \(/);
-}); // prettier-ignore
+});
 
-onPage("what cannot be scanned is refused where it is typed, and a motor has errors", {
-  hash: "#view=scan&scan_over=friction&scan_range=0.2,0.8&scan_points=2&scan_result=motor_speed&scan_family=none",
-}, async (page) => {
-  await done(page);
+const SPEEDS = "scan_over=friction&scan_range=0.2,0.8&scan_points=2&scan_result=motor_speed&scan_family=none";
+scan("what cannot be scanned is refused where it is typed, and a motor has errors", SPEEDS, async (page) => {
   assert.match((await optima(page))[0], / ± /);
-  const field = (name) => page.locator(`#view-scan input[aria-label="${name}"]`);
-  for (const [name, text, said] of [["from", "1", /lower to a higher/], ["points", "1", /from 2 to 200/], ["to", "x", /not a number/]]) {
-    await field(name).fill(text);
-    await field(name).press("Enter");
+  for (const [name, text, said] of [
+    ["from", "1", /lower to a higher/], ["points", "1", /from 2 to 200/], ["to", "x", /not a number/],
+  ]) {
+    await enter(page, `#view-scan input[aria-label="${name}"]`, text);
     await whenText(page, "#status", said);
-  }
+  } // prettier-ignore
   assert.equal((await stateOf(page)).scan_range, "0.2,0.8");
-  await page.selectOption("#view-scan select >> nth=1", "phase_lag");
+  await select(page, 1, "phase_lag");
   await whenAddress(page, "scan_range", "-3.14,3.14");
-  await page.selectOption("#view-scan select >> nth=2", "restitution");
+  await select(page, 2, "restitution");
   await whenAddress(page, "scan_values", "0.158,0.317,0.475,0.633,0.792");
-}); // prettier-ignore
+});
 
 test("an optimum says from how many points it is, and which of them its error does not tell apart", async () => {
   const { bestOf, describeOptima, planOf } = await sourceOf("views/scan/curves.ts");
   const { changed, DEFAULT_STATE } = await sourceOf("state.ts");
   const wanted = { over: "friction", range: [0, 4], points: 5, result: "motor_speed", family: null };
   const plan = planOf(changed(DEFAULT_STATE, { scan: wanted }));
-  const told = (...line) => describeOptima(plan, [line])[0];
-  const of = (value, error) => ({ value, error });
+  const of = (value, error = 0) => ({ value, error });
   const unsettled = { ...of(9, 0.1), lacks: "it drifts" };
-  assert.match(
-    told(of(1, 0.1), of(4.8, 0.1), of(5, 0.1), of(4.5, 0.1), unsettled),
-    /largest of 4 .* is \(5\.00 ± 0\.10\) rad\/s at μ = 2\. Another point, at 1, is not told apart/,
-  );
-  assert.match(told(of(1, 0), of(2, 0), of(5, 0), of(4, 0), of(3, 0)), /Nothing between 1 and 3 but this point/);
-  assert.match(
-    told(of(5, 0), of(2, 0), of(5, 0), of(5, 0), of(3, 0)),
-    /2 other points, from 2 to 3, are not .* at the end of the range/,
-  );
-  assert.match(told(unsettled, unsettled), /^No point has a value/);
-  assert.equal(bestOf([of(2, 0), of(1, 0), null], "smallest"), 1);
+  for (const [line, said] of [
+    [
+      [of(1, 0.1), of(4.8, 0.1), of(5, 0.1), of(4.5, 0.1), unsettled],
+      /largest of 4 .* is \(5\.00 ± 0\.10\) rad\/s at μ = 2\. Another point, at 1, is not told apart/,
+    ],
+    [[1, 2, 5, 4, 3].map((value) => of(value)), /Nothing between 1 and 3 but this point/],
+    [[5, 2, 5, 5, 3].map((value) => of(value)), /2 other points, from 2 to 3, are not .* at the end of the range/],
+    [[unsettled, unsettled], /^No point has a value/],
+  ])
+    assert.match(describeOptima(plan, [line])[0], said);
+  assert.equal(bestOf([of(2), of(1), null], "smallest"), 1);
 });
 
 const compared = (page) => page.locator("#view-compare .optima li").allTextContents();
+const OTHER = '#view-compare input[aria-label="value of B"]';
 
 onPage("a disk at rest and one that is thrown end differently, by the library", "#view=compare", async (page) => {
   assert.match(await page.textContent("#view-compare .differs"), /wA: 0 πg\/ω instead of 1\.4 πg\/ω/);
-  const [ends, parted, growth] = await compared(page);
-  assert.match(ends, /A: period 1; B: a rest every \d+ impacts/);
-  assert.match(parted, /from the start/);
-  assert.match(growth, /no growth rate/);
+  const told = [/A: period 1; B: a rest every \d+ impacts/, /from the start/, /no growth rate/];
+  (await compared(page)).forEach((line, index) => assert.match(line, told[index]));
 });
 
-onPage(
-  "the sixteenth digit: chaos makes it visible, and the same number does nothing",
-  "#view=compare",
-  async (page) => {
-    await page.click("text=The sixteenth digit");
-    await whenText(page, "#view-compare .differs", /ε: 0\.5000000000000001 instead of 0\.5\./);
-    await whenText(page, "#view-compare .optima", /grows 1\.\d+ times in each period. This is an estimate/);
-    const { columns, rows } = await saved(page, "comparison");
-    const apart = rows.map((row) => row[columns.indexOf("difference_over_A")]);
-    const first = apart.findIndex((value) => value > 0.01);
-    assert.match((await compared(page))[1], new RegExp(`after ${(first / 48).toFixed(1)} periods`));
-    const amplitude = Number((await stateOf(page)).amplitude);
-    for (const row of [0, first, 3000]) assert.equal(Math.abs(rows[row][1] - rows[row][2]) / amplitude, apart[row]);
-    await page.fill('#view-compare input[aria-label="value of B"]', "0.5");
-    await page.press('#view-compare input[aria-label="value of B"]', "Enter");
-    await whenText(page, "#view-compare .optima", /^Not one bit differs in 120 periods/);
-    await page.click("text=One unit in the last place");
-    await whenAddress(page, "compare_value", "0.5000000000000001");
-  },
-);
-
-onPage(
-  "what the library refuses of B is said, and no chart of another B stands there",
-  "#view=compare",
-  async (page) => {
-    await page.selectOption("#view-compare select", "restitution");
-    await whenAddress(page, "compare_value", "0.5");
-    await settled(page);
-    await page.fill('#view-compare input[aria-label="value of B"]', "1.5");
-    await page.press('#view-compare input[aria-label="value of B"]', "Enter");
-    await whenText(page, "#status", /restitution = 1\.5/);
-    assert.equal(await page.locator("#view-compare .chart canvas").count(), 0);
-  },
-);
+onPage("the sixteenth digit: chaos shows it, the same number does nothing, another is refused", "#view=compare", async (page) => {
+  await page.click("text=The sixteenth digit");
+  await whenText(page, "#view-compare .differs", /ε: 0\.5000000000000001 instead of 0\.5\./);
+  await whenText(page, "#view-compare .optima", /grows 1\.\d+ times in each period. This is an estimate/);
+  const { columns, rows } = await saved(page, "comparison");
+  const apart = rows.map((row) => row[columns.indexOf("difference_over_A")]);
+  const first = apart.findIndex((value) => value > 0.01);
+  assert.match((await compared(page))[1], new RegExp(`after ${(first / 48).toFixed(1)} periods`));
+  const amplitude = Number((await stateOf(page)).amplitude);
+  for (const row of [0, first, 3000]) assert.equal(Math.abs(rows[row][1] - rows[row][2]) / amplitude, apart[row]);
+  await enter(page, OTHER, "0.5");
+  await whenText(page, "#view-compare .optima", /^Not one bit differs in 120 periods/);
+  await page.click("text=One unit in the last place");
+  await whenAddress(page, "compare_value", "0.5000000000000001");
+  await settled(page);
+  // No chart of another B stands there.
+  await enter(page, OTHER, "1.5");
+  await whenText(page, "#status", /restitution = 1\.5/);
+  assert.equal(await page.locator("#view-compare .chart canvas").count(), 0);
+});
 
 test("growth is fitted between rounding and saturation only, and not where there is none", async () => {
   const { nextDouble, partingOf } = await sourceOf("views/compare/parting.ts");
-  const periods = (count, value) =>
-    Float64Array.from({ length: 2 * count + 1 }, (_, index) => value(Math.floor(index / 2)));
-  const { growth, first } = partingOf(
-    periods(80, (period) => Math.min(1e-17 * 2 ** period, 1)),
-    2,
-  );
+  /** Of 80 periods with two samples each. */
+  const parting = (value) => partingOf(Float64Array.from({ length: 161 }, (_, index) => value(Math.floor(index / 2))), 2);
+  const { growth, first } = parting((period) => Math.min(1e-17 * 2 ** period, 1));
   assert.ok(Math.abs(growth.factor - 2) < 1e-9, `${growth.factor}`);
   assert.deepEqual([growth.from, growth.to, first], [14, 49, 50]);
   assert.ok(Math.abs(growth.log(20) - Math.log10(1e-17 * 2 ** 20)) < 1e-9);
-  assert.equal(
-    partingOf(
-      periods(80, () => 1e-6),
-      2,
-    ).growth,
-    null,
-    "a difference that stays",
-  );
-  assert.equal(
-    partingOf(
-      periods(80, () => 1),
-      2,
-    ).growth,
-    null,
-    "saturated from the start",
-  );
-  assert.equal(
-    partingOf(
-      periods(80, () => 0),
-      2,
-    ).first,
-    null,
-  );
-  const shrinking = partingOf(
-    periods(80, (period) => 1e-3 / 2 ** period),
-    2,
-  ).growth;
-  assert.ok(Math.abs(shrinking.factor - 0.5) < 1e-9);
-  assert.deepEqual(
-    [0.5, -0.5, 0, 1].map(nextDouble),
-    [0.5000000000000001, -0.49999999999999994, 5e-324, 1.0000000000000002],
-  );
+  assert.equal(parting(() => 1e-6).growth, null, "a difference that stays");
+  assert.equal(parting(() => 1).growth, null, "saturated from the start");
+  assert.equal(parting(() => 0).first, null);
+  assert.ok(Math.abs(parting((period) => 1e-3 / 2 ** period).growth.factor - 0.5) < 1e-9);
+  const next = [0.5000000000000001, -0.49999999999999994, 5e-324, 1.0000000000000002];
+  assert.deepEqual([0.5, -0.5, 0, 1].map(nextDouble), next);
 });

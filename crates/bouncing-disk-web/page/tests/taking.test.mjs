@@ -8,7 +8,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
 import { fileURLToPath } from "node:url";
-import { fact, onPage, preset, savedBy, settled, svgOf } from "./browser.mjs";
+import { course, fact, hashOf, onPage, preset, settled, stateOf, svgOf, textOf, within } from "./browser.mjs";
 
 const PUBLISHED = "https://example.org/disk/explorer/";
 
@@ -17,10 +17,10 @@ const COPYING = `Object.defineProperty(navigator, "clipboard", {
   value: { writeText: async (text) => void (globalThis.copied = text) },
 });`;
 
-const chosen = (page, name) => async () => {
+async function choose(page, name) {
   await page.click("#export-button");
   await page.locator("dialog.export .card", { hasText: name }).click();
-};
+}
 
 /** As the build writes the address that it is given. */
 const publish = (page) =>
@@ -35,15 +35,29 @@ async function copiedBy(page, act) {
   return page.evaluate(() => globalThis.copied);
 }
 
-onPage("a link from the disk leads to the published page, or says that it opens here only", { script: COPYING }, async (page) => {
+/** The pixels of the diagram, with the pointer out of its way. */
+async function pictureOf(page) {
+  await page.mouse.move(5, 795);
+  await page.evaluate(() => document.activeElement.blur());
+  await page.waitForTimeout(300);
+  return page.locator("#view-diagram").screenshot();
+}
+
+onPage("a copied link shows the same in a fresh page, and leads to the published page if there is one", { script: COPYING }, async (page) => {
+  await preset(page, "fig06");
   const copy = () => copiedBy(page, () => page.click("#link-button"));
-  const [address, hash] = await page.evaluate(() => [location.href.replace(/#.*/, ""), location.hash]);
-  assert.equal(await copy(), address + hash);
+  const link = await copy();
+  assert.equal(link, await page.evaluate(() => location.href));
   assert.match(await page.textContent("#status"), /on this computer only/);
+  const picture = await pictureOf(page);
+  await within(link.slice(link.indexOf("#")), async (fresh) => {
+    assert.deepEqual(await stateOf(fresh), await stateOf(page));
+    assert.match(await fresh.textContent("#note"), /Fig\. 6/);
+    assert.ok(picture.equals(await pictureOf(fresh)), "the pictures differ");
+  });
   await publish(page);
-  await page.focus("#tab-diagram");
-  await page.click("#tab-diagram");
-  assert.equal(await copy(), PUBLISHED + (await page.evaluate(() => location.hash)));
+  await page.click("#tab-toss");
+  assert.equal(await copy(), PUBLISHED + (await hashOf(page)));
   assert.doesNotMatch(await page.textContent("#status"), /on this computer only/);
 });
 
@@ -65,20 +79,19 @@ test("the build writes the address that it is given, and none where there is non
   }
 });
 
-const textOf = (svg, name) => new RegExp(`<${name}>([^<]*)</${name}>`).exec(svg)[1];
-
-onPage("pictures say below them what they were computed with, and hold their link", "#view=toss&restitution=0.4&friction=0.25", async (page) => {
+onPage("pictures say what they were computed with, and hold their link", "#view=toss&restitution=0.4&friction=0.25", async (page) => {
   await publish(page);
-  const hash = await page.evaluate(() => location.hash);
+  const hash = await hashOf(page);
   for (const [name, has, hasNot] of [
     ["phase portrait", ["ε = 0.4,", "μ = 0.25,", "ω = 15 rad/s,", "wA = 1.4 × πg/ω,"], []],
     ["path of the platform", ["Φ = 0.9 rad,"], ["ε", "wA"]],
   ]) {
     const svg = await svgOf(page, name);
-    const words = textOf(svg, "desc").replaceAll("\u00a0", " ");
+    const partOf = (part) => new RegExp(`<${part}>([^<]*)</${part}>`).exec(svg)[1];
+    const words = partOf("desc").replaceAll("\u00a0", " ");
     for (const part of has) assert.ok(words.includes(part), `${part}: ${words}`);
     for (const part of hasNot) assert.ok(!words.includes(part), `${part}: ${words}`);
-    assert.equal(textOf(svg, "metadata").replaceAll("&#38;", "&"), PUBLISHED + hash);
+    assert.equal(partOf("metadata").replaceAll("&#38;", "&"), PUBLISHED + hash);
     // The same words can be read in the picture.
     const seen = svg.replaceAll(/<desc>.*?<\/metadata>/gs, "").replaceAll(/<[^>]*>/g, "").replaceAll(/\s/g, "");
     assert.ok(seen.includes(words.replaceAll(/\s/g, "")), seen);
@@ -112,13 +125,18 @@ const LONG = `#view=diagram&amplitude=${0.2 / 3}&twist_amplitude=${1.3 / 3}&angu
 
 const PRINTING = "window.print = () => (globalThis.printed = true);";
 
+async function print(page) {
+  await page.evaluate(() => (globalThis.printed = false));
+  await choose(page, "sheet to print");
+  await page.waitForFunction(() => globalThis.printed);
+}
+
 for (const [what, hash, least] of [["usual", "#view=basins", 500], ["long", LONG, 850]])
   onPage(`a sheet has pictures, parameters, room to write and a code of a ${what} link`, { hash, script: PRINTING }, async (page) => {
     await publish(page);
-    const here = PUBLISHED + (await page.evaluate(() => location.hash));
+    const here = PUBLISHED + (await hashOf(page));
     assert.ok(here.length > least, `${here.length}`);
-    await chosen(page, "sheet to print")();
-    await page.waitForFunction(() => globalThis.printed);
+    await print(page);
     assert.equal(await page.isVisible(".printed"), false, "on the screen");
     const modules = await page.locator(".printed svg").evaluate((svg) => svg.viewBox.baseVal.width / 10);
     // Of 64 mm of paper, a quarter of what a camera with 3,000 pixels in a row sees.
@@ -136,15 +154,11 @@ for (const [what, hash, least] of [["usual", "#view=basins", 500], ["long", LONG
 
 onPage("a sheet has the note or the task that is open, and no code where nothing is published", { script: PRINTING }, async (page) => {
   await preset(page, "fig02");
-  await chosen(page, "sheet to print")();
-  await page.waitForFunction(() => globalThis.printed);
+  await print(page);
   assert.match(await page.textContent(".printed-task"), /Fig\. 2/);
-  await page.click("#courses-button");
-  await page.click('[data-course="doubling"]');
+  await course(page, "doubling");
   const answer = await page.textContent(".tour details p");
-  await page.evaluate(() => (globalThis.printed = false));
-  await chosen(page, "sheet to print")();
-  await page.waitForFunction(() => globalThis.printed);
+  await print(page);
   const task = await page.textContent(".printed-task");
   assert.match(task, /Period one and period two, step 1 of 4/);
   assert.ok(task.includes(await page.textContent(".tour .text p:nth-of-type(2)")) && !task.includes(answer), task);
@@ -154,19 +168,13 @@ onPage("a sheet has the note or the task that is open, and no code where nothing
 
 onPage("tables have distinct impacts and bifurcations, and the diagram copies the latter", { hash: "#view=diagram", script: COPYING }, async (page) => {
   const table = async (name) => {
-    const note = await page.locator("dialog.export .card", { hasText: name }).filter({ hasText: "CSV" }).textContent();
-    const { content } = await savedBy(page, async () => {
-      await page.click("#export-button");
-      await page.locator("dialog.export .card", { hasText: name }).filter({ hasText: "CSV" }).click();
-    });
-    const [head, columns, ...rows] = String(content).trim().split("\n");
-    return { note, size: content.length, given: JSON.parse(head.slice(2)), columns: columns.split(","), rows: rows.map((row) => row.split(",")) };
+    const [head, columns, ...rows] = (await textOf(page, name, "CSV")).trim().split("\n");
+    return { given: JSON.parse(head.slice(2)), columns: columns.split(","), rows: rows.map((row) => row.split(",")) };
   };
-  await page.click("#export-button");
-  await page.keyboard.press("Escape");
   const impacts = await table("orbit diagram");
-  const most = Number(/at most ([\d.]+) MB/.exec(impacts.note)[1]);
-  assert.ok(impacts.size < 2e6 && impacts.size < 1e6 * most, `${impacts.size} of ${most} MB`);
+  const note = await page.locator("dialog.export .card", { hasText: "orbit diagram" }).filter({ hasText: "CSV" }).textContent();
+  const [size, most] = [String(impacts.rows).length, Number(/at most ([\d.]+) MB/.exec(note)[1])];
+  assert.ok(size < 2e6 && size < 1e6 * most, `${size} of ${most} MB`);
   // Each forcing keeps its 200 impacts; where the disk bounces once in every period they are one row.
   const counts = new Map();
   for (const row of impacts.rows) counts.set(row[0], (counts.get(row[0]) ?? 0) + Number(row.at(-1)));
@@ -253,8 +261,8 @@ onPage("a chatter makes few tones, which together stay below the full scale", { 
 
 onPage("a frame for another page shows the view alone, with a way to all of it", { hash: "#view=diagram&restitution=0.4", script: COPYING }, async (page, context) => {
   await publish(page);
-  const frame = await copiedBy(page, chosen(page, "frame for another page"));
-  const hash = await page.evaluate(() => location.hash);
+  const frame = await copiedBy(page, () => choose(page, "frame for another page"));
+  const hash = await hashOf(page);
   const [, address] = /^<iframe src="([^"]*)" title="Bouncing disk explorer: Orbit diagram" width="640"/.exec(frame);
   assert.equal(address.replaceAll("&amp;", "&"), `${PUBLISHED}?embed${hash}`);
   const own = await context.newPage();

@@ -25,10 +25,7 @@ const rangeOf = (text) => text.split(",").map(Number);
 async function drag(page, touch, from, to, steps = 8) {
   await touch("touchStart", from);
   for (let step = 1; step <= steps; step++) {
-    await touch(
-      "touchMove",
-      from.map((start, at) => start + ((to[at] - start) * step) / steps),
-    );
+    await touch("touchMove", from.map((start, at) => start + ((to[at] - start) * step) / steps));
     await page.waitForTimeout(12);
   }
   await touch("touchEnd");
@@ -99,14 +96,4 @@ onTelephone("a tap on a basin runs the orbit of that start in the first view", "
   await whenText(page, "#view-toss .facts", /flight|sticking|sliding/);
   const shown = Number(await page.inputValue("#field-normalised_speed"));
   assert.ok(Math.abs(shown - normalised_speed) < 1e-3, `${shown} for ${normalised_speed}`);
-});
-
-onTelephone("sliders and tabs answer", "toss", async (page) => {
-  await page.tap("#tab-basins");
-  await whenAddress(page, "view", "basins");
-  await settled(page);
-  const slider = page.locator('[data-name="restitution"] input[type=range]');
-  const { width } = await slider.boundingBox();
-  await slider.tap({ position: { x: 0.2 * width, y: 20 } });
-  await page.waitForFunction(() => /restitution=0\.1\d/.test(location.hash));
 });
