@@ -29,7 +29,11 @@ const { wasm, glue, out, check, address, words = join(here, "src/words.json") } 
 const wordsOfThePage = {
   name: "words",
   setup: ({ onLoad }) => {
-    const contents = 'export default JSON.parse(document.getElementById("words").textContent)';
+    // Somebody who edits them there and leaves out a comma reads so, in place of nothing.
+    const contents = `let words;
+      try { words = JSON.parse(document.getElementById("words").textContent); }
+      catch (error) { document.getElementById("main").textContent = "words: " + error.message; throw error; }
+      export default words;`;
     onLoad({ filter: /words\.json$/ }, () => ({ contents, loader: "js" }));
   },
 };
@@ -78,7 +82,8 @@ function written(path, content) {
 /** Fails where a translation lacks a text of the English one, has another one, or has other values in it. */
 function compared(own, english, place) {
   const holes = (text) => [...String(text).matchAll(/\{\w+\}/g)].flat().sort().join();
-  const kind = (value) => (value !== null && typeof value === "object" ? Object.keys(value).sort().join() : "a text");
+  const kind = (value) =>
+    typeof value === "string" ? "a text" : Object.keys(Object(value)).sort().join() || `${typeof value}`;
   if (kind(own) !== kind(english)) throw new Error(`${place}: ${kind(english)} expected, and not ${kind(own)}`);
   if (kind(english) !== "a text") for (const key of Object.keys(english)) compared(own[key], english[key], `${place}.${key}`);
   else if (holes(own) !== holes(english)) throw new Error(`${place} has to have ${holes(english) || "no values"} in it`);
@@ -95,10 +100,11 @@ const published = (text) =>
     return url === "" ? "" : before + new URL(url).href.replaceAll("&", "&amp;") + after;
   });
 const source = readFileSync(join(here, "index.html"), "utf8").replace('lang="en"', `lang="${texts.language}"`);
-const named = (path) => path.split(".").reduce((part, name) => part[name], texts);
+const escaped = (text) => text.replace(/[&<>"]/g, (letter) => `&#${letter.charCodeAt(0)};`);
+const named = (path) => escaped(path.split(".").reduce((part, name) => part[name], texts));
 const shell = published(source).replace(/\{\{([\w.]+)\}\}/g, (_, path) => named(path));
 const html = filled(shell, {
-  words: `<script type="application/json" id="words">\n${inScript(JSON.stringify(texts, null, 1))}\n</script>`,
+  words: `<script type="application/json" id="words">\n${JSON.stringify(texts, null, 1).replaceAll("<", "\\u003c")}\n</script>`,
 });
 const page = await bundled("src/main.ts");
 const worker = await bundled("src/worker.ts");

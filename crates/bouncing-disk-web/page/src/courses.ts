@@ -1,7 +1,7 @@
 /** The tour and the lessons: courses of steps, each of them a state, with words beside the picture. */
 
 import type { Change, State } from "./contract";
-import { button, element, rich, setText } from "./elements";
+import { byId, button, element, rich, setText } from "./elements";
 import { basins, bouncing, diagram, motor, multipleToss, REST, stateOf } from "./presets";
 import { toss, tossOf, withForcing, withTwist } from "./presets";
 import type { Range } from "./protocol";
@@ -119,7 +119,9 @@ export class CoursePanel {
   /** Leaves the page as it is now. */
   stay(): void {
     this.element.hidden = true;
-    (this.before?.focus as HTMLElement | null)?.focus();
+    const focus = this.before?.focus as HTMLElement | null | undefined;
+    // What began it may be hidden by now.
+    (focus?.checkVisibility() ? focus : byId("main")).focus();
     this.before = null;
   }
 
@@ -150,7 +152,7 @@ export class CoursePanel {
   }
 
   private pressed(event: KeyboardEvent): void {
-    const by = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+    const by = event.altKey || event.shiftKey ? undefined : { ArrowRight: 1, ArrowLeft: -1 }[event.key];
     if (event.key === "Escape") this.end();
     else if (by !== undefined && this.course?.steps[this.step + by] !== undefined) this.go(this.step + by);
     else return;

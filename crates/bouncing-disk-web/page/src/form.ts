@@ -306,7 +306,7 @@ class Field {
 
   private entered(): void {
     const text = this.input.value;
-    if (this.value !== null && (text === String(this.value) || text === abridged(this.value))) return this.complain(null);
+    if (this.value !== null && text === String(this.value)) return this.complain(null);
     const { unit, angle = false } = this.parameter;
     const value = typed(text, unit, angle);
     const { no_number, no_angle, thousands } = WORDS.form;

@@ -6,7 +6,7 @@ import "./styles/page.css";
 import "./styles/screens.css";
 import "./styles/views.css";
 import "./styles/elsewhere.css";
-import { Address, isLocal, link } from "./address";
+import { Address, isEmbedded, isLocal, link } from "./address";
 import { makeClient, type Source } from "./client";
 import { messageOf, type Context, type Offer, type State, type ViewKind, type ViewName } from "./contract";
 import { COURSES, CoursePanel, type Course } from "./courses";
@@ -16,10 +16,9 @@ import { embedded, frameOf } from "./embed";
 import { Parameters } from "./form";
 import { Notes, Opening, Problems } from "./notes";
 import { openingPanel, PRESETS, stateOf, type Panel, type Preset } from "./presets";
-import { SYSTEM_NAMES } from "./protocol";
 import { printSheet } from "./sheet";
 import { choices, helpDialog, shortcutsOn, Stage, Tabs, Themes } from "./shell";
-import type { fromHash } from "./state";
+import { toHash, type fromHash } from "./state";
 import { Store } from "./store";
 import { basins } from "./views/basins";
 import { compare } from "./views/compare";
@@ -103,16 +102,17 @@ function begin(): void {
   /** What the motor's view has put aside: a hand is no motor. */
   let aside: State | null = null;
   const visit = (view: ViewName): void => {
-    const { system } = store.state();
-    const guest = SYSTEM_NAMES.every((name) => system[name] === MOTOR_STATE.system[name]);
-    const { compare, scan } = store.state();
+    const { system, compare, scan } = store.state();
+    const guest = toHash({ ...store.state(), view: "motor" }) === toHash({ ...MOTOR_STATE, compare, scan });
     if (view === "motor" && system.angular_frequency < SLOWEST_MOTOR) {
       aside = store.state();
       open({ ...MOTOR_STATE, compare, scan });
       context.announce(WORDS.status.motor_put_in);
       // A scan may be that of the motor.
-    } else if (guest && aside !== null && view !== "motor" && view !== "scan") open({ ...aside, view, compare, scan });
-    else store.change({ view });
+    } else if (guest && aside !== null && view !== "motor" && view !== "scan") {
+      open({ ...aside, view, compare, scan });
+      aside = null;
+    } else store.change({ view });
   };
   const tabs = new Tabs(byId("tabs"), VIEWS, visit);
   const side = byId("parameters");
@@ -160,7 +160,7 @@ function begin(): void {
   const exports = choices(WORDS.page.export, "export", WORDS.page.export_what, () => [
     ...offers().map((offer) => ({ label: offer.name, note: noteOf(offer), act: () => void saved(offer) })),
     { label: WORDS.page.link_offer, note: WORDS.page.copy, act: copy },
-    { label: WORDS.sheet.label, note: "PRINT", act: print },
+    { label: WORDS.sheet.label, note: WORDS.page.print, act: print },
     { label: WORDS.embed.label, note: WORDS.page.copy, act: () => void copyFrame(context) },
   ]);
   /** The tools with the keys that do the same. */
@@ -183,7 +183,8 @@ function begin(): void {
     const typing = (event.target as HTMLElement).closest("input, select, textarea");
     if (taken || typing || document.querySelector("dialog[open]") || !shortcutsOn()) return;
     const view = VIEWS[Number(event.key) - 1]?.name;
-    const own = tools.find(([key]) => key === event.key)?.[2];
+    // What the tools open is not there in a frame.
+    const own = isEmbedded() ? undefined : tools.find(([key]) => key === event.key)?.[2];
     if (view !== undefined) visit(view);
     else if (own !== undefined) own();
     else return;
@@ -200,9 +201,10 @@ function begin(): void {
 }
 
 async function copyFrame(context: Context): Promise<void> {
-  const done = await copied(frameOf(context.state()));
-  const words = isLocal() ? WORDS.address.local : WORDS.embed.copied;
-  context.status(done ? words : WORDS.embed.not_copied, done ? "done" : "error");
+  // A frame of a file would tell its folders, and show nothing to anybody else.
+  const done = !isLocal() && (await copied(frameOf(context.state())));
+  const { copied: taken, not_copied, local } = WORDS.embed;
+  context.status(isLocal() ? local : done ? taken : not_copied, done ? "done" : "error");
 }
 
 async function copyLink(context: Context, button: HTMLButtonElement): Promise<void> {

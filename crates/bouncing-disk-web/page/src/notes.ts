@@ -3,7 +3,7 @@
 import type { State } from "./contract";
 import { button, closeButton, element, isNarrow, kept, rich } from "./elements";
 import { PRESETS, stateOf, type Panel, type Preset } from "./presets";
-import { toHash } from "./state";
+import { DEFAULT_STATE, toHash } from "./state";
 import { say, WORDS } from "./words";
 
 /** The preset and panel of a state, so that links, reloads and going back show the card as well. */
@@ -17,6 +17,10 @@ function isNear(state: State, shown: State): boolean {
   const changes = names.filter((name) => state.system[name] !== shown.system[name]).length;
   return state.view === shown.view && 2 * changes <= names.length;
 }
+
+/** What a note speaks of: settings of comparisons and scans change none of it. */
+const hashOf = (state: State): string =>
+  toHash({ ...state, compare: DEFAULT_STATE.compare, scan: DEFAULT_STATE.scan });
 
 export class Notes {
   private shown: { preset: Preset; panel: Panel } | null = null;
@@ -34,7 +38,7 @@ export class Notes {
   /** Nothing while a course explains the same states in its own way. */
   show(state: State, quiet: boolean): void {
     const { shown } = this;
-    const hash = toHash(state);
+    const hash = hashOf(state);
     const own = shown?.preset.panels.find((panel) => toHash(stateOf(panel)) === hash);
     const found = shown && own ? { preset: shown.preset, panel: own } : BY_HASH.get(hash);
     const near = shown !== null && isNear(state, stateOf(shown.panel)) ? shown : null;

@@ -46,9 +46,10 @@ export function typed(text: string, unit = "none", multiplesOfPi = false): numbe
   const direct = readNumber(pointed);
   if (direct !== null) return direct;
   const [, factorOf = "", unitOf = ""] = /^([+-]?[\d.]+(?:e[+-]?\d+)?) ?(\D.*)$/i.exec(pointed) ?? [];
-  const [factor, size] = [readNumber(factorOf), UNITS[unit]?.[unitOf]];
+  const sizes = UNITS[unit] ?? {};
+  const [factor, size] = [readNumber(factorOf), Object.hasOwn(sizes, unitOf) ? sizes[unitOf] : undefined];
   // 62 mm is 0.062 to the bit, and 15 digits are more than anybody types before a unit.
-  if (factor !== null && size !== undefined) return size === 1 ? factor : Number((factor * size).toPrecision(15));
+  if (factor !== null && size !== undefined) return finite(size === 1 ? factor : Number((factor * size).toPrecision(15)));
   if (!multiplesOfPi) return null;
   const parts = /^([+-]?)([\d.e+-]*) ?\*? ?(?:π|pi)(?: ?\/ ?([\d.]+))?$/i.exec(pointed);
   if (parts === null) return null;
@@ -56,8 +57,10 @@ export function typed(text: string, unit = "none", multiplesOfPi = false): numbe
   const times = factorText ? readNumber(factorText) : 1;
   const divisor = divisorText ? readNumber(divisorText) : 1;
   if (times === null || divisor === null || divisor === 0) return null;
-  return ((sign === "-" ? -1 : 1) * times * Math.PI) / divisor;
+  return finite(((sign === "-" ? -1 : 1) * times * Math.PI) / divisor);
 }
+
+const finite = (value: number): number | null => (Number.isFinite(value) ? value : null);
 
 /** A comma before three digits parts thousands in English, and decimals elsewhere. */
 export const mayBeThousands = (text: string): boolean => /^[+−-]?[1-9]\d{0,2}(,\d{3})+(?!\d)/.test(text.trim());

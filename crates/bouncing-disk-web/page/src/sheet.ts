@@ -15,6 +15,7 @@ const LINES = 3;
 /** Puts the sheet into the page, which shows it in print alone, and prints it. */
 export async function printSheet(state: State, offers: readonly Offer[]): Promise<void> {
   const pictures = await Promise.all(offers.filter(({ kind }) => kind === "svg").map(pictureOf));
+  if (pictures.length === 0) throw new Error(WORDS.sheet.nothing);
   const local = isLocal();
   const address = local ? toHash(state) : link(state);
   const numbers = div("printed-numbers", element("dl", {}, ...parameters(state)));
@@ -54,7 +55,7 @@ function openTask(): Node[] {
 }
 
 function parameters(state: State): HTMLElement[] {
-  return valuesOf({ state, names: PARTS.all }).map(({ parameter, value }) => {
+  return valuesOf({ state, names: state.thrown === null ? PARTS.all : PARTS.rotor }).map(({ parameter, value }) => {
     const name = element("dt", {}, `${shortLabelOf(parameter)} `, ...rich(parameter.symbol));
     return element("div", {}, name, element("dd", {}, value));
   });

@@ -23,9 +23,11 @@ export class Tabs {
   show(present: ViewName): void {
     this.buttons.forEach((tab, index) => {
       const shown = this.kinds[index]?.name === present;
+      const was = tab.getAttribute("aria-selected") === "true";
       tab.setAttribute("aria-selected", String(shown));
       tab.tabIndex = shown ? 0 : -1;
-      if (shown) tab.scrollIntoView({ block: "nearest", inline: "nearest" });
+      // Only a tab that was not chosen before: a change of a parameter leaves the page where it is.
+      if (shown && !was) tab.scrollIntoView({ block: "nearest", inline: "nearest" });
     });
   }
 }

@@ -9,7 +9,7 @@ export { VIEW_NAMES };
 
 /** Loads of a curve, and rise times of a run-up, beyond which a page would compute for minutes. */
 export const MOST_POINTS = 200;
-const MOST_RISE_TIMES = 1000;
+export const MOST_RISE_TIMES = 1000;
 export const MOST_PERIODS = 500;
 /** Curves of a scan, which have to be told apart. */
 export const MOST_VALUES = 5;
@@ -121,7 +121,7 @@ const numbersThat = (message: string, legal: (values: number[]) => boolean): For
 const range = (lowest = -Infinity): Form<Range> =>
   numbersThat(
     lowest === -Infinity ? WORDS.address.range : say(WORDS.address.range_from, { lowest }),
-    ([low = NaN, high = NaN, ...more]) => more.length === 0 && low < high && low >= lowest,
+    ([low = NaN, high = NaN, ...more]) => more.length === 0 && low < high && high - low < Infinity && low >= lowest,
   ) as Form<Range>;
 
 const VALUES = numbersThat(say(WORDS.address.up_to, { most: MOST_VALUES }), (values) => values.length <= MOST_VALUES);

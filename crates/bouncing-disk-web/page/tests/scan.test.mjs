@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { onPage, settled, stateOf, svgOf, textOf, whenAddress, whenText } from "./browser.mjs";
-import { sourceOf } from "./module.mjs";
+import { sourceOf, WORDS } from "./module.mjs";
 
 const scan = (title, hash, act) =>
   onPage(title, { hash: `#view=scan&${hash}` }, async (page) => {
@@ -26,7 +26,7 @@ scan("the best hand motion: its optima are those of Fig. 4, and a point opens it
   const largest = /θ = 0: The largest of 40 computed points is 2[12]\.\d+ rad\/s at φL = 0\.945 rad/;
   await whenText(page, "#view-scan .optima", largest, 60_000);
   assert.equal((await optima(page)).length, 5);
-  assert.match(await remark(page), /^Left out: 5 of 205 points, since the disk never leaves .*, not above 1 g\./);
+  assert.match(await remark(page), /^Points without a settled value: 5 of 205, since the disk never leaves .*, not above 1 g\./);
   const { columns, rows } = await saved(page, "scan");
   assert.deepEqual(columns.slice(0, 3), ["phase_lag", "amplitude_angle", "toss_speed"]);
   assert.equal(rows.length, 205);
@@ -36,7 +36,7 @@ scan("the best hand motion: its optima are those of Fig. 4, and a point opens it
   assert.match(await svgOf(page, "scan"), /spin after a single toss/);
   await page.focus("#view-scan .chart canvas[tabindex='0']");
   for (const key of ["Home", "ArrowDown", "ArrowDown", "ArrowRight"]) await page.keyboard.press(key);
-  assert.match(await page.textContent("#view-scan .reading"), /0\.035.*opens the point of “θ = 0”/);
+  assert.match(await page.textContent("#view-scan .reading"), /0\.035.*open the point of “θ = 0”/);
   await page.keyboard.press("Enter");
   await whenAddress(page, "view", "toss");
   const { phase_lag, amplitude, normalised_speed } = await stateOf(page);
@@ -56,7 +56,7 @@ scan("a click opens the nearest point of the nearest curve", "scan_family=none",
 const SHARES = "scan_over=axial_forcing&scan_range=0.3,0.51&scan_points=4&scan_result=share_periodic&scan_family=none";
 scan("shares have intervals, and another kind of the same starts comes without computing", SHARES, async (page) => {
   assert.match((await optima(page))[0], /is 0\.97\d \(95 %: 0\.9\d+ to 0\.9\d+\) at Γ = 0\.51\..* end of the range/);
-  assert.match(await remark(page), /^At 1 of 4 points \(the first is Γ = 0\.51\) a disk at rest/);
+  assert.match(await remark(page), /^At 1 of 4 points \(the first is Γ = 0\.51\) a disk that comes to rest/);
   await select(page, 0, "share_rest");
   await whenText(page, "#view-scan .optima", /^The largest of 4 computed points is 1\.00 .* at Γ = 0\.3\./, 1000);
   await select(page, 3, "smallest");
@@ -67,7 +67,7 @@ const SPEEDS = "scan_over=friction&scan_range=0.2,0.8&scan_points=2&scan_result=
 scan("what cannot be scanned is refused where it is typed, and a motor has errors", SPEEDS, async (page) => {
   assert.match((await optima(page))[0], / ± /);
   for (const [name, text, said] of [
-    ["from", "1", /lower to a higher/], ["points", "1", /from 2 to 200/], ["to", "x", /not a number/],
+    ["lowest value", "1", /lower to a higher/], ["points", "1", /from 2 to 200/], ["highest value", "x", /not a number/],
   ]) {
     await enter(page, `#view-scan input[aria-label="${name}"]`, text);
     await whenText(page, "#status", said);
@@ -89,10 +89,10 @@ test("an optimum says from how many points it is, and which of them its error do
   for (const [line, said] of [
     [
       [of(1, 0.1), of(4.8, 0.1), of(5, 0.1), of(4.5, 0.1), unsettled],
-      /largest of 4 .* is \(5\.00 ± 0\.10\) rad\/s at μ = 2\. Another point, at 1, is not told apart/,
+      /largest of 4 .* is \(5\.00 ± 0\.10\) rad\/s at μ = 2\. Another point, at 1, cannot be told apart/,
     ],
-    [[1, 2, 5, 4, 3].map((value) => of(value)), /Nothing between 1 and 3 but this point/],
-    [[5, 2, 5, 5, 3].map((value) => of(value)), /2 other points, from 2 to 3, are not .* at the end of the range/],
+    [[1, 2, 5, 4, 3].map((value) => of(value)), /Its neighbours are at 1 and 3/],
+    [[5, 2, 5, 5, 3].map((value) => of(value)), /2 other points, from 2 to 3, cannot be .* at the end of the range/],
     [[unsettled, unsettled], /^No point has a value/],
   ])
     assert.match(describeOptima(plan, [line])[0], said);
@@ -111,7 +111,7 @@ onPage("a disk at rest and one that is thrown end differently, by the library", 
 onPage("the sixteenth digit: chaos shows it, the same number does nothing, another is refused", "#view=compare", async (page) => {
   await page.click("text=The sixteenth digit");
   await whenText(page, "#view-compare .differs", /ε: 0\.5000000000000001 instead of 0\.5\./);
-  await whenText(page, "#view-compare .optima", /grows 1\.\d+ times in each period. This is an estimate/);
+  await whenText(page, "#view-compare .optima", /grows by a factor of 1\.\d+ in each period. This is an estimate/);
   const { columns, rows } = await saved(page, "comparison");
   const apart = rows.map((row) => row[columns.indexOf("difference_over_A")]);
   const first = apart.findIndex((value) => value > 0.01);
@@ -143,4 +143,29 @@ test("growth is fitted between rounding and saturation only, and not where there
   assert.ok(Math.abs(parting((period) => 1e-3 / 2 ** period).growth.factor - 0.5) < 1e-9);
   const next = [0.5000000000000001, -0.49999999999999994, 5e-324, 1.0000000000000002];
   assert.deepEqual([0.5, -0.5, 0, 1].map(nextDouble), next);
+});
+
+onPage("a range is typed number by number, and what is refused stays to be read", "#view=scan&scan_points=3", async (page) => {
+  await settled(page);
+  const field = (name) => page.locator(`#view-scan input[aria-label^="${name}"]`);
+  const enter = async (name, text) => {
+    await field(name).fill(text);
+    await field(name).press("Enter");
+  };
+  await enter(WORDS.scan.points, "1000");
+  assert.equal(await field(WORDS.scan.points).inputValue(), "1000");
+  assert.equal(await field(WORDS.scan.points).getAttribute("aria-invalid"), "true");
+  await enter(WORDS.scan.points, "3");
+  await enter(WORDS.scan.from, "1.3");
+  assert.equal(await field(WORDS.scan.from).getAttribute("aria-invalid"), "true");
+  await enter(WORDS.scan.to, "1.5");
+  await whenAddress(page, "scan_range", "1.3,1.5");
+  await enter(WORDS.scan.to, "5 constructor");
+  assert.equal(await field(WORDS.scan.to).getAttribute("aria-invalid"), "true");
+});
+
+const THROWN = "#view=compare&throw=1,0.1,0.5,2&compare_parameter=normalised_speed";
+onPage("a disk that was thrown is not compared with one that begins with an impact", THROWN, async (page) => {
+  await whenText(page, "#view-compare .chart-word", /was thrown/);
+  assert.doesNotMatch(await page.textContent("#view-compare .differs"), /instead of/);
 });

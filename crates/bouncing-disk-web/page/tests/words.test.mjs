@@ -1,9 +1,13 @@
 /** Every text of `words.json` is used; that none is missing is for the compiler to say. */
 
 import assert from "node:assert/strict";
-import { readdirSync, readFileSync } from "node:fs";
+import { spawnSync } from "node:child_process";
+import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { dirname, join } from "node:path";
 import { test } from "node:test";
-import { WORDS } from "./module.mjs";
+import { fileURLToPath } from "node:url";
+import { file, WORDS } from "./module.mjs";
 
 const SOURCES = new URL("../src/", import.meta.url);
 
@@ -31,4 +35,31 @@ test("no text is left over", () => {
   const used = [...new Set(all.match(/WORDS(\.\w+)+/g)), ...ofPage].map((path) => `${path}.`);
   const isUsed = (leaf) => used.some((path) => `${leaf}.`.startsWith(path) || path.startsWith(`${leaf}.`));
   assert.deepEqual(leaves(WORDS, "WORDS").filter((leaf) => !isUsed(leaf)), []);
+});
+
+/** Builds the page with other texts; what it says where these are refused, else the texts of the page. */
+function translated(change) {
+  const folder = mkdtempSync(join(tmpdir(), "words-"));
+  const words = structuredClone(WORDS);
+  change(words);
+  writeFileSync(join(folder, "words.json"), JSON.stringify(words));
+  const site = join(dirname(file), "site");
+  const inputs = ["--wasm", join(site, "module.wasm"), "--glue", join(site, "worker.js")];
+  const texts = ["--words", join(folder, "words.json"), "--out", folder];
+  const build = fileURLToPath(new URL("../build.mjs", import.meta.url));
+  const { status, stderr } = spawnSync(process.execPath, [build, ...inputs, ...texts], { encoding: "utf8" });
+  if (status !== 0) return stderr;
+  const html = readFileSync(join(folder, "explorer.html"), "utf8");
+  rmSync(folder, { recursive: true });
+  return { html, words: JSON.parse(/id="words">([^<]*)</.exec(html)[1]) };
+}
+
+test("a translation is built with all its letters, and refused where it lacks a text or a value", () => {
+  const odd = 'a <!-- "b" </script> & c';
+  const { html, words } = translated((own) => Object.assign(own.page, { title: odd, export_title: odd }));
+  assert.equal(words.page.title, odd);
+  assert.ok(html.includes('title="a &#60;!-- &#34;b&#34; &#60;/script&#62; &#38; c"'));
+  assert.match(translated((own) => delete own.page.title), /page/);
+  assert.match(translated((own) => (own.page.title = null)), /page\.title/);
+  assert.match(translated((own) => (own.page.saved = "saved")), /page\.saved has to have \{name\}/);
 });

@@ -279,7 +279,7 @@ export class ScreenChart {
     const known = chart !== null && plot !== null && at !== null && at < chart.at.length;
     if (!known) return setText(this.reading, "");
     const hint = this.picking?.hint(plainText(chart.curves[this.chosen]?.label ?? ""));
-    setText(this.reading, [readingOf(chart, at), hint ?? ""].join(" ").trim());
+    setText(this.reading, hint === undefined ? readingOf(chart, at) : `${readingOf(chart, at)}. ${hint}`);
     const x = pixelX(plot, chart.at[at] as number);
     pen.path([x, plot.top, x, plot.top + plot.height], { stroke: "--picture-cursor", width: 1 });
     chart.curves.forEach(({ y, colour }, index) => {

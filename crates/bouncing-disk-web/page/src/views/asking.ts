@@ -137,7 +137,8 @@ export class Attractors {
       if (map.contact_periods > 0) return;
       const own = await verdictOf(context, `${this.slot}-start`, map, start);
       const rest = await verdictOf(context, `${this.slot}-rest`, map, REST);
-      this.root.hidden = own.kind === rest.kind && own.impacts === rest.impacts;
+      const decided = own.kind !== "undecided" && rest.kind !== "undecided";
+      this.root.hidden = !decided || (own.kind === rest.kind && own.impacts === rest.impacts);
       const [first = "", other = ""] = [rest, own].map(({ text }) => text.replace(/, multipliers.*|\.$/s, ""));
       this.root.textContent = say(WORDS.asking.two_attractors, { rest: first, start: other });
     };

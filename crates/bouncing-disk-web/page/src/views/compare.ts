@@ -51,7 +51,7 @@ class CompareView extends ComputingView {
   private readonly value = new NumberField(TEXT.value, this.context, ([value = 0]) => this.change({ value }));
   private readonly periods = new NumberField(TEXT.periods, this.context, ([periods = 0]) => this.follow(periods));
   private readonly from = new NumberField(TEXT.from, this.context, ([from = 0]) =>
-    this.change({ from: Math.max(from, 0) }),
+    this.change({ from: clamp(from, 0, this.context.state().compare.periods) }),
   );
   private readonly sentence = element("p", { class: "differs" });
   private readonly words = element("ul", { class: "remark optima", "aria-live": "polite" });
@@ -88,11 +88,11 @@ class CompareView extends ComputingView {
 
   offers(): Offer[] {
     const { pair } = this;
-    if (pair === null) return [];
-    const [times] = pair.column("time");
+    // Those of another state are never given under this one.
+    if (pair === null || keyOf(pair.state) !== keyOf(this.context.state())) return [];
     const columns = [...pair.column("height"), ...pair.column("angular_speed"), pair.apart];
     const rows = function* () {
-      for (const [row, time] of times.entries()) yield [time, ...columns.map((column) => column[row] ?? NaN)];
+      for (const row of pair.apart.keys()) yield [row / SAMPLES, ...columns.map((column) => column[row] ?? NaN)];
     };
     const { system, start, thrown, compare } = pair.state;
     const parameter = varied(compare.parameter);
@@ -108,15 +108,16 @@ class CompareView extends ComputingView {
     this.context.change({ compare });
   }
 
-  private follow(periods: number): void {
-    if (Number.isInteger(periods) && periods >= 1 && periods <= MOST_PERIODS) this.change({ periods });
-    else this.context.status(say(TEXT.wrongPeriods, { most: MOST_PERIODS }), "error");
+  private follow(periods: number): string | void {
+    const legal = Number.isInteger(periods) && periods >= 1 && periods <= MOST_PERIODS;
+    if (!legal) return say(TEXT.wrongPeriods, { most: MOST_PERIODS });
+    this.change({ periods });
   }
 
   /** Another parameter of B, which is A as long as nobody gives it another value. */
   private async choose(parameter: string): Promise<void> {
     const { context } = this;
-    this.change({ parameter, value: await valueIn(context, SLOTS[0], varied(parameter), context.state()) });
+    this.change({ parameter, value: await valueIn(context, VALUE, varied(parameter), context.state()) });
   }
 
   /** The next value that is another system at all. */
@@ -124,7 +125,7 @@ class CompareView extends ComputingView {
     const state = this.context.state();
     const parameter = varied(state.compare.parameter);
     const same = JSON.stringify(state);
-    let value = await valueIn(this.context, SLOTS[0], parameter, state);
+    let value = await valueIn(this.context, VALUE, parameter, state);
     for (let step = 0; step < MOST_STEPS; step += 1) {
       value = nextDouble(value);
       if (JSON.stringify(withValue(parameter, value, state)) !== same) break;
@@ -135,10 +136,11 @@ class CompareView extends ComputingView {
   protected async fetch(): Promise<void> {
     const { context } = this;
     const state = context.state();
-    const { system, mass, start, thrown, compare } = state;
-    const { parameter, value, periods } = compare;
+    const { thrown, compare } = state;
+    const { parameter, periods } = compare;
     try {
-      await this.asked.get([system, mass, start, thrown, parameter, value, periods], async () => {
+      await this.asked.get(keyOf(state), async () => {
+        if (thrown !== null && Object.hasOwn(DEFAULT_STATE.start, parameter)) throw new Error(TEXT.thrown);
         context.status(TEXT.busy, "busy");
         this.pair = await pairOf(context, state);
         context.status(say(TEXT.done, { periods, samples: SAMPLES }));
@@ -155,18 +157,21 @@ class CompareView extends ComputingView {
 
   private paint(): void {
     const { pair } = this;
-    this.words.replaceChildren();
-    setText(this.sentence, "");
     if (pair === null) {
+      this.words.replaceChildren();
+      setText(this.sentence, "");
       for (const chart of this.charts) chart.showWord(this.problem || TEXT.coming);
       return;
     }
     const { parameter: name, value } = pair.state.compare;
     const parameter = varied(name);
     const values = { value: exactText(parameter, value), own: exactText(parameter, pair.own) };
-    this.sentence.append(...rich(say(TEXT.differs, { symbol: parameter.symbol, ...values })));
+    this.sentence.replaceChildren(...rich(say(TEXT.differs, { symbol: parameter.symbol, ...values })));
     this.from.show([this.windowOf(pair)[0]]);
-    this.words.append(...describe(pair).map((text) => element("li", {}, text)));
+    const words = describe(pair);
+    // The same words are not read out again.
+    if (this.words.textContent !== words.join(""))
+      this.words.replaceChildren(...words.map((text) => element("li", {}, text)));
     this.chartsOf(pair).forEach((chart, index) => this.charts[index]?.show(chart, index === 2 ? TEXT.caption : ""));
   }
 
@@ -247,9 +252,15 @@ const READY = [
 /** All charts have one place for their numbers. */
 const WIDEST = "−00.00";
 const SLOTS = ["compare-a", "compare-b"] as const;
+/** What a field asks for does not end the motions that are under way. */
+const VALUE = "compare-value";
 const COLUMNS = [
-  "time_s", "height_A_m", "height_B_m", "angular_speed_A_rad_per_s", "angular_speed_B_rad_per_s", "difference_over_A",
+  "time_periods", "height_A_m", "height_B_m", "angular_speed_A_rad_per_s", "angular_speed_B_rad_per_s", "difference_over_A",
 ] as const; // prettier-ignore
+
+/** What both motions depend on. */
+const keyOf = ({ system, mass, start, thrown, compare: { parameter, value, periods } }: State): string =>
+  JSON.stringify([system, mass, start, thrown, parameter, value, periods]);
 
 async function pairOf(context: Context, state: State): Promise<Pair> {
   const { parameter, value, periods } = state.compare;

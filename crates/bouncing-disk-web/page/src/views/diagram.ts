@@ -89,6 +89,7 @@ class DiagramView extends ComputingView {
   show(state: State): void {
     const { quantity, branches, drive } = state.diagram;
     const rotation = quantity === "angular_speed";
+    this.verdict.follow(state);
     this.quantity.value = quantity;
     this.drive.value = drive;
     this.branchesBox.checked = branches;
@@ -261,7 +262,7 @@ class DiagramView extends ComputingView {
 function basisOf(state: State): Basis {
   const { quantity, drive } = state.diagram;
   const names = quantity === "angular_speed" ? PARTS.rotation : PARTS.vertical;
-  return { state, names, more: drive === "sine" ? [] : [say(WORDS.files.drive, { drive })] };
+  return { state, names, more: drive === "sine" ? [] : [say(WORDS.files.drive, { drive: TEXTS.drives[drive] })] };
 }
 
 /** What there is to say below a diagram of angular speeds. */

@@ -6,6 +6,7 @@ import { ScreenChart, type Chart } from "../drawing/chart";
 import { PARTS, rowsOf } from "../drawing/files";
 import { div, element, oncePerFrame, section, setText } from "../elements";
 import { percent } from "../numbers";
+import { MOST_RISE_TIMES } from "../state";
 import { TRANSIENT_COLUMNS, type MotorSheet, type Range, type ReportJson, type SheetJson, type StallJson } from "../protocol";
 import { say, WORDS } from "../words";
 import { Asked, Attractors, ComputingView } from "./asking";
@@ -134,7 +135,7 @@ class MotorView extends ComputingView {
         await this.sweep(sheet, report, state, pass, known);
         // A run-up is shown until it is steady, or said not to be.
         for (let times = 1; known.rough && times <= LENGTHENINGS && !isSteady(known); times += 1)
-          await this.runUp(sheet, rise_times * 3 ** times, known);
+          await this.runUp(sheet, Math.min(rise_times * 3 ** times, MOST_RISE_TIMES), known);
         known.rough = false;
       }
       // It takes longest where nothing bounces, and is the last to be missed.

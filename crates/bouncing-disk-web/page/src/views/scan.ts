@@ -36,8 +36,9 @@ class ScanView extends ComputingView {
   private readonly optimum = choice(TEXT.optimum, OPTIMA.map((name) => [name, TEXT.optima[name]]), (optimum) =>
     this.change({ optimum: optimum as (typeof OPTIMA)[number] }),
   ); // prettier-ignore
-  private readonly low = this.field(TEXT.from, ([low = 0]) => ({ range: [low, this.scan.range[1]] }));
-  private readonly high = this.field(TEXT.to, ([high = 0]) => ({ range: [this.scan.range[0], high] }));
+  // A range is typed number by number: each counts with what stands in the other field.
+  private readonly low = this.field(TEXT.from, ([low = 0]) => ({ range: [low, this.high.numbers()?.[0] ?? NaN] }));
+  private readonly high = this.field(TEXT.to, ([high = 0]) => ({ range: [this.low.numbers()?.[0] ?? NaN, high] }));
   private readonly points = this.field(TEXT.points, ([points = 0]) => ({ points }));
   private readonly values = this.field(TEXT.values, (values) => ({ values }), MOST_VALUES);
   private readonly optima = element("ul", { class: "remark optima" });
@@ -110,21 +111,19 @@ class ScanView extends ComputingView {
     return new NumberField(label, this.context, (values) => this.change(of(values)), most);
   }
 
-  /** The numbers of a form that cannot be scanned are refused where they are typed. */
-  private change(change: Partial<State["scan"]>): void {
+  /** Numbers that cannot be scanned are refused where they are typed, with a sentence. */
+  private change(change: Partial<State["scan"]>): string | void {
     const { range, points } = { ...this.scan, ...change };
     const most = Number.isInteger(points) && points >= 2 && points <= MOST_POINTS;
-    if (range[0] < range[1] && most) this.context.change({ scan: change });
-    else {
-      this.context.status(most ? TEXT.wrongRange : say(TEXT.wrongPoints, { most: MOST_POINTS }), "error");
-      this.show(this.context.state());
-    }
+    if (!most) return say(TEXT.wrongPoints, { most: MOST_POINTS });
+    if (!(range[0] < range[1] && range[1] - range[0] < Infinity)) return TEXT.wrongRange;
+    this.context.change({ scan: change });
   }
 
   /** Values of a second parameter, evenly within its range and without its ends, which may be alike. */
   private curvesOf(family: string): void {
-    if (family === "") return this.change({ family: null });
-    this.about(family, (range) => ({ family, values: evenly(range, MOST_VALUES + 2).slice(1, -1).map(short) }));
+    if (family === "") this.change({ family: null });
+    else this.about(family, (range) => ({ family, values: evenly(range, MOST_VALUES + 2).slice(1, -1).map(short) }));
   }
 
   private about(name: string, change: (range: Range) => Partial<State["scan"]>): void {
@@ -143,11 +142,14 @@ class ScanView extends ComputingView {
     const key = JSON.stringify(keys);
     if (key === this.asked) return;
     this.asked = key;
+    // Where all points are known nothing else ends what is under way.
+    context.client.cancel("scan");
     if (known.size > MOST_KNOWN) known.clear();
     const open = [...keys.entries()].filter(([, name]) => !known.has(name));
     const began = performance.now();
     let done = 0;
     const tell = () => {
+      if (this.asked !== key) return;
       const passed = (performance.now() - began) / 1000;
       const left =
         done === 0 ? TEXT.unknownTime : say(TEXT.left, { seconds: Math.ceil((passed / done) * (open.length - done)) });
@@ -163,7 +165,7 @@ class ScanView extends ComputingView {
         this.draw();
       });
       const seconds = ((performance.now() - began) / 1000).toFixed(1);
-      context.status(say(TEXT.done, { count: open.length, all: states.length, seconds }));
+      if (this.asked === key) context.status(say(TEXT.done, { count: open.length, all: states.length, seconds }));
     } catch (error) {
       if (this.asked === key) this.asked = "";
       if (!(error instanceof Cancelled)) this.gaps.textContent = "";

@@ -1,6 +1,6 @@
 /** Toss and bounce: the motion itself, from the engine's own trajectory. */
 
-import type { Context, Offer, State, View, ViewKind } from "../contract";
+import { Cancelled, type Context, type Offer, type State, type View, type ViewKind } from "../contract";
 import { chartOffers, ScreenChart } from "../drawing/chart";
 import { ONE_COLUMN, PARTS, plotOffers, tableOffers, type Basis } from "../drawing/files";
 import { Layers, type Point } from "../drawing/window";
@@ -55,6 +55,8 @@ class TossView implements View {
   private stage: Stage | null = null;
   private held: { height: number; angle: number } | null = null;
   private asked = "";
+  /** The motion that is recorded. */
+  private recorded = "";
   private throwTold: FlightStart | null = null;
   /** Whether the motion was under way when the view was left. */
   private resumes = false;
@@ -123,7 +125,8 @@ class TossView implements View {
 
   offers(): Offer[] {
     const { recording } = this;
-    if (recording === null) return [];
+    // That of another state is never given under this one.
+    if (recording === null || this.recorded !== this.motion()) return [];
     const charts = traces(recording, Math.max(this.player.now, Math.min(recording.periods, 8)));
     const state = this.context.state();
     const { thrown, system } = state;
@@ -193,12 +196,17 @@ class TossView implements View {
       this.take(new Recording(response, periods, system), same);
     } catch (error) {
       if (this.asked === key) this.asked = "";
+      if (!(error instanceof Cancelled)) {
+        Object.assign(this, { recording: null, stage: null });
+        this.player.pause();
+        this.scene.data();
+      }
       tellFailure(this.context, error);
     }
   }
 
   private take(recording: Recording, same: boolean): void {
-    Object.assign(this, { recording, tracesDrawn: -1, anew: true });
+    Object.assign(this, { recording, recorded: this.motion(), tracesDrawn: -1, anew: true });
     if (!same) {
       this.player.now = 0;
       this.stage = null;

@@ -66,12 +66,15 @@ export class NumberField {
   private readonly input: HTMLInputElement;
   private readonly unit = element("span", { class: "unit" });
   private values: readonly number[] = [];
+  /** What was printed last: as long as it stands there, the values are meant to their last digit. */
+  private printed = "";
   private parameter: Partial<Parameter> = {};
 
   constructor(
     private readonly label: string,
     private readonly context: Context,
-    private readonly take: (values: number[]) => void,
+    /** Gives a sentence where the values are refused; what was typed stays then. */
+    private readonly take: (values: number[]) => string | void,
     private readonly most = 1,
   ) {
     this.input = element("input", {
@@ -83,6 +86,8 @@ export class NumberField {
 
   /** Values of a parameter, or mere numbers. */
   show(values: readonly number[], parameter: Partial<Parameter> = {}): void {
+    const typing = document.activeElement === this.input && this.input.value !== this.input.title;
+    if (typing && String(values) === String(this.values)) return;
     Object.assign(this, { values, parameter });
     const { unit = "" } = parameter;
     this.unit.textContent = unit;
@@ -91,15 +96,23 @@ export class NumberField {
     this.print();
   }
 
-  private entered(): void {
+  /** The numbers that stand in the field; `null` where these are none. */
+  numbers(): number[] | null {
     const { unit, angle } = this.parameter;
+    if (this.input.value === this.printed) return [...this.values];
     const texts = this.most === 1 ? [this.input.value] : this.input.value.split(/;|,\s/);
-    const numbers = texts.map((text) => typed(text, unit, angle));
-    const values = numbers.filter((value) => value !== null);
-    if (values.length === numbers.length && values.length <= this.most) return this.take(values);
-    this.input.setAttribute("aria-invalid", "true");
+    const numbers = texts.map((text) => typed(text, unit, angle)).filter((value) => value !== null);
+    return numbers.length === texts.length && numbers.length <= this.most ? numbers : null;
+  }
+
+  private entered(): void {
+    const values = this.numbers();
     const wanted = this.most > 1 ? WORDS.varied.numbers : WORDS.varied.number;
-    this.context.status(say(wanted, { most: this.most, text: this.input.value.slice(0, 24) }), "error");
+    const text = this.input.value.slice(0, 24);
+    const problem = values === null ? say(wanted, { most: this.most, text }) : this.take(values);
+    if (problem === undefined) return;
+    this.input.setAttribute("aria-invalid", "true");
+    this.context.status(problem, "error");
   }
 
   private focused(): void {
@@ -110,8 +123,9 @@ export class NumberField {
   /** All digits while somebody edits; what is wrong stays until something legal is typed. */
   private print(): void {
     if (this.input.hasAttribute("aria-invalid")) return;
-    const short = this.values.map((value) => written(value, this.parameter.angle));
     this.input.title = this.values.join("; ");
-    this.input.value = document.activeElement === this.input ? this.input.title : short.join("; ");
+    const short = this.values.map((value) => written(value, this.parameter.angle)).join("; ");
+    this.printed = document.activeElement === this.input ? this.input.title : short;
+    this.input.value = this.printed;
   }
 }

@@ -19,6 +19,9 @@ export class Verdict {
   private readonly facts = new Facts(Object.values(NAMES), TEXTS.orbit);
   private readonly sentence = element("p", {}, TEXTS.hint);
   private readonly caution = element("p", { class: "caution", hidden: true }, CAUTION);
+  /** What is read: its forcing, and what else it depends on. */
+  private forcing = NaN;
+  private own = "";
   private readonly ask = debounced(90, (forcing: number, state: State) => void this.fetch(forcing, state));
 
   constructor(private readonly context: Context) {
@@ -27,7 +30,21 @@ export class Verdict {
     this.root = section(TEXTS.orbit, "panel", ...parts);
   }
 
+  /** A reading of another system, or of a forcing that is not seen any more, does not stay. */
+  follow(state: State): void {
+    const { system, diagram } = state;
+    const own = JSON.stringify([system.restitution, system.contact_time, impactOf(state), diagram.drive]);
+    const [low, high] = diagram.axial_forcing;
+    if (own === this.own && !(this.forcing < low || this.forcing > high)) return;
+    Object.assign(this, { own, forcing: NaN });
+    this.ask.stop();
+    for (const name of Object.values(NAMES)) this.facts.set(name, "–");
+    setText(this.sentence, TEXTS.hint);
+    this.caution.hidden = true;
+  }
+
   point(forcing: number, state: State): void {
+    this.forcing = forcing;
     this.facts.set(NAMES.forcing, plain(forcing, 6));
     this.ask(forcing, state);
   }

@@ -5,6 +5,7 @@ import { save } from "../../drawing/files";
 import { button, div, element, section } from "../../elements";
 import type { SheetJson, StatorSheet } from "../../protocol";
 import { say, WORDS } from "../../words";
+import { typed } from "../../numbers";
 import { tellFailure } from "../asking";
 
 /** A data sheet has some dozen numbers. */
@@ -67,12 +68,13 @@ export class SheetPanel {
     } catch {
       return this.context.status(TEXTS.no_json, "error");
     }
+    if (typeof sheet !== "object" || sheet === null) return this.context.status(TEXTS.no_json, "error");
     if (this.mass.value === "") delete sheet.stator;
     else {
       // What the fields do not show stays: volts, a resonance, a second mode.
       const known = sheet.stator;
       const kind = this.twists.checked ? "axial_twist" : known?.kind === "axial_and_torsional" ? known.kind : "axial";
-      const [mass, quality] = [1e-3 * Number(this.mass.value), Number(this.quality.value || "300")];
+      const [mass, quality] = [1e-3 * (typed(this.mass.value) ?? NaN), typed(this.quality.value || "300") ?? NaN];
       sheet.stator = { ...known, kind, mass, quality };
     }
     void this.read(JSON.stringify(sheet));
