@@ -47,7 +47,6 @@ async function bundled(entry) {
     ...{ charset: "utf8", format: "iife", target: ["es2022"], legalComments: "none" },
     // Whoever passes the page on passes on the licence of what is in it.
     banner: entry === "src/main.ts" ? { js: `/* uqr\n${licence.trim()}\n*/` } : {},
-    logLevel: "warning",
     plugins: [wordsOfThePage],
   });
   const text = (end) => outputFiles.find((file) => file.path.endsWith(end))?.text ?? "";
@@ -62,9 +61,8 @@ const sha256 = (text) => `'sha256-${createHash("sha256").update(text).digest("ba
 /** Browsers keep old files; a new one has another address. */
 const version = (content) => createHash("sha256").update(content).digest("hex").slice(0, 10);
 
-const policy = (...rules) =>
-  `<meta http-equiv="Content-Security-Policy" content="default-src 'none'; ${rules.join("; ")}; ` +
-  `base-uri 'none'; form-action 'none'" />`;
+const policy = (rules) =>
+  `<meta http-equiv="Content-Security-Policy" content="default-src 'none'; ${rules}; base-uri 'none'; form-action 'none'" />`;
 
 /** Replaced text can have dollar signs in it. */
 function filled(html, parts) {
@@ -112,29 +110,21 @@ const module = readFileSync(wasm);
 const workerScript = `${readFileSync(glue, "utf8").trim()}\n${worker.script}\n`;
 const pageScript = inScript(page.script);
 
+// No address at all may be asked for anything by the single file: the browser itself sees to it.
+const alone = `script-src ${sha256(pageScript)} 'wasm-unsafe-eval' blob:; worker-src blob:; style-src 'unsafe-inline'; \
+img-src data: blob:; connect-src 'none'`;
 const single = filled(html, {
-  // No address at all may be asked for anything: the browser itself sees to it.
-  policy: policy(
-    `script-src ${sha256(pageScript)} 'wasm-unsafe-eval' blob:`,
-    "worker-src blob:",
-    "style-src 'unsafe-inline'",
-    "img-src data: blob:",
-    "connect-src 'none'",
-  ),
+  policy: policy(alone),
   styles: `<style>${page.styles}</style>`,
   scripts:
     `<script type="text/plain" id="worker-script">${inScript(workerScript)}</script>\n` +
     `<script type="text/plain" id="module-base64">${gzipSync(module, { level: 9 }).toString("base64")}</script>\n` +
     `<script>${pageScript}</script>`,
 });
+const beside = `script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; style-src 'self' 'unsafe-inline'; \
+img-src 'self' data: blob:; connect-src 'self'`;
 const hosted = filled(html, {
-  policy: policy(
-    "script-src 'self' 'wasm-unsafe-eval'",
-    "worker-src 'self'",
-    "style-src 'self' 'unsafe-inline'",
-    "img-src 'self' data: blob:",
-    "connect-src 'self'",
-  ),
+  policy: policy(beside),
   styles: `<link rel="stylesheet" href="explorer.css?${version(page.styles)}" />`,
   scripts:
     `<script id="page-script" src="explorer.js?${version(page.script)}" defer ` +

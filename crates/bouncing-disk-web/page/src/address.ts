@@ -1,7 +1,9 @@
 /** The hash of the address follows the state, and the state follows it when somebody goes back, forward or edits it. */
 
 import type { State } from "./contract";
+import { element } from "./elements";
 import { fromHash, toHash } from "./state";
+import { say, WORDS } from "./words";
 
 /** Browsers ignore a page that writes more often than some ten times in a second (ms). */
 const PAUSE = 250;
@@ -89,4 +91,21 @@ export function link(state: State): string {
   url.searchParams.delete("embed");
   url.hash = "";
   return url.href + toHash(state);
+}
+
+/** The element for another page that shows the view alone, as text. */
+export function frameOf(state: State): string {
+  const address = link(state).replace(/(\?[^#]*)?#/, (_, query?: string) => `${query ? `${query}&` : "?"}embed#`);
+  const title = say(WORDS.embed.title, { view: WORDS.views[state.view].title });
+  const frame = element("iframe", { src: address, title, width: 640, height: 480, loading: "lazy", style: "border: 0" });
+  return frame.outerHTML;
+}
+
+/** Leaves the view alone where the page is embedded, and gives what tells the state to the link to all of it. */
+export function embedded(place: HTMLElement): (state: State) => void {
+  if (!isEmbedded()) return () => {};
+  const full = element("a", { target: "_blank", class: "in-full" }, WORDS.embed.full);
+  document.documentElement.dataset["embed"] = "";
+  place.append(full);
+  return (state) => full.setAttribute("href", link(state));
 }

@@ -1,26 +1,18 @@
 /** What the parts of the page have in common: the state that a link reproduces, and what a view is. */
 
+import type { WORDS } from "./words";
 import type { FlightStart, ImpactStart, Range, Refusal, Request, Response, SystemParameters } from "./protocol";
 
 /** In the order of their tabs. */
 export const VIEW_NAMES = ["toss", "diagram", "basins", "motor", "compare", "scan"] as const;
 export type ViewName = (typeof VIEW_NAMES)[number];
 
-/** What the orbit diagram shows, in the order in which it is offered. */
-export const QUANTITIES = ["impact_phase", "normalised_speed", "angular_speed"] as const;
-export type Quantity = (typeof QUANTITIES)[number];
-
-/** How the platform moves in the orbit diagram. */
-export const DRIVES = ["sine", "triangle", "sawtooth", "parabolas"] as const;
-export type Drive = (typeof DRIVES)[number];
-
-/** What a scan computes at each of its points. */
-export const RESULTS = [
-  "toss_speed", "toss_efficiency", "toss_ratio", "orbit_exponent", "orbit_period", "share_periodic", "share_chaotic",
-  "share_rest", "motor_speed", "motor_power", "motor_efficiency",
-] as const; // prettier-ignore
-export type ResultName = (typeof RESULTS)[number];
-export const OPTIMA = ["largest", "smallest"] as const;
+/** What is chosen among the texts of `words.json`, in their order: quantity and platform of the orbit diagram... */
+export type Quantity = keyof typeof WORDS.diagram.quantities;
+export type Drive = keyof typeof WORDS.diagram.drives;
+/** ... and what a scan computes at each of its points. */
+export type ResultName = keyof typeof WORDS.scan.results;
+export type Optimum = keyof typeof WORDS.scan.optima;
 
 /**
  * All that the pictures depend on. It is never altered: a change makes another one. In the hash of the address numbers stand
@@ -48,8 +40,8 @@ export interface State {
   readonly compare: Readonly<{ parameter: string; value: number; periods: number; from: number | null }>;
   /** A result at points of a range of one parameter, for some values of a second one (null: none). */
   readonly scan: Readonly<
-    { over: string; range: Range; points: number; result: ResultName; optimum: (typeof OPTIMA)[number];
-      family: string | null; values: readonly number[] }
+    { over: string; range: Range; points: number; result: ResultName; optimum: Optimum; family: string | null;
+      values: readonly number[] }
   >; // prettier-ignore
 }
 
@@ -115,11 +107,5 @@ export interface View {
   offers(): Offer[];
 }
 
-export interface ViewKind {
-  readonly name: ViewName;
-  /** What the tab says, and what a screen reader says of the view. */
-  readonly title: string;
-  readonly description: string;
-  /** Puts the view into its place, once. */
-  make(host: HTMLElement, context: Context): View;
-}
+/** Puts a view into its place, once. */
+export type ViewClass = new (host: HTMLElement, context: Context) => View;

@@ -56,15 +56,14 @@ export function kept(name: string, value?: string): string | null {
   }
 }
 
-export function button(label: string | Node[], press: () => void, attributes: Attributes = {}): HTMLButtonElement {
-  return element("button", { type: "button", onclick: press, ...attributes }, ...[label].flat());
-}
+export const button = (label: string | Node[], press: () => void, attributes: Attributes = {}): HTMLButtonElement =>
+  element("button", { type: "button", onclick: press, ...attributes }, ...[label].flat());
 
 /** The cross in the corner of what can be closed. */
 export const closeButton = (label: string, close: () => void): HTMLButtonElement =>
   button("×", close, { class: "quiet close", "aria-label": label });
 
-/** Lets arrow keys, Home and End move between the buttons of a row, round its ends; `arrived` is called where they lead. */
+/** Lets arrow keys, Home and End move between the buttons of a row; `arrived` is called where they lead. */
 export function rove(row: HTMLElement, arrived: (button: HTMLButtonElement) => void = () => {}): void {
   row.addEventListener("keydown", (event) => {
     const buttons = [...row.querySelectorAll("button")];
@@ -104,22 +103,26 @@ export function setText(target: Node, text: string): void {
   if (target.textContent !== text) target.textContent = text;
 }
 
-export class Facts {
+/** Values beside their names, in a list. */
+export class Facts<Name extends string> {
   readonly root = element("dl", { class: "facts" });
   private readonly values = new Map<string, HTMLElement>();
 
-  constructor(names: readonly string[], label: string) {
+  constructor(names: Readonly<Record<Name, string>>, label: string) {
     this.root.setAttribute("aria-label", label);
-    for (const name of names) {
+    for (const [name, text] of Object.entries<string>(names)) {
       const value = element("dd", {}, "–");
       this.values.set(name, value);
-      this.root.append(element("div", {}, element("dt", {}, name), value));
+      this.root.append(element("div", {}, element("dt", {}, text), value));
     }
   }
 
-  set(name: string, text: string): void {
-    const value = this.values.get(name);
-    if (value !== undefined) setText(value, text);
+  clear(text: string): void {
+    for (const value of this.values.values()) setText(value, text);
+  }
+
+  set(facts: Readonly<Partial<Record<Name, string>>>): void {
+    for (const [name, text] of Object.entries<string | undefined>(facts)) setText(this.values.get(name) as Node, text ?? "");
   }
 }
 
@@ -156,7 +159,11 @@ export function debounced<Values extends unknown[]>(
 }
 
 /** A choice among values with their texts. */
-export function choice(label: string, options: readonly (readonly [string, string])[], choose: (value: string) => void): HTMLSelectElement {
+export function choice(
+  label: string,
+  options: readonly (readonly [value: string, text: string])[],
+  choose: (value: string) => void,
+): HTMLSelectElement {
   const all = options.map(([value, text]) => element("option", { value }, text));
   const made = element("select", { "aria-label": label, onchange: () => choose(made.value) }, ...all);
   return made;

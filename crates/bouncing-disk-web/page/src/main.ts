@@ -6,29 +6,31 @@ import "./styles/page.css";
 import "./styles/screens.css";
 import "./styles/views.css";
 import "./styles/elsewhere.css";
-import { Address, isEmbedded, isLocal, link } from "./address";
+import { Address, embedded, frameOf, isEmbedded, isLocal, link } from "./address";
 import { makeClient, type Source } from "./client";
-import { messageOf, type Context, type Offer, type State, type ViewKind, type ViewName } from "./contract";
+import { messageOf, VIEW_NAMES, type Context, type Offer, type State, type ViewClass, type ViewName } from "./contract";
 import { COURSES, CoursePanel, type Course } from "./courses";
 import { fileName, noteOf, save } from "./drawing/files";
 import { byId, copied } from "./elements";
-import { embedded, frameOf } from "./embed";
 import { Parameters } from "./form";
-import { Notes, Opening, Problems } from "./notes";
+import { Notes, Problems, showOpening } from "./notes";
 import { openingPanel, PRESETS, stateOf, type Panel, type Preset } from "./presets";
 import { printSheet } from "./sheet";
 import { choices, helpDialog, shortcutsOn, Stage, Tabs, Themes } from "./shell";
 import { toHash, type fromHash } from "./state";
 import { Store } from "./store";
-import { basins } from "./views/basins";
-import { compare } from "./views/compare";
-import { diagram } from "./views/diagram";
-import { motor } from "./views/motor";
-import { scan } from "./views/scan";
-import { toss } from "./views/toss";
+import { BasinsView } from "./views/basins";
+import { CompareView } from "./views/compare";
+import { DiagramView } from "./views/diagram";
+import { MotorView } from "./views/motor";
+import { ScanView } from "./views/scan";
+import { TossView } from "./views/toss";
 import { say, WORDS } from "./words";
 
-const VIEWS: readonly ViewKind[] = [toss, diagram, basins, motor, compare, scan];
+const VIEWS: Readonly<Record<ViewName, ViewClass>> = {
+  ...{ toss: TossView, diagram: DiagramView, basins: BasinsView },
+  ...{ motor: MotorView, compare: CompareView, scan: ScanView },
+};
 
 /** No ultrasonic motor has a drive as slow as this (rad/s). */
 const SLOWEST_MOTOR = 2e3 * Math.PI;
@@ -114,9 +116,8 @@ function begin(): void {
       aside = null;
     } else store.change({ view });
   };
-  const tabs = new Tabs(byId("tabs"), VIEWS, visit);
-  const side = byId("parameters");
-  const parameters = new Parameters(side, (change, options) => store.change(change, options));
+  const tabs = new Tabs(byId("tabs"), visit);
+  const parameters = new Parameters(byId("parameters"), (change, options) => store.change(change, options));
   const choose = (preset: Preset, panel: Panel): void => {
     course.stay();
     notes.choose(preset, panel);
@@ -182,7 +183,7 @@ function begin(): void {
     const taken = event.defaultPrevented || event.ctrlKey || event.altKey || event.metaKey;
     const typing = (event.target as HTMLElement).closest("input, select, textarea");
     if (taken || typing || document.querySelector("dialog[open]") || !shortcutsOn()) return;
-    const view = VIEWS[Number(event.key) - 1]?.name;
+    const view = VIEW_NAMES[Number(event.key) - 1];
     // What the tools open is not there in a frame.
     const own = isEmbedded() ? undefined : tools.find(([key]) => key === event.key)?.[2];
     if (view !== undefined) visit(view);
@@ -192,11 +193,9 @@ function begin(): void {
   });
 
   // Only where nothing else is asked for: a link and a preset speak for themselves.
-  const opening = new Opening(byId("opening"), [
-    [WORDS.opening.tour, () => course.begin(COURSES[0] as Course)],
-    [WORDS.opening.lessons, courses],
-  ]);
-  if (location.hash === "") opening.show();
+  const tour = () => course.begin(COURSES[0] as Course);
+  const ways = [[WORDS.opening.tour, tour], [WORDS.opening.lessons, courses]] as const; // prettier-ignore
+  if (location.hash === "") showOpening(byId("opening"), ways);
   arrived(address.opened());
 }
 

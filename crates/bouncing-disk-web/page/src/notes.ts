@@ -79,29 +79,17 @@ export class Notes {
 }
 
 /** What a first visit reads: one sentence, and where to begin. Once closed, it stays so. */
-export class Opening {
-  constructor(
-    private readonly host: HTMLElement,
-    private readonly ways: readonly (readonly [string, () => void])[],
-  ) {}
-
-  show(): void {
-    this.host.hidden = kept("opening") === "closed";
-    const close = (): void => {
-      this.host.hidden = true;
-      kept("opening", "closed");
-    };
-    const ways = this.ways.map(([name, go]) => {
-      const begin = (): void => {
-        close();
-        go();
-      };
-      return button(name, begin, { class: "primary" });
-    });
-    const { sentence: what, examples } = WORDS.opening;
-    const sentence = element("p", {}, what, element("span", {}, ` ${examples}`));
-    this.host.replaceChildren(sentence, ...ways, closeButton(WORDS.opening.close, close));
-  }
+export function showOpening(host: HTMLElement, ways: readonly (readonly [name: string, go: () => void])[]): void {
+  host.hidden = kept("opening") === "closed";
+  const close = (go?: () => void): void => {
+    host.hidden = true;
+    kept("opening", "closed");
+    go?.();
+  };
+  const { sentence, examples, close: label } = WORDS.opening;
+  const words = element("p", {}, sentence, element("span", {}, ` ${examples}`));
+  const buttons = ways.map(([name, go]) => button(name, () => close(go), { class: "primary" }));
+  host.replaceChildren(words, ...buttons, closeButton(label, () => close()));
 }
 
 /** More than these at once tell nobody anything. */

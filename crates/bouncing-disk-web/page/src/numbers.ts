@@ -15,11 +15,9 @@ export function shown(value: number, digits = 5): string {
 export function abridged(value: number): string {
   const rounded = (digits: number): string => {
     const number = Number(value.toPrecision(digits));
-    const small = number !== 0 && Math.abs(number) < 1e-3;
-    return small ? number.toExponential() : String(number);
+    return number !== 0 && Math.abs(number) < 1e-3 ? number.toExponential() : String(number);
   };
-  const text = rounded(6);
-  return text.length > 8 ? rounded(5) : text;
+  return rounded(rounded(6).length > 8 ? 5 : 6);
 }
 
 /** What people write behind a number, and how many of the field's units it is. */
@@ -75,9 +73,8 @@ export function stepped(value: number, direction: 1 | -1, coarse: boolean, small
 
 export const minus = (text: string): string => text.replace("-", "\u2212");
 
-export function superscript(power: number): string {
-  return [...String(power)].map((digit) => (digit === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(digit)])).join("");
-}
+export const superscript = (power: number): string =>
+  [...String(power)].map((digit) => (digit === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(digit)])).join("");
 
 /** About `digits` significant digits; powers of ten where a plain number would be long. */
 export function plain(value: number | null | undefined, digits = 4): string {
@@ -105,18 +102,14 @@ export function grouped(text: string): string {
 export function withError(value: number | null, error: number | null, factor = 1): string {
   if (value === null || Number.isNaN(value)) return "–";
   if (error === null || !Number.isFinite(error) || error <= 0) return plain(value * factor);
-  const scaled = error * factor;
-  const decimals = Math.max(0, 1 - Math.floor(Math.log10(scaled)));
+  const [own, by] = [value * factor, error * factor];
+  const decimals = Math.max(0, 1 - Math.floor(Math.log10(by)));
   // What the error hides altogether has neither digits nor a sign.
-  if (Math.abs(value * factor) < 0.5 * 10 ** -decimals) return `0 ± ${plain(scaled, 2)}`;
-  if (decimals > 8) {
-    const power = Math.floor(Math.log10(Math.max(Math.abs(value * factor), scaled)));
-    const by = 10 ** power;
-    const places = Math.max(0, decimals + power);
-    const lead = minus(((value * factor) / by).toFixed(places));
-    return `(${lead} ± ${(scaled / by).toFixed(places)}) × 10${superscript(power)}`;
-  }
-  return `${minus(grouped((value * factor).toFixed(decimals)))} ± ${grouped(scaled.toFixed(decimals))}`;
+  if (Math.abs(own) < 0.5 * 10 ** -decimals) return `0 ± ${plain(by, 2)}`;
+  if (decimals <= 8) return `${minus(grouped(own.toFixed(decimals)))} ± ${grouped(by.toFixed(decimals))}`;
+  const power = Math.floor(Math.log10(Math.max(Math.abs(own), by)));
+  const told = (one: number) => minus((one / 10 ** power).toFixed(Math.max(0, decimals + power)));
+  return `(${told(own)} ± ${told(by)}) × 10${superscript(power)}`;
 }
 
 /** Two numbers with as many digits as it takes to tell them apart, and `least` decimals anyhow. */

@@ -1,6 +1,6 @@
 /** What stands around the views: tabs, the stage, dialogs and the theme. */
 
-import type { Context, State, View, ViewKind, ViewName } from "./contract";
+import { VIEW_NAMES, type Context, type State, type View, type ViewClass, type ViewName } from "./contract";
 import { button, closeButton, div, element, kept, oncePerFrame, rove } from "./elements";
 import { say, WORDS } from "./words";
 
@@ -8,21 +8,18 @@ import { say, WORDS } from "./words";
 export class Tabs {
   private readonly buttons: readonly HTMLButtonElement[];
 
-  constructor(
-    list: HTMLElement,
-    private readonly kinds: readonly ViewKind[],
-    choose: (name: ViewName) => void,
-  ) {
-    this.buttons = kinds.map(({ name, title }) =>
-      button(title, () => choose(name), { role: "tab", id: `tab-${name}`, "aria-controls": `view-${name}` }),
-    );
+  constructor(list: HTMLElement, choose: (name: ViewName) => void) {
+    this.buttons = VIEW_NAMES.map((name) => {
+      const attributes = { role: "tab", id: `tab-${name}`, "aria-controls": `view-${name}` };
+      return button(WORDS.views[name].title, () => choose(name), attributes);
+    });
     list.append(...this.buttons);
     rove(list, (tab) => tab.click());
   }
 
   show(present: ViewName): void {
     this.buttons.forEach((tab, index) => {
-      const shown = this.kinds[index]?.name === present;
+      const shown = VIEW_NAMES[index] === present;
       const was = tab.getAttribute("aria-selected") === "true";
       tab.setAttribute("aria-selected", String(shown));
       tab.tabIndex = shown ? 0 : -1;
@@ -42,12 +39,12 @@ export class Stage {
 
   constructor(
     place: HTMLElement,
-    private readonly kinds: readonly ViewKind[],
+    private readonly classes: Readonly<Record<ViewName, ViewClass>>,
     private readonly context: Context,
   ) {
     this.hosts = new Map(
-      kinds.map(({ name, description }) => {
-        const said = { "aria-labelledby": `tab-${name}`, "aria-description": description };
+      VIEW_NAMES.map((name) => {
+        const said = { "aria-labelledby": `tab-${name}`, "aria-description": WORDS.views[name].description };
         const own = { class: `view view-${name}`, id: `view-${name}`, role: "tabpanel", tabindex: -1, hidden: true };
         return [name, element("div", { ...own, ...said })];
       }),
@@ -72,9 +69,8 @@ export class Stage {
       for (const [name, host] of this.hosts) host.hidden = name !== state.view;
       this.context.status("");
     }
-    const { host } = this;
-    const kind = this.kinds.find(({ name }) => name === state.view);
-    if (this.view === undefined && kind && host) this.made.set(kind.name, kind.make(host, this.context));
+    const { host, classes, context } = this;
+    if (this.view === undefined && host) this.made.set(state.view, new classes[state.view](host, context));
     this.view?.show(state);
   }
 }

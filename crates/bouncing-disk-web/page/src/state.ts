@@ -1,6 +1,6 @@
 /** The state that a link reproduces: its defaults, changes of it, and its form in the hash of the address. */
 
-import { DRIVES, OPTIMA, QUANTITIES, RESULTS, VIEW_NAMES, type Change, type State } from "./contract";
+import { VIEW_NAMES, type Change, type State } from "./contract";
 import { SYSTEM_NAMES, type FlightStart, type Range, type SystemParameters } from "./protocol";
 import tables from "./tables.json";
 import { say, WORDS } from "./words";
@@ -13,6 +13,16 @@ export const MOST_RISE_TIMES = 1000;
 export const MOST_PERIODS = 500;
 /** Curves of a scan, which have to be told apart. */
 export const MOST_VALUES = 5;
+
+export const axialForcing = (system: Readonly<SystemParameters>): number =>
+  (system.amplitude * system.angular_frequency ** 2) / (Math.PI * system.preload_acceleration);
+
+/** How many periods of the platform a contact lasts. */
+export const contactPeriods = ({ contact_time, angular_frequency }: Readonly<SystemParameters>): number =>
+  (contact_time * angular_frequency) / (2 * Math.PI);
+
+export const amplitudeOf = (axialForcing: number, system: Readonly<SystemParameters>): number =>
+  (axialForcing * Math.PI * system.preload_acceleration) / system.angular_frequency ** 2;
 
 /** The parameters of a system among the numbers of a table, in the order of the address; 0 where the table has none. */
 export const systemOf = (table: Readonly<Record<string, number>>): SystemParameters =>
@@ -51,9 +61,6 @@ export const DEFAULT_STATE: State = {
     values: [-2, -1, 0, 1, 2].map((quarters) => (quarters * Math.PI) / 4),
   },
 };
-
-/** What a scan or a comparison can vary. */
-const PARAMETER_NAMES: readonly string[] = Object.keys(WORDS.form.labels);
 
 /** A state with this change. A start that is chosen takes the place of a throw. */
 export function changed(state: State, change: Change): State {
@@ -147,6 +154,13 @@ function oneOf<Name extends string>(names: readonly Name[]): Form<Name> {
   };
 }
 
+/** One of the names of some texts. */
+const oneOfTexts = <Texts extends object>(texts: Texts): Form<keyof Texts & string> =>
+  oneOf(Object.keys(texts) as (keyof Texts & string)[]);
+
+/** What a scan or a comparison can vary. */
+const PARAMETER: Form<string> = oneOf(Object.keys(WORDS.form.labels));
+
 const SWITCH: Form<boolean> = {
   print: (on) => (on ? "on" : "off"),
   read: (text) => oneOf(["on", "off"]).read(text) === "on",
@@ -189,25 +203,25 @@ const KEYS: Readonly<Record<string, Key>> = {
   angular_speed: of("start", "angular_speed", NUMBER),
   throw: all("thrown", orNone("none", THROW)),
   diagram_forcing: of("diagram", "axial_forcing", range(0)),
-  diagram_quantity: of("diagram", "quantity", oneOf(QUANTITIES)),
+  diagram_quantity: of("diagram", "quantity", oneOfTexts(WORDS.diagram.quantities)),
   diagram_range: of("diagram", "range", orNone("all", range())),
   diagram_branches: of("diagram", "branches", SWITCH),
-  diagram_drive: of("diagram", "drive", oneOf(DRIVES)),
+  diagram_drive: of("diagram", "drive", oneOfTexts(WORDS.diagram.drives)),
   basins_phase: of("basins", "phase_periods", range()),
   basins_speed: of("basins", "normalised_speed", range(0)),
   motor_loads: of("motor", "loads", range()),
   motor_points: of("motor", "points", whole(2, MOST_POINTS)),
   motor_rise_times: of("motor", "rise_times", bounded(0.01, MOST_RISE_TIMES)),
-  compare_parameter: of("compare", "parameter", oneOf(PARAMETER_NAMES)),
+  compare_parameter: of("compare", "parameter", PARAMETER),
   compare_value: of("compare", "value", NUMBER),
   compare_periods: of("compare", "periods", whole(1, MOST_PERIODS)),
   compare_from: of("compare", "from", orNone("parting", bounded(0, MOST_PERIODS))),
-  scan_over: of("scan", "over", oneOf(PARAMETER_NAMES)),
+  scan_over: of("scan", "over", PARAMETER),
   scan_range: of("scan", "range", range()),
   scan_points: of("scan", "points", whole(2, MOST_POINTS)),
-  scan_result: of("scan", "result", oneOf(RESULTS)),
-  scan_optimum: of("scan", "optimum", oneOf(OPTIMA)),
-  scan_family: of("scan", "family", orNone("none", oneOf(PARAMETER_NAMES))),
+  scan_result: of("scan", "result", oneOfTexts(WORDS.scan.results)),
+  scan_optimum: of("scan", "optimum", oneOfTexts(WORDS.scan.optima)),
+  scan_family: of("scan", "family", orNone("none", PARAMETER)),
   scan_values: of("scan", "values", VALUES),
 };
 
@@ -257,15 +271,3 @@ function unescaped(text: string): string {
 }
 
 const shortened = (text: string): string => (text.length > 40 ? `${text.slice(0, 40)}...` : text);
-
-export function axialForcing(system: Readonly<SystemParameters>): number {
-  return (system.amplitude * system.angular_frequency ** 2) / (Math.PI * system.preload_acceleration);
-}
-
-/** How many periods of the platform a contact lasts. */
-export const contactPeriods = ({ contact_time, angular_frequency }: Readonly<SystemParameters>): number =>
-  (contact_time * angular_frequency) / (2 * Math.PI);
-
-export function amplitudeOf(axialForcing: number, system: Readonly<SystemParameters>): number {
-  return (axialForcing * Math.PI * system.preload_acceleration) / system.angular_frequency ** 2;
-}

@@ -16,10 +16,7 @@ export interface Axis {
   readonly widest?: string;
 }
 
-export interface Axes {
-  readonly x: Axis;
-  readonly y: Axis;
-}
+export type Axes = Readonly<Record<"x" | "y", Axis>>;
 
 export interface Ticks {
   readonly major: readonly { readonly value: number; readonly label: string }[];
@@ -129,9 +126,7 @@ export function paintAxes(pen: Pen, plot: Plot): void {
 }
 
 /** On a screen a line of one pixel fills one row of pixels if it runs through their middle. */
-function placed(pen: Pen, place: number): number {
-  return pen.printed ? place : Math.round(place - 0.5) + 0.5;
-}
+const placed = (pen: Pen, place: number): number => pen.printed ? place : Math.round(place - 0.5) + 0.5;
 
 /** The smallest of 1, 2 and 5 times a power of ten that is not below a positive value. */
 export function roundUp(value: number): number {

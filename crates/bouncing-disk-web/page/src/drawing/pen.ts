@@ -23,12 +23,7 @@ export interface TextStyle {
   halo?: string;
 }
 
-export interface Box {
-  readonly left: number;
-  readonly top: number;
-  readonly width: number;
-  readonly height: number;
-}
+export type Box = Readonly<Record<"left" | "top" | "width" | "height", number>>;
 
 export abstract class Pen {
   constructor(
@@ -69,11 +64,7 @@ const PRINT_WEIGHT = 0.6;
 const SCREEN_FONT = 'system-ui, -apple-system, "Segoe UI", Roboto, "Noto Sans", "DejaVu Sans", sans-serif';
 export const PRINT_FONT = '"STIX Two Text", "Times New Roman", Tinos, "Liberation Serif", "DejaVu Serif", serif';
 
-interface Run {
-  readonly text: string;
-  readonly italic: boolean;
-  readonly subscript: boolean;
-}
+type Run = Readonly<{ text: string; italic: boolean; subscript: boolean }>;
 
 /** The little markup of labels: `*tau*` is italic and `_{imp}` a subscript. */
 function runsOf(text: string): Run[] {
@@ -167,16 +158,12 @@ export class CanvasPen extends Pen {
     context.save();
     context.translate(x, y);
     if (style.upwards === true) context.rotate(-Math.PI / 2);
-    context.textAlign = "left";
-    context.textBaseline = "alphabetic";
     let left = -width * { start: 0, middle: 0.5, end: 1 }[style.anchor ?? "start"];
     for (const run of runsOf(text)) {
       context.font = fontOf(run, style.size, family);
       const top = baselineOf(style) + (run.subscript ? SUBSCRIPT_DROP * style.size : 0);
       if (style.halo !== undefined) {
-        context.lineJoin = "round";
-        context.lineWidth = 3.5;
-        context.strokeStyle = this.colour(style.halo);
+        Object.assign(context, { lineJoin: "round", lineWidth: 3.5, strokeStyle: this.colour(style.halo) });
         context.strokeText(run.text, left, top);
       }
       context.fillStyle = this.colour(style.colour);
@@ -215,9 +202,7 @@ export class CanvasPen extends Pen {
       context.fill(shape);
     }
     if (stroke !== undefined) {
-      context.strokeStyle = this.colour(stroke);
-      context.lineWidth = width;
-      context.lineJoin = "round";
+      Object.assign(context, { strokeStyle: this.colour(stroke), lineWidth: width, lineJoin: "round" });
       context.setLineDash([...dash]);
       context.stroke(shape);
     }

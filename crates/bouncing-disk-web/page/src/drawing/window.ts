@@ -6,10 +6,7 @@ import { WORDS } from "../words";
 import { clamp, hairsAt, inside, layOut, paintAxes, valueX, valueY, type Axes, type Plot } from "./axes";
 import { CanvasPen, contextOf, type Box, type Pen } from "./pen";
 
-export interface Window2 {
-  readonly x: Range;
-  readonly y: Range;
-}
+export type Window2 = Readonly<Record<"x" | "y", Range>>;
 
 export type Point = readonly [number, number];
 
@@ -280,9 +277,8 @@ class Gestures {
   }
 }
 
-function scaled([low, high]: Range, centre: number, factor: number): Range {
-  return [centre + (low - centre) * factor, centre + (high - centre) * factor];
-}
+const scaled = ([low, high]: Range, centre: number, factor: number): Range =>
+  [centre + (low - centre) * factor, centre + (high - centre) * factor];
 
 function shifted([low, high]: Range, share: number): Range {
   const by = (high - low) * share;

@@ -25,14 +25,8 @@ export const impactOf = ({ start: { impact_phase, normalised_speed } }: State): 
 export const motionStartOf = ({ start, thrown }: State): MotionStart =>
   thrown === null ? { kind: "impact", ...start } : { kind: "flight", ...thrown };
 
-export async function verdictOf(
-  context: Context,
-  slot: string,
-  map: MapParameters,
-  start: ImpactStart,
-): Promise<VerdictJson> {
-  return (await context.client.ask<VerdictJson>(slot, { call: "orbit", ...map, start })).json;
-}
+export const verdictOf = ({ client }: Context, slot: string, map: MapParameters, start: ImpactStart): Promise<VerdictJson> =>
+  client.ask<VerdictJson>(slot, { call: "orbit", ...map, start }).then(({ json }) => json);
 
 /** Says what went wrong; a request that another one replaced went not wrong. */
 export function tellFailure(context: Context, error: unknown): void {
@@ -98,50 +92,52 @@ export class Asked<Value> {
   }
 }
 
-/** Says so where rounding, and not the model, decides what a disk does after a rest. */
-export class RoundingCaution {
-  readonly root: HTMLElement;
-  private readonly verdict = new Asked<void>();
+/**
+ * A caution that depends on the map alone, or on the impact too. A map of which no verdict comes has none, and its own
+ * view says why; nor have contacts that take time.
+ */
+abstract class Caution {
+  readonly root = element("p", { class: "caution", hidden: true });
+  private readonly asked = new Asked<void>();
 
-  constructor(
-    private readonly slot: string,
-    text: string,
-  ) {
-    this.root = element("p", { class: "caution", hidden: true }, say(WORDS.asking.rounding, { what: text }));
-  }
+  /** The text for a state; null where there is nothing to say. */
+  protected abstract textOf(context: Context, state: State): Promise<string | null>;
 
-  /** A map of which no verdict comes has no caution, and its own view says why; nor have contacts that take time. */
   show(context: Context, state: State): void {
     const map = mapOf(state);
     const ask = async () => {
       this.root.hidden = true;
-      if (map.contact_periods > 0) return;
-      this.root.hidden = !(await verdictOf(context, this.slot, map, REST)).rounding_dependent;
+      const text = map.contact_periods > 0 ? null : await this.textOf(context, state);
+      this.root.hidden = text === null;
+      this.root.textContent = text;
     };
-    this.verdict.get(map, ask).catch(() => {});
+    this.asked.get([map, impactOf(state)], ask).catch(() => {});
+  }
+}
+
+/** Says so where rounding, and not the model, decides what a disk does after a rest. */
+export class RoundingCaution extends Caution {
+  constructor(
+    private readonly slot: string,
+    private readonly what: string,
+  ) {
+    super();
+  }
+
+  protected async textOf(context: Context, state: State): Promise<string | null> {
+    const { rounding_dependent } = await verdictOf(context, this.slot, mapOf(state), REST);
+    return rounding_dependent ? say(WORDS.asking.rounding, { what: this.what }) : null;
   }
 }
 
 /** Says so where a motion from rest and the shared start end on two attractors: views that begin so then differ. */
-export class Attractors {
-  readonly root = element("p", { class: "caution", hidden: true });
-  private readonly verdicts = new Asked<void>();
-
-  constructor(private readonly slot: string) {}
-
-  show(context: Context, state: State): void {
-    const map = mapOf(state);
-    const start = impactOf(state);
-    const ask = async () => {
-      this.root.hidden = true;
-      if (map.contact_periods > 0) return;
-      const own = await verdictOf(context, `${this.slot}-start`, map, start);
-      const rest = await verdictOf(context, `${this.slot}-rest`, map, REST);
-      const decided = own.kind !== "undecided" && rest.kind !== "undecided";
-      this.root.hidden = !decided || (own.kind === rest.kind && own.impacts === rest.impacts);
-      const [first = "", other = ""] = [rest, own].map(({ text }) => text.replace(/, multipliers.*|\.$/s, ""));
-      this.root.textContent = say(WORDS.asking.two_attractors, { rest: first, start: other });
-    };
-    this.verdicts.get([map, start], ask).catch(() => {});
+export class Attractors extends Caution {
+  protected async textOf(context: Context, state: State): Promise<string | null> {
+    const own = await verdictOf(context, "attractors-start", mapOf(state), impactOf(state));
+    const rest = await verdictOf(context, "attractors-rest", mapOf(state), REST);
+    const decided = own.kind !== "undecided" && rest.kind !== "undecided";
+    if (!decided || (own.kind === rest.kind && own.impacts === rest.impacts)) return null;
+    const [first = "", other = ""] = [rest, own].map(({ text }) => text.replace(/, multipliers.*|\.$/s, ""));
+    return say(WORDS.asking.two_attractors, { rest: first, start: other });
   }
 }

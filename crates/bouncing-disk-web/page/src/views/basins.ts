@@ -1,6 +1,6 @@
 /** Basins of attraction: where the orbit of every start ends. */
 
-import { Cancelled, type Context, type Offer, type State, type ViewKind } from "../contract";
+import { Cancelled, type Context, type Offer, type State } from "../contract";
 import { crossAt, pixelX, pixelY, type Axes, type Plot } from "../drawing/axes";
 import { ONE_COLUMN, PARTS, plotOffers, tableOffers } from "../drawing/files";
 import type { Pen } from "../drawing/pen";
@@ -21,7 +21,7 @@ const PHASES: Range = [-1, 2];
 /** The smallest speed that a start can have. */
 const LEAST_SPEED = 1e-9;
 
-class BasinsView extends ComputingView {
+export class BasinsView extends ComputingView {
   private readonly picture: WindowPicture;
   private readonly rounding = new RoundingCaution("basins-rest", WORDS.asking.rounding_basins);
   private readonly legend = new Legend(this.rounding.root);
@@ -241,9 +241,3 @@ function paintMark(pen: Pen, plot: Plot, { impact_phase, normalised_speed }: Imp
     pen.path(path, { stroke: "--attractor-mark", width: 1.8 });
   }
 }
-
-export const basins: ViewKind = {
-  name: "basins",
-  ...WORDS.views.basins,
-  make: (host, context) => new BasinsView(host, context),
-};

@@ -1,18 +1,19 @@
 /** Two states that differ in one parameter, side by side: the shared one, A, and B. */
 
-import { Cancelled, messageOf, type Context, type Offer, type State, type ViewKind } from "../contract";
+import { Cancelled, messageOf, type Context, type Offer, type State } from "../contract";
 import { clamp, extent, padded } from "../drawing/axes";
 import { chartOffers, ScreenChart, type Chart, type Curve } from "../drawing/chart";
 import { ONE_COLUMN, PARTS, tableOffers } from "../drawing/files";
 import { button, div, element, labelled, oncePerFrame, rich, setText } from "../elements";
 import { plain, prefixOf, shown } from "../numbers";
 import { bouncing } from "../presets";
-import { MOTION_COLUMNS, type MotionJson, type Range, type VerdictJson } from "../protocol";
+import type { MotionJson, Range, VerdictJson } from "../protocol";
 import { DEFAULT_STATE, MOST_PERIODS } from "../state";
 import { say, WORDS } from "../words";
 import { Asked, ComputingView, impactOf, mapOf, motionStartOf, verdictOf } from "./asking";
 import { GROWING, nextDouble, partingOf, type Parting } from "./compare/parting";
 import { behaviour } from "./diagram/words";
+import { Recording, type Column } from "./toss/recording";
 import { exactText, settings, NumberField, parameterChoice, valueIn, varied, withValue } from "./varied";
 
 const SAMPLES = 48;
@@ -26,14 +27,11 @@ const MOST_STEPS = 64;
 
 const TEXT = WORDS.compare;
 
-type Column = (typeof MOTION_COLUMNS)[number];
-
 /** The same of A and of B. */
 type Both<Value> = readonly [a: Value, b: Value];
 
-/** Two motions that were sampled alike. */
+/** Two motions that were sampled alike; the shared state is A. */
 interface Pair {
-  /** The shared state, A. */
   readonly state: State;
   column(name: Column): Both<Float64Array>;
   /** |difference of heights| over the amplitude of A. */
@@ -45,7 +43,7 @@ interface Pair {
   readonly ends: Both<string> | null;
 }
 
-class CompareView extends ComputingView {
+export class CompareView extends ComputingView {
   private readonly charts = [0, 1, 2].map(() => new ScreenChart(() => clamp(window.innerHeight / 2 - 230, 210, 520)));
   private readonly parameter = parameterChoice(TEXT.parameter, (name) => this.attempt(() => this.choose(name)));
   private readonly value = new NumberField(TEXT.value, this.context, ([value = 0]) => this.change({ value }));
@@ -267,19 +265,11 @@ async function pairOf(context: Context, state: State): Promise<Pair> {
   const other = withValue(varied(parameter), value, state);
   const both = async <Value>(ask: (own: State, slot: string) => Promise<Value>): Promise<Both<Value>> =>
     Promise.all([ask(state, SLOTS[0]), ask(other, SLOTS[1])]);
-  const motions = await both((own, slot) => {
+  const [one, two] = await both(async (own, slot) => {
     const motion = { system: own.system, start: motionStartOf(own), periods, samples_per_period: SAMPLES };
-    return context.client.ask<MotionJson>(slot, { call: "motion", ...motion });
+    return new Recording(await context.client.ask<MotionJson>(slot, { call: "motion", ...motion }), periods, own.system);
   });
-  const columns = new Map<Column, Both<Float64Array>>();
-  const column = (name: Column) => {
-    const place = MOTION_COLUMNS.indexOf(name);
-    const of = ({ json, numbers }: (typeof motions)[number]) =>
-      new Float64Array(json.samples).map((_, row) => numbers[row * MOTION_COLUMNS.length + place] as number);
-    const found = columns.get(name) ?? [of(motions[0]), of(motions[1])];
-    columns.set(name, found);
-    return found;
-  };
+  const column = (name: Column) => [one.span(name, 0, Infinity), two.span(name, 0, Infinity)] as const;
   const [a, b] = column("height");
   const apart = a.map((height, row) => Math.abs(height - (b[row] as number)) / state.system.amplitude);
   const own = await valueIn(context, SLOTS[0], varied(parameter), state);
@@ -314,9 +304,3 @@ function describe({ column, parting: { first, largest, growth }, ends, state: { 
     grows === null ? say(noGrowth, bounds) : say(growth !== null && growth.factor > 1 ? rises : shrinks, grows),
   ];
 } // prettier-ignore
-
-export const compare: ViewKind = {
-  name: "compare",
-  ...WORDS.views.compare,
-  make: (host, context) => new CompareView(host, context),
-};

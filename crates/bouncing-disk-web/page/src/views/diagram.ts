@@ -1,6 +1,6 @@
 /** The orbit diagram: what impacts repeat, over the forcing. */
 
-import type { Context, Drive, Offer, Quantity, State, ViewKind } from "../contract";
+import type { Context, Drive, Offer, Quantity, State } from "../contract";
 import { clamp, pixelX, type Axes, type Plot } from "../drawing/axes";
 import { PARTS, plotOffers, tabbed, tableOffers, TWO_COLUMNS, type Basis } from "../drawing/files";
 import type { Pen } from "../drawing/pen";
@@ -10,7 +10,7 @@ import { plain } from "../numbers";
 import { say, WORDS } from "../words";
 import { DIAGRAM_COLUMNS, type DiagramJson, type Range, type VerdictJson } from "../protocol";
 import { amplitudeOf, axialForcing, contactPeriods, DEFAULT_STATE } from "../state";
-import { Asked, ComputingView, impactOf, tellFailure } from "./asking";
+import { Asked, ComputingView, impactOf } from "./asking";
 import { areDrawn, BRANCHES, branchesOf, isPlain, paintBranches, tablesOf, type Branches } from "./diagram/branches";
 import { computeColumns, DESCRIBED, distinctImpacts, LENGTHS, RECORDED, TRANSIENT, type Wanted } from "./diagram/columns";
 import { Dots } from "./diagram/dots";
@@ -24,7 +24,7 @@ const FORCING_BOUNDS: Range = [1e-3, 1e3];
 /** Impacts in tables are rounded to this share of the window. */
 const FINENESS = 1e-6;
 
-class DiagramView extends ComputingView {
+export class DiagramView extends ComputingView {
   private readonly picture: WindowPicture;
   private readonly verdict: Verdict;
   private readonly quantity = choice(TEXTS.quantity_label, Object.entries(TEXTS.quantities), (quantity) =>
@@ -46,8 +46,6 @@ class DiagramView extends ComputingView {
   private readonly verdicts = new Asked<VerdictJson[]>();
   /** The branches that came last, with the coefficient of restitution of their map. */
   private lines: (Branches & { readonly restitution: number }) | null = null;
-  /** How often there has been something to ask for: only the last time counts. */
-  private turn = 0;
   /** What was computed, when all is there, and whether it was said. */
   private sentence = "";
   private told = false;
@@ -109,7 +107,6 @@ class DiagramView extends ComputingView {
   offers(): Offer[] {
     const state = this.context.state();
     const { system, start, diagram } = state;
-    const fine = this.dots.columns.filter(({ coarse }) => !coarse);
     const lines = this.linesOf(state);
     const widths = [diagram.axial_forcing, this.dots.range(diagram)].map(([low, high]) => high - low);
     const step = FINENESS * Math.min(1, ...widths);
@@ -118,7 +115,7 @@ class DiagramView extends ComputingView {
         name: TEXTS.file,
         parameters: { picture: "orbit diagram", system, start, diagram, ...LENGTHS, rounded_to: step },
         columns: [DIAGRAM_COLUMNS[0], "impact_phase_rad", "normalised_speed", "angular_speed_per_omega_phi", "impacts"],
-        rows: () => distinctImpacts(fine, step),
+        rows: () => distinctImpacts(this.dots.columns, step),
         most: this.dots.count * RECORDED,
       }),
       ...(lines === null ? [] : tablesOf(lines, state).flatMap(tableOffers)),
@@ -160,9 +157,9 @@ class DiagramView extends ComputingView {
   protected async fetch(): Promise<void> {
     const laid = this.picture.layOut();
     if (laid === null) return;
-    const turn = (this.turn += 1);
     const state = this.context.state();
     const { system, diagram } = state;
+    const outdated = () => this.context.state() !== state;
     const wanted = {
       system,
       start: impactOf(state),
@@ -176,7 +173,7 @@ class DiagramView extends ComputingView {
       const columns = this.columns.get(name, () => this.fetchDots(name, wanted, laid.rows));
       if (this.dots.arrange(diagram, laid.rows)) this.draw();
       await columns;
-      if (turn !== this.turn) return;
+      if (outdated()) return;
       const { restitution } = system;
       const window = diagram.axial_forcing;
       // The verdicts come from the other worker, at the same time.
@@ -184,7 +181,7 @@ class DiagramView extends ComputingView {
         this.verdicts.get([window, restitution, wanted.start, isPlain(state)], () => verdictsOf(this.context, state)),
         areDrawn(state) && this.branches.get([window, restitution], () => this.fetchBranches(state)),
       ]);
-      if (turn !== this.turn) return;
+      if (outdated()) return;
       const seen = describeDiagram(state, verdicts, this.dots.count, this.orbits);
       const lines = this.linesOf(state);
       this.copy.hidden = lines === null || lines.json.bifurcations.length === 0;
@@ -192,7 +189,7 @@ class DiagramView extends ComputingView {
       if (!this.told) this.context.status(this.sentence);
       this.told = true;
     } catch (error) {
-      if (turn === this.turn) tellFailure(this.context, error);
+      if (!outdated()) throw error;
     }
   }
 
@@ -227,8 +224,7 @@ class DiagramView extends ComputingView {
   private async copyTable(): Promise<void> {
     const state = this.context.state();
     const lines = this.linesOf(state);
-    if (lines === null) return;
-    const done = await copied(tabbed(tablesOf(lines, state)[0]));
+    const done = lines !== null && (await copied(tabbed(tablesOf(lines, state)[0])));
     this.context.status(done ? TEXTS.copied : TEXTS.not_copied, done ? "done" : "error");
   }
 
@@ -278,9 +274,3 @@ function keyOf({ system, ...others }: Wanted): string {
   const { amplitude: _, ...rest } = system;
   return JSON.stringify([others, others.rotation ? rest : [system.restitution, contactPeriods(system)]]);
 }
-
-export const diagram: ViewKind = {
-  name: "diagram",
-  ...WORDS.views.diagram,
-  make: (host, context) => new DiagramView(host, context),
-};

@@ -1,6 +1,6 @@
 /** The motor of the shared system: data sheet, run-up, and what it does under load. */
 
-import { Cancelled, messageOf, type Context, type Offer, type State, type ViewKind } from "../contract";
+import { Cancelled, messageOf, type Context, type Offer, type State } from "../contract";
 import { clamp, evenly } from "../drawing/axes";
 import { ScreenChart, type Chart } from "../drawing/chart";
 import { PARTS, rowsOf } from "../drawing/files";
@@ -15,8 +15,6 @@ import { membersOf, operate, PASSES, reportOf, sheetOf, stallOf, transientOf, SL
 import type { Operation, Pass, Transient } from "./motor/requests";
 import { SheetPanel } from "./motor/sheet";
 import { describeCurves, describeRunUp, ReportPanel, whyNothingTurns } from "./motor/words";
-
-const remarkOf = (sheet: MotorSheet | null): string => say(WORDS.motor.remark, { members: membersOf(sheet) });
 
 const CURVES = Object.values(WORDS.motor.curves);
 
@@ -43,13 +41,13 @@ class Known {
   stall: StallJson | null = null;
 }
 
-class MotorView extends ComputingView {
+export class MotorView extends ComputingView {
   private readonly sheetPanel: SheetPanel;
   private readonly reportPanel = new ReportPanel();
   private readonly runUpChart = new ScreenChart(chartHeight);
   private readonly curveCharts = CURVES.map(() => new ScreenChart(chartHeight));
   private readonly remark = element("p", { class: "remark" });
-  private readonly attractors = new Attractors("motor-attractors");
+  private readonly attractors = new Attractors();
   private known = new Known();
   private imported: SheetJson | null = null;
   /** What the motor that is shown depends on. */
@@ -64,10 +62,10 @@ class MotorView extends ComputingView {
       context.change({ system: imported.system, mass: imported.mass });
       this.show(context.state());
     });
-    const [runUp, speed, power, efficiency] = [this.runUpChart, ...this.curveCharts].map(({ root }) => root);
+    const [speed, ...others] = this.curveCharts.map(({ root }) => root);
     const charts = [
-      section(WORDS.motor.panels.run_up, null, runUp ?? null, speed ?? null),
-      section(WORDS.motor.panels.power, null, power ?? null, efficiency ?? null, this.remark),
+      section(WORDS.motor.panels.run_up, null, this.runUpChart.root, speed ?? null),
+      section(WORDS.motor.panels.power, null, ...others, this.remark),
     ];
     const words = div("motor-words", this.reportPanel.root, this.sheetPanel.root);
     host.append(div("motor", this.attractors.root, this.reportPanel.trap, ...charts, words));
@@ -211,7 +209,7 @@ class MotorView extends ComputingView {
   private paint(): void {
     const { report, transient, problems, own, operations, stall } = this.known;
     const still = report === null ? null : whyNothingTurns(report);
-    setText(this.remark, still ?? remarkOf(this.known.sheet));
+    setText(this.remark, still ?? say(WORDS.motor.remark, { members: membersOf(this.known.sheet) }));
     for (const { root } of [this.runUpChart, ...this.curveCharts]) root.hidden = still !== null;
     if (transient === null || report === null) this.runUpChart.showWord(problems.runUp ?? WORDS.motor.run_up_coming);
     else {
@@ -254,9 +252,3 @@ function summaryOf(operations: readonly Operation[]): string {
   if (runaway) words.push(say(driven, { loads: runaway }));
   return words.join(" ");
 }
-
-export const motor: ViewKind = {
-  name: "motor",
-  ...WORDS.views.motor,
-  make: (host, context) => new MotorView(host, context),
-};

@@ -1,7 +1,6 @@
 /** A scan: one result at points of a range of a parameter, for some values of a second one. */
 
-import { Cancelled, OPTIMA, RESULTS } from "../contract";
-import type { Context, Offer, ResultName, State, ViewKind } from "../contract";
+import { Cancelled, type Context, type Offer, type Optimum, type ResultName, type State } from "../contract";
 import { clamp, evenly } from "../drawing/axes";
 import { chartOffers, ScreenChart } from "../drawing/chart";
 import { ONE_COLUMN, PARTS, tableOffers } from "../drawing/files";
@@ -22,7 +21,7 @@ const TEXT = WORDS.scan;
 
 const short = (value: number): number => Number(value.toPrecision(3));
 
-class ScanView extends ComputingView {
+export class ScanView extends ComputingView {
   private readonly chart = new ScreenChart(() => clamp(window.innerHeight - this.chart.root.offsetTop - 230, 300, 1100), {
     keys: TEXT.keys,
     hint: (curve) => say(TEXT.hint, { curve }),
@@ -30,12 +29,12 @@ class ScanView extends ComputingView {
   });
   private readonly over = parameterChoice(TEXT.over, (over) => this.about(over, (range) => ({ over, range })));
   private readonly family = parameterChoice(TEXT.family, (name) => this.curvesOf(name), TEXT.noFamily);
-  private readonly result = choice(TEXT.result, RESULTS.map((name) => [name, TEXT.results[name]]), (result) =>
+  private readonly result = choice(TEXT.result, Object.entries(TEXT.results), (result) =>
     this.change({ result: result as ResultName }),
-  ); // prettier-ignore
-  private readonly optimum = choice(TEXT.optimum, OPTIMA.map((name) => [name, TEXT.optima[name]]), (optimum) =>
-    this.change({ optimum: optimum as (typeof OPTIMA)[number] }),
-  ); // prettier-ignore
+  );
+  private readonly optimum = choice(TEXT.optimum, Object.entries(TEXT.optima), (optimum) =>
+    this.change({ optimum: optimum as Optimum }),
+  );
   // A range is typed number by number: each counts with what stands in the other field.
   private readonly low = this.field(TEXT.from, ([low = 0]) => ({ range: [low, this.high.numbers()?.[0] ?? NaN] }));
   private readonly high = this.field(TEXT.to, ([high = 0]) => ({ range: [this.low.numbers()?.[0] ?? NaN, high] }));
@@ -198,9 +197,3 @@ class ScanView extends ComputingView {
     this.context.change({ ...opens, system, mass, start, thrown, diagram: { axial_forcing } });
   }
 }
-
-export const scan: ViewKind = {
-  name: "scan",
-  ...WORDS.views.scan,
-  make: (host, context) => new ScanView(host, context),
-};

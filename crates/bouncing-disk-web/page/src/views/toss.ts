@@ -1,6 +1,6 @@
 /** Toss and bounce: the motion itself, from the engine's own trajectory. */
 
-import { Cancelled, type Context, type Offer, type State, type View, type ViewKind } from "../contract";
+import { Cancelled, type Context, type Offer, type State, type View } from "../contract";
 import { chartOffers, ScreenChart } from "../drawing/chart";
 import { ONE_COLUMN, PARTS, plotOffers, tableOffers, type Basis } from "../drawing/files";
 import { Layers, type Point } from "../drawing/window";
@@ -31,7 +31,7 @@ const COLUMNS = [
   "platform_angle_rad", "platform_velocity_m_per_s", "platform_angular_speed_rad_per_s", "mode",
 ]; // prettier-ignore
 
-class TossView implements View {
+export class TossView implements View {
   private readonly scene = new Layers("picture-scene", TEXTS.scene);
   private readonly readings = new Readings();
   private readonly gains = element("p", { class: "remark" });
@@ -306,9 +306,3 @@ class TossView implements View {
     setText(this.alternative, player.playing ? "" : describeMoment(moment, player.now, impacts, recording));
   }
 }
-
-export const toss: ViewKind = {
-  name: "toss",
-  ...WORDS.views.toss,
-  make: (host, context) => new TossView(host, context),
-};

@@ -2,10 +2,9 @@
 
 import type { Context } from "../../contract";
 import type { Plot } from "../../drawing/axes";
-import { pixelWord } from "../../drawing/colours";
 import { rounded } from "../../drawing/files";
 import type { Pen } from "../../drawing/pen";
-import { Raster } from "../../drawing/raster";
+import { pixelWord, Raster } from "../../drawing/raster";
 import type { Range } from "../../protocol";
 import type { MapParameters } from "../asking";
 
@@ -99,9 +98,8 @@ export class Cells {
 }
 
 /** Colours repeat only after eight attractors; the first one is mostly the disk at rest. */
-export function categoryColour(index: number): string {
-  return `--category-${index < CATEGORIES ? index : 1 + ((index - 1) % (CATEGORIES - 1))}`;
-}
+export const categoryColour = (index: number): string =>
+  `--category-${index < CATEGORIES ? index : 1 + ((index - 1) % (CATEGORIES - 1))}`;
 
 /** A coarse cell stands for so many in both directions. */
 const COARSE = 4;

@@ -85,9 +85,8 @@ function itemOf({ colour, words, share, all }: Entry): HTMLElement {
 }
 
 /** The labels of cells that are decided. */
-export function labelsOf(found: AttractorsJson): number[] {
-  return found.attractors.flatMap(({ label }) => (label === null ? [] : [label]));
-}
+export const labelsOf = (found: AttractorsJson): number[] =>
+  found.attractors.flatMap(({ label }) => (label === null ? [] : [label]));
 
 export function describe(attractor: AttractorJson, found: AttractorsJson): string {
   const text = attractor.text.replace(/\.$/, "");

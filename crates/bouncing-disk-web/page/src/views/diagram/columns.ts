@@ -1,4 +1,4 @@
-/** What is drawn over the forcing, and the columns of a window: where they take long, every eighth first, then all. */
+/** What is drawn over the forcing, and the columns of a window. */
 
 import type { Context, Drive, Quantity } from "../../contract";
 import { rounded, rowsOf } from "../../drawing/files";
@@ -32,12 +32,7 @@ export function axisValue(quantity: Quantity, value: number, low: number): numbe
   return periods - Math.floor(periods - low);
 }
 
-export interface Columns {
-  readonly numbers: Float64Array;
-  readonly from: number;
-  readonly to: number;
-  readonly coarse: boolean;
-}
+export type Columns = Readonly<{ numbers: Float64Array; from: number; to: number }>;
 
 export interface Wanted {
   readonly system: SystemParameters;
@@ -55,47 +50,34 @@ export const TRANSIENT = 300;
 export const RECORDED = 200;
 /** An orbit that has not settled is followed for so many impacts; near a doubling it would take any number. */
 export const LENGTHS = { transient: TRANSIENT, recorded: RECORDED, patience: 3000 };
-/** A coarse column stands for so many. */
-export const COARSE = 8;
 /** Columns of a request: some 10 ms of work, so that one that is not wanted any more is soon over; their way between the
  * workers takes longer than 32 columns of the vertical motion. */
 const CHUNK = { vertical: 256, rotation: 64 };
 
 /** Gives each answer to `take`; what there is to tell of the orbits when all are there. */
 export async function computeColumns(
-  context: Context,
+  { client }: Context,
   wanted: Wanted,
   take: (columns: Columns) => void,
 ): Promise<DiagramJson> {
-  const places: Omit<Columns, "numbers">[] = [];
-  const chunk = wanted.rotation ? CHUNK.rotation : CHUNK.vertical;
-  const coarseCount = Math.ceil(wanted.count / COARSE);
-  const add = (count: number, coarse: boolean) => {
-    for (let from = 0; from < count; from += chunk) places.push({ from, to: Math.min(from + chunk, count), coarse });
-  };
-  // The vertical motion of all columns is there before a coarse picture of it could be looked at.
-  if (wanted.rotation) add(coarseCount, true);
-  add(wanted.count, false);
-  const requests = places.map(({ from, to, coarse }): Request => ({
-    call: "diagram",
-    ...wanted,
-    count: coarse ? coarseCount : wanted.count,
-    drive: shapeOf(wanted.drive),
-    columns: [from, to],
-    ...LENGTHS,
-    ...(coarse && { patience: TRANSIENT }),
-  }));
+  const { count, rotation, drive } = wanted;
+  const chunk = rotation ? CHUNK.rotation : CHUNK.vertical;
+  const parts = Array.from({ length: Math.ceil(count / chunk) }, (_, part): [number, number] => {
+    return [part * chunk, Math.min((part + 1) * chunk, count)];
+  });
+  const requests = parts.map((columns): Request => {
+    return { call: "diagram", ...wanted, drive: shapeOf(drive), columns, ...LENGTHS };
+  });
   let told: DiagramJson = { resting: 0, unsettled: 0, left_out: TRANSIENT };
-  await context.client.series<DiagramJson>("diagram", requests, ({ json, numbers }, index) => {
-    const place = places[index] as (typeof places)[number];
+  await client.series<DiagramJson>("diagram", requests, ({ json, numbers }, index) => {
     const { resting, unsettled, left_out } = told;
-    if (!place.coarse)
-      told = {
-        resting: resting + json.resting,
-        unsettled: unsettled + json.unsettled,
-        left_out: Math.max(left_out, json.left_out),
-      };
-    take({ ...place, numbers });
+    told = {
+      resting: resting + json.resting,
+      unsettled: unsettled + json.unsettled,
+      left_out: Math.max(left_out, json.left_out),
+    };
+    const [from, to] = parts[index] as [number, number];
+    take({ numbers, from, to });
   });
   return told;
 }

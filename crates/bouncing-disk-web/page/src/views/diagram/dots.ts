@@ -2,12 +2,11 @@
 
 import type { Quantity, State } from "../../contract";
 import { clamp, extent, padded, type Plot } from "../../drawing/axes";
-import { colourScale, pixelWord } from "../../drawing/colours";
 import type { Pen } from "../../drawing/pen";
-import { Raster } from "../../drawing/raster";
+import { colourScale, pixelWord, Raster } from "../../drawing/raster";
 import type { Window2 } from "../../drawing/window";
 import { DIAGRAM_COLUMNS, type Range } from "../../protocol";
-import { axisValue, COARSE, columnOf, RECORDED, type Columns } from "./columns";
+import { axisValue, columnOf, RECORDED, type Columns } from "./columns";
 
 type Diagram = State["diagram"];
 
@@ -16,7 +15,7 @@ const WIDTH = DIAGRAM_COLUMNS.length;
 const NARROWEST = 1e-9;
 
 export class Dots {
-  /** All answers for the present columns, coarse and fine. */
+  /** All answers for the present columns. */
   columns: Columns[] = [];
   count = 0;
   private complete = false;
@@ -91,80 +90,58 @@ function rangeOf(columns: readonly Columns[], quantity: Quantity): Range | null 
   return quantity === "normalised_speed" ? [0, padded([0, high])[1]] : padded([low, high]);
 }
 
-/** The dots of one window of the orbit diagram, counted in pixels: coarse columns at once, fine ones as they come. */
-class OrbitPicture {
-  private readonly fine: Density;
-  private readonly coarse: Density;
-
-  constructor(
-    private readonly window: Window2,
-    readonly quantity: Quantity,
-    columns: number,
-    rows: number,
-  ) {
-    this.fine = new Density(columns, rows);
-    this.coarse = new Density(Math.ceil(columns / COARSE), rows);
-  }
-
-  /** Counts an answer with the columns `[from, to)`, fine or coarse. */
-  add({ numbers, from, to, coarse }: Columns): void {
-    const density = coarse ? this.coarse : this.fine;
-    const { x, y } = this.window;
-    const field = columnOf(this.quantity);
-    const columnScale = density.width / (x[1] - x[0]);
-    const rowScale = density.height / (y[1] - y[0]);
-    density.open(from, to);
-    for (let row = 0; row + WIDTH <= numbers.length; row += WIDTH) {
-      // The last column is that of the upper end itself; the half keeps rounding from moving a column to its neighbour.
-      const place = ((numbers[row] as number) - x[0]) * columnScale * ((density.width - 1) / density.width);
-      const value = axisValue(this.quantity, numbers[row + field] as number, y[0]);
-      if (Number.isNaN(value)) continue;
-      density.count(clamp(Math.floor(place + 0.5), from, to - 1), Math.floor((y[1] - value) * rowScale));
-    }
-  }
-
-  paint(pen: Pen, plot: Plot): void {
-    for (const { raster } of [this.coarse, this.fine]) raster.paint(pen, plot, this.window);
-  }
-}
-
 const SHADES = 64;
 /** All of an orbit in one pixel has the last colour. */
 const SCALE = (SHADES - 1) / Math.log1p(RECORDED);
 
-/** Dots counted in the pixels of a picture and shown as densities: a cloud of dots costs no more than its pixels. */
-class Density {
-  readonly raster: Raster;
-  /** Columns that are taken as empty paper, in which dots are then counted; the others stay transparent. */
-  private readonly opened: Uint8Array;
+/**
+ * The dots of one window of the orbit diagram, counted in the pixels of a picture and shown as densities: a cloud of dots
+ * costs no more than its pixels.
+ */
+class OrbitPicture {
+  private readonly raster: Raster;
+  /** Columns that have come, as empty paper in which dots are then counted; the others stay transparent. */
+  private readonly known: Uint8Array;
   private readonly counts: Uint16Array;
 
   constructor(
-    readonly width: number,
-    readonly height: number,
+    private readonly window: Window2,
+    readonly quantity: Quantity,
+    private readonly width: number,
+    private readonly height: number,
   ) {
-    const opened = (this.opened = new Uint8Array(width));
+    const known = (this.known = new Uint8Array(width));
     const counts = (this.counts = new Uint16Array(width * height));
     this.raster = new Raster(width, height, (colour) => {
       const shades = colourScale([0, 1, 2, 3, 4].map((index) => colour(`--density-${index}`)), SHADES); // prettier-ignore
       const paper = pixelWord(colour("--picture-paper"));
       return (x, y) => {
         const count = counts[y * width + x] as number;
-        if (count === 0) return opened[x] === 0 ? 0 : paper;
+        if (count === 0) return known[x] === 0 ? 0 : paper;
         return shades[Math.min(Math.round(Math.log1p(count) * SCALE), SHADES - 1)] as number;
       };
     });
   }
 
-  open(from: number, to: number): void {
-    this.opened.fill(1, from, to);
+  /** Counts an answer with the columns `[from, to)`. */
+  add({ numbers, from, to }: Columns): void {
+    const { x, y } = this.window;
+    const field = columnOf(this.quantity);
+    const [columnScale, rowScale] = [this.width / (x[1] - x[0]), this.height / (y[1] - y[0])];
+    this.known.fill(1, from, to);
     this.raster.change(from, 0, to, this.height);
+    for (let at = 0; at + WIDTH <= numbers.length; at += WIDTH) {
+      // The last column is that of the upper end itself; the half keeps rounding from moving a column to its neighbour.
+      const place = ((numbers[at] as number) - x[0]) * columnScale * ((this.width - 1) / this.width);
+      const row = Math.floor((y[1] - axisValue(this.quantity, numbers[at + field] as number, y[0])) * rowScale);
+      // What is outside is left out, as an angular speed that is not a number is.
+      if (!(row >= 0 && row < this.height)) continue;
+      const index = row * this.width + clamp(Math.floor(place + 0.5), from, to - 1);
+      this.counts[index] = (this.counts[index] as number) + 1;
+    }
   }
 
-  /** One dot; what is outside is left out. */
-  count(column: number, row: number): void {
-    if (column < 0 || column >= this.width || row < 0 || row >= this.height) return;
-    const index = row * this.width + column;
-    this.counts[index] = (this.counts[index] as number) + 1;
+  paint(pen: Pen, plot: Plot): void {
+    this.raster.paint(pen, plot, this.window);
   }
 }

@@ -11,12 +11,11 @@ import { areDrawn, isPlain, type Branches } from "./branches";
 import { RECORDED, TRANSIENT } from "./columns";
 
 const TEXTS = WORDS.diagram;
-const NAMES = TEXTS.facts;
 const CAUTION = say(WORDS.asking.rounding, { what: WORDS.asking.rounding_orbit });
 
 export class Verdict {
   readonly root: HTMLElement;
-  private readonly facts = new Facts(Object.values(NAMES), TEXTS.orbit);
+  private readonly facts = new Facts(TEXTS.facts, TEXTS.orbit);
   private readonly sentence = element("p", {}, TEXTS.hint);
   private readonly caution = element("p", { class: "caution", hidden: true }, CAUTION);
   /** What is read: its forcing, and what else it depends on. */
@@ -25,8 +24,7 @@ export class Verdict {
   private readonly ask = debounced(90, (forcing: number, state: State) => void this.fetch(forcing, state));
 
   constructor(private readonly context: Context) {
-    const title = element("h3", {}, TEXTS.orbit);
-    const parts = [title, this.facts.root, this.sentence, this.caution];
+    const parts = [element("h3", {}, TEXTS.orbit), this.facts.root, this.sentence, this.caution];
     this.root = section(TEXTS.orbit, "panel", ...parts);
   }
 
@@ -38,14 +36,14 @@ export class Verdict {
     if (own === this.own && !(this.forcing < low || this.forcing > high)) return;
     Object.assign(this, { own, forcing: NaN });
     this.ask.stop();
-    for (const name of Object.values(NAMES)) this.facts.set(name, "–");
+    this.facts.clear("–");
     setText(this.sentence, TEXTS.hint);
     this.caution.hidden = true;
   }
 
   point(forcing: number, state: State): void {
     this.forcing = forcing;
-    this.facts.set(NAMES.forcing, plain(forcing, 6));
+    this.facts.set({ forcing: plain(forcing, 6) });
     this.ask(forcing, state);
   }
 
@@ -64,16 +62,13 @@ export class Verdict {
   }
 
   private tell(forcing: number, verdict: VerdictJson): void {
-    const { impacts, platform_periods: periods } = verdict;
+    const { impacts, platform_periods } = verdict;
     const orbit = TEXTS.kinds[verdict.kind];
-    const round =
-      impacts === null
-        ? "–"
-        : say(TEXTS.round, { impacts: counted(TEXTS.impacts, impacts), periods: counted(TEXTS.periods, periods ?? 0) });
-    this.facts.set(NAMES.orbit, orbit);
-    this.facts.set(NAMES.period, round);
-    this.facts.set(NAMES.multipliers, verdict.multipliers?.map(complex).join(", ") ?? "–");
-    this.facts.set(NAMES.exponent, withError(verdict.exponent, verdict.exponent_error));
+    const periods = counted(TEXTS.periods, platform_periods ?? 0);
+    const round = impacts === null ? "–" : say(TEXTS.round, { impacts: counted(TEXTS.impacts, impacts), periods });
+    const multipliers = verdict.multipliers?.map(complex).join(", ") ?? "–";
+    const exponent = withError(verdict.exponent, verdict.exponent_error);
+    this.facts.set({ orbit, period: round, multipliers, exponent });
     // The library writes for terminals, too.
     setText(this.sentence, verdict.text.replaceAll("+-", "±"));
     this.caution.hidden = !verdict.rounding_dependent;
@@ -99,21 +94,16 @@ export function verdictsOf(context: Context, state: State): Promise<VerdictJson[
   return Promise.all(asked);
 }
 
-export function describeDiagram(
-  state: State,
-  verdicts: readonly VerdictJson[],
-  count: number,
-  told: DiagramJson,
-): string {
+export function describeDiagram(state: State, verdicts: readonly VerdictJson[], count: number, told: DiagramJson): string {
   const { axial_forcing, quantity, drive } = state.diagram;
-  const [low, high] = axial_forcing.map((end) => endText(end, axial_forcing)) as [string, string];
+  const [low = "", high = ""] = axial_forcing.map((end) => endText(end, axial_forcing));
+  const { contact_time } = state.system;
   const restitution = brief(state.system.restitution);
   const transient = leftOut(told);
-  const samples = samplesOf(state);
+  const forcings = samplesOf(state).map((forcing) => forcingText(forcing, axial_forcing));
   const orbits = verdicts.map((verdict, index) =>
-    say(TEXTS.at, { orbit: behaviour(verdict), forcing: forcingText(samples[index] ?? NaN, axial_forcing) }),
+    say(TEXTS.at, { orbit: behaviour(verdict), forcing: forcings[index] ?? "" }),
   );
-  const { contact_time } = state.system;
   const driven = [
     say(TEXTS.driven, { drive: TEXTS.drives[drive] }),
     ...(contact_time === 0 ? [] : [say(TEXTS.contact, { periods: brief(contactPeriods(state.system), 3) })]),
@@ -159,10 +149,10 @@ export function describeBifurcations({ json }: Branches, window: Range): string 
 }
 
 /** Four decimals, or three more than the width of the window has zeros. */
-export function forcingText(value: number, [low, high]: Range): string {
+function forcingText(value: number, [low, high]: Range): string {
   const needed = 3 - Math.floor(Math.log10(high - low) + 1);
   return minus(value.toFixed(Math.min(Math.max(4, needed), 17)));
 }
 
 /** The end of a window, without zeros that say nothing. */
-export const endText = (value: number, window: Range): string => forcingText(value, window).replace(/\.?0+$/, "");
+const endText = (value: number, window: Range): string => forcingText(value, window).replace(/\.?0+$/, "");

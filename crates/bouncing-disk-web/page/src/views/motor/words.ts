@@ -7,11 +7,10 @@ import { counted, say, WORDS } from "../../words";
 import type { Operation, Transient } from "./requests";
 
 const TEXTS = WORDS.motor;
-const NAMES = TEXTS.facts;
 
 export class ReportPanel {
   readonly root = section(TEXTS.report, "panel");
-  private readonly facts = new Facts(Object.values(NAMES), TEXTS.facts_label);
+  private readonly facts = new Facts(TEXTS.facts, TEXTS.facts_label);
   /** Stands above the curves, which a trap makes those of another motion than one would expect. */
   readonly trap = element("p", { class: "caution trap", hidden: true });
   private readonly warnings = element("ul", { class: "warnings" });
@@ -26,19 +25,17 @@ export class ReportPanel {
 
   /** Forgets a motor. */
   clear(): void {
-    for (const name of Object.values(NAMES)) this.facts.set(name, "…");
+    this.facts.clear("…");
     this.trap.hidden = true;
     this.warningsBox.hidden = true;
     setText(this.text, "");
   }
 
   report(report: ReportJson): void {
-    this.facts.set(NAMES.regime, regimeOf(report));
-    this.facts.set(NAMES.forcing, plain(report.axial_forcing, 5));
-    const [[, time], [, depth]] = report.contact;
-    this.facts.set(NAMES.contact_time, time);
-    this.facts.set(NAMES.indentation, depth);
-    this.facts.set(NAMES.torque, quantity(report.largest_torque, "N m"));
+    const [[, contact_time], [, indentation]] = report.contact;
+    const forcing = plain(report.axial_forcing, 5);
+    const torque = quantity(report.largest_torque, "N m");
+    this.facts.set({ regime: regimeOf(report), forcing, contact_time, indentation, torque });
     this.trap.hidden = report.trap === null;
     if (report.trap !== null) setText(this.trap, describeTrap(report.trap, report));
     this.warningsBox.hidden = report.warnings.length === 0;
@@ -49,22 +46,20 @@ export class ReportPanel {
 
   /** Of a motor that nothing turns. */
   still(): void {
-    for (const name of ["speed", "amplitude", "constant", "stall"] as const) this.facts.set(NAMES[name], "–");
+    this.facts.set({ speed: "–", amplitude: "–", constant: "–", stall: "–" });
   }
 
   runUp(transient: Transient | null, own: Operation | null, problem = ""): void {
-    const known = transient === null ? problem || "…" : timeConstant(transient.json, own);
-    this.facts.set(NAMES.constant, known);
+    this.facts.set({ constant: transient === null ? problem || "…" : timeConstant(transient.json, own) });
   }
 
   operation(own: Operation, report: ReportJson): void {
-    this.facts.set(NAMES.speed, steadySpeed(own, report.largest_torque));
     const known = own.amplitude === null ? TEXTS.as_system : `${quantity(own.amplitude, "m")} ${under(own.load_torque)}`;
-    this.facts.set(NAMES.amplitude, known);
+    this.facts.set({ speed: steadySpeed(own, report.largest_torque), amplitude: known });
   }
 
   stall(stall: StallJson | null, problem = ""): void {
-    this.facts.set(NAMES.stall, stall === null ? problem || "–" : describeStall(stall));
+    this.facts.set({ stall: stall === null ? problem || "–" : describeStall(stall) });
   }
 }
 
@@ -148,12 +143,12 @@ export function describeStall(stall: StallJson): string {
 /** A sentence for speed, power and efficiency each; none before there is a load. */
 export function describeCurves(operations: readonly Operation[], stall: StallJson | null): string[] {
   const known = operations.filter(({ status }) => status !== 2);
-  const first = known[0];
-  const last = known[known.length - 1];
-  if (first === undefined || last === undefined) {
+  const [first, last] = [known[0], known.at(-1)];
+  if (first === undefined || last === undefined)
     return operations.length === 0 ? [] : Array.from({ length: 3 }, () => TEXTS.all_driven);
-  }
   const at = ({ load_torque }: Operation) => quantityWithError(load_torque, null, "N m");
+  const best = (of: "mechanical_power" | "efficiency") =>
+    known.reduce((one, other) => (other[of] > one[of] || Number.isNaN(one[of]) ? other : one));
   // A drift is in no error: numbers of what is not settled stand without one.
   const speed = (row: Operation) =>
     row.status === 1
@@ -162,22 +157,16 @@ export function describeCurves(operations: readonly Operation[], stall: StallJso
   const settled = ({ status }: Operation, known: string, rough: string) =>
     status === 1 ? say(TEXTS.so_far, { value: rough }) : known;
   const stop = stall === null || stall.torque === null ? "" : ` ${say(TEXTS.stalls, { load: describeStall(stall) })}`;
-  const powerful = known.reduce((best, row) => (row.mechanical_power > best.mechanical_power ? row : best));
-  const power = settled(
-    powerful,
-    quantityWithError(powerful.mechanical_power, powerful.mechanical_power_error, "W"),
-    quantity(powerful.mechanical_power, "W"),
-  );
-  const efficient = known
-    .filter(({ efficiency }) => efficiency > 0)
-    .reduce<Operation | null>((best, row) => (best === null || row.efficiency > best.efficiency ? row : best), null);
-  const efficiency = (row: Operation) =>
-    settled(row, `${withError(row.efficiency, row.efficiency_error, 100)} %`, `${plain(100 * row.efficiency, 3)} %`);
+  const [powerful, efficient] = [best("mechanical_power"), best("efficiency")];
+  const { mechanical_power, mechanical_power_error } = powerful;
+  const watts = [quantityWithError(mechanical_power, mechanical_power_error, "W"), quantity(mechanical_power, "W")] as const;
+  const share = efficient.efficiency;
+  const percents = [`${withError(share, efficient.efficiency_error, 100)} %`, `${plain(100 * share, 3)} %`] as const;
+  const most = { load: at(powerful), power: settled(powerful, ...watts) };
+  const finest = { load: at(efficient), efficiency: settled(efficient, ...percents) };
   return [
     `${say(TEXTS.from_to, { first: speed(first), last: speed(last) })}${stop}`,
-    powerful.mechanical_power > 0 ? say(TEXTS.most_power, { load: at(powerful), power }) : TEXTS.no_power,
-    efficient === null
-      ? TEXTS.no_efficiency
-      : say(TEXTS.best_efficiency, { load: at(efficient), efficiency: efficiency(efficient) }),
+    mechanical_power > 0 ? say(TEXTS.most_power, most) : TEXTS.no_power,
+    share > 0 ? say(TEXTS.best_efficiency, finest) : TEXTS.no_efficiency,
   ];
 }

@@ -11,8 +11,8 @@ const MODES: Readonly<Record<string, string>> = TEXTS.modes;
 const DOES: Readonly<Record<string, string>> = TEXTS.does;
 
 export class Readings {
-  private readonly facts = new Facts(Object.values(TEXTS.facts), TEXTS.now_label);
-  private readonly ledger = new Facts(Object.values(TEXTS.energy), TEXTS.balance_label);
+  private readonly facts = new Facts(TEXTS.facts, TEXTS.now_label);
+  private readonly ledger = new Facts(TEXTS.energy, TEXTS.balance_label);
   private readonly ledgerTitle = element("h3");
   readonly elements = [element("h3", {}, TEXTS.now), this.facts.root, this.ledgerTitle, this.ledger.root];
 
@@ -22,7 +22,7 @@ export class Readings {
     const spin = recording.settled(moment.angular_speed, "angular_speed", "platform_angular_speed");
     const velocity = recording.settled(moment.axial_velocity, "axial_velocity", "platform_velocity");
     const height = recording.settled(moment.height, "height", "platform_height");
-    const values: Record<keyof typeof TEXTS.facts, string> = {
+    this.facts.set({
       mode: MODES[moment.mode] ?? moment.mode,
       time: say(TEXTS.time, { periods: periods.toFixed(2), time: quantity(moment.time, "s") }),
       height: quantity(recording.system.contact_time > 0 ? gap : Math.max(gap, 0), "m"),
@@ -31,18 +31,15 @@ export class Readings {
       axial: quantity(velocity ** 2 / 2, "J/kg"),
       rotary: quantity((gyration_radius * spin) ** 2 / 2, "J/kg"),
       potential: quantity(g * height, "J/kg"),
-    };
-    for (const name of Object.keys(values) as (keyof typeof values)[]) this.facts.set(TEXTS.facts[name], values[name]);
+    });
   }
 
   balance({ energy, periods }: Recording): void {
     setText(this.ledgerTitle, say(TEXTS.balance, { periods }));
     // What is below the rounding of the largest of them is nothing.
     const largest = Math.max(...Object.values(energy).map(Math.abs));
-    for (const part of Object.keys(TEXTS.energy) as (keyof typeof energy)[]) {
-      const value = Math.abs(energy[part]) <= ROUNDING * largest ? 0 : energy[part];
-      this.ledger.set(TEXTS.energy[part], quantity(value, "J/kg"));
-    }
+    for (const [part, value] of Object.entries(energy))
+      this.ledger.set({ [part]: quantity(Math.abs(value) <= ROUNDING * largest ? 0 : value, "J/kg") });
   }
 }
 

@@ -12,7 +12,7 @@ const WIDTH = MOTION_COLUMNS.length;
 /** A sum of some doubles is rounded by so much of the largest of them. */
 export const ROUNDING = 8 * Number.EPSILON;
 
-type Column = (typeof MOTION_COLUMNS)[number];
+export type Column = (typeof MOTION_COLUMNS)[number];
 export type Moment = Record<Column, number> & { readonly mode: string };
 
 export interface Impact {

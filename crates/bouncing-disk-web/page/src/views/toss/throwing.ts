@@ -100,37 +100,35 @@ export function describeThrow({ gap, relative_velocity, angular_speed }: FlightS
 }
 
 const TEXTS = WORDS.toss.throw;
-const ENTRIES = [
-  [TEXTS.gap, "100"],
-  [TEXTS.velocity, "500"],
-  [TEXTS.speed, "5"],
-] as const;
 
 /** Three numbers and a button: a throw without a pointer. */
 export function throwForm({ system, phase, start }: Pick<ThrowHost, "system" | "phase" | "start">): HTMLElement {
-  const entries = ENTRIES.map(([label, value]) => {
+  const field = (label: string, value: string) => {
     const input = element("input", { type: "text", inputmode: "decimal", autocomplete: "off", value });
     return { label, input, row: element("label", {}, label, input) };
-  });
+  };
+  const entries = [field(TEXTS.gap, "100"), field(TEXTS.velocity, "500"), field(TEXTS.speed, "5")];
   const problem = element("p", { class: "error", role: "alert", hidden: true });
   /** A number that no throw can have is refused with the range of those that one can. */
   const throwIt = () => {
-    const [gap = NaN, velocity = NaN, spin = NaN] = entries.map(({ input }) => typed(input.value) ?? NaN);
-    const thrown = { phase: phase(), gap: gap / 1000, relative_velocity: velocity / 1000, angular_speed: spin };
+    const [mm = NaN, mmPerSecond = NaN, angular_speed = NaN] = entries.map(({ input }) => typed(input.value) ?? NaN);
+    const [gap, relative_velocity] = [mm / 1000, mmPerSecond / 1000];
+    const thrown = { phase: phase(), gap, relative_velocity, angular_speed };
     const highest = bounded(system(), { ...thrown, gap: Infinity }).gap;
     const fastest = bounded(system(), { ...thrown, relative_velocity: Infinity }).relative_velocity;
     // From the platform itself the disk can only leave upwards.
     const slowest = gap > 0 ? -fastest : 0;
-    const speeds = [quantity(slowest, "m/s"), quantity(fastest, "m/s")] as const;
     const ranges = [
-      [gap >= 0 && gap <= highest * 1000, "0", quantity(highest, "m")],
-      [velocity >= slowest * 1000 && velocity <= fastest * 1000, ...speeds],
-      [Math.abs(spin) <= FASTEST, `−${FASTEST}`, `${FASTEST} rad/s`],
+      [gap, 0, highest, "m"],
+      [relative_velocity, slowest, fastest, "m/s"],
+      [angular_speed, -FASTEST, FASTEST, "rad/s"],
     ] as const;
-    const wrong = entries.flatMap(({ label, input }, index) => {
-      const [legal, low, high] = ranges[index] as (typeof ranges)[number];
+    const wrong = ranges.flatMap(([value, least, most, unit], index) => {
+      const { label: name, input } = entries[index] as (typeof entries)[number];
+      const legal = value >= least && value <= most;
       input.setAttribute("aria-invalid", String(!legal));
-      return legal ? [] : say(TEXTS.refused, { name: label, text: input.value.slice(0, 24), low, high });
+      const [low, high] = [quantity(least, unit), quantity(most, unit)];
+      return legal ? [] : say(TEXTS.refused, { name, text: input.value.slice(0, 24), low, high });
     });
     problem.textContent = wrong.join(" ");
     problem.hidden = wrong.length === 0;
