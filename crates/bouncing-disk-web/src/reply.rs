@@ -53,14 +53,13 @@ pub(crate) struct Refusal {
     /// `out-of-range`, `computation`, `text` or `request`.
     kind: &'static str,
     quantity: Option<&'static str>,
-    value: Option<f64>,
     range: Option<&'static str>,
     message: String,
 }
 
 impl Refusal {
     pub(crate) const fn new(kind: &'static str, message: String) -> Self {
-        Self { kind, quantity: None, value: None, range: None, message }
+        Self { kind, quantity: None, range: None, message }
     }
 
     /// A text that is not a request.
@@ -78,15 +77,10 @@ impl From<Error> for Refusal {
     fn from(error: Error) -> Self {
         let message = error.to_string();
         match error {
-            Error::OutOfRange { field, value, legal }
-            | Error::Core(CoreError::OutOfRange { field, value, legal }) => Self {
-                kind: "out-of-range",
-                quantity: Some(field),
-                // JSON has no infinity; the message has it.
-                value: Some(value).filter(|value| value.is_finite()),
-                range: Some(legal),
-                message,
-            },
+            Error::OutOfRange { field, legal, .. }
+            | Error::Core(CoreError::OutOfRange { field, legal, .. }) => {
+                Self { kind: "out-of-range", quantity: Some(field), range: Some(legal), message }
+            }
             _ => Self::new("computation", message),
         }
     }

@@ -129,7 +129,10 @@ fn a_system_is_checked_by_the_ranges_of_the_library() {
     for (name, value) in [("restitution", 1.5), ("amplitude", -1.0), ("angular_frequency", 0.0)] {
         let refusal = refused(&check(with(pizza(), json!({ name: value }))));
         assert_eq!((&refusal["kind"], &refusal["quantity"]), (&json!("out-of-range"), &json!(name)));
-        assert_eq!(refusal["value"].as_f64(), Some(value));
+        assert!(
+            refusal["message"].as_str().is_some_and(|text| text.contains(&value.to_string())),
+            "{refusal}"
+        );
         assert!(refusal["range"].as_str().is_some_and(|range| !range.is_empty()), "{refusal}");
     }
     let (summary, _) = answered(&check(with(pizza(), json!({ "friction": 0.0, "amplitude": 0.0 }))));

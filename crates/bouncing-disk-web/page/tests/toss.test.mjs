@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import {
-  course, fact, onPage, pixelsOf, placeOfDisk, preset, settled, stateOf, svgOf, type, whenAddress, whenText, within,
+  course, fact, hashOf, onPage, pixelsOf, placeOfDisk, preset, settled, stateOf, svgOf, type, whenAddress, whenText, within,
 } from "./browser.mjs"; // prettier-ignore
 import { WORDS } from "./module.mjs";
 
@@ -116,13 +116,11 @@ onPage("a throw is in the address, and a link of it shows the same motion", {}, 
   // How fast the hand was depends on the machine.
   const [, gap, velocity, speed] = state.throw.split(",").map(Number);
   assert.ok(gap > 0 && velocity >= 0 && speed >= 0, state.throw);
-  const told = await page.textContent("#status");
-  assert.match(told, /^Thrown /);
-  const hash = await page.evaluate(() => location.hash);
-  await within({ hash }, async (copy) => {
+  assert.match(await page.textContent("#status"), /^Thrown /);
+  await within(await hashOf(page), async (copy) => {
     assert.deepEqual(await stateOf(copy), state);
-    assert.equal(await copy.textContent("#status"), told);
-    assert.deepEqual(await balanceOf(copy), await balanceOf(page));
+    for (const name of ["Work of the platform", "Stored in the disk"])
+      assert.equal(await fact(copy, "toss", name), await fact(page, "toss", name));
   });
   // Going back leads to the motion before, and so does the button.
   await page.getByRole("button", { name: WORDS.toss.back_to_impact }).click();
@@ -135,11 +133,6 @@ onPage("a throw is in the address, and a link of it shows the same motion", {}, 
   await type(page, "normalised_speed", "1.2");
   await whenAddress(page, "throw", "none");
 });
-
-const balanceOf = async (page) => {
-  const names = ["Work of the platform", "Lost in restitution", "Lost in friction", "Stored in the disk"];
-  return Promise.all(names.map((name) => fact(page, "toss", name)));
-};
 
 onPage("Fig. 2: the path of a point of the platform is drawn, and opens with the lag", {}, async (page) => {
   await preset(page, "fig02", 0);
@@ -163,11 +156,7 @@ onPage("Fig. 2: the path of a point of the platform is drawn, and opens with the
   assert.ok((await area()) < 0.01);
   // On the screen it is in the corner.
   const pixels = await pixelsOf(page, "#view-toss .picture-scene canvas", ["--platform-line"], 39);
-  const [width, ratio] = await page.evaluate(() => [
-    document.querySelector("#view-toss .picture-scene canvas").width,
-    devicePixelRatio,
-  ]);
-  const side = 190 * ratio;
+  const [width, side] = await page.$eval(".picture-scene canvas", (canvas) => [canvas.width, 190 * devicePixelRatio]);
   const drawn = pixels.filter(([x, y]) => x >= width - side && y < side).length;
   assert.ok(drawn > 60, `${drawn} pixels`);
 }); // prettier-ignore
