@@ -92,25 +92,11 @@ test("an optimum says from how many points it is, and which of them its error do
       /largest of 4 .* is \(5\.00 ± 0\.10\) rad\/s at μ = 2\. Another point, at 1, cannot be told apart/,
     ],
     [[1, 2, 5, 4, 3].map((value) => of(value)), /Its neighbours are at 1 and 3/],
-<<<<<<< HEAD
     [[5, 2, 5, 5, 3].map((value) => of(value)), /2 other points, from 2 to 3, cannot be .* at the end of the range/],
     [[unsettled, unsettled], /^No point has a value/],
   ])
     assert.match(describeOptima(plan, [line])[0], said);
   assert.equal(bestOf([of(2), of(1), null], "smallest"), 1);
-=======
-  assert.match(
-    told(of(1, 0.1), of(4.8, 0.1), of(5, 0.1), of(4.5, 0.1), unsettled),
-    /largest of 4 .* is \(5\.00 ± 0\.10\) rad\/s at μ = 2\. Another point, at 1, is not told apart/,
-  );
-  assert.match(told(of(1, 0), of(2, 0), of(5, 0), of(4, 0), of(3, 0)), /Its neighbours are at 1 and 3\./);
-  assert.match(
-    told(of(5, 0), of(2, 0), of(5, 0), of(5, 0), of(3, 0)),
-    /2 other points, from 2 to 3, are not .* at the end of the range/,
-  );
-  assert.match(told(unsettled, unsettled), /^No point has a value/);
-  assert.equal(bestOf([of(2, 0), of(1, 0), null], "smallest"), 1);
->>>>>>> 73593f20 (Read both motions of a comparison as recordings, and drop bookkeeping that the state does)
 });
 
 const compared = (page) => page.locator("#view-compare .optima li").allTextContents();
