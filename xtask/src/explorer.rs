@@ -55,6 +55,13 @@ pub(crate) struct Options {
 }
 
 pub(crate) fn run(options: &Options) -> Result<ExitCode> {
+    // Said now, and not after ten minutes.
+    if let Some(address) = &options.address
+        && !address.is_empty()
+        && !["https://", "http://"].iter().any(|scheme| address.starts_with(scheme))
+    {
+        bail!("--address {address} is no address of a page: it begins with https://");
+    }
     tools::complain_of_missing(options.rustc.as_deref(), options.build_std)?;
     let target = target_folder()?;
     let out = options.out.as_ref().map_or(target.join("explorer"), |out| in_workspace("").join(out));
