@@ -62,7 +62,7 @@ const sha256 = (text) => `'sha256-${createHash("sha256").update(text).digest("ba
 const version = (content) => createHash("sha256").update(content).digest("hex").slice(0, 10);
 
 const policy = (rules) =>
-  `<meta http-equiv="Content-Security-Policy" content="default-src 'none'; ${rules}; base-uri 'none'; form-action 'none'" />`;
+  `<meta http-equiv="Content-Security-Policy" content="default-src 'none'; base-uri 'none'; form-action 'none'; ${rules}" />`;
 
 /** Replaced text can have dollar signs in it. */
 function filled(html, parts) {

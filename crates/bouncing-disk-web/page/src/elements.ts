@@ -122,7 +122,7 @@ export class Facts<Name extends string> {
   }
 
   set(facts: Readonly<Partial<Record<Name, string>>>): void {
-    for (const [name, text] of Object.entries<string | undefined>(facts)) setText(this.values.get(name) as Node, text ?? "");
+    for (const [name, text = ""] of Object.entries<string | undefined>(facts)) setText(this.values.get(name) as Node, text);
   }
 }
 

@@ -8,7 +8,7 @@ import { WORDS } from "./words";
 
 export type Panel = Readonly<{ label: string; change: Change }>;
 
-export type Preset = Readonly<Record<"id" | "place" | "title" | "text", string>> & { readonly panels: readonly Panel[] };
+export type Preset = Readonly<Record<"id" | "place" | "title" | "text", string> & { panels: readonly Panel[] }>;
 
 const { PI } = Math;
 

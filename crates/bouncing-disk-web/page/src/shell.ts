@@ -162,9 +162,9 @@ export function helpDialog(): HTMLDialogElement {
   });
   const paragraph = (...parts: (Node | string)[]): HTMLElement => element("p", {}, ...parts);
   const [before = "", after = ""] = texts.model.split("{paper}");
-  const about = [paragraph(say(texts.about, WORDS.opening)), paragraph(before, element("cite", {}, texts.paper), after)];
+  const model = paragraph(before, element("cite", {}, texts.paper), after);
   const list = element("dl", { class: "keys" }, ...keys);
   const switched = paragraph(element("label", {}, box, ` ${texts.on}`));
-  const rest = [element("h3", {}, texts.what), ...about, paragraph(texts.licence)];
-  return dialog(texts.title, "help", list, switched, ...rest);
+  const what = [element("h3", {}, texts.what), paragraph(say(texts.about, WORDS.opening)), model];
+  return dialog(texts.title, "help", list, switched, ...what, paragraph(texts.licence));
 }

@@ -136,7 +136,7 @@ const VALUES = numbersThat(say(WORDS.address.up_to, { most: MOST_VALUES }), (val
 /** A throw that the library may still refuse, such as one that starts on the platform and goes downwards. */
 const FOUR = numbersThat(WORDS.address.throw, ({ length, 1: gap = NaN }) => length === 4 && gap >= 0);
 const THROW: Form<FlightStart> = {
-  print: ({ phase, gap, relative_velocity, angular_speed }) => FOUR.print([phase, gap, relative_velocity, angular_speed]),
+  print: ({ phase, gap, relative_velocity: speed, angular_speed }) => FOUR.print([phase, gap, speed, angular_speed]),
   read(text) {
     const [phase = 0, gap = 0, relative_velocity = 0, angular_speed = 0] = FOUR.read(text);
     return { phase, gap, relative_velocity, angular_speed };

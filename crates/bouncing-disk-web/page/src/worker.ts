@@ -1,6 +1,6 @@
 /** What the page and a worker say to each other. */
 
-/** Where a worker finds the module: compiled by another worker, compressed by gzip as base64 text, or at an address beside the page. */
+/** Where a worker finds the module: compiled by another one, as gzipped base64 text, or at an address. */
 export type ModuleSource = { compiled: WebAssembly.Module } | { base64: string } | { address: string };
 
 export type ToWorker =

@@ -5,7 +5,8 @@ import { element, placeOn, setText } from "../elements";
 import { plain, withError } from "../numbers";
 import type { Range } from "../protocol";
 import { say, WORDS } from "../words";
-import { clamp, crossAt, inside, layOut, paintAxes, paintGrid, pixelX, pixelY, valueX, type Axis, type Plot } from "./axes";
+import { clamp, crossAt, inside, layOut, paintAxes, paintGrid, pixelX, pixelY, valueX } from "./axes";
+import type { Axis, Plot } from "./axes";
 import { ONE_COLUMN, pictureOffers, PRINT_SIZE, type Basis } from "./files";
 import { plainText, type Pen } from "./pen";
 import { Layers } from "./window";
@@ -65,8 +66,8 @@ function paintChart(pen: Pen, chart: Chart, plot: Plot): void {
   paintGrid(pen, plot);
   pen.clipped(plot, () => {
     if (chart.shade !== undefined) paintShade(pen, chart.shade, plot);
-    const [zero, right] = [pixelY(plot, 0), plot.left + plot.width];
-    if (inside(plot, plot.left, zero)) pen.path([plot.left, zero, right, zero], { stroke: "--picture-muted", width: 1 });
+    const [left, zero, right] = [plot.left, pixelY(plot, 0), plot.left + plot.width];
+    if (inside(plot, left, zero)) pen.path([left, zero, right, zero], { stroke: "--picture-muted", width: 1 });
     for (const line of chart.lines ?? []) paintLine(pen, line, plot);
     for (const { x, y, form, colour } of chart.marks ?? []) {
       const [at, level, arm] = [pixelX(plot, x), pixelY(plot, y), plot.size * 0.4];
@@ -102,7 +103,8 @@ function paintLine(pen: Pen, { x, error, label, colour }: Line, plot: Plot): voi
   }
   pen.path([at, top, at, top + height], { stroke: colour, width: 1.2, dash: [5, 3] });
   const nearRight = at > left + width * 0.6;
-  const style = { colour, size, anchor: nearRight ? "end" : "start", baseline: "bottom", halo: "--picture-paper" } as const;
+  const anchor = nearRight ? "end" : "start";
+  const style = { colour, size, anchor, baseline: "bottom", halo: "--picture-paper" } as const;
   pen.text(label, at + (nearRight ? -4 : 4), top + height - size * 0.5, style);
 }
 

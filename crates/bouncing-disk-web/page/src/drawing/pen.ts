@@ -1,6 +1,16 @@
 /** What draws lines, areas and words: on the screen in CSS pixels, or for print into SVG in points. */
 
-import { printedColour, themeColour, type Colours } from "./colours";
+/** Gives the colour of a custom property that `theme.css` lists. */
+export type Colours = (name: string) => string;
+
+function colourIn(scheme: string | undefined, name: string): string {
+  const value = getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+  return value.replace(/^light-dark\(([^,]*), *(.*)\)$/, scheme === "dark" ? "$2" : "$1");
+}
+
+/** The colours of the present theme, and those of print, which are the light ones whatever the theme is. */
+export const themeColour: Colours = (name) => colourIn(document.documentElement.dataset["scheme"], name);
+export const printedColour: Colours = (name) => colourIn("light", name);
 
 /** Colours are the names of custom properties of `theme.css`. */
 export interface PathStyle {

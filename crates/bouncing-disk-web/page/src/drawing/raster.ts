@@ -2,8 +2,7 @@
 
 import { element } from "../elements";
 import { pixelX, pixelY, type Plot } from "./axes";
-import type { Colours } from "./colours";
-import { contextOf, type Pen } from "./pen";
+import { contextOf, type Colours, type Pen } from "./pen";
 import type { Window2 } from "./window";
 
 /** The word of the colour of a pixel; 0 is transparent. */

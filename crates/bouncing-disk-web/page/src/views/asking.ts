@@ -1,4 +1,4 @@
-/** What views that compute have in common: when they ask, answers that do not come, verdicts, and what rounding chose. */
+/** What views that compute have in common: when they ask, answers that do not come, and verdicts. */
 
 import { Cancelled, messageOf, type Context, type Offer, type State, type View } from "../contract";
 import { debounced, element } from "../elements";
@@ -25,8 +25,9 @@ export const impactOf = ({ start: { impact_phase, normalised_speed } }: State): 
 export const motionStartOf = ({ start, thrown }: State): MotionStart =>
   thrown === null ? { kind: "impact", ...start } : { kind: "flight", ...thrown };
 
-export const verdictOf = ({ client }: Context, slot: string, map: MapParameters, start: ImpactStart): Promise<VerdictJson> =>
-  client.ask<VerdictJson>(slot, { call: "orbit", ...map, start }).then(({ json }) => json);
+export async function verdictOf({ client }: Context, slot: string, map: MapParameters, start: ImpactStart) {
+  return (await client.ask<VerdictJson>(slot, { call: "orbit", ...map, start })).json;
+}
 
 /** Says what went wrong; a request that another one replaced went not wrong. */
 export function tellFailure(context: Context, error: unknown): void {

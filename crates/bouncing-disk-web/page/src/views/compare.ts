@@ -267,7 +267,8 @@ async function pairOf(context: Context, state: State): Promise<Pair> {
     Promise.all([ask(state, SLOTS[0]), ask(other, SLOTS[1])]);
   const [one, two] = await both(async (own, slot) => {
     const motion = { system: own.system, start: motionStartOf(own), periods, samples_per_period: SAMPLES };
-    return new Recording(await context.client.ask<MotionJson>(slot, { call: "motion", ...motion }), periods, own.system);
+    const answer = await context.client.ask<MotionJson>(slot, { call: "motion", ...motion });
+    return new Recording(answer, periods, own.system);
   });
   const column = (name: Column) => [one.span(name, 0, Infinity), two.span(name, 0, Infinity)] as const;
   const [a, b] = column("height");

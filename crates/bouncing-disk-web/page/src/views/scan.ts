@@ -1,16 +1,16 @@
 /** A scan: one result at points of a range of a parameter, for some values of a second one. */
 
-import { Cancelled, type Context, type Offer, type Optimum, type ResultName, type State } from "../contract";
+import { Cancelled, type Change, type Context, type Offer, type Optimum, type ResultName, type State } from "../contract";
 import { clamp, evenly } from "../drawing/axes";
 import { chartOffers, ScreenChart } from "../drawing/chart";
 import { ONE_COLUMN, PARTS, tableOffers } from "../drawing/files";
 import { button, choice, div, element, labelled, oncePerFrame, rich } from "../elements";
+import { bouncing, motor, toss } from "../presets";
 import type { Range } from "../protocol";
-import { axialForcing, changed, MOST_POINTS, MOST_VALUES } from "../state";
+import { axialForcing, changed, DEFAULT_STATE, MOST_POINTS, MOST_VALUES } from "../state";
 import { say, WORDS } from "../words";
 import { ComputingView } from "./asking";
 import { chartOf, describeGaps, describeOptima, planOf, readingsOf } from "./scan/curves";
-import { READY } from "./scan/ready";
 import { compute, RESULT, type Outcome } from "./scan/results";
 import { NumberField, parameterChoice, rangeAbout, settings, valueIn, varied } from "./varied";
 
@@ -22,7 +22,7 @@ const TEXT = WORDS.scan;
 const short = (value: number): number => Number(value.toPrecision(3));
 
 export class ScanView extends ComputingView {
-  private readonly chart = new ScreenChart(() => clamp(window.innerHeight - this.chart.root.offsetTop - 230, 300, 1100), {
+  private readonly chart = new ScreenChart(() => this.height(), {
     keys: TEXT.keys,
     hint: (curve) => say(TEXT.hint, { curve }),
     pick: (at, curve) => this.pick(at, curve),
@@ -100,6 +100,10 @@ export class ScanView extends ComputingView {
       ...tableOffers({ name: "scan", parameters: { system, mass, start, scan }, columns, rows }),
       ...chartOffers("scan", TEXT.results[scan.result], [chartOf(plan, readings)], ONE_COLUMN * 0.75, basis),
     ];
+  }
+
+  private height(): number {
+    return clamp(window.innerHeight - this.chart.root.offsetTop - 230, 300, 1100);
   }
 
   private get scan(): State["scan"] {
@@ -197,3 +201,19 @@ export class ScanView extends ComputingView {
     this.context.change({ ...opens, system, mass, start, thrown, diagram: { axial_forcing } });
   }
 }
+
+/** Scans that are ready made: the system, and what is computed of it. */
+const { best_hand, preload, basin_share, exponent } = WORDS.scan.ready;
+
+const of = (label: string, system: Change, scan: Partial<State["scan"]>) => ({
+  label,
+  change: { ...system, view: "scan", scan: { ...DEFAULT_STATE.scan, family: null, ...scan } } satisfies Change,
+});
+
+const READY = [
+  of(best_hand, toss({}), { family: "phase_lag", range: [0, 1.4] }),
+  // The range of Fig. 11, 80 to 280 mN.
+  of(preload, motor({}), { over: "preload_acceleration", range: [2.43, 8.51], points: 13, result: "motor_speed" }),
+  of(basin_share, bouncing(0.45), { over: "axial_forcing", range: [0.3, 0.62], points: 33, result: "share_periodic" }),
+  of(exponent, bouncing(0.45), { over: "axial_forcing", range: [0.34, 0.58], points: 121, result: "orbit_exponent" }),
+];

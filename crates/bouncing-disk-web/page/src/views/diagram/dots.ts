@@ -94,10 +94,7 @@ const SHADES = 64;
 /** All of an orbit in one pixel has the last colour. */
 const SCALE = (SHADES - 1) / Math.log1p(RECORDED);
 
-/**
- * The dots of one window of the orbit diagram, counted in the pixels of a picture and shown as densities: a cloud of dots
- * costs no more than its pixels.
- */
+/** The dots of one window, counted in pixels and shown as densities: a cloud of dots costs no more than its pixels. */
 class OrbitPicture {
   private readonly raster: Raster;
   /** Columns that have come, as empty paper in which dots are then counted; the others stay transparent. */
@@ -113,7 +110,8 @@ class OrbitPicture {
     const known = (this.known = new Uint8Array(width));
     const counts = (this.counts = new Uint16Array(width * height));
     this.raster = new Raster(width, height, (colour) => {
-      const shades = colourScale([0, 1, 2, 3, 4].map((index) => colour(`--density-${index}`)), SHADES); // prettier-ignore
+      const stops = [0, 1, 2, 3, 4].map((index) => colour(`--density-${index}`));
+      const shades = colourScale(stops, SHADES);
       const paper = pixelWord(colour("--picture-paper"));
       return (x, y) => {
         const count = counts[y * width + x] as number;

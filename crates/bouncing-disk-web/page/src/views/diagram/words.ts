@@ -94,7 +94,7 @@ export function verdictsOf(context: Context, state: State): Promise<VerdictJson[
   return Promise.all(asked);
 }
 
-export function describeDiagram(state: State, verdicts: readonly VerdictJson[], count: number, told: DiagramJson): string {
+export function describeDiagram(state: State, verdicts: VerdictJson[], count: number, told: DiagramJson): string {
   const { axial_forcing, quantity, drive } = state.diagram;
   const [low = "", high = ""] = axial_forcing.map((end) => endText(end, axial_forcing));
   const { contact_time } = state.system;

@@ -8,7 +8,7 @@ import type { MotorSheet, ReportJson, SheetJson, StallJson, TransientJson } from
 export const SLOT = "motor";
 /** The seed of all random numbers, so that everybody gets the same ones. */
 export const SEED = 1;
-/** Motors of a run-up; those whose contacts take time are nearly alike, and take longer, as those on a stator that yields. */
+/** Motors of a run-up: fewer where contacts take time or the stator yields, which takes longer and differs less. */
 export const membersOf = (sheet: MotorSheet | null): number =>
   sheet?.contact?.time === undefined && !sheet?.stator ? 16 : 5;
 const TRANSIENT_POINTS = 160;

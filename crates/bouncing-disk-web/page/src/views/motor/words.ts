@@ -159,11 +159,11 @@ export function describeCurves(operations: readonly Operation[], stall: StallJso
   const stop = stall === null || stall.torque === null ? "" : ` ${say(TEXTS.stalls, { load: describeStall(stall) })}`;
   const [powerful, efficient] = [best("mechanical_power"), best("efficiency")];
   const { mechanical_power, mechanical_power_error } = powerful;
-  const watts = [quantityWithError(mechanical_power, mechanical_power_error, "W"), quantity(mechanical_power, "W")] as const;
+  const watts = quantityWithError(mechanical_power, mechanical_power_error, "W");
   const share = efficient.efficiency;
-  const percents = [`${withError(share, efficient.efficiency_error, 100)} %`, `${plain(100 * share, 3)} %`] as const;
-  const most = { load: at(powerful), power: settled(powerful, ...watts) };
-  const finest = { load: at(efficient), efficiency: settled(efficient, ...percents) };
+  const percents = `${withError(share, efficient.efficiency_error, 100)} %`;
+  const most = { load: at(powerful), power: settled(powerful, watts, quantity(mechanical_power, "W")) };
+  const finest = { load: at(efficient), efficiency: settled(efficient, percents, `${plain(100 * share, 3)} %`) };
   return [
     `${say(TEXTS.from_to, { first: speed(first), last: speed(last) })}${stop}`,
     mechanical_power > 0 ? say(TEXTS.most_power, most) : TEXTS.no_power,

@@ -134,7 +134,8 @@ export class Stage {
   }
 
   private spokes(pen: Pen, z: number, turn: number, radius: number, stroke: string, count: number): void {
-    const ends = Array.from({ length: count }, (_, spoke) => this.onRing(radius, turn + (2 * Math.PI * spoke) / count, z));
+    const angle = (spoke: number) => turn + (2 * Math.PI * spoke) / count;
+    const ends = Array.from({ length: count }, (_, spoke) => this.onRing(radius, angle(spoke), z));
     const middle = this.project(0, 0, z);
     pen.path(ends.flatMap((end) => [...middle, ...end, NaN, NaN]), { stroke, width: 1 }); // prettier-ignore
   }
@@ -182,7 +183,8 @@ export function paintPathInset(pen: Pen, recording: Recording, now: Moment, widt
   const narrow = width < NARROW;
   const [wide, high] = narrow ? [84, 84] : [200, 150];
   const { x, y } = pathAxes(recording.system);
-  const bare = { left: 4, top: 4, width: wide - 8, height: high - 8, x, y, xTicks: NO_TICKS, yTicks: NO_TICKS, size: 10 };
+  const frame = { left: 4, top: 4, width: wide - 8, height: high - 8 };
+  const bare = { ...frame, x, y, xTicks: NO_TICKS, yTicks: NO_TICKS, size: 10 };
   const { amplitude, twist_amplitude } = recording.system;
   pen.moved(width - wide - 2, 2, () => {
     const laid = () => layOut(pen, wide, high, { x, y: { ...y, widest: "−0000" } }, 11);
