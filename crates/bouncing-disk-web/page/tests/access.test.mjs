@@ -8,13 +8,12 @@ async function spoken(page, context) {
   const session = await context.newCDPSession(page);
   const { nodes } = await session.send("Accessibility.getFullAXTree");
   await session.detach();
+  const text = (one) => one?.value ?? "";
   return nodes
     .filter(({ ignored }) => !ignored)
-    .map(({ role, name, description, properties = [] }) => ({
-      role: role?.value ?? "",
-      name: name?.value ?? "",
-      description: description?.value ?? "",
-      ...Object.fromEntries(properties.map((one) => [one.name, one.value.value])),
+    .map(({ properties = [], ...one }) => ({
+      ...Object.fromEntries(["role", "name", "description"].map((part) => [part, text(one[part])])),
+      ...Object.fromEntries(properties.map(({ name, value }) => [name, value.value])),
     }));
 }
 

@@ -201,14 +201,12 @@ onPage("tables have distinct impacts and bifurcations, and the diagram copies th
 const LISTENING = `
 globalThis.tones = [];
 globalThis.AudioContext = class {
-  state = "suspended";
-  currentTime = 0;
-  destination = {};
+  state = "suspended"; currentTime = 0; destination = {};
   resume() { this.state = "running"; }
   suspend() { this.state = "suspended"; }
 };
 globalThis.OscillatorNode = class {
-  constructor(context, { frequency }) { this.tone = { frequency, frame: document.timeline.currentTime }; tones.push(this.tone); }
+  constructor(context, { frequency }) { tones.push(this.tone = { frequency, frame: document.timeline.currentTime }); }
   connect(gain) { gain.tone = this.tone; return gain; }
   start(at) { this.tone.start = at; }
   stop() {}

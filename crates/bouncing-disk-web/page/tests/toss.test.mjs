@@ -140,8 +140,8 @@ onPage("Fig. 2: the path of a point of the platform is drawn, and opens with the
   assert.match(await page.textContent("#view-toss .toss-left"), /path of a point of the platform, .* to 1\.31 rad and 177 mm on both sides/);
   /** The area that the exported path encloses, as a share of its own box. */
   const area = async () => {
-    const points = /<path d="M([^"]*)Z"[^>]*fill="none"/.exec(await svgOf(page, "path of the platform"));
-    const places = points[1].split("L").map((text) => text.split(" ").map(Number));
+    const [, path] = /<path d="M([^"]*)Z"[^>]*fill="none"/.exec(await svgOf(page, "path of the platform"));
+    const places = path.split("L").map((text) => text.split(" ").map(Number));
     const sum = places.reduce((total, [x, y], index) => {
       const [nextX, nextY] = places[(index + 1) % places.length];
       return total + (x * nextY - nextX * y) / 2;
