@@ -144,6 +144,9 @@ export class CoursePanel {
     if (task) parts.push(element("p", {}, element("b", {}, TEXTS.task), " ", ...rich(task)));
     if (answer) parts.push(element("details", {}, element("summary", {}, TEXTS.answer), paragraph(answer)));
     this.text.replaceChildren(...parts);
+    // A part of the form that the task names stands open.
+    for (const group of document.querySelectorAll<HTMLDetailsElement>(".group"))
+      if (task?.includes(`“${group.firstElementChild?.textContent}”`)) group.open = true;
     this.back.disabled = step === 0;
     setText(this.next, step === steps.length - 1 ? TEXTS.finish : TEXTS.next);
     this.open(shown.state);
