@@ -34,16 +34,18 @@ export function tellFailure(context: Context, error: unknown): void {
   if (!(error instanceof Cancelled)) context.status(messageOf(error), "error");
 }
 
+/** How long (ms) views wait before they begin, so that a slider does not ask for all that it passes. */
+const PAUSE = 60;
+
 /** A view that computes something a little after the last change of the state, and ends with it when it is hidden. */
 export abstract class ComputingView implements View {
   protected readonly compute: ReturnType<typeof debounced<[]>>;
 
   constructor(
     protected readonly context: Context,
-    pause: number,
     private readonly slots: readonly string[],
   ) {
-    this.compute = debounced(pause, () => this.attempt(() => this.fetch()));
+    this.compute = debounced(PAUSE, () => this.attempt(() => this.fetch()));
   }
 
   abstract show(state: State): void;

@@ -39,7 +39,7 @@ export class BasinsView extends ComputingView {
   protected readonly draw = (): void => this.picture.redraw();
 
   constructor(host: HTMLElement, context: Context) {
-    super(context, 60, ["basins"]);
+    super(context, ["basins"]);
     this.picture = new WindowPicture({
       className: "picture-basins",
       label: TEXTS.label,

@@ -59,7 +59,7 @@ export class CompareView extends ComputingView {
   protected readonly draw = oncePerFrame(() => this.paint());
 
   constructor(host: HTMLElement, context: Context) {
-    super(context, 100, SLOTS);
+    super(context, SLOTS);
     const ready = READY.map(({ label, change }) => button(label, () => context.change(change)));
     const next = button(TEXT.next, () => this.attempt(() => this.next()));
     const bars = [

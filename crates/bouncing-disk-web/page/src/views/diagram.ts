@@ -54,7 +54,7 @@ export class DiagramView extends ComputingView {
   protected readonly draw = (): void => this.picture.redraw();
 
   constructor(host: HTMLElement, context: Context) {
-    super(context, 60, ["diagram", BRANCHES, ...SAMPLE_SLOTS]);
+    super(context, ["diagram", BRANCHES, ...SAMPLE_SLOTS]);
     this.verdict = new Verdict(context);
     this.picture = new WindowPicture({
       className: "picture-wide",

@@ -33,8 +33,8 @@ class Known {
   operations: readonly Operation[] = [];
   /** The operation under the load of the sheet. */
   own: Operation | null = null;
-  /** The error that was asked for is not yet the last one. */
-  rough = true;
+  /** How many of the passes are done: what a view that was left has, it does not compute again. */
+  passes = 0;
   /** Why there is no run-up, and no curve, where they cannot be computed. */
   problems: { runUp?: string; curve?: string } = {};
   loads: Range = [0, 1];
@@ -56,7 +56,7 @@ export class MotorView extends ComputingView {
   protected readonly draw = oncePerFrame(() => this.paint());
 
   constructor(host: HTMLElement, context: Context) {
-    super(context, 150, [SLOT]);
+    super(context, [SLOT]);
     this.sheetPanel = new SheetPanel(context, (imported) => {
       this.imported = imported;
       context.change({ system: imported.system, mass: imported.mass });
@@ -104,7 +104,7 @@ export class MotorView extends ComputingView {
 
   protected async fetch(): Promise<void> {
     const state = this.context.state();
-    await this.all.get(this.keyOf(state), () => this.computeAll(state, (this.known = new Known())));
+    await this.all.get(this.keyOf(state), () => this.computeAll(state, this.known));
   }
 
   /** Fills in what is known of a motor; where another one is shown, what is asked for next is cancelled. */
@@ -127,17 +127,18 @@ export class MotorView extends ComputingView {
       return context.status(still);
     }
     const { rise_times } = state.motor;
-    await this.runUp(sheet, rise_times, known);
+    known.problems = {};
+    if (known.transient === null) await this.runUp(sheet, rise_times, known);
     try {
-      for (const pass of PASSES) {
+      for (const pass of PASSES.slice(known.passes)) {
         await this.sweep(sheet, report, state, pass, known);
         // A run-up is shown until it is steady, or said not to be.
-        for (let times = 1; known.rough && times <= LENGTHENINGS && !isSteady(known); times += 1)
+        for (let times = 1; known.passes === 0 && times <= LENGTHENINGS && !isSteady(known); times += 1)
           await this.runUp(sheet, Math.min(rise_times * 3 ** times, MOST_RISE_TIMES), known);
-        known.rough = false;
+        known.passes += 1;
       }
       // It takes longest where nothing bounces, and is the last to be missed.
-      await this.findStall(sheet, known);
+      if (known.stall === null) await this.findStall(sheet, known);
     } catch (error) {
       known.problems.curve = problemOf(error);
       this.draw();
@@ -171,7 +172,7 @@ export class MotorView extends ComputingView {
     const { load_torque } = sheet;
     const asked = torques.includes(load_torque) ? torques : [...torques, load_torque];
     const values = { loads: asked.length, error: percent(pass.relative_error, 0) };
-    this.context.status(say(known.rough ? WORDS.motor.rough_curve : WORDS.motor.sharp_curve, values), "busy");
+    this.context.status(say(known.passes === 0 ? WORDS.motor.rough_curve : WORDS.motor.sharp_curve, values), "busy");
     const found = await operate(this.context, sheet, asked, pass);
     known.loads = [low, high];
     known.operations = found.slice(0, torques.length);
@@ -218,7 +219,7 @@ export class MotorView extends ComputingView {
     }
     const charts = this.curves();
     const words = describeCurves(operations, stall);
-    const rough = this.known.rough ? `${WORDS.motor.rough} ` : "";
+    const rough = this.known.passes === 0 ? `${WORDS.motor.rough} ` : "";
     this.curveCharts.forEach((place, index) => {
       const chart = charts[index];
       if (chart === undefined) place.showWord(problems.curve ?? CURVES[index] ?? "");

@@ -48,7 +48,7 @@ export class ScanView extends ComputingView {
   protected readonly draw = oncePerFrame(() => this.paint());
 
   constructor(host: HTMLElement, context: Context) {
-    super(context, 150, ["scan"]);
+    super(context, ["scan"]);
     const ready = READY.map((one) => button(one.label, () => context.change(one.change)));
     const [result, over] = [labelled(TEXT.result, this.result), labelled(TEXT.over, this.over)];
     const [family, optimum] = [labelled(TEXT.family, this.family), labelled(TEXT.optimum, this.optimum)];
