@@ -166,8 +166,7 @@ test("Fig. 11: the torque follows the preload, the speed does not", async () => 
     ratios.push((high.torque / low.torque).toFixed(1));
     for (const { no_load_speed } of [high, low]) says(`some ${no_load_speed.toFixed(0)} rad/s`);
   }
-  says(`${(280 / 80).toFixed(1)} times`);
-  says(`${ratios[0]} to ${ratios[1]} times`);
+  says(`by a factor of ${(280 / 80).toFixed(1)} and the stall torque by ${ratios[0]} to ${ratios[1]},`);
 });
 
 test("Fig. 13: what moves the torque and what the speed", async () => {
