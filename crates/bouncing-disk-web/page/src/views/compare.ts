@@ -170,7 +170,8 @@ export class CompareView extends ComputingView {
     // The same words are not read out again.
     if (this.words.textContent !== words.join(""))
       this.words.replaceChildren(...words.map((text) => element("li", {}, text)));
-    this.chartsOf(pair).forEach((chart, index) => this.charts[index]?.show(chart, index === 2 ? TEXT.caption : ""));
+    const caption = say(TEXT.caption, { samples: SAMPLES });
+    this.chartsOf(pair).forEach((chart, index) => this.charts[index]?.show(chart, index === 2 ? caption : ""));
   }
 
   /** The periods that heights and spins are shown for. */
@@ -291,7 +292,7 @@ function describe({ column, parting: { first, largest, growth }, ends, state: { 
     return a.every((value, row) => value === b[row]);
   });
   const lasting = ends === null ? TEXT.noVerdict : say(TEXT.ends, { a: ends[0], b: ends[1] });
-  if (heights) return [say(spins ? TEXT.identical : TEXT.sameHeights, { periods }), lasting];
+  if (heights) return [say(spins ? TEXT.identical : TEXT.sameHeights, { periods, samples: SAMPLES }), lasting];
   const most = Math.max(...largest);
   if (most < GROWING[0]) return [lasting, say(TEXT.rounded, { periods })];
   const bounds = { low: shown(GROWING[0], 1), high: shown(GROWING[1], 1) };
