@@ -16,7 +16,7 @@ import { Parameters } from "./form";
 import { Notes, Problems, showOpening } from "./notes";
 import { openingPanel, PRESETS, stateOf, type Panel, type Preset } from "./presets";
 import { printSheet } from "./sheet";
-import { choices, helpDialog, shortcutsOn, Stage, Tabs, Themes } from "./shell";
+import { choices, helpDialog, shortcutsOn, Stage, Tabs } from "./shell";
 import { toHash, type fromHash } from "./state";
 import { Store } from "./store";
 import { BasinsView } from "./views/basins";
@@ -145,7 +145,6 @@ function begin(): void {
   );
 
   const tool = (name: string): HTMLButtonElement => byId<HTMLButtonElement>(`${name}-button`);
-  const themes = new Themes(tool("theme"), () => stage.redraw());
   const copy = (): void => void copyLink(context, tool("link"));
   const offers = (): Offer[] => stage.view?.offers() ?? [];
   const saved = async (offer: Offer): Promise<void> => {
@@ -170,7 +169,6 @@ function begin(): void {
     ["t", "courses", courses],
     ["e", "export", exports],
     ["l", "link", copy],
-    ["d", "theme", () => context.announce(themes.next())],
     ["?", "help", () => help.showModal()],
   ];
   for (const [, name, act] of tools) tool(name).addEventListener("click", act);

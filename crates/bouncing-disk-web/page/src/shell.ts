@@ -1,6 +1,7 @@
-/** What stands around the views: tabs, the stage, dialogs and the theme. */
+/** What stands around the views: tabs, the stage and dialogs. */
 
 import { VIEW_NAMES, type Context, type State, type View, type ViewClass, type ViewName } from "./contract";
+import { darkness } from "./drawing/pen";
 import { button, closeButton, div, element, kept, oncePerFrame, rove } from "./elements";
 import { say, WORDS } from "./words";
 
@@ -52,6 +53,7 @@ export class Stage {
     place.append(...this.hosts.values());
     const observer = new ResizeObserver(() => this.redraw());
     for (const host of this.hosts.values()) observer.observe(host);
+    darkness().addEventListener("change", this.redraw);
   }
 
   get view(): View | undefined {
@@ -72,45 +74,6 @@ export class Stage {
     const { host, classes, context } = this;
     if (this.view === undefined && host) this.made.set(state.view, new classes[state.view](host, context));
     this.view?.show(state);
-  }
-}
-
-const THEMES = ["automatic", "light", "dark"] as const;
-const dark = window.matchMedia("(prefers-color-scheme: dark)");
-
-/** Light, dark, or as the system has it. `data-scheme` on the root element is what the style sheet looks at. */
-export class Themes {
-  private theme: (typeof THEMES)[number];
-
-  constructor(
-    private readonly opener: HTMLButtonElement,
-    private readonly changed: () => void,
-  ) {
-    const name = kept("theme");
-    this.theme = THEMES.find((theme) => theme === name) ?? "automatic";
-    dark.addEventListener("change", () => this.apply());
-    this.apply();
-  }
-
-  next(): string {
-    this.theme = THEMES[(THEMES.indexOf(this.theme) + 1) % THEMES.length] ?? "automatic";
-    kept("theme", this.theme);
-    this.apply();
-    return this.name();
-  }
-
-  private name(): string {
-    return say(WORDS.shell.colours, { theme: WORDS.shell.themes[this.theme] });
-  }
-
-  private apply(): void {
-    this.opener.dataset["theme"] = this.theme;
-    this.opener.setAttribute("aria-label", this.name());
-    const scheme = this.theme === "automatic" ? (dark.matches ? "dark" : "light") : this.theme;
-    const { dataset } = document.documentElement;
-    if (dataset["scheme"] === scheme) return;
-    dataset["scheme"] = scheme;
-    this.changed();
   }
 }
 

@@ -71,7 +71,7 @@ onPage("the categories of basins differ for every kind of colour vision", {}, as
     all: [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
   }; // prettier-ignore
   for (const scheme of ["light", "dark"]) {
-    await page.evaluate((wanted) => (document.documentElement.dataset.scheme = wanted), scheme);
+    await page.emulateMedia({ colorScheme: scheme });
     const names = Array.from({ length: 8 }, (_, index) => `--category-${index}`);
     const colours = await coloursOf(page, names);
     for (const [kind, matrix] of Object.entries(blind)) {

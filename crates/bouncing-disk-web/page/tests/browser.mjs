@@ -136,11 +136,10 @@ export const fact = (page, view, name) =>
 /** Colours of custom properties in the present scheme, as `#rrggbb`. */
 export const coloursOf = (page, names) =>
   page.evaluate((wanted) => {
-    const { dataset } = document.documentElement;
     const style = getComputedStyle(document.documentElement);
     return wanted.map((name) => {
       const [light, dark = light] = style.getPropertyValue(name).match(/#[0-9a-f]{6}/g);
-      return dataset.scheme === "dark" ? dark : light;
+      return matchMedia("(prefers-color-scheme: dark)").matches ? dark : light;
     });
   }, names);
 

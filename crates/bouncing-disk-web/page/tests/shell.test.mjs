@@ -1,7 +1,7 @@
 /** The shell: tabs, keyboard, bad input, exports, sizes, and that nothing is asked of anybody. */
 
 import assert from "node:assert/strict";
-import { hashOf, onPage, ready, savedBy, settled, stateOf, type, VIEWS, whenAddress, whenValue } from "./browser.mjs";
+import { hashOf, onPage, pixelsOf, savedBy, settled, stateOf, type, VIEWS, whenAddress, whenValue } from "./browser.mjs";
 import { WORDS } from "./module.mjs";
 
 onPage("the first paint from the disk takes less than a second", {}, async (page) => {
@@ -116,19 +116,10 @@ onPage("every view opens by its tab and has room, from 320 to 2,560 pixels", {},
   }
 });
 
-onPage("dark, light and automatic colours", { colorScheme: "dark" }, async (page) => {
-  const scheme = () => page.evaluate(() => document.documentElement.dataset.scheme);
-  assert.equal(await scheme(), "dark");
-  await page.click("#theme-button");
-  assert.equal(await scheme(), "light");
-  await page.reload();
-  await ready(page);
-  assert.equal(await scheme(), "light", "it is kept");
-  await page.click("#theme-button");
-  assert.equal(await scheme(), "dark");
-  await page.click("#theme-button");
-  await page.emulateMedia({ colorScheme: "light" });
-  await page.waitForFunction(() => document.documentElement.dataset.scheme === "light");
+onPage("pictures follow the colours of the system", "#view=diagram", async (page) => {
+  await page.emulateMedia({ colorScheme: "dark" });
+  await page.waitForTimeout(300);
+  assert.ok((await pixelsOf(page, "#view-diagram canvas", ["--picture-paper"])).length > 10_000);
 });
 
 onPage("every file that a view offers can be saved, and is not empty", {}, async (page) => {

@@ -3,14 +3,16 @@
 /** Gives the colour of a custom property that `theme.css` lists. */
 export type Colours = (name: string) => string;
 
-function colourIn(scheme: string | undefined, name: string): string {
+function colourIn(dark: boolean, name: string): string {
   const value = getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-  return value.replace(/^light-dark\(([^,]*), *(.*)\)$/, scheme === "dark" ? "$2" : "$1");
+  return value.replace(/^light-dark\(([^,]*), *(.*)\)$/, dark ? "$2" : "$1");
 }
 
-/** The colours of the present theme, and those of print, which are the light ones whatever the theme is. */
-export const themeColour: Colours = (name) => colourIn(document.documentElement.dataset["scheme"], name);
-export const printedColour: Colours = (name) => colourIn("light", name);
+/** Whether the system asks for a dark page. */
+export const darkness = (): MediaQueryList => window.matchMedia("(prefers-color-scheme: dark)");
+/** The colours of the page, and those of print, which are the light ones in any case. */
+export const themeColour: Colours = (name) => colourIn(darkness().matches, name);
+export const printedColour: Colours = (name) => colourIn(false, name);
 
 /** Colours are the names of custom properties of `theme.css`. */
 export interface PathStyle {
