@@ -2,10 +2,10 @@
 
 import type { Change, State } from "./contract";
 import { byId, button, element, rich, setText } from "./elements";
+import { nextDouble } from "./numbers";
 import { basins, bouncing, diagram, motor, multipleToss, REST, stateOf } from "./presets";
 import { toss, tossOf, withForcing, withTwist } from "./presets";
 import type { Range } from "./protocol";
-import { nextDouble } from "./views/compare/parting";
 import { say, WORDS } from "./words";
 
 type Words = typeof WORDS.courses;

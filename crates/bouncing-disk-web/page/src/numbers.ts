@@ -145,3 +145,11 @@ export function quantityWithError(value: number | null, error: number | null, un
   const text = withError(value, error, prefix.factor);
   return `${text.includes("±") ? `(${text})` : text} ${prefix.symbol}${unit}`;
 }
+
+/** The next double upwards. */
+export function nextDouble(value: number): number {
+  if (value === 0) return Number.MIN_VALUE;
+  const bits = new BigInt64Array(Float64Array.of(value).buffer);
+  bits[0] = (bits[0] as bigint) + (value > 0 ? 1n : -1n);
+  return new Float64Array(bits.buffer)[0] as number;
+}

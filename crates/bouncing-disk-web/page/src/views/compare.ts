@@ -5,13 +5,12 @@ import { clamp, extent, padded } from "../drawing/axes";
 import { chartOffers, ScreenChart, type Chart, type Curve } from "../drawing/chart";
 import { ONE_COLUMN, PARTS, tableOffers } from "../drawing/files";
 import { button, div, element, labelled, oncePerFrame, rich, setText } from "../elements";
-import { plain, prefixOf, shown } from "../numbers";
+import { nextDouble, plain, prefixOf } from "../numbers";
 import { bouncing } from "../presets";
 import type { MotionJson, Range, VerdictJson } from "../protocol";
 import { DEFAULT_STATE, MOST_PERIODS } from "../state";
 import { say, WORDS } from "../words";
 import { Asked, ComputingView, impactOf, mapOf, motionStartOf, verdictOf } from "./asking";
-import { GROWING, nextDouble, partingOf, type Parting } from "./compare/parting";
 import { behaviour } from "./diagram/words";
 import { Recording, type Column } from "./toss/recording";
 import { exactText, settings, NumberField, parameterChoice, valueIn, varied, withValue } from "./varied";
@@ -25,6 +24,10 @@ const MOST_DRAWN = 2500;
 /** The next double of a parameter may give the same system, where that follows from it by rounding. */
 const MOST_STEPS = 64;
 
+/** From this share of the amplitude on the heights count as different, and below that one rounding makes the difference. */
+const APART = 0.01;
+const ROUNDED = 1e-13;
+
 const TEXT = WORDS.compare;
 
 /** The same of A and of B. */
@@ -36,7 +39,8 @@ interface Pair {
   column(name: Column): Both<Float64Array>;
   /** |difference of heights| over the amplitude of A. */
   readonly apart: Float64Array;
-  readonly parting: Parting;
+  /** Periods until the heights differ; null if they never do. */
+  readonly parting: number | null;
   /** The value that A has of the parameter. */
   readonly own: number;
   /** What the library says that both do for good. */
@@ -175,8 +179,8 @@ export class CompareView extends ComputingView {
   }
 
   /** The periods that heights and spins are shown for. */
-  private windowOf({ parting: { first }, state: { compare } }: Pair): Range {
-    const start = this.context.state().compare.from ?? Math.floor((first ?? 0) - BEFORE);
+  private windowOf({ parting, state: { compare } }: Pair): Range {
+    const start = this.context.state().compare.from ?? Math.floor((parting ?? 0) - BEFORE);
     const low = clamp(Math.floor(start), 0, Math.max(compare.periods - SHOWN, 0));
     return [low, low + SHOWN];
   }
@@ -212,28 +216,19 @@ function motionChart(pair: Pair, window: Range, label: string, disk: Column, pla
   return { title: label, x: { label: TEXT.time, range: window }, y: { label, range, widest: WIDEST }, at, curves };
 }
 
-/** The difference on an axis of powers of ten, with the line of its growth. */
-function differenceChart({ apart, parting: { largest, growth }, state }: Pair, window: Range): Chart {
+/** The difference on an axis of powers of ten. */
+function differenceChart({ apart, state }: Pair, window: Range): Chart {
   const step = Math.ceil(apart.length / MOST_DRAWN);
   const largestOf = (bin: number) => Math.max(...apart.subarray(bin * step, (bin + 1) * step));
   const logs = new Float64Array(Math.floor(apart.length / step)).map((_, bin) => Math.log10(largestOf(bin)));
   const at = logs.map((_, bin) => (bin * step) / SAMPLES);
   const [low, high] = extent(logs.filter(Number.isFinite)) ?? [-16, 0];
-  const ofPeriod = (value: (period: number) => number) => at.map((time) => value(Math.floor(time)));
-  const curves: Curve[] = [
-    { label: say(TEXT.instants, { step }), y: logs, colour: "--picture-muted" },
-    { label: TEXT.largest, y: ofPeriod((period) => Math.log10(largest[period] ?? NaN)), colour: "--curve-efficiency" },
-  ];
-  if (growth !== null) {
-    const line = ofPeriod((period) => (period < growth.from || period > growth.to ? NaN : growth.log(period)));
-    curves.push({ label: TEXT.estimate, y: line, colour: "--curve-power", dash: [6, 3] });
-  }
   return {
     title: TEXT.difference,
     x: { label: TEXT.time, range: [0, state.compare.periods] },
     y: { label: TEXT.differenceAxis, range: [Math.floor(low), Math.ceil(high + 1e-9)], powers: true, widest: WIDEST },
     at,
-    curves,
+    curves: [{ label: say(TEXT.instants, { step }), y: logs, colour: "--curve-efficiency" }],
     shade: { range: window, label: TEXT.window },
   };
 }
@@ -279,13 +274,14 @@ async function pairOf(context: Context, state: State): Promise<Pair> {
   const judged = [state, other].every(({ thrown, system }) => thrown === null && system.contact_time === 0);
   const verdicts = judged ? await both((one, slot) => verdictOf(context, slot, mapOf(one), impactOf(one))) : null;
   const ends = verdicts && ([endOf(verdicts[0]), endOf(verdicts[1])] as const);
-  return { state, column, apart, own, parting: partingOf(apart, SAMPLES), ends };
+  const first = apart.findIndex((value) => value > APART);
+  return { state, column, apart, own, parting: first < 0 ? null : first / SAMPLES, ends };
 }
 
 const endOf = (verdict: VerdictJson): string => behaviour(verdict) + (verdict.rounding_dependent ? TEXT.rounding : "");
 
 /** What there is to say of two motions. */
-function describe({ column, parting: { first, largest, growth }, ends, state: { compare } }: Pair): string[] {
+function describe({ column, apart, parting, ends, state: { compare } }: Pair): string[] {
   const { periods } = compare;
   const [heights, spins] = (["height", "angular_speed"] as const).map((name) => {
     const [a, b] = column(name);
@@ -293,16 +289,8 @@ function describe({ column, parting: { first, largest, growth }, ends, state: { 
   });
   const lasting = ends === null ? TEXT.noVerdict : say(TEXT.ends, { a: ends[0], b: ends[1] });
   if (heights) return [say(spins ? TEXT.identical : TEXT.sameHeights, { periods, samples: SAMPLES }), lasting];
-  const most = Math.max(...largest);
-  if (most < GROWING[0]) return [lasting, say(TEXT.rounded, { periods })];
-  const bounds = { low: shown(GROWING[0], 1), high: shown(GROWING[1], 1) };
-  const grows = growth && { factor: shown(growth.factor, 2), from: growth.from, to: growth.to, ...bounds };
-  const { together, atOnce, apart, noGrowth, shrinks, grows: rises } = TEXT;
-  return [
-    lasting,
-    first === null
-      ? say(together, { periods, largest: plain(most, 2) })
-      : first * SAMPLES < 2 ? atOnce : say(apart, { first: plain(first, 3) }),
-    grows === null ? say(noGrowth, bounds) : say(growth !== null && growth.factor > 1 ? rises : shrinks, grows),
-  ];
-} // prettier-ignore
+  const [, most] = extent(apart) as Range;
+  if (most < ROUNDED) return [lasting, say(TEXT.rounded, { periods })];
+  if (parting === null) return [lasting, say(TEXT.together, { periods, largest: plain(most, 2) })];
+  return [lasting, parting * SAMPLES < 2 ? TEXT.atOnce : say(TEXT.apart, { first: plain(parting, 3) })];
+}
