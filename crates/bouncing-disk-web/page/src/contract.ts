@@ -80,8 +80,6 @@ export interface Offer {
   /** "orbit diagram" makes `orbit-diagram.csv`. */
   name: string;
   kind: "csv" | "json" | "svg" | "png";
-  /** No more bytes than this, where that is known and worth telling. */
-  most?: number;
   make(): Promise<Blob>;
 }
 

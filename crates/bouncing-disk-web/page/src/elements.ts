@@ -85,16 +85,7 @@ export async function copied(text: string): Promise<boolean> {
     await navigator.clipboard.writeText(text);
     return true;
   } catch {
-    // Pages on the disk may not use the clipboard; an old way still works in most browsers.
-    const before = document.activeElement as HTMLElement | null;
-    const area = element("textarea", { class: "hidden" });
-    area.value = text;
-    document.body.append(area);
-    area.select();
-    const done = document.execCommand("copy");
-    area.remove();
-    before?.focus();
-    return done;
+    return false;
   }
 }
 

@@ -2,7 +2,7 @@
 
 import type { Change, State } from "./contract";
 import { element, symbol } from "./elements";
-import { abridged, mayBeThousands, prefixOf, shown, stepped, typed } from "./numbers";
+import { abridged, mayBeThousands, prefixOf, shown, typed } from "./numbers";
 import type { Range, Refusal, Summary, SystemParameters } from "./protocol";
 import { amplitudeOf, axialForcing, contactPeriods } from "./state";
 import type { ChangeOptions } from "./store";
@@ -316,14 +316,9 @@ class Field {
   }
 
   private pressed(event: KeyboardEvent): void {
-    const direction = { ArrowUp: 1 as const, ArrowDown: -1 as const }[event.key];
-    if (event.key === "Escape") {
-      this.complain(null);
-      this.focused();
-    } else if (direction !== undefined && this.value !== null) {
-      event.preventDefault();
-      this.ask(stepped(this.value, direction, event.shiftKey, 0.01), true);
-    }
+    if (event.key !== "Escape") return;
+    this.complain(null);
+    this.focused();
   }
 
   private ask(value: number, settled: boolean): void {

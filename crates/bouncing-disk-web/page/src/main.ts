@@ -10,7 +10,7 @@ import { Address, embedded, frameOf, isEmbedded, isLocal, link } from "./address
 import { makeClient, type Source } from "./client";
 import { messageOf, VIEW_NAMES, type Context, type Offer, type State, type ViewClass, type ViewName } from "./contract";
 import { COURSES, CoursePanel, type Course } from "./courses";
-import { fileName, noteOf, save } from "./drawing/files";
+import { fileName, save } from "./drawing/files";
 import { byId, copied } from "./elements";
 import { Parameters } from "./form";
 import { Notes, Problems, showOpening } from "./notes";
@@ -158,7 +158,7 @@ function begin(): void {
   };
   const print = () => void printSheet(store.state(), offers()).catch((error) => problems.add(messageOf(error)));
   const exports = choices(WORDS.page.export, "export", WORDS.page.export_what, () => [
-    ...offers().map((offer) => ({ label: offer.name, note: noteOf(offer), act: () => void saved(offer) })),
+    ...offers().map((offer) => ({ label: offer.name, note: offer.kind.toUpperCase(), act: () => void saved(offer) })),
     { label: WORDS.page.link_offer, note: WORDS.page.copy, act: copy },
     { label: WORDS.sheet.label, note: WORDS.page.print, act: print },
     { label: WORDS.embed.label, note: WORDS.page.copy, act: () => void copyFrame(context) },

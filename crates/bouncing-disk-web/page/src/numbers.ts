@@ -63,14 +63,6 @@ const finite = (value: number): number | null => (Number.isFinite(value) ? value
 /** A comma before three digits parts thousands in English, and decimals elsewhere. */
 export const mayBeThousands = (text: string): boolean => /^[+−-]?[1-9]\d{0,2}(,\d{3})+(?!\d)/.test(text.trim());
 
-/** The next number of three significant digits, up or down; `coarse` makes ten such steps. */
-export function stepped(value: number, direction: 1 | -1, coarse: boolean, smallest: number): number {
-  const size = Math.abs(value);
-  const exponent = size > 0 ? Math.floor(Math.log10(size)) - 2 : Math.log10(smallest);
-  const step = 10 ** exponent * (coarse ? 10 : 1);
-  return Number((Math.round(value / step + direction) * step).toPrecision(12));
-}
-
 export const minus = (text: string): string => text.replace("-", "\u2212");
 
 export const superscript = (power: number): string =>

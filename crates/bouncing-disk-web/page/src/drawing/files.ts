@@ -4,10 +4,9 @@ import { isLocal, link } from "../address";
 import type { Offer, State } from "../contract";
 import { element } from "../elements";
 import { PARAMETERS, type Parameter } from "../form";
-import { quantity, shown } from "../numbers";
+import { shown } from "../numbers";
 import { SYSTEM_NAMES, type Summary } from "../protocol";
 import { axialForcing, toHash } from "../state";
-import { say, WORDS } from "../words";
 import { layOut, paintAxes, type Axes, type Plot } from "./axes";
 import { contextOf, plainText, SvgPen, wrapped, type Pen } from "./pen";
 
@@ -130,8 +129,6 @@ export interface Table {
   readonly columns: readonly string[];
   /** Row by row. */
   rows(): Iterable<Row>;
-  /** No more rows than this, where there are many. */
-  readonly most?: number;
 }
 
 /** For a spreadsheet, from the clipboard. */
@@ -139,18 +136,15 @@ export const tabbed = ({ columns, rows }: Table): string =>
   [columns, ...rows()].map((row) => Array.from(row).join("\t")).join("\n");
 
 export function tableOffers(table: Table): Offer[] {
-  const { name, parameters, columns, most } = table;
+  const { name, parameters, columns } = table;
   const comma = (row: Row) => Array.from(row, csvCell).join(",");
   const list = (row: Row) => JSON.stringify(Array.from(row));
   const csv = [`# ${JSON.stringify(parameters)}\n${comma(columns)}\n`, "\n", "\n", "text/csv"] as const;
   const head = `${JSON.stringify({ parameters, columns }).slice(0, -1)},"rows":[\n`;
   const json = [head, ",\n", "\n]}\n", "application/json"] as const;
-  const [row = []] = table.rows();
-  // Digits that end in zeros are shorter in the first row than in others.
-  const size = (text: string) => (most === undefined ? {} : { most: most * (text.length + 12) });
   return [
-    { name, kind: "csv", make: () => written(table, comma, ...csv), ...size(comma(row)) },
-    { name, kind: "json", make: () => written(table, list, ...json), ...size(list(row)) },
+    { name, kind: "csv", make: () => written(table, comma, ...csv) },
+    { name, kind: "json", make: () => written(table, list, ...json) },
   ];
 }
 
@@ -188,12 +182,6 @@ export const rounded = (value: number, step: number): number =>
 
 export function* rowsOf(numbers: Float64Array, width: number): Iterable<Float64Array> {
   for (let index = 0; index + width <= numbers.length; index += width) yield numbers.subarray(index, index + width);
-}
-
-/** The kind of a file and, where that is worth knowing before, its size. */
-export function noteOf({ kind, most = 0 }: Offer): string {
-  const size = quantity(most, "B", 2);
-  return most < 1e6 ? kind.toUpperCase() : say(WORDS.files.most, { kind: kind.toUpperCase(), size });
 }
 
 export const fileName = ({ name, kind }: Offer): string => `${name.trim().replace(/\s+/g, "-").toLowerCase()}.${kind}`;

@@ -1,7 +1,7 @@
 /** Basins of attraction: where the orbit of every start ends. */
 
 import { Cancelled, type Context, type Offer, type State } from "../contract";
-import { crossAt, pixelX, pixelY, type Axes, type Plot } from "../drawing/axes";
+import { clamp, crossAt, pixelX, pixelY, type Axes, type Plot } from "../drawing/axes";
 import { ONE_COLUMN, PARTS, plotOffers, tableOffers } from "../drawing/files";
 import type { Pen } from "../drawing/pen";
 import { confined, WindowPicture, type Point, type Window2 } from "../drawing/window";
@@ -11,7 +11,7 @@ import { say, WORDS } from "../words";
 import type { AttractorsJson, ImpactStart, Range } from "../protocol";
 import { DEFAULT_STATE } from "../state";
 import { ComputingView, mapOf, RoundingCaution, type MapParameters } from "./asking";
-import { Cells, computeCells, gridsOf, type Grid } from "./basins/cells";
+import { Cells, computeCells, gridOf, type Grid } from "./basins/cells";
 import { describe, labelsOf, Legend, printedLegend, undecidedShare } from "./basins/legend";
 
 const TEXTS = WORDS.basins;
@@ -27,8 +27,8 @@ export class BasinsView extends ComputingView {
   private readonly legend = new Legend(this.rounding.root);
   private readonly alternative = element("p", { class: "alternative" });
   private found: AttractorsJson | null = null;
-  /** The coarse cells and the fine ones, and the fine ones of the window before. */
-  private layers: Cells[] = [];
+  private cells: Cells | null = null;
+  /** Those of the window before. */
   private previous: Cells | null = null;
   private asked = "";
   /** The map of the attractors that are known. */
@@ -63,10 +63,9 @@ export class BasinsView extends ComputingView {
   }
 
   offers(): Offer[] {
-    const { found, basins } = this;
-    const cells = this.layers[1];
+    const { found, basins, cells } = this;
     // What is half done is not given away: it has the labels of some of its cells.
-    if (cells === undefined || found === null || this.stale || !this.complete) return [];
+    if (cells === null || found === null || this.stale || !this.complete) return [];
     const state = this.context.state();
     return [
       ...tableOffers({
@@ -74,7 +73,6 @@ export class BasinsView extends ComputingView {
         parameters: { picture: "basins", ...mapOf(state), basins, ...found },
         columns: ["phase_periods", "normalised_speed", "label"],
         rows: () => cells.rows(),
-        most: cells.grid.phases * cells.grid.speeds,
       }),
       ...plotOffers({
         name: TEXTS.file,
@@ -114,9 +112,8 @@ export class BasinsView extends ComputingView {
     const laid = this.picture.layOut();
     if (laid === null) return;
     const wanted = mapOf(this.context.state());
-    const grids = gridsOf(this.basins, laid.columns, laid.rows);
-    const [, fine] = grids;
-    const key = JSON.stringify([wanted, fine]);
+    const grid = gridOf(this.basins, laid.columns, laid.rows);
+    const key = JSON.stringify([wanted, grid]);
     if (key === this.asked) return;
     this.asked = key;
     this.complete = false;
@@ -125,7 +122,7 @@ export class BasinsView extends ComputingView {
     setText(this.alternative, say(TEXTS.coming, at));
     const began = performance.now();
     try {
-      await this.fill(await this.attractorsOf(wanted), wanted, grids, laid.columns);
+      await this.fill(await this.attractorsOf(wanted), wanted, grid, laid.columns);
     } catch (error) {
       if (this.asked === key) this.asked = "";
       // Nor does a picture of another map stand where there is none of this one.
@@ -139,7 +136,7 @@ export class BasinsView extends ComputingView {
     this.complete = true;
     this.previous = null;
     const seconds = ((performance.now() - began) / 1000).toFixed(2);
-    this.context.status(say(TEXTS.computed, { ...at, phases: fine.phases, speeds: fine.speeds, seconds }));
+    this.context.status(say(TEXTS.computed, { ...at, phases: grid.phases, speeds: grid.speeds, seconds }));
     this.describe();
   }
 
@@ -161,29 +158,23 @@ export class BasinsView extends ComputingView {
   }
 
   private clear(): void {
-    Object.assign(this, { stale: false, found: null, layers: [], previous: null });
+    Object.assign(this, { stale: false, found: null, cells: null, previous: null });
     this.legend.clear();
   }
 
-  private async fill(found: AttractorsJson, map: MapParameters, grids: [Grid, Grid], columns: number): Promise<void> {
-    const known = labelsOf(found);
-    const scale = ({ phases }: Grid) => Math.max(1, Math.min(4, Math.round(columns / phases)));
-    const layers = grids.map((grid) => new Cells(grid, scale(grid), known));
-    await computeCells(this.context, map, grids, (labels, index, from) => {
-      if (this.layers !== layers) {
-        this.previous = this.layers[1] ?? null;
-        this.layers = layers;
-      }
-      layers[index]?.add(labels, from);
-      const done = say(TEXTS.progress, { percent: percent(from / grids[1].speeds, 0) });
-      if (index === 1) this.context.status(done, "busy");
+  private async fill(found: AttractorsJson, map: MapParameters, grid: Grid, columns: number): Promise<void> {
+    const cells = new Cells(grid, clamp(Math.round(columns / grid.phases), 1, 4), labelsOf(found));
+    await computeCells(this.context, map, grid, (labels, from) => {
+      if (this.cells !== cells) Object.assign(this, { previous: this.cells, cells });
+      cells.add(labels, from);
+      this.context.status(say(TEXTS.progress, { percent: percent(from / grid.speeds, 0) }), "busy");
       this.draw();
     });
-    this.legend.show(found, layers[1]?.shares() ?? null);
+    this.legend.show(found, cells.shares());
   }
 
   private paint(pen: Pen, plot: Plot): void {
-    for (const cells of [this.previous, ...this.layers]) cells?.paint(pen, plot);
+    for (const cells of [this.previous, this.cells]) cells?.paint(pen, plot);
     const paper = { fill: "--picture-paper", opacity: 0.75 };
     if (this.stale) pen.rect(plot.left, plot.top, plot.width, plot.height, paper);
     else this.paintAttractors(pen, plot);
@@ -196,7 +187,7 @@ export class BasinsView extends ComputingView {
 
   private point(at: Point | null): void {
     if (at === null || this.found === null || this.stale) return;
-    const label = this.layers[1]?.at(...at) ?? this.layers[0]?.at(...at) ?? null;
+    const label = this.cells?.at(...at) ?? null;
     if (label === null) return;
     const [phase, speed] = at;
     const end = nameOf(label, this.found) ?? TEXTS.undecided_here;
@@ -211,12 +202,11 @@ export class BasinsView extends ComputingView {
   }
 
   private describe(): void {
-    const { found } = this;
-    const fine = this.layers[1];
-    if (found === null || fine === undefined) return;
-    const { phase_periods, normalised_speed } = fine.grid;
+    const { found, cells } = this;
+    if (found === null || cells === null) return;
+    const { phase_periods, normalised_speed } = cells.grid;
     const [from = "", to = "", low = "", high = ""] = [...phase_periods, ...normalised_speed].map((end) => brief(end));
-    const shares = fine.shares();
+    const shares = cells.shares();
     const parts = [...shares].flatMap(([label, share]) => {
       const name = nameOf(label, found);
       return name === null ? [] : [say(TEXTS.end, { share: percent(share), end: name.replace(/\.$/, "") })];

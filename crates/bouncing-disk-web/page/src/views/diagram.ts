@@ -117,7 +117,6 @@ export class DiagramView extends ComputingView {
         parameters: { picture: "orbit diagram", system, start, diagram, ...LENGTHS, rounded_to: step },
         columns: [DIAGRAM_COLUMNS[0], "impact_phase_rad", "normalised_speed", "angular_speed_per_omega_phi", "impacts"],
         rows: () => distinctImpacts(this.dots.columns, step),
-        most: this.dots.count * RECORDED,
       }),
       ...(lines === null ? [] : tablesOf(lines, state).flatMap(tableOffers)),
       ...plotOffers({

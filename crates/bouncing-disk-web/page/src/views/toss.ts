@@ -15,7 +15,7 @@ import { describeMoment, Readings } from "./toss/readings";
 import { Recording, traces, type Moment } from "./toss/recording";
 import { describePath, paintPath, paintPathInset, pathAxes, Stage } from "./toss/scene";
 import { Sound } from "./toss/sound";
-import { attachThrowing, describeThrow, throwForm } from "./toss/throwing";
+import { attachThrowing, describeThrow } from "./toss/throwing";
 
 const TEXTS = WORDS.toss;
 
@@ -94,7 +94,7 @@ export class TossView implements View {
     };
     const scene = [this.scene.root, this.controls.root, this.gains, this.thrown, this.rounding.root, this.alternative];
     const charts = section(TEXTS.traces, null, this.heights.root, this.spins.root);
-    const readings = section(TEXTS.readings, "panel", ...this.readings.elements, throwForm(throwing));
+    const readings = section(TEXTS.readings, "panel", ...this.readings.elements);
     const key = element("p", { class: "remark" }, TEXTS.impacts_key);
     const parts = [element("h3", {}, TEXTS.impacts), this.portrait.picture.layers.root, key];
     const right = div("toss-right", readings, section(TEXTS.portrait, null, ...parts));

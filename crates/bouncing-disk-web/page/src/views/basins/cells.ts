@@ -1,4 +1,4 @@
-/** The cells of one window of starts, coloured by what became of them, and the requests for them: coarse ones first. */
+/** The cells of one window of starts, coloured by what became of them, and the requests for them. */
 
 import type { Context } from "../../contract";
 import type { Plot } from "../../drawing/axes";
@@ -101,45 +101,29 @@ export class Cells {
 export const categoryColour = (index: number): string =>
   `--category-${index < CATEGORIES ? index : 1 + ((index - 1) % (CATEGORIES - 1))}`;
 
-/** A coarse cell stands for so many in both directions. */
-const COARSE = 4;
 const MOST_PHASES = 600;
 const MOST_SPEEDS = 450;
 /** Cells of one request: some ten milliseconds of the worker. */
 const CELLS_AT_ONCE = 12_000;
 
-/** The coarse grid of a plot of so many device pixels, and the fine one. */
-export function gridsOf(
-  window: Pick<Grid, "phase_periods" | "normalised_speed">,
-  columns: number,
-  rows: number,
-): [Grid, Grid] {
-  const phases = Math.max(Math.min(columns, MOST_PHASES), 2);
-  const speeds = Math.max(Math.min(rows, MOST_SPEEDS), 2);
-  const coarse = { phases: Math.ceil(phases / COARSE), speeds: Math.ceil(speeds / COARSE) };
-  return [
-    { ...window, ...coarse },
-    { ...window, phases, speeds },
-  ];
-}
+/** The grid of a plot of so many device pixels. */
+export const gridOf = (window: Pick<Grid, "phase_periods" | "normalised_speed">, columns: number, rows: number): Grid => ({
+  ...window,
+  phases: Math.max(Math.min(columns, MOST_PHASES), 2),
+  speeds: Math.max(Math.min(rows, MOST_SPEEDS), 2),
+});
 
-/** Gives the labels of rows of the grids, one grid after the other, to `take`. */
+/** Gives the labels of some rows of the grid after the other to `take`. */
 export async function computeCells(
   context: Context,
   map: MapParameters,
-  grids: readonly Grid[],
-  take: (labels: Uint8Array, grid: number, from: number) => void,
+  grid: Grid,
+  take: (labels: Uint8Array, from: number) => void,
 ): Promise<void> {
-  const parts = grids.flatMap((grid, index) => {
-    const step = Math.max(Math.floor(CELLS_AT_ONCE / grid.phases), 1);
-    return Array.from({ length: Math.ceil(grid.speeds / step) }, (_, part) => {
-      const rows = [part * step, Math.min((part + 1) * step, grid.speeds)] as const;
-      return { index, rows, request: { call: "basins", ...map, ...grid, rows } as const };
-    });
+  const step = Math.max(Math.floor(CELLS_AT_ONCE / grid.phases), 1);
+  const requests = Array.from({ length: Math.ceil(grid.speeds / step) }, (_, part) => {
+    const rows = [part * step, Math.min((part + 1) * step, grid.speeds)];
+    return { call: "basins", ...map, ...grid, rows };
   });
-  const requests = parts.map(({ request }) => request);
-  await context.client.series("basins", requests, ({ bytes }, part) => {
-    const { index, rows } = parts[part] as (typeof parts)[number];
-    take(bytes, index, rows[0]);
-  });
+  await context.client.series("basins", requests, ({ bytes }, part) => take(bytes, part * step));
 }

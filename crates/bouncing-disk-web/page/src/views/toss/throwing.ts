@@ -1,8 +1,8 @@
-/** Throwing the disk: by dragging it, or by three numbers. */
+/** Throwing the disk by dragging it; a link may have a throw with any numbers. */
 
 import { clamp } from "../../drawing/axes";
-import { button, div, element, placeOn } from "../../elements";
-import { plain, quantity, typed } from "../../numbers";
+import { placeOn } from "../../elements";
+import { plain, quantity } from "../../numbers";
 import type { FlightStart, SystemParameters } from "../../protocol";
 import { say, WORDS } from "../../words";
 import type { Pose, Stage } from "./scene";
@@ -10,8 +10,6 @@ import type { Pose, Stage } from "./scene";
 /** The longest flight that a throw may make, in periods. */
 const LONGEST_FLIGHT = 12;
 const LONGEST_PAUSE = 150;
-/** Angular speeds beyond this are refused by the library. */
-const FASTEST = 1e6;
 
 interface ThrowHost {
   stage(): Stage | null;
@@ -97,43 +95,4 @@ export function describeThrow({ gap, relative_velocity, angular_speed }: FlightS
   const [height, velocity] = [quantity(gap, "m"), quantity(Math.abs(relative_velocity), "m/s")];
   const text = relative_velocity < 0 ? WORDS.toss.thrown_down : WORDS.toss.thrown_up;
   return say(text, { gap: height, velocity, speed: plain(angular_speed, 3) });
-}
-
-const TEXTS = WORDS.toss.throw;
-
-/** Three numbers and a button: a throw without a pointer. */
-export function throwForm({ system, phase, start }: Pick<ThrowHost, "system" | "phase" | "start">): HTMLElement {
-  const field = (label: string, value: string) => {
-    const input = element("input", { type: "text", inputmode: "decimal", autocomplete: "off", value });
-    return { label, input, row: element("label", {}, label, input) };
-  };
-  const entries = [field(TEXTS.gap, "100"), field(TEXTS.velocity, "500"), field(TEXTS.speed, "5")];
-  const problem = element("p", { class: "error", role: "alert", hidden: true });
-  /** A number that no throw can have is refused with the range of those that one can. */
-  const throwIt = () => {
-    const [mm = NaN, mmPerSecond = NaN, angular_speed = NaN] = entries.map(({ input }) => typed(input.value) ?? NaN);
-    const [gap, relative_velocity] = [mm / 1000, mmPerSecond / 1000];
-    const thrown = { phase: phase(), gap, relative_velocity, angular_speed };
-    const highest = bounded(system(), { ...thrown, gap: Infinity }).gap;
-    const fastest = bounded(system(), { ...thrown, relative_velocity: Infinity }).relative_velocity;
-    // From the platform itself the disk can only leave upwards.
-    const slowest = gap > 0 ? -fastest : 0;
-    const ranges = [
-      [gap, 0, highest, "m"],
-      [relative_velocity, slowest, fastest, "m/s"],
-      [angular_speed, -FASTEST, FASTEST, "rad/s"],
-    ] as const;
-    const wrong = ranges.flatMap(([value, least, most, unit], index) => {
-      const { label: name, input } = entries[index] as (typeof entries)[number];
-      const legal = value >= least && value <= most;
-      input.setAttribute("aria-invalid", String(!legal));
-      const [low, high] = [quantity(least, unit), quantity(most, unit)];
-      return legal ? [] : say(TEXTS.refused, { name, text: input.value.slice(0, 24), low, high });
-    });
-    problem.textContent = wrong.join(" ");
-    problem.hidden = wrong.length === 0;
-    if (wrong.length === 0) start(bounded(system(), thrown));
-  };
-  const fields = div("fields", ...entries.map(({ row }) => row), problem, button(TEXTS.act, throwIt));
-  return element("details", { class: "throw" }, element("summary", {}, TEXTS.title), fields);
 }
