@@ -156,7 +156,7 @@ onPage("Fig. 2: the path of a point of the platform is drawn, and opens with the
   assert.ok((await area()) < 0.01);
   // On the screen it is in the corner.
   const pixels = await pixelsOf(page, "#view-toss .picture-scene canvas", ["--platform-line"], 39);
-  const [width, side] = await page.$eval(".picture-scene canvas", (canvas) => [canvas.width, 190 * devicePixelRatio]);
+  const [width, side] = await page.$eval(".picture-scene canvas", (canvas) => [canvas.width, 110 * devicePixelRatio]);
   const drawn = pixels.filter(([x, y]) => x >= width - side && y < side).length;
   assert.ok(drawn > 60, `${drawn} pixels`);
 }); // prettier-ignore

@@ -169,7 +169,7 @@ export function chartOffers(
       charts.forEach((chart, index) => {
         const aligned = { ...chart, y: { ...chart.y, widest } };
         const plot = layOutChart(pen, aligned, width, each, PRINT_SIZE);
-        pen.moved(0, index * each, () => paintChart(pen, aligned, plot));
+        paintChart(pen, aligned, { ...plot, top: plot.top + index * each });
       });
     },
   });

@@ -54,8 +54,6 @@ export abstract class Pen {
   abstract image(source: HTMLCanvasElement, x: number, y: number, width: number, height: number): void;
   /** Draws nothing outside of a box. */
   abstract clipped(to: Box, draw: () => void): void;
-  /** Draws on the sheet moved by so much: for pictures below each other, or in a corner. */
-  abstract moved(right: number, down: number, draw: () => void): void;
 
   measure(text: string, size: number): number {
     return measureRuns(text, size, this.family);
@@ -199,13 +197,6 @@ export class CanvasPen extends Pen {
     this.context.restore();
   }
 
-  moved(right: number, down: number, draw: () => void): void {
-    this.context.save();
-    this.context.translate(right, down);
-    draw();
-    this.context.restore();
-  }
-
   private draw(shape: Path2D, { fill, stroke, width = 1, dash = [], opacity = 1 }: PathStyle): void {
     const { context } = this;
     context.globalAlpha = opacity;
@@ -276,15 +267,7 @@ export class SvgPen extends Pen {
     this.clips += 1;
     const id = `clip-${this.clips}`;
     this.parts.push(`<clipPath id="${id}"><rect ${box(left, top, width, height)}/></clipPath>`);
-    this.group(`clip-path="url(#${id})"`, draw);
-  }
-
-  moved(right: number, down: number, draw: () => void): void {
-    this.group(`transform="translate(${short(right)} ${short(down)})"`, draw);
-  }
-
-  private group(attribute: string, draw: () => void): void {
-    this.parts.push(`<g ${attribute}>`);
+    this.parts.push(`<g clip-path="url(#${id})">`);
     draw();
     this.parts.push("</g>");
   }

@@ -1,7 +1,7 @@
 /** Disk and platform in perspective, and the path of a point of the platform, drawn on a canvas. */
 
-import { layOut, NO_TICKS, padded, paintAxes, pixelX, pixelY, roundUp } from "../../drawing/axes";
-import type { Axes, Plot, Ticks } from "../../drawing/axes";
+import { NO_TICKS, padded, pixelX, pixelY, roundUp } from "../../drawing/axes";
+import type { Axes, Plot } from "../../drawing/axes";
 import type { Pen } from "../../drawing/pen";
 import { plain, prefixOf, quantity } from "../../numbers";
 import type { Range, SystemParameters } from "../../protocol";
@@ -162,8 +162,8 @@ function lower(value: number): number {
 
 type Platform = Pick<SystemParameters, "amplitude" | "twist_amplitude">;
 
-/** On a narrower scene the inset is a frame without numbers. */
-const NARROW = 480;
+/** How wide and high the inset with the path is. */
+const SIDE = 100;
 
 /** Angles from this on are told in radians and not in thousandths of them (rad). */
 const LARGE = 0.05;
@@ -179,31 +179,15 @@ export function pathAxes({ amplitude, twist_amplitude }: Platform): Axes {
 }
 
 /** In the upper right corner of the scene, with a dot where the point is now. */
-export function paintPathInset(pen: Pen, recording: Recording, now: Moment, width: number): void {
-  const narrow = width < NARROW;
-  const [wide, high] = narrow ? [84, 84] : [200, 150];
-  const { x, y } = pathAxes(recording.system);
-  const frame = { left: 4, top: 4, width: wide - 8, height: high - 8 };
-  const bare = { ...frame, x, y, xTicks: NO_TICKS, yTicks: NO_TICKS, size: 10 };
-  const { amplitude, twist_amplitude } = recording.system;
-  pen.moved(width - wide - 2, 2, () => {
-    const laid = () => layOut(pen, wide, high, { x, y: { ...y, widest: "−0000" } }, 11);
-    const ticks = { xTicks: endTicks(twist_amplitude, x.factor), yTicks: endTicks(amplitude, y.factor) };
-    const plot: Plot = narrow ? bare : { ...laid(), ...ticks };
-    pen.rect(0, 0, wide, high, { fill: "--picture-paper", opacity: 0.8 });
-    paintPath(pen, plot, recording);
-    const mark = { fill: "--platform-mark", stroke: "--picture-paper", width: 1 };
-    pen.circle(pixelX(plot, now.platform_angle), pixelY(plot, now.platform_height), 4, mark);
-    if (narrow) pen.rect(plot.left, plot.top, plot.width, plot.height, { stroke: "--picture-frame", width: 1 });
-    else paintAxes(pen, plot);
-  });
+export function paintPathInset(pen: Pen, recording: Recording, now: Moment, right: number): void {
+  const box = { left: right - SIDE - 6, top: 6, width: SIDE, height: SIDE };
+  const plot = { ...box, ...pathAxes(recording.system), xTicks: NO_TICKS, yTicks: NO_TICKS, size: 0 };
+  const frame = { fill: "--picture-paper", stroke: "--picture-frame", width: 1 };
+  pen.rect(box.left, box.top, box.width, box.height, frame);
+  paintPath(pen, plot, recording);
+  const mark = { fill: "--platform-mark", stroke: "--picture-paper", width: 1 };
+  pen.circle(pixelX(plot, now.platform_angle), pixelY(plot, now.platform_height), 4, mark);
 }
-
-/** Few numbers have room: those of the amplitudes say most. */
-const endTicks = (size: number, factor = 1): Ticks => ({
-  major: (size > 0 ? [-size, 0, size] : [0]).map((value) => ({ value, label: plain(value * factor, 3) })),
-  minor: [],
-});
 
 export function paintPath(pen: Pen, plot: Plot, recording: Recording): void {
   const angles = recording.span("platform_angle", 0, recording.period);
