@@ -160,7 +160,8 @@ export function choice(
   return made;
 }
 
-export const labelled = (text: string, field: HTMLElement): HTMLElement => element("label", {}, `${text} `, field);
+export const labelled = (text: string, ...field: HTMLElement[]): HTMLElement =>
+  element("label", {}, `${text} `, ...field);
 
 /** Whether the form stands below the view, as in `screens.css`. */
 export const isNarrow = (): boolean => window.matchMedia("(max-width: 860px)").matches;

@@ -2,7 +2,8 @@
 
 import type { Change, State } from "./contract";
 import { element, symbol } from "./elements";
-import { abridged, mayBeThousands, prefixOf, shown, typed } from "./numbers";
+import { NumberField } from "./fields";
+import { prefixOf, shown } from "./numbers";
 import type { Range, Refusal, Summary, SystemParameters } from "./protocol";
 import { amplitudeOf, axialForcing, contactPeriods } from "./state";
 import type { ChangeOptions } from "./store";
@@ -44,7 +45,7 @@ function asTyped(exact: number, sets: (shorter: number) => boolean): number {
 const contactTime = (periods: number, { angular_frequency }: Readonly<SystemParameters>): number =>
   (periods * 2 * Math.PI) / angular_frequency;
 
-const inPi = (value: number): string => (value === 0 ? "" : `${shown(value / Math.PI, 4)} π`);
+const degrees = (value: number): string => (value === 0 ? "" : `${shown((value * 180) / Math.PI, 4)}°`);
 
 /** With the prefix of its unit, to four digits. */
 function measured(value: number, unit: string): string {
@@ -136,13 +137,13 @@ const GROUPS: Readonly<Record<keyof typeof WORDS.form.groups, readonly Parameter
       change: (stroke, { system }) => ofStroke({ ...strokeOf(system), stroke }, system),
     },
     {
-      ...{ name: "amplitude_angle", symbol: "φ_L", unit: "rad", angle: true, hint: inPi },
+      ...{ name: "amplitude_angle", symbol: "φ_L", unit: "rad", angle: true, hint: degrees },
       slider: () => [0, Math.PI / 2],
       value: ({ system }) => strokeOf(system).angle,
       change: (angle, { system }) => ofStroke({ ...strokeOf(system), angle }, system),
     },
     ofSystem("angular_frequency", "ω", "rad/s", LOGARITHMIC, { hint: hertz }),
-    ofSystem("phase_lag", "θ", "rad", () => [-Math.PI, Math.PI], { angle: true, hint: inPi }),
+    ofSystem("phase_lag", "θ", "rad", () => [-Math.PI, Math.PI], { angle: true, hint: degrees }),
   ],
   disk: [
     {
@@ -167,7 +168,7 @@ const GROUPS: Readonly<Record<keyof typeof WORDS.form.groups, readonly Parameter
     },
   ],
   start: [
-    ofStart("impact_phase", "τ_imp", "rad", () => [0, 2 * Math.PI], { angle: true, hint: inPi }),
+    ofStart("impact_phase", "τ_imp", "rad", () => [0, 2 * Math.PI], { angle: true, hint: degrees }),
     ofStart("normalised_speed", "w_A", "πg/ω", () => [0, 5], {
       hint: (value, { system }) =>
         `${shown((value * Math.PI * system.preload_acceleration) / system.angular_frequency, 3)} m/s`,
@@ -232,12 +233,11 @@ const REACH = 10;
 class Field {
   readonly element: HTMLElement;
   private readonly slider: HTMLInputElement;
-  private readonly input: HTMLInputElement;
+  private readonly field: NumberField;
   private readonly hint = element("span", { class: "hint" });
   private readonly error: HTMLElement;
   private readonly logarithmic: boolean;
   private state: State | null = null;
-  private value: number | null = null;
   private range: Range = [0, 1];
 
   constructor(
@@ -251,18 +251,21 @@ class Field {
       type: "range", min: 0, max: POSITIONS, step: 1, oninput: () => this.slid(false), onchange: () => this.slid(true),
       "aria-label": say(WORDS.form.slider, { name: `${label}${unit ? `, ${unit}` : ""}` }),
     }); // prettier-ignore
-    this.input = element("input", {
-      type: "text", id: `field-${name}`, inputmode: "decimal", autocomplete: "off", spellcheck: "false",
-      "aria-describedby": `error-${name}`, onchange: () => this.entered(), onfocus: () => this.focused(),
-      onblur: () => this.print(), onkeydown: (event: KeyboardEvent) => this.pressed(event),
-    }); // prettier-ignore
+    this.field = new NumberField({
+      attributes: { id: `field-${name}`, inputmode: "decimal", "aria-describedby": `error-${name}` },
+      take: ([value = NaN]) => this.ask(value, true),
+      tell: (problem) => {
+        this.error.textContent = problem;
+        this.error.hidden = problem === null;
+      },
+    });
     this.error = element("p", { class: "error", id: `error-${name}`, role: "alert", hidden: true });
     const words = [symbol(parameter.symbol), element("span", { class: "label" }, label)];
     this.element = element(
       "div",
       { class: "field", "data-name": name },
       element("label", { for: `field-${name}` }, ...words),
-      ...[this.hint, this.slider, this.input, element("span", { class: "unit" }, unit), this.error],
+      ...[this.hint, this.slider, this.field.input, element("span", { class: "unit" }, unit), this.error],
     );
   }
 
@@ -271,11 +274,8 @@ class Field {
     this.state = state;
     const value = this.parameter.value(state, summary);
     if (value === null) return;
-    const same = this.value !== null && Object.is(value, this.value);
-    this.value = value;
-    if (fresh) this.complain(null);
+    this.field.show([value], this.parameter, fresh);
     if (fresh || value < this.range[0] || value > this.range[1]) this.range = this.suitable(value, state);
-    if (!same || fresh) this.print();
     this.slider.value = String(this.position(value));
     this.slider.setAttribute("aria-valuetext", `${shown(value)} ${this.parameter.unit}`);
     this.hint.textContent = this.parameter.hint?.(value, state) ?? "";
@@ -304,31 +304,14 @@ class Field {
     this.ask(Number((Math.round(exact / digit) * digit).toPrecision(12)), settled);
   }
 
-  private entered(): void {
-    const text = this.input.value;
-    if (this.value !== null && text === String(this.value)) return this.complain(null);
-    const { unit, angle = false } = this.parameter;
-    const value = typed(text, unit, angle);
-    const { no_number, no_angle, thousands } = WORDS.form;
-    const problem = mayBeThousands(text) ? thousands : angle ? no_angle : no_number;
-    if (value !== null) this.ask(value, true);
-    else this.complain(say(problem, { text: text.slice(0, 24) }));
-  }
-
-  private pressed(event: KeyboardEvent): void {
-    if (event.key !== "Escape") return;
-    this.complain(null);
-    this.focused();
-  }
-
   private ask(value: number, settled: boolean): void {
     if (this.state === null) return;
     this.propose(this.parameter.change(value, this.state), {
       settled,
-      refused: (refusal) => this.complain(this.words(refusal, value)),
+      refused: (refusal) => this.field.complain(this.words(refusal, value)),
       taken: () => {
-        this.complain(null);
-        this.print();
+        this.field.complain(null);
+        this.field.print();
       },
     });
   }
@@ -339,26 +322,5 @@ class Field {
     const range = refusedAs?.includes(quantity ?? "") ? (ranges[name] ?? null) : quantity === name ? own : null;
     if (range === null) return `${message}${/[.!]$/.test(message) ? "" : "."}`;
     return say(WORDS.form.refused, { value: shown(value), name: shortLabelOf(this.parameter), range });
-  }
-
-  /** What is wrong stays until something legal is typed, and so does the text. */
-  private complain(message: string | null): void {
-    this.error.textContent = message ?? "";
-    this.error.hidden = message === null;
-    this.element.classList.toggle("wrong", message !== null);
-    if (message === null) this.input.removeAttribute("aria-invalid");
-    else this.input.setAttribute("aria-invalid", "true");
-  }
-
-  private focused(): void {
-    if (this.error.hidden && this.value !== null) this.input.value = String(this.value);
-    this.input.select();
-  }
-
-  /** All digits while somebody edits, as many as fit otherwise. */
-  private print(): void {
-    if (this.value === null || !this.error.hidden) return;
-    this.input.title = String(this.value);
-    this.input.value = document.activeElement === this.input ? this.input.title : abridged(this.value);
   }
 }

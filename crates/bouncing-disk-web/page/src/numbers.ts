@@ -20,6 +20,12 @@ export function abridged(value: number): string {
   return rounded(rounded(6).length > 8 ? 5 : 6);
 }
 
+/** A value as people would write it: a short multiple of π where it is one of an angle. */
+export function written(value: number, angle = false): string {
+  const factor = Number((value / Math.PI).toPrecision(3));
+  return angle && value !== 0 && factor * Math.PI === value ? `${factor}π` : abridged(value);
+}
+
 /** What people write behind a number, and how many of the field's units it is. */
 const UNITS: Readonly<Record<string, Readonly<Record<string, number>>>> = {
   m: { m: 1, km: 1e3, cm: 1e-2, mm: 1e-3, "µm": 1e-6, um: 1e-6, nm: 1e-9, pm: 1e-12 },

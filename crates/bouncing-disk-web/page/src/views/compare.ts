@@ -13,7 +13,7 @@ import { say, WORDS } from "../words";
 import { Asked, ComputingView, impactOf, mapOf, motionStartOf, verdictOf } from "./asking";
 import { behaviour } from "./diagram/words";
 import { Recording, type Column } from "./toss/recording";
-import { exactText, settings, NumberField, parameterChoice, valueIn, varied, withValue } from "./varied";
+import { exactText, settings, LabelledField, parameterChoice, valueIn, varied, withValue } from "./varied";
 
 const SAMPLES = 48;
 /** Periods that the heights and spins are shown for, and how many of them before the parting. */
@@ -50,9 +50,9 @@ interface Pair {
 export class CompareView extends ComputingView {
   private readonly charts = [0, 1, 2].map(() => new ScreenChart(() => clamp(window.innerHeight / 2 - 230, 210, 520)));
   private readonly parameter = parameterChoice(TEXT.parameter, (name) => this.attempt(() => this.choose(name)));
-  private readonly value = new NumberField(TEXT.value, this.context, ([value = 0]) => this.change({ value }));
-  private readonly periods = new NumberField(TEXT.periods, this.context, ([periods = 0]) => this.follow(periods));
-  private readonly from = new NumberField(TEXT.from, this.context, ([from = 0]) =>
+  private readonly value = new LabelledField(TEXT.value, this.context, ([value = 0]) => this.change({ value }));
+  private readonly periods = new LabelledField(TEXT.periods, this.context, ([periods = 0]) => this.follow(periods));
+  private readonly from = new LabelledField(TEXT.from, this.context, ([from = 0]) =>
     this.change({ from: clamp(from, 0, this.context.state().compare.periods) }),
   );
   private readonly sentence = element("p", { class: "differs" });

@@ -12,7 +12,7 @@ import { say, WORDS } from "../words";
 import { ComputingView } from "./asking";
 import { chartOf, describeGaps, describeOptima, planOf, readingsOf } from "./scan/curves";
 import { compute, RESULT, type Outcome } from "./scan/results";
-import { NumberField, parameterChoice, rangeAbout, settings, valueIn, varied } from "./varied";
+import { LabelledField, parameterChoice, rangeAbout, settings, valueIn, varied } from "./varied";
 
 /** Answers that are kept, so that another result or another curve of the same points comes at once. */
 const MOST_KNOWN = 3000;
@@ -110,8 +110,8 @@ export class ScanView extends ComputingView {
     return this.context.state().scan;
   }
 
-  private field(label: string, of: (values: number[]) => Partial<State["scan"]>, most = 1): NumberField {
-    return new NumberField(label, this.context, (values) => this.change(of(values)), most);
+  private field(label: string, of: (values: number[]) => Partial<State["scan"]>, most = 1): LabelledField {
+    return new LabelledField(label, this.context, (values) => this.change(of(values)), most);
   }
 
   /** Numbers that cannot be scanned are refused where they are typed, with a sentence. */
