@@ -4,7 +4,7 @@ import type { State } from "./contract";
 import { button, closeButton, element, isNarrow, kept, rich } from "./elements";
 import { PRESETS, stateOf, type Panel, type Preset } from "./presets";
 import { DEFAULT_STATE, toHash } from "./state";
-import { say, WORDS } from "./words";
+import { WORDS } from "./words";
 
 /** The preset and panel of a state, so that links, reloads and going back show the card as well. */
 const BY_HASH = new Map<string, { preset: Preset; panel: Panel }>(
@@ -92,9 +92,6 @@ export function showOpening(host: HTMLElement, ways: readonly (readonly [name: s
   host.replaceChildren(words, ...buttons, closeButton(label, () => close()));
 }
 
-/** More than these at once tell nobody anything. */
-const MOST = 8;
-
 /** Sentences about what could not be done, until somebody closes them. */
 export class Problems {
   private messages: string[] = [];
@@ -112,11 +109,8 @@ export class Problems {
   }
 
   private draw(): void {
-    const shown = this.messages.slice(-MOST);
-    const rest = this.messages.length - shown.length;
-    if (rest > 0) shown.unshift(say(WORDS.notes.more, { count: rest }));
-    this.host.hidden = shown.length === 0;
+    this.host.hidden = this.messages.length === 0;
     const close = closeButton(WORDS.notes.close_messages, () => this.replace([]));
-    this.host.replaceChildren(...shown.map((message) => element("p", {}, message)), close);
+    this.host.replaceChildren(...this.messages.map((message) => element("p", {}, message)), close);
   }
 }

@@ -98,6 +98,6 @@ onPage("printed basins have their map and a legend", DOUBLING, async (page) => {
   assert.match(svg, /Γ = 0\.486, ε = 0\.5/);
   const [words] = /^[^.;:]*/.exec(await page.locator(".attractors li").first().textContent());
   assert.ok(svg.includes(words.trim().split(" ").slice(0, 3).join(" ")), `${words}: ${svg}`);
-  for (const bold of await page.locator(".attractors b").allTextContents()) assert.ok(svg.includes(`${bold}:`), bold);
-  assert.match(svg, /undecided/);
+  for (const bold of await page.locator(".attractors b").allTextContents()) assert.ok(svg.includes(`${bold} of`), bold);
+  assert.match(svg, /Undecided/);
 });

@@ -59,14 +59,15 @@ test("a zoom that reaches the limit stays where it is", async () => {
   const about = ([low, high], centre, factor) => [centre + (low - centre) * factor, centre + (high - centre) * factor];
   let window = [0.3, 0.62];
   for (let turn = 0; turn < 60; turn++) window = confined(about(window, window[0], 1.4), ...limits, window);
-  assert.ok(Math.abs(window[0] - 0.3) < 1e-6 && Math.abs(window[1] - 100.3) < 1e-6, String(window));
+  assert.equal(window[1] - window[0], 100);
+  assert.deepEqual(confined(about(window, window[1], 1.4), ...limits, window), window);
   assert.deepEqual(confined([0.4, 0.5], ...limits, [0.4, 0.6]), [0.4, 0.5]);
 });
 
 test("the ticks of the narrowest windows differ", async () => {
   const { ticks } = await sourceOf("drawing/axes.ts");
   for (const width of [1e-9, 1e-12, 1e-13]) {
-    const labels = ticks([0.45, 0.45 + width], 5).major.map((tick) => tick.label);
+    const labels = ticks([0.45, 0.45 + width], 5).map((tick) => tick.label);
     assert.ok(labels.length > 1 && new Set(labels).size === labels.length, labels.join(" "));
   }
 });

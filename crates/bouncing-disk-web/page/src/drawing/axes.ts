@@ -18,12 +18,7 @@ export interface Axis {
 
 export type Axes = Readonly<Record<"x" | "y", Axis>>;
 
-export interface Ticks {
-  readonly major: readonly { readonly value: number; readonly label: string }[];
-  readonly minor: readonly number[];
-}
-
-export const NO_TICKS: Ticks = { major: [], minor: [] };
+type Ticks = readonly { readonly value: number; readonly label: string }[];
 
 export interface Plot extends Box, Axes {
   readonly xTicks: Ticks;
@@ -38,16 +33,16 @@ export function layOut(pen: Pen, width: number, height: number, { x, y }: Axes, 
   const plotHeight = Math.max(height - top - bottom, 20);
   const rows = Math.max(Math.floor(plotHeight / (size * 3.2)), 2);
   const yTicks = y.powers === true ? powersOfTen(y.range, rows) : ticks(y.range, rows, y.factor);
-  const labels = [y.widest ?? "", ...yTicks.major.map((tick) => tick.label)];
+  const labels = [y.widest ?? "", ...yTicks.map((tick) => tick.label)];
   const numbers = Math.max(...labels.map((label) => pen.measure(label, size)), size);
   const left = Math.ceil(numbers + size * 2.5);
   const right = Math.ceil(size * 1.1);
   const plotWidth = Math.max(width - left - right, 20);
-  let xTicks = NO_TICKS;
+  let xTicks: Ticks = [];
   for (let count = Math.max(Math.floor(plotWidth / (size * 5)), 1); count >= 1; count -= 1) {
     xTicks = ticks(x.range, count, x.factor);
-    const widest = Math.max(...xTicks.major.map((tick) => pen.measure(tick.label, size)), 0);
-    if (xTicks.major.length * (widest + size) <= plotWidth) break;
+    const widest = Math.max(...xTicks.map((tick) => pen.measure(tick.label, size)), 0);
+    if (xTicks.length * (widest + size) <= plotWidth) break;
   }
   return { left, top, width: plotWidth, height: plotHeight, x, y, xTicks, yTicks, size };
 }
@@ -83,8 +78,8 @@ export function hairsAt(plot: Plot, [x, y]: readonly [number, number]): number[]
 export function paintGrid(pen: Pen, plot: Plot): void {
   const { left, top, width, height, xTicks, yTicks } = plot;
   const lines = [
-    ...xTicks.major.map(({ value }) => placed(pen, pixelX(plot, value))).map((x) => [x, top, x, top + height]),
-    ...yTicks.major.map(({ value }) => placed(pen, pixelY(plot, value))).map((y) => [left, y, left + width, y]),
+    ...xTicks.map(({ value }) => placed(pen, pixelX(plot, value))).map((x) => [x, top, x, top + height]),
+    ...yTicks.map(({ value }) => placed(pen, pixelY(plot, value))).map((y) => [left, y, left + width, y]),
   ];
   pen.path(lines.flatMap((line) => [...line, NaN, NaN]), { stroke: "--picture-grid", width: 1 }); // prettier-ignore
 }
@@ -96,15 +91,12 @@ export function paintAxes(pen: Pen, plot: Plot): void {
   const [left, right] = [placed(pen, plot.left), placed(pen, plot.left + plot.width)];
   const [top, bottom] = [placed(pen, plot.top), placed(pen, plot.top + plot.height)];
   const points: number[] = [];
-  const withLengths = ({ major, minor }: Ticks) => [
-    ...major.map(({ value }) => [value, Math.round(size * 0.45)] as const),
-    ...minor.map((value) => [value, Math.round(size * 0.25)] as const),
-  ];
-  for (const [value, length] of withLengths(xTicks)) {
+  const length = Math.round(size * 0.45);
+  for (const { value } of xTicks) {
     const x = placed(pen, pixelX(plot, value));
     points.push(x, bottom, x, bottom - length, NaN, NaN, x, top, x, top + length, NaN, NaN);
   }
-  for (const [value, length] of withLengths(yTicks)) {
+  for (const { value } of yTicks) {
     const y = placed(pen, pixelY(plot, value));
     points.push(left, y, left + length, y, NaN, NaN, right, y, right - length, y, NaN, NaN);
   }
@@ -112,13 +104,13 @@ export function paintAxes(pen: Pen, plot: Plot): void {
   pen.path(points, frame);
   pen.rect(left, top, right - left, bottom - top, frame);
   const ink = { colour: "--picture-text", size };
-  for (const { value, label } of xTicks.major) {
+  for (const { value, label } of xTicks) {
     // A long number at an end of the axis stays in the picture.
     const half = pen.measure(label, size) / 2;
     const x = clamp(pixelX(plot, value), half, right + size - half);
     pen.text(label, x, bottom + size * 0.5, { ...ink, anchor: "middle", baseline: "top" });
   }
-  for (const { value, label } of yTicks.major)
+  for (const { value, label } of yTicks)
     pen.text(label, left - size * 0.5, pixelY(plot, value), { ...ink, anchor: "end", baseline: "middle" });
   const middle = { ...ink, anchor: "middle" } as const;
   pen.text(plot.x.label, (left + right) / 2, bottom + size * 2, { ...middle, baseline: "top" });
@@ -162,28 +154,21 @@ export const clamp = (value: number, low: number, high: number): number => Math.
 /** At most about `count` labelled ticks. `factor` turns a value into the unit of the label. */
 export function ticks([low, high]: Range, count: number, factor = 1): Ticks {
   const width = (high - low) * factor;
-  if (!(width > 0)) return NO_TICKS;
+  if (!(width > 0)) return [];
   const size = roundUp(width / Math.max(count, 1));
-  // A step of two has four parts, others have five.
-  const parts = Math.round(size / 10 ** Math.floor(Math.log10(size) + 1e-9)) === 2 ? 4 : 5;
   const decimals = Math.max(0, -Math.floor(Math.log10(size) + 1e-9));
   const slack = 1e-9;
-  const between = (by: number) => {
-    const first = Math.ceil((low * factor) / by - slack);
-    const last = Math.floor((high * factor) / by + slack);
-    return Array.from({ length: Math.max(last - first + 1, 0) }, (_, index) => first + index);
-  };
-  const labelled = (index: number) => tickLabel(index * size, size, decimals);
-  const minor = between(size / parts).filter((index) => index % parts !== 0);
-  return {
-    major: between(size).map((index) => ({ value: (index * size) / factor, label: labelled(index) })),
-    minor: minor.map((index) => (index * (size / parts)) / factor),
-  };
+  const first = Math.ceil((low * factor) / size - slack);
+  const last = Math.floor((high * factor) / size + slack);
+  return Array.from({ length: Math.max(last - first + 1, 0) }, (_, index) => {
+    const value = (first + index) * size;
+    return { value: value / factor, label: tickLabel(value, size, decimals) };
+  });
 }
 
 function powersOfTen(range: Range, count: number): Ticks {
-  const whole = ticks(range, count).major.filter(({ value }) => Number.isInteger(value));
-  return { major: whole.map(({ value }) => ({ value, label: `10${superscript(value)}` })), minor: [] };
+  const whole = ticks(range, count).filter(({ value }) => Number.isInteger(value));
+  return whole.map(({ value }) => ({ value, label: `10${superscript(value)}` }));
 }
 
 function tickLabel(value: number, step: number, decimals: number): string {

@@ -163,7 +163,7 @@ export function chartOffers(
     height: each * charts.length,
     paint(pen, width) {
       const plots = charts.map((chart) => layOutChart(pen, chart, width, each, PRINT_SIZE));
-      const numbers = plots.flatMap(({ yTicks }) => yTicks.major.map(({ label }) => label));
+      const numbers = plots.flatMap(({ yTicks }) => yTicks.map(({ label }) => label));
       const long = (label: string) => pen.measure(label, PRINT_SIZE);
       const widest = numbers.reduce((one, other) => (long(other) > long(one) ? other : one), "");
       charts.forEach((chart, index) => {

@@ -61,20 +61,32 @@ interface Picture {
   readonly title: string;
   readonly width: number;
   readonly height: number;
+  /** Stands below it: what colours mean. */
+  readonly legend?: readonly { readonly colour: string; readonly text: string }[];
   paint(pen: Pen, width: number, height: number): void;
 }
 
 export function pictureOffers(picture: Picture): Offer[] {
-  const { name, title, width, height, basis } = picture;
+  const { name, title, width, height, basis, legend = [] } = picture;
   const values = valuesOf(basis).map(({ symbol, value }) => `${symbol} = ${value}`.replaceAll(" ", "\u00a0"));
   const words = [values.join(", "), ...(basis.more ?? [])].join("; ");
-  const lines = wrapped(words, SMALL_SIZE, width - 2 * SMALL_SIZE);
+  const lines = [...legend, { colour: null, text: words }].flatMap(({ colour, text }) => {
+    const left = colour === null ? SMALL_SIZE : 3 * SMALL_SIZE;
+    return wrapped(text, SMALL_SIZE, width - left - SMALL_SIZE).map((line, row) => {
+      return { line, left, colour: row === 0 ? colour : null };
+    });
+  });
   const whole = height + (lines.length + 0.5) * SMALL_LINE;
   const svg = () => {
     const pen = new SvgPen(width, whole);
     picture.paint(pen, width, height);
     const style = { colour: "--picture-muted", size: SMALL_SIZE, baseline: "top" } as const;
-    lines.forEach((line, index) => pen.text(line, SMALL_SIZE, height + index * SMALL_LINE, style));
+    lines.forEach(({ line, left, colour }, index) => {
+      const top = height + index * SMALL_LINE;
+      const swatch = { stroke: "--picture-frame", width: 0.6 };
+      if (colour !== null) pen.rect(SMALL_SIZE, top, 1.5 * SMALL_SIZE, 0.9 * SMALL_SIZE, { fill: colour, ...swatch });
+      pen.text(line, left, top, style);
+    });
     // The folders of this computer are nobody's business.
     return pen.finish(title, plainText(words), isLocal() ? toHash(basis.state) : link(basis.state));
   };
@@ -84,24 +96,16 @@ export function pictureOffers(picture: Picture): Offer[] {
   ];
 }
 
-/** What stands below a plot. */
-export interface Below {
-  readonly height: number;
-  paint(pen: Pen, top: number): void;
-}
-
-type PlotPicture = Omit<Picture, "paint"> & { axes: Axes; paint(pen: Pen, plot: Plot): void; below?: Below };
+type PlotPicture = Omit<Picture, "paint"> & { axes: Axes; paint(pen: Pen, plot: Plot): void };
 
 /** A picture that is one plot with its axes. */
-export function plotOffers({ axes, paint, below, ...picture }: PlotPicture): Offer[] {
+export function plotOffers({ axes, paint, ...picture }: PlotPicture): Offer[] {
   return pictureOffers({
     ...picture,
-    height: picture.height + (below?.height ?? 0),
-    paint(pen, width) {
-      const plot = layOut(pen, width, picture.height, axes, PRINT_SIZE);
+    paint(pen, width, height) {
+      const plot = layOut(pen, width, height, axes, PRINT_SIZE);
       pen.clipped(plot, () => paint(pen, plot));
       paintAxes(pen, plot);
-      below?.paint(pen, picture.height);
     },
   });
 }

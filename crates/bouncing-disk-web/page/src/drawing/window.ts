@@ -291,21 +291,11 @@ function boxOf({ left, top, width, height }: Plot, from: Place, to: Place): Box 
   return { left: Math.min(x1, x2), top: Math.min(y1, y2), width: Math.abs(x1 - x2), height: Math.abs(y1 - y2) };
 }
 
-/**
- * A window no larger than `most` and no smaller than `least`, moved into `[low, high]`. A zoom of the window `before` that
- * reaches a limit stops there about its own centre: at the limit it moves nothing.
- */
-export function confined(wanted: Range, [least, most]: Range, [bottom, top]: Range, before?: Range): Range {
-  const [low, high] = wanted;
-  const width = clamp(high - low, least, Math.min(most, top - bottom));
-  let middle = (low + high) / 2;
-  const old = before === undefined ? NaN : before[1] - before[0];
-  const factor = (high - low) / old;
-  if (before !== undefined && width !== high - low && Math.abs(factor - 1) > 1e-9) {
-    const centre = (low - factor * before[0]) / (1 - factor);
-    middle = centre + ((before[0] + before[1]) / 2 - centre) * (width / old);
-  }
-  middle = clamp(middle, bottom + width / 2, top - width / 2);
+/** A window no larger than `most` and no smaller than `least`, within limits; one that would be keeps the middle of the last. */
+export function confined(wanted: Range, [least, most]: Range, [bottom, top]: Range, before = wanted): Range {
+  const width = clamp(wanted[1] - wanted[0], least, Math.min(most, top - bottom));
+  const [low, high] = width === wanted[1] - wanted[0] ? wanted : before;
+  const middle = clamp((low + high) / 2, bottom + width / 2, top - width / 2);
   return [middle - width / 2, middle + width / 2];
 }
 

@@ -85,7 +85,7 @@ export class BasinsView extends ComputingView {
           cells.paint(pen, plot);
           this.paintAttractors(pen, plot);
         },
-        below: printedLegend(found, cells.shares()),
+        legend: printedLegend(found, cells.shares()),
       }),
     ];
   }

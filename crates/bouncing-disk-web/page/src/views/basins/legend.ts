@@ -1,7 +1,5 @@
 /** The attractors in words, with the shares of the starts that end on them: on the screen and in print. */
 
-import { ONE_COLUMN, PRINT_SIZE, type Below } from "../../drawing/files";
-import { wrapped, type Pen } from "../../drawing/pen";
 import { element, section, setText } from "../../elements";
 import { brief, grouped, percent } from "../../numbers";
 import type { AttractorJson, AttractorsJson } from "../../protocol";
@@ -102,55 +100,11 @@ export function undecidedShare(found: AttractorsJson, shares: Shares | null): nu
   return [...shares].reduce((sum, [label, share]) => sum + (known.includes(label) ? 0 : share), 0);
 }
 
-const INDENT = 0.5 * PRINT_SIZE;
-const LINE = 1.3 * PRINT_SIZE;
-const GAP = 0.3 * LINE;
-const SWATCH = { width: 1.2 * PRINT_SIZE, height: 0.8 * PRINT_SIZE };
-/** Where the words stand beside a swatch. */
-const BESIDE = PRINT_SIZE + SWATCH.width + INDENT;
-/** More attractors than this are counted and not listed. */
-const MOST = 12;
-
-/** Below the plot: attractors by their shares of the window, those with the largest first. */
-export function printedLegend(found: AttractorsJson, shares: Shares): Below {
-  const known = entriesOf(found, shares);
-  const undecided = known.splice(-1);
-  known.sort((one, other) => (other.share ?? 0) - (one.share ?? 0));
-  const rest = known.splice(MOST);
-  const share = rest.reduce((sum, entry) => sum + (entry.share ?? 0), 0);
-  const others = rest.length === 0 ? [] : [{ colour: "", words: say(TEXTS.others, { count: rest.length }), share }];
-  const entries = [...known, ...others, ...undecided].map(({ colour, words: text, share }) => {
-    const end = colour === UNDECIDED ? TEXTS.undecided_here : text;
-    const told = say(TEXTS.printed_share, { share: percent(share ?? 0), text: end });
-    return { colour, lines: wrapped(told, PRINT_SIZE, ONE_COLUMN - BESIDE - PRINT_SIZE) };
-  });
-  const lines = entries.reduce((sum, { lines: { length } }) => sum + length, 0);
-  return {
-    height: (lines + 2) * LINE + GAP * entries.length,
-    paint(pen, top) {
-      const ink = { colour: "--picture-text", size: PRINT_SIZE, baseline: "top" } as const;
-      let y = top + GAP;
-      pen.text(TEXTS.printed, PRINT_SIZE, y, ink);
-      y += 1.3 * LINE;
-      for (const { colour, lines } of entries) {
-        if (colour !== "") paintSwatch(pen, y, colour);
-        for (const line of lines) {
-          pen.text(line, BESIDE, y, ink);
-          y += LINE;
-        }
-        y += GAP;
-      }
-    },
-  };
-}
-
-/** Undecided cells are told from others by their stripes. */
-function paintSwatch(pen: Pen, y: number, fill: string): void {
-  const { width, height } = SWATCH;
-  pen.rect(PRINT_SIZE, y, width, height, { fill, stroke: "--picture-frame", width: 0.6 });
-  if (fill !== UNDECIDED) return;
-  const stripes: number[] = [];
-  for (let x = PRINT_SIZE; x < PRINT_SIZE + width - height / 2; x += 3)
-    stripes.push(x, y + height, x + height / 2, y, NaN, NaN);
-  pen.path(stripes, { stroke: "--undecided-line", width: 1 });
-}
+/** For print: the attractors that are seen, and what is undecided. */
+export const printedLegend = (found: AttractorsJson, shares: Shares) =>
+  entriesOf(found, shares)
+    .filter(({ colour, share }) => share !== 0 || colour === UNDECIDED)
+    .map(({ colour, words: text, share }) => ({
+      colour,
+      text: say(TEXTS.printed_share, { share: percent(share ?? 0), text }),
+    }));

@@ -1,6 +1,6 @@
 /** Disk and platform in perspective, and the path of a point of the platform, drawn on a canvas. */
 
-import { NO_TICKS, padded, pixelX, pixelY, roundUp } from "../../drawing/axes";
+import { padded, pixelX, pixelY, roundUp } from "../../drawing/axes";
 import type { Axes, Plot } from "../../drawing/axes";
 import type { Pen } from "../../drawing/pen";
 import { plain, prefixOf, quantity } from "../../numbers";
@@ -181,7 +181,7 @@ export function pathAxes({ amplitude, twist_amplitude }: Platform): Axes {
 /** In the upper right corner of the scene, with a dot where the point is now. */
 export function paintPathInset(pen: Pen, recording: Recording, now: Moment, right: number): void {
   const box = { left: right - SIDE - 6, top: 6, width: SIDE, height: SIDE };
-  const plot = { ...box, ...pathAxes(recording.system), xTicks: NO_TICKS, yTicks: NO_TICKS, size: 0 };
+  const plot = { ...box, ...pathAxes(recording.system), xTicks: [], yTicks: [], size: 0 };
   const frame = { fill: "--picture-paper", stroke: "--picture-frame", width: 1 };
   pen.rect(box.left, box.top, box.width, box.height, frame);
   paintPath(pen, plot, recording);
