@@ -1,7 +1,8 @@
 /** The frame of a picture: where it lies, its ticks, numbers and labels. */
 
-import { minus, superscript } from "../numbers";
+import { minus, prefixOf, superscript } from "../numbers";
 import type { Range } from "../protocol";
+import { say } from "../words";
 import type { Box, Pen } from "./pen";
 
 export interface Axis {
@@ -14,6 +15,12 @@ export interface Axis {
   readonly powers?: boolean;
   /** The numbers beside a vertical axis have at least the place of this one. */
   readonly widest?: string;
+}
+
+/** An axis in the prefix of its unit that reads best, for which the label has a place: "height ({prefix}m)". */
+export function prefixed(label: string, range: Range): Axis {
+  const { factor, symbol } = prefixOf(Math.max(...range.map(Math.abs)));
+  return { label: say(label, { prefix: symbol }), range, factor };
 }
 
 export type Axes = Readonly<Record<"x" | "y", Axis>>;

@@ -5,7 +5,7 @@ import { element, placeOn, setText } from "../elements";
 import { plain, withError } from "../numbers";
 import type { Range } from "../protocol";
 import { say, WORDS } from "../words";
-import { clamp, crossAt, inside, layOut, paintAxes, paintGrid, pixelX, pixelY, valueX } from "./axes";
+import { clamp, crossAt, extent, inside, layOut, padded, paintAxes, paintGrid, pixelX, pixelY, valueX } from "./axes";
 import type { Axis, Plot } from "./axes";
 import { ONE_COLUMN, pictureOffers, PRINT_SIZE, type Basis } from "./files";
 import { plainText, type Pen } from "./pen";
@@ -108,20 +108,35 @@ function paintLine(pen: Pen, { x, error, label, colour }: Line, plot: Plot): voi
   pen.text(label, at + (nearRight ? -4 : 4), top + height - size * 0.5, style);
 }
 
-/** Two standard errors on either side of a curve, or its interval. */
-function paintBand(pen: Pen, { at }: Chart, { y, error, between, colour }: Curve, plot: Plot): void {
-  if (error === undefined && between === undefined) return;
+/** Two standard errors on either side of a value, or its interval. */
+function endsOf({ y, error, between }: Curve, index: number): number[] {
+  const [value, by] = [y[index] ?? NaN, 2 * (error?.[index] ?? 0)];
+  return between?.map((ends) => ends[index] ?? NaN) ?? [value - by, value + by];
+}
+
+/** A range with room for these curves and some more values. Errors of any size do not flatten the curves. */
+export function spanOf(curves: readonly Curve[], more: readonly number[] = [], room = 0.05): Range {
+  const values = curves.flatMap(({ y }) => Array.from(y).filter(Number.isFinite));
+  const most = 1.6 * Math.max(...values.map(Math.abs), 0);
+  const ends = curves.flatMap((curve) => Array.from(curve.y).flatMap((_, index) => endsOf(curve, index)));
+  const all = extent([...more, ...values, ...ends.map((end) => clamp(end, -most, most))]);
+  // Without any value but zero there is no scale to take from the numbers.
+  return padded(all?.some((end) => end !== 0) ? all : [0, 1], room);
+}
+
+
+function paintBand(pen: Pen, { at }: Chart, curve: Curve, plot: Plot): void {
+  if (curve.error === undefined && curve.between === undefined) return;
   const upper: number[] = [];
   const lower: number[] = [];
   for (let index = 0; index < at.length; index += 1) {
     const x = pixelX(plot, at[index] as number);
-    const [value, by] = [y[index] ?? NaN, 2 * (error?.[index] ?? NaN)];
-    const [low = NaN, high = NaN] = between?.map((ends) => ends[index] ?? NaN) ?? [value - by, value + by];
+    const [low = NaN, high = NaN] = endsOf(curve, index);
     if (!Number.isFinite(low) || !Number.isFinite(high)) continue;
     upper.push(x, pixelY(plot, high));
     lower.unshift(x, pixelY(plot, low));
   }
-  if (upper.length > 2) pen.path([...upper, ...lower], { fill: colour, opacity: 0.25, close: true });
+  if (upper.length > 2) pen.path([...upper, ...lower], { fill: curve.colour, opacity: 0.25, close: true });
 }
 
 function paintCurve(pen: Pen, { at }: Chart, { y, colour, dash, points: marked }: Curve, plot: Plot): void {
@@ -301,11 +316,12 @@ function nearest(values: ArrayLike<number>, to: number): number {
 
 /** "time (s) 0.25: speed 1.2 ± 0.1": the values of one place with their standard errors or intervals. */
 function readingOf({ x, y: axis, at, curves }: Chart, index: number): string {
+  const { factor = 1 } = axis;
   const values = curves.map(({ label, y, error, between }) => {
-    const [low, high] = between?.map((ends) => plain(ends[index])) ?? [];
+    const [low, high] = between?.map((ends) => plain((ends[index] ?? NaN) * factor)) ?? [];
     const value = axis.powers === true ? 10 ** (y[index] ?? NaN) : (y[index] ?? null);
     const interval = low === undefined || high === undefined ? "" : say(WORDS.drawing.interval, { low, high });
-    return `${plainText(label)} ${withError(value, error?.[index] ?? null)}${interval}`;
+    return `${plainText(label)} ${withError(value, error?.[index] ?? null, factor)}${interval}`;
   });
-  return `${plainText(x.label)} ${plain(at[index])}: ${values.join(", ")}`;
+  return `${plainText(x.label)} ${plain((at[index] ?? NaN) * (x.factor ?? 1))}: ${values.join(", ")}`;
 }

@@ -1,18 +1,18 @@
 /** Two states that differ in one parameter, side by side: the shared one, A, and B. */
 
 import { Cancelled, messageOf, type Context, type Offer, type State } from "../contract";
-import { clamp, extent, padded } from "../drawing/axes";
-import { chartOffers, ScreenChart, type Chart, type Curve } from "../drawing/chart";
+import { clamp, extent } from "../drawing/axes";
+import { chartOffers, ScreenChart, type Chart } from "../drawing/chart";
 import { ONE_COLUMN, PARTS, tableOffers } from "../drawing/files";
 import { button, div, element, labelled, oncePerFrame, rich, setText } from "../elements";
-import { nextDouble, plain, prefixOf } from "../numbers";
+import { nextDouble, plain } from "../numbers";
 import { bouncing } from "../presets";
 import type { MotionJson, Range, VerdictJson } from "../protocol";
 import { DEFAULT_STATE, MOST_PERIODS } from "../state";
 import { say, WORDS } from "../words";
 import { Asked, ComputingView, impactOf, mapOf, motionStartOf, verdictOf } from "./asking";
 import { behaviour } from "./diagram/words";
-import { Recording, type Column } from "./toss/recording";
+import { Recording, traces, WIDEST, type Column } from "./toss/recording";
 import { exactText, settings, LabelledField, parameterChoice, valueIn, varied, withValue } from "./varied";
 
 const SAMPLES = 48;
@@ -36,7 +36,7 @@ type Both<Value> = readonly [a: Value, b: Value];
 /** Two motions that were sampled alike; the shared state is A. */
 interface Pair {
   readonly state: State;
-  column(name: Column): Both<Float64Array>;
+  readonly motions: Both<Recording>;
   /** |difference of heights| over the amplitude of A. */
   readonly apart: Float64Array;
   /** Periods until the heights differ; null if they never do. */
@@ -92,7 +92,7 @@ export class CompareView extends ComputingView {
     const { pair } = this;
     // Those of another state are never given under this one.
     if (pair === null || keyOf(pair.state) !== keyOf(this.context.state())) return [];
-    const columns = [...pair.column("height"), ...pair.column("angular_speed"), pair.apart];
+    const columns = [...columnsOf(pair, "height"), ...columnsOf(pair, "angular_speed"), pair.apart];
     const rows = function* () {
       for (const row of pair.apart.keys()) yield [row / SAMPLES, ...columns.map((column) => column[row] ?? NaN)];
     };
@@ -187,33 +187,14 @@ export class CompareView extends ComputingView {
 
   private chartsOf(pair: Pair): Chart[] {
     const window = this.windowOf(pair);
-    const heights = pair.column("height").flatMap((one) => extent(one) ?? []);
-    const { factor, symbol } = prefixOf(Math.max(...heights.map(Math.abs)));
-    return [
-      motionChart(pair, window, `${TEXT.heights} (${symbol}m)`, "height", "platform_height", factor),
-      motionChart(pair, window, `${TEXT.spins} (rad/s)`, "angular_speed", "platform_angular_speed", 1),
-      differenceChart(pair, window),
-    ];
+    const [a, b] = pair.motions;
+    const alike = PARTS.platform.every((name) => a.system[name] === b.system[name]);
+    const named = [
+      { motion: a, disk: "A", platform: alike ? TEXT.platform : TEXT.platformA },
+      { motion: b, disk: "B", platform: alike ? null : TEXT.platformB },
+    ] as const;
+    return [...traces(named, window, window[1]), differenceChart(pair, window)];
   }
-}
-
-/** A quantity of both disks, and of the platform or, where these move differently, of both platforms. */
-function motionChart(pair: Pair, window: Range, label: string, disk: Column, platform: Column, factor: number): Chart {
-  const [from, to] = window.map((period) => period * SAMPLES) as Range;
-  const part = (column: Float64Array) => column.slice(from, to + 1).map((value) => value * factor);
-  const [a, b] = pair.column(disk).map(part) as [Float64Array, Float64Array];
-  const [one, other] = pair.column(platform).map(part) as [Float64Array, Float64Array];
-  const bound = 1e-9 * Math.max(...one.map(Math.abs));
-  const alike = one.every((value, index) => Math.abs(value - (other[index] as number)) <= bound);
-  const curves: Curve[] = [
-    { label: alike ? TEXT.platform : TEXT.platformA, y: one, colour: "--picture-muted", dash: [6, 3] },
-    ...(alike ? [] : [{ label: TEXT.platformB, y: other, colour: "--platform-line", dash: [2, 3] }]),
-    { label: "A", y: a, colour: "--curve-speed" },
-    { label: "B", y: b, colour: "--curve-power", dash: [7, 3] },
-  ];
-  const range = padded(extent(curves.flatMap(({ y }) => extent(y) ?? [])) ?? [0, 1]);
-  const at = a.map((_, index) => (from + index) / SAMPLES);
-  return { title: label, x: { label: TEXT.time, range: window }, y: { label, range, widest: WIDEST }, at, curves };
 }
 
 /** The difference on an axis of powers of ten. */
@@ -225,7 +206,7 @@ function differenceChart({ apart, state }: Pair, window: Range): Chart {
   const [low, high] = extent(logs.filter(Number.isFinite)) ?? [-16, 0];
   return {
     title: TEXT.difference,
-    x: { label: TEXT.time, range: [0, state.compare.periods] },
+    x: { label: WORDS.axes.time, range: [0, state.compare.periods] },
     y: { label: TEXT.differenceAxis, range: [Math.floor(low), Math.ceil(high + 1e-9)], powers: true, widest: WIDEST },
     at,
     curves: [{ label: say(TEXT.instants, { step }), y: logs, colour: "--curve-efficiency" }],
@@ -243,8 +224,6 @@ const READY = [
   ready(TEXT.ready.digit, 0.55, "restitution", nextDouble(0.5)),
 ];
 
-/** All charts have one place for their numbers. */
-const WIDEST = "−00.00";
 const SLOTS = ["compare-a", "compare-b"] as const;
 /** What a field asks for does not end the motions that are under way. */
 const VALUE = "compare-value";
@@ -256,18 +235,21 @@ const COLUMNS = [
 const keyOf = ({ system, mass, start, thrown, compare: { parameter, value, periods } }: State): string =>
   JSON.stringify([system, mass, start, thrown, parameter, value, periods]);
 
+/** A column of both motions. */
+const columnsOf = ({ motions }: Pick<Pair, "motions">, name: Column): Both<Float64Array> =>
+  [motions[0].span(name, 0, Infinity), motions[1].span(name, 0, Infinity)];
+
 async function pairOf(context: Context, state: State): Promise<Pair> {
   const { parameter, value, periods } = state.compare;
   const other = withValue(varied(parameter), value, state);
   const both = async <Value>(ask: (own: State, slot: string) => Promise<Value>): Promise<Both<Value>> =>
     Promise.all([ask(state, SLOTS[0]), ask(other, SLOTS[1])]);
-  const [one, two] = await both(async (own, slot) => {
+  const motions = await both(async (own, slot) => {
     const motion = { system: own.system, start: motionStartOf(own), periods, samples_per_period: SAMPLES };
     const answer = await context.client.ask<MotionJson>(slot, { call: "motion", ...motion });
     return new Recording(answer, periods, own.system);
   });
-  const column = (name: Column) => [one.span(name, 0, Infinity), two.span(name, 0, Infinity)] as const;
-  const [a, b] = column("height");
+  const [a, b] = columnsOf({ motions }, "height");
   const apart = a.map((height, row) => Math.abs(height - (b[row] as number)) / state.system.amplitude);
   const own = await valueIn(context, SLOTS[0], varied(parameter), state);
   // Contacts that take time have no verdict, nor has a disk that was thrown: it begins with no impact.
@@ -275,16 +257,16 @@ async function pairOf(context: Context, state: State): Promise<Pair> {
   const verdicts = judged ? await both((one, slot) => verdictOf(context, slot, mapOf(one), impactOf(one))) : null;
   const ends = verdicts && ([endOf(verdicts[0]), endOf(verdicts[1])] as const);
   const first = apart.findIndex((value) => value > APART);
-  return { state, column, apart, own, parting: first < 0 ? null : first / SAMPLES, ends };
+  return { state, motions, apart, own, parting: first < 0 ? null : first / SAMPLES, ends };
 }
 
 const endOf = (verdict: VerdictJson): string => behaviour(verdict) + (verdict.rounding_dependent ? TEXT.rounding : "");
 
 /** What there is to say of two motions. */
-function describe({ column, apart, parting, ends, state: { compare } }: Pair): string[] {
+function describe({ motions, apart, parting, ends, state: { compare } }: Pair): string[] {
   const { periods } = compare;
   const [heights, spins] = (["height", "angular_speed"] as const).map((name) => {
-    const [a, b] = column(name);
+    const [a, b] = columnsOf({ motions }, name);
     return a.every((value, row) => value === b[row]);
   });
   const lasting = ends === null ? TEXT.noVerdict : say(TEXT.ends, { a: ends[0], b: ends[1] });

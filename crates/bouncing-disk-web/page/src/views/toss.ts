@@ -1,7 +1,7 @@
 /** Toss and bounce: the motion itself, from the engine's own trajectory. */
 
 import { Cancelled, type Context, type Offer, type State, type View } from "../contract";
-import { chartOffers, ScreenChart } from "../drawing/chart";
+import { chartOffers, ScreenChart, type Chart } from "../drawing/chart";
 import { ONE_COLUMN, PARTS, plotOffers, tableOffers, type Basis } from "../drawing/files";
 import { Layers, type Point } from "../drawing/window";
 import { button, div, element, oncePerFrame, section, setText } from "../elements";
@@ -23,6 +23,8 @@ const TEXTS = WORDS.toss;
 const FIRST_PERIODS = 48;
 const MOST_PERIODS = 1280;
 const SAMPLES_PER_PERIOD = 64;
+/** Periods of a chart. */
+const SHOWN = 8;
 /** More of the motion is asked for when less than this share of it is still to be shown. */
 const AHEAD = 0.35;
 
@@ -127,7 +129,7 @@ export class TossView implements View {
     const { recording } = this;
     // That of another state is never given under this one.
     if (recording === null || this.recorded !== this.motion()) return [];
-    const charts = traces(recording, Math.max(this.player.now, Math.min(recording.periods, 8)));
+    const charts = this.charts(recording, Math.max(this.player.now, Math.min(recording.periods, SHOWN)));
     const state = this.context.state();
     const { thrown, system } = state;
     const own: Basis = { state, names: PARTS.motion };
@@ -278,9 +280,15 @@ export class TossView implements View {
     const { now } = this.player;
     if (now === this.tracesDrawn) return;
     this.tracesDrawn = now;
-    const [heights, spins] = traces(recording, now);
+    const [heights, spins] = this.charts(recording, now);
     this.heights.show(heights);
     this.spins.show(spins);
+  }
+
+  /** The last few periods up to a time. */
+  private charts(motion: Recording, now: number): [Chart, Chart] {
+    const from = Math.max(0, now - SHOWN + 1);
+    return traces([{ motion, disk: TEXTS.disk, platform: TEXTS.platform }], [from, from + SHOWN], now);
   }
 
   /** That the disk was thrown stays to be read, with the way back to the shared impact. */

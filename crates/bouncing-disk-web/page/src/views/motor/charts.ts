@@ -1,12 +1,11 @@
 /** The charts of a motor, from what is known so far, and its files. */
 
 import type { Offer } from "../../contract";
-import { clamp, extent, padded } from "../../drawing/axes";
-import { chartOffers, type Chart, type Curve, type Mark } from "../../drawing/chart";
+import { padded, prefixed } from "../../drawing/axes";
+import { chartOffers, spanOf, type Chart, type Curve, type Mark } from "../../drawing/chart";
 import { ONE_COLUMN, rowsOf, tableOffers, type Basis } from "../../drawing/files";
-import { prefixOf } from "../../numbers";
 import { OPERATION_COLUMNS, TRANSIENT_COLUMNS, type MotorSheet, type Range, type StallJson } from "../../protocol";
-import { say, WORDS } from "../../words";
+import { WORDS } from "../../words";
 import { membersOf, SEED, type Operation, type Transient } from "./requests";
 
 const { charts: TEXTS, files: FILES, titles: TITLES } = WORDS.motor;
@@ -16,27 +15,21 @@ const finite = (value: number): number => (Number.isFinite(value) ? value : 0);
 /** The run-up, and beside it the steady speed under the same load, as soon as it is known. */
 export function transientChart({ json, numbers }: Transient, own: Operation | null): Chart {
   const rows = [...rowsOf(numbers, TRANSIENT_COLUMNS.length)];
-  const column = (place: number) => rows.map((row) => row[place] ?? NaN);
-  const [times, speed, error] = [column(0), column(1), column(2)];
-  const last = times[json.points - 1] ?? 1;
-  const time = prefixOf(last);
-  const edges = [-2, 2].flatMap((errors) => speed.map((value, row) => value + errors * (error[row] ?? 0)));
-  const curves: Curve[] = [{ label: TEXTS.run_up_curve, y: speed, error, colour: "--curve-speed" }];
+  const [at, y, error] = [0, 1, 2].map((place) => rows.map((row) => row[place] ?? NaN)) as [number[], number[], number[]];
+  const last = at.at(-1) ?? 1;
+  const curves: Curve[] = [{ label: TEXTS.run_up_curve, y, error, colour: "--curve-speed" }];
   if (own?.status === 0) {
-    edges.push(...[-2, 2].map((errors) => own.speed + errors * finite(own.speed_error)));
-    const y = speed.map(() => own.speed);
-    const same = speed.map(() => own.speed_error);
-    curves.push({ label: TEXTS.steady, y, error: same, colour: "--curve-power", dash: [6, 3] });
+    const steady = { y: y.map(() => own.speed), error: y.map(() => own.speed_error) };
+    curves.push({ label: TEXTS.steady, ...steady, colour: "--curve-power", dash: [6, 3] });
   }
   const constant = json.rise?.form === "exponential" ? json.rise.constant.value : Infinity;
-  const line = { x: constant * time.factor, label: TEXTS.constant, colour: "--picture-muted" };
   return {
     title: TEXTS.run_up,
-    x: { label: say(TEXTS.time, { prefix: time.symbol }), range: [0, last * time.factor] },
-    y: { label: TEXTS.mean_speed, range: padded(extent([...edges, 0]) ?? [0, 1]) },
-    at: times.map((value) => value * time.factor),
+    x: prefixed(TEXTS.time, [0, last]),
+    y: { label: TEXTS.mean_speed, range: spanOf(curves, [0]) },
+    at,
     curves,
-    lines: constant > last ? [] : [line],
+    lines: constant > last ? [] : [{ x: constant, label: TEXTS.constant, colour: "--picture-muted" }],
   };
 }
 
@@ -77,49 +70,27 @@ export function loadCharts(
   stall: StallJson | null,
 ): Chart[] {
   if (operations.length === 0) return [];
-  const torque = prefixOf(Math.max(Math.abs(loads[0]), Math.abs(loads[1])));
   const shown = [...operations].sort((one, two) => one.load_torque - two.load_torque);
-  const span = padded([loads[0] * torque.factor, loads[1] * torque.factor], 0.03);
-  const x = { label: say(TEXTS.load, { prefix: torque.symbol }), range: span };
-  const at = shown.map(({ load_torque }) => load_torque * torque.factor);
-  const beyond = largestTorque * torque.factor;
-  const shade = { range: [beyond, span[1]] as const, label: TEXTS.runaway };
-  const stop = (stall?.torque ?? NaN) * torque.factor;
-  const error = finite(stall?.torque_error ?? 0) * torque.factor;
-  const lines = Number.isNaN(stop) ? [] : [{ x: stop, error, label: TEXTS.stall, colour: "--stall" }];
-  return KINDS.map(({ title, label, curves, factor }) => {
-    const values = shown.flatMap((row) => curves.map(({ name }) => row[name]));
-    const greatest = Math.max(...values.filter(Number.isFinite).map(Math.abs), 0);
-    const prefix = factor === undefined ? prefixOf(greatest) : { factor, symbol: "" };
-    const column = (name: keyof Operation & (Name | `${Name}_error`)) => shown.map((row) => row[name] * prefix.factor);
-    // A point that is not settled may have any error; it must not flatten the others.
-    const most = 1.6 * greatest * prefix.factor;
-    const edges = curves.flatMap(({ name }) => {
-      const errors = column(`${name}_error`).map(finite);
-      return column(name).flatMap((value, row) =>
-        [-2, 2].map((times) => clamp(value + times * (errors[row] ?? 0), -most, most)),
-      );
+  const x = prefixed(TEXTS.load, padded(loads, 0.03));
+  const [, end] = x.range;
+  const at = shown.map(({ load_torque }) => load_torque);
+  const { torque = null, torque_error = 0 } = stall ?? {};
+  const stop = { label: TEXTS.stall, colour: "--stall", error: finite(torque_error ?? 0) };
+  const lines = torque === null ? [] : [{ x: torque, ...stop }];
+  return KINDS.map(({ title, label, curves: described, factor }) => {
+    const curves = described.map(({ name, ...curve }) => {
+      return { ...curve, y: shown.map((row) => row[name]), error: shown.map((row) => row[`${name}_error`]), points: true };
     });
-    const range = extent([0, ...edges]) ?? [0, 1];
-    const [first] = curves as [Kind["curves"][number]];
-    const marks = shown.flatMap((row, index): Mark[] => {
-      const place = { x: at[index] ?? NaN, y: finite(row[first.name] * prefix.factor) };
-      if (row.status === 2) return [{ ...place, y: 0, form: "cross", colour: "--warning" }];
-      return row.status === 0 ? [] : [{ ...place, form: "circle", colour: first.colour }];
+    const [{ y: values = [], colour = "" } = {}] = curves;
+    const marks = shown.flatMap(({ status }, index): Mark[] => {
+      const x = at[index] ?? NaN;
+      if (status === 2) return [{ x, y: 0, form: "cross", colour: "--warning" }];
+      return status === 0 ? [] : [{ x, y: finite(values[index] ?? NaN), form: "circle", colour }];
     });
-    return {
-      title,
-      x,
-      // Without any value but zero there is no scale to take from the numbers.
-      y: { label: say(label, { prefix: prefix.symbol }), range: padded(greatest > 0 ? range : [0, 1], 0.08) },
-      at,
-      curves: curves.map(({ name, ...curve }) => {
-        return { ...curve, y: column(name), error: column(`${name}_error`), points: true };
-      }),
-      marks,
-      lines,
-      ...(span[1] > beyond * 1.001 && { shade }),
-    };
+    const range = spanOf(curves, [0], 0.08);
+    const y = factor === undefined ? prefixed(label, range) : { label, range, factor };
+    const shade = { range: [largestTorque, end] as const, label: TEXTS.runaway };
+    return { title, x, y, at, curves, marks, lines, ...(end > largestTorque * 1.001 && { shade }) };
   });
 }
 

@@ -1,9 +1,9 @@
 /** The curves of a scan: their points, their chart, and their optima in words. */
 
 import type { State } from "../../contract";
-import { evenly, extent, padded } from "../../drawing/axes";
-import type { Chart } from "../../drawing/chart";
-import { plain, prefixOf, shown, withError } from "../../numbers";
+import { evenly, padded, prefixed } from "../../drawing/axes";
+import { spanOf, type Chart } from "../../drawing/chart";
+import { plain, shown, withError } from "../../numbers";
 import type { Range } from "../../protocol";
 import { say, WORDS } from "../../words";
 import { axisOf, valueText, varied, withValue } from "../varied";
@@ -53,37 +53,34 @@ export function readingsOf({ scan, lines }: Plan, known: ReadonlyMap<string, Out
 export function chartOf({ scan, at, lines }: Plan, readings: readonly (readonly (Reading | null)[])[]): Chart {
   const { unit } = RESULT[scan.result];
   const words = WORDS.scan.results[scan.result];
-  const all = readings.flat().filter((reading) => reading !== null);
-  const greatest = Math.max(0, ...all.map(({ value }) => Math.abs(value)).filter(Number.isFinite));
-  const { factor, symbol } = unit === "W" ? prefixOf(greatest) : { factor: 1, symbol: "" };
-  const column = (line: readonly (Reading | null)[], of: (reading: Reading) => number | undefined) =>
-    line.map((reading) => (reading === null ? NaN : (of(reading) ?? NaN) * factor));
-  // What has not settled may have any error, which must not flatten the others.
-  const spans = all.flatMap((reading) => (reading.lacks === undefined ? endsOf(reading) : [reading.value]));
-  const ends = spans.map((end) => end * factor);
-  const places = padded(scan.range, 0.02);
-  return {
-    title: words,
-    x: { label: axisOf(varied(scan.over)), range: places },
-    y: { label: unit === "" ? words : `${words} (${symbol}${unit})`, range: padded(extent(ends) ?? [0, 1], 0.06) },
-    at,
-    curves: readings.map((line, index) => ({
+  const curves = readings.map((line, index) => {
+    const column = (of: (reading: Reading) => number | undefined) =>
+      line.map((reading) => (reading === null ? NaN : (of(reading) ?? NaN)));
+    return {
       label: (lines[index]?.label ?? "").replace(/_(\w+)/, "_{$1}"),
-      y: column(line, ({ value }) => value),
+      y: column(({ value }) => value),
       ...(line.some((reading) => reading?.between) && {
-        between: [column(line, ({ between }) => between?.[0]), column(line, ({ between }) => between?.[1])] as const,
+        between: [column(({ between }) => between?.[0]), column(({ between }) => between?.[1])] as const,
       }),
-      ...(line.some((reading) => reading?.error) && { error: column(line, ({ error }) => error) }),
+      ...(line.some((reading) => reading?.error) && { error: column(({ error }) => error) }),
       colour: COLOURS[index] ?? COLOURS[0],
       dash: DASHES[index] ?? [],
       points: scan.result === "orbit_period" ? ("alone" as const) : true,
-    })),
+    };
+  });
+  const range = spanOf(curves, [], 0.06);
+  return {
+    title: words,
+    x: { label: axisOf(varied(scan.over)), range: padded(scan.range, 0.02) },
+    y: unit === "W" ? prefixed(`${words} ({prefix}W)`, range) : { label: unit === "" ? words : `${words} (${unit})`, range },
+    at,
+    curves,
     marks: readings.flatMap((line, index) => {
       const best = bestOf(line, scan.optimum);
       const colour = COLOURS[index] ?? COLOURS[0];
       return line.flatMap((reading, place) => {
         const form = place === best ? "circle" : reading?.lacks !== undefined ? "cross" : null;
-        const [x, y] = [at[place] ?? NaN, (reading?.value ?? NaN) * factor];
+        const [x, y] = [at[place] ?? NaN, reading?.value ?? NaN];
         return form === null || Number.isNaN(y) ? [] : [{ x, y, form, colour } as const];
       });
     }),

@@ -1,12 +1,11 @@
 /** A motion that the library computed: states at equal times, and what happened in between; and its charts. */
 
-import { extent, padded } from "../../drawing/axes";
+import { extent, padded, prefixed, type Axis } from "../../drawing/axes";
 import type { Chart, Curve } from "../../drawing/chart";
 import { rowsOf } from "../../drawing/files";
-import { prefixOf } from "../../numbers";
 import { EVENT_COLUMNS, MODES, MOTION_COLUMNS } from "../../protocol";
 import type { MotionJson, Range, Response, SystemParameters } from "../../protocol";
-import { say, WORDS } from "../../words";
+import { WORDS } from "../../words";
 
 const WIDTH = MOTION_COLUMNS.length;
 /** A sum of some doubles is rounded by so much of the largest of them. */
@@ -63,11 +62,11 @@ export class Recording {
     return { ...Object.fromEntries(columns), mode: this.mode(low) } as Moment;
   }
 
-  /** A column between two times, times first, in these units. */
-  span(name: Column, from: number, to: number, factor = 1): Float64Array {
-    const [first, last] = [Math.floor(this.place(from)), Math.ceil(this.place(to))];
+  /** A column between two times; a time that is a sample's but for rounding is that sample. */
+  span(name: Column, from: number, to: number): Float64Array {
+    const [first, last] = [Math.floor(this.place(from) + 1e-6), Math.ceil(this.place(to) - 1e-6)];
     const column = MOTION_COLUMNS.indexOf(name);
-    return Float64Array.from({ length: last - first + 1 }, (_, index) => this.value(first + index, column) * factor);
+    return Float64Array.from({ length: last - first + 1 }, (_, index) => this.value(first + index, column));
   }
 
   /** Least and greatest of some columns over all of it. */
@@ -118,31 +117,31 @@ export class Recording {
 
 const TEXTS = WORDS.toss;
 
-/** Periods of a chart. */
-const SHOWN = 8;
-/** A number as wide as those of usual ranges, so that both charts have one axis of time. */
-const WIDEST = "−00.00";
+/** A number as wide as those of usual ranges, so that charts above each other have one axis of time. */
+export const WIDEST = "−00.00";
 
-/** Heights and angular speeds of a recording up to a time in periods, for the last few of these. */
-export function traces(recording: Recording, now: number): [Chart, Chart] {
-  const { period } = recording;
-  const from = Math.max(0, now - SHOWN + 1);
-  const [start, end] = [from * period, now * period];
-  const x = { label: WORDS.axes.time, range: [from, from + SHOWN] as Range };
-  const at = recording.span("time", start, end, 1 / period);
-  const heights = recording.extent("height", "platform_height");
-  const metre = prefixOf(Math.max(...heights.map(Math.abs)));
-  const chart = (title: string, label: string, disk: Column, platform: Column, factor = 1): Chart => {
-    const [low, high] = recording.extent(disk, platform);
-    const curves: Curve[] = [
-      { label: TEXTS.disk, y: recording.span(disk, start, end, factor), colour: "--disk" },
-      { label: TEXTS.platform, y: recording.span(platform, start, end, factor), colour: "--platform-line", dash: [6, 3] },
-    ];
-    return { title, x, y: { label, range: padded([low * factor, high * factor]), widest: WIDEST }, at, curves };
+/** A motion with the names of its curves; a platform without one is that of the motion before. */
+export type Named = Readonly<{ motion: Recording; disk: string; platform: string | null }>;
+
+/** Heights and angular speeds of motions that were sampled alike, on an axis of periods and up to one of them. */
+export function traces(named: readonly [Named, ...Named[]], range: Range, end: number): [Chart, Chart] {
+  const spanOf = (motion: Recording, name: Column) => motion.span(name, range[0] * motion.period, end * motion.period);
+  const { motion: first } = named[0];
+  const at = spanOf(first, "time").map((time) => time / first.period);
+  const chart = (title: string, axisOf: (range: Range) => Axis, own: Column, below: Column): Chart => {
+    const curves = named.flatMap(({ motion, disk, platform }, index): Curve[] => {
+      const colour = index + 1 < named.length ? "--picture-muted" : "--platform-line";
+      const lower = { y: spanOf(motion, below), colour, dash: [6, 3] };
+      const upper = { y: spanOf(motion, own), ...(index === 0 ? { colour: "--disk" } : { colour: "--curve-power", dash: [7, 3] }) };
+      return [...(platform === null ? [] : [{ label: platform, ...lower }]), { label: disk, ...upper }];
+    });
+    const ends = extent(named.flatMap(({ motion }) => motion.extent(own, below))) ?? [0, 1];
+    const x = { label: WORDS.axes.time, range };
+    return { title, x, y: { ...axisOf(padded(ends)), widest: WIDEST }, at, curves };
   };
-  const height = say(WORDS.axes.height, { prefix: metre.symbol });
+  const plainAxis = (range: Range) => ({ label: WORDS.axes.angular_speed, range });
   return [
-    chart(TEXTS.heights, height, "height", "platform_height", metre.factor),
-    chart(TEXTS.angular_speeds, WORDS.axes.angular_speed, "angular_speed", "platform_angular_speed"),
+    chart(TEXTS.heights, (range) => prefixed(WORDS.axes.height, range), "height", "platform_height"),
+    chart(TEXTS.angular_speeds, plainAxis, "angular_speed", "platform_angular_speed"),
   ];
 }

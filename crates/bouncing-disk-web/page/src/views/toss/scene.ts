@@ -1,9 +1,9 @@
 /** Disk and platform in perspective, and the path of a point of the platform, drawn on a canvas. */
 
-import { padded, pixelX, pixelY, roundUp } from "../../drawing/axes";
+import { padded, pixelX, pixelY, prefixed, roundUp } from "../../drawing/axes";
 import type { Axes, Plot } from "../../drawing/axes";
 import type { Pen } from "../../drawing/pen";
-import { plain, prefixOf, quantity } from "../../numbers";
+import { plain, quantity } from "../../numbers";
 import type { Range, SystemParameters } from "../../protocol";
 import { say, WORDS } from "../../words";
 import type { Moment, Recording } from "./recording";
@@ -169,13 +169,10 @@ const SIDE = 100;
 const LARGE = 0.05;
 
 export function pathAxes({ amplitude, twist_amplitude }: Platform): Axes {
-  const radian = twist_amplitude >= LARGE ? { factor: 1, symbol: "" } : prefixOf(twist_amplitude);
-  const metre = prefixOf(amplitude);
-  const around = (size: number) => padded([-size, size]);
-  return {
-    x: { label: say(WORDS.axes.angle, { prefix: radian.symbol }), range: around(twist_amplitude), factor: radian.factor },
-    y: { label: say(WORDS.axes.height, { prefix: metre.symbol }), range: around(amplitude), factor: metre.factor },
-  };
+  const [angles, heights] = [twist_amplitude, amplitude].map((size) => padded([-size, size])) as [Range, Range];
+  const { angle, height } = WORDS.axes;
+  const x = twist_amplitude >= LARGE ? { label: say(angle, { prefix: "" }), range: angles } : prefixed(angle, angles);
+  return { x, y: prefixed(height, heights) };
 }
 
 /** In the upper right corner of the scene, with a dot where the point is now. */
