@@ -1,5 +1,7 @@
 /** A few lines instead of a framework: elements with their attributes and children, and when to draw. */
 
+import type { Context } from "./contract";
+
 type Child = Node | string | null;
 
 type Attributes = Readonly<Record<string, string | boolean | number | null | ((event: never) => void)>>;
@@ -34,10 +36,7 @@ export function byId<Kind extends HTMLElement = HTMLElement>(id: string): Kind {
 }
 
 /** A symbol of the paper with its subscript: `a_e` has an upright small e. */
-export function symbol(text: string): HTMLElement {
-  const [base = "", below] = text.split("_");
-  return element("i", { class: "symbol" }, base, below === undefined ? null : element("sub", {}, below));
-}
+export const symbol = (text: string): HTMLElement => element("i", { class: "symbol" }, ...rich(text));
 
 /** Running text with the paper's subscripts: `φ_L`. */
 export function rich(text: string): Node[] {
@@ -79,13 +78,13 @@ export function rove(row: HTMLElement, arrived: (button: HTMLButtonElement) => v
   });
 }
 
-/** Puts text into the clipboard; false where the browser does not let it. */
-export async function copied(text: string): Promise<boolean> {
+/** Puts text into the clipboard, and says what has come of it. */
+export async function copy(text: string, status: Context["status"], done: string, failed: string): Promise<void> {
   try {
     await navigator.clipboard.writeText(text);
-    return true;
+    status(done);
   } catch {
-    return false;
+    status(failed, "error");
   }
 }
 
@@ -106,6 +105,10 @@ export class Facts<Name extends string> {
       this.values.set(name, value);
       this.root.append(element("div", {}, element("dt", {}, text), value));
     }
+  }
+
+  text(): string {
+    return [...this.root.children].map((row) => [...row.children].map((part) => part.textContent).join(": ")).join(". ");
   }
 
   clear(text: string): void {

@@ -3,7 +3,7 @@
 import type { Change, State } from "./contract";
 import { element, symbol } from "./elements";
 import { NumberField } from "./fields";
-import { prefixOf, shown } from "./numbers";
+import { quantity, shown } from "./numbers";
 import type { Range, Refusal, Summary, SystemParameters } from "./protocol";
 import { amplitudeOf, axialForcing, contactPeriods } from "./state";
 import type { ChangeOptions } from "./store";
@@ -47,14 +47,8 @@ const contactTime = (periods: number, { angular_frequency }: Readonly<SystemPara
 
 const degrees = (value: number): string => (value === 0 ? "" : `${shown((value * 180) / Math.PI, 4)}°`);
 
-/** With the prefix of its unit, to four digits. */
-function measured(value: number, unit: string): string {
-  const prefix = prefixOf(Math.abs(value));
-  return `${shown(value * prefix.factor, 4)} ${prefix.symbol}${unit}`;
-}
-
-const metres = (value: number): string => (value === 0 || Math.abs(value) >= 1e-2 ? "" : measured(value, "m"));
-const hertz = (value: number): string => measured(value / (2 * Math.PI), "Hz");
+const metres = (value: number): string => (value === 0 || Math.abs(value) >= 1e-2 ? "" : quantity(value, "m", 4));
+const hertz = (value: number): string => quantity(value / (2 * Math.PI), "Hz", 4);
 
 type Words = [symbol: string, unit: string, Parameter["slider"], more?: Pick<Parameter, "angle" | "hint">];
 
@@ -152,7 +146,7 @@ const GROUPS: Readonly<Record<keyof typeof WORDS.form.groups, readonly Parameter
       value: ({ system }) =>
         asTyped(contactPeriods(system), (periods) => contactTime(periods, system) === system.contact_time),
       change: (value, { system }) => ({ system: { contact_time: contactTime(value, system) } }),
-      hint: (_, { system: { contact_time } }) => (contact_time === 0 ? WORDS.form.rigid : measured(contact_time, "s")),
+      hint: (_, { system: { contact_time } }) => (contact_time === 0 ? WORDS.form.rigid : quantity(contact_time, "s", 4)),
     },
     ofSystem("contact_radius", "a_e", "m", LOGARITHMIC, { hint: metres }),
     ofSystem("gyration_radius", "a_g", "m", LOGARITHMIC, { hint: metres }),
@@ -209,8 +203,8 @@ export class Parameters {
     const rows = [
       ["Γ_T", readout.angular_forcing, angular_forcing === null ? readout.no_friction : shown(angular_forcing, 4)],
       ["Aω²/g", readout.peak_acceleration, `${shown(summary.peak_acceleration, 4)} g`],
-      ["2π/ω", readout.period, measured(summary.period, "s")],
-      ["t_r", readout.rise_time, rise_time === null ? readout.none : measured(rise_time, "s")],
+      ["2π/ω", readout.period, quantity(summary.period, "s", 4)],
+      ["t_r", readout.rise_time, rise_time === null ? readout.none : quantity(rise_time, "s", 4)],
       ["T_c", readout.contact, contact?.[0][1] ?? WORDS.form.rigid],
       ["mg/kA", readout.indentation, contact?.[1][1] ?? readout.none],
     ] as const;

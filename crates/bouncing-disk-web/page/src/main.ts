@@ -11,7 +11,7 @@ import { makeClient, type Source } from "./client";
 import { messageOf, VIEW_NAMES, type Context, type Offer, type State, type ViewClass, type ViewName } from "./contract";
 import { COURSES, CoursePanel, type Course } from "./courses";
 import { fileName, save } from "./drawing/files";
-import { byId, copied } from "./elements";
+import { byId, copy } from "./elements";
 import { Parameters } from "./form";
 import { Notes, Problems, showOpening } from "./notes";
 import { openingPanel, PRESETS, stateOf, type Panel, type Preset } from "./presets";
@@ -145,7 +145,13 @@ function begin(): void {
   );
 
   const tool = (name: string): HTMLButtonElement => byId<HTMLButtonElement>(`${name}-button`);
-  const copy = (): void => void copyLink(context, tool("link"));
+  const { local, not_copied_told: failed, copied_told: taken } = WORDS.page;
+  const copyLink = () => void copy(link(store.state()), context.status, isLocal() ? local : taken, failed);
+  const copyFrame = (): void => {
+    // A frame of a file would tell its folders, and show nothing to anybody else.
+    if (isLocal()) context.status(WORDS.embed.local);
+    else void copy(frameOf(store.state()), context.status, WORDS.embed.copied, WORDS.embed.not_copied);
+  };
   const offers = (): Offer[] => stage.view?.offers() ?? [];
   const saved = async (offer: Offer): Promise<void> => {
     const name = fileName(offer);
@@ -159,16 +165,16 @@ function begin(): void {
   const print = () => void printSheet(store.state(), offers()).catch((error) => problems.add(messageOf(error)));
   const exports = choices(WORDS.page.export, "export", WORDS.page.export_what, () => [
     ...offers().map((offer) => ({ label: offer.name, note: offer.kind.toUpperCase(), act: () => void saved(offer) })),
-    { label: WORDS.page.link_offer, note: WORDS.page.copy, act: copy },
+    { label: WORDS.page.link_offer, note: WORDS.page.copy, act: copyLink },
     { label: WORDS.sheet.label, note: WORDS.page.print, act: print },
-    { label: WORDS.embed.label, note: WORDS.page.copy, act: () => void copyFrame(context) },
+    { label: WORDS.embed.label, note: WORDS.page.copy, act: copyFrame },
   ]);
   /** The tools with the keys that do the same. */
   const tools: readonly (readonly [string, string, () => void])[] = [
     ["p", "presets", presets],
     ["t", "courses", courses],
     ["e", "export", exports],
-    ["l", "link", copy],
+    ["l", "link", copyLink],
     ["?", "help", () => help.showModal()],
   ];
   for (const [, name, act] of tools) tool(name).addEventListener("click", act);
@@ -195,24 +201,6 @@ function begin(): void {
   const ways = [[WORDS.opening.tour, tour], [WORDS.opening.lessons, courses]] as const; // prettier-ignore
   if (location.hash === "") showOpening(byId("opening"), ways);
   arrived(address.opened());
-}
-
-async function copyFrame(context: Context): Promise<void> {
-  // A frame of a file would tell its folders, and show nothing to anybody else.
-  const done = !isLocal() && (await copied(frameOf(context.state())));
-  const { copied: taken, not_copied, local } = WORDS.embed;
-  context.status(isLocal() ? local : done ? taken : not_copied, done ? "done" : "error");
-}
-
-async function copyLink(context: Context, button: HTMLButtonElement): Promise<void> {
-  const words = button.textContent;
-  const done = await copied(link(context.state()));
-  button.textContent = done ? WORDS.page.copied : WORDS.page.not_copied;
-  context.announce(done ? WORDS.page.copied_told : WORDS.page.not_copied_told);
-  if (done && isLocal()) context.status(WORDS.address.local);
-  setTimeout(() => {
-    button.textContent = words;
-  }, 1500);
 }
 
 begin();

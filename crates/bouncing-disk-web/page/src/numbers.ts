@@ -2,14 +2,9 @@
 
 import { readNumber } from "./state";
 
-/** About so many significant digits, with a true minus sign and 10ⁿ where it is easier to read. */
-export function shown(value: number, digits = 5): string {
-  const size = Math.abs(value);
-  if (value === 0 || (size >= 1e-3 && size < 1e6)) return brief(value, digits);
-  const [mantissa = "", exponent = ""] = value.toExponential(digits - 1).split("e");
-  const factor = brief(Number(mantissa), digits);
-  return `${factor === "1" ? "" : `${factor} × `}10${superscript(Number(exponent))}`;
-}
+/** About so many significant digits, without zeros that say nothing. */
+export const shown = (value: number, digits = 5): string =>
+  plain(value, digits).replace(/(\.\d*?)0+(?= ×|$)/, "$1").replace(/\.(?= ×|$)/, "");
 
 /** For a field that is eight characters wide: as short as it can be read back, five or six digits at most. */
 export function abridged(value: number): string {
@@ -129,19 +124,12 @@ export function prefixOf(greatest: number): { factor: number; symbol: string } {
   return { factor: 10 ** (-3 * thousands), symbol: PREFIXES[thousands + 4] ?? "" };
 }
 
-/** A quantity with its unit: "12.3 µs". */
-export function quantity(value: number | null, unit: string, digits = 3): string {
+/** A quantity with its unit, and with its standard error where there is one: "12.3 µs", "(12.3 ± 0.4) µs". */
+export function quantity(value: number | null, unit: string, digits = 3, error: number | null = null): string {
   if (value === null || !Number.isFinite(value)) return "–";
-  const prefix = prefixOf(Math.abs(value));
-  return `${plain(value * prefix.factor, digits)} ${prefix.symbol}${unit}`;
-}
-
-/** A quantity with its standard error and its unit. */
-export function quantityWithError(value: number | null, error: number | null, unit: string): string {
-  if (value === null || !Number.isFinite(value)) return "–";
-  const prefix = prefixOf(Math.abs(value));
-  const text = withError(value, error, prefix.factor);
-  return `${text.includes("±") ? `(${text})` : text} ${prefix.symbol}${unit}`;
+  const { factor, symbol } = prefixOf(Math.abs(value));
+  const text = error === null ? plain(value * factor, digits) : withError(value, error, factor);
+  return `${text.includes("±") ? `(${text})` : text} ${symbol}${unit}`;
 }
 
 /** The next double upwards. */

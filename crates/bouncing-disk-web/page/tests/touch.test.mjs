@@ -67,7 +67,7 @@ onTelephone("two fingers zoom the orbit diagram, and not the page", "diagram", a
   assert.ok(after[0] > before[0] && after[1] < before[1], String(after));
   assert.equal(await page.evaluate(() => visualViewport.scale), 1);
   await settled(page);
-  assert.match(await page.textContent("#status"), /^\d+ forcings in [\d.]+ s, /);
+  assert.match(await page.textContent("#status"), /^\d+ forcings in [\d.]+ s/);
 });
 
 onTelephone("one finger moves the orbit diagram, and a tap chooses a forcing", "diagram", async (page, touch) => {

@@ -8,7 +8,7 @@ import { shown } from "../numbers";
 import { SYSTEM_NAMES, type Summary } from "../protocol";
 import { axialForcing, toHash } from "../state";
 import { layOut, paintAxes, type Axes, type Plot } from "./axes";
-import { contextOf, plainText, SvgPen, wrapped, type Pen } from "./pen";
+import { contextOf, marked, plainText, SvgPen, wrapped, type Pen } from "./pen";
 
 /** One column of a journal, 8.6 cm, and two with their gap, 17.8 cm, in points. */
 export const ONE_COLUMN = 243.8;
@@ -45,13 +45,11 @@ export const PARTS = {
 export function valuesOf({ state, names }: Basis): { parameter: Parameter; symbol: string; value: string }[] {
   const summary = { axial_forcing: axialForcing(state.system) } as Summary;
   return PARAMETERS.filter(({ name }) => names.includes(name)).map((parameter) => {
-    const [base = "", below] = parameter.symbol.split("_");
-    const letter = /[ΓΦ]/.test(base) ? base : `*${base}*`;
     const number = parameter.value(state, summary) ?? NaN;
     // Units that are themselves quantities are factors.
     const unit = parameter.unit === "" || number === 0 ? "" : `${/[ωπ]/.test(parameter.unit) ? " ×" : ""} ${parameter.unit}`;
     const value = `${shown(number, 6)}${unit}`;
-    return { parameter, symbol: below === undefined ? letter : `${letter}_{${below}}`, value };
+    return { parameter, symbol: marked(parameter.symbol), value };
   });
 }
 

@@ -90,6 +90,10 @@ function runsOf(text: string): Run[] {
   return runs;
 }
 
+/** The markup of a symbol of the form, `φ_L`; capital Greek letters are upright. */
+export const marked = (symbol: string): string =>
+  symbol.replace(/^[^ΓΦ_]+/, "*$&*").replace(/_(\w+)/, "_{$1}");
+
 /** The same without markup, for plain text. */
 export const plainText = (text: string): string => runsOf(text).reduce((plain, run) => plain + run.text, "");
 

@@ -99,12 +99,12 @@ export class Asked<Value> {
  * A caution that depends on the map alone, or on the impact too. A map of which no verdict comes has none, and its own
  * view says why; nor have contacts that take time.
  */
-abstract class Caution {
+export class Caution {
   readonly root = element("p", { class: "caution", hidden: true });
   private readonly asked = new Asked<void>();
 
-  /** The text for a state; null where there is nothing to say. */
-  protected abstract textOf(context: Context, state: State): Promise<string | null>;
+  /** Gives the text for a state; null where there is nothing to say. */
+  constructor(private readonly textOf: (context: Context, state: State) => Promise<string | null>) {}
 
   show(context: Context, state: State): void {
     const map = mapOf(state);
@@ -119,28 +119,19 @@ abstract class Caution {
 }
 
 /** Says so where rounding, and not the model, decides what a disk does after a rest. */
-export class RoundingCaution extends Caution {
-  constructor(
-    private readonly slot: string,
-    private readonly what: string,
-  ) {
-    super();
-  }
-
-  protected async textOf(context: Context, state: State): Promise<string | null> {
-    const { rounding_dependent } = await verdictOf(context, this.slot, mapOf(state), REST);
-    return rounding_dependent ? say(WORDS.asking.rounding, { what: this.what }) : null;
-  }
-}
+export const roundingCaution = (slot: string, what: string): Caution =>
+  new Caution(async (context, state) => {
+    const { rounding_dependent } = await verdictOf(context, slot, mapOf(state), REST);
+    return rounding_dependent ? say(WORDS.asking.rounding, { what }) : null;
+  });
 
 /** Says so where a motion from rest and the shared start end on two attractors: views that begin so then differ. */
-export class Attractors extends Caution {
-  protected async textOf(context: Context, state: State): Promise<string | null> {
+export const attractorsCaution = (): Caution =>
+  new Caution(async (context, state) => {
     const own = await verdictOf(context, "attractors-start", mapOf(state), impactOf(state));
     const rest = await verdictOf(context, "attractors-rest", mapOf(state), REST);
     const decided = own.kind !== "undecided" && rest.kind !== "undecided";
     if (!decided || (own.kind === rest.kind && own.impacts === rest.impacts)) return null;
     const [first = "", other = ""] = [rest, own].map(({ text }) => text.replace(/, multipliers.*|\.$/s, ""));
     return say(WORDS.asking.two_attractors, { rest: first, start: other });
-  }
-}
+  });

@@ -10,7 +10,7 @@ import { brief, percent, plain } from "../numbers";
 import { say, WORDS } from "../words";
 import type { AttractorsJson, ImpactStart, Range } from "../protocol";
 import { DEFAULT_STATE } from "../state";
-import { ComputingView, mapOf, RoundingCaution, type MapParameters } from "./asking";
+import { ComputingView, mapOf, roundingCaution, type MapParameters } from "./asking";
 import { Cells, computeCells, gridOf, type Grid } from "./basins/cells";
 import { describe, labelsOf, Legend, printedLegend, undecidedShare } from "./basins/legend";
 
@@ -23,7 +23,7 @@ const LEAST_SPEED = 1e-9;
 
 export class BasinsView extends ComputingView {
   private readonly picture: WindowPicture;
-  private readonly rounding = new RoundingCaution("basins-rest", WORDS.asking.rounding_basins);
+  private readonly rounding = roundingCaution("basins-rest", WORDS.asking.rounding_basins);
   private readonly legend = new Legend(this.rounding.root);
   private readonly alternative = element("p", { class: "alternative" });
   private found: AttractorsJson | null = null;

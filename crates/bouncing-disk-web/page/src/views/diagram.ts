@@ -5,14 +5,14 @@ import { clamp, pixelX, type Axes, type Plot } from "../drawing/axes";
 import { PARTS, plotOffers, tabbed, tableOffers, TWO_COLUMNS, type Basis } from "../drawing/files";
 import type { Pen } from "../drawing/pen";
 import { confined, WindowPicture, type Window2 } from "../drawing/window";
-import { button, choice, copied, div, element, labelled, setText } from "../elements";
+import { button, choice, copy, div, element, labelled, setText } from "../elements";
 import { plain } from "../numbers";
 import { say, WORDS } from "../words";
 import { DIAGRAM_COLUMNS, type DiagramJson, type Range, type VerdictJson } from "../protocol";
 import { amplitudeOf, axialForcing, contactPeriods, DEFAULT_STATE } from "../state";
 import { Asked, ComputingView, impactOf } from "./asking";
 import { areDrawn, BRANCHES, branchesOf, isPlain, paintBranches, tablesOf, type Branches } from "./diagram/branches";
-import { computeColumns, DESCRIBED, distinctImpacts, LENGTHS, RECORDED, TRANSIENT } from "./diagram/columns";
+import { computeColumns, DESCRIBED, distinctImpacts, LENGTHS, TRANSIENT } from "./diagram/columns";
 import type { Wanted } from "./diagram/columns";
 import { Dots } from "./diagram/dots";
 import { describeBifurcations, describeDiagram, SAMPLE_SLOTS, Verdict, verdictsOf } from "./diagram/words";
@@ -47,9 +47,8 @@ export class DiagramView extends ComputingView {
   private readonly verdicts = new Asked<VerdictJson[]>();
   /** The branches that came last, with the coefficient of restitution of their map. */
   private lines: (Branches & { readonly restitution: number }) | null = null;
-  /** What was computed, when all is there, and whether it was said. */
+  /** What was computed, when all is there. */
   private sentence = "";
-  private told = false;
   private orbits: DiagramJson = { resting: 0, unsettled: 0, left_out: TRANSIENT };
   protected readonly draw = (): void => this.picture.redraw();
 
@@ -101,8 +100,6 @@ export class DiagramView extends ComputingView {
   override hide(): void {
     super.hide();
     this.verdict.stop();
-    // The place for it is another view's now.
-    this.told = false;
   }
 
   offers(): Offer[] {
@@ -186,15 +183,12 @@ export class DiagramView extends ComputingView {
       const lines = this.linesOf(state);
       this.copy.hidden = lines === null || lines.json.bifurcations.length === 0;
       setText(this.alternative, lines === null ? seen : `${seen} ${describeBifurcations(lines, window)}`);
-      if (!this.told) this.context.status(this.sentence);
-      this.told = true;
     } catch (error) {
       if (!outdated()) throw error;
     }
   }
 
   private async fetchDots(name: string, wanted: Wanted, rows: number): Promise<void> {
-    this.told = false;
     // Those of the last window do not keep the columns waiting.
     this.context.client.cancel(BRANCHES);
     this.dots.begin(name, wanted.count);
@@ -207,25 +201,22 @@ export class DiagramView extends ComputingView {
     this.dots.end(this.diagram, rows);
     this.draw();
     const seconds = ((performance.now() - began) / 1000).toFixed(2);
-    const { resting, left_out } = this.orbits;
-    const transient = left_out > TRANSIENT ? `${TRANSIENT}\u2013${left_out}` : TRANSIENT;
-    this.sentence = say(TEXTS.computed, { count: wanted.count, seconds, recorded: RECORDED, transient });
-    if (resting > 0) this.sentence += ` ${say(TEXTS.resting, { count: resting })}`;
+    this.sentence = say(TEXTS.computed, { count: wanted.count, seconds });
+    this.context.status(this.sentence);
   }
 
   private async fetchBranches(state: State): Promise<void> {
-    this.told = false;
     this.context.status(TEXTS.computing_branches, "busy");
     const branches = await branchesOf(this.context, state);
     this.lines = { ...branches, restitution: state.system.restitution };
+    this.context.status(this.sentence);
     this.draw();
   }
 
   private async copyTable(): Promise<void> {
     const state = this.context.state();
     const lines = this.linesOf(state);
-    const done = lines !== null && (await copied(tabbed(tablesOf(lines, state)[0])));
-    this.context.status(done ? TEXTS.copied : TEXTS.not_copied, done ? "done" : "error");
+    if (lines !== null) await copy(tabbed(tablesOf(lines, state)[0]), this.context.status, TEXTS.copied, TEXTS.not_copied);
   }
 
   /** Those of another window are the same lines; those of another coefficient of restitution are others. */
@@ -244,13 +235,12 @@ export class DiagramView extends ComputingView {
 
   /** Gives the shared system the amplitude of this forcing, if the library takes it. */
   private async choose(forcing: number): Promise<void> {
-    const { client, state, change, status, announce } = this.context;
+    const { client, state, change, status } = this.context;
     const { system } = state();
     const amplitude = amplitudeOf(forcing, system);
     await client.ask("diagram-check", { call: "check", system: { ...system, amplitude } });
     change({ system: { amplitude } });
     status(say(TEXTS.chosen, { forcing: plain(forcing, 6), amplitude: plain(amplitude, 5) }));
-    announce(say(TEXTS.chosen_short, { forcing: plain(forcing, 4) }));
   }
 }
 

@@ -9,7 +9,7 @@ import { percent } from "../numbers";
 import { MOST_RISE_TIMES } from "../state";
 import { TRANSIENT_COLUMNS, type MotorSheet, type Range, type ReportJson, type SheetJson, type StallJson } from "../protocol";
 import { say, WORDS } from "../words";
-import { Asked, Attractors, ComputingView } from "./asking";
+import { Asked, attractorsCaution, ComputingView } from "./asking";
 import { loadCharts, motorOffers, transientChart } from "./motor/charts";
 import { membersOf, operate, PASSES, reportOf, sheetOf, stallOf, transientOf, SLOT } from "./motor/requests";
 import type { Operation, Pass, Transient } from "./motor/requests";
@@ -47,7 +47,7 @@ export class MotorView extends ComputingView {
   private readonly runUpChart = new ScreenChart(chartHeight);
   private readonly curveCharts = CURVES.map(() => new ScreenChart(chartHeight));
   private readonly remark = element("p", { class: "remark" });
-  private readonly attractors = new Attractors();
+  private readonly attractors = attractorsCaution();
   private known = new Known();
   private imported: SheetJson | null = null;
   /** What the motor that is shown depends on. */
@@ -116,7 +116,6 @@ export class MotorView extends ComputingView {
     known.sheet = sheet;
     known.text = json.text;
     this.sheetPanel.show(known.text);
-    this.sheetPanel.stator(sheet.stator ?? null);
     const report = await reportOf(context, sheet);
     known.report = report;
     reportPanel.report(report);

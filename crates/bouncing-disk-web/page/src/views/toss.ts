@@ -8,10 +8,10 @@ import { button, div, element, oncePerFrame, section, setText } from "../element
 import { plain } from "../numbers";
 import { say, WORDS } from "../words";
 import type { FlightStart, MotionJson, MotionStart } from "../protocol";
-import { motionStartOf, RoundingCaution, tellFailure } from "./asking";
+import { motionStartOf, roundingCaution, tellFailure } from "./asking";
 import { Controls, Player } from "./toss/player";
 import { paintImpacts, Portrait } from "./toss/portrait";
-import { describeMoment, Readings } from "./toss/readings";
+import { Readings } from "./toss/readings";
 import { Recording, traces, type Moment } from "./toss/recording";
 import { describePath, paintPath, paintPathInset, pathAxes, Stage } from "./toss/scene";
 import { Sound } from "./toss/sound";
@@ -38,8 +38,8 @@ export class TossView implements View {
   private readonly readings = new Readings();
   private readonly gains = element("p", { class: "remark" });
   private readonly thrown = element("p", { class: "remark", hidden: true });
-  private readonly rounding = new RoundingCaution("toss-rest", WORDS.asking.rounding_toss);
-  private readonly alternative = element("p", { class: "alternative", "aria-live": "polite" });
+  private readonly rounding = roundingCaution("toss-rest", WORDS.asking.rounding_toss);
+  private readonly alternative = element("p", { class: "hidden", "aria-live": "polite" });
   private readonly heights = new ScreenChart(() => this.chartHeight());
   private readonly spins = new ScreenChart(() => this.chartHeight());
   private readonly portrait = new Portrait((at) => this.choose(at));
@@ -49,7 +49,6 @@ export class TossView implements View {
   );
   private readonly controls = new Controls(this.scene.surface, this.player, {
     period: () => this.period(),
-    chosen: () => this.describe(),
     heard: (on) => this.sound.switch(on),
   });
   private readonly sound = new Sound();
@@ -219,7 +218,6 @@ export class TossView implements View {
       else if (!this.player.playing) this.player.now = Math.min(7, recording.periods);
     }
     this.readings.balance(recording);
-    this.describe();
     this.draw();
   }
 
@@ -242,6 +240,8 @@ export class TossView implements View {
     this.controls.show(recording.periods);
     const impacts = recording.impactsUntil(player.now * recording.period);
     this.readings.show(moment, player.now, impacts, recording);
+    // Not while it moves: a screen reader would never come to an end.
+    setText(this.alternative, player.playing || this.held !== null ? "" : this.readings.text());
     this.showTraces(recording);
     this.portrait.show(recording, context.state().start, impacts, this.anew);
     this.anew = false;
@@ -252,7 +252,6 @@ export class TossView implements View {
       player.pause();
       this.controls.show(periods);
       context.status(say(TEXTS.ends, { periods }));
-      this.describe();
     }
   }
 
@@ -303,14 +302,5 @@ export class TossView implements View {
   private choose([phase, speed]: Point): void {
     this.context.change({ start: { impact_phase: phase * 2 * Math.PI, normalised_speed: Math.max(speed, 1e-9) } });
     this.context.status(say(TEXTS.begins_at, { phase: plain(phase, 3), speed: plain(speed, 3) }));
-  }
-
-  /** Not while it moves: a screen reader would never come to an end. */
-  private describe(): void {
-    const moment = this.moment();
-    const { recording, player } = this;
-    if (moment === null || recording === null) return;
-    const impacts = recording.impactsUntil(player.now * recording.period);
-    setText(this.alternative, player.playing ? "" : describeMoment(moment, player.now, impacts, recording));
   }
 }

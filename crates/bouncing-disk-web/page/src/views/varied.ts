@@ -1,6 +1,7 @@
 /** The parameters that a scan or a comparison varies, and the fields that choose one and its values. */
 
 import type { Context, State } from "../contract";
+import { marked } from "../drawing/pen";
 import { choice, element, isNarrow, labelled } from "../elements";
 import { NumberField } from "../fields";
 import { PARAMETERS, shortLabelOf, type Parameter } from "../form";
@@ -28,11 +29,8 @@ export const rangeAbout = (value: number, { slider }: Parameter, state: State): 
 const unitOf = ({ unit }: Parameter, before: string, after = ""): string => (unit === "" ? "" : before + unit + after);
 
 /** The label of an axis: "amplitude angle *φ*_{L} (rad)". */
-export function axisOf(parameter: Parameter): string {
-  const [base = "", below] = parameter.symbol.split("_");
-  const symbol = `*${base}*${below === undefined ? "" : `_{${below}}`}`;
-  return `${shortLabelOf(parameter)} ${symbol}${unitOf(parameter, " (", ")")}`;
-}
+export const axisOf = (parameter: Parameter): string =>
+  `${shortLabelOf(parameter)} ${marked(parameter.symbol)}${unitOf(parameter, " (", ")")}`;
 
 /** "θ = −0.25π" and "φ_L = 0.55 rad" */
 export function valueText(parameter: Parameter, value: number): string {

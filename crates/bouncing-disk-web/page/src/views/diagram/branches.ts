@@ -33,8 +33,6 @@ export async function branchesOf({ client }: Context, { system: { restitution },
 const WIDTH = BRANCH_COLUMNS.length;
 const STABLE = 4;
 const LINE = 5;
-/** Length of a dash and of a gap. */
-const DASH = 4;
 
 export function paintBranches(pen: Pen, plot: Plot, branches: Branches, quantity: Quantity): void {
   const full: number[] = [];
@@ -60,35 +58,9 @@ export function paintBranches(pen: Pen, plot: Plot, branches: Branches, quantity
     }
     last = { x, value, line };
   }
-  pen.path(dashesOf(dashed, plot), { stroke: "--branch-unstable", width: 1 });
+  pen.path(dashed, { stroke: "--branch-unstable", width: 1, dash: [4, 4] });
   pen.path(full, { stroke: "--branch-stable", width: 1.5 });
   paintBifurcations(pen, plot, branches, quantity);
-}
-
-/** Dashes of lines, at places of the picture and not of the line: two that nearly coincide have their gaps in common, and
- * do not fill each other's up. */
-function dashesOf(points: readonly number[], plot: Plot): number[] {
-  const dashes: number[] = [];
-  for (let index = 0; index + 3 < points.length; index += 2) {
-    const [fromX = NaN, fromY = NaN, toX = NaN, toY = NaN] = points.slice(index, index + 4);
-    if (Number.isNaN(fromX + toX)) continue;
-    const flat = Math.abs(toX - fromX) >= Math.abs(toY - fromY);
-    const [from, to] = flat ? [fromX, toX] : [fromY, toY];
-    if (from === to) continue;
-    // What is outside of the picture can be any number of dashes long.
-    const [first, last] = flat ? [plot.left, plot.left + plot.width] : [plot.top, plot.top + plot.height];
-    const low = Math.max(Math.min(from, to), first);
-    const high = Math.min(Math.max(from, to), last);
-    for (let dash = Math.floor(low / DASH); dash * DASH < high; dash += 1) {
-      if (dash % 2 !== 0) continue;
-      for (const place of [Math.max(dash * DASH, low), Math.min((dash + 1) * DASH, high)]) {
-        const share = (place - from) / (to - from);
-        dashes.push(fromX + (toX - fromX) * share, fromY + (toY - fromY) * share);
-      }
-      dashes.push(NaN, NaN);
-    }
-  }
-  return dashes;
 }
 
 /** Each bifurcation is marked at the first impact of its orbit. */

@@ -49,7 +49,9 @@ export class Dots {
   /** Makes the picture of the present quantity and range with all that has come, unless it is there: true if made. */
   arrange(diagram: Diagram, rows: number): boolean {
     const { quantity } = diagram;
-    this.automatic = this.followed(quantity);
+    // Where there is nothing to see: of spins, between those that the platform has.
+    const nothing: Range = quantity === "angular_speed" ? [-1, 1] : [0, 1];
+    this.automatic = rangeOf(this.columns, quantity) ?? (this.complete ? nothing : this.automatic);
     const range = this.range(diagram);
     const key = JSON.stringify([this.name, quantity, range, rows]);
     if (key === this.drawn || this.count === 0) return false;
@@ -63,21 +65,6 @@ export class Dots {
   /** Pictures of another quantity do not stand on this one's axis. */
   paint(pen: Pen, plot: Plot, quantity: Quantity): void {
     for (const picture of [this.previous, this.shown]) if (picture?.quantity === quantity) picture.paint(pen, plot);
-  }
-
-  /**
-   * The range that the dots ask for, whatever was seen before, when all are there. While they come it changes only as
-   * often as it has to, for each change draws all of them anew.
-   */
-  private followed(quantity: Quantity): Range {
-    const wanted = rangeOf(this.columns, quantity);
-    // Where there is nothing to see: of spins, between those that the platform has.
-    if (this.complete) return wanted ?? (quantity === "angular_speed" ? [-1, 1] : [0, 1]);
-    if (wanted === null) return this.automatic;
-    const [low, high] = this.automatic;
-    const wider = wanted[0] < low || wanted[1] > high;
-    const finer = wanted[1] - wanted[0] < 0.7 * (high - low);
-    return wider || finer ? wanted : this.automatic;
   }
 }
 

@@ -111,6 +111,7 @@ export function describeDiagram(state: State, verdicts: VerdictJson[], count: nu
   return [
     say(TEXTS.seen, { quantity: TEXTS.quantities[quantity], low, high, restitution, recorded: RECORDED, transient }),
     ...(isPlain(state) ? [say(TEXTS.long_run, { orbits: orbits.join(", ") })] : driven),
+    ...(told.resting > 0 ? [say(TEXTS.resting, { count: told.resting })] : []),
     ...unsettled(count, told, areDrawn(state)),
   ].join(" ");
 }

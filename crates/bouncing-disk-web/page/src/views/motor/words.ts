@@ -1,7 +1,7 @@
 /** The motor in words: regime, warnings, traps, steady speed, run-up and curves. */
 
 import { element, Facts, section, setText } from "../../elements";
-import { grouped, plain, prefixOf, quantity, quantityWithError, toldApart, withError } from "../../numbers";
+import { grouped, plain, prefixOf, quantity, toldApart, withError } from "../../numbers";
 import type { IntervalJson, ReportJson, StallJson, TrapJson } from "../../protocol";
 import { counted, say, WORDS } from "../../words";
 import type { Operation, Transient } from "./requests";
@@ -78,13 +78,10 @@ export function whyNothingTurns(report: ReportJson): string | null {
 const under = (load: number): string =>
   load === 0 ? TEXTS.no_load : say(TEXTS.own_load, { load: quantity(load, "N m") });
 
-/** A sentence on a load that is too large for friction. */
-const overpowered = (text: string, { load_torque }: Operation, largest: number): string =>
-  say(text, { load: quantity(load_torque, "N m"), largest: quantity(largest, "N m") });
-
 /** The steady speed under the load of the sheet, with no more digits than are known. */
 export function steadySpeed(own: Operation, largestTorque: number): string {
-  if (own.status === 2) return overpowered(TEXTS.speed_none, own, largestTorque);
+  const [driving, largest] = [own.load_torque, largestTorque].map((torque) => quantity(torque, "N m"));
+  if (own.status === 2) return say(TEXTS.speed_none, { load: driving ?? "", largest: largest ?? "" });
   const load = under(own.load_torque);
   if (own.status === 0) return say(TEXTS.speed_known, { speed: withError(own.speed, own.speed_error), load });
   const why = own.shortfall === null ? "" : `; ${readable(own.shortfall)}`;
@@ -114,16 +111,11 @@ export function timeConstant({ rise, refusal }: Transient["json"], own: Operatio
   return time(rise.constant);
 }
 
-/** What a run-up tends to, which its own end does not tell, and its form. */
-export function describeRunUp({ json }: Transient, own: Operation | null, report: ReportJson): string {
-  const largest = report.largest_torque;
-  if (own?.status === 2) return overpowered(TEXTS.runs_away, own, largest);
-  const steady = own === null ? TEXTS.steady_coming : say(TEXTS.steady, { speed: steadySpeed(own, largest) });
-  const { rise, refusal } = json;
-  if (rise === null) return `${steady} ${say(TEXTS.constant_undefined, { why: refusal ?? TEXTS.unknown })}`;
-  const values = { constant: time(rise.constant), missed: plain(rise.residual, 2) };
-  return `${steady} ${say(rise.form === "exponential" ? TEXTS.exponential : TEXTS.ramp, values)}`;
-}
+/** What a run-up tends to, which its own end does not tell, and how soon. */
+export const describeRunUp = ({ json }: Transient, own: Operation | null, { largest_torque }: ReportJson): string =>
+  own === null
+    ? TEXTS.steady_coming
+    : say(TEXTS.steady, { speed: steadySpeed(own, largest_torque), constant: timeConstant(json, own) });
 
 /** Where a motor is caught in a short cycle, or would be. */
 export function describeTrap(trap: TrapJson, report: ReportJson): string {
@@ -136,7 +128,7 @@ export function describeTrap(trap: TrapJson, report: ReportJson): string {
 
 /** Why a motor has no stall load, or the load. */
 export function describeStall(stall: StallJson): string {
-  if (stall.torque !== null) return quantityWithError(stall.torque, stall.torque_error, "N m");
+  if (stall.torque !== null) return quantity(stall.torque, "N m", 4, stall.torque_error);
   return say(TEXTS.no_stall, { speed: withError(stall.no_load_speed, stall.no_load_speed_error) });
 }
 
@@ -146,7 +138,7 @@ export function describeCurves(operations: readonly Operation[], stall: StallJso
   const [first, last] = [known[0], known.at(-1)];
   if (first === undefined || last === undefined)
     return operations.length === 0 ? [] : Array.from({ length: 3 }, () => TEXTS.all_driven);
-  const at = ({ load_torque }: Operation) => quantityWithError(load_torque, null, "N m");
+  const at = ({ load_torque }: Operation) => quantity(load_torque, "N m", 4);
   const best = (of: "mechanical_power" | "efficiency") =>
     known.reduce((one, other) => (other[of] > one[of] || Number.isNaN(one[of]) ? other : one));
   // A drift is in no error: numbers of what is not settled stand without one.
@@ -159,7 +151,7 @@ export function describeCurves(operations: readonly Operation[], stall: StallJso
   const stop = stall === null || stall.torque === null ? "" : ` ${say(TEXTS.stalls, { load: describeStall(stall) })}`;
   const [powerful, efficient] = [best("mechanical_power"), best("efficiency")];
   const { mechanical_power, mechanical_power_error } = powerful;
-  const watts = quantityWithError(mechanical_power, mechanical_power_error, "W");
+  const watts = quantity(mechanical_power, "W", 4, mechanical_power_error);
   const share = efficient.efficiency;
   const percents = `${withError(share, efficient.efficiency_error, 100)} %`;
   const most = { load: at(powerful), power: settled(powerful, watts, quantity(mechanical_power, "W")) };

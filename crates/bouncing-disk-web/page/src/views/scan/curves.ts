@@ -151,24 +151,15 @@ function caveats(range: Range, at: readonly number[], line: readonly (Reading | 
   ];
 }
 
-/** "11 of 205 points are left out: ..." with a sentence for each reason, of which the numbers may differ. */
+/** "11 of 205 points are left out, the first since ...", and where a disk at rest is moved. */
 export function describeGaps({ scan, at }: Plan, readings: readonly (readonly (Reading | null)[])[]): string {
   const all = readings.flat();
   const moved = all.flatMap((reading, place) => (reading?.moved ? [at[place % at.length] as number] : []));
   const first = valueText(varied(scan.over), Math.min(...moved));
-  const reasons = new Map<string, string[]>();
-  for (const lacks of all.flatMap((reading) => reading?.lacks ?? [])) {
-    const key = lacks.replace(/[-\d.e+]+/g, "#");
-    reasons.set(key, [...(reasons.get(key) ?? []), lacks]);
-  }
+  const lacking = all.flatMap((reading) => reading?.lacks ?? []);
   // The library writes all digits of a number.
-  const short = (text: string) => text.replace(/\d+\.\d{5,}/g, (number) => shown(Number(number), 4));
-  const gaps = [...reasons.values()].map((texts) => {
-    const [text = ""] = texts;
-    const alike = texts.every((other) => other === text);
-    const values = { count: texts.length, all: all.length, text: short(text) };
-    return say(alike ? WORDS.scan.gaps : WORDS.scan.gapsSuch, values);
-  });
+  const text = (lacking[0] ?? "").replace(/\d+\.\d{5,}/g, (number) => shown(Number(number), 4));
+  const gaps = lacking.length > 0 ? [say(WORDS.scan.gaps, { count: lacking.length, all: all.length, text })] : [];
   if (moved.length > 0) gaps.push(say(WORDS.scan.moved, { count: moved.length, all: all.length, at: first }));
   return gaps.join(" ");
 }

@@ -46,6 +46,7 @@ export class Player {
   pause(): void {
     cancelAnimationFrame(this.frame);
     this.frame = 0;
+    this.tick();
   }
 
   seek(periods: number): void {
@@ -62,8 +63,6 @@ const STEPS = 200;
 interface ControlsHost {
   /** Of the platform (s). */
   period(): number;
-  /** Another moment stands still. */
-  chosen(): void;
   /** Sound is switched on or off. */
   heard(on: boolean): void;
 }
@@ -118,14 +117,12 @@ export class Controls {
     if (this.player.playing) this.player.pause();
     else this.player.play();
     this.show(Number(this.place.max));
-    if (!this.player.playing) this.host.chosen();
   }
 
   private scrub(): void {
     this.player.pause();
     this.player.seek(Number(this.place.value));
     this.show(Number(this.place.max));
-    this.host.chosen();
   }
 
   /** For as long as the picture has the focus. */
@@ -136,7 +133,6 @@ export class Controls {
     else if (step !== undefined || event.key === "Home") {
       if (step !== undefined) player.pause();
       player.seek(step === undefined ? 0 : player.now + step * (event.shiftKey ? 1 : 1 / 16));
-      this.host.chosen();
     } else return;
     event.preventDefault();
   }

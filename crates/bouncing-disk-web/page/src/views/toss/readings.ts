@@ -1,4 +1,4 @@
-/** The readings beside the scene: the present state, also in a sentence, and the energy balance of the motion. */
+/** The readings beside the scene: the present state and the energy balance of the motion. */
 
 import { element, Facts, setText } from "../../elements";
 import { plain, quantity } from "../../numbers";
@@ -6,9 +6,7 @@ import { say, WORDS } from "../../words";
 import { ROUNDING, type Moment, type Recording } from "./recording";
 
 const TEXTS = WORDS.toss;
-/** What a mode is called, and what the disk does in it. */
 const MODES: Readonly<Record<string, string>> = TEXTS.modes;
-const DOES: Readonly<Record<string, string>> = TEXTS.does;
 
 export class Readings {
   private readonly facts = new Facts(TEXTS.facts, TEXTS.now_label);
@@ -34,6 +32,11 @@ export class Readings {
     });
   }
 
+  /** The present state in words, for those who do not see the list. */
+  text(): string {
+    return this.facts.text();
+  }
+
   balance({ energy, periods }: Recording): void {
     setText(this.ledgerTitle, say(TEXTS.balance, { periods }));
     // What is below the rounding of the largest of them is nothing.
@@ -41,14 +44,4 @@ export class Readings {
     for (const [part, value] of Object.entries(energy))
       this.ledger.set({ [part]: quantity(Math.abs(value) <= ROUNDING * largest ? 0 : value, "J/kg") });
   }
-}
-
-export function describeMoment(moment: Moment, periods: number, impacts: number, recording: Recording): string {
-  const gap = recording.settled(moment.height - moment.platform_height, "height", "platform_height");
-  const speed = (value: number) => plain(recording.settled(value, "angular_speed", "platform_angular_speed"), 3);
-  const indented = gap < 0 && recording.system.contact_time > 0;
-  const place = gap > 0 || indented ? say(indented ? TEXTS.into : TEXTS.above, { gap: quantity(Math.abs(gap), "m") }) : "";
-  const speeds = { speed: speed(moment.angular_speed), platform: speed(moment.platform_angular_speed) };
-  const does = DOES[moment.mode] ?? moment.mode;
-  return say(TEXTS.moment, { periods: periods.toFixed(2), impacts, does, place, ...speeds });
 }
