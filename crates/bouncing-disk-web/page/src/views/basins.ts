@@ -1,7 +1,7 @@
 /** Basins of attraction: where the orbit of every start ends. */
 
 import { Cancelled, type Context, type Offer, type State } from "../contract";
-import { clamp, crossAt, pixelX, pixelY, type Axes, type Plot } from "../drawing/axes";
+import { crossAt, pixelX, pixelY, type Axes, type Plot } from "../drawing/axes";
 import { ONE_COLUMN, PARTS, plotOffers, tableOffers } from "../drawing/files";
 import type { Pen } from "../drawing/pen";
 import { confined, WindowPicture, type Point, type Window2 } from "../drawing/window";
@@ -122,7 +122,7 @@ export class BasinsView extends ComputingView {
     setText(this.alternative, say(TEXTS.coming, at));
     const began = performance.now();
     try {
-      await this.fill(await this.attractorsOf(wanted), wanted, grid, laid.columns);
+      await this.fill(await this.attractorsOf(wanted), wanted, grid);
     } catch (error) {
       if (this.asked === key) this.asked = "";
       // Nor does a picture of another map stand where there is none of this one.
@@ -162,8 +162,8 @@ export class BasinsView extends ComputingView {
     this.legend.clear();
   }
 
-  private async fill(found: AttractorsJson, map: MapParameters, grid: Grid, columns: number): Promise<void> {
-    const cells = new Cells(grid, clamp(Math.round(columns / grid.phases), 1, 4), labelsOf(found));
+  private async fill(found: AttractorsJson, map: MapParameters, grid: Grid): Promise<void> {
+    const cells = new Cells(grid, labelsOf(found));
     await computeCells(this.context, map, grid, (labels, from) => {
       if (this.cells !== cells) Object.assign(this, { previous: this.cells, cells });
       cells.add(labels, from);

@@ -83,11 +83,6 @@ export class CompareView extends ComputingView {
     this.redraw();
   }
 
-  override hide(): void {
-    super.hide();
-    this.asked.forget();
-  }
-
   offers(): Offer[] {
     const { pair } = this;
     // Those of another state are never given under this one.

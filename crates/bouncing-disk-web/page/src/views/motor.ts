@@ -7,12 +7,12 @@ import { PARTS, rowsOf } from "../drawing/files";
 import { div, element, oncePerFrame, section, setText } from "../elements";
 import { percent } from "../numbers";
 import { MOST_RISE_TIMES } from "../state";
-import { TRANSIENT_COLUMNS, type MotorSheet, type Range, type ReportJson, type SheetJson, type StallJson } from "../protocol";
+import { TRANSIENT_COLUMNS, type MotorSheet, type Range, type ReportJson, type SheetJson } from "../protocol";
 import { say, WORDS } from "../words";
 import { Asked, attractorsCaution, ComputingView } from "./asking";
 import { loadCharts, motorOffers, transientChart } from "./motor/charts";
-import { membersOf, operate, PASSES, reportOf, sheetOf, stallOf, transientOf, SLOT } from "./motor/requests";
-import type { Operation, Pass, Transient } from "./motor/requests";
+import { Known, membersOf, operate, PASSES, reportOf, sheetOf, stallOf, transientOf, SLOT } from "./motor/requests";
+import type { Operation, Pass } from "./motor/requests";
 import { SheetPanel } from "./motor/sheet";
 import { describeCurves, describeRunUp, ReportPanel, whyNothingTurns } from "./motor/words";
 
@@ -24,22 +24,6 @@ const LENGTHENINGS = 3;
 
 /** Two charts above each other fill a window of any height, as far as they can still be read. */
 const chartHeight = (): number => clamp(window.innerHeight / 2 - 150, 230, 560);
-
-class Known {
-  sheet: MotorSheet | null = null;
-  text = "";
-  report: ReportJson | null = null;
-  transient: Transient | null = null;
-  operations: readonly Operation[] = [];
-  /** The operation under the load of the sheet. */
-  own: Operation | null = null;
-  /** How many of the passes are done: what a view that was left has, it does not compute again. */
-  passes = 0;
-  /** Why there is no run-up, and no curve, where they cannot be computed. */
-  problems: { runUp?: string; curve?: string } = {};
-  loads: Range = [0, 1];
-  stall: StallJson | null = null;
-}
 
 export class MotorView extends ComputingView {
   private readonly sheetPanel: SheetPanel;
@@ -99,7 +83,6 @@ export class MotorView extends ComputingView {
     this.all.forget();
     this.known = new Known();
     this.sheetPanel.show("");
-    this.reportPanel.clear();
   }
 
   protected async fetch(): Promise<void> {
@@ -109,7 +92,7 @@ export class MotorView extends ComputingView {
 
   /** Fills in what is known of a motor; where another one is shown, what is asked for next is cancelled. */
   private async computeAll(state: State, known: Known): Promise<void> {
-    const { context, reportPanel } = this;
+    const { context } = this;
     context.status(WORDS.motor.reading, "busy");
     const sheet = this.sheetKnown(state) ?? (await sheetOf(context, state));
     const { json } = await context.client.ask<{ text: string }>(SLOT, { call: "sheet_write", sheet });
@@ -118,13 +101,9 @@ export class MotorView extends ComputingView {
     this.sheetPanel.show(known.text);
     const report = await reportOf(context, sheet);
     known.report = report;
-    reportPanel.report(report);
     this.draw();
     const still = whyNothingTurns(report);
-    if (still !== null) {
-      reportPanel.still();
-      return context.status(still);
-    }
+    if (still !== null) return context.status(still);
     const { rise_times } = state.motor;
     known.problems = {};
     if (known.transient === null) await this.runUp(sheet, rise_times, known);
@@ -154,7 +133,6 @@ export class MotorView extends ComputingView {
     } catch (error) {
       known.problems.runUp = problemOf(error);
     }
-    this.reportPanel.runUp(known.transient, known.own, known.problems.runUp);
     this.draw();
   }
 
@@ -176,21 +154,17 @@ export class MotorView extends ComputingView {
     known.loads = [low, high];
     known.operations = found.slice(0, torques.length);
     known.own = found[asked.indexOf(load_torque)] ?? null;
-    if (known.own !== null) this.reportPanel.operation(known.own, report);
-    this.reportPanel.runUp(known.transient, known.own, known.problems.runUp);
     this.draw();
   }
 
   /** A stall load that cannot be found is no failure of the view. */
   private async findStall(sheet: MotorSheet, known: Known): Promise<void> {
     this.context.status(WORDS.motor.searching_stall, "busy");
-    let problem = "";
     try {
       known.stall = await stallOf(this.context, sheet);
     } catch (error) {
-      problem = problemOf(error);
+      known.problems.stall = problemOf(error);
     }
-    this.reportPanel.stall(known.stall, problem);
     this.draw();
   }
 
@@ -208,6 +182,7 @@ export class MotorView extends ComputingView {
 
   private paint(): void {
     const { report, transient, problems, own, operations, stall } = this.known;
+    this.reportPanel.show(this.known);
     const still = report === null ? null : whyNothingTurns(report);
     setText(this.remark, still ?? say(WORDS.motor.remark, { members: membersOf(this.known.sheet) }));
     for (const { root } of [this.runUpChart, ...this.curveCharts]) root.hidden = still !== null;

@@ -9,8 +9,8 @@ import { bouncing, motor, toss } from "../presets";
 import type { Range } from "../protocol";
 import { axialForcing, changed, DEFAULT_STATE, MOST_POINTS, MOST_VALUES } from "../state";
 import { say, WORDS } from "../words";
-import { ComputingView } from "./asking";
-import { chartOf, describeGaps, describeOptima, planOf, readingsOf } from "./scan/curves";
+import { Asked, ComputingView } from "./asking";
+import { chartOf, describeGaps, describeOptima, planOf, readingsOf, type Plan } from "./scan/curves";
 import { compute, RESULT, type Outcome } from "./scan/results";
 import { LabelledField, parameterChoice, rangeAbout, settings, valueIn, varied } from "./varied";
 
@@ -44,7 +44,7 @@ export class ScanView extends ComputingView {
   private readonly gaps = element("p", { class: "remark" });
   private readonly known = new Map<string, Outcome>();
   private plan = planOf(this.context.state());
-  private asked = "";
+  private readonly asked = new Asked<void>();
   protected readonly draw = oncePerFrame(() => this.paint());
 
   constructor(host: HTMLElement, context: Context) {
@@ -73,11 +73,6 @@ export class ScanView extends ComputingView {
     this.values.root.hidden = family === null;
     this.values.show(values, family === null ? {} : varied(family));
     this.redraw();
-  }
-
-  override hide(): void {
-    super.hide();
-    this.asked = "";
   }
 
   offers(): Offer[] {
@@ -139,12 +134,13 @@ export class ScanView extends ComputingView {
   }
 
   protected async fetch(): Promise<void> {
-    const { plan, known, context } = this;
+    const keys = this.plan.lines.flatMap((line) => line.keys);
+    await this.asked.get(keys, () => this.computeAll(this.plan, keys));
+  }
+
+  private async computeAll(plan: Plan, keys: readonly string[]): Promise<void> {
+    const { known, context } = this;
     const states = plan.lines.flatMap((line) => line.states);
-    const keys = plan.lines.flatMap((line) => line.keys);
-    const key = JSON.stringify(keys);
-    if (key === this.asked) return;
-    this.asked = key;
     // Where all points are known nothing else ends what is under way.
     context.client.cancel("scan");
     if (known.size > MOST_KNOWN) known.clear();
@@ -152,7 +148,6 @@ export class ScanView extends ComputingView {
     const began = performance.now();
     let done = 0;
     const tell = () => {
-      if (this.asked !== key) return;
       const passed = (performance.now() - began) / 1000;
       const left =
         done === 0 ? TEXT.unknownTime : say(TEXT.left, { seconds: Math.ceil((passed / done) * (open.length - done)) });
@@ -168,9 +163,8 @@ export class ScanView extends ComputingView {
         this.draw();
       });
       const seconds = ((performance.now() - began) / 1000).toFixed(1);
-      if (this.asked === key) context.status(say(TEXT.done, { count: open.length, all: states.length, seconds }));
+      context.status(say(TEXT.done, { count: open.length, all: states.length, seconds }));
     } catch (error) {
-      if (this.asked === key) this.asked = "";
       if (!(error instanceof Cancelled)) this.gaps.textContent = "";
       throw error;
     }

@@ -1,6 +1,7 @@
 /** Toss and bounce: the motion itself, from the engine's own trajectory. */
 
 import { Cancelled, type Context, type Offer, type State, type View } from "../contract";
+import { clamp } from "../drawing/axes";
 import { chartOffers, ScreenChart, type Chart } from "../drawing/chart";
 import { ONE_COLUMN, PARTS, plotOffers, tableOffers, type Basis } from "../drawing/files";
 import { Layers, type Point } from "../drawing/window";
@@ -33,6 +34,9 @@ const COLUMNS = [
   "platform_angle_rad", "platform_velocity_m_per_s", "platform_angular_speed_rad_per_s", "mode",
 ]; // prettier-ignore
 
+/** Both charts have half of the window's height together, beside the scene or below it. */
+const chartHeight = (): number => clamp(window.innerHeight / 4, 190, 480);
+
 export class TossView implements View {
   private readonly scene = new Layers("picture-scene", TEXTS.scene);
   private readonly readings = new Readings();
@@ -40,8 +44,8 @@ export class TossView implements View {
   private readonly thrown = element("p", { class: "remark", hidden: true });
   private readonly rounding = roundingCaution("toss-rest", WORDS.asking.rounding_toss);
   private readonly alternative = element("p", { class: "hidden", "aria-live": "polite" });
-  private readonly heights = new ScreenChart(() => this.chartHeight());
-  private readonly spins = new ScreenChart(() => this.chartHeight());
+  private readonly heights = new ScreenChart(chartHeight);
+  private readonly spins = new ScreenChart(chartHeight);
   private readonly portrait = new Portrait((at) => this.choose(at));
   private readonly player = new Player(
     () => this.recording?.periods ?? 0,
@@ -265,14 +269,6 @@ export class TossView implements View {
     if (recording.system.contact_time > 0) words.push(TEXTS.contact);
     setText(this.gains, words.join(" "));
     return stage;
-  }
-
-  /** Where the charts stand beside the scene, both are as high as it is. */
-  private chartHeight(): number {
-    const { width, height } = this.scene;
-    const beside = this.heights.root.offsetTop < this.scene.root.offsetTop + height;
-    if (beside && height > 480) return height / 2 - 30;
-    return width < 480 ? 190 : 230;
   }
 
   private showTraces(recording: Recording): void {

@@ -11,7 +11,7 @@ import type { MapParameters } from "../asking";
 /** The label of a cell of which no row has come. */
 const UNKNOWN = 255;
 const CATEGORIES = 8;
-/** Pixels from stripe to stripe of the pattern of undecided cells. */
+/** Cells from stripe to stripe of the pattern of undecided cells. */
 const STRIPES = 6;
 
 export interface Grid {
@@ -25,23 +25,20 @@ export class Cells {
   private readonly raster: Raster;
   private readonly labels: Uint8Array;
 
-  /** A cell has `scale` by `scale` pixels, so that the pattern of undecided cells is seen; `known` are the labels of the
-   * attractors, in the order of their colours; cells with others are undecided. */
+  /** `known` are the labels of the attractors, in the order of their colours; cells with others are undecided. */
   constructor(
     readonly grid: Grid,
-    private readonly scale: number,
     known: readonly number[],
   ) {
     const { phases, speeds } = grid;
     const labels = (this.labels = new Uint8Array(phases * speeds).fill(UNKNOWN));
-    this.raster = new Raster(phases * scale, speeds * scale, (colour) => {
+    this.raster = new Raster(phases, speeds, (colour) => {
       const wordOf = (name: string) => pixelWord(colour(name));
       const [undecided, stripe] = [wordOf("--undecided"), wordOf("--undecided-line")];
       const table = new Map(known.map((label, index) => [label, wordOf(categoryColour(index))]));
       const words = Uint32Array.from({ length: 256 }, (_, label) => (label === UNKNOWN ? 0 : (table.get(label) ?? 1)));
       return (x, y) => {
-        const label = labels[(speeds - 1 - Math.floor(y / scale)) * phases + Math.floor(x / scale)] as number;
-        const word = words[label] as number;
+        const word = words[labels[(speeds - 1 - y) * phases + x] as number] as number;
         return word !== 1 ? word : (x + y) % STRIPES < 2 ? stripe : undecided;
       };
     });
@@ -49,10 +46,8 @@ export class Cells {
 
   /** Rows of cells; the lowest speed is at the bottom. */
   add(labels: Uint8Array, from: number): void {
-    const { scale, grid } = this;
-    this.labels.set(labels, from * grid.phases);
-    const rows = labels.length / grid.phases;
-    this.raster.change(0, (grid.speeds - from - rows) * scale, grid.phases * scale, (grid.speeds - from) * scale);
+    this.labels.set(labels, from * this.grid.phases);
+    this.raster.change();
   }
 
   paint(pen: Pen, plot: Plot): void {

@@ -1,8 +1,8 @@
 /** What the motor's view asks for, in the order in which it matters to a reader. */
 
 import type { Context, State } from "../../contract";
-import { OPERATION_COLUMNS } from "../../protocol";
-import type { MotorSheet, ReportJson, SheetJson, StallJson, TransientJson } from "../../protocol";
+import { OPERATION_COLUMNS, type MotorSheet, type Range, type ReportJson } from "../../protocol";
+import type { SheetJson, StallJson, TransientJson } from "../../protocol";
 
 /** Of all that is asked of a motor, one after the other. */
 export const SLOT = "motor";
@@ -34,6 +34,23 @@ export type Operation = Record<(typeof OPERATION_COLUMNS)[number], number> & {
 export interface Transient {
   readonly json: TransientJson;
   readonly numbers: Float64Array;
+}
+
+/** What is known of a motor so far. */
+export class Known {
+  sheet: MotorSheet | null = null;
+  text = "";
+  report: ReportJson | null = null;
+  transient: Transient | null = null;
+  operations: readonly Operation[] = [];
+  /** The operation under the load of the sheet. */
+  own: Operation | null = null;
+  /** How many of the passes are done: what a view that was left has, it does not compute again. */
+  passes = 0;
+  /** Why there is none of these, where they cannot be computed. */
+  problems: { runUp?: string; curve?: string; stall?: string } = {};
+  loads: Range = [0, 1];
+  stall: StallJson | null = null;
 }
 
 /** The sheet of the shared system. */

@@ -3,8 +3,8 @@
 import { element, Facts, section, setText } from "../../elements";
 import { grouped, plain, prefixOf, quantity, toldApart, withError } from "../../numbers";
 import type { IntervalJson, ReportJson, StallJson, TrapJson } from "../../protocol";
-import { counted, say, WORDS } from "../../words";
-import type { Operation, Transient } from "./requests";
+import { say, WORDS } from "../../words";
+import type { Known, Operation, Transient } from "./requests";
 
 const TEXTS = WORDS.motor;
 
@@ -14,54 +14,34 @@ export class ReportPanel {
   /** Stands above the curves, which a trap makes those of another motion than one would expect. */
   readonly trap = element("p", { class: "caution trap", hidden: true });
   private readonly warnings = element("ul", { class: "warnings" });
-  private readonly warned = element("summary", { class: "warned" });
-  private readonly warningsBox = element("details", { hidden: true }, this.warned, this.warnings);
-  private readonly text = element("pre", { class: "report", tabindex: 0, "aria-label": TEXTS.full_report });
 
   constructor() {
-    const full = element("details", {}, element("summary", {}, TEXTS.full_report), this.text);
-    this.root.append(element("h3", {}, TEXTS.report), this.facts.root, this.warningsBox, full);
+    this.root.append(element("h3", {}, TEXTS.report), this.facts.root, this.warnings);
   }
 
-  /** Forgets a motor. */
-  clear(): void {
-    this.facts.clear("…");
-    this.trap.hidden = true;
-    this.warningsBox.hidden = true;
-    setText(this.text, "");
-  }
-
-  report(report: ReportJson): void {
-    const [[, contact_time], [, indentation]] = report.contact;
-    const forcing = plain(report.axial_forcing, 5);
-    const torque = quantity(report.largest_torque, "N m");
-    this.facts.set({ regime: regimeOf(report), forcing, contact_time, indentation, torque });
-    this.trap.hidden = report.trap === null;
-    if (report.trap !== null) setText(this.trap, describeTrap(report.trap, report));
-    this.warningsBox.hidden = report.warnings.length === 0;
-    setText(this.warned, counted(TEXTS.warnings, report.warnings.length));
-    this.warnings.replaceChildren(...report.warnings.map((warning) => element("li", {}, warning)));
-    setText(this.text, report.text);
-  }
-
-  /** Of a motor that nothing turns. */
-  still(): void {
-    this.facts.set({ speed: "–", amplitude: "–", constant: "–", stall: "–" });
-  }
-
-  runUp(transient: Transient | null, own: Operation | null, problem = ""): void {
-    this.facts.set({ constant: transient === null ? problem || "…" : timeConstant(transient.json, own) });
-  }
-
-  operation(own: Operation, report: ReportJson): void {
-    const known = own.amplitude === null ? TEXTS.as_system : `${quantity(own.amplitude, "m")} ${under(own.load_torque)}`;
-    this.facts.set({ speed: steadySpeed(own, report.largest_torque), amplitude: known });
-  }
-
-  stall(stall: StallJson | null, problem = ""): void {
-    this.facts.set({ stall: stall === null ? problem || "–" : describeStall(stall) });
+  /** All that is known of a motor; what is on its way has dots. */
+  show({ report, transient, own, stall, problems }: Known): void {
+    const later = report === null || whyNothingTurns(report) === null ? "…" : "–";
+    if (report === null) this.facts.clear(later);
+    else {
+      const [[, contact_time], [, indentation]] = report.contact;
+      this.facts.set({
+        ...{ regime: regimeOf(report), forcing: plain(report.axial_forcing, 5), contact_time, indentation },
+        torque: quantity(report.largest_torque, "N m"),
+        speed: own === null ? later : steadySpeed(own, report.largest_torque),
+        amplitude: own === null ? later : amplitudeOf(own),
+        constant: transient === null ? (problems.runUp ?? later) : timeConstant(transient.json, own),
+        stall: stall === null ? (problems.stall ?? later) : describeStall(stall),
+      });
+    }
+    this.trap.hidden = !report?.trap;
+    if (report?.trap) setText(this.trap, describeTrap(report.trap, report));
+    this.warnings.replaceChildren(...(report?.warnings ?? []).map((warning) => element("li", {}, warning)));
   }
 }
+
+const amplitudeOf = ({ amplitude, load_torque }: Operation): string =>
+  amplitude === null ? TEXTS.as_system : `${quantity(amplitude, "m")} ${under(load_torque)}`;
 
 /** The regime, and what it leaves out. */
 function regimeOf({ system, yields, regime }: ReportJson): string {
