@@ -88,9 +88,6 @@ onPage("the orbit diagram by keyboard: zoom, cross, choice", "#view=diagram", as
   await page.waitForTimeout(500);
   assert.ok(Math.abs((await width()) - before / 2) < 1e-9);
   await settled(page);
-  const seconds = Number(/in ([\d.]+) s/.exec(await page.textContent("#status"))[1]);
-  // A busy machine takes some times of the 0.1 s.
-  assert.ok(seconds < 1.5, `${seconds} s`);
   for (let step = 0; step < 4; step++) await page.keyboard.press("Shift+ArrowRight");
   await page.waitForFunction(() => /^Γ 0\.\d+: /.test(document.getElementById("announcer").textContent));
   const facts = page.locator("#view-diagram .panel .facts");

@@ -37,11 +37,6 @@ for (const scheme of ["light", "dark"])
     await whenText(page, ".pointed", /: undecided\.$/);
   });
 
-onPage("a window that is decided says so, and shares have intervals", "#view=basins", async (page) => {
-  assert.match(await page.textContent("#view-basins .alternative"), /; 0\.0 % are undecided\.$/);
-  assert.match(await page.locator(".attractors small").first().textContent(), /% \(95 %: .* % to .* %\)/);
-});
-
 onPage("a cycle that rounding chose is called so under the cursor", ONE_FORCING, async (page) => {
   await page.focus("#view-diagram canvas[tabindex='0']");
   await page.keyboard.press("Shift+ArrowRight");

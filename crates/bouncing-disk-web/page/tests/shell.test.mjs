@@ -1,7 +1,7 @@
 /** The shell: tabs, keyboard, bad input, exports, sizes, and that nothing is asked of anybody. */
 
 import assert from "node:assert/strict";
-import { hashOf, onPage, pixelsOf, savedBy, settled, stateOf, type, VIEWS, whenAddress, whenValue } from "./browser.mjs";
+import { hashOf, onPage, pixelsOf, savedBy, settled, stateOf, VIEWS, whenAddress, whenValue } from "./browser.mjs";
 import { WORDS } from "./module.mjs";
 
 onPage("the first paint from the disk takes less than a second", {}, async (page) => {
@@ -66,25 +66,9 @@ onPage("a slider changes the state and makes one entry of the history", {}, asyn
   assert.equal(await page.evaluate(() => history.length), before[0] + 1);
   await page.goBack();
   assert.equal(await hashOf(page), before[1]);
-});
-
-onPage("back and forward lead through the states", {}, async (page) => {
-  const isAt = async (view, friction) => {
-    await page.waitForSelector(`#tab-${view}[aria-selected="true"]`);
-    await whenValue(page, "friction", friction);
-  };
-  for (const act of [() => page.click("#tab-diagram"), () => type(page, "friction", "0.25"), () => page.click("#tab-motor")]) {
-    await act();
-    await page.waitForTimeout(400);
-  }
-  await page.goBack();
-  await isAt("diagram", "0.25");
-  await page.goBack();
-  await isAt("diagram", "0.6");
+  await whenValue(page, "restitution", "0.5");
   await page.goForward();
-  await isAt("diagram", "0.25");
-  await page.goForward();
-  await page.waitForSelector('#tab-motor[aria-selected="true"]');
+  await whenValue(page, "restitution", String(restitution));
 });
 
 onPage("every view opens by its tab and has room, from 320 to 2,560 pixels", {}, async (page) => {

@@ -1,13 +1,8 @@
 /** What people take away: links, pictures with their parameters, sheets to print, tables and frames. */
 
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
-import { tmpdir } from "node:os";
-import { join } from "node:path";
-import { test } from "node:test";
-import { fileURLToPath } from "node:url";
 import { course, fact, hashOf, onPage, preset, settled, stateOf, svgOf, textOf, within } from "./browser.mjs";
 
 const PUBLISHED = "https://example.org/disk/explorer/";
@@ -59,24 +54,6 @@ onPage("a copied link shows the same in a fresh page, and leads to the published
   await page.click("#tab-toss");
   assert.equal(await copy(), PUBLISHED + (await hashOf(page)));
   assert.doesNotMatch(await page.textContent("#status"), /on this computer only/);
-});
-
-test("the build writes the address that it is given, and none where there is none", () => {
-  const folder = mkdtempSync(join(tmpdir(), "explorer-"));
-  try {
-    const empty = join(folder, "empty");
-    writeFileSync(empty, "");
-    const built = (...more) => {
-      const script = fileURLToPath(new URL("../build.mjs", import.meta.url));
-      execFileSync(process.execPath, [script, "--wasm", empty, "--glue", empty, "--out", folder, ...more], { stdio: "pipe" });
-      return readFileSync(join(folder, "site/index.html"), "utf8");
-    };
-    assert.match(built("--address", `${PUBLISHED}?a&b`), /<link rel="canonical" href="https:\/\/example.org\/disk\/explorer\/\?a&amp;b" \/>/);
-    assert.doesNotMatch(built("--address", ""), /canonical/);
-    assert.throws(() => built("--address", "nowhere"));
-  } finally {
-    rmSync(folder, { recursive: true });
-  }
 });
 
 onPage("pictures say what they were computed with, and hold their link", "#view=toss&restitution=0.4&friction=0.25", async (page) => {

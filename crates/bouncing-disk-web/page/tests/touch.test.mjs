@@ -1,7 +1,7 @@
-/** Fingers: the disk is thrown by dragging it, pictures are pinched and panned, and a basin's start is tapped. */
+/** Fingers: the disk is thrown by dragging it, and pictures are pinched, panned and tapped. */
 
 import assert from "node:assert/strict";
-import { boxOf, onPage, placeOfDisk, settled, stateOf, whenAddress, whenText } from "./browser.mjs";
+import { boxOf, onPage, placeOfDisk, settled, stateOf, whenText } from "./browser.mjs";
 
 /** A test on a telephone with a view, and `touch(kind, ...points)` for its fingers, in pixels of the window. */
 function onTelephone(title, view, act) {
@@ -83,17 +83,4 @@ onTelephone("one finger moves the orbit diagram, and a tap chooses a forcing", "
   await page.touchscreen.tap(x + 60, y);
   await page.waitForFunction((old) => !location.hash.includes(`amplitude=${old}&`), amplitude);
   await whenText(page, "#view-diagram .facts", /impact/);
-});
-
-onTelephone("a tap on a basin runs the orbit of that start in the first view", "basins", async (page) => {
-  const box = await boxOf(page, "basins");
-  await page.touchscreen.tap(box.x + box.width * 0.5, box.y + box.height * 0.4);
-  await whenAddress(page, "view", "toss");
-  const { impact_phase, normalised_speed } = await stateOf(page);
-  // The axes' margins are not known here; the start is near the middle of the picture.
-  assert.ok(Math.abs(impact_phase / (2 * Math.PI) - 0.43) < 0.1, impact_phase);
-  assert.ok(Math.abs(normalised_speed - 2.8) < 0.4, normalised_speed);
-  await whenText(page, "#view-toss .facts", /flight|sticking|sliding/);
-  const shown = Number(await page.inputValue("#field-normalised_speed"));
-  assert.ok(Math.abs(shown - normalised_speed) < 1e-3, `${shown} for ${normalised_speed}`);
 });

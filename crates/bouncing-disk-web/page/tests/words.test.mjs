@@ -1,4 +1,4 @@
-/** Every text of `words.json` is used; that none is missing is for the compiler to say. */
+/** Every text of `words.json` is used, that none is missing is for the compiler to say; and what the build makes of them. */
 
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
@@ -37,29 +37,36 @@ test("no text is left over", () => {
   assert.deepEqual(leaves(WORDS, "WORDS").filter((leaf) => !isUsed(leaf)), []);
 });
 
-/** Builds the page with other texts; what it says where these are refused, else the texts of the page. */
-function translated(change) {
+/** Builds the page with other texts and options; what it says where these are refused, else its HTML. */
+function built(change, ...options) {
   const folder = mkdtempSync(join(tmpdir(), "words-"));
   const words = structuredClone(WORDS);
   change(words);
   writeFileSync(join(folder, "words.json"), JSON.stringify(words));
   const site = join(dirname(file), "site");
   const inputs = ["--wasm", join(site, "module.wasm"), "--glue", join(site, "worker.js")];
-  const texts = ["--words", join(folder, "words.json"), "--out", folder];
+  const texts = ["--words", join(folder, "words.json"), "--out", folder, ...options];
   const build = fileURLToPath(new URL("../build.mjs", import.meta.url));
   const { status, stderr } = spawnSync(process.execPath, [build, ...inputs, ...texts], { encoding: "utf8" });
-  if (status !== 0) return stderr;
-  const html = readFileSync(join(folder, "explorer.html"), "utf8");
+  const html = status === 0 && readFileSync(join(folder, "explorer.html"), "utf8");
   rmSync(folder, { recursive: true });
-  return { html, words: JSON.parse(/id="words">([^<]*)</.exec(html)[1]) };
+  return html || stderr;
 }
 
 test("a translation is built with all its letters, and refused where it lacks a text or a value", () => {
   const odd = 'a <!-- "b" </script> & c';
-  const { html, words } = translated((own) => Object.assign(own.page, { title: odd, export_title: odd }));
-  assert.equal(words.page.title, odd);
+  const html = built((own) => Object.assign(own.page, { title: odd, export_title: odd }));
+  assert.equal(JSON.parse(/id="words">([^<]*)</.exec(html)[1]).page.title, odd);
   assert.ok(html.includes('title="a &#60;!-- &#34;b&#34; &#60;/script&#62; &#38; c"'));
-  assert.match(translated((own) => delete own.page.title), /page/);
-  assert.match(translated((own) => (own.page.title = null)), /page\.title/);
-  assert.match(translated((own) => (own.page.saved = "saved")), /page\.saved has to have \{name\}/);
+  assert.match(built((own) => delete own.page.title), /page/);
+  assert.match(built((own) => (own.page.title = null)), /page\.title/);
+  assert.match(built((own) => (own.page.saved = "saved")), /page\.saved has to have \{name\}/);
+});
+
+test("the build writes the address that it is given, and none where there is none", () => {
+  const same = () => {};
+  const link = '<link rel="canonical" href="https://example.org/?a&amp;b" />';
+  assert.ok(built(same, "--address", "https://example.org?a&b").includes(link));
+  assert.equal(built(same, "--address", "").includes("<link rel=\"canonical\""), false);
+  assert.match(built(same, "--address", "nowhere"), /Invalid URL/);
 });
