@@ -105,14 +105,6 @@ export function withError(value: number | null, error: number | null, factor = 1
   return `(${told(own)} ± ${told(by)}) × 10${superscript(power)}`;
 }
 
-/** Two numbers with as many digits as it takes to tell them apart, and `least` decimals anyhow. */
-export function toldApart(one: number, other: number, least = 2): [string, string] {
-  const apart = Math.abs(one - other);
-  const decimals = apart > 0 ? Math.max(least, 1 - Math.floor(Math.log10(apart))) : least;
-  const text = (value: number) => minus(grouped(value.toFixed(Math.min(decimals, 20))));
-  return [text(one), text(other)];
-}
-
 export const percent = (share: number, decimals = 1): string => `${(100 * share).toFixed(decimals)} %`;
 
 const PREFIXES = ["p", "n", "µ", "m", "", "k", "M", "G"] as const;

@@ -42,7 +42,7 @@ test("another motion of the platform is drawn and said, without the branches and
 test("a disk that takes up no spin has a sentence and a range instead of rounding", async () => {
   for (const nothing of ["friction=0", "twist_amplitude=0"])
     await within(`diagram_quantity=angular_speed&${nothing}`, async (page) => {
-      assert.match(await page.textContent("#view-diagram .remark"), /the platform cannot turn the disk/);
+      assert.match(await words(page), /the platform cannot turn the disk/);
     });
 });
 

@@ -167,9 +167,8 @@ class Gestures {
     const lines = event.deltaMode === 1 ? 16 : 1;
     const factor = Math.exp(clamp(event.deltaY * lines, -200, 200) * 0.002);
     const window = this.host.window();
-    // Beside an axis, only that axis; inside, both, or one of them with Shift or Alt.
-    const onlyX = y > plot.top + plot.height || event.shiftKey;
-    const onlyY = x < plot.left || event.altKey;
+    // Beside an axis, only that axis.
+    const [onlyX, onlyY] = [y > plot.top + plot.height, x < plot.left];
     this.move({
       x: onlyY ? window.x : scaled(window.x, valueX(plot, x), factor),
       y: onlyX ? window.y : scaled(window.y, valueY(plot, y), factor),

@@ -159,7 +159,7 @@ export class BasinsView extends ComputingView {
 
   private clear(): void {
     Object.assign(this, { stale: false, found: null, cells: null, previous: null });
-    this.legend.clear();
+    this.legend.show(null, null);
   }
 
   private async fill(found: AttractorsJson, map: MapParameters, grid: Grid): Promise<void> {

@@ -40,7 +40,6 @@ export class DiagramView extends ComputingView {
   });
   private readonly alternative = element("p", { class: "alternative" });
   private readonly copy = button(TEXTS.copy, () => void this.copyTable(), { hidden: true });
-  private readonly note = element("p", { class: "remark", hidden: true });
   private readonly dots = new Dots();
   private readonly columns = new Asked<void>();
   private readonly branches = new Asked<void>();
@@ -77,7 +76,7 @@ export class DiagramView extends ComputingView {
       div("bar", quantity, platform, branches, this.picture.tools),
       div(
         "beside",
-        div("main-part", this.picture.layers.root, this.note),
+        div("main-part", this.picture.layers.root),
         this.verdict.root,
         element("div", {}, legend, this.alternative, this.copy),
       ),
@@ -86,14 +85,11 @@ export class DiagramView extends ComputingView {
 
   show(state: State): void {
     const { quantity, branches, drive } = state.diagram;
-    const rotation = quantity === "angular_speed";
     this.verdict.follow(state);
     this.quantity.value = quantity;
     this.drive.value = drive;
     this.branchesBox.checked = branches;
-    this.branchesBox.disabled = rotation || !isPlain(state);
-    this.note.hidden = !rotation;
-    if (rotation) setText(this.note, noteOf(state));
+    this.branchesBox.disabled = quantity === "angular_speed" || !isPlain(state);
     this.redraw();
   }
 
@@ -249,14 +245,6 @@ function basisOf(state: State): Basis {
   const { quantity, drive } = state.diagram;
   const names = quantity === "angular_speed" ? PARTS.rotation : PARTS.vertical;
   return { state, names, more: drive === "sine" ? [] : [say(WORDS.files.drive, { drive: TEXTS.drives[drive] })] };
-}
-
-/** What there is to say below a diagram of angular speeds. */
-function noteOf(state: State): string {
-  const { system } = state;
-  if (!isPlain(state)) return TEXTS.sine_only;
-  if (system.friction === 0) return TEXTS.no_friction;
-  return system.twist_amplitude === 0 ? TEXTS.no_twist : TEXTS.no_branches;
 }
 
 /** What the columns depend on: the amplitude of the system does not count, for the forcing takes its place. */

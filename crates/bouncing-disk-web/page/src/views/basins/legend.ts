@@ -22,26 +22,18 @@ export class Legend {
     this.root = section(TEXTS.attractors, "panel", ...parts);
   }
 
-  /** Nothing, where no attractors are known. */
-  clear(): void {
-    this.list.replaceChildren();
-    this.note.textContent = "";
-    this.point(TEXTS.point);
-    this.dim(false);
-  }
-
   /** Those of another map are being looked for. */
   dim(stale: boolean): void {
     this.root.classList.toggle("stale", stale);
     if (stale) this.point(TEXTS.point);
   }
 
-  /** `shares` are those of the cells of the window; null as long as they are not computed. */
-  show(found: AttractorsJson, shares: Shares | null): void {
+  /** Nothing where no attractors are known; `shares` are null as long as the cells of the window are not computed. */
+  show(found: AttractorsJson | null, shares: Shares | null): void {
     this.dim(false);
-    const starts = grouped(String(found.starts));
-    this.note.textContent = say(TEXTS.note, { starts, fastest: brief(found.fastest_start, 3) });
-    this.list.replaceChildren(...entriesOf(found, shares).map(itemOf));
+    this.list.replaceChildren(...(found === null ? [] : entriesOf(found, shares).map(itemOf)));
+    const about = found && { starts: grouped(String(found.starts)), fastest: brief(found.fastest_start, 3) };
+    setText(this.note, about === null ? "" : say(TEXTS.note, about));
   }
 
   point(text: string): void {

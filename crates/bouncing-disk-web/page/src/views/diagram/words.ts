@@ -111,9 +111,17 @@ export function describeDiagram(state: State, verdicts: VerdictJson[], count: nu
   return [
     say(TEXTS.seen, { quantity: TEXTS.quantities[quantity], low, high, restitution, recorded: RECORDED, transient }),
     ...(isPlain(state) ? [say(TEXTS.long_run, { orbits: orbits.join(", ") })] : driven),
+    ...(quantity === "angular_speed" ? [noteOf(state)] : []),
     ...(told.resting > 0 ? [say(TEXTS.resting, { count: told.resting })] : []),
     ...unsettled(count, told, areDrawn(state)),
   ].join(" ");
+}
+
+/** What there is to say of a diagram of angular speeds. */
+function noteOf(state: State): string {
+  if (!isPlain(state)) return TEXTS.sine_only;
+  if (state.system.friction === 0) return TEXTS.no_friction;
+  return state.system.twist_amplitude === 0 ? TEXTS.no_twist : TEXTS.no_branches;
 }
 
 function samplesOf({ diagram }: State): number[] {

@@ -1,7 +1,7 @@
 /** The motor in words: regime, warnings, traps, steady speed, run-up and curves. */
 
 import { element, Facts, section, setText } from "../../elements";
-import { grouped, plain, prefixOf, quantity, toldApart, withError } from "../../numbers";
+import { grouped, plain, prefixOf, quantity, shown, withError } from "../../numbers";
 import type { IntervalJson, ReportJson, StallJson, TrapJson } from "../../protocol";
 import { say, WORDS } from "../../words";
 import type { Known, Operation, Transient } from "./requests";
@@ -35,7 +35,7 @@ export class ReportPanel {
       });
     }
     this.trap.hidden = !report?.trap;
-    if (report?.trap) setText(this.trap, describeTrap(report.trap, report));
+    if (report?.trap) setText(this.trap, describeTrap(report.trap));
     this.warnings.replaceChildren(...(report?.warnings ?? []).map((warning) => element("li", {}, warning)));
   }
 }
@@ -98,10 +98,9 @@ export const describeRunUp = ({ json }: Transient, own: Operation | null, { larg
     : say(TEXTS.steady, { speed: steadySpeed(own, largest_torque), constant: timeConstant(json, own) });
 
 /** Where a motor is caught in a short cycle, or would be. */
-export function describeTrap(trap: TrapJson, report: ReportJson): string {
-  const [low, high] = trap.forcing_from_to;
-  const [from, to] = toldApart(low, high, 3);
-  const [preload] = toldApart(trap.preload_acceleration, report.system.preload_acceleration, 2);
+export function describeTrap(trap: TrapJson): string {
+  // With digits enough to find it.
+  const [from = "", to = "", preload = ""] = [...trap.forcing_from_to, trap.preload_acceleration].map((one) => shown(one, 9));
   const away = plain(100 * Math.abs(trap.relative_distance), 2);
   return say(trap.caught ? TEXTS.trap : TEXTS.trap_near, { preload, from, to, away });
 }
@@ -118,27 +117,24 @@ export function describeCurves(operations: readonly Operation[], stall: StallJso
   const [first, last] = [known[0], known.at(-1)];
   if (first === undefined || last === undefined)
     return operations.length === 0 ? [] : Array.from({ length: 3 }, () => TEXTS.all_driven);
-  const at = ({ load_torque }: Operation) => quantity(load_torque, "N m", 4);
   const best = (of: "mechanical_power" | "efficiency") =>
     known.reduce((one, other) => (other[of] > one[of] || Number.isNaN(one[of]) ? other : one));
-  // A drift is in no error: numbers of what is not settled stand without one.
-  const speed = (row: Operation) =>
-    row.status === 1
-      ? say(TEXTS.speed_at_unsettled, { speed: plain(row.speed, 3), load: at(row) })
-      : say(TEXTS.speed_at, { speed: withError(row.speed, row.speed_error), load: at(row) });
-  const settled = ({ status }: Operation, known: string, rough: string) =>
-    status === 1 ? say(TEXTS.so_far, { value: rough }) : known;
+  /** With its load. A drift is in no error: numbers of what is not settled stand without one. */
+  const told = (row: Operation, told: (error: number | null) => string, error: number) => ({
+    load: quantity(row.load_torque, "N m", 4),
+    value: row.status === 1 ? say(TEXTS.so_far, { value: told(null) }) : told(error),
+  });
+  const speedAt = (row: Operation) =>
+    say(TEXTS.speed_at, told(row, (error) => `${withError(row.speed, error)} rad/s`, row.speed_error));
   const stop = stall === null || stall.torque === null ? "" : ` ${say(TEXTS.stalls, { load: describeStall(stall) })}`;
   const [powerful, efficient] = [best("mechanical_power"), best("efficiency")];
-  const { mechanical_power, mechanical_power_error } = powerful;
-  const watts = quantity(mechanical_power, "W", 4, mechanical_power_error);
-  const share = efficient.efficiency;
-  const percents = `${withError(share, efficient.efficiency_error, 100)} %`;
-  const most = { load: at(powerful), power: settled(powerful, watts, quantity(mechanical_power, "W")) };
-  const finest = { load: at(efficient), efficiency: settled(efficient, percents, `${plain(100 * share, 3)} %`) };
+  const { mechanical_power: power, mechanical_power_error } = powerful;
+  const { efficiency: share, efficiency_error } = efficient;
+  const most = told(powerful, (error) => quantity(power, "W", 4, error), mechanical_power_error);
+  const finest = told(efficient, (error) => `${withError(share, error, 100)} %`, efficiency_error);
   return [
-    `${say(TEXTS.from_to, { first: speed(first), last: speed(last) })}${stop}`,
-    mechanical_power > 0 ? say(TEXTS.most_power, most) : TEXTS.no_power,
+    `${say(TEXTS.from_to, { first: speedAt(first), last: speedAt(last) })}${stop}`,
+    power > 0 ? say(TEXTS.most_power, most) : TEXTS.no_power,
     share > 0 ? say(TEXTS.best_efficiency, finest) : TEXTS.no_efficiency,
   ];
 }

@@ -142,12 +142,11 @@ function caveats(range: Range, at: readonly number[], line: readonly (Reading | 
     return low <= most && high >= least ? [at[place] as number] : [];
   });
   const end = at[best] === range[0] || at[best] === range[1];
-  const between = { low: shown(at[best - 1] ?? NaN, 4), high: shown(at[best + 1] ?? NaN, 4) };
   const among = { count: alike.length, low: shown(alike[0] ?? NaN, 4), high: shown(alike.at(-1) ?? NaN, 4) };
-  const { alike: several, alikeOne, atEnd, apart } = WORDS.scan;
+  const { alike: several, alikeOne, atEnd } = WORDS.scan;
   return [
     ...(alike.length > 0 ? [say(alike.length === 1 ? alikeOne : several, among)] : []),
-    ...(end ? [atEnd] : alike.length > 0 ? [] : [say(apart, between)]),
+    ...(end ? [atEnd] : []),
   ];
 }
 
