@@ -89,9 +89,7 @@ export interface Context {
   /** Another state: the page, the address and all views follow. `settled: false` while a drag or a wheel goes on, when
    * the address is replaced and no entry of the history made. */
   change(change: Change, options?: { settled?: boolean }): void;
-  /** Said by screen readers, politely: "Period 4 at 0.5400". */
-  announce(text: string): void;
-  /** One line under the view, with errors of computations. */
+  /** One line under the view, which screen readers say, politely; with errors of computations. */
   status(text: string, kind?: "busy" | "done" | "error"): void;
 }
 

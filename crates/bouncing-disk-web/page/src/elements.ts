@@ -152,19 +152,19 @@ export function debounced<Values extends unknown[]>(
   return later;
 }
 
-/** A choice among values with their texts. */
-export function choice(
-  label: string,
-  options: readonly (readonly [value: string, text: string])[],
-  choose: (value: string) => void,
-): HTMLSelectElement {
-  const all = options.map(([value, text]) => element("option", { value }, text));
-  const made = element("select", { "aria-label": label, onchange: () => choose(made.value) }, ...all);
-  return made;
-}
-
 export const labelled = (text: string, ...field: HTMLElement[]): HTMLElement =>
   element("label", {}, `${text} `, ...field);
+
+/** A labelled choice among names with their texts. */
+export function choice<Name extends string>(
+  label: string,
+  texts: Readonly<Record<Name, string>>,
+  choose: (name: Name) => void,
+): { root: HTMLElement; select: HTMLSelectElement } {
+  const options = Object.entries<string>(texts).map(([value, text]) => element("option", { value }, text));
+  const select = element("select", { onchange: () => choose(select.value as Name) }, ...options);
+  return { root: labelled(label, select), select };
+}
 
 /** Whether the form stands below the view, as in `screens.css`. */
 export const isNarrow = (): boolean => window.matchMedia("(max-width: 860px)").matches;

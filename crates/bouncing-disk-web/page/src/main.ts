@@ -49,7 +49,6 @@ function begin(): void {
   const client = makeClient(source());
   const problems = new Problems(byId("problems"));
   const statusLine = byId("status");
-  const announcer = byId("announcer");
   // Another state comes from the form, a drag or a view; a fresh one from a preset, the tour or the address.
   let fresh = true;
 
@@ -82,9 +81,6 @@ function begin(): void {
     client,
     state: () => store.state(),
     change: (change, options) => store.change(change, options),
-    announce: (text) => {
-      announcer.textContent = text;
-    },
     status: (text, kind = "done") => {
       clearInterval(clock);
       // What is under way changes too often to be read out.
@@ -109,7 +105,6 @@ function begin(): void {
     if (view === "motor" && system.angular_frequency < SLOWEST_MOTOR) {
       aside = store.state();
       open({ ...MOTOR_STATE, compare, scan });
-      context.announce(WORDS.status.motor_put_in);
       // A scan may be that of the motor.
     } else if (guest && aside !== null && view !== "motor" && view !== "scan") {
       open({ ...aside, view, compare, scan });
@@ -157,7 +152,7 @@ function begin(): void {
     const name = fileName(offer);
     try {
       save(await offer.make(), name);
-      context.announce(say(WORDS.page.saved, { name }));
+      context.status(say(WORDS.page.saved, { name }));
     } catch (error) {
       problems.add(say(WORDS.page.not_saved, { name, why: String(error) }));
     }

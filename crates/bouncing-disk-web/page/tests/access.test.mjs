@@ -89,7 +89,7 @@ onPage("the orbit diagram by keyboard: zoom, cross, choice", "#view=diagram", as
   assert.ok(Math.abs((await width()) - before / 2) < 1e-9);
   await settled(page);
   for (let step = 0; step < 4; step++) await page.keyboard.press("Shift+ArrowRight");
-  await page.waitForFunction(() => /^Γ 0\.\d+: /.test(document.getElementById("announcer").textContent));
+  await whenText(page, "#view-diagram [aria-live]", /^Γ 0\.\d+: 1 impact in/);
   const facts = page.locator("#view-diagram .panel .facts");
   assert.match(await facts.textContent(), /Multipliers.*Exponent per impact−0\.\d+$/, "that of a periodic orbit");
   const { amplitude } = await stateOf(page);

@@ -197,7 +197,6 @@ export class BasinsView extends ComputingView {
   private choose([phase, speed]: Point): void {
     const whole = phase - Math.floor(phase);
     const start = { impact_phase: whole * 2 * Math.PI, normalised_speed: Math.max(speed, LEAST_SPEED) };
-    this.context.announce(say(TEXTS.chosen, { phase: plain(whole, 3), speed: plain(speed, 3) }));
     this.context.change({ start, view: "toss" });
   }
 

@@ -4,7 +4,7 @@ import { Cancelled, messageOf, type Context, type Offer, type State } from "../c
 import { clamp, extent } from "../drawing/axes";
 import { chartOffers, ScreenChart, type Chart } from "../drawing/chart";
 import { ONE_COLUMN, PARTS, tableOffers } from "../drawing/files";
-import { button, div, element, labelled, oncePerFrame, rich, setText } from "../elements";
+import { button, div, element, oncePerFrame, rich, setText } from "../elements";
 import { nextDouble, plain } from "../numbers";
 import { bouncing } from "../presets";
 import type { MotionJson, Range, VerdictJson } from "../protocol";
@@ -68,7 +68,7 @@ export class CompareView extends ComputingView {
     const next = button(TEXT.next, () => this.attempt(() => this.next()));
     const bars = [
       div("bar", element("span", {}, TEXT.readyMade), ...ready),
-      div("bar", labelled(TEXT.parameter, this.parameter), this.value.root, next),
+      div("bar", this.parameter.root, this.value.root, next),
       div("bar", this.periods.root, this.from.root, button(TEXT.parting, () => this.change({ from: null }))),
     ];
     const charts = div("compare", ...this.charts.map(({ root }) => root));
@@ -77,7 +77,7 @@ export class CompareView extends ComputingView {
 
   show(state: State): void {
     const { parameter, value, periods } = state.compare;
-    this.parameter.value = parameter;
+    this.parameter.select.value = parameter;
     this.value.show([value], varied(parameter));
     this.periods.show([periods]);
     this.redraw();

@@ -1,11 +1,11 @@
 /** The orbit diagram: what impacts repeat, over the forcing. */
 
-import type { Context, Drive, Offer, Quantity, State } from "../contract";
+import type { Context, Offer, State } from "../contract";
 import { clamp, pixelX, type Axes, type Plot } from "../drawing/axes";
 import { PARTS, plotOffers, tabbed, tableOffers, TWO_COLUMNS, type Basis } from "../drawing/files";
 import type { Pen } from "../drawing/pen";
 import { confined, WindowPicture, type Window2 } from "../drawing/window";
-import { button, choice, copy, div, element, labelled, setText } from "../elements";
+import { button, choice, copy, div, element, setText } from "../elements";
 import { plain } from "../numbers";
 import { say, WORDS } from "../words";
 import { DIAGRAM_COLUMNS, type DiagramJson, type Range, type VerdictJson } from "../protocol";
@@ -28,12 +28,10 @@ const FINENESS = 1e-6;
 export class DiagramView extends ComputingView {
   private readonly picture: WindowPicture;
   private readonly verdict: Verdict;
-  private readonly quantity = choice(TEXTS.quantity_label, Object.entries(TEXTS.quantities), (quantity) =>
-    this.context.change({ diagram: { quantity: quantity as Quantity, range: null } }),
+  private readonly quantity = choice(TEXTS.quantity, TEXTS.quantities, (quantity) =>
+    this.context.change({ diagram: { quantity, range: null } }),
   );
-  private readonly drive = choice(TEXTS.platform_label, Object.entries(TEXTS.drives), (drive) =>
-    this.context.change({ diagram: { drive: drive as Drive } }),
-  );
+  private readonly drive = choice(TEXTS.platform, TEXTS.drives, (drive) => this.context.change({ diagram: { drive } }));
   private readonly branchesBox = element("input", {
     type: "checkbox",
     onchange: () => this.context.change({ diagram: { branches: this.branchesBox.checked } }),
@@ -71,9 +69,8 @@ export class DiagramView extends ComputingView {
     const lines = parts.map((part, index) => (index % 2 === 0 ? part : element("span", { class: `line ${part}` })));
     const legend = element("p", { class: "legend" }, ...lines);
     const branches = element("label", {}, this.branchesBox, ` ${TEXTS.branches}`);
-    const [quantity, platform] = [labelled(TEXTS.quantity, this.quantity), labelled(TEXTS.platform, this.drive)];
     host.append(
-      div("bar", quantity, platform, branches, this.picture.tools),
+      div("bar", this.quantity.root, this.drive.root, branches, this.picture.tools),
       div(
         "beside",
         div("main-part", this.picture.layers.root),
@@ -86,8 +83,8 @@ export class DiagramView extends ComputingView {
   show(state: State): void {
     const { quantity, branches, drive } = state.diagram;
     this.verdict.follow(state);
-    this.quantity.value = quantity;
-    this.drive.value = drive;
+    this.quantity.select.value = quantity;
+    this.drive.select.value = drive;
     this.branchesBox.checked = branches;
     this.branchesBox.disabled = quantity === "angular_speed" || !isPlain(state);
     this.redraw();

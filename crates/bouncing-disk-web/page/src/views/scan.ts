@@ -1,10 +1,10 @@
 /** A scan: one result at points of a range of a parameter, for some values of a second one. */
 
-import { Cancelled, type Change, type Context, type Offer, type Optimum, type ResultName, type State } from "../contract";
+import { Cancelled, type Change, type Context, type Offer, type State } from "../contract";
 import { clamp, evenly } from "../drawing/axes";
 import { chartOffers, ScreenChart } from "../drawing/chart";
 import { ONE_COLUMN, PARTS, tableOffers } from "../drawing/files";
-import { button, choice, div, element, labelled, oncePerFrame, rich } from "../elements";
+import { button, choice, div, element, oncePerFrame, rich } from "../elements";
 import { bouncing, motor, toss } from "../presets";
 import type { Range } from "../protocol";
 import { axialForcing, changed, DEFAULT_STATE, MOST_POINTS, MOST_VALUES } from "../state";
@@ -29,12 +29,8 @@ export class ScanView extends ComputingView {
   });
   private readonly over = parameterChoice(TEXT.over, (over) => this.about(over, (range) => ({ over, range })));
   private readonly family = parameterChoice(TEXT.family, (name) => this.curvesOf(name), TEXT.noFamily);
-  private readonly result = choice(TEXT.result, Object.entries(TEXT.results), (result) =>
-    this.change({ result: result as ResultName }),
-  );
-  private readonly optimum = choice(TEXT.optimum, Object.entries(TEXT.optima), (optimum) =>
-    this.change({ optimum: optimum as Optimum }),
-  );
+  private readonly result = choice(TEXT.result, TEXT.results, (result) => this.change({ result }));
+  private readonly optimum = choice(TEXT.optimum, TEXT.optima, (optimum) => this.change({ optimum }));
   // A range is typed number by number: each counts with what stands in the other field.
   private readonly low = this.field(TEXT.from, ([low = 0]) => ({ range: [low, this.high.numbers()?.[0] ?? NaN] }));
   private readonly high = this.field(TEXT.to, ([high = 0]) => ({ range: [this.low.numbers()?.[0] ?? NaN, high] }));
@@ -50,12 +46,10 @@ export class ScanView extends ComputingView {
   constructor(host: HTMLElement, context: Context) {
     super(context, ["scan"]);
     const ready = READY.map((one) => button(one.label, () => context.change(one.change)));
-    const [result, over] = [labelled(TEXT.result, this.result), labelled(TEXT.over, this.over)];
-    const [family, optimum] = [labelled(TEXT.family, this.family), labelled(TEXT.optimum, this.optimum)];
     const bars = [
       div("bar", element("span", {}, TEXT.readyMade), ...ready),
-      div("bar", result, over, this.low.root, this.high.root),
-      div("bar", this.points.root, family, this.values.root, optimum),
+      div("bar", this.result.root, this.over.root, this.low.root, this.high.root),
+      div("bar", this.points.root, this.family.root, this.values.root, this.optimum.root),
     ];
     host.append(settings(TEXT.settings, bars), this.chart.root, this.optima, this.gaps);
   }
@@ -63,10 +57,10 @@ export class ScanView extends ComputingView {
   show(state: State): void {
     const { over, family, range, points, result, optimum, values } = state.scan;
     this.plan = planOf(state);
-    this.over.value = over;
-    this.result.value = result;
-    this.optimum.value = optimum;
-    this.family.value = family ?? "";
+    this.over.select.value = over;
+    this.result.select.value = result;
+    this.optimum.select.value = optimum;
+    this.family.select.value = family ?? "";
     this.low.show([range[0]], varied(over));
     this.high.show([range[1]], varied(over));
     this.points.show([points]);

@@ -84,10 +84,7 @@ export class TossView implements View {
         if (at !== null) this.player.pause();
         this.draw();
       },
-      start: (thrown: FlightStart) => {
-        context.announce(describeThrow(thrown));
-        context.change({ thrown });
-      },
+      start: (thrown: FlightStart) => context.change({ thrown }),
     };
     attachThrowing(this.scene.surface, throwing);
     this.player.played = (from, to, seconds) => {

@@ -43,9 +43,9 @@ export function valueText(parameter: Parameter, value: number): string {
 export const exactText = (parameter: Parameter, value: number): string => minus(String(value)) + unitOf(parameter, " ");
 
 /** Chooses one of all parameters; `none` stands for no one at all. */
-export function parameterChoice(label: string, choose: (name: string) => void, none?: string): HTMLSelectElement {
+export function parameterChoice(label: string, choose: (name: string) => void, none?: string) {
   const all = PARAMETERS.map((one) => [one.name, `${shortLabelOf(one)} ${one.symbol.replace("_", "")}`] as const);
-  return choice(label, none === undefined ? all : [["", none], ...all], choose);
+  return choice<string>(label, { ...(none !== undefined && { "": none }), ...Object.fromEntries(all) }, choose);
 }
 
 /** What is chosen stands above the picture, and folded on a narrow screen, where the picture comes first. */

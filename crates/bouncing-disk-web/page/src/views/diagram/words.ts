@@ -24,8 +24,8 @@ export class Verdict {
   private readonly ask = debounced(90, (forcing: number, state: State) => void this.fetch(forcing, state));
 
   constructor(private readonly context: Context) {
-    const parts = [element("h3", {}, TEXTS.orbit), this.facts.root, this.sentence, this.caution];
-    this.root = section(TEXTS.orbit, "panel", ...parts);
+    const spoken = element("div", { "aria-live": "polite" }, this.sentence, this.caution);
+    this.root = section(TEXTS.orbit, "panel", element("h3", {}, TEXTS.orbit), this.facts.root, spoken);
   }
 
   /** A reading of another system, or of a forcing that is not seen any more, does not stay. */
@@ -70,10 +70,8 @@ export class Verdict {
     const exponent = withError(verdict.exponent, verdict.exponent_error);
     this.facts.set({ orbit, period: round, multipliers, exponent });
     // The library writes for terminals, too.
-    setText(this.sentence, verdict.text.replaceAll("+-", "±"));
+    setText(this.sentence, `Γ ${plain(forcing, 4)}: ${verdict.text.replaceAll("+-", "±")}`);
     this.caution.hidden = !verdict.rounding_dependent;
-    const spoken = verdict.rounding_dependent ? TEXTS.spoken_rounding : TEXTS.spoken;
-    this.context.announce(say(spoken, { forcing: plain(forcing, 4), orbit, round }));
   }
 }
 
