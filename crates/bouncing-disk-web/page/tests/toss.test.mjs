@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import {
-  course, fact, hashOf, onPage, pixelsOf, placeOfDisk, preset, settled, stateOf, svgOf, type, whenAddress, whenText, within,
+  course, fact, hashOf, onPage, pixelsOf, placeOfDisk, preset, settled, stateOf, svgOf, type, visit, whenAddress, whenText, within,
 } from "./browser.mjs"; // prettier-ignore
 import { WORDS } from "./module.mjs";
 
@@ -68,23 +68,14 @@ onPage("a motion that another view, the tour or a figure opens is seen to move",
   }
 }); // prettier-ignore
 
-onPage("a motion goes on where it was left, and stays where somebody has stopped it", {}, async (page) => {
+onPage("a motion stands where it was left", {}, async (page) => {
   await plays(page, "the first motion");
-  await page.click("#tab-diagram");
-  await whenAddress(page, "view", "diagram");
-  await page.click("#tab-toss");
-  await plays(page, "the same motion");
-  await page.click(".controls .play");
-  // The last step of the clock is painted in the frame after it.
-  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-  const stopped = await now(page);
-  assert.ok(stopped > 0);
-  await page.click("#tab-diagram");
-  await whenAddress(page, "view", "diagram");
-  await page.click("#tab-toss");
-  await settled(page);
+  await visit(page, "diagram");
+  await visit(page, "toss");
+  const left = await now(page);
+  assert.ok(left > 0);
   await page.waitForTimeout(300);
-  assert.equal(await now(page), stopped);
+  assert.equal(await now(page), left);
   assert.equal(await page.textContent(".controls .play"), "Play");
 });
 

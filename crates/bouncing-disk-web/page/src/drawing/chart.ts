@@ -25,10 +25,10 @@ export interface Curve {
   readonly points?: boolean | "alone";
 }
 
-/** A vertical line with a word. */
-export interface Line {
-  readonly x: number;
-  readonly error?: number;
+/** A stretch of the axis of x with a word, or a place on it with what its error covers. */
+export interface Stretch {
+  readonly range: Readonly<Range>;
+  readonly at?: number;
   readonly label: string;
   readonly colour: string;
 }
@@ -48,10 +48,8 @@ export interface Chart {
   /** Where the values of the curves stand on the axis of x. */
   readonly at: ArrayLike<number>;
   readonly curves: readonly Curve[];
-  readonly lines?: readonly Line[];
+  readonly stretches?: readonly Stretch[];
   readonly marks?: readonly Mark[];
-  /** A grey stretch of the x axis. */
-  readonly shade?: { readonly range: Readonly<Range>; readonly label: string };
 }
 
 function layOutChart(pen: Pen, { x, y, curves }: Chart, width: number, height: number, size: number): Plot {
@@ -65,10 +63,9 @@ function layOutChart(pen: Pen, { x, y, curves }: Chart, width: number, height: n
 function paintChart(pen: Pen, chart: Chart, plot: Plot): void {
   paintGrid(pen, plot);
   pen.clipped(plot, () => {
-    if (chart.shade !== undefined) paintShade(pen, chart.shade, plot);
+    for (const stretch of chart.stretches ?? []) paintStretch(pen, stretch, plot);
     const [left, zero, right] = [plot.left, pixelY(plot, 0), plot.left + plot.width];
     if (inside(plot, left, zero)) pen.path([left, zero, right, zero], { stroke: "--picture-muted", width: 1 });
-    for (const line of chart.lines ?? []) paintLine(pen, line, plot);
     for (const { x, y, form, colour } of chart.marks ?? []) {
       const [at, level, arm] = [pixelX(plot, x), pixelY(plot, y), plot.size * 0.4];
       const stroke = { stroke: colour, width: 1.6 };
@@ -82,30 +79,18 @@ function paintChart(pen: Pen, chart: Chart, plot: Plot): void {
   if (chart.curves.length > 1) paintLegend(pen, chart, plot);
 }
 
-function paintShade(pen: Pen, { range, label }: NonNullable<Chart["shade"]>, plot: Plot): void {
-  const { top, height, size } = plot;
-  const [from = NaN, to = NaN] = range.map((end) => pixelX(plot, end));
-  pen.rect(from, top, to - from, height, { fill: "--runaway" });
-  if (to - from <= size) return;
-  const middle = Math.max((from + Math.min(to, plot.left + plot.width)) / 2, from);
+function paintStretch(pen: Pen, { range, at, label, colour }: Stretch, plot: Plot): void {
+  const { left, top, width, height, size } = plot;
+  const [from = NaN, to = NaN] = range.map((end) => clamp(pixelX(plot, end), left, left + width));
+  pen.rect(from, top, to - from, height, { fill: colour, opacity: at === undefined ? 1 : 0.25 });
+  const line = at === undefined ? (from + to) / 2 : pixelX(plot, at);
+  if (at !== undefined) pen.path([line, top, line, top + height], { stroke: colour, width: 1.2, dash: [5, 3] });
+  if (at === undefined && to - from <= size) return;
   // Away from the zero, where the marks of runaway loads stand.
   const below = pixelY(plot, 0) < top + height / 2;
   const style = { colour: "--picture-text", size, anchor: below ? "start" : "end", upwards: true } as const;
-  pen.text(label, middle, below ? top + height - size * 0.5 : top + size * 0.5, style);
-}
-
-function paintLine(pen: Pen, { x, error, label, colour }: Line, plot: Plot): void {
-  const { left, top, width, height, size } = plot;
-  const at = pixelX(plot, x);
-  if (error !== undefined) {
-    const low = pixelX(plot, x - 2 * error);
-    pen.rect(low, top, pixelX(plot, x + 2 * error) - low, height, { fill: colour, opacity: 0.25 });
-  }
-  pen.path([at, top, at, top + height], { stroke: colour, width: 1.2, dash: [5, 3] });
-  const nearRight = at > left + width * 0.6;
-  const anchor = nearRight ? "end" : "start";
-  const style = { colour, size, anchor, baseline: "bottom", halo: "--picture-paper" } as const;
-  pen.text(label, at + (nearRight ? -4 : 4), top + height - size * 0.5, style);
+  const beside = at === undefined ? 0.3 * size : line - left < 2 * size ? 1.1 * size : -0.4 * size;
+  pen.text(label, line + beside, below ? top + height - size * 0.5 : top + size * 0.5, style);
 }
 
 /** Two standard errors on either side of a value, or its interval. */

@@ -205,7 +205,7 @@ function differenceChart({ apart, state }: Pair, window: Range): Chart {
     y: { label: TEXT.differenceAxis, range: [Math.floor(low), Math.ceil(high + 1e-9)], powers: true, widest: WIDEST },
     at,
     curves: [{ label: say(TEXT.instants, { step }), y: logs, colour: "--curve-efficiency" }],
-    shade: { range: window, label: TEXT.window },
+    stretches: [{ range: window, label: TEXT.window, colour: "--runaway" }],
   };
 }
 

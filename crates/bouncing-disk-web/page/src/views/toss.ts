@@ -63,8 +63,6 @@ export class TossView implements View {
   /** The motion that is recorded. */
   private recorded = "";
   private throwTold: FlightStart | null = null;
-  /** Whether the motion was under way when the view was left. */
-  private resumes = false;
   private tracesDrawn = -1;
   private anew = true;
   private readonly draw = oncePerFrame(() => this.paint());
@@ -106,15 +104,11 @@ export class TossView implements View {
   show(state: State): void {
     this.rounding.show(this.context, state);
     this.tellThrow(state.thrown);
-    // The same motion goes on where it was left, unless somebody had stopped it; another one begins anew.
-    if (this.resumes && this.asked.startsWith(this.motion())) this.player.play();
-    this.resumes = false;
     void this.fetch(FIRST_PERIODS);
     this.draw();
   }
 
   hide(): void {
-    this.resumes = this.player.playing;
     this.player.pause();
     this.context.client.cancel("toss-motion");
     if (this.recording === null) this.asked = "";

@@ -2,13 +2,16 @@
 
 import type { Offer } from "../../contract";
 import { padded, prefixed } from "../../drawing/axes";
-import { chartOffers, spanOf, type Chart, type Curve, type Mark } from "../../drawing/chart";
+import { chartOffers, spanOf, type Chart, type Curve, type Mark, type Stretch } from "../../drawing/chart";
 import { ONE_COLUMN, rowsOf, tableOffers, type Basis } from "../../drawing/files";
 import { OPERATION_COLUMNS, TRANSIENT_COLUMNS, type MotorSheet, type Range, type StallJson } from "../../protocol";
 import { WORDS } from "../../words";
 import { membersOf, SEED, type Operation, type Transient } from "./requests";
 
 const { charts: TEXTS, files: FILES, titles: TITLES } = WORDS.motor;
+
+/** The time constant of a run-up that has none. */
+const NONE = { value: Infinity, low: NaN, high: NaN };
 
 const finite = (value: number): number => (Number.isFinite(value) ? value : 0);
 
@@ -22,14 +25,15 @@ export function transientChart({ json, numbers }: Transient, own: Operation | nu
     const steady = { y: y.map(() => own.speed), error: y.map(() => own.speed_error) };
     curves.push({ label: TEXTS.steady, ...steady, colour: "--curve-power", dash: [6, 3] });
   }
-  const constant = json.rise?.form === "exponential" ? json.rise.constant.value : Infinity;
+  const { value: constant, low, high } = json.rise?.form === "exponential" ? json.rise.constant : NONE;
+  const range: Range = [low, high];
   return {
     title: TEXTS.run_up,
     x: prefixed(TEXTS.time, [0, last]),
     y: { label: TEXTS.mean_speed, range: spanOf(curves, [0]) },
     at,
     curves,
-    lines: constant > last ? [] : [{ x: constant, label: TEXTS.constant, colour: "--picture-muted" }],
+    stretches: constant > last ? [] : [{ at: constant, range, label: TEXTS.constant, colour: "--picture-muted" }],
   };
 }
 
@@ -75,8 +79,10 @@ export function loadCharts(
   const [, end] = x.range;
   const at = shown.map(({ load_torque }) => load_torque);
   const { torque = null, torque_error = 0 } = stall ?? {};
-  const stop = { label: TEXTS.stall, colour: "--stall", error: finite(torque_error ?? 0) };
-  const lines = torque === null ? [] : [{ x: torque, ...stop }];
+  const by = 2 * finite(torque_error ?? 0);
+  const stretches: Stretch[] = [];
+  if (end > largestTorque * 1.001) stretches.push({ range: [largestTorque, end], label: TEXTS.runaway, colour: "--runaway" });
+  if (torque !== null) stretches.push({ at: torque, range: [torque - by, torque + by], label: TEXTS.stall, colour: "--stall" });
   return KINDS.map(({ title, label, curves: described, factor }) => {
     const curves = described.map(({ name, ...curve }) => {
       return { ...curve, y: shown.map((row) => row[name]), error: shown.map((row) => row[`${name}_error`]), points: true };
@@ -89,8 +95,7 @@ export function loadCharts(
     });
     const range = spanOf(curves, [0], 0.08);
     const y = factor === undefined ? prefixed(label, range) : { label, range, factor };
-    const shade = { range: [largestTorque, end] as const, label: TEXTS.runaway };
-    return { title, x, y, at, curves, marks, lines, ...(end > largestTorque * 1.001 && { shade }) };
+    return { title, x, y, at, curves, marks, stretches };
   });
 }
 

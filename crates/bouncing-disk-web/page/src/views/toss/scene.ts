@@ -36,8 +36,8 @@ export class Stage {
     twist: number,
   ) {
     const span = Math.max(heights[1] - heights[0], 1e-300) / radius;
-    this.heightGain = span >= 0.5 && span <= 4 ? 1 : gainOf(1.8 / span);
-    this.angleGain = twist >= 0.2 || twist === 0 ? 1 : gainOf(0.5 / twist);
+    this.heightGain = span >= 0.5 && span <= 4 ? 1 : roundDown(1.8 / span);
+    this.angleGain = twist >= 0.2 || twist === 0 ? 1 : roundDown(0.5 / twist);
     const shown = span * this.heightGain;
     this.pixels = Math.max(Math.min(width / (2 * PLATFORM + 0.7), height / (shown + 1.9)), 10);
     this.ground = this.radii(heights[0]) + shown / 2 - 0.05;
@@ -63,7 +63,7 @@ export class Stage {
   /** A bar whose length is true on the scale of the heights. */
   private paintScale(pen: Pen): void {
     const perMetre = 1 / this.metresOf(1);
-    const length = lower(roundUp((this.height * 0.3) / perMetre));
+    const length = roundDown((this.height * 0.3) / perMetre);
     const bottom = this.height - 14;
     const top = bottom - length * perMetre;
     const bar = [14, bottom, 22, bottom, NaN, NaN, 14, top, 22, top, NaN, NaN, 18, bottom, 18, top];
@@ -147,18 +147,8 @@ export class Stage {
   }
 }
 
-function gainOf(wanted: number): number {
-  if (wanted < 1) return 1 / roundUp(1 / wanted);
-  const up = roundUp(wanted);
-  return up > wanted * 1.01 ? lower(up) : up;
-}
-
-/** The number of 1, 2, 5 times a power of ten below such a number. */
-function lower(value: number): number {
-  const power = 10 ** Math.floor(Math.log10(value) + 1e-9);
-  const lead = Math.round(value / power);
-  return lead === 1 ? power / 2 : lead === 2 ? power : 2 * power;
-}
+/** The largest of 1, 2 and 5 times a power of ten that is not above such a number. */
+const roundDown = (value: number): number => 1 / roundUp(1 / value);
 
 type Platform = Pick<SystemParameters, "amplitude" | "twist_amplitude">;
 
