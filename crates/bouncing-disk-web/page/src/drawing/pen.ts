@@ -31,8 +31,6 @@ export interface TextStyle {
   baseline?: "top" | "middle" | "bottom";
   /** Turned by a quarter against the clock. */
   upwards?: boolean;
-  /** The colour of a margin round the letters. */
-  halo?: string;
 }
 
 export type Box = Readonly<Record<"left" | "top" | "width" | "height", number>>;
@@ -176,10 +174,6 @@ export class CanvasPen extends Pen {
     for (const run of runsOf(text)) {
       context.font = fontOf(run, style.size, family);
       const top = baselineOf(style) + (run.subscript ? SUBSCRIPT_DROP * style.size : 0);
-      if (style.halo !== undefined) {
-        Object.assign(context, { lineJoin: "round", lineWidth: 3.5, strokeStyle: this.colour(style.halo) });
-        context.strokeText(run.text, left, top);
-      }
       context.fillStyle = this.colour(style.colour);
       context.fillText(run.text, left, top);
       left += context.measureText(run.text).width;
@@ -244,10 +238,8 @@ export class SvgPen extends Pen {
   }
 
   text(text: string, x: number, y: number, style: TextStyle): void {
-    const { size, halo, colour, anchor = "start" } = style;
+    const { size, colour, anchor = "start" } = style;
     const turn = style.upwards === true ? ` transform="rotate(-90 ${short(x)} ${short(y)})"` : "";
-    const round = ' stroke-width="2.5" stroke-linejoin="round" paint-order="stroke"';
-    const margin = halo === undefined ? "" : ` stroke="${printedColour(halo)}"${round}`;
     let hung = 0;
     const runs = runsOf(text).map((run) => {
       const drop = run.subscript ? SUBSCRIPT_DROP * size : 0;
@@ -258,7 +250,7 @@ export class SvgPen extends Pen {
       return `<tspan${step}${small}${slant}>${escape(run.text)}</tspan>`;
     });
     const place = `x="${short(x)}" y="${short(y + baselineOf(style))}" text-anchor="${anchor}"`;
-    const letters = `fill="${printedColour(colour)}" font-size="${short(size)}"${margin}${turn} xml:space="preserve"`;
+    const letters = `fill="${printedColour(colour)}" font-size="${short(size)}"${turn} xml:space="preserve"`;
     this.parts.push(`<text ${place} ${letters}>${runs.join("")}</text>`);
   }
 

@@ -12,7 +12,7 @@ import type { AttractorsJson, ImpactStart, Range } from "../protocol";
 import { DEFAULT_STATE } from "../state";
 import { ComputingView, mapOf, roundingCaution, type MapParameters } from "./asking";
 import { Cells, computeCells, gridOf, type Grid } from "./basins/cells";
-import { describe, labelsOf, Legend, printedLegend, undecidedShare } from "./basins/legend";
+import { describe, labelsOf, Legend, printedLegend } from "./basins/legend";
 
 const TEXTS = WORDS.basins;
 
@@ -137,7 +137,9 @@ export class BasinsView extends ComputingView {
     this.previous = null;
     const seconds = ((performance.now() - began) / 1000).toFixed(2);
     this.context.status(say(TEXTS.computed, { ...at, phases: grid.phases, speeds: grid.speeds, seconds }));
-    this.describe();
+    const window = [...grid.phase_periods, ...grid.normalised_speed].map((end) => brief(end));
+    const [from = "", to = "", low = "", high = ""] = window;
+    setText(this.alternative, say(TEXTS.seen, { ...at, from, to, low, high }));
   }
 
   private async attractorsOf(map: MapParameters): Promise<AttractorsJson> {
@@ -198,20 +200,6 @@ export class BasinsView extends ComputingView {
     const whole = phase - Math.floor(phase);
     const start = { impact_phase: whole * 2 * Math.PI, normalised_speed: Math.max(speed, LEAST_SPEED) };
     this.context.change({ start, view: "toss" });
-  }
-
-  private describe(): void {
-    const { found, cells } = this;
-    if (found === null || cells === null) return;
-    const { phase_periods, normalised_speed } = cells.grid;
-    const [from = "", to = "", low = "", high = ""] = [...phase_periods, ...normalised_speed].map((end) => brief(end));
-    const shares = cells.shares();
-    const parts = [...shares].flatMap(([label, share]) => {
-      const name = nameOf(label, found);
-      return name === null ? [] : [say(TEXTS.end, { share: percent(share), end: name.replace(/\.$/, "") })];
-    });
-    const undecided = percent(undecidedShare(found, shares) ?? 0);
-    setText(this.alternative, say(TEXTS.seen, { from, to, low, high, shares: parts.join("; "), undecided }));
   }
 }
 

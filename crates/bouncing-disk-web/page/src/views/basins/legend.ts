@@ -86,7 +86,7 @@ export function describe(attractor: AttractorJson, found: AttractorsJson): strin
   return say(TEXTS.leads, { text, target });
 }
 
-export function undecidedShare(found: AttractorsJson, shares: Shares | null): number | null {
+function undecidedShare(found: AttractorsJson, shares: Shares | null): number | null {
   if (shares === null) return null;
   const known = labelsOf(found);
   return [...shares].reduce((sum, [label, share]) => sum + (known.includes(label) ? 0 : share), 0);

@@ -47,7 +47,6 @@ export class Stage {
     const platform = this.radii(pose.platform_height);
     const disk = this.radii(pose.height);
     const turn = pose.platform_angle * this.angleGain;
-    this.column(pen, platform - THICKNESS);
     this.cylinder(pen, PLATFORM, platform - THICKNESS, "--platform");
     this.spokes(pen, platform, turn, PLATFORM, "--platform-side", 6);
     this.wedge(pen, platform, turn, [0.98, PLATFORM, 0.09], "--platform-mark");
@@ -68,7 +67,7 @@ export class Stage {
     const top = bottom - length * perMetre;
     const bar = [14, bottom, 22, bottom, NaN, NaN, 14, top, 22, top, NaN, NaN, 18, bottom, 18, top];
     pen.path(bar, { stroke: "--picture-text", width: 1.2 });
-    const text = { colour: "--picture-text", size: 12, baseline: "middle", halo: "--picture-paper" } as const;
+    const text = { colour: "--picture-text", size: 12, baseline: "middle" } as const;
     pen.text(quantity(length, "m", 1), 27, (top + bottom) / 2, text);
   }
 
@@ -122,15 +121,6 @@ export class Stage {
     const rim = [...this.ring(radius, bottom, Math.PI, 2 * Math.PI), ...this.ring(radius, top, 2 * Math.PI, Math.PI)];
     pen.path(rim, { fill: `${face}-side`, ...edge });
     pen.path(this.ring(radius, top), { fill: face, ...edge });
-  }
-
-  /** The column that carries the platform. */
-  private column(pen: Pen, top: number): void {
-    const half = 0.16;
-    const low = this.ground - 6;
-    const corners = [[-half, top], [half, top], [half, low], [-half, low]] as const; // prettier-ignore
-    const points = corners.flatMap(([x, z]) => this.project(x, 0, z));
-    pen.path(points, { fill: "--platform-side", opacity: 0.5, close: true });
   }
 
   private spokes(pen: Pen, z: number, turn: number, radius: number, stroke: string, count: number): void {
