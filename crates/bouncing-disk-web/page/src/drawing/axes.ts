@@ -81,16 +81,6 @@ export function hairsAt(plot: Plot, [x, y]: readonly [number, number]): number[]
   return [across, plot.top, across, bottom, NaN, NaN, plot.left, down, right, down];
 }
 
-/** Faint lines behind the data. */
-export function paintGrid(pen: Pen, plot: Plot): void {
-  const { left, top, width, height, xTicks, yTicks } = plot;
-  const lines = [
-    ...xTicks.map(({ value }) => placed(pen, pixelX(plot, value))).map((x) => [x, top, x, top + height]),
-    ...yTicks.map(({ value }) => placed(pen, pixelY(plot, value))).map((y) => [left, y, left + width, y]),
-  ];
-  pen.path(lines.flatMap((line) => [...line, NaN, NaN]), { stroke: "--picture-grid", width: 1 }); // prettier-ignore
-}
-
 /** Frame, ticks inwards on all four sides, numbers and labels. */
 export function paintAxes(pen: Pen, plot: Plot): void {
   const { size, xTicks, yTicks } = plot;

@@ -5,7 +5,7 @@ import { element, placeOn, setText } from "../elements";
 import { plain, withError } from "../numbers";
 import type { Range } from "../protocol";
 import { say, WORDS } from "../words";
-import { clamp, crossAt, extent, inside, layOut, padded, paintAxes, paintGrid, pixelX, pixelY, valueX } from "./axes";
+import { clamp, crossAt, extent, inside, layOut, padded, paintAxes, pixelX, pixelY, valueX } from "./axes";
 import type { Axis, Plot } from "./axes";
 import { ONE_COLUMN, pictureOffers, PRINT_SIZE, type Basis } from "./files";
 import { plainText, type Pen } from "./pen";
@@ -61,7 +61,6 @@ function layOutChart(pen: Pen, { x, y, curves }: Chart, width: number, height: n
 }
 
 function paintChart(pen: Pen, chart: Chart, plot: Plot): void {
-  paintGrid(pen, plot);
   pen.clipped(plot, () => {
     for (const stretch of chart.stretches ?? []) paintStretch(pen, stretch, plot);
     const [left, zero, right] = [plot.left, pixelY(plot, 0), plot.left + plot.width];

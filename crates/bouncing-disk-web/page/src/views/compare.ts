@@ -64,15 +64,13 @@ export class CompareView extends ComputingView {
 
   constructor(host: HTMLElement, context: Context) {
     super(context, SLOTS);
-    const ready = READY.map(({ label, change }) => button(label, () => context.change(change)));
     const next = button(TEXT.next, () => this.attempt(() => this.next()));
     const bars = [
-      div("bar", element("span", {}, TEXT.readyMade), ...ready),
       div("bar", this.parameter.root, this.value.root, next),
       div("bar", this.periods.root, this.from.root, button(TEXT.parting, () => this.change({ from: null }))),
     ];
     const charts = div("compare", ...this.charts.map(({ root }) => root));
-    host.append(settings(TEXT.settings, bars), this.sentence, this.words, charts);
+    host.append(settings(TEXT.settings, context, READY, bars), this.sentence, this.words, charts);
   }
 
   show(state: State): void {

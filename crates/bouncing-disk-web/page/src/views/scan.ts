@@ -4,7 +4,7 @@ import { Cancelled, type Change, type Context, type Offer, type State } from "..
 import { clamp, evenly } from "../drawing/axes";
 import { chartOffers, ScreenChart } from "../drawing/chart";
 import { ONE_COLUMN, PARTS, tableOffers } from "../drawing/files";
-import { button, choice, div, element, oncePerFrame, rich } from "../elements";
+import { choice, div, element, oncePerFrame, rich } from "../elements";
 import { bouncing, motor, toss } from "../presets";
 import type { Range } from "../protocol";
 import { axialForcing, changed, DEFAULT_STATE, MOST_POINTS, MOST_VALUES } from "../state";
@@ -45,13 +45,11 @@ export class ScanView extends ComputingView {
 
   constructor(host: HTMLElement, context: Context) {
     super(context, ["scan"]);
-    const ready = READY.map((one) => button(one.label, () => context.change(one.change)));
     const bars = [
-      div("bar", element("span", {}, TEXT.readyMade), ...ready),
       div("bar", this.result.root, this.over.root, this.low.root, this.high.root),
       div("bar", this.points.root, this.family.root, this.values.root, this.optimum.root),
     ];
-    host.append(settings(TEXT.settings, bars), this.chart.root, this.optima, this.gaps);
+    host.append(settings(TEXT.settings, context, READY, bars), this.chart.root, this.optima, this.gaps);
   }
 
   show(state: State): void {

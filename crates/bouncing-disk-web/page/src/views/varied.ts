@@ -1,13 +1,14 @@
 /** The parameters that a scan or a comparison varies, and the fields that choose one and its values. */
 
-import type { Context, State } from "../contract";
+import type { Change, Context, State } from "../contract";
 import { marked } from "../drawing/pen";
-import { choice, element, isNarrow, labelled } from "../elements";
+import { button, choice, div, element, isNarrow, labelled } from "../elements";
 import { NumberField } from "../fields";
 import { PARAMETERS, shortLabelOf, type Parameter } from "../form";
 import { minus, written } from "../numbers";
 import type { Range, Summary } from "../protocol";
 import { changed } from "../state";
+import { WORDS } from "../words";
 
 /** A parameter by its name, which the address has checked. */
 export const varied = (name: string): Parameter =>
@@ -49,8 +50,16 @@ export function parameterChoice(label: string, choose: (name: string) => void, n
 }
 
 /** What is chosen stands above the picture, and folded on a narrow screen, where the picture comes first. */
-export const settings = (title: string, bars: readonly HTMLElement[]): HTMLElement =>
-  element("details", { open: !isNarrow() }, element("summary", {}, title), ...bars);
+export function settings(
+  title: string,
+  { change }: Context,
+  ready: readonly { label: string; change: Change }[],
+  bars: readonly HTMLElement[],
+): HTMLElement {
+  const buttons = ready.map((one) => button(one.label, () => change(one.change)));
+  const first = div("bar", element("span", {}, WORDS.varied.ready), ...buttons);
+  return element("details", { open: !isNarrow() }, element("summary", {}, title), first, ...bars);
+}
 
 /** A field in a bar, with its label and unit; what is wrong with what was typed stands in the line below the view. */
 export class LabelledField extends NumberField {

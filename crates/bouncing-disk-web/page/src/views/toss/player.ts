@@ -60,13 +60,6 @@ const SLOWEST = 0.02;
 const FASTEST = 20;
 const STEPS = 200;
 
-interface ControlsHost {
-  /** Of the platform (s). */
-  period(): number;
-  /** Sound is switched on or off. */
-  heard(on: boolean): void;
-}
-
 export class Controls {
   readonly root: HTMLElement;
   private readonly playButton = button(TEXT.play, () => this.toggle(), { class: "play" });
@@ -79,7 +72,8 @@ export class Controls {
   constructor(
     surface: HTMLElement,
     private readonly player: Player,
-    private readonly host: ControlsHost,
+    /** The period of the platform (s), and what switches the sound. */
+    private readonly host: { period(): number; heard(on: boolean): void },
   ) {
     const speed = element("input", { type: "range", min: 0, max: STEPS, step: 1, "aria-label": TEXT.speed_of });
     speed.value = String(Math.round((STEPS * Math.log(player.rate / SLOWEST)) / Math.log(FASTEST / SLOWEST)));

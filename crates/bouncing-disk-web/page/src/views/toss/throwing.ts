@@ -26,11 +26,11 @@ interface ThrowHost {
 type Place = ReturnType<typeof placeOn> & { readonly time: number };
 
 export function attachThrowing(surface: HTMLElement, host: ThrowHost): void {
-  let held: { from: Place; pose: Pose; trail: Place[] } | null = null;
+  let held: { stage: Stage; from: Place; pose: Pose; trail: Place[] } | null = null;
   const place = (event: PointerEvent) => ({ ...placeOn(surface, event), time: event.timeStamp });
   const recent = ({ trail }: NonNullable<typeof held>, at: Place) =>
     trail.filter(({ time }) => at.time - time < LONGEST_PAUSE);
-  const heldAt = (stage: Stage, { from, pose }: NonNullable<typeof held>, at: Place) => ({
+  const heldAt = ({ stage, from, pose }: NonNullable<typeof held>, at: Place) => ({
     height: Math.max(pose.height + stage.metresOf(from.y - at.y), pose.platform_height),
     angle: pose.angle + stage.radiansOf(at.x - from.x),
   });
@@ -41,7 +41,7 @@ export function attachThrowing(surface: HTMLElement, host: ThrowHost): void {
     const from = place(event);
     const [x, y] = stage.placeOfDisk(pose);
     if (Math.abs(from.x - x) > stage.pixels || Math.abs(from.y - y) > Math.max(0.6 * stage.pixels, 24)) return;
-    held = { from, pose, trail: [from] };
+    held = { stage, from, pose, trail: [from] };
     surface.setPointerCapture(event.pointerId);
     event.preventDefault();
   });
@@ -51,18 +51,16 @@ export function attachThrowing(surface: HTMLElement, host: ThrowHost): void {
   };
   surface.addEventListener("touchstart", keep, { passive: false });
   surface.addEventListener("pointermove", (event) => {
-    const stage = host.stage();
-    if (held === null || stage === null) return;
+    if (held === null) return;
     const at = place(event);
     held.trail = [...recent(held, at), at];
-    host.hold(heldAt(stage, held, at));
+    host.hold(heldAt(held, at));
   });
   surface.addEventListener("pointerup", (event) => {
-    const stage = host.stage();
-    if (held === null || stage === null) return;
+    if (held === null) return;
     const at = place(event);
-    const { from, pose } = held;
-    const { height } = heldAt(stage, held, at);
+    const { stage, from, pose } = held;
+    const { height } = heldAt(held, at);
     const [first = at] = recent(held, at);
     held = null;
     host.hold(null);
