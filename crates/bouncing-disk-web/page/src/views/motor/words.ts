@@ -99,8 +99,10 @@ export const describeRunUp = ({ json }: Transient, own: Operation | null, { larg
 
 /** Where a motor is caught in a short cycle, or would be. */
 export function describeTrap(trap: TrapJson): string {
+  const [low, high] = trap.forcing_from_to;
   // With digits enough to find it.
-  const [from = "", to = "", preload = ""] = [...trap.forcing_from_to, trap.preload_acceleration].map((one) => shown(one, 9));
+  const digits = [4, 6, 9, 12].find((count) => shown(low, count) !== shown(high, count)) ?? 15;
+  const [from, to, preload] = [shown(low, digits), shown(high, digits), shown(trap.preload_acceleration, 9)];
   const away = plain(100 * Math.abs(trap.relative_distance), 2);
   return say(trap.caught ? TEXTS.trap : TEXTS.trap_near, { preload, from, to, away });
 }
