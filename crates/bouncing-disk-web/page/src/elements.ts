@@ -103,7 +103,7 @@ export class Facts<Name extends string> {
     for (const [name, text] of Object.entries<string>(names)) {
       const value = element("dd", {}, "–");
       this.values.set(name, value);
-      this.root.append(element("div", {}, element("dt", {}, text), value));
+      this.root.append(element("div", {}, element("dt", {}, ...rich(text)), value));
     }
   }
 

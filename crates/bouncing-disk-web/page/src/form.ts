@@ -1,7 +1,7 @@
 /** The form of all parameters, and the numbers that follow from them. Which values are legal is for the module to say. */
 
 import type { Change, State } from "./contract";
-import { element, symbol } from "./elements";
+import { element, Facts, symbol } from "./elements";
 import { NumberField } from "./fields";
 import { quantity, shown } from "./numbers";
 import type { Range, Refusal, Summary, SystemParameters } from "./protocol";
@@ -180,7 +180,7 @@ export const shortLabelOf = (parameter: Parameter): string => labelOf(parameter)
 
 export class Parameters {
   private readonly fields: Field[] = [];
-  private readonly list = element("dl", { class: "readout" });
+  private readonly facts = new Facts(WORDS.form.readout.facts, WORDS.form.follows);
   private readonly sentence = element("p", { class: "bounces" });
   private summary: Summary | null = null;
 
@@ -192,7 +192,7 @@ export class Parameters {
       this.fields.push(...fields);
       host.append(group(name, WORDS.form.groups[name as keyof typeof GROUPS], ...fields.map((field) => field.element)));
     }
-    host.append(group("follows", WORDS.form.follows, this.list, this.sentence));
+    host.append(group("follows", WORDS.form.follows, this.facts.root, this.sentence));
   }
 
   /** What follows from the state that is shown next, as the module gives it. */
@@ -200,17 +200,14 @@ export class Parameters {
     this.summary = summary;
     const { angular_forcing, rise_time, contact } = summary;
     const { readout } = WORDS.form;
-    const rows = [
-      ["Γ_T", readout.angular_forcing, angular_forcing === null ? readout.no_friction : shown(angular_forcing, 4)],
-      ["Aω²/g", readout.peak_acceleration, `${shown(summary.peak_acceleration, 4)} g`],
-      ["2π/ω", readout.period, quantity(summary.period, "s", 4)],
-      ["t_r", readout.rise_time, rise_time === null ? readout.none : quantity(rise_time, "s", 4)],
-      ["T_c", readout.contact, contact?.[0][1] ?? WORDS.form.rigid],
-      ["mg/kA", readout.indentation, contact?.[1][1] ?? readout.none],
-    ] as const;
-    const row = (sign: string, name: string, value: string) =>
-      element("div", {}, element("dt", {}, symbol(sign), ` ${name}`), element("dd", {}, value));
-    this.list.replaceChildren(...rows.map(([sign, name, value]) => row(sign, name, value)));
+    this.facts.set({
+      angular_forcing: angular_forcing === null ? readout.no_friction : shown(angular_forcing, 4),
+      peak_acceleration: `${shown(summary.peak_acceleration, 4)} g`,
+      period: quantity(summary.period, "s", 4),
+      rise_time: rise_time === null ? readout.none : quantity(rise_time, "s", 4),
+      contact: contact?.[0][1] ?? WORDS.form.rigid,
+      indentation: contact?.[1][1] ?? readout.none,
+    });
     this.sentence.textContent = summary.bounces ? readout.bounces : readout.never_bounces;
   }
 

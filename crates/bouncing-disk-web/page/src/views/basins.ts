@@ -134,7 +134,6 @@ export class BasinsView extends ComputingView {
       throw error;
     }
     this.complete = true;
-    this.previous = null;
     const seconds = ((performance.now() - began) / 1000).toFixed(2);
     this.context.status(say(TEXTS.computed, { ...at, phases: grid.phases, speeds: grid.speeds, seconds }));
     const window = [...grid.phase_periods, ...grid.normalised_speed].map((end) => brief(end));

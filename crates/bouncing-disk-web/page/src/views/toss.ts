@@ -41,7 +41,8 @@ export class TossView implements View {
   private readonly scene = new Layers("picture-scene", TEXTS.scene);
   private readonly readings = new Readings();
   private readonly gains = element("p", { class: "remark" });
-  private readonly thrown = element("p", { class: "remark", hidden: true });
+  private readonly throwWords = element("span");
+  private readonly thrown = element("p", { class: "remark", hidden: true }, this.throwWords, " ");
   private readonly rounding = roundingCaution("toss-rest", WORDS.asking.rounding_toss);
   private readonly alternative = element("p", { class: "hidden", "aria-live": "polite" });
   private readonly heights = new ScreenChart(chartHeight);
@@ -62,7 +63,6 @@ export class TossView implements View {
   private asked = "";
   /** The motion that is recorded. */
   private recorded = "";
-  private throwTold: FlightStart | null = null;
   private tracesDrawn = -1;
   private anew = true;
   private readonly draw = oncePerFrame(() => this.paint());
@@ -85,6 +85,7 @@ export class TossView implements View {
       start: (thrown: FlightStart) => context.change({ thrown }),
     };
     attachThrowing(this.scene.surface, throwing);
+    this.thrown.append(button(TEXTS.back_to_impact, () => context.change({ thrown: null })));
     this.player.played = (from, to, seconds) => {
       if (this.recording === null) return;
       const { recording } = this;
@@ -236,7 +237,7 @@ export class TossView implements View {
     const impacts = recording.impactsUntil(player.now * recording.period);
     this.readings.show(moment, player.now, impacts, recording);
     // Not while it moves: a screen reader would never come to an end.
-    setText(this.alternative, player.playing || this.held !== null ? "" : this.readings.text());
+    setText(this.alternative, player.playing || this.held !== null ? "" : this.readings.facts.text());
     this.showTraces(recording);
     this.portrait.show(recording, context.state().start, impacts, this.anew);
     this.anew = false;
@@ -280,10 +281,7 @@ export class TossView implements View {
   /** That the disk was thrown stays to be read, with the way back to the shared impact. */
   private tellThrow(thrown: FlightStart | null): void {
     this.thrown.hidden = thrown === null;
-    if (thrown === null || thrown === this.throwTold) return;
-    this.throwTold = thrown;
-    const back = button(TEXTS.back_to_impact, () => this.context.change({ thrown: null }));
-    this.thrown.replaceChildren(describeThrow(thrown), " ", back);
+    setText(this.throwWords, thrown === null ? "" : describeThrow(thrown));
   }
 
   private choose([phase, speed]: Point): void {

@@ -42,7 +42,6 @@ export class Dots {
 
   end(diagram: Diagram, rows: number): void {
     this.complete = true;
-    this.previous = null;
     this.arrange(diagram, rows);
   }
 
@@ -55,7 +54,7 @@ export class Dots {
     const range = this.range(diagram);
     const key = JSON.stringify([this.name, quantity, range, rows]);
     if (key === this.drawn || this.count === 0) return false;
-    if (this.drawn === "" || this.shown?.quantity !== quantity) this.previous = this.complete ? null : this.shown;
+    if (this.drawn === "") this.previous = this.shown;
     this.drawn = key;
     this.shown = new OrbitPicture({ x: diagram.axial_forcing, y: range }, quantity, this.count, rows);
     for (const columns of this.columns) this.shown.add(columns);

@@ -9,7 +9,7 @@ const TEXTS = WORDS.toss;
 const MODES: Readonly<Record<string, string>> = TEXTS.modes;
 
 export class Readings {
-  private readonly facts = new Facts(TEXTS.facts, TEXTS.now_label);
+  readonly facts = new Facts(TEXTS.facts, TEXTS.now_label);
   private readonly ledger = new Facts(TEXTS.energy, TEXTS.balance_label);
   private readonly ledgerTitle = element("h3");
   readonly elements = [element("h3", {}, TEXTS.now), this.facts.root, this.ledgerTitle, this.ledger.root];
@@ -30,11 +30,6 @@ export class Readings {
       rotary: quantity((gyration_radius * spin) ** 2 / 2, "J/kg"),
       potential: quantity(g * height, "J/kg"),
     });
-  }
-
-  /** The present state in words, for those who do not see the list. */
-  text(): string {
-    return this.facts.text();
   }
 
   balance({ energy, periods }: Recording): void {
