@@ -16,7 +16,7 @@ import { Parameters } from "./form";
 import { Notes, Problems, showOpening } from "./notes";
 import { openingPanel, PRESETS, stateOf, type Panel, type Preset } from "./presets";
 import { printSheet } from "./sheet";
-import { choices, helpDialog, shortcutsOn, Stage, Tabs } from "./shell";
+import { choices, helpDialog, shortcutsOn, Stage } from "./shell";
 import { toHash, type fromHash } from "./state";
 import { Store } from "./store";
 import { BasinsView } from "./views/basins";
@@ -56,7 +56,6 @@ function begin(): void {
     changed: (state, { settled, fromAddress }) => {
       if (fromAddress) address.tidy(state);
       else address.write(state, settled);
-      tabs.show(state.view);
       parameters.show(state, fresh || fromAddress);
       notes.show(state, course.running);
       stage.show(state);
@@ -96,7 +95,6 @@ function begin(): void {
     },
   };
   const showInFull = embedded(byId("main"));
-  const stage = new Stage(byId("views"), VIEWS, context);
   /** What the motor's view has put aside: a hand is no motor. */
   let aside: State | null = null;
   const visit = (view: ViewName): void => {
@@ -111,7 +109,7 @@ function begin(): void {
       aside = null;
     } else store.change({ view });
   };
-  const tabs = new Tabs(byId("tabs"), visit);
+  const stage = new Stage(byId("tabs"), byId("views"), VIEWS, context, visit);
   const parameters = new Parameters(byId("parameters"), (change, options) => store.change(change, options));
   const choose = (preset: Preset, panel: Panel): void => {
     course.stay();
@@ -175,7 +173,7 @@ function begin(): void {
   for (const [, name, act] of tools) tool(name).addEventListener("click", act);
   byId("skip").addEventListener("click", (event) => {
     event.preventDefault();
-    stage.host?.focus();
+    stage.focus();
   });
 
   document.addEventListener("keydown", (event) => {

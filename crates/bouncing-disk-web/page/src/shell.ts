@@ -5,74 +5,63 @@ import { darkness } from "./drawing/pen";
 import { button, closeButton, div, element, kept, oncePerFrame, rove } from "./elements";
 import { say, WORDS } from "./words";
 
-/** The tabs of the views: arrow keys move between them, as everywhere. */
-export class Tabs {
-  private readonly buttons: readonly HTMLButtonElement[];
-
-  constructor(list: HTMLElement, choose: (name: ViewName) => void) {
-    this.buttons = VIEW_NAMES.map((name) => {
-      const attributes = { role: "tab", id: `tab-${name}`, "aria-controls": `view-${name}` };
-      return button(WORDS.views[name].title, () => choose(name), attributes);
-    });
-    list.append(...this.buttons);
-    rove(list, (tab) => tab.click());
-  }
-
-  show(present: ViewName): void {
-    this.buttons.forEach((tab, index) => {
-      const shown = VIEW_NAMES[index] === present;
-      const was = tab.getAttribute("aria-selected") === "true";
-      tab.setAttribute("aria-selected", String(shown));
-      tab.tabIndex = shown ? 0 : -1;
-      // Only a tab that was not chosen before: a change of a parameter leaves the page where it is.
-      if (shown && !was) tab.scrollIntoView({ block: "nearest", inline: "nearest" });
-    });
-  }
-}
-
-/** Shows one view at a time, and keeps it at the size of its place. */
+/** The tabs, between which arrow keys move as everywhere, and one view at a time, at the size of its place. */
 export class Stage {
-  private readonly hosts: ReadonlyMap<ViewName, HTMLElement>;
+  private readonly parts: ReadonlyMap<ViewName, { tab: HTMLButtonElement; host: HTMLElement }>;
   private readonly made = new Map<ViewName, View>();
-  private present: ViewName | null = null;
+  private present: ViewName = "toss";
   /** Once in the next frame, however often it is asked for. */
-  readonly redraw = oncePerFrame(() => this.view?.redraw());
+  private readonly redraw = oncePerFrame(() => this.made.get(this.present)?.redraw());
 
   constructor(
+    list: HTMLElement,
     place: HTMLElement,
     private readonly classes: Readonly<Record<ViewName, ViewClass>>,
     private readonly context: Context,
+    choose: (name: ViewName) => void,
   ) {
-    this.hosts = new Map(
+    this.parts = new Map(
       VIEW_NAMES.map((name) => {
-        const said = { "aria-labelledby": `tab-${name}`, "aria-description": WORDS.views[name].description };
+        const { title, description } = WORDS.views[name];
         const own = { class: `view view-${name}`, id: `view-${name}`, role: "tabpanel", tabindex: -1, hidden: true };
-        return [name, element("div", { ...own, ...said })];
+        const said = { "aria-labelledby": `tab-${name}`, "aria-description": description };
+        const attributes = { role: "tab", id: `tab-${name}`, "aria-controls": `view-${name}` };
+        return [name, { tab: button(title, () => choose(name), attributes), host: element("div", { ...own, ...said }) }];
       }),
     );
-    place.append(...this.hosts.values());
-    const observer = new ResizeObserver(() => this.redraw());
-    for (const host of this.hosts.values()) observer.observe(host);
+    const observer = new ResizeObserver(this.redraw);
+    for (const { tab, host } of this.parts.values()) {
+      list.append(tab);
+      place.append(host);
+      observer.observe(host);
+    }
+    rove(list, (tab) => tab.click());
     darkness().addEventListener("change", this.redraw);
   }
 
   get view(): View | undefined {
-    return this.present === null ? undefined : this.made.get(this.present);
+    return this.made.get(this.present);
   }
 
-  get host(): HTMLElement | undefined {
-    return this.present === null ? undefined : this.hosts.get(this.present);
+  focus(): void {
+    this.parts.get(this.present)?.host.focus();
   }
 
   show(state: State): void {
-    if (this.present !== state.view) {
+    const { tab, host } = this.parts.get(state.view) as { tab: HTMLButtonElement; host: HTMLElement };
+    // A change of a parameter leaves the page where it is.
+    if (host.hidden) {
       this.view?.hide();
       this.present = state.view;
-      for (const [name, host] of this.hosts) host.hidden = name !== state.view;
+      for (const other of this.parts.values()) {
+        other.host.hidden = other.tab !== tab;
+        other.tab.setAttribute("aria-selected", String(other.tab === tab));
+        other.tab.tabIndex = other.tab === tab ? 0 : -1;
+      }
+      tab.scrollIntoView({ block: "nearest", inline: "nearest" });
       this.context.status("");
     }
-    const { host, classes, context } = this;
-    if (this.view === undefined && host) this.made.set(state.view, new classes[state.view](host, context));
+    if (this.view === undefined) this.made.set(state.view, new this.classes[state.view](host, this.context));
     this.view?.show(state);
   }
 }

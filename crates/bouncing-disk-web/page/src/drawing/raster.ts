@@ -51,16 +51,3 @@ export function pixelWord(colour: string): number {
   const value = parseInt(colour.slice(1), 16);
   return new Uint32Array(Uint8Array.of(value >> 16, value >> 8, value, 255).buffer)[0] as number;
 }
-
-/** The words of `count` colours from the first stop to the last, evenly spaced in Oklab, as the browser mixes them. */
-export function colourScale(stops: readonly string[], count: number): Uint32Array {
-  const context = element("canvas", { width: count, height: 1 }).getContext("2d", { willReadFrequently: true });
-  if (context === null) return new Uint32Array(count);
-  for (let index = 0; index < count; index += 1) {
-    const place = (index / (count - 1)) * (stops.length - 1);
-    const low = Math.min(Math.floor(place), stops.length - 2);
-    context.fillStyle = `color-mix(in oklab, ${stops[low + 1]} ${100 * (place - low)}%, ${stops[low]})`;
-    context.fillRect(index, 0, 1, 1);
-  }
-  return new Uint32Array(context.getImageData(0, 0, count, 1).data.buffer);
-}

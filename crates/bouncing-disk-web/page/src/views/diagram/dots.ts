@@ -3,7 +3,7 @@
 import type { Quantity, State } from "../../contract";
 import { clamp, extent, padded, type Plot } from "../../drawing/axes";
 import type { Pen } from "../../drawing/pen";
-import { colourScale, pixelWord, Raster } from "../../drawing/raster";
+import { pixelWord, Raster } from "../../drawing/raster";
 import type { Window2 } from "../../drawing/window";
 import { DIAGRAM_COLUMNS, type Range } from "../../protocol";
 import { axisValue, columnOf, RECORDED, type Columns } from "./columns";
@@ -76,7 +76,7 @@ function rangeOf(columns: readonly Columns[], quantity: Quantity): Range | null 
   return quantity === "normalised_speed" ? [0, padded([0, high])[1]] : padded([low, high]);
 }
 
-const SHADES = 64;
+const SHADES = 5;
 /** All of an orbit in one pixel has the last colour. */
 const SCALE = (SHADES - 1) / Math.log1p(RECORDED);
 
@@ -96,8 +96,7 @@ class OrbitPicture {
     const known = (this.known = new Uint8Array(width));
     const counts = (this.counts = new Uint16Array(width * height));
     this.raster = new Raster(width, height, (colour) => {
-      const stops = [0, 1, 2, 3, 4].map((index) => colour(`--density-${index}`));
-      const shades = colourScale(stops, SHADES);
+      const shades = Array.from({ length: SHADES }, (_, index) => pixelWord(colour(`--density-${index}`)));
       const paper = pixelWord(colour("--picture-paper"));
       return (x, y) => {
         const count = counts[y * width + x] as number;
