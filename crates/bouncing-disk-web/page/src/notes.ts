@@ -11,13 +11,6 @@ const BY_HASH = new Map<string, { preset: Preset; panel: Panel }>(
   [...PRESETS].reverse().flatMap((preset) => preset.panels.map((panel) => [toHash(stateOf(panel)), { preset, panel }])),
 );
 
-/** Whether a note still speaks of this state: the same view, with no more of the system changed than is left of it. */
-function isNear(state: State, shown: State): boolean {
-  const names = Object.keys(shown.system) as (keyof State["system"])[];
-  const changes = names.filter((name) => state.system[name] !== shown.system[name]).length;
-  return state.view === shown.view && 2 * changes <= names.length;
-}
-
 /** What a note speaks of: settings of comparisons and scans change none of it. */
 const hashOf = (state: State): string =>
   toHash({ ...state, compare: DEFAULT_STATE.compare, scan: DEFAULT_STATE.scan });
@@ -41,7 +34,7 @@ export class Notes {
     const hash = hashOf(state);
     const own = shown?.preset.panels.find((panel) => toHash(stateOf(panel)) === hash);
     const found = shown && own ? { preset: shown.preset, panel: own } : BY_HASH.get(hash);
-    const near = shown !== null && isNear(state, stateOf(shown.panel)) ? shown : null;
+    const near = shown !== null && state.view === stateOf(shown.panel).view ? shown : null;
     this.shown = quiet ? null : (found ?? near);
     if (this.shown === null) this.close();
     else this.draw(this.shown.preset, found?.panel ?? null);

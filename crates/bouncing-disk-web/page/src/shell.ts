@@ -113,10 +113,8 @@ export function helpDialog(): HTMLDialogElement {
     return element("div", {}, element("dt", {}, ...caps), element("dd", {}, what));
   });
   const paragraph = (...parts: (Node | string)[]): HTMLElement => element("p", {}, ...parts);
-  const [before = "", after = ""] = texts.model.split("{paper}");
-  const model = paragraph(before, element("cite", {}, texts.paper), after);
   const list = element("dl", { class: "keys" }, ...keys);
   const switched = paragraph(element("label", {}, box, ` ${texts.on}`));
-  const what = [element("h3", {}, texts.what), paragraph(say(texts.about, WORDS.opening)), model];
+  const what = [element("h3", {}, texts.what), paragraph(say(texts.about, WORDS.opening)), paragraph(texts.model)];
   return dialog(texts.title, "help", list, switched, ...what, paragraph(texts.licence));
 }

@@ -32,7 +32,7 @@ onPage("a figure opens with its note, and its panels by their names, if it has s
   }
 });
 
-onPage("the note goes with its state, and where another view or another system has come", {}, async (page) => {
+onPage("the note goes with its state, and where another view has come", {}, async (page) => {
   await preset(page, "fig07");
   await type(page, "restitution", "0.6");
   await page.waitForSelector("#note .changed");
@@ -43,14 +43,6 @@ onPage("the note goes with its state, and where another view or another system h
   assert.equal(await page.isVisible("#note"), false);
   await preset(page, "fig10");
   await page.click("#tab-toss");
-  await page.waitForSelector("#note", { state: "hidden" });
-  await preset(page, "fig03");
-  // The motor's sheet in the same view.
-  await page.evaluate(() => {
-    location.hash =
-      "#view=toss&amplitude=1e-8&twist_amplitude=7e-5&angular_frequency=439823&phase_lag=0&contact_radius=0.00125" +
-      "&gyration_radius=0.0063&friction=0.1";
-  });
   await page.waitForSelector("#note", { state: "hidden" });
 });
 

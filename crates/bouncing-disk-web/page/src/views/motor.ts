@@ -12,7 +12,7 @@ import { say, WORDS } from "../words";
 import { Asked, attractorsCaution, ComputingView } from "./asking";
 import { loadCharts, motorOffers, transientChart } from "./motor/charts";
 import { Known, membersOf, operate, PASSES, reportOf, sheetOf, stallOf, transientOf, SLOT } from "./motor/requests";
-import type { Operation, Pass } from "./motor/requests";
+import type { Pass } from "./motor/requests";
 import { SheetPanel } from "./motor/sheet";
 import { describeCurves, describeRunUp, ReportPanel, whyNothingTurns } from "./motor/words";
 
@@ -123,7 +123,7 @@ export class MotorView extends ComputingView {
       throw error;
     }
     if (known.problems.runUp !== undefined) context.status(known.problems.runUp, "error");
-    else context.status(summaryOf(known.operations));
+    else context.status(say(WORDS.motor.done, { loads: known.operations.length }));
   }
 
   private async runUp(sheet: MotorSheet, rise_times: number, known: Known): Promise<void> {
@@ -217,13 +217,4 @@ function isSteady({ transient, own }: Known): boolean {
     const slack = NEAR * Math.abs(own.speed) + 3 * Math.hypot(error, own.speed_error);
     return Math.abs(speed - own.speed) <= slack;
   });
-}
-
-function summaryOf(operations: readonly Operation[]): string {
-  const [unsettled, runaway] = [1, 2].map((wanted) => operations.filter(({ status }) => status === wanted).length);
-  const { done, unsettled: slow, runaway: driven } = WORDS.motor;
-  const words = [say(done, { loads: operations.length })];
-  if (unsettled) words.push(say(slow, { loads: unsettled }));
-  if (runaway) words.push(say(driven, { loads: runaway }));
-  return words.join(" ");
 }

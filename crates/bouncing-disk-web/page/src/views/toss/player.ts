@@ -102,9 +102,7 @@ export class Controls {
     if (document.activeElement !== this.place || player.playing) this.place.value = String(player.now);
     this.place.setAttribute("aria-valuetext", say(TEXT.aria_time, { periods: player.now.toFixed(2) }));
     const real = player.rate * this.host.period();
-    const ratio = say(real < 1 ? TEXT.slowed : TEXT.quickened, { times: plain(real < 1 ? 1 / real : real, 2) });
-    const how = Math.abs(real - 1) < 0.05 ? TEXT.as_it_is : ratio;
-    setText(this.told, say(TEXT.rate, { rate: plain(player.rate, 2), how }));
+    setText(this.told, say(real < 1 ? TEXT.slowed : TEXT.quickened, { times: plain(real < 1 ? 1 / real : real, 2) }));
   }
 
   private toggle(): void {
