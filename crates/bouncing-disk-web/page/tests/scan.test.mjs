@@ -82,10 +82,10 @@ test("an optimum says from how many points it is, and which of them its error do
   for (const [line, said] of [
     [
       [of(1, 0.1), of(4.8, 0.1), of(5, 0.1), of(4.5, 0.1), unsettled],
-      /largest of 4 .* is \(5\.00 ± 0\.10\) rad\/s at μ = 2\. Another point, at 1, cannot be told apart/,
+      /largest of 4 .* is \(5\.00 ± 0\.10\) rad\/s at μ = 2\. Points that cannot be told apart from it: 1, from 1 to 1\./,
     ],
     [[1, 2, 5, 4, 3].map((value) => of(value)), /is 5\.000 rad\/s at μ = 2\.$/],
-    [[5, 2, 5, 5, 3].map((value) => of(value)), /2 other points, from 2 to 3, cannot be .* at the end of the range/],
+    [[5, 2, 5, 5, 3].map((value) => of(value)), /it: 2, from 2 to 3\. .* at the end of the range/],
     [[unsettled, unsettled], /^No point has a value/],
   ])
     assert.match(describeOptima(plan, [line])[0], said);
@@ -112,7 +112,7 @@ onPage("the sixteenth digit: chaos shows it, the same number does nothing, anoth
   const amplitude = Number((await stateOf(page)).amplitude);
   for (const row of [0, first, 3000]) assert.equal(Math.abs(rows[row][1] - rows[row][2]) / amplitude, apart[row]);
   await enter(page, OTHER, "0.5");
-  await whenText(page, "#view-compare .optima", /^Not one bit differs in 120 periods/);
+  await whenText(page, "#view-compare .optima", /^Not one bit of the heights differs in 120 periods/);
   await page.click("text=One unit in the last place");
   await whenAddress(page, "compare_value", "0.5000000000000001");
   await settled(page);

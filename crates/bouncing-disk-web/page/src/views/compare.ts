@@ -256,15 +256,11 @@ async function pairOf(context: Context, state: State): Promise<Pair> {
 const endOf = (verdict: VerdictJson): string => behaviour(verdict) + (verdict.rounding_dependent ? TEXT.rounding : "");
 
 /** What there is to say of two motions. */
-function describe({ motions, apart, parting, ends, state: { compare } }: Pair): string[] {
+function describe({ apart, parting, ends, state: { compare } }: Pair): string[] {
   const { periods } = compare;
-  const [heights, spins] = (["height", "angular_speed"] as const).map((name) => {
-    const [a, b] = columnsOf({ motions }, name);
-    return a.every((value, row) => value === b[row]);
-  });
   const lasting = ends === null ? TEXT.noVerdict : say(TEXT.ends, { a: ends[0], b: ends[1] });
-  if (heights) return [say(spins ? TEXT.identical : TEXT.sameHeights, { periods, samples: SAMPLES }), lasting];
   const [, most] = extent(apart) as Range;
+  if (most === 0) return [say(TEXT.identical, { periods, samples: SAMPLES }), lasting];
   if (most < ROUNDED) return [lasting, say(TEXT.rounded, { periods })];
   if (parting === null) return [lasting, say(TEXT.together, { periods, largest: plain(most, 2) })];
   return [lasting, parting * SAMPLES < 2 ? TEXT.atOnce : say(TEXT.apart, { first: plain(parting, 3) })];

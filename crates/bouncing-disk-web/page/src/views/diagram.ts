@@ -12,8 +12,7 @@ import { DIAGRAM_COLUMNS, type DiagramJson, type Range, type VerdictJson } from 
 import { amplitudeOf, axialForcing, contactPeriods, DEFAULT_STATE } from "../state";
 import { Asked, ComputingView, impactOf } from "./asking";
 import { areDrawn, BRANCHES, branchesOf, isPlain, paintBranches, tablesOf, type Branches } from "./diagram/branches";
-import { computeColumns, DESCRIBED, distinctImpacts, LENGTHS, TRANSIENT } from "./diagram/columns";
-import type { Wanted } from "./diagram/columns";
+import { computeColumns, DESCRIBED, distinctImpacts, LENGTHS, TRANSIENT, type Wanted } from "./diagram/columns";
 import { Dots } from "./diagram/dots";
 import { describeBifurcations, describeDiagram, SAMPLE_SLOTS, Verdict, verdictsOf } from "./diagram/words";
 

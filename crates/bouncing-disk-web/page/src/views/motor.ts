@@ -65,12 +65,12 @@ export class MotorView extends ComputingView {
   }
 
   offers(): Offer[] {
-    const { sheet, text, transient, operations, own } = this.known;
+    const { sheet, text, transient, own } = this.known;
     if (sheet === null || text === "") return [];
     const runUp = transient === null ? null : transientChart(transient, own);
     const more = sheet.stator ? [say(WORDS.files.stator, { stator: JSON.stringify(sheet.stator) })] : [];
     const basis = { state: this.context.state(), names: PARTS.rotor, more };
-    return motorOffers({ sheet, text, transient, operations, runUp, curves: this.curves(), basis });
+    return motorOffers(this.known, runUp, this.curves(), basis);
   }
 
   private curves(): Chart[] {

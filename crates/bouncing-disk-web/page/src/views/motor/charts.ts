@@ -4,9 +4,9 @@ import type { Offer } from "../../contract";
 import { padded, prefixed } from "../../drawing/axes";
 import { chartOffers, spanOf, type Chart, type Curve, type Mark, type Stretch } from "../../drawing/chart";
 import { ONE_COLUMN, rowsOf, tableOffers, type Basis } from "../../drawing/files";
-import { OPERATION_COLUMNS, TRANSIENT_COLUMNS, type MotorSheet, type Range, type StallJson } from "../../protocol";
+import { OPERATION_COLUMNS, TRANSIENT_COLUMNS, type Range, type StallJson } from "../../protocol";
 import { WORDS } from "../../words";
-import { membersOf, SEED, type Operation, type Transient } from "./requests";
+import { membersOf, SEED, type Known, type Operation, type Transient } from "./requests";
 
 const { charts: TEXTS, files: FILES, titles: TITLES } = WORDS.motor;
 
@@ -105,17 +105,8 @@ const LOAD_UNITS = [
 ]; // prettier-ignore
 const STATUS = ["steady", "unsettled", "runaway"] as const;
 
-interface MotorParts {
-  readonly sheet: MotorSheet;
-  readonly text: string;
-  readonly transient: Transient | null;
-  readonly operations: readonly Operation[];
-  readonly runUp: Chart | null;
-  readonly curves: readonly Chart[];
-  readonly basis: Basis;
-}
-
-export function motorOffers({ sheet, text, transient, operations, runUp, curves, basis }: MotorParts): Offer[] {
+export function motorOffers(known: Known, runUp: Chart | null, curves: readonly Chart[], basis: Basis): Offer[] {
+  const { sheet, text, transient, operations } = known;
   const written = async () => new Blob([text], { type: "application/json" });
   const offers: Offer[] = [{ name: FILES.sheet, kind: "json", make: written }];
   if (transient !== null) {

@@ -143,11 +143,7 @@ function caveats(range: Range, at: readonly number[], line: readonly (Reading | 
   });
   const end = at[best] === range[0] || at[best] === range[1];
   const among = { count: alike.length, low: shown(alike[0] ?? NaN, 4), high: shown(alike.at(-1) ?? NaN, 4) };
-  const { alike: several, alikeOne, atEnd } = WORDS.scan;
-  return [
-    ...(alike.length > 0 ? [say(alike.length === 1 ? alikeOne : several, among)] : []),
-    ...(end ? [atEnd] : []),
-  ];
+  return [...(alike.length > 0 ? [say(WORDS.scan.alike, among)] : []), ...(end ? [WORDS.scan.atEnd] : [])];
 }
 
 /** "11 of 205 points are left out, the first since ...", and where a disk at rest is moved. */

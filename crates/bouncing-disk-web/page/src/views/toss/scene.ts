@@ -1,7 +1,6 @@
 /** Disk and platform in perspective, and the path of a point of the platform, drawn on a canvas. */
 
-import { padded, pixelX, pixelY, prefixed, roundUp } from "../../drawing/axes";
-import type { Axes, Plot } from "../../drawing/axes";
+import { padded, pixelX, pixelY, prefixed, roundUp, type Axes, type Plot } from "../../drawing/axes";
 import type { Pen } from "../../drawing/pen";
 import { plain, quantity } from "../../numbers";
 import type { Range, SystemParameters } from "../../protocol";
