@@ -3,7 +3,8 @@
 import type { Change, State } from "./contract";
 import { byId, button, element, rich, setText } from "./elements";
 import { nextDouble } from "./numbers";
-import { basins, bouncing, diagram, motor, multipleToss, REST, stateOf, toss, tossOf, withForcing, withTwist } from "./presets";
+import { basins, bouncing, diagram, motor, multipleToss, REST, stateOf } from "./presets";
+import { toss, tossOf, withForcing, withTwist } from "./presets";
 import type { Range } from "./protocol";
 import { say, WORDS } from "./words";
 

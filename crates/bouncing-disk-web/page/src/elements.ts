@@ -108,7 +108,8 @@ export class Facts<Name extends string> {
   }
 
   text(): string {
-    return [...this.root.children].map((row) => [...row.children].map((part) => part.textContent).join(": ")).join(". ");
+    const told = ({ firstChild, lastChild }: Node) => `${firstChild?.textContent}: ${lastChild?.textContent}`;
+    return [...this.root.children].map(told).join(". ");
   }
 
   clear(text: string): void {

@@ -32,7 +32,7 @@ export class NumberField {
     }); // prettier-ignore
   }
 
-  /** Shows these numbers; `fresh` if what was typed is of no interest. What is wrong stays until there are others. */
+  /** Shows these numbers. What is wrong stays until there are others, or where they are `fresh`. */
   show(values: readonly number[], meaning: Meaning, fresh = false): void {
     const same = !fresh && String(values) === String(this.values);
     if (!same) this.complain(null);
@@ -45,7 +45,7 @@ export class NumberField {
     const { most = 1 } = this.field;
     if (this.input.value === this.printed) return [...this.values];
     const texts = most === 1 ? [this.input.value] : this.input.value.split(/;|,\s/);
-    const numbers = texts.map((text) => typed(text, this.meaning.unit, this.meaning.angle)).filter((value) => value !== null);
+    const numbers = texts.flatMap((text) => typed(text, this.meaning.unit, this.meaning.angle) ?? []);
     return numbers.length === texts.length && numbers.length <= most ? numbers : null;
   }
 

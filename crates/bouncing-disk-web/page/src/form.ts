@@ -146,7 +146,7 @@ const GROUPS: Readonly<Record<keyof typeof WORDS.form.groups, readonly Parameter
       value: ({ system }) =>
         asTyped(contactPeriods(system), (periods) => contactTime(periods, system) === system.contact_time),
       change: (value, { system }) => ({ system: { contact_time: contactTime(value, system) } }),
-      hint: (_, { system: { contact_time } }) => (contact_time === 0 ? WORDS.form.rigid : quantity(contact_time, "s", 4)),
+      hint: (_, { system }) => (system.contact_time === 0 ? WORDS.form.rigid : quantity(system.contact_time, "s", 4)),
     },
     ofSystem("contact_radius", "a_e", "m", LOGARITHMIC, { hint: metres }),
     ofSystem("gyration_radius", "a_g", "m", LOGARITHMIC, { hint: metres }),

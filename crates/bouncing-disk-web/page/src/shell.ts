@@ -5,7 +5,7 @@ import { darkness } from "./drawing/pen";
 import { button, closeButton, div, element, kept, oncePerFrame, rove } from "./elements";
 import { say, WORDS } from "./words";
 
-/** The tabs, between which arrow keys move as everywhere, and one view at a time, at the size of its place. */
+/** The tabs, between which arrow keys move, and one view at a time, at the size of its place. */
 export class Stage {
   private readonly parts: ReadonlyMap<ViewName, { tab: HTMLButtonElement; host: HTMLElement }>;
   private readonly made = new Map<ViewName, View>();
@@ -25,8 +25,8 @@ export class Stage {
         const { title, description } = WORDS.views[name];
         const own = { class: `view view-${name}`, id: `view-${name}`, role: "tabpanel", tabindex: -1, hidden: true };
         const said = { "aria-labelledby": `tab-${name}`, "aria-description": description };
-        const attributes = { role: "tab", id: `tab-${name}`, "aria-controls": `view-${name}` };
-        return [name, { tab: button(title, () => choose(name), attributes), host: element("div", { ...own, ...said }) }];
+        const head = { role: "tab", id: `tab-${name}`, "aria-controls": `view-${name}` };
+        return [name, { tab: button(title, () => choose(name), head), host: element("div", { ...own, ...said }) }];
       }),
     );
     const observer = new ResizeObserver(this.redraw);

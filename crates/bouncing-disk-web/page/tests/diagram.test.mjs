@@ -34,7 +34,7 @@ test("another motion of the platform is drawn and said, without the branches and
     await isCalm(page);
     assert.match(await words(page), /The platform moves as triangle\.($| .*still on their way\.)/);
     assert.ok(await page.isDisabled("#view-diagram input[type=checkbox]"));
-    await page.selectOption("#view-diagram label:has-text('Motion of the platform') select", "sine");
+    await page.selectOption("#view-diagram label:has-text('Platform') select", "sine");
     await page.waitForFunction(() => /In the long run/.test(document.querySelector("#view-diagram .alternative").textContent));
   });
 });

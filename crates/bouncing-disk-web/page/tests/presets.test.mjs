@@ -9,9 +9,8 @@ const { PRESETS, stateOf: panelState } = await sourceOf("presets.ts");
 const { COURSES } = await sourceOf("courses.ts");
 const { toHash } = await sourceOf("state.ts");
 
-test("a figure says in some sentences what to see, and every panel is another state", () => {
-  for (const { id, text, panels } of PRESETS) {
-    assert.ok(text.length > 80 && text.split(/[.;:] /).length >= 2, `${id}: ${text}`);
+test("every panel of a figure is another state", () => {
+  for (const { id, panels } of PRESETS) {
     assert.equal(new Set(panels.map((panel) => toHash(panelState(panel)))).size, panels.length, id);
   }
 });

@@ -26,7 +26,7 @@ scan("the best hand motion: its optima are those of Fig. 4, and a point opens it
   const largest = /θ = 0: The largest of 40 computed points is 2[12]\.\d+ rad\/s at φL = 0\.945 rad/;
   await whenText(page, "#view-scan .optima", largest, 60_000);
   assert.equal((await optima(page)).length, 5);
-  assert.match(await remark(page), /^Points without a settled value: 5 of 205, the first since the disk never leaves .*, not above 1 g\./);
+  assert.match(await remark(page), /^Points without a settled value: 5 of 205, the first since the disk never leaves/);
   const { columns, rows } = await saved(page, "scan");
   assert.deepEqual(columns.slice(0, 3), ["phase_lag", "amplitude_angle", "toss_speed"]);
   assert.equal(rows.length, 205);
@@ -82,7 +82,7 @@ test("an optimum says from how many points it is, and which of them its error do
   for (const [line, said] of [
     [
       [of(1, 0.1), of(4.8, 0.1), of(5, 0.1), of(4.5, 0.1), unsettled],
-      /largest of 4 .* is \(5\.00 ± 0\.10\) rad\/s at μ = 2\. Points that cannot be told apart from it: 1, from 1 to 1\./,
+      /largest of 4 .* is \(5\.00 ± 0\.10\) rad\/s at μ = 2\. Points .* told apart from it: 1, from 1 to 1\./,
     ],
     [[1, 2, 5, 4, 3].map((value) => of(value)), /is 5\.000 rad\/s at μ = 2\.$/],
     [[5, 2, 5, 5, 3].map((value) => of(value)), /it: 2, from 2 to 3\. .* at the end of the range/],
@@ -128,12 +128,12 @@ test("the next double is one unit in the last place away", async () => {
   assert.deepEqual([0.5, -0.5, 0, 1].map(nextDouble), next);
 });
 
-onPage("a range is typed number by number, and what is refused is said and stays to be read", "#view=scan&scan_points=3", async (page) => {
+onPage("a range is typed number by number, and what is refused stays to be read", "#view=scan&scan_points=3", async (page) => {
   await settled(page);
   const field = (name) => page.locator(`#view-scan input[aria-label^="${name}"]`);
   for (const [name, text, said] of [
-    ["points", "1000", /from 2 to 200/], ["points", "3", null], ["from", "1.3", /lower to a higher/], ["to", "1.5", null],
-    ["to", "5 constructor", /not a number/],
+    ["points", "1000", /from 2 to 200/], ["points", "3", null], ["from", "1.3", /lower to a higher/],
+    ["to", "1.5", null], ["to", "5 constructor", /not a number/],
   ]) {
     await field(WORDS.scan[name]).fill(text);
     await field(WORDS.scan[name]).press("Enter");

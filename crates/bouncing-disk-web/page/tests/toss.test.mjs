@@ -2,7 +2,8 @@
 
 import assert from "node:assert/strict";
 import {
-  fact, hashOf, onPage, pixelsOf, placeOfDisk, preset, settled, stateOf, svgOf, type, visit, whenAddress, whenText, within,
+  fact, hashOf, onPage, pixelsOf, placeOfDisk, preset, settled, stateOf, svgOf, type, visit, whenAddress, whenText,
+  within,
 } from "./browser.mjs"; // prettier-ignore
 import { WORDS } from "./module.mjs";
 

@@ -1,4 +1,4 @@
-/** Every text of `words.json` is used, that none is missing is for the compiler to say; and what the build makes of them. */
+/** Every text of `words.json` is used, and the build takes others; the compiler says where one is missing. */
 
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";

@@ -17,7 +17,7 @@ export interface Axis {
   readonly widest?: string;
 }
 
-/** An axis in the prefix of its unit that reads best, for which the label has a place: "height ({prefix}m)". */
+/** An axis in the prefix of its unit that reads best; the label has a place for it: "height ({prefix}m)". */
 export function prefixed(label: string, range: Range): Axis {
   const { factor, symbol } = prefixOf(Math.max(...range.map(Math.abs)));
   return { label: say(label, { prefix: symbol }), range, factor };

@@ -175,7 +175,6 @@ export function chartOffers(
 } // prettier-ignore
 
 const SIZE = 12;
-const KEYS = WORDS.drawing.chart_keys;
 
 /** What a point of a curve leads to, with the sentence of its keys and what is read of the curve that is chosen. */
 interface Picking {
@@ -218,7 +217,7 @@ export class ScreenChart {
     this.chart = chart;
     this.word.replaceWith(layers.root);
     layers.root.style.height = `${this.height()}px`;
-    const keys = [KEYS, this.picking?.keys ?? ""].join(" ").trim();
+    const keys = [WORDS.drawing.chart_keys, this.picking?.keys ?? ""].join(" ").trim();
     layers.surface.setAttribute("aria-label", say(WORDS.drawing.chart, { title: chart.title, text: alternative, keys }));
     setText(this.caption, alternative);
     layers.fit();

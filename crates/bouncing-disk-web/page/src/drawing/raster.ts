@@ -5,9 +5,6 @@ import { pixelX, pixelY, type Plot } from "./axes";
 import { contextOf, type Colours, type Pen } from "./pen";
 import type { Window2 } from "./window";
 
-/** The word of the colour of a pixel; 0 is transparent. */
-type Colouring = (x: number, y: number) => number;
-
 export class Raster {
   private readonly canvas: HTMLCanvasElement;
   /** The colour of the paper that it was coloured for; none where its pixels have changed since. */
@@ -16,7 +13,8 @@ export class Raster {
   constructor(
     width: number,
     height: number,
-    private readonly colouring: (colour: Colours) => Colouring,
+    /** Gives the word of the colour of a pixel; 0 is transparent. */
+    private readonly colouring: (colour: Colours) => (x: number, y: number) => number,
   ) {
     this.canvas = element("canvas", { width, height });
   }

@@ -290,7 +290,7 @@ function boxOf({ left, top, width, height }: Plot, from: Place, to: Place): Box 
   return { left: Math.min(x1, x2), top: Math.min(y1, y2), width: Math.abs(x1 - x2), height: Math.abs(y1 - y2) };
 }
 
-/** A window no larger than `most` and no smaller than `least`, within limits; one that would be keeps the middle of the last. */
+/** A window from `least` to `most` wide, within limits; one that would not be keeps the last middle. */
 export function confined(wanted: Range, [least, most]: Range, [bottom, top]: Range, before = wanted): Range {
   const width = clamp(wanted[1] - wanted[0], least, Math.min(most, top - bottom));
   const [low, high] = width === wanted[1] - wanted[0] ? wanted : before;

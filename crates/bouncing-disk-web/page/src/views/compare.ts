@@ -24,7 +24,7 @@ const MOST_DRAWN = 2500;
 /** The next double of a parameter may give the same system, where that follows from it by rounding. */
 const MOST_STEPS = 64;
 
-/** From this share of the amplitude on the heights count as different, and below that one rounding makes the difference. */
+/** Heights differ from this share of the amplitude on, and below that one rounding makes the difference. */
 const APART = 0.01;
 const ROUNDED = 1e-13;
 

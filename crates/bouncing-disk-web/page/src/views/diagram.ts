@@ -62,7 +62,7 @@ export class DiagramView extends ComputingView {
       point: (at) => {
         if (at !== null && isPlain(context.state())) this.verdict.point(at[0], context.state());
       },
-      pick: ([forcing]) => this.attempt(() => this.choose(forcing)),
+      pick: ([forcing]) => this.choose(forcing),
     });
     const parts = TEXTS.legend.split(/\{(\w+)\}/);
     const lines = parts.map((part, index) => (index % 2 === 0 ? part : element("span", { class: `line ${part}` })));
@@ -208,7 +208,8 @@ export class DiagramView extends ComputingView {
   private async copyTable(): Promise<void> {
     const state = this.context.state();
     const lines = this.linesOf(state);
-    if (lines !== null) await copy(tabbed(tablesOf(lines, state)[0]), this.context.status, TEXTS.copied, TEXTS.not_copied);
+    if (lines === null) return;
+    await copy(tabbed(tablesOf(lines, state)[0]), this.context.status, TEXTS.copied, TEXTS.not_copied);
   }
 
   /** Those of another window are the same lines; those of another coefficient of restitution are others. */
@@ -225,12 +226,10 @@ export class DiagramView extends ComputingView {
     if (lines !== null) paintBranches(pen, plot, lines, state.diagram.quantity);
   }
 
-  /** Gives the shared system the amplitude of this forcing, if the library takes it. */
-  private async choose(forcing: number): Promise<void> {
-    const { client, state, change, status } = this.context;
-    const { system } = state();
-    const amplitude = amplitudeOf(forcing, system);
-    await client.ask("diagram-check", { call: "check", system: { ...system, amplitude } });
+  /** Gives the shared system the amplitude of this forcing. */
+  private choose(forcing: number): void {
+    const { state, change, status } = this.context;
+    const amplitude = amplitudeOf(forcing, state().system);
     change({ system: { amplitude } });
     status(say(TEXTS.chosen, { forcing: plain(forcing, 6), amplitude: plain(amplitude, 5) }));
   }

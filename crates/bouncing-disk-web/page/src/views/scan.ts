@@ -22,7 +22,7 @@ const TEXT = WORDS.scan;
 const short = (value: number): number => Number(value.toPrecision(3));
 
 export class ScanView extends ComputingView {
-  private readonly chart = new ScreenChart(() => this.height(), {
+  private readonly chart = new ScreenChart(() => clamp(window.innerHeight - this.chart.root.offsetTop - 230, 300, 1100), {
     keys: TEXT.keys,
     hint: (curve) => say(TEXT.hint, { curve }),
     pick: (at, curve) => this.pick(at, curve),
@@ -87,10 +87,6 @@ export class ScanView extends ComputingView {
       ...tableOffers({ name: "scan", parameters: { system, mass, start, scan }, columns, rows }),
       ...chartOffers("scan", TEXT.results[scan.result], [chartOf(plan, readings)], ONE_COLUMN * 0.75, basis),
     ];
-  }
-
-  private height(): number {
-    return clamp(window.innerHeight - this.chart.root.offsetTop - 230, 300, 1100);
   }
 
   private get scan(): State["scan"] {

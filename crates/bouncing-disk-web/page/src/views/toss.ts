@@ -6,7 +6,6 @@ import { chartOffers, ScreenChart, type Chart } from "../drawing/chart";
 import { ONE_COLUMN, PARTS, plotOffers, tableOffers, type Basis } from "../drawing/files";
 import { Layers, type Point } from "../drawing/window";
 import { button, div, element, oncePerFrame, section, setText } from "../elements";
-import { plain } from "../numbers";
 import { say, WORDS } from "../words";
 import type { FlightStart, MotionJson, MotionStart } from "../protocol";
 import { motionStartOf, roundingCaution, tellFailure } from "./asking";
@@ -286,6 +285,5 @@ export class TossView implements View {
 
   private choose([phase, speed]: Point): void {
     this.context.change({ start: { impact_phase: phase * 2 * Math.PI, normalised_speed: Math.max(speed, 1e-9) } });
-    this.context.status(say(TEXTS.begins_at, { phase: plain(phase, 3), speed: plain(speed, 3) }));
   }
 }

@@ -61,7 +61,7 @@ export function settings(
   return element("details", { open: !isNarrow() }, element("summary", {}, title), first, ...bars);
 }
 
-/** A field in a bar, with its label and unit; what is wrong with what was typed stands in the line below the view. */
+/** A field in a bar, with its label and unit; what is wrong stands in the line below the view. */
 export class LabelledField extends NumberField {
   readonly root: HTMLElement;
   private readonly unit = element("span", { class: "unit" });

@@ -1,6 +1,6 @@
 /** The cells of one window of starts, coloured by what became of them, and the requests for them. */
 
-import type { Context } from "../../contract";
+import type { Context, State } from "../../contract";
 import type { Plot } from "../../drawing/axes";
 import { rounded } from "../../drawing/files";
 import type { Pen } from "../../drawing/pen";
@@ -25,7 +25,7 @@ export class Cells {
   private readonly raster: Raster;
   private readonly labels: Uint8Array;
 
-  /** `known` are the labels of the attractors, in the order of their colours; cells with others are undecided. */
+  /** `known` are the labels of the attractors by their colours; cells with others are undecided. */
   constructor(
     readonly grid: Grid,
     known: readonly number[],
@@ -102,7 +102,7 @@ const MOST_SPEEDS = 450;
 const CELLS_AT_ONCE = 12_000;
 
 /** The grid of a plot of so many device pixels. */
-export const gridOf = (window: Pick<Grid, "phase_periods" | "normalised_speed">, columns: number, rows: number): Grid => ({
+export const gridOf = (window: State["basins"], columns: number, rows: number): Grid => ({
   ...window,
   phases: Math.max(Math.min(columns, MOST_PHASES), 2),
   speeds: Math.max(Math.min(rows, MOST_SPEEDS), 2),

@@ -28,7 +28,7 @@ export class Legend {
     if (stale) this.point(TEXTS.point);
   }
 
-  /** Nothing where no attractors are known; `shares` are null as long as the cells of the window are not computed. */
+  /** Nothing where no attractors are known; `shares` are null as long as the window is not computed. */
   show(found: AttractorsJson | null, shares: Shares | null): void {
     this.dim(false);
     this.list.replaceChildren(...(found === null ? [] : entriesOf(found, shares).map(itemOf)));

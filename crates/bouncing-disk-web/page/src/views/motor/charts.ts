@@ -18,7 +18,8 @@ const finite = (value: number): number => (Number.isFinite(value) ? value : 0);
 /** The run-up, and beside it the steady speed under the same load, as soon as it is known. */
 export function transientChart({ json, numbers }: Transient, own: Operation | null): Chart {
   const rows = [...rowsOf(numbers, TRANSIENT_COLUMNS.length)];
-  const [at, y, error] = [0, 1, 2].map((place) => rows.map((row) => row[place] ?? NaN)) as [number[], number[], number[]];
+  const column = (place: number) => rows.map((row) => row[place] ?? NaN);
+  const [at, y, error] = [column(0), column(1), column(2)];
   const last = at.at(-1) ?? 1;
   const curves: Curve[] = [{ label: TEXTS.run_up_curve, y, error, colour: "--curve-speed" }];
   if (own?.status === 0) {
@@ -70,7 +71,7 @@ const KINDS: readonly Kind[] = [
 export function loadCharts(
   operations: readonly Operation[],
   loads: Range,
-  largestTorque: number,
+  largest: number,
   stall: StallJson | null,
 ): Chart[] {
   if (operations.length === 0) return [];
@@ -78,14 +79,15 @@ export function loadCharts(
   const x = prefixed(TEXTS.load, padded(loads, 0.03));
   const [, end] = x.range;
   const at = shown.map(({ load_torque }) => load_torque);
-  const { torque = null, torque_error = 0 } = stall ?? {};
+  const { torque: stop = null, torque_error = 0 } = stall ?? {};
   const by = 2 * finite(torque_error ?? 0);
   const stretches: Stretch[] = [];
-  if (end > largestTorque * 1.001) stretches.push({ range: [largestTorque, end], label: TEXTS.runaway, colour: "--runaway" });
-  if (torque !== null) stretches.push({ at: torque, range: [torque - by, torque + by], label: TEXTS.stall, colour: "--stall" });
+  if (end > largest * 1.001) stretches.push({ range: [largest, end], label: TEXTS.runaway, colour: "--runaway" });
+  if (stop !== null) stretches.push({ at: stop, range: [stop - by, stop + by], label: TEXTS.stall, colour: "--stall" });
   return KINDS.map(({ title, label, curves: described, factor }) => {
-    const curves = described.map(({ name, ...curve }) => {
-      return { ...curve, y: shown.map((row) => row[name]), error: shown.map((row) => row[`${name}_error`]), points: true };
+    const curves = described.map(({ name, ...own }) => {
+      const [y, error] = [shown.map((row) => row[name]), shown.map((row) => row[`${name}_error`])];
+      return { ...own, y, error, points: true };
     });
     const [{ y: values = [], colour = "" } = {}] = curves;
     const marks = shown.flatMap(({ status }, index): Mark[] => {

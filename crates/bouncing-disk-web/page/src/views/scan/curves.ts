@@ -69,10 +69,11 @@ export function chartOf({ scan, at, lines }: Plan, readings: readonly (readonly 
     };
   });
   const range = spanOf(curves, [], 0.06);
+  const label = unit === "" ? words : `${words} (${unit})`;
   return {
     title: words,
     x: { label: axisOf(varied(scan.over)), range: padded(scan.range, 0.02) },
-    y: unit === "W" ? prefixed(`${words} ({prefix}W)`, range) : { label: unit === "" ? words : `${words} (${unit})`, range },
+    y: unit === "W" ? prefixed(`${words} ({prefix}W)`, range) : { label, range },
     at,
     curves,
     marks: readings.flatMap((line, index) => {

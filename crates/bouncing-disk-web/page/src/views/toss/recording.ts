@@ -123,7 +123,7 @@ export const WIDEST = "−00.00";
 /** A motion with the names of its curves; a platform without one is that of the motion before. */
 export type Named = Readonly<{ motion: Recording; disk: string; platform: string | null }>;
 
-/** Heights and angular speeds of motions that were sampled alike, on an axis of periods and up to one of them. */
+/** Heights and angular speeds of motions that were sampled alike, over periods and up to one of them. */
 export function traces(named: readonly [Named, ...Named[]], range: Range, end: number): [Chart, Chart] {
   const spanOf = (motion: Recording, name: Column) => motion.span(name, range[0] * motion.period, end * motion.period);
   const { motion: first } = named[0];
@@ -132,7 +132,8 @@ export function traces(named: readonly [Named, ...Named[]], range: Range, end: n
     const curves = named.flatMap(({ motion, disk, platform }, index): Curve[] => {
       const colour = index + 1 < named.length ? "--picture-muted" : "--platform-line";
       const lower = { y: spanOf(motion, below), colour, dash: [6, 3] };
-      const upper = { y: spanOf(motion, own), ...(index === 0 ? { colour: "--disk" } : { colour: "--curve-power", dash: [7, 3] }) };
+      const style = index === 0 ? { colour: "--disk" } : { colour: "--curve-power", dash: [7, 3] };
+      const upper = { y: spanOf(motion, own), ...style };
       return [...(platform === null ? [] : [{ label: platform, ...lower }]), { label: disk, ...upper }];
     });
     const ends = extent(named.flatMap(({ motion }) => motion.extent(own, below))) ?? [0, 1];

@@ -64,8 +64,7 @@ export class Stage {
     const length = roundDown((this.height * 0.3) / perMetre);
     const bottom = this.height - 14;
     const top = bottom - length * perMetre;
-    const bar = [14, bottom, 22, bottom, NaN, NaN, 14, top, 22, top, NaN, NaN, 18, bottom, 18, top];
-    pen.path(bar, { stroke: "--picture-text", width: 1.2 });
+    pen.path([14, bottom, 22, bottom, NaN, NaN, 14, top, 22, top, NaN, NaN, 18, bottom, 18, top], { stroke: "--picture-text", width: 1.2 });
     const text = { colour: "--picture-text", size: 12, baseline: "middle" } as const;
     pen.text(quantity(length, "m", 1), 27, (top + bottom) / 2, text);
   }
