@@ -146,17 +146,17 @@ onPage("what goes on is not read out, what is done is, and the busy sign turns",
 
 onPage("who wants less motion gets a picture that stands", { reducedMotion: "reduce" }, async (page) => {
   await page.locator("#view-toss .chart canvas").first().waitFor();
-  await page.waitForFunction(() => /^7\.00 periods/.test(document.querySelectorAll(".facts dd")[1].textContent));
+  await page.waitForFunction(() => /^7\.00 periods/.test(document.querySelectorAll("#view-toss .facts dd")[1].textContent));
   assert.equal(await page.textContent(".controls .play"), "Play");
   await page.waitForTimeout(300);
-  assert.match(await page.locator(".facts dd").nth(1).textContent(), /^7\.00 periods/);
+  assert.match(await page.locator("#view-toss .facts dd").nth(1).textContent(), /^7\.00 periods/);
   await page.click("#tab-motor");
   await whenKind(page, "busy");
   assert.deepEqual(await page.evaluate(() => document.getAnimations().map((one) => one.playState)), []);
   // Whoever presses the button wants it to move.
   await page.click("#tab-toss");
   await page.click(".controls .play");
-  await page.waitForFunction(() => !/^7\.00 periods/.test(document.querySelectorAll(".facts dd")[1].textContent));
+  await page.waitForFunction(() => !/^7\.00 periods/.test(document.querySelectorAll("#view-toss .facts dd")[1].textContent));
 });
 
 onPage("imposed colours leave what colours say", { hash: "#view=basins", forcedColors: "active" }, async (page) => {

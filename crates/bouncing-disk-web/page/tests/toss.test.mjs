@@ -36,7 +36,7 @@ onPage("Fig. 9: the energy of a contact without an end is counted", {}, async (p
   await whenText(page, "#view-toss", /of 48 periods/);
   // All of what it has after the impact at the start: (a_g q)^2/2 with 6.3 mm and 30 rad/s less some.
   await seek(page, 0);
-  await page.waitForFunction(() => /^0\.00/.test(document.querySelectorAll(".facts dd")[1].textContent));
+  await page.waitForFunction(() => /^0\.00/.test(document.querySelectorAll("#view-toss .facts dd")[1].textContent));
   assert.equal(await fact(page, "toss", "Kinetic, rotary"), "17.8 mJ/kg");
   assert.equal(await fact(page, "toss", "Lost in friction"), "17.8 mJ/kg");
   assert.equal(await fact(page, "toss", "Stored in the disk"), "−17.8 mJ/kg");

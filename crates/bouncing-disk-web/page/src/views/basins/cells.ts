@@ -47,7 +47,8 @@ export class Cells {
   /** Rows of cells; the lowest speed is at the bottom. */
   add(labels: Uint8Array, from: number): void {
     this.labels.set(labels, from * this.grid.phases);
-    this.raster.change();
+    const top = this.grid.speeds - from;
+    this.raster.change(top - labels.length / this.grid.phases, top);
   }
 
   paint(pen: Pen, plot: Plot): void {
