@@ -36,9 +36,9 @@ export function asker() {
   const site = join(dirname(file), "site");
   const explorer = new (moduleOf(join(site, "worker.js"), join(site, "module.wasm")).Explorer)();
   const ask = async (request) => {
-    const { json, refused, numbers, bytes } = explorer.respond(JSON.stringify(request));
+    const { json, digest, refused, numbers, bytes } = explorer.respond(JSON.stringify(request));
     assert.equal(refused, false, `${JSON.stringify(request)}: ${json}`);
-    return { json: JSON.parse(json), numbers, bytes };
+    return { json: JSON.parse(json), digest, numbers, bytes };
   };
   /** Samples and events of a motion from an impact, by the names of their columns, and the first separation. */
   async function motion({ system, start }, periods = 20) {

@@ -2,13 +2,15 @@
 
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
+import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { promisify } from "node:util";
 import { isCalm, within } from "./browser.mjs";
-import { sourceOf } from "./module.mjs";
+import { asker, sourceOf } from "./module.mjs";
 
 /** The program `respond` of the crate, compiled for this machine. */
 const native = process.env.NATIVE_RESPOND;
+const tables = JSON.parse(readFileSync(new URL("../src/tables.json", import.meta.url), "utf8"));
 /** How long (ms) a state may take until all that its view asks for is answered. */
 const PATIENCE = 60_000;
 
@@ -75,17 +77,62 @@ async function statesToShow() {
   return states.map(([name, state]) => ({ name, hash: toHash(state) }));
 }
 
+/** What no figure asks for: every regime of flights, drives, contacts and stators, up to the limits of the page. */
+async function requestsBeyond() {
+  const { DEFAULT_STATE } = await sourceOf("state.ts");
+  const { system } = DEFAULT_STATE;
+  const start = { impact_phase: 1.2, normalised_speed: 1.3 };
+  const grid = { count: 200, columns: [0, 200], start, transient: 500, recorded: 20 };
+  const diagram = (axial_forcing, changes, rest = {}) =>
+    ({ call: "diagram", system: { ...system, ...changes }, axial_forcing, ...grid, ...rest }); // prettier-ignore
+  const map = { axial_forcing: 0.45, restitution: 0.5 };
+  const sheet = { ...tables.table_three, mass: 1e-3, amplitude: 1e-7 };
+  const loads = (changes) =>
+    ({ call: "motor_loads", sheet: { ...sheet, ...changes }, load_torques: [0, 1e-5], relative_error: 0.3,
+      most_impacts: 8000, seed: 1 }); // prettier-ignore
+  const modes = { mass: 0.05, quality: 300 };
+  const twisting = { ...modes, kind: "axial_twist", twist_per_height: 700 };
+  const two = { ...modes, kind: "axial_and_torsional", inertia: 1e-6, torsional_quality: 100, resonance: 70.1e3 };
+  const spin = { kind: "impact", ...start, angular_speed: 3 };
+  return [
+    ...[0, 0.3, 0.9, 0.999].map((restitution) => diagram([0.05, 100], { restitution })),
+    ...["triangle", "parabolas", "cubics", { sawtooth: 0.3 }].map((drive) => diagram([0.3, 2], {}, { drive })),
+    ...[1e-3, 0.3].map((contact_time) => diagram([0.3, 2], { contact_time })),
+    diagram([0.3, 20], {}, { rotation: true }),
+    ...[0.1, 0.5, 0.99].flatMap((restitution) => [0, 0.03].map((contact_time) =>
+      ({ call: "motion", system: { ...system, restitution, contact_time }, start: spin, periods: 100, samples_per_period: 9 }))), // prettier-ignore
+    ...Array.from({ length: 40 }, (_, index) =>
+      ({ call: "orbit", axial_forcing: 0.2 + 0.0125 * index, restitution: 0.5, start })), // prettier-ignore
+    ...[0.1, 0.9].map((restitution) => ({ call: "branches", restitution, axial_forcing: [0.03, 2] })),
+    { call: "basins", ...map, phase_periods: [0, 1], phases: 200, normalised_speed: [0, 3], speeds: 150, rows: [0, 150] },
+    loads({ peak_angular_speed: null, stator: twisting }),
+    loads({ stator: two, contact: { time: 1e-5 } }),
+  ];
+}
+
 const CALLS = [
   "attractors", "basins", "branches", "check", "diagram", "motion", "motor_loads", "motor_report", "motor_stall",
   "motor_transient", "orbit", "sheet_of_system", "sheet_write", "toss",
 ]; // prettier-ignore
+/** Ends what the native library is asked, and compares the answers with those of the module, by their requests. */
+async function compare(heard, answers) {
+  answers.child.stdin.end();
+  const own = (await answers).stdout.trim().split("\n");
+  assert.equal(own.length, heard.size);
+  [...heard].forEach(([request, answer], index) => assert.ok(own[index].startsWith(`${answer} `), request));
+}
+
+/** It answers each line while the page goes on. */
+function nativeLibrary(t) {
+  const answers = promisify(execFile)(native, { maxBuffer: 1e9 });
+  t.after(() => answers.child.kill());
+  return answers;
+}
+
 const TITLE = "every answer in every figure and table has the digest of the native library";
 
 test(TITLE, { skip: !native }, async (t) => {
-  const heard = new Map();
-  // It answers each line while the page goes on.
-  const answers = promisify(execFile)(native, { maxBuffer: 1e9 });
-  t.after(() => answers.child.kill());
+  const [heard, answers] = [new Map(), nativeLibrary(t)];
   await within({ width: 900, height: 700, script: listen, settle: false }, async (page) => {
     for (const { name, hash } of await statesToShow()) {
       await page.evaluate((to) => {
@@ -106,8 +153,15 @@ test(TITLE, { skip: !native }, async (t) => {
   });
   const calls = new Set([...heard.keys()].map((request) => JSON.parse(request).call));
   assert.deepEqual([...calls].sort(), CALLS);
-  answers.child.stdin.end();
-  const own = (await answers).stdout.trim().split("\n");
-  assert.equal(own.length, heard.size);
-  [...heard].forEach(([request, answer], index) => assert.ok(own[index].startsWith(`${answer} `), request));
+  await compare(heard, answers);
+});
+
+test("answers up to the limits of what the page may ask have the digests of the native library", { skip: !native }, async (t) => {
+  const [heard, answers, { ask }] = [new Map(), nativeLibrary(t), asker()];
+  for (const asked of await requestsBeyond()) {
+    const request = JSON.stringify(asked);
+    answers.child.stdin.write(`${request}\n`);
+    heard.set(request, `answered ${(await ask(asked)).digest}`);
+  }
+  await compare(heard, answers);
 });
