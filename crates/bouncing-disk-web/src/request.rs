@@ -90,7 +90,6 @@ pub(crate) enum Request {
     MotorTransient(TransientRequest),
     MotorLoads(LoadsRequest),
     MotorStall { sheet: MotorParameters, relative_error: f64, seed: u64 },
-    SheetWrite { sheet: MotorParameters },
     SheetRead { text: String },
     SheetOfSystem { system: SystemParameters, mass: f64 },
 }

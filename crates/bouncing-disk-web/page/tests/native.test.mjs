@@ -112,7 +112,7 @@ async function requestsBeyond() {
 
 const CALLS = [
   "attractors", "basins", "branches", "check", "diagram", "motion", "motor_loads", "motor_report", "motor_stall",
-  "motor_transient", "orbit", "sheet_of_system", "sheet_write", "toss",
+  "motor_transient", "orbit", "sheet_of_system", "toss",
 ]; // prettier-ignore
 /** Ends what the native library is asked, and compares the answers with those of the module, by their requests. */
 async function compare(heard, answers) {

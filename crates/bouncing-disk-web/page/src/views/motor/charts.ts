@@ -5,9 +5,9 @@ import { clamp, extent, padded } from "../../drawing/axes";
 import { chartOffers, type Chart, type Curve, type Mark } from "../../drawing/chart";
 import { ONE_COLUMN, rowsOf, tableOffers, type Basis } from "../../drawing/files";
 import { prefixOf } from "../../numbers";
-import { OPERATION_COLUMNS, TRANSIENT_COLUMNS, type MotorSheet, type Range, type StallJson } from "../../protocol";
+import { TRANSIENT_COLUMNS, type MotorSheet, type Range, type StallJson } from "../../protocol";
 import { say, WORDS } from "../../words";
-import { membersOf, SEED, type Operation, type Transient } from "./requests";
+import { membersOf, OPERATION_COLUMNS, SEED, type Operation, type Transient } from "./requests";
 
 const { charts: TEXTS, files: FILES, titles: TITLES } = WORDS.motor;
 

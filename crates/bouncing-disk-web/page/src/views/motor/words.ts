@@ -87,16 +87,9 @@ export function steadySpeed(own: Operation, largestTorque: number): string {
   if (own.status === 2) return overpowered(TEXTS.speed_none, own, largestTorque);
   const load = under(own.load_torque);
   if (own.status === 0) return say(TEXTS.speed_known, { speed: withError(own.speed, own.speed_error), load });
-  const why = own.shortfall === null ? "" : `; ${readable(own.shortfall)}`;
+  const why = own.shortfall === null ? "" : `; ${own.shortfall}`;
   return `${say(TEXTS.speed_unsettled, { speed: plain(own.speed, 3), load })}${why}`;
 }
-
-/** What a motor lacks, as the library's ASCII says it. */
-const readable = (text: string): string =>
-  text
-    .replace(/-?[\d.]+e-?\d+/g, (digits) => plain(Number(digits), 3))
-    .replace("+-", "±")
-    .replace("rad/s^2", "rad/s²");
 
 /** A time with its 95 % interval, with the digits that the interval leaves: "852 ms (95 % interval 824 to 889 ms)". */
 function time({ value, low, high }: IntervalJson): string {
@@ -131,7 +124,7 @@ export function describeTrap(trap: TrapJson, report: ReportJson): string {
   const [from, to] = toldApart(low, high, 3);
   const [preload] = toldApart(trap.preload_acceleration, report.system.preload_acceleration, 2);
   const away = plain(100 * Math.abs(trap.relative_distance), 2);
-  return say(trap.caught ? TEXTS.trap : TEXTS.trap_near, { preload, from, to, away });
+  return say(trap.relative_distance === 0 ? TEXTS.trap : TEXTS.trap_near, { preload, from, to, away });
 }
 
 /** Why a motor has no stall load, or the load. */

@@ -161,7 +161,7 @@ export function describeGaps({ scan, at }: Plan, readings: readonly (readonly (R
   const first = valueText(varied(scan.over), Math.min(...moved));
   const reasons = new Map<string, string[]>();
   for (const lacks of all.flatMap((reading) => reading?.lacks ?? [])) {
-    const key = lacks.replace(/[-\d.e+]+/g, "#");
+    const key = lacks.replace(/(?:[^a-z]|e[-+]?\d)+/gi, "#");
     reasons.set(key, [...(reasons.get(key) ?? []), lacks]);
   }
   // The library writes all digits of a number.
