@@ -50,8 +50,6 @@ export interface Response<Json> {
   readonly json: Json;
   readonly numbers: Float64Array;
   readonly bytes: Uint8Array;
-  /** Sixteen hexadecimal digits of all of it; the native library gets the same ones. */
-  readonly digest: string;
 }
 
 /** The columns of the rows in `numbers`. */

@@ -16,36 +16,25 @@ const PATIENCE = 60_000;
 
 /** Keeps what every worker is asked and what it answers, before the page begins. */
 function listen() {
-  Object.assign(window, { heard: [], open: 0, shown: false, quiet: 0 });
+  Object.assign(window, { heard: [], open: new Map(), shown: false, quiet: 0 });
   const Original = window.Worker;
   window.Worker = class extends Original {
-    asked = new Map();
-
-    constructor(...given) {
-      super(...given);
-      this.addEventListener("message", ({ data }) => {
-        if (data.kind !== "answer" && data.kind !== "refused") return;
-        const answer = data.kind === "answer" ? `answered ${data.digest}` : `refused ${data.json}`;
-        const request = this.asked.get(data.id);
-        this.asked.delete(data.id);
-        window.open -= 1;
-        window.heard.push({ request, answer });
+    postMessage(message, ...rest) {
+      super.postMessage(message, ...rest);
+      if (message.request === undefined) return;
+      window.open.set(this, message.request);
+      const hear = ({ data }) => {
+        window.open.delete(this);
+        window.heard.push({ request: message.request, answer: `${data.refused ? "refused" : "answered"} ${data.digest}` });
         window.quiet = performance.now();
         // What the page asks last of a state before it shows it.
-        if (request.includes('"sheet_of_system"')) window.shown = true;
-      });
-    }
-
-    postMessage(message, ...rest) {
-      if (message.kind === "ask") {
-        this.asked.set(message.id, message.request);
-        window.open += 1;
-      }
-      super.postMessage(message, ...rest);
+        if (message.request.includes('"sheet_of_system"')) window.shown = true;
+      };
+      this.addEventListener("message", hear, { once: true });
     }
 
     terminate() {
-      window.open -= this.asked.size;
+      window.open.delete(this);
       super.terminate();
     }
   };
@@ -58,7 +47,7 @@ function listen() {
 function isAnswered(all) {
   const motor = document.querySelector("#view-motor:not([hidden]) .facts");
   const rough = !all && /Steady speed[^…]/.test(motor?.textContent ?? "");
-  if (!window.shown || window.open > 0 || document.getElementById("status").dataset.kind === "busy") {
+  if (!window.shown || window.open.size > 0 || document.getElementById("status").dataset.kind === "busy") {
     window.quiet = performance.now();
   }
   return window.shown && (rough || performance.now() - window.quiet > 500);
