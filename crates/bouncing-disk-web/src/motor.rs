@@ -1,7 +1,7 @@
 //! Motors by their data sheets.
 
 use bouncing_disk::core::Unobserved;
-use bouncing_disk::estimate::{FitError, FitRefusal, FitSettings, RiseForm, Spread, TransientFit};
+use bouncing_disk::estimate::{FitError, FitSettings, RiseForm, Spread, TransientFit};
 use bouncing_disk::motor::{
     DrivenMotor, Estimate, MotorParameters, OperatingSettings, SpeedCurve, TransientMember,
     TransientSettings, transients,
@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 use crate::reply::{Refusal, Reply};
 use crate::request::{LoadsRequest, SystemParameters, TransientRequest};
 
-/// Impacts that an answer may take where the request says nothing: a second or two for most motors.
+/// Impacts that the search of a stall load may take: a second or two for most motors.
 const FEW_IMPACTS: u64 = 5_000_000;
 
 /// Most impacts that a request may allow: those of the library's default.
@@ -81,9 +81,9 @@ pub(crate) fn transient(request: &TransientRequest) -> Result<Reply, Refusal> {
     }
     let (rise, refusal) = match TransientFit::new(&curves, &FitSettings::default()) {
         Ok(fit) => (Some(rise_of(&fit)), None),
-        Err(FitError::Refused(reason)) => (None, Some(refused_since(&reason))),
+        Err(FitError::Refused(reason)) => (None, Some(reason)),
         Err(FitError::Model(error)) => return Err(error.into()),
-        Err(_) => (None, Some("the run-up does not determine one")),
+        Err(_) => (None, None),
     };
     Reply::new(&json!({ "points": times.len(), "rise": rise, "refusal": refusal }), numbers, Vec::new())
 }
@@ -92,22 +92,6 @@ fn rise_of(fit: &TransientFit) -> Value {
     let ramp = fit.ramp.as_ref().filter(|_| fit.form == RiseForm::Ramp);
     let rise = ramp.unwrap_or(&fit.exponential);
     json!({ "form": fit.form, "constant": rise.constant, "residual": rise.residual })
-}
-
-/// Why a run-up has no time constant, for readers: what the library says has its numbers to the last digit.
-const fn refused_since(reason: &FitRefusal) -> &'static str {
-    match reason {
-        FitRefusal::NoRise => "the speed stays zero",
-        FitRefusal::AtSearchLimit { .. } => "the speed is a straight line, or constant",
-        FitRefusal::TooShort { .. } => "the run-up ends before its speed has settled",
-        FitRefusal::TooFewPoints { .. } | FitRefusal::TooCoarse { .. } => {
-            "too few of its points lie where the speed rises"
-        }
-        FitRefusal::TooFewMembers { .. } => "too few motors were run",
-        FitRefusal::TooFewFlights { .. } => "the rotor hardly flies while its speed rises",
-        FitRefusal::Residual { .. } => "the run-up has another form, or scatters too much",
-        _ => "the run-up does not determine one",
-    }
 }
 
 /// The library's operation under each load.
@@ -126,8 +110,7 @@ pub(crate) fn loads(request: &LoadsRequest) -> Result<Reply, Refusal> {
     Reply::short(&operations)
 }
 
-fn settings(relative_error: f64, most_impacts: Option<u64>, seed: u64) -> Result<OperatingSettings, Refusal> {
-    let most_impacts = most_impacts.unwrap_or(FEW_IMPACTS);
+fn settings(relative_error: f64, most_impacts: u64, seed: u64) -> Result<OperatingSettings, Refusal> {
     if most_impacts > MOST_IMPACTS {
         return Err(Refusal::out_of_range("most_impacts", most_impacts as f64, "[1, 20000000]"));
     }
@@ -141,7 +124,7 @@ pub(crate) fn stall(sheet: MotorParameters, relative_error: f64, seed: u64) -> R
         let message = "with a contact time or a stator that yields the search takes minutes: use bouncing-disk motor stall";
         return Err(Refusal::new("computation", message.to_owned()));
     }
-    let (torque, speed) = match motor.stall_load(&settings(relative_error, None, seed)?, &Unobserved) {
+    let (torque, speed) = match motor.stall_load(&settings(relative_error, FEW_IMPACTS, seed)?, &Unobserved) {
         Ok(stall) => (Some(stall.torque), stall.no_load_speed),
         Err(Error::DoesNotTurn { speed, standard_error }) => {
             (None, Estimate { value: speed, standard_error })

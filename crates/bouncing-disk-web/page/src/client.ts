@@ -21,12 +21,12 @@ export function makeClient(source: Source): Client {
   return {
     // A check decides whether a value that somebody types is taken; it waits for nothing but what is under way.
     ask: (slot, request) => quick.ask(quick.begin(slot), request, request.call === "check"),
-    async series<Json>(slot: string, requests: readonly Request[], each: (one: Response<Json>, index: number) => void = () => {}) {
+    async series(slot, requests, each) {
       const turn = heavy.begin(slot);
-      let last!: Response<Json>;
+      let last!: Response<never>;
       for (const [index, request] of requests.entries()) {
         last = await heavy.ask(turn, request);
-        each(last, index);
+        each?.(last, index);
       }
       if (turn.over) throw new Cancelled(slot);
       return last;

@@ -162,7 +162,8 @@ export type IntervalJson = Numbers<"value" | "low" | "high">;
 export interface TransientJson {
   readonly points: number;
   readonly rise: { form: "exponential" | "ramp"; constant: IntervalJson; residual: number } | null;
-  readonly refusal: string | null;
+  /** The name of the library's `FitRefusal`, most with its numbers. */
+  readonly refusal: string | Readonly<Record<string, unknown>> | null;
 }
 
 export type StallJson = Nullable<"torque" | "torque_error" | "no_load_speed_error"> & Numbers<"no_load_speed">;

@@ -9,8 +9,7 @@ export type ToWorker = { module: ModuleSource } | { request: string };
 /** The answer to a request, whose digest is compared with that of the native library. */
 type Reply = { json: string; refused: boolean; digest: string; numbers: Float64Array; bytes: Uint8Array };
 
-/** A worker is ready with the module that it compiled, for those that start later, or null. One that throws an error is of
- * no use any more. */
+/** First the module that it compiled, for those that start later, or null. A worker that throws is of no use any more. */
 export type FromWorker = { ready: WebAssembly.Module | null } | Reply;
 
 /** Its arrays are copies outside of the module's memory, which can change hands. */

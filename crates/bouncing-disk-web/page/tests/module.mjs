@@ -43,8 +43,8 @@ export function asker() {
   /** Samples and events of a motion from an impact, by the names of their columns, and the first separation. */
   async function motion({ system, start }, periods = 20) {
     const { MOTION_COLUMNS, EVENT_COLUMNS } = await sourceOf("protocol.ts");
-    const impact = { kind: "impact", ...start };
-    const { json, numbers, bytes } = await ask({ call: "motion", system, start: impact, periods, samples_per_period: 64 });
+    const request = { call: "motion", system, start: { kind: "impact", ...start }, periods, samples_per_period: 64 };
+    const { json, numbers, bytes } = await ask(request);
     const width = MOTION_COLUMNS.length;
     const row = (columns, first) => Object.fromEntries(columns.map((name, column) => [name, numbers[first + column]]));
     const samples = Array.from({ length: json.samples }, (_, index) => row(MOTION_COLUMNS, index * width));

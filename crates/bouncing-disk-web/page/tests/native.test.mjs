@@ -25,7 +25,8 @@ function listen() {
       window.open.set(this, message.request);
       const hear = ({ data }) => {
         window.open.delete(this);
-        window.heard.push({ request: message.request, answer: `${data.refused ? "refused" : "answered"} ${data.digest}` });
+        const answer = `${data.refused ? "refused" : "answered"} ${data.digest}`;
+        window.heard.push({ request: message.request, answer });
         window.quiet = performance.now();
         // What the page asks last of a state before it shows it.
         if (message.request.includes('"sheet_of_system"')) window.shown = true;
@@ -68,34 +69,34 @@ async function statesToShow() {
 
 /** What no figure asks for: every regime of flights, drives, contacts and stators, up to the limits of the page. */
 async function requestsBeyond() {
-  const { DEFAULT_STATE } = await sourceOf("state.ts");
-  const { system } = DEFAULT_STATE;
+  const { system } = (await sourceOf("state.ts")).DEFAULT_STATE;
   const start = { impact_phase: 1.2, normalised_speed: 1.3 };
   const grid = { count: 200, columns: [0, 200], start, transient: 500, recorded: 20 };
-  const diagram = (axial_forcing, changes, rest = {}) =>
-    ({ call: "diagram", system: { ...system, ...changes }, axial_forcing, ...grid, ...rest }); // prettier-ignore
-  const map = { axial_forcing: 0.45, restitution: 0.5 };
-  const sheet = { ...tables.table_three, mass: 1e-3, amplitude: 1e-7 };
-  const loads = (changes) =>
-    ({ call: "motor_loads", sheet: { ...sheet, ...changes }, load_torques: [0, 1e-5], relative_error: 0.3,
-      most_impacts: 8000, seed: 1 }); // prettier-ignore
-  const modes = { mass: 0.05, quality: 300 };
-  const twisting = { ...modes, kind: "axial_twist", twist_per_height: 700 };
-  const two = { ...modes, kind: "axial_and_torsional", inertia: 1e-6, torsional_quality: 100, resonance: 70.1e3 };
+  const diagram = (axial_forcing, changes, rest = {}) => {
+    return { call: "diagram", system: { ...system, ...changes }, axial_forcing, ...grid, ...rest };
+  };
   const spin = { kind: "impact", ...start, angular_speed: 3 };
+  const turning = { call: "motion", start: spin, periods: 100, samples_per_period: 9 };
+  const axes = { phase_periods: [0, 1], phases: 200, normalised_speed: [0, 3], speeds: 150, rows: [0, 150] };
+  const modes = { mass: 0.05, quality: 300 };
+  const two = { ...modes, kind: "axial_and_torsional", inertia: 1e-6, torsional_quality: 100, resonance: 70.1e3 };
+  const stators = [
+    { peak_angular_speed: null, stator: { ...modes, kind: "axial_twist", twist_per_height: 700 } },
+    { stator: two, contact: { time: 1e-5 } },
+  ];
+  const loads = { call: "motor_loads", load_torques: [0, 1e-5], relative_error: 0.3, most_impacts: 8000, seed: 1 };
+  const forcings = Array.from({ length: 40 }, (_, index) => 0.2 + 0.0125 * index);
   return [
     ...[0, 0.3, 0.9, 0.999].map((restitution) => diagram([0.05, 100], { restitution })),
     ...["triangle", "parabolas", "cubics", { sawtooth: 0.3 }].map((drive) => diagram([0.3, 2], {}, { drive })),
     ...[1e-3, 0.3].map((contact_time) => diagram([0.3, 2], { contact_time })),
     diagram([0.3, 20], {}, { rotation: true }),
-    ...[0.1, 0.5, 0.99].flatMap((restitution) => [0, 0.03].map((contact_time) =>
-      ({ call: "motion", system: { ...system, restitution, contact_time }, start: spin, periods: 100, samples_per_period: 9 }))), // prettier-ignore
-    ...Array.from({ length: 40 }, (_, index) =>
-      ({ call: "orbit", axial_forcing: 0.2 + 0.0125 * index, restitution: 0.5, start })), // prettier-ignore
+    ...[0.1, 0.5, 0.99].map((restitution) => ({ ...turning, system: { ...system, restitution } })),
+    { ...turning, system: { ...system, contact_time: 0.03 } },
+    ...forcings.map((axial_forcing) => ({ call: "orbit", axial_forcing, restitution: 0.5, start })),
     ...[0.1, 0.9].map((restitution) => ({ call: "branches", restitution, axial_forcing: [0.03, 2] })),
-    { call: "basins", ...map, phase_periods: [0, 1], phases: 200, normalised_speed: [0, 3], speeds: 150, rows: [0, 150] },
-    loads({ peak_angular_speed: null, stator: twisting }),
-    loads({ stator: two, contact: { time: 1e-5 } }),
+    { call: "basins", axial_forcing: 0.45, restitution: 0.5, ...axes },
+    ...stators.map((own) => ({ ...loads, sheet: { ...tables.table_three, mass: 1e-3, amplitude: 1e-7, ...own } })),
   ];
 }
 
@@ -103,25 +104,19 @@ const CALLS = [
   "attractors", "basins", "branches", "check", "diagram", "motion", "motor_loads", "motor_report", "motor_stall",
   "motor_transient", "orbit", "sheet_of_system", "toss",
 ]; // prettier-ignore
-/** Ends what the native library is asked, and compares the answers with those of the module, by their requests. */
-async function compare(heard, answers) {
-  answers.child.stdin.end();
-  const own = (await answers).stdout.trim().split("\n");
-  assert.equal(own.length, heard.size);
-  [...heard].forEach(([request, answer], index) => assert.ok(own[index].startsWith(`${answer} `), request));
-}
-
-/** It answers each line while the page goes on. */
-function nativeLibrary(t) {
-  const answers = promisify(execFile)(native, { maxBuffer: 1e9 });
-  t.after(() => answers.child.kill());
-  return answers;
-}
-
-const TITLE = "every answer in every figure and table has the digest of the native library";
+const TITLE = "every answer in every figure and table, and beyond, has the digest of the native library";
 
 test(TITLE, { skip: !native }, async (t) => {
-  const [heard, answers] = [new Map(), nativeLibrary(t)];
+  const heard = new Map();
+  // It answers each line while the page goes on.
+  const answers = promisify(execFile)(native, { maxBuffer: 1e9 });
+  t.after(() => answers.child.kill());
+  const hear = (request, answer, name) => {
+    assert.match(answer, /^answered/, `${name}: ${request}`);
+    assert.equal(heard.get(request) ?? answer, answer, `two answers to ${request}`);
+    if (!heard.has(request)) answers.child.stdin.write(`${request}\n`);
+    heard.set(request, answer);
+  };
   await within({ width: 900, height: 700, script: listen, settle: false }, async (page) => {
     for (const { name, hash } of await statesToShow()) {
       await page.evaluate((to) => {
@@ -131,26 +126,17 @@ test(TITLE, { skip: !native }, async (t) => {
       // A whole curve and its stall load take a motor of frequent impacts a minute; that of Fig. 10(c) has few.
       const all = name.startsWith("fig10 (c)");
       await page.waitForFunction(isAnswered, all, { timeout: PATIENCE }).catch(() => assert.fail(`${name} waits`));
-      for (const { request, answer } of await page.evaluate(() => window.heard.splice(0))) {
-        assert.match(answer, /^answered/, `${name}: ${request}`);
-        assert.equal(heard.get(request) ?? answer, answer, `two answers to ${request}`);
-        if (!heard.has(request)) answers.child.stdin.write(`${request}\n`);
-        heard.set(request, answer);
-      }
+      for (const { request, answer } of await page.evaluate(() => window.heard.splice(0))) hear(request, answer, name);
       await isCalm(page);
     }
   });
   const calls = new Set([...heard.keys()].map((request) => JSON.parse(request).call));
   assert.deepEqual([...calls].sort(), CALLS);
-  await compare(heard, answers);
-});
-
-test("answers up to the limits of what the page may ask have the digests of the native library", { skip: !native }, async (t) => {
-  const [heard, answers, { ask }] = [new Map(), nativeLibrary(t), asker()];
-  for (const asked of await requestsBeyond()) {
-    const request = JSON.stringify(asked);
-    answers.child.stdin.write(`${request}\n`);
-    heard.set(request, `answered ${(await ask(asked)).digest}`);
-  }
-  await compare(heard, answers);
+  const { ask } = asker();
+  for (const request of await requestsBeyond())
+    hear(JSON.stringify(request), `answered ${(await ask(request)).digest}`, "beyond");
+  answers.child.stdin.end();
+  const own = (await answers).stdout.trim().split("\n");
+  assert.equal(own.length, heard.size);
+  [...heard].forEach(([request, answer], index) => assert.ok(own[index].startsWith(`${answer} `), request));
 });

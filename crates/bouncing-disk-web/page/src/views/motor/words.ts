@@ -99,10 +99,17 @@ function time({ value, low, high }: IntervalJson): string {
   return say(TEXTS.interval, { value: told(value), low: told(low), high: told(high), unit: `${symbol}s` });
 }
 
+const REFUSALS: Readonly<Record<string, string>> = TEXTS.refusals;
+
+/** Why a run-up has no time constant: what the library says of it has its numbers to the last digit. */
+const whyNone = ({ refusal }: Transient["json"]): string =>
+  REFUSALS[typeof refusal === "string" ? refusal : (Object.keys(refusal ?? {})[0] ?? "")] ?? TEXTS.unknown;
+
 /** The time constant of a run-up that has one. */
-export function timeConstant({ rise, refusal }: Transient["json"], own: Operation | null): string {
+export function timeConstant(json: Transient["json"], own: Operation | null): string {
+  const { rise } = json;
   if (own?.status === 2) return TEXTS.constant_driven;
-  if (rise === null) return say(TEXTS.constant_none, { why: refusal ?? TEXTS.unknown });
+  if (rise === null) return say(TEXTS.constant_none, { why: whyNone(json) });
   if (rise.form === "ramp") return TEXTS.constant_ramp;
   return time(rise.constant);
 }
@@ -112,8 +119,8 @@ export function describeRunUp({ json }: Transient, own: Operation | null, report
   const largest = report.largest_torque;
   if (own?.status === 2) return overpowered(TEXTS.runs_away, own, largest);
   const steady = own === null ? TEXTS.steady_coming : say(TEXTS.steady, { speed: steadySpeed(own, largest) });
-  const { rise, refusal } = json;
-  if (rise === null) return `${steady} ${say(TEXTS.constant_undefined, { why: refusal ?? TEXTS.unknown })}`;
+  const { rise } = json;
+  if (rise === null) return `${steady} ${say(TEXTS.constant_undefined, { why: whyNone(json) })}`;
   const values = { constant: time(rise.constant), missed: plain(rise.residual, 2) };
   return `${steady} ${say(rise.form === "exponential" ? TEXTS.exponential : TEXTS.ramp, values)}`;
 }
