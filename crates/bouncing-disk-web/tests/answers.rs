@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 
 use bouncing_disk::core::flight::Compliance;
 use bouncing_disk::core::numerics::elementary::ln;
-use bouncing_disk::core::{ImpactMap, Phase, Unobserved};
+use bouncing_disk::core::orbits::branches_over_forcing;
+use bouncing_disk::core::{Phase, Unobserved};
 use bouncing_disk::driven;
 use bouncing_disk::motor::{DrivenMotor, OperatingSettings};
 use bouncing_disk::parameters::{ContactLaw, DriveParameters, DrivenPlatform, Stroke};
@@ -408,77 +409,32 @@ fn rows_of_basins_do_not_depend_on_which_are_asked_for_together() {
     assert!((sum - 1.0).abs() < 1e-12, "{sum}");
 }
 
-type Lines = Vec<Vec<[f64; 6]>>;
-
-/// The branches in a window: how many, kinds and forcings of their bifurcations, and the rows of each line.
-fn branches_in(restitution: f64, window: [f64; 2]) -> (f64, Vec<(String, f64)>, Lines) {
-    let (json, reply) = answered("branches", json!({ "restitution": restitution, "axial_forcing": window }));
-    let bifurcations = list(&json, "bifurcations").iter();
-    let bifurcations = bifurcations
-        .map(|one| (one["kind"].as_str().expect("a word").to_owned(), number(one, "axial_forcing")))
-        .collect();
-    let mut lines = Lines::new();
-    for row in reply.numbers.chunks(6) {
-        if row[5] as usize == lines.len() {
-            lines.push(Vec::new());
-        }
-        let row: [f64; 6] = row.try_into().expect("six columns");
-        assert!((window[0]..=window[1]).contains(&row[0]), "{restitution} {window:?}: {row:?}");
-        lines.get_mut(row[5] as usize).expect("the lines follow each other").push(row);
-    }
-    (number(&json, "branches"), bifurcations, lines)
-}
-
 #[test]
-fn branches_go_through_the_doublings_of_the_cascade() {
-    let (branches, found, lines) = branches_in(0.5, [0.3, 0.62]);
-    let is_there = |kind: &str, wanted: f64| {
-        found.iter().any(|(known, forcing)| known == kind && (forcing - wanted).abs() < 1e-9)
-    };
-    // Birth at (1 - r)/(1 + r), and the first doubling in closed form.
-    assert!(is_there("fold", 1.0 / 3.0), "{found:?}");
-    assert!(is_there("doubling", ImpactMap::first_doubling_forcing(0.5)), "{found:?}");
-    for row in lines.iter().flatten() {
-        let stable = [0.0, 1.0].map(f64::to_bits).contains(&row[4].to_bits());
-        assert!(row[3] < branches && stable, "{row:?}");
-    }
-    assert!(branches_in(0.5, [0.1, 0.2]).0 < 0.5);
-    for restitution in [0.0, 0.5, 0.999999] {
-        for window in [[60.0, 60.1], [1e-3, 1e-2], [99.0, 100.0], [0.45, 0.45 + 1e-12], [0.7, 0.7 + 1e-12]] {
-            branches_in(restitution, window);
+fn the_rows_of_branches_are_those_of_the_library() {
+    let branches = branches_over_forcing(0.5, (0.3, 0.62)).expect("legal");
+    let (json, reply) = answered("branches", json!({ "restitution": 0.5, "axial_forcing": [0.3, 0.62] }));
+    assert_eq!((json["branches"].as_u64(), branches.len() > 3), (Some(branches.len() as u64), true));
+    let known = branches.iter().flat_map(|branch| &branch.bifurcations);
+    let found = list(&json, "bifurcations").iter();
+    assert!(found.map(|one| number(one, "axial_forcing")).eq(known.map(|one| one.point.parameter)));
+    // The impacts of each part one after the other, each along a line of its own.
+    let mut rows = reply.numbers.chunks(6);
+    let parts = branches
+        .iter()
+        .enumerate()
+        .flat_map(|(branch, own)| own.parts.iter().map(move |part| (branch, part)));
+    let lines = parts
+        .flat_map(|(branch, part)| (0..part[0].orbit.period()).map(move |impact| (branch, part, impact)));
+    for (line, (branch, part, impact)) in lines.enumerate() {
+        for point in part.iter().filter(|point| impact < point.orbit.period()) {
+            let state = point.orbit.states[impact];
+            let known = [point.parameter, state.phase().angle(), state.normalised_speed(), branch as f64];
+            let row = rows.next().expect("a row");
+            assert_eq!((bits(&row[..4]), row[4] > 0.5), (bits(&known), point.is_stable()));
+            assert_eq!(row[5].to_bits(), (line as f64).to_bits());
         }
     }
-}
-
-#[test]
-fn the_same_branches_are_seen_whichever_window_looks_at_them() {
-    let (_, all, _) = branches_in(0.5, [0.3, 0.62]);
-    for window in [[0.33, 0.34], [0.485, 0.4861], [0.49, 0.53], [0.54, 0.62], [0.5421, 0.5426]] {
-        let (_, here, lines) = branches_in(0.5, window);
-        let wanted: Vec<_> =
-            all.iter().filter(|(_, forcing)| (window[0]..=window[1]).contains(forcing)).collect();
-        assert_eq!(here.len(), wanted.len(), "{window:?}: {here:?}");
-        for ((kind, forcing), (known, there)) in here.iter().zip(wanted) {
-            assert!(kind == known && (forcing - there).abs() < 1e-12, "{window:?}: {kind} at {forcing}");
-        }
-        // Each line is a curve: no step of it is wider than a few pixels of a screen.
-        let width = window[1] - window[0];
-        for pair in lines.iter().flat_map(|line| line.windows(2)) {
-            assert!((pair[1][0] - pair[0][0]).abs() < 0.05 * width, "{window:?}: {pair:?}");
-        }
-    }
-    // Throughout: two impacts that attract, one orbit of one impact that does not, the saddle of the pair.
-    let (_, _, lines) = branches_in(0.5, [0.49, 0.53]);
-    let all = |stable: bool| {
-        let is_so = |line: &&Vec<[f64; 6]>| line.iter().all(|row| (row[4] > 0.5) == stable);
-        let is_through = |line: &&Vec<[f64; 6]>| (line[0][0] - line[line.len() - 1][0]).abs() > 0.04 - 1e-12;
-        lines.iter().filter(is_through).filter(is_so).count()
-    };
-    assert_eq!((all(true), all(false), lines.len()), (2, 2, 4));
-    // Right at a doubling, between two points of a branch, and where there is hardly one left.
-    for (window, count) in [([0.48600, 0.48601], 4), ([0.45, 0.45 + 1e-12], 2), ([60.0, 60.1], 3)] {
-        assert_eq!(branches_in(0.5, window).2.len(), count, "{window:?}");
-    }
+    assert!(rows.next().is_none());
 }
 
 #[test]
