@@ -76,7 +76,7 @@ async function requestsBeyond() {
     return { call: "diagram", system: { ...system, ...changes }, axial_forcing, ...grid, ...rest };
   };
   const spin = { kind: "impact", ...start, angular_speed: 3 };
-  const turning = { call: "motion", start: spin, periods: 100, samples_per_period: 9 };
+  const turning = { call: "motion", start: spin, periods: 100, samples_per_period: 7 };
   const axes = { phase_periods: [0, 1], phases: 200, normalised_speed: [0, 3], speeds: 150, rows: [0, 150] };
   const modes = { mass: 0.05, quality: 300 };
   const two = { ...modes, kind: "axial_and_torsional", inertia: 1e-6, torsional_quality: 100, resonance: 70.1e3 };
