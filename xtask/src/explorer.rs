@@ -32,10 +32,6 @@ pub(crate) struct Options {
     /// Serve the page on this machine alone when it is built, by Python's web server, until interrupted.
     #[arg(long)]
     serve: bool,
-    /// Build no page, but its module with what computes the digests of results, and compare these in Node
-    /// with those of x86-64.
-    #[arg(long, conflicts_with = "serve")]
-    digests: bool,
     /// The port of --serve; 0 takes any that is free.
     #[arg(long, value_name = "PORT", default_value_t = 8080, requires = "serve")]
     port: u16,
@@ -65,16 +61,9 @@ pub(crate) fn run(options: &Options) -> Result<ExitCode> {
     tools::complain_of_missing(options.rustc.as_deref(), options.build_std)?;
     let target = target_folder()?;
     let out = options.out.as_ref().map_or(target.join("explorer"), |out| in_workspace("").join(out));
-    let steps = if options.digests { 3 } else { 4 };
-    complain!(
-        "Building the explorer, in {steps} steps: some ten minutes the first time, a minute or two later"
-    );
-    if options.digests {
-        digests_compared(options, &target, &out.join("digests"))?;
-        return Ok(ExitCode::SUCCESS);
-    }
+    complain!("Building the explorer, in 4 steps: some ten minutes the first time, a minute or two later");
     let module = out.join("module");
-    bound(options, &target, steps, &module)?;
+    bound(options, &target, &module)?;
     let page = in_workspace(PAGE);
     complain!("3/4 The page's packages, from npm: some seconds");
     // Install exactly the packages of the lock file, without running their scripts: they bring their programs
@@ -101,20 +90,12 @@ pub(crate) fn run(options: &Options) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Fails where WebAssembly gives other bits than the machine that the digests were stored on.
-fn digests_compared(options: &Options, target: &Path, folder: &Path) -> Result<()> {
-    bound(options, target, 3, folder)?;
-    complain!("3/3 The digests of its results, in Node: some seconds");
-    let test = in_workspace(PAGE).join("tests").join("digests.test.mjs");
-    succeed(Command::new("node").arg("--test").arg(test).env("EXPLORER_MODULE", folder))
-}
-
 /// Writes the module and what binds it to JavaScript into a folder.
-fn bound(options: &Options, target: &Path, steps: usize, folder: &Path) -> Result<()> {
-    complain!("1/{steps} The library as a module of WebAssembly: a minute or two");
+fn bound(options: &Options, target: &Path, folder: &Path) -> Result<()> {
+    complain!("1/4 The library as a module of WebAssembly: a minute or two");
     let module = compiled(options, target)?;
     std::fs::create_dir_all(folder).with_context(|| format!("{} cannot be made", folder.display()))?;
-    complain!("2/{steps} What binds it to JavaScript: some seconds, the first time some minutes");
+    complain!("2/4 What binds it to JavaScript: some seconds, the first time some minutes");
     let wasm_bindgen = tools::wasm_bindgen(options.tools.as_ref().unwrap_or(&target.join("explorer-tools")))?;
     succeed(
         Command::new(wasm_bindgen)
@@ -128,7 +109,6 @@ fn bound(options: &Options, target: &Path, steps: usize, folder: &Path) -> Resul
 fn compiled(options: &Options, target: &Path) -> Result<PathBuf> {
     let mut build = cargo();
     build.args(["build", "--profile", "web", "--package", PACKAGE, "--lib", "--target", TARGET, "--locked"]);
-    build.args(options.digests.then_some("--features=digests"));
     if let Some(rustc) = &options.rustc {
         build.env("RUSTC", rustc);
     }

@@ -1,4 +1,4 @@
-"""The same bits as in Rust: the digests of the crate ``bouncing-disk-web``, and the same calls from here."""
+"""The same bits as in Rust: the digests of the crate ``bouncing-disk``, and the same calls from here."""
 
 from __future__ import annotations
 

@@ -56,7 +56,6 @@ impl Explorer {
             Request::MotorTransient(request) => motor::transient(&request),
             Request::MotorLoads(request) => motor::loads(&request),
             Request::MotorStall { sheet, relative_error, seed } => motor::stall(sheet, relative_error, seed),
-            Request::SheetWrite { sheet } => motor::write(sheet),
             Request::SheetRead { text } => motor::read(&text),
             Request::SheetOfSystem { system, mass } => motor::of_system(&system.build()?, mass),
         }

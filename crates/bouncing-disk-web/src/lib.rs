@@ -15,8 +15,6 @@
 
 mod branches;
 mod diagram;
-#[cfg(feature = "digests")]
-mod digests;
 mod explorer;
 mod motion;
 mod motor;
@@ -25,7 +23,5 @@ mod reply;
 mod request;
 mod shared_basins;
 
-#[cfg(feature = "digests")]
-pub use digests::{digests, golden_differences};
 pub use explorer::Explorer;
 pub use reply::Reply;

@@ -1,12 +1,10 @@
 //! Motors by their data sheets.
 
-use std::iter;
-
 use bouncing_disk::core::Unobserved;
-use bouncing_disk::estimate::{FitError, FitRefusal, FitSettings, RiseForm, Spread, TransientFit};
+use bouncing_disk::estimate::{FitError, FitSettings, RiseForm, Spread, TransientFit};
 use bouncing_disk::motor::{
-    DrivenMotor, Estimate, MotorParameters, OperatingSettings, Operation, Shortfall, SpeedCurve,
-    TransientMember, TransientSettings, transients,
+    DrivenMotor, Estimate, MotorParameters, OperatingSettings, SpeedCurve, TransientMember,
+    TransientSettings, transients,
 };
 use bouncing_disk::parameters::{ContactLaw, ContactStatement, DriveParameters};
 use bouncing_disk::{Error, Motor, System};
@@ -15,7 +13,7 @@ use serde_json::{Value, json};
 use crate::reply::{Refusal, Reply};
 use crate::request::{LoadsRequest, SystemParameters, TransientRequest};
 
-/// Impacts that an answer may take where the request says nothing: a second or two for most motors.
+/// Impacts that the search of a stall load may take: a second or two for most motors.
 const FEW_IMPACTS: u64 = 5_000_000;
 
 /// Most impacts that a request may allow: those of the library's default.
@@ -27,10 +25,9 @@ const FEWER: usize = 4;
 /// The distance up to which a trap is reported, as a relative change of the preload or the amplitude.
 const TRAP_RANGE: f64 = 0.02;
 
-/// The report of a data sheet before anything turns, with its system and the mass of its rotor (kg). The trap
-/// is the nearest preload at which the motor may be caught in a motion of few impacts: whether it is, the
-/// relative change of the preload or the amplitude that reaches it, and its range of the forcing; none is looked
-/// for where contacts take time. Of a stator that yields regime and forcing are those of its motion without a rotor.
+/// The report of a data sheet before anything turns, with its system. The trap is the nearest preload at which
+/// the motor may be caught in a motion of few impacts; none is looked for where contacts take time. Of a stator
+/// that yields regime and forcing are those of its motion without a rotor.
 pub(crate) fn report(sheet: MotorParameters) -> Result<Reply, Refusal> {
     let motor = sheet.build()?;
     let unloaded = match motor.stator() {
@@ -42,14 +39,6 @@ pub(crate) fn report(sheet: MotorParameters) -> Result<Reply, Refusal> {
     let warnings = if own.is_some() { motor.warnings() } else { report.warnings.clone() };
     let rigid = soft(motor)?.is_none();
     let trap = if rigid { motor.nearest_trap(TRAP_RANGE, &Unobserved)? } else { None };
-    let trap = trap.map(|trap| {
-        json!({
-            "preload_acceleration": trap.preload_acceleration,
-            "caught": trap.relative_distance == 0.0,
-            "relative_distance": trap.relative_distance,
-            "forcing_from_to": trap.forcing_from_to,
-        })
-    });
     Reply::short(&json!({
         "axial_forcing": report.axial_forcing,
         "angular_forcing": report.angular_forcing,
@@ -60,7 +49,6 @@ pub(crate) fn report(sheet: MotorParameters) -> Result<Reply, Refusal> {
         "text": own.map_or_else(|| report.to_string(), |own| own.to_string()),
         "yields": motor.stator().is_some(),
         "system": SystemParameters::from(motor.system()),
-        "mass": motor.mass(),
         "trap": trap,
     }))
 }
@@ -93,9 +81,9 @@ pub(crate) fn transient(request: &TransientRequest) -> Result<Reply, Refusal> {
     }
     let (rise, refusal) = match TransientFit::new(&curves, &FitSettings::default()) {
         Ok(fit) => (Some(rise_of(&fit)), None),
-        Err(FitError::Refused(reason)) => (None, Some(refused_since(&reason))),
+        Err(FitError::Refused(reason)) => (None, Some(reason)),
         Err(FitError::Model(error)) => return Err(error.into()),
-        Err(_) => (None, Some("the run-up does not determine one")),
+        Err(_) => (None, None),
     };
     Reply::new(&json!({ "points": times.len(), "rise": rise, "refusal": refusal }), numbers, Vec::new())
 }
@@ -106,25 +94,7 @@ fn rise_of(fit: &TransientFit) -> Value {
     json!({ "form": fit.form, "constant": rise.constant, "residual": rise.residual })
 }
 
-/// Why a run-up has no time constant, for readers: what the library says has its numbers to the last digit.
-const fn refused_since(reason: &FitRefusal) -> &'static str {
-    match reason {
-        FitRefusal::NoRise => "the speed stays zero",
-        FitRefusal::AtSearchLimit { .. } => "the speed is a straight line, or constant",
-        FitRefusal::TooShort { .. } => "the run-up ends before its speed has settled",
-        FitRefusal::TooFewPoints { .. } | FitRefusal::TooCoarse { .. } => {
-            "too few of its points lie where the speed rises"
-        }
-        FitRefusal::TooFewMembers { .. } => "too few motors were run",
-        FitRefusal::TooFewFlights { .. } => "the rotor hardly flies while its speed rises",
-        FitRefusal::Residual { .. } => "the run-up has another form, or scatters too much",
-        _ => "the run-up does not determine one",
-    }
-}
-
-/// What each operation lacks, and the amplitude (m) of a stator that yields. Numbers: a row for each with the load (N m), the speed (rad/s), mechanical and
-/// input power (W) and the efficiency, each with its standard error, and 0 if it is steady, 1 unsettled (the
-/// numbers are the best so far), 2 runaway (the load drives the rotor; the numbers are NaN).
+/// The library's operation under each load.
 pub(crate) fn loads(request: &LoadsRequest) -> Result<Reply, Refusal> {
     let LoadsRequest { sheet, load_torques, relative_error, most_impacts, seed } = request;
     let mut settings = settings(*relative_error, *most_impacts, *seed)?;
@@ -137,58 +107,14 @@ pub(crate) fn loads(request: &LoadsRequest) -> Result<Reply, Refusal> {
         }
         None => motor.torque_speed_curve(load_torques, &settings, &Unobserved)?,
     };
-    let shortfalls: Vec<_> = operations.iter().map(lacking).collect();
-    let amplitude =
-        |own: &Operation| own.point().and_then(|point| point.stator).map(|stator| stator.amplitude.value);
-    let amplitudes: Vec<_> = operations.iter().map(amplitude).collect();
-    Reply::new(
-        &json!({ "shortfalls": shortfalls, "amplitudes": amplitudes }),
-        operations.iter().flat_map(row).collect(),
-        Vec::new(),
-    )
+    Reply::short(&operations)
 }
 
-fn settings(relative_error: f64, most_impacts: Option<u64>, seed: u64) -> Result<OperatingSettings, Refusal> {
-    let most_impacts = most_impacts.unwrap_or(FEW_IMPACTS);
+fn settings(relative_error: f64, most_impacts: u64, seed: u64) -> Result<OperatingSettings, Refusal> {
     if most_impacts > MOST_IMPACTS {
         return Err(Refusal::out_of_range("most_impacts", most_impacts as f64, "[1, 20000000]"));
     }
     Ok(OperatingSettings { relative_error, seed, most_impacts, ..OperatingSettings::default() })
-}
-
-fn row(operation: &Operation) -> Vec<f64> {
-    let none = Estimate { value: f64::NAN, standard_error: f64::NAN };
-    let numbers = operation.point().map_or([none; 4], |point| {
-        [point.speed, point.mechanical_power, point.input_power, point.efficiency.unwrap_or(none)]
-    });
-    let status = match operation {
-        Operation::Steady(_) => 0.0,
-        Operation::Unsettled(..) => 1.0,
-        _ => 2.0,
-    };
-    let numbers = numbers.iter().flat_map(|number| [number.value, number.standard_error]);
-    iter::once(operation.load_torque()).chain(numbers).chain([status]).collect()
-}
-
-fn lacking(operation: &Operation) -> Option<String> {
-    Some(match operation {
-        Operation::Unsettled(_, Shortfall::Error { standard_error, wanted }) => {
-            format!(
-                "the error of the speed is {standard_error:.3e} rad/s, and {wanted:.3e} rad/s was asked for"
-            )
-        }
-        Operation::Unsettled(_, Shortfall::Drift { drift, standard_error }) => {
-            format!("the speed still drifts, by {drift:.3e} +- {standard_error:.3e} rad/s")
-        }
-        Operation::Unsettled(_, Shortfall::PowerBalance { stored_power, input_power }) => {
-            format!("the disk stores {stored_power:.3e} W of the {input_power:.3e} W that are put in")
-        }
-        Operation::Runaway { largest_torque, acceleration, .. } => format!(
-            "the load drives the rotor: friction holds {largest_torque:.3e} N m at most, and the rest of the load \
-             accelerates the rotor by {acceleration:.3e} rad/s^2"
-        ),
-        _ => return None,
-    })
 }
 
 /// A motor that does not turn without a load has no stall load, which is an answer and no failure.
@@ -198,7 +124,7 @@ pub(crate) fn stall(sheet: MotorParameters, relative_error: f64, seed: u64) -> R
         let message = "with a contact time or a stator that yields the search takes minutes: use bouncing-disk motor stall";
         return Err(Refusal::new("computation", message.to_owned()));
     }
-    let (torque, speed) = match motor.stall_load(&settings(relative_error, None, seed)?, &Unobserved) {
+    let (torque, speed) = match motor.stall_load(&settings(relative_error, FEW_IMPACTS, seed)?, &Unobserved) {
         Ok(stall) => (Some(stall.torque), stall.no_load_speed),
         Err(Error::DoesNotTurn { speed, standard_error }) => {
             (None, Estimate { value: speed, standard_error })
@@ -211,11 +137,6 @@ pub(crate) fn stall(sheet: MotorParameters, relative_error: f64, seed: u64) -> R
         "no_load_speed": speed.value,
         "no_load_speed_error": speed.standard_error,
     }))
-}
-
-/// A data sheet as the command line and Python read it.
-pub(crate) fn write(sheet: MotorParameters) -> Result<Reply, Refusal> {
-    Reply::short(&json!({ "text": sheet.build()?.to_json() }))
 }
 
 /// The page has one law of contacts that take time, and constant loads.
@@ -238,7 +159,9 @@ pub(crate) fn of_system(system: &System, mass: f64) -> Result<Reply, Refusal> {
     sheet_of(&MotorParameters::of_system(system, mass).build()?)
 }
 
+/// The text is what the command line and Python read.
 fn sheet_of(motor: &Motor) -> Result<Reply, Refusal> {
     let system = SystemParameters::from(motor.system());
-    Reply::short(&json!({ "sheet": motor.parameters(), "system": system, "mass": motor.mass() }))
+    let (sheet, text) = (motor.parameters(), motor.to_json());
+    Reply::short(&json!({ "sheet": sheet, "text": text, "system": system, "mass": motor.mass() }))
 }

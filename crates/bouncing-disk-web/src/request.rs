@@ -90,7 +90,6 @@ pub(crate) enum Request {
     MotorTransient(TransientRequest),
     MotorLoads(LoadsRequest),
     MotorStall { sheet: MotorParameters, relative_error: f64, seed: u64 },
-    SheetWrite { sheet: MotorParameters },
     SheetRead { text: String },
     SheetOfSystem { system: SystemParameters, mass: f64 },
 }
@@ -150,8 +149,8 @@ pub(crate) struct LoadsRequest {
     pub(crate) sheet: MotorParameters,
     pub(crate) load_torques: Vec<f64>,
     pub(crate) relative_error: f64,
-    /// Most impacts that the answer may take, up to 20 million; 5 million by default.
-    pub(crate) most_impacts: Option<u64>,
+    /// Most impacts that the answer may take, up to 20 million.
+    pub(crate) most_impacts: u64,
     pub(crate) seed: u64,
 }
 

@@ -4,8 +4,7 @@
 //! change needs a reason of its own (docs/numerics/solver.md, "Same bits everywhere"); record the digests
 //! again only together with it.
 //!
-//! The explorer compares them in WebAssembly and on other processors
-//! (crates/bouncing-disk-web/src/digests.rs), which have no test runner.
+//! `crates/bouncing-disk/tests/same_bits.rs` compares them on other processors, too.
 
 use std::f64::consts::TAU;
 

@@ -18,12 +18,19 @@ export function makeClient(source: Source): Client {
   const quick = new Lane(workshop);
   const heavy = new Lane(workshop);
   quick.warm();
-  const added = (lane: Lane, slot: string, requests: readonly Request[], each: Each = () => {}, first = false) =>
-    new Promise<Response<never>>((done, failed) => lane.add({ slot, requests, each, done, failed }, first));
   return {
     // A check decides whether a value that somebody types is taken; it waits for nothing but what is under way.
-    ask: (slot, request) => added(quick, slot, [request], undefined, request.call === "check"),
-    series: (slot, requests, each) => added(heavy, slot, requests, each as Each),
+    ask: (slot, request) => quick.ask(quick.begin(slot), request, request.call === "check"),
+    async series(slot, requests, each) {
+      const turn = heavy.begin(slot);
+      let last!: Response<never>;
+      for (const [index, request] of requests.entries()) {
+        last = await heavy.ask(turn, request);
+        each?.(last, index);
+      }
+      if (turn.over) throw new Cancelled(slot);
+      return last;
+    },
     cancel: (slot) => {
       quick.cancel(slot);
       heavy.cancel(slot);
@@ -41,22 +48,19 @@ function workshopOf(source: Source): Workshop {
   return { script, module: { base64: source.base64 } };
 }
 
-type Each = (response: Response<never>, index: number) => void;
+/** What a slot asks for, until it asks for something else. */
+type Turn = { over: boolean };
 
 interface Job {
-  readonly slot: string;
-  readonly requests: readonly Request[];
-  readonly each: Each;
-  readonly done: (last: Response<never>) => void;
-  readonly failed: (error: Error) => void;
-  next?: number;
+  readonly turn: Turn;
+  readonly request: Request;
+  readonly done: (response: Response<never>) => void;
+  readonly failed: (error: unknown) => void;
 }
-
-type Running = { readonly id: number; readonly job: Job; wanted: boolean };
 
 /** One honest sentence about a worker's end. */
 function sentence(message: string, starting: boolean): Error {
-  const what = message.replace(/^\w*Error: /, "").replace(/\.$/, "");
+  const what = message.replace(/^(Uncaught )?\w*Error: /, "").replace(/\.$/, "");
   return new Error(say(starting ? WORDS.client.no_start : WORDS.client.broken, { what }));
 }
 
@@ -65,33 +69,42 @@ class Lane {
   private worker: Worker | null = null;
   private ready = false;
   private queue: Job[] = [];
-  private running: Running | null = null;
-  private lastId = 0;
+  private running: Job | null = null;
   private deaths = 0;
+  private readonly turns = new Map<string, Turn>();
 
   constructor(private readonly workshop: Workshop) {}
 
-  /** Adds a job behind the others; `first` before them. The slot's older job ends. */
-  add(job: Job, first: boolean): void {
-    this.cancel(job.slot);
-    if (first) this.queue.unshift(job);
-    else this.queue.push(job);
-    this.pump();
+  /** The slot's next turn, which ends the one before. */
+  begin(slot: string): Turn {
+    this.cancel(slot);
+    const turn = { over: false };
+    this.turns.set(slot, turn);
+    return turn;
   }
 
-  /** Ends the job of a slot, and the worker with it if it goes on with it for long. */
+  /** Ends the turn of a slot, and the worker with it if it goes on with it for long. */
   cancel(slot: string): void {
-    const gone = this.queue.filter((job) => job.slot === slot);
-    this.queue = this.queue.filter((job) => job.slot !== slot);
-    const running = this.running;
-    if (running?.wanted && running.job.slot === slot) {
-      running.wanted = false;
-      gone.push(running.job);
-      setTimeout(() => {
-        if (this.running === running) this.replace();
-      }, GRACE);
-    }
-    for (const job of gone) job.failed(new Cancelled(`"${slot}" was cancelled`));
+    const turn = this.turns.get(slot);
+    if (turn === undefined) return;
+    this.turns.delete(slot);
+    turn.over = true;
+    const { running } = this;
+    for (const job of [...this.queue, running]) if (job?.turn === turn) job.failed(new Cancelled(slot));
+    this.queue = this.queue.filter((job) => job.turn !== turn);
+    if (running?.turn !== turn) return;
+    setTimeout(() => {
+      if (this.running === running) this.replace();
+    }, GRACE);
+  }
+
+  /** Asks behind the jobs of other slots, so that a long series does not keep them waiting; `first` before them. */
+  ask(turn: Turn, request: Request, first = false): Promise<Response<never>> {
+    return new Promise((done, failed) => {
+      if (turn.over) return failed(new Cancelled(request.call));
+      this.queue.splice(first ? 0 : this.queue.length, 0, { turn, request, done, failed });
+      this.pump();
+    });
   }
 
   warm(): void {
@@ -103,9 +116,9 @@ class Lane {
     };
     worker.onerror = (event) => {
       event.preventDefault();
-      if (this.worker === worker) this.fail(event.message || WORDS.client.no_reason, !this.ready);
+      if (this.worker === worker) this.fail(event.message || WORDS.client.no_reason);
     };
-    this.tell({ kind: "start", module: this.workshop.module });
+    this.tell({ module: this.workshop.module });
   }
 
   private tell(message: ToWorker): void {
@@ -116,54 +129,32 @@ class Lane {
     if (this.running !== null || this.queue.length === 0) return;
     this.warm();
     if (!this.ready) return;
-    const job = this.queue.shift() as Job;
-    this.lastId += 1;
-    this.running = { id: this.lastId, job, wanted: true };
-    this.tell({ kind: "ask", id: this.lastId, request: JSON.stringify(job.requests[job.next ?? 0]) });
+    this.running = this.queue.shift() as Job;
+    this.tell({ request: JSON.stringify(this.running.request) });
   }
 
   private hear(message: FromWorker): void {
-    if (message.kind === "failed") return this.fail(message.message, message.id === null && !this.ready);
-    const running = this.running;
-    if (message.kind === "ready") {
-      if (message.module !== null) this.workshop.module = { compiled: message.module };
+    if ("ready" in message) {
+      if (message.ready !== null) this.workshop.module = { compiled: message.ready };
       this.ready = true;
-    } else if (running?.id === message.id) {
-      this.deaths = 0;
-      // What its `each` asks for waits, and may cancel it.
-      if (running.wanted) this.deliver(running, message);
-      this.running = null;
+    } else {
+      const { json, refused, numbers, bytes } = message;
+      // One that was cancelled has failed already.
+      if (refused) this.running?.failed(new Refused(JSON.parse(json) as Refusal));
+      else this.running?.done({ json: JSON.parse(json) as never, numbers, bytes });
+      Object.assign(this, { running: null, deaths: 0 });
     }
     this.pump();
   }
 
-  private deliver(running: Running, message: Exclude<FromWorker, { kind: "ready" | "failed" }>): void {
-    const { job } = running;
-    const { next = 0 } = job;
-    try {
-      if (message.kind === "refused") throw new Refused(JSON.parse(message.json) as Refusal);
-      const { digest, numbers, bytes } = message;
-      const response = { json: JSON.parse(message.json) as never, numbers, bytes, digest };
-      job.each(response, next);
-      if (!running.wanted) return;
-      job.next = next + 1;
-      if (job.next >= job.requests.length) job.done(response);
-      // Behind the jobs of other slots, so that a long series does not keep them waiting.
-      else this.queue.push(job);
-    } catch (error) {
-      job.failed(error instanceof Error ? error : new Error(String(error)));
-    }
-  }
-
-  private fail(message: string, starting: boolean): void {
-    const running = this.running;
-    this.deaths += 1;
+  private fail(message: string): void {
+    const starting = !this.ready;
     const error = sentence(message, starting);
+    this.deaths += 1;
     const hopeless = this.deaths >= MOST_DEATHS;
-    const victims = starting || hopeless ? this.queue.splice(0) : [];
-    if (running?.wanted) victims.push(running.job);
+    const victims = [...(starting || hopeless ? this.queue.splice(0) : []), this.running];
     this.replace(hopeless);
-    for (const job of victims) job.failed(error);
+    for (const job of victims) job?.failed(error);
   }
 
   private replace(hopeless = false): void {

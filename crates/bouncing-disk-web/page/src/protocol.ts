@@ -50,8 +50,6 @@ export interface Response<Json> {
   readonly json: Json;
   readonly numbers: Float64Array;
   readonly bytes: Uint8Array;
-  /** Sixteen hexadecimal digits of all of it; the native library gets the same ones. */
-  readonly digest: string;
 }
 
 /** The columns of the rows in `numbers`. */
@@ -67,10 +65,6 @@ export const BRANCH_COLUMNS = [
   "axial_forcing", "impact_phase", "normalised_speed", "branch", "stable", "line",
 ] as const; // prettier-ignore
 export const TRANSIENT_COLUMNS = ["time", "speed", "speed_error"] as const;
-export const OPERATION_COLUMNS = [
-  "load_torque", "speed", "speed_error", "mechanical_power", "mechanical_power_error", "input_power",
-  "input_power_error", "efficiency", "efficiency_error", "status",
-] as const; // prettier-ignore
 /** Modes in the `bytes` of a motion. */
 export const MODES = ["flight", "sticking", "sliding forward", "sliding backward"] as const;
 
@@ -122,9 +116,10 @@ export type AttractorsJson = Numbers<"undecided" | "starts" | "fastest_start"> &
   readonly kinds: Readonly<Record<"rest" | "periodic" | "chaotic", IntervalJson>>;
 };
 
-/** What a data sheet says of the shared state. */
+/** What a data sheet says of the shared state; its text is that of a file. */
 export interface SheetJson {
   readonly sheet: MotorSheet;
+  readonly text: string;
   readonly system: SystemParameters;
   readonly mass: number;
 }
@@ -144,17 +139,31 @@ export type ReportJson = Numbers<"axial_forcing" | "largest_torque"> & {
 /** The performance of a single toss; the library's `TossPerformance`. */
 export type TossJson = Numbers<"airborne_speed" | "efficiency"> & Nullable<"speed_ratio">;
 
-export type TrapJson = Numbers<"preload_acceleration" | "relative_distance"> & {
-  readonly caught: boolean;
-  readonly forcing_from_to: Range;
+/** The library's `NearestTrap`; its distance is 0 for a motor that is caught. */
+export type TrapJson = Numbers<"preload_acceleration" | "relative_distance"> & { readonly forcing_from_to: Range };
+
+/** The library's `Operation`: a motor under a load, and what it lacks, by its name. */
+export type OperationJson = {
+  readonly Steady?: PointJson;
+  readonly Unsettled?: readonly [PointJson, Readonly<Record<string, Numbers<string>>>];
+  readonly Runaway?: Numbers<"load_torque" | "largest_torque" | "acceleration">;
 };
+
+export type PointJson = Numbers<"load_torque"> &
+  Readonly<Record<"speed" | "mechanical_power" | "input_power", EstimateJson>> & {
+    readonly efficiency: EstimateJson | null;
+    readonly stator?: { readonly amplitude: EstimateJson };
+  };
+
+export type EstimateJson = Numbers<"value" | "standard_error">;
 
 export type IntervalJson = Numbers<"value" | "low" | "high">;
 
 export interface TransientJson {
   readonly points: number;
   readonly rise: { form: "exponential" | "ramp"; constant: IntervalJson; residual: number } | null;
-  readonly refusal: string | null;
+  /** The name of the library's `FitRefusal`, most with its numbers. */
+  readonly refusal: string | Readonly<Record<string, unknown>> | null;
 }
 
 export type StallJson = Nullable<"torque" | "torque_error" | "no_load_speed_error"> & Numbers<"no_load_speed">;

@@ -1,24 +1,19 @@
-/** What the page and a worker say to each other. */
+/** What the page and a worker say to each other: the module first, then one request after the other. */
 
 /** Where a worker finds the module: compiled by another one, as gzipped base64 text, or at an address. */
 export type ModuleSource = { compiled: WebAssembly.Module } | { base64: string } | { address: string };
 
-export type ToWorker =
-  | { kind: "start"; module: ModuleSource }
-  /** `request` is the JSON of a `Request`, which the module reads itself. */
-  | { kind: "ask"; id: number; request: string };
+/** `request` is the JSON of a `Request`, which the module reads itself. */
+export type ToWorker = { module: ModuleSource } | { request: string };
 
-export type FromWorker =
-  /** `module` is there if this worker compiled it, for those that start later. */
-  | { kind: "ready"; module: WebAssembly.Module | null }
-  | { kind: "answer"; id: number; json: string; digest: string; numbers: Float64Array; bytes: Uint8Array }
-  | { kind: "refused"; id: number; json: string }
-  /** `id` is null where the worker could not even start. The worker is of no use any more. */
-  | { kind: "failed"; id: number | null; message: string };
+/** The answer to a request, whose digest is compared with that of the native library. */
+type Reply = { json: string; refused: boolean; digest: string; numbers: Float64Array; bytes: Uint8Array };
+
+/** First the module that it compiled, for those that start later, or null. A worker that throws is of no use any more. */
+export type FromWorker = { ready: WebAssembly.Module | null } | Reply;
 
 /** Its arrays are copies outside of the module's memory, which can change hands. */
-type Reply = Omit<Extract<FromWorker, { kind: "answer" }>, "kind" | "id"> & { refused: boolean; free(): void };
-type Explorer = { respond(request: string): Reply };
+type Explorer = { respond(request: string): Reply & { free(): void } };
 
 declare const wasm_bindgen: {
   initSync(options: { module: WebAssembly.Module }): unknown;
@@ -30,9 +25,7 @@ const scope = globalThis as unknown as {
   onmessage: ((event: MessageEvent<ToWorker>) => void) | null;
   postMessage(message: FromWorker, transfer: Transferable[]): void;
 };
-let explorer: Explorer | null = null;
-
-const say = (message: FromWorker, transfer: Transferable[] = []): void => scope.postMessage(message, transfer);
+let explorer: Explorer;
 
 async function compiled(source: ModuleSource): Promise<WebAssembly.Module> {
   if ("compiled" in source) return source.compiled;
@@ -48,30 +41,20 @@ async function compiled(source: ModuleSource): Promise<WebAssembly.Module> {
 }
 
 async function start(source: ModuleSource): Promise<void> {
-  try {
-    const module = await compiled(source);
-    wasm_bindgen.initSync({ module });
-    explorer = new wasm_bindgen.Explorer();
-    say({ kind: "ready", module: "compiled" in source ? null : module });
-  } catch (error) {
-    say({ kind: "failed", id: null, message: String(error) });
-  }
+  const module = await compiled(source);
+  wasm_bindgen.initSync({ module });
+  explorer = new wasm_bindgen.Explorer();
+  scope.postMessage({ ready: "compiled" in source ? null : module }, []);
 }
 
-function answer(id: number, request: string): void {
-  try {
-    if (explorer === null) throw new Error("the module has not started");
-    const reply = explorer.respond(request);
-    const { json, digest, refused, numbers, bytes } = reply;
-    reply.free();
-    if (refused) say({ kind: "refused", id, json });
-    else say({ kind: "answer", id, json, digest, numbers, bytes }, [numbers.buffer, bytes.buffer]);
-  } catch (error) {
-    say({ kind: "failed", id, message: String(error) });
-  }
+function answer(request: string): void {
+  const reply = explorer.respond(request);
+  const { json, refused, digest, numbers, bytes } = reply;
+  reply.free();
+  scope.postMessage({ json, refused, digest, numbers, bytes }, [numbers.buffer, bytes.buffer]);
 }
 
 scope.onmessage = ({ data }) => {
-  if (data.kind === "start") void start(data.module);
-  else answer(data.id, data.request);
+  if ("module" in data) start(data.module).catch(reportError);
+  else answer(data.request);
 };

@@ -11,7 +11,7 @@ function holdable() {
   const Original = window.Worker;
   window.Worker = class extends Original {
     postMessage(message, ...rest) {
-      if (message.kind === "ask" && window.holds.includes(JSON.parse(message.request).call)) {
+      if (window.holds.includes(JSON.parse(message.request ?? "{}").call)) {
         window.held.push(() => super.postMessage(message, ...rest));
       } else super.postMessage(message, ...rest);
     }

@@ -36,15 +36,15 @@ export function asker() {
   const site = join(dirname(file), "site");
   const explorer = new (moduleOf(join(site, "worker.js"), join(site, "module.wasm")).Explorer)();
   const ask = async (request) => {
-    const { json, refused, numbers, bytes } = explorer.respond(JSON.stringify(request));
+    const { json, digest, refused, numbers, bytes } = explorer.respond(JSON.stringify(request));
     assert.equal(refused, false, `${JSON.stringify(request)}: ${json}`);
-    return { json: JSON.parse(json), numbers, bytes };
+    return { json: JSON.parse(json), digest, numbers, bytes };
   };
   /** Samples and events of a motion from an impact, by the names of their columns, and the first separation. */
   async function motion({ system, start }, periods = 20) {
     const { MOTION_COLUMNS, EVENT_COLUMNS } = await sourceOf("protocol.ts");
-    const impact = { kind: "impact", ...start };
-    const { json, numbers, bytes } = await ask({ call: "motion", system, start: impact, periods, samples_per_period: 64 });
+    const request = { call: "motion", system, start: { kind: "impact", ...start }, periods, samples_per_period: 64 };
+    const { json, numbers, bytes } = await ask(request);
     const width = MOTION_COLUMNS.length;
     const row = (columns, first) => Object.fromEntries(columns.map((name, column) => [name, numbers[first + column]]));
     const samples = Array.from({ length: json.samples }, (_, index) => row(MOTION_COLUMNS, index * width));

@@ -115,7 +115,7 @@ test("numbers that the error hides have no digits and no sign, others no more th
 });
 
 test("a trap is told with digits enough to find it", () => {
-  const near = { preload_acceleration: 1.00000002, caught: false, relative_distance: 2e-8 };
+  const near = { preload_acceleration: 1.00000002, relative_distance: 2e-8 };
   assert.match(
     words.describeTrap({ ...near, forcing_from_to: [615.7521, 615.75212] }),
     /2\.0 × 10⁻⁶ % away: .* 1\.00000002 m\/s² .* Γ from 615\.7521 to 615\.75212\.$/,

@@ -30,6 +30,7 @@ pub(crate) const fn refused<T>(reason: FitRefusal) -> Result<T, FitError> {
 
 /// Why a curve gives no trustworthy fit. Every reason carries the numbers by which it was judged.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub enum FitRefusal {
     /// The curve has too few points.

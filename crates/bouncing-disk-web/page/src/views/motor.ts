@@ -94,10 +94,8 @@ export class MotorView extends ComputingView {
   private async computeAll(state: State, known: Known): Promise<void> {
     const { context } = this;
     context.status(WORDS.motor.reading, "busy");
-    const sheet = this.sheetKnown(state) ?? (await sheetOf(context, state));
-    const { json } = await context.client.ask<{ text: string }>(SLOT, { call: "sheet_write", sheet });
-    known.sheet = sheet;
-    known.text = json.text;
+    const { sheet, text } = this.sheetKnown(state) ?? (await sheetOf(context, state));
+    Object.assign(known, { sheet, text });
     this.sheetPanel.show(known.text);
     const report = await reportOf(context, sheet);
     known.report = report;
@@ -169,15 +167,15 @@ export class MotorView extends ComputingView {
   }
 
   /** The sheet that was read, as long as the system is still that of it: it may say more than the system does. */
-  private sheetKnown(state: State): MotorSheet | null {
+  private sheetKnown(state: State): SheetJson | null {
     const { imported } = this;
     if (imported === null || imported.mass !== state.mass) return null;
     const names = Object.keys(state.system) as (keyof typeof state.system)[];
-    return names.every((name) => imported.system[name] === state.system[name]) ? imported.sheet : null;
+    return names.every((name) => imported.system[name] === state.system[name]) ? imported : null;
   }
 
   private keyOf(state: State): string {
-    return JSON.stringify([state.system, state.mass, state.motor, this.sheetKnown(state)?.stator ?? null]);
+    return JSON.stringify([state.system, state.mass, state.motor, this.sheetKnown(state)?.sheet.stator ?? null]);
   }
 
   private paint(): void {

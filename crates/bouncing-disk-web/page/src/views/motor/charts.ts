@@ -4,9 +4,9 @@ import type { Offer } from "../../contract";
 import { padded, prefixed } from "../../drawing/axes";
 import { chartOffers, spanOf, type Chart, type Curve, type Mark, type Stretch } from "../../drawing/chart";
 import { ONE_COLUMN, rowsOf, tableOffers, type Basis } from "../../drawing/files";
-import { OPERATION_COLUMNS, TRANSIENT_COLUMNS, type Range, type StallJson } from "../../protocol";
+import { TRANSIENT_COLUMNS, type Range, type StallJson } from "../../protocol";
 import { WORDS } from "../../words";
-import { membersOf, SEED, type Known, type Operation, type Transient } from "./requests";
+import { membersOf, OPERATION_COLUMNS, SEED, type Known, type Operation, type Transient } from "./requests";
 
 const { charts: TEXTS, files: FILES, titles: TITLES } = WORDS.motor;
 

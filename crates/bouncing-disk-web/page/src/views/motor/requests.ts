@@ -1,8 +1,9 @@
 /** What the motor's view asks for, in the order in which it matters to a reader. */
 
 import type { Context, State } from "../../contract";
-import { OPERATION_COLUMNS, type MotorSheet, type Range, type ReportJson } from "../../protocol";
-import type { SheetJson, StallJson, TransientJson } from "../../protocol";
+import { plain } from "../../numbers";
+import type { MotorSheet, OperationJson, Range, ReportJson, SheetJson, StallJson, TransientJson } from "../../protocol";
+import { say, WORDS } from "../../words";
 
 /** Of all that is asked of a motor, one after the other. */
 export const SLOT = "motor";
@@ -19,10 +20,14 @@ export const PASSES = [
 ] as const;
 export type Pass = (typeof PASSES)[number];
 const STALL_ERROR = 0.02;
+const LACKING: Readonly<Record<string, string>> = WORDS.motor.lacking;
 
-const WIDTH = OPERATION_COLUMNS.length;
+export const OPERATION_COLUMNS = [
+  "load_torque", "speed", "speed_error", "mechanical_power", "mechanical_power_error", "input_power",
+  "input_power_error", "efficiency", "efficiency_error", "status",
+] as const; // prettier-ignore
 
-/** One load: a row by the names of `OPERATION_COLUMNS`. */
+/** One load: a row by the names of `OPERATION_COLUMNS`; its status is 0 (steady), 1 (unsettled) or 2 (runaway). */
 export type Operation = Record<(typeof OPERATION_COLUMNS)[number], number> & {
   readonly shortfall: string | null;
   /** Of a stator that yields (m). */
@@ -54,8 +59,8 @@ export class Known {
 }
 
 /** The sheet of the shared system. */
-export async function sheetOf({ client }: Context, { system, mass }: State): Promise<MotorSheet> {
-  return (await client.ask<SheetJson>(SLOT, { call: "sheet_of_system", system, mass })).json.sheet;
+export async function sheetOf({ client }: Context, { system, mass }: State): Promise<SheetJson> {
+  return (await client.ask<SheetJson>(SLOT, { call: "sheet_of_system", system, mass })).json;
 }
 
 export async function reportOf({ client }: Context, sheet: MotorSheet): Promise<ReportJson> {
@@ -76,14 +81,33 @@ export async function operate(
   pass: Pass,
 ): Promise<Operation[]> {
   const request = { call: "motor_loads", sheet, load_torques, ...pass, seed: SEED } as const;
-  type Known = { shortfalls: (string | null)[]; amplitudes: (number | null)[] };
-  const { json, numbers } = await client.series<Known>(SLOT, [request]);
-  return load_torques.map((_, row) => {
-    const columns = OPERATION_COLUMNS.map((name, column) => [name, numbers[row * WIDTH + column]]);
-    const shortfall = json.shortfalls[row] ?? null;
-    const amplitude = json.amplitudes[row] ?? null;
-    return { ...Object.fromEntries(columns), shortfall, amplitude, wanted: pass.relative_error } as Operation;
+  const { json } = await client.series<OperationJson[]>(SLOT, [request]);
+  return json.map((operation) => operationOf(operation, pass.relative_error));
+}
+
+/** Without a number where the library has none. */
+export function operationOf({ Steady, Unsettled, Runaway }: OperationJson, wanted: number): Operation {
+  const point = Steady ?? Unsettled?.[0];
+  const estimates = (["speed", "mechanical_power", "input_power", "efficiency"] as const).flatMap((name) => {
+    const { value, standard_error } = point?.[name] ?? { value: NaN, standard_error: NaN };
+    return [[name, value], [`${name}_error`, standard_error]];
   });
+  const lacks = Unsettled?.[1] ?? (Runaway && { Runaway });
+  return {
+    load_torque: (point ?? Runaway)?.load_torque,
+    ...Object.fromEntries(estimates),
+    status: Steady ? 0 : Unsettled ? 1 : 2,
+    shortfall: lacks === undefined ? null : shortfallOf(lacks),
+    amplitude: point?.stator?.amplitude.value ?? null,
+    wanted,
+  } as Operation;
+}
+
+/** What a motor lacks. */
+function shortfallOf(reason: Readonly<Record<string, Readonly<Record<string, number>>>>): string {
+  const [name, numbers] = Object.entries(reason)[0] ?? ["", {}];
+  const values = Object.entries(numbers).map(([key, number]) => [key, plain(number, 3)]);
+  return say(LACKING[name] ?? name, Object.fromEntries(values) as Record<string, string>);
 }
 
 export async function stallOf({ client }: Context, sheet: MotorSheet): Promise<StallJson> {

@@ -64,16 +64,9 @@ export function steadySpeed(own: Operation, largestTorque: number): string {
   if (own.status === 2) return say(TEXTS.speed_none, { load: driving ?? "", largest: largest ?? "" });
   const load = under(own.load_torque);
   if (own.status === 0) return say(TEXTS.speed_known, { speed: withError(own.speed, own.speed_error), load });
-  const why = own.shortfall === null ? "" : `; ${readable(own.shortfall)}`;
+  const why = own.shortfall === null ? "" : `; ${own.shortfall}`;
   return `${say(TEXTS.speed_unsettled, { speed: plain(own.speed, 3), load })}${why}`;
 }
-
-/** What a motor lacks, as the library's ASCII says it. */
-const readable = (text: string): string =>
-  text
-    .replace(/-?[\d.]+e-?\d+/g, (digits) => plain(Number(digits), 3))
-    .replace("+-", "±")
-    .replace("rad/s^2", "rad/s²");
 
 /** A time with its 95 % interval, with the digits that the interval leaves: "852 ms (95 % interval 824 to 889 ms)". */
 function time({ value, low, high }: IntervalJson): string {
@@ -83,10 +76,17 @@ function time({ value, low, high }: IntervalJson): string {
   return say(TEXTS.interval, { value: told(value), low: told(low), high: told(high), unit: `${symbol}s` });
 }
 
+const REFUSALS: Readonly<Record<string, string>> = TEXTS.refusals;
+
+/** Why a run-up has no time constant: what the library says of it has its numbers to the last digit. */
+const whyNone = ({ refusal }: Transient["json"]): string =>
+  REFUSALS[typeof refusal === "string" ? refusal : (Object.keys(refusal ?? {})[0] ?? "")] ?? TEXTS.unknown;
+
 /** The time constant of a run-up that has one. */
-export function timeConstant({ rise, refusal }: Transient["json"], own: Operation | null): string {
+export function timeConstant(json: Transient["json"], own: Operation | null): string {
+  const { rise } = json;
   if (own?.status === 2) return TEXTS.constant_driven;
-  if (rise === null) return say(TEXTS.constant_none, { why: refusal ?? TEXTS.unknown });
+  if (rise === null) return say(TEXTS.constant_none, { why: whyNone(json) });
   if (rise.form === "ramp") return TEXTS.constant_ramp;
   return time(rise.constant);
 }
@@ -104,7 +104,7 @@ export function describeTrap(trap: TrapJson): string {
   const digits = [4, 6, 9, 12].find((count) => shown(low, count) !== shown(high, count)) ?? 15;
   const [from, to, preload] = [shown(low, digits), shown(high, digits), shown(trap.preload_acceleration, 9)];
   const away = plain(100 * Math.abs(trap.relative_distance), 2);
-  return say(trap.caught ? TEXTS.trap : TEXTS.trap_near, { preload, from, to, away });
+  return say(trap.relative_distance === 0 ? TEXTS.trap : TEXTS.trap_near, { preload, from, to, away });
 }
 
 /** Why a motor has no stall load, or the load. */

@@ -1,12 +1,12 @@
 /** What a scan computes: the requests of its points, and the numbers in the answers. */
 
 import { Refused, type Change, type Context, type ResultName, type State } from "../../contract";
-import { OPERATION_COLUMNS, type Request, type Response, type SheetJson } from "../../protocol";
+import type { OperationJson, Request, Response, SheetJson } from "../../protocol";
 import type { AttractorsJson, TossJson, VerdictJson } from "../../protocol";
 import { say, WORDS } from "../../words";
 import { REST } from "../../presets";
 import { impactOf, mapOf } from "../asking";
-import { SEED } from "../motor/requests";
+import { operationOf, SEED } from "../motor/requests";
 
 type Answer = Response<unknown>;
 
@@ -75,10 +75,9 @@ const ofMotor = (unit: string, name: "speed" | "mechanical_power" | "efficiency"
     const { sheet } = json as SheetJson;
     return { call: "motor_loads", sheet, load_torques: [sheet.load_torque], ...OPERATION };
   },
-  read({ json, numbers }) {
-    const column = (wanted: (typeof OPERATION_COLUMNS)[number]) => numbers[OPERATION_COLUMNS.indexOf(wanted)] ?? NaN;
-    const [lacks = null] = (json as { shortfalls: (string | null)[] }).shortfalls;
-    const [value, error] = [column(name), column(`${name}_error`)];
+  read({ json }) {
+    const [operation = {}] = json as OperationJson[];
+    const { [name]: value, [`${name}_error` as const]: error, shortfall: lacks } = operationOf(operation, NaN);
     return { value, error, ...(lacks !== null && { lacks }) };
   },
 });

@@ -1,7 +1,7 @@
-//! Digests that name the bits of results: the same on every machine.
+//! Digests that name the bits of what users compute most: the same on every machine, and in Python.
 //!
-//! The Python package stores those of x86-64 (`digests.json`, by `tests/test_same_bits.py`); this crate
-//! computes them wherever it is compiled (`examples/digests.rs`, WebAssembly), with the core's golden ones.
+//! They are stored beside the Python package, which compares its own results with them
+//! (`tests/test_same_bits.py`). `.ci/aarch64` runs these tests on another processor.
 
 #[path = "../../bouncing-disk-core/tests/golden/results.rs"]
 mod golden;
@@ -23,33 +23,31 @@ use bouncing_disk::motor::{
 use bouncing_disk::parameters::{StatorKind, StatorParameters, Waveform};
 use bouncing_disk::toss::{InitialSpin, single_toss};
 use bouncing_disk::{Error, Motor, System};
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen::prelude::wasm_bindgen;
 
-/// The digests of what users compute most, as JSON, by their names.
-///
-/// # Errors
-/// None of the results fails; the library's errors are passed on as texts.
-#[cfg_attr(target_arch = "wasm32", wasm_bindgen)]
-pub fn digests() -> Result<String, String> {
-    let found = all().map_err(|error| error.to_string())?;
+#[test]
+fn results_have_the_stored_digests() {
+    let found = all().expect("no failure");
     let lines: Vec<_> = found.iter().map(|(name, digest)| format!("  \"{name}\": \"{digest}\"")).collect();
-    Ok(format!("{{\n{}\n}}\n", lines.join(",\n")))
+    let text = format!("{{\n{}\n}}\n", lines.join(",\n"));
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../bouncing-disk-python/tests/digests.json");
+    if std::env::var_os("UPDATE_DOCUMENTATION").is_some() {
+        std::fs::write(file, &text).expect("writable");
+    }
+    assert_eq!(std::fs::read_to_string(file).expect("there"), text, "UPDATE_DOCUMENTATION=1 writes it");
 }
 
-/// The differences from the golden digests of the core, a line each: none, wherever IEEE 754 is kept.
-#[cfg_attr(target_arch = "wasm32", wasm_bindgen)]
-#[must_use]
-pub fn golden_differences() -> Vec<String> {
-    [
+/// Those of the core, for machines on which its own tests do not run.
+#[test]
+fn flights_orbits_and_basins_are_the_golden_ones() {
+    let differences = [
         golden::launches_of_every_regime(),
         golden::chaotic_orbit(),
         golden::orbits_with_chatter(PAPER_CHATTER),
         golden::orbits_on_drives(),
         golden::orbits_with_compliance(),
         golden::basin_labels(),
-    ]
-    .concat()
+    ];
+    assert_eq!(differences.concat(), Vec::<String>::new());
 }
 
 fn all() -> Result<Vec<(&'static str, Digest)>, Error> {
@@ -257,13 +255,4 @@ fn stators() -> Result<Digest, Error> {
         }
     }
     Ok(digest_of(numbers))
-}
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn the_digests_are_those_that_python_compares_with() {
-        let stored = include_str!("../../bouncing-disk-python/tests/digests.json");
-        assert_eq!(super::digests().expect("no failure"), stored);
-    }
 }
