@@ -133,6 +133,21 @@ onMotor("a contact time is stated, and what it rules out is said", "&contact_tim
   assert.equal(await page.inputValue("#field-contact_time"), "0.25");
 });
 
+onMotor("a stator that yields has fields, and stays in the sheet until its mass is zero", "", async (page) => {
+  const set = async (name, text, regime) => {
+    await page.getByLabel(name).fill(text);
+    await page.getByLabel(name).press("Enter");
+    await whenText(page, "#view-motor .facts", regime);
+    return JSON.parse(await page.getByLabel("Data sheet as JSON").inputValue()).stator ?? null;
+  };
+  const yields = /^Regimewithout a rotor: /;
+  assert.deepEqual(await set("effective mass", "5 g", yields), { kind: "axial", mass: 0.005, quality: 300 });
+  await page.getByLabel("Its mode also twists").check();
+  await page.waitForFunction(() => document.querySelector(".sheet-text").value.includes("axial_twist"));
+  assert.deepEqual(await set("quality factor", "120", yields), { kind: "axial_twist", mass: 0.005, quality: 120 });
+  assert.equal(await set("effective mass", "0", /^Regime(?!without|…)/), null);
+});
+
 onPage("the view of the motor starts with a motor, and the disk comes back", "#view=toss&friction=0.37", async (page) => {
   await page.click("#tab-motor");
   await whenAddress(page, "amplitude", "1e-8");

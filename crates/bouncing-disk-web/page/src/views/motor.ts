@@ -82,7 +82,7 @@ export class MotorView extends ComputingView {
     this.context.client.cancel(SLOT);
     this.all.forget();
     this.known = new Known();
-    this.sheetPanel.show("");
+    this.sheetPanel.show(this.known);
   }
 
   protected async fetch(): Promise<void> {
@@ -96,7 +96,7 @@ export class MotorView extends ComputingView {
     context.status(WORDS.motor.reading, "busy");
     const { sheet, text } = this.sheetKnown(state) ?? (await sheetOf(context, state));
     Object.assign(known, { sheet, text });
-    this.sheetPanel.show(known.text);
+    this.sheetPanel.show(known);
     const report = await reportOf(context, sheet);
     known.report = report;
     this.draw();

@@ -1,10 +1,12 @@
 /** The panel of a motor's data sheet. */
 
 import type { Context } from "../../contract";
-import { button, div, element, section } from "../../elements";
-import type { SheetJson } from "../../protocol";
+import { button, div, element, labelled, section } from "../../elements";
+import type { MotorSheet, SheetJson } from "../../protocol";
 import { WORDS } from "../../words";
 import { tellFailure } from "../asking";
+import { LabelledField } from "../varied";
+import type { Known } from "./requests";
 
 const TEXTS = WORDS.motor.sheet;
 
@@ -19,25 +21,49 @@ export class SheetPanel {
     type: "file", accept: ".json,application/json", hidden: true, onchange: () => void this.readFile(),
   }); // prettier-ignore
   private typed = false;
+  private readonly mass: LabelledField;
+  private readonly quality: LabelledField;
+  private readonly twists = element("input", { type: "checkbox", onchange: () => this.yield() });
 
   constructor(
     private readonly context: Context,
     private readonly take: (imported: SheetJson) => void,
   ) {
-    const use = button(TEXTS.use, () => void this.read(this.text.value));
+    this.mass = new LabelledField(TEXTS.mass, context, () => this.yield());
+    this.quality = new LabelledField(TEXTS.quality, context, () => this.yield());
+    const stator = [this.mass.root, this.quality.root, labelled(TEXTS.twists, this.twists)];
+    const use = button(TEXTS.use, () => void this.read(() => this.text.value));
     const open = button(TEXTS.open, () => this.file.click());
-    const parts = [element("h3", {}, TEXTS.title), this.text, div("bar", use, open, this.file)];
+    const parts = [element("h3", {}, TEXTS.title), div("bar", ...stator), this.text, div("bar", use, open, this.file)];
     this.root = section(TEXTS.title, "panel", ...parts, element("p", { class: "remark" }, TEXTS.remark));
   }
 
-  /** Shows a text, unless somebody is about to write another one. */
-  show(text: string): void {
+  /** Shows a sheet; its text, unless somebody is about to write another one. */
+  show({ text, sheet }: Known): void {
     if (!this.typed) this.text.value = text;
+    if (sheet === null) return;
+    const { kind, mass = 0, quality = 300 } = sheet.stator ?? {};
+    this.mass.show([mass], { unit: "kg" });
+    this.quality.show([quality]);
+    this.twists.checked = kind === "axial_twist";
+    for (const input of [this.quality.input, this.twists]) input.disabled = mass === 0;
   }
 
-  private async read(text: string): Promise<void> {
+  /** Puts the mode of the fields into the sheet; what they do not show stays: volts, a resonance, a second mode. */
+  private yield(): void {
+    const [[mass], [quality]] = [this.mass, this.quality].map((field) => field.numbers() ?? []) as [number[], number[]];
+    void this.read(() => {
+      const { stator, ...rigid } = JSON.parse(this.text.value) as MotorSheet;
+      const other = stator?.kind === "axial_and_torsional" ? stator.kind : "axial";
+      const kind = this.twists.checked ? "axial_twist" : other;
+      return JSON.stringify(mass === 0 ? rigid : { ...rigid, stator: { ...stator, kind, mass, quality } });
+    });
+  }
+
+  /** Takes a sheet, or says what is wrong with it. */
+  private async read(written: () => string): Promise<void> {
     try {
-      const { json } = await this.context.client.ask<SheetJson>("motor-read", { call: "sheet_read", text });
+      const { json } = await this.context.client.ask<SheetJson>("motor-read", { call: "sheet_read", text: written() });
       this.typed = false;
       this.take(json);
       this.context.status(TEXTS.read);
@@ -52,6 +78,6 @@ export class SheetPanel {
     if (file === undefined) return;
     this.text.value = await file.text();
     this.typed = true;
-    await this.read(this.text.value);
+    await this.read(() => this.text.value);
   }
 }
