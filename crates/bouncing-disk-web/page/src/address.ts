@@ -3,7 +3,7 @@
 import type { State } from "./contract";
 import { element } from "./elements";
 import { fromHash, toHash } from "./state";
-import { say, WORDS } from "./words";
+import { WORDS } from "./words";
 
 /** Browsers ignore a page that writes more often than some ten times in a second (ms). */
 const PAUSE = 250;
@@ -91,14 +91,6 @@ export function link(state: State): string {
   url.searchParams.delete("embed");
   url.hash = "";
   return url.href + toHash(state);
-}
-
-/** The element for another page that shows the view alone, as text. */
-export function frameOf(state: State): string {
-  const address = link(state).replace(/(\?[^#]*)?#/, (_, query?: string) => `${query ? `${query}&` : "?"}embed#`);
-  const title = say(WORDS.embed.title, { view: WORDS.views[state.view].title });
-  const frame = element("iframe", { src: address, title, width: 640, height: 480, loading: "lazy", style: "border: 0" });
-  return frame.outerHTML;
 }
 
 /** Leaves the view alone where the page is embedded, and gives what tells the state to the link to all of it. */

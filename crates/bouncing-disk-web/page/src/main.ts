@@ -6,7 +6,7 @@ import "./styles/page.css";
 import "./styles/screens.css";
 import "./styles/views.css";
 import "./styles/elsewhere.css";
-import { Address, embedded, frameOf, isEmbedded, isLocal, link } from "./address";
+import { Address, embedded, isEmbedded, isLocal, link } from "./address";
 import { makeClient, type Source } from "./client";
 import { messageOf, VIEW_NAMES, type Context, type Offer, type State, type ViewClass, type ViewName } from "./contract";
 import { COURSES, CoursePanel, type Course } from "./courses";
@@ -140,11 +140,6 @@ function begin(): void {
   const tool = (name: string): HTMLButtonElement => byId<HTMLButtonElement>(`${name}-button`);
   const { local, not_copied_told: failed, copied_told: taken } = WORDS.page;
   const copyLink = () => void copy(link(store.state()), context.status, isLocal() ? local : taken, failed);
-  const copyFrame = (): void => {
-    // A frame of a file would tell its folders, and show nothing to anybody else.
-    if (isLocal()) context.status(WORDS.embed.local);
-    else void copy(frameOf(store.state()), context.status, WORDS.embed.copied, WORDS.embed.not_copied);
-  };
   const offers = (): Offer[] => stage.view?.offers() ?? [];
   const saved = async (offer: Offer): Promise<void> => {
     const name = fileName(offer);
@@ -160,7 +155,6 @@ function begin(): void {
     ...offers().map((offer) => ({ label: offer.name, note: offer.kind.toUpperCase(), act: () => void saved(offer) })),
     { label: WORDS.page.link_offer, note: WORDS.page.copy, act: copyLink },
     { label: WORDS.sheet.label, note: WORDS.page.print, act: print },
-    { label: WORDS.embed.label, note: WORDS.page.copy, act: copyFrame },
   ]);
   /** The tools with the keys that do the same. */
   const tools: readonly (readonly [string, string, () => void])[] = [

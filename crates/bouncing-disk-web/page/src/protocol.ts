@@ -14,18 +14,12 @@ export const SYSTEM_NAMES = [
 ] as const; // prettier-ignore
 export type SystemParameters = Record<(typeof SYSTEM_NAMES)[number], number>;
 
-/** One mode of a stator that yields: effective mass (kg), and whether it also twists. */
-export interface StatorSheet {
-  readonly kind: "axial" | "axial_twist" | "axial_and_torsional";
-  readonly mass?: number;
-  readonly quality?: number;
-}
-
 /** A motor's data sheet, with one of each pair of alternatives; the library's `MotorParameters`. */
 export type MotorSheet = {
   readonly load_torque: number;
   readonly contact?: { readonly time?: number } | null;
-  readonly stator?: StatorSheet | null;
+  /** Its mode, where it yields: effective mass (kg), and whether it also twists. */
+  readonly stator?: { readonly kind: string; readonly mass?: number; readonly quality?: number } | null;
 };
 
 /** An impact that an orbit begins with: its phase (rad), and its normalised speed |w_A| Gamma/(A omega), positive. */
@@ -129,7 +123,6 @@ export type ReportJson = Numbers<"axial_forcing" | "largest_torque"> & {
   readonly regime: string;
   readonly contact: ContactJson;
   readonly warnings: readonly string[];
-  readonly text: string;
   /** Whether the stator yields: regime and forcing are then those of its motion without a rotor. */
   readonly yields: boolean;
   readonly system: SystemParameters;
@@ -149,14 +142,13 @@ export type OperationJson = {
   readonly Runaway?: Numbers<"load_torque" | "largest_torque" | "acceleration">;
 };
 
-export type PointJson = Numbers<"load_torque"> &
+type PointJson = Numbers<"load_torque"> &
   Readonly<Record<"speed" | "mechanical_power" | "input_power", EstimateJson>> & {
     readonly efficiency: EstimateJson | null;
     readonly stator?: { readonly amplitude: EstimateJson };
   };
 
-export type EstimateJson = Numbers<"value" | "standard_error">;
-
+type EstimateJson = Numbers<"value" | "standard_error">;
 export type IntervalJson = Numbers<"value" | "low" | "high">;
 
 export interface TransientJson {

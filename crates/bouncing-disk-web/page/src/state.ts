@@ -64,18 +64,12 @@ export const DEFAULT_STATE: State = {
 
 /** A state with this change. A start that is chosen takes the place of a throw. */
 export function changed(state: State, change: Change): State {
-  return {
-    view: change.view ?? state.view,
-    system: { ...state.system, ...change.system },
-    mass: change.mass ?? state.mass,
-    start: { ...state.start, ...change.start },
-    thrown: change.thrown !== undefined ? change.thrown : change.start === undefined ? state.thrown : null,
-    diagram: { ...state.diagram, ...change.diagram },
-    basins: { ...state.basins, ...change.basins },
-    motor: { ...state.motor, ...change.motor },
-    compare: { ...state.compare, ...change.compare },
-    scan: { ...state.scan, ...change.scan },
-  };
+  const parts = Object.entries(state).map(([name, old]: [string, unknown]) => {
+    const own: unknown = change[name as keyof State];
+    return [name, typeof old === "object" ? { ...old, ...(own as object) } : (own ?? old)];
+  });
+  const thrown = change.thrown !== undefined ? change.thrown : change.start === undefined ? state.thrown : null;
+  return { ...(Object.fromEntries(parts) as State), thrown };
 }
 
 /** The shortest digits that give the same bits back. JavaScript prints a negative zero without its sign. */

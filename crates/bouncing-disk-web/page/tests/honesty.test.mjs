@@ -1,7 +1,7 @@
 /** What is not known is shown and named: undecided cells, cycles that rounding chose, errors of numbers. */
 
 import assert from "node:assert/strict";
-import { fact, pixelsOf, type, whenText, onPage } from "./browser.mjs";
+import { pixelsOf, type, whenText, onPage } from "./browser.mjs";
 import { patternOf, WORDS } from "./module.mjs";
 
 /** The default system with the amplitude of this forcing. */
@@ -53,10 +53,3 @@ for (const [view, host] of [["basins", ".panel"], ["toss", ".toss-left"]])
     await type(page, "axial_forcing", "0.45");
     await caution.waitFor({ state: "hidden" });
   }); // prettier-ignore
-
-onPage("numbers that come of a sample or an average have their errors with them", "#view=motor", async (page) => {
-  await whenText(page, "#view-motor .facts", /±/);
-  assert.match(await fact(page, "motor", "Steady speed"), /^−?[\d.]+ ± [\d.]+ rad\/s without load$/);
-  await whenText(page, "#view-motor .facts", /±.*N m/);
-  assert.match(await fact(page, "motor", "Stall load"), /^\([\d.]+ ± [\d.]+\) .?N m$/);
-});

@@ -52,7 +52,7 @@ onMotor("the steady speed of the report is that of the run-up and of the curve w
   const [runUp, curve] = await captions(page);
   assert.ok(runUp.startsWith(`Steady speed: ${speed} rad/s without load.`), runUp);
   assert.ok(curve.startsWith(`From ${speed} rad/s at 0 N m`), curve);
-  assert.doesNotMatch(runUp, /tends to/);
+  await isFact(page, "Stall load", /^\([\d.]+ ± [\d.]+\) .?N m$/);
 });
 
 onMotor("a steady speed says under which load it is", loaded(10e-6), (page) =>

@@ -12,11 +12,6 @@ const COPYING = `Object.defineProperty(navigator, "clipboard", {
   value: { writeText: async (text) => void (globalThis.copied = text) },
 });`;
 
-async function choose(page, name) {
-  await page.click("#export-button");
-  await page.locator("dialog.export .card", { hasText: name }).click();
-}
-
 /** As the build writes the address that it is given. */
 const publish = (page) =>
   page.evaluate((href) => {
@@ -104,7 +99,8 @@ const PRINTING = "window.print = () => (globalThis.printed = true);";
 
 async function print(page) {
   await page.evaluate(() => (globalThis.printed = false));
-  await choose(page, "sheet to print");
+  await page.click("#export-button");
+  await page.locator("dialog.export .card", { hasText: "sheet to print" }).click();
   await page.waitForFunction(() => globalThis.printed);
 }
 
@@ -233,12 +229,8 @@ onPage("a chatter makes few tones, which together stay below the full scale", { 
   }
 });
 
-onPage("a frame for another page shows the view alone, with a way to all of it", { hash: "#view=diagram&restitution=0.4", script: COPYING }, async (page, context) => {
-  await publish(page);
-  const frame = await copiedBy(page, () => choose(page, "frame for another page"));
+onPage("a page in a frame shows the view alone, with a way to all of it", "#view=diagram&restitution=0.4", async (page, context) => {
   const hash = await hashOf(page);
-  const [, address] = /^<iframe src="([^"]*)" title="Bouncing disk explorer: Orbit diagram" width="640"/.exec(frame);
-  assert.equal(address.replaceAll("&amp;", "&"), `${PUBLISHED}?embed${hash}`);
   const own = await context.newPage();
   await own.setViewportSize({ width: 480, height: 360 });
   await own.goto((await page.evaluate(() => location.href)).replace("#", "?embed#"));

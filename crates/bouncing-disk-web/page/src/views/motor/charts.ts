@@ -6,7 +6,7 @@ import { chartOffers, spanOf, type Chart, type Curve, type Mark, type Stretch } 
 import { ONE_COLUMN, rowsOf, tableOffers, type Basis } from "../../drawing/files";
 import { TRANSIENT_COLUMNS, type Range, type StallJson } from "../../protocol";
 import { WORDS } from "../../words";
-import { membersOf, OPERATION_COLUMNS, SEED, type Known, type Operation, type Transient } from "./requests";
+import { ESTIMATES, membersOf, SEED, type Estimated, type Known, type Operation, type Transient } from "./requests";
 
 const { charts: TEXTS, files: FILES, titles: TITLES } = WORDS.motor;
 
@@ -42,12 +42,10 @@ interface Kind {
   readonly title: string;
   /** Of the axis. */
   readonly label: string;
-  readonly curves: readonly (Pick<Curve, "label" | "colour" | "dash"> & { readonly name: Name })[];
+  readonly curves: readonly (Pick<Curve, "label" | "colour" | "dash"> & { readonly name: Estimated })[];
   /** The factor of the numbers; without it they have a prefix of their unit. */
   readonly factor?: number;
 }
-
-type Name = "speed" | "mechanical_power" | "input_power" | "efficiency";
 
 const KINDS: readonly Kind[] = [
   {
@@ -101,9 +99,10 @@ export function loadCharts(
   });
 }
 
-const LOAD_UNITS = [
+const LOAD_COLUMNS = [
   "load_torque_N_m", "speed_rad_per_s", "speed_error_rad_per_s", "mechanical_power_W", "mechanical_power_error_W",
   "input_power_W", "input_power_error_W", "efficiency", "efficiency_error", "status",
+  "relative_error_wanted", "shortfall",
 ]; // prettier-ignore
 const STATUS = ["steady", "unsettled", "runaway"] as const;
 
@@ -118,12 +117,12 @@ export function motorOffers(known: Known, runUp: Chart | null, curves: readonly 
     offers.push(...tableOffers({ name: FILES.run_up, parameters, columns, rows }));
   }
   if (operations.length > 0) {
-    const cell = (row: Operation, name: (typeof OPERATION_COLUMNS)[number]) =>
-      name === "status" ? (STATUS[row.status] ?? "") : row[name];
     const rows = () =>
-      operations.map((row) => [...OPERATION_COLUMNS.map((name) => cell(row, name)), row.wanted, row.shortfall ?? ""]);
-    const columns = [...LOAD_UNITS, "relative_error_wanted", "shortfall"];
-    offers.push(...tableOffers({ name: FILES.curve, parameters: { sheet, seed: SEED }, columns, rows }));
+      operations.map((row) => {
+        const estimates = ESTIMATES.flatMap((name) => [row[name], row[`${name}_error`]]);
+        return [row.load_torque, ...estimates, STATUS[row.status] ?? "", row.wanted, row.shortfall ?? ""];
+      });
+    offers.push(...tableOffers({ name: FILES.curve, parameters: { sheet, seed: SEED }, columns: LOAD_COLUMNS, rows }));
   }
   const each = ONE_COLUMN * 0.62;
   if (runUp !== null) offers.push(...chartOffers(FILES.run_up, TITLES.run_up, [runUp], each, basis));

@@ -22,13 +22,12 @@ export type Pass = (typeof PASSES)[number];
 const STALL_ERROR = 0.02;
 const LACKING: Readonly<Record<string, string>> = WORDS.motor.lacking;
 
-export const OPERATION_COLUMNS = [
-  "load_torque", "speed", "speed_error", "mechanical_power", "mechanical_power_error", "input_power",
-  "input_power_error", "efficiency", "efficiency_error", "status",
-] as const; // prettier-ignore
+/** What is known of a load with its error. */
+export const ESTIMATES = ["speed", "mechanical_power", "input_power", "efficiency"] as const;
+export type Estimated = (typeof ESTIMATES)[number];
 
-/** One load: a row by the names of `OPERATION_COLUMNS`; its status is 0 (steady), 1 (unsettled) or 2 (runaway). */
-export type Operation = Record<(typeof OPERATION_COLUMNS)[number], number> & {
+/** One load; its status is 0 (steady), 1 (unsettled) or 2 (runaway). */
+export type Operation = Record<"load_torque" | "status" | Estimated | `${Estimated}_error`, number> & {
   readonly shortfall: string | null;
   /** Of a stator that yields (m). */
   readonly amplitude: number | null;
@@ -88,7 +87,7 @@ export async function operate(
 /** Without a number where the library has none. */
 export function operationOf({ Steady, Unsettled, Runaway }: OperationJson, wanted: number): Operation {
   const point = Steady ?? Unsettled?.[0];
-  const estimates = (["speed", "mechanical_power", "input_power", "efficiency"] as const).flatMap((name) => {
+  const estimates = ESTIMATES.flatMap((name) => {
     const { value, standard_error } = point?.[name] ?? { value: NaN, standard_error: NaN };
     return [[name, value], [`${name}_error`, standard_error]];
   });
