@@ -2,9 +2,10 @@
 
 import type { Quantity, State } from "../../contract";
 import { clamp, extent, padded, type Plot } from "../../drawing/axes";
-import type { Pen } from "../../drawing/pen";
+import { contextOf, type Pen } from "../../drawing/pen";
 import { pixelWord, Raster } from "../../drawing/raster";
 import type { Window2 } from "../../drawing/window";
+import { element } from "../../elements";
 import { DIAGRAM_COLUMNS, type Range } from "../../protocol";
 import { axisValue, columnOf, RECORDED, type Columns } from "./columns";
 
@@ -76,7 +77,8 @@ function rangeOf(columns: readonly Columns[], quantity: Quantity): Range | null 
   return quantity === "normalised_speed" ? [0, padded([0, high])[1]] : padded([low, high]);
 }
 
-const SHADES = 5;
+/** So many that no step between two of them is seen. */
+const SHADES = 64;
 /** All of an orbit in one pixel has the last colour. */
 const SCALE = (SHADES - 1) / Math.log1p(RECORDED);
 
@@ -96,7 +98,12 @@ class OrbitPicture {
     const known = (this.known = new Uint8Array(width));
     const counts = (this.counts = new Uint16Array(width * height));
     this.raster = new Raster(width, height, (colour) => {
-      const shades = Array.from({ length: SHADES }, (_, index) => pixelWord(colour(`--density-${index}`)));
+      const context = contextOf(element("canvas", { width: SHADES, height: 1 }));
+      const gradient = context.createLinearGradient(0.5, 0, SHADES - 0.5, 0);
+      for (let stop = 0; stop < 5; stop += 1) gradient.addColorStop(stop / 4, colour(`--density-${stop}`));
+      context.fillStyle = gradient;
+      context.fillRect(0, 0, SHADES, 1);
+      const shades = new Uint32Array(context.getImageData(0, 0, SHADES, 1).data.buffer);
       const paper = pixelWord(colour("--picture-paper"));
       return (x, y) => {
         const count = counts[y * width + x] as number;
