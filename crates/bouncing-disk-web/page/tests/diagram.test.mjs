@@ -2,12 +2,13 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { isCalm, onPage, type, whenValue, within as open } from "./browser.mjs";
+import { isCalm, onPage, type, whenText, whenValue, within as open } from "./browser.mjs";
 import { sourceOf } from "./module.mjs";
 
 const within = (hash, act) => open({ hash: `#view=diagram&${hash}` }, act);
 
-const words = (page) => page.textContent("#view-diagram .alternative");
+/** The words come after what the line below the view says first. */
+const isSaid = (page, pattern) => whenText(page, "#view-diagram .alternative", pattern);
 
 test("a window of any place is answered: what its orbits do for good, and its bifurcations", async () => {
   for (const [hash, ...said] of [
@@ -25,14 +26,14 @@ test("a window of any place is answered: what its orbits do for good, and its bi
   ])
     await within(`diagram_forcing=${hash}`, async (page) => {
       await isCalm(page);
-      for (const pattern of said) assert.match(await words(page), pattern);
+      for (const pattern of said) await isSaid(page, pattern);
     });
 });
 
 test("another motion of the platform is drawn and said, without the branches and orbits of the sine", async () => {
   await within("diagram_drive=triangle", async (page) => {
     await isCalm(page);
-    assert.match(await words(page), /The platform moves as triangle\.($| .*still on their way\.)/);
+    await isSaid(page, /The platform moves as triangle\.($| .*still on their way\.)/);
     assert.ok(await page.isDisabled("#view-diagram input[type=checkbox]"));
     await page.selectOption("#view-diagram label:has-text('Platform') select", "sine");
     await page.waitForFunction(() => /In the long run/.test(document.querySelector("#view-diagram .alternative").textContent));
@@ -42,7 +43,7 @@ test("another motion of the platform is drawn and said, without the branches and
 test("a disk that takes up no spin has a sentence and a range instead of rounding", async () => {
   for (const nothing of ["friction=0", "twist_amplitude=0"])
     await within(`diagram_quantity=angular_speed&${nothing}`, async (page) => {
-      assert.match(await words(page), /the platform cannot turn the disk/);
+      await isSaid(page, /the platform cannot turn the disk/);
     });
 });
 
