@@ -5,11 +5,16 @@
 //! 18 is the solution to rounding, whether A has a basis of eigenvectors or not: critical damping, resonance and
 //! repeated eigenvalues are no special cases (docs/numerics/stators.md).
 
+use core::array;
+
 use crate::numerics::error::Error;
 use crate::numerics::quasi_polynomial::{FirstRoot, Jet, first_root};
 
 /// Degree of the Taylor polynomials: the next term is below 1/19! = 8e-18 of the state.
 const DEGREE: usize = 18;
+
+/// A share of a sum that is below its rounding.
+const NEGLIGIBLE: f64 = f64::EPSILON * (1.0 / 256.0);
 
 /// Rounding of a coefficient, in units of its terms: a product, and sums over the state and the degrees.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
@@ -20,7 +25,8 @@ pub type Vector<const N: usize> = [f64; N];
 /// z' = A z.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LinearFlow<const N: usize> {
-    matrix: [Vector<N>; N],
+    /// Row, column and value of the entries of A that are not zero.
+    entries: Vec<(usize, usize, f64)>,
     step: f64,
     /// exp(A step).
     whole_step: [Vector<N>; N],
@@ -29,7 +35,9 @@ pub struct LinearFlow<const N: usize> {
 /// A functional along a flow: its Taylor coefficients as functionals of the state.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Functional<const N: usize> {
-    rows: [Vector<N>; DEGREE + 1],
+    now: Vector<N>,
+    /// For each component of the state its weights in the coefficients, up to the last one that it has.
+    columns: Vec<Vec<f64>>,
     step: f64,
 }
 
@@ -67,12 +75,15 @@ impl<const N: usize> LinearFlow<N> {
     #[must_use]
     pub fn new(matrix: [Vector<N>; N], rate: f64, period: f64) -> Self {
         let step = period / (period * rate).ceil().max(1.0);
-        let mut flow = Self { matrix, step, whole_step: [[0.0; N]; N] };
+        let all = matrix.iter().enumerate().flat_map(|(row, entries)| {
+            entries.iter().enumerate().map(move |(column, &entry)| (row, column, entry))
+        });
+        let entries = all.filter(|&(.., entry)| entry != 0.0).collect();
+        let mut flow = Self { entries, step, whole_step: [[0.0; N]; N] };
         for column in 0..N {
             let mut unit = [0.0; N];
             unit[column] = 1.0;
-            let after = flow.expand(&unit).at(step);
-            for (row, value) in after.into_iter().enumerate() {
+            for (row, value) in flow.after(&unit, step).into_iter().enumerate() {
                 flow.whole_step[row][column] = value;
             }
         }
@@ -89,10 +100,8 @@ impl<const N: usize> LinearFlow<N> {
     #[must_use]
     pub fn derivative(&self, functional: &Vector<N>) -> Vector<N> {
         let mut derivative = [0.0; N];
-        for (row, &weight) in self.matrix.iter().zip(functional) {
-            for (sum, entry) in derivative.iter_mut().zip(row) {
-                *sum += weight * entry;
-            }
+        for &(row, column, entry) in &self.entries {
+            derivative[column] += functional[row] * entry;
         }
         derivative
     }
@@ -104,7 +113,9 @@ impl<const N: usize> LinearFlow<N> {
         for k in 1..=DEGREE {
             rows[k] = self.derivative(&rows[k - 1]).map(|entry| entry * (self.step / k as f64));
         }
-        Functional { rows, step: self.step }
+        let used = |i: usize| rows.iter().rposition(|row| row[i] != 0.0).map_or(0, |last| last + 1);
+        let columns = (0..N).map(|i| rows[..used(i)].iter().map(|row| row[i]).collect()).collect();
+        Functional { now: of, columns, step: self.step }
     }
 
     /// The state on the next step.
@@ -112,16 +123,40 @@ impl<const N: usize> LinearFlow<N> {
     pub fn expand(&self, state: &Vector<N>) -> StateStep<N> {
         let mut coefficients = [*state; DEGREE + 1];
         for k in 1..=DEGREE {
-            let factor = self.step / k as f64;
-            coefficients[k] = core::array::from_fn(|i| dot(&self.matrix[i], &coefficients[k - 1]) * factor);
+            coefficients[k] = self.speed(&coefficients[k - 1]).map(|value| value * (self.step / k as f64));
         }
         StateStep { coefficients, step: self.step }
+    }
+
+    fn speed(&self, state: &Vector<N>) -> Vector<N> {
+        let mut speed = [0.0; N];
+        for &(row, column, entry) in &self.entries {
+            speed[row] += entry * state[column];
+        }
+        speed
+    }
+
+    /// The state after a time of at most a step.
+    #[must_use]
+    pub fn after(&self, state: &Vector<N>, time: f64) -> Vector<N> {
+        let (mut terms, mut last, mut bound) = ([*state; DEGREE + 1], 0, 1.0);
+        // A gap that opens by its third derivative keeps its digits.
+        while last < DEGREE && (last < 4 || bound > NEGLIGIBLE) {
+            last += 1;
+            bound *= if last > 3 { time / (self.step * last as f64) } else { 1.0 };
+            terms[last] = self.speed(&terms[last - 1]).map(|value| value * (time / last as f64));
+        }
+        let mut sum = terms[last];
+        for term in terms[..last].iter().rev() {
+            sum = array::from_fn(|i| sum[i] + term[i]);
+        }
+        sum
     }
 
     /// The state a whole step later.
     #[must_use]
     pub fn advance(&self, state: &Vector<N>) -> Vector<N> {
-        core::array::from_fn(|i| dot(&self.whole_step[i], state))
+        array::from_fn(|i| dot(&self.whole_step[i], state))
     }
 }
 
@@ -144,24 +179,24 @@ impl<const N: usize> Functional<N> {
     /// The functional itself.
     #[must_use]
     pub const fn now(&self) -> &Vector<N> {
-        &self.rows[0]
+        &self.now
     }
 
     /// The function on the step from this state on, which is known to rounding of its terms, but for an `error` of
     /// the value.
     #[must_use]
     pub fn along(&self, state: &Vector<N>, error: f64) -> TaylorStep {
-        let (mut coefficients, mut size) = ([0.0; DEGREE + 1], 0.0);
-        for (coefficient, row) in coefficients.iter_mut().zip(&self.rows) {
-            let (mut sum, mut terms) = (0.0, 0.0);
-            for i in 0..N {
-                let term = row[i] * state[i];
-                sum += term;
-                terms += term.abs();
+        let (mut coefficients, mut sizes) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1]);
+        for (value, column) in state.iter().zip(&self.columns) {
+            let used = column.len();
+            let (sums, sizes) = (&mut coefficients[..used], &mut sizes[..used]);
+            for k in 0..used {
+                let term = column[k] * value;
+                sums[k] += term;
+                sizes[k] += term.abs();
             }
-            *coefficient = sum;
-            size += terms;
         }
+        let size = sizes.iter().sum();
         TaylorStep { coefficients, size, step: self.step, error, fourth: 0.0 }.bounded()
     }
 }

@@ -112,6 +112,8 @@ pub struct StatorEngine {
     pub(super) line: usize,
     /// Changes between stick and slide at the same instant.
     ties: u32,
+    /// So long after the last event the disk flies without another one.
+    searched: f64,
     /// Without it ledgers stay empty.
     pub(crate) with_energy: bool,
 }
@@ -197,8 +199,17 @@ impl StatorEngine {
     fn begin(system: StatorSystem, now: PhaseTime, mut state: State, lies: bool) -> Result<Self, Error> {
         (state[SIN], state[COS], state[ONE]) = (now.phase.sin(), now.phase.cos(), 1.0);
         let stage = Stage::Flight(if state[GAP] > 0.0 { Launch::Air } else { Launch::Rebound });
-        let mut engine =
-            Self { system, stage, now, state, angle: LongSum::new(0.0), line: 0, ties: 0, with_energy: true };
+        let mut engine = Self {
+            system,
+            stage,
+            now,
+            state,
+            angle: LongSum::new(0.0),
+            line: 0,
+            ties: 0,
+            searched: 0.0,
+            with_energy: true,
+        };
         engine.line = engine.line_at(engine.state[SPEED]);
         match engine.system.contact {
             Contact::Rigid if lies => engine.lie_down(),
@@ -283,6 +294,7 @@ impl StatorEngine {
     pub(crate) fn perturb_launch(&mut self, speed: f64) {
         if let Stage::Flight(launch @ (Launch::Rebound | Launch::Release(_))) = &mut self.stage {
             self.state[CLOSING] += speed;
+            self.searched = 0.0;
             if speed > 0.0 {
                 *launch = if self.state[GAP] < 0.0 { Launch::Below } else { Launch::Rebound };
             }
@@ -305,6 +317,7 @@ impl StatorEngine {
         let (ledger, stator) = if self.with_energy { self.ledgers(span, &state) } else { Default::default() };
         self.now = self.now.after(PhaseSpan::from_radians(span));
         self.state = state;
+        self.searched = 0.0;
         (self.state[SIN], self.state[COS]) = (self.now.phase.sin(), self.now.phase.cos());
         self.angle.add(self.state[ANGLE]);
         self.state[ANGLE] = 0.0;
@@ -352,6 +365,7 @@ impl StatorEngine {
             let [place, speed] = self.system.steady(index, (self.state[SIN], self.state[COS]));
             (self.state[DISPLACEMENTS[index]], self.state[VELOCITIES[index]]) = (-place, -speed);
         }
+        self.searched = 0.0;
         self.go_on();
     }
 
@@ -408,7 +422,9 @@ impl StatorEngine {
         let next = match self.stage {
             Stage::Flight(launch) => {
                 let line = self.next_line().filter(|(after, _)| *after < limit);
-                let next = self.flight_end(launch, line.map_or(limit, |(after, _)| after));
+                let mut searched = self.searched;
+                let next = self.flight_end(launch, line.map_or(limit, |(after, _)| after), &mut searched);
+                self.searched = searched;
                 next.map(|next| next.or_else(|| line.map(|(after, line)| (after, Crossing::Line(line)))))
             }
             Stage::Contact { grip, .. } => self.contact_end(grip, limit),
@@ -463,8 +479,9 @@ impl StatorEngine {
         }
     }
 
-    /// The first impact of a flight, or the return of the force of a soft contact.
-    fn flight_end(&self, launch: Launch, limit: f64) -> Result<Next, Error> {
+    /// The first impact of a flight, or the return of the force of a soft contact, when there is none in what is
+    /// `searched` of the flight.
+    fn flight_end(&self, launch: Launch, limit: f64, searched: &mut f64) -> Result<Next, Error> {
         let regime = self.regime();
         let step = regime.flow.step();
         let soft = self.system.contact != Contact::Rigid;
@@ -476,18 +493,29 @@ impl StatorEngine {
         {
             return Ok(Some((0.0, Crossing::Touch(self.state[CLOSING]))));
         }
-        let highest = self.highest(&self.state);
-        // From when on the disk may be below the highest point of the stator again.
-        let apex = x + 0.5 * v * v;
-        let below = if apex > highest { v + (2.0 * (apex - highest)).sqrt() } else { 0.0 };
-        let mut passed = 0.0;
-        let mut state = self.state;
+        let [highest, _] = self.reach(&self.state);
+        let (mut passed, mut state) = (*searched, self.state);
+        if passed > 0.0 {
+            state = self.flown(passed);
+        }
         // A soft contact ends before its spring is free: below the stator the force may set in again.
-        let mut inside = soft && self.state[GAP] < 0.0;
+        let mut inside = soft && passed == 0.0 && self.state[GAP] < 0.0;
         loop {
+            if !inside && passed < limit {
+                (passed, state) = self.cleared(passed, state);
+                *searched = passed;
+            }
             let left = limit - passed;
             if left <= 0.0 {
                 return Ok(None);
+            }
+            if passed > MAX_FLIGHT_DURATION {
+                let error = bouncing_disk_core::Error::NoConvergence {
+                    evaluations: 0,
+                    time: passed,
+                    gap: state[GAP],
+                };
+                return Err(error.into());
             }
             // The parabola is rounded in units of its terms.
             let error = if passed > 0.0 {
@@ -544,32 +572,45 @@ impl StatorEngine {
                 return Ok(Some((passed + at, Crossing::Touch(slope.min(0.0)))));
             }
             passed += step;
-            if passed + step < below && !inside && x + passed * (v - 0.5 * passed) > highest {
-                passed = below - 0.25 * step;
-            }
-            if passed > MAX_FLIGHT_DURATION {
-                let error = bouncing_disk_core::Error::NoConvergence {
-                    evaluations: 0,
-                    time: passed,
-                    gap: state[GAP],
-                };
-                return Err(error.into());
-            }
             state = self.flown(passed);
         }
     }
 
-    /// No point of the stator comes higher while the modes ring.
-    pub(super) fn highest(&self, state: &State) -> f64 {
+    /// While the modes ring the stator comes no higher, and is accelerated no more.
+    pub(super) fn reach(&self, state: &State) -> [f64; 2] {
         let [a, b] = self.system.height;
-        let mut highest = (a * a + b * b).sqrt();
+        let steady = (a * a + b * b).sqrt();
+        let mut reach = [steady; 2];
         for (index, mode) in self.system.modes.iter().enumerate() {
             if mode.height != 0.0 {
                 let (r, speed) = (state[DISPLACEMENTS[index]], state[VELOCITIES[index]]);
-                highest += mode.height.abs() * (r * r + speed * speed / mode.stiffness).sqrt();
+                let ringing = mode.height.abs() * (r * r + speed * speed / mode.stiffness).sqrt();
+                reach[0] += ringing;
+                reach[1] += ringing * (mode.stiffness + mode.damping * mode.stiffness.sqrt());
             }
         }
-        highest
+        reach
+    }
+
+    /// The time from which on a disk that flies `passed` after the last event may touch the stator again, and the state
+    /// then: it is higher than the stator comes, or the gap cannot close yet with the largest acceleration.
+    fn cleared(&self, mut passed: f64, mut state: State) -> (f64, State) {
+        let step = self.regime().flow.step();
+        loop {
+            let ([height, velocity], [highest, acceleration]) = (self.system.tip(&state), self.reach(&state));
+            // When a fall from this height with this velocity ends.
+            let lands = |above: f64, velocity: f64, pull: f64| {
+                (velocity + (velocity * velocity + 2.0 * pull * above.max(0.0)).sqrt()) / pull
+            };
+            let (above, v) = (state[GAP] + height - highest, state[CLOSING] + velocity);
+            let free = if above > 0.0 { lands(above, v, 1.0) } else { 0.0 };
+            let clear = free.max(lands(state[GAP], state[CLOSING], 1.0 + acceleration)) - 0.25 * step;
+            if clear < step {
+                return (passed, state);
+            }
+            passed += clear;
+            state = self.flown(passed);
+        }
     }
 
     /// Disk and modes in flight, so long after the last event, in closed form.
@@ -691,7 +732,7 @@ impl StatorEngine {
                 let mut fall = along.first_fall_from(from, until)?;
                 if *crossing == Crossing::Release
                     && let Some([at, _]) = fall
-                    && self.touches(&regime.flow.expand(&state).at(at))
+                    && self.touches(&regime.flow.after(&state, at))
                 {
                     fall = along.first_fall_from(at + TIE, until)?;
                 }
@@ -703,6 +744,10 @@ impl StatorEngine {
             }
             if let Some((at, crossing)) = first {
                 return Ok(Some((passed + at, crossing)));
+            }
+            if left < step {
+                // What comes later in this step has not been looked for.
+                return Ok(None);
             }
             steps += 1;
             passed = steps as f64 * step;
@@ -752,7 +797,7 @@ impl StatorEngine {
         }
         let rest = time - whole as f64 * flow.step();
         if rest > 0.0 {
-            state = flow.expand(&state).at(rest);
+            state = flow.after(&state, rest);
         }
         (state[SIN], state[COS]) = self.phase_after(time);
         state
@@ -783,6 +828,7 @@ impl StatorEngine {
         // The phase of the clock decides.
         (state[SIN], state[COS]) = (self.now.phase.sin(), self.now.phase.cos());
         self.state = state;
+        self.searched = 0.0;
         let slip = self.slip();
         let (mut axial, mut angular) = (0.0, 0.0);
         let event = match crossing {
@@ -1099,6 +1145,9 @@ fn rung(stiffness: f64, damping: f64, [r, v]: [f64; 2], time: f64) -> [f64; 2] {
 /// The integral of exp(-rate s) from 0 to `time`, and the integral of that.
 fn exponential_integrals(rate: f64, time: f64) -> (f64, f64) {
     let x = rate * time;
+    if x == 0.0 {
+        return (time, 0.5 * time * time);
+    }
     if x.abs() < 0.5 {
         let series = |first: f64| {
             // 1/first! - x/(first + 1)! + ...

@@ -336,6 +336,12 @@ fn attack_seams(count: usize, events: usize) -> usize {
             };
             done += 1;
             let span = record.span.radians();
+            let mut windowed = before.clone();
+            for share in [0.2, 0.9, 0.95].into_iter().filter(|_| span > 0.0) {
+                assert_eq!(windowed.advance_within(share * span).expect("no failure"), None, "{before:?}");
+            }
+            let same = windowed.advance_within(300.0).expect("no failure");
+            assert_eq!(same, Some(record), "{trial} {before:?}");
             zero = if span > 0.0 { 0 } else { zero + 1 };
             assert!(
                 zero < 20,
@@ -402,7 +408,7 @@ impl StatorEngine {
         match self.stage {
             Stage::Flight(_) if self.system.contact == Contact::Rigid || state[regime::GAP] > 0.0 => {
                 let [tip, _] = self.system.tip(state);
-                let size = self.highest(&self.state) + tip.abs() + span * span;
+                let size = self.reach(&self.state)[0] + tip.abs() + span * span;
                 assert!(
                     state[regime::GAP] >= -1e-13 * size,
                     "{state:?} {:?} {:?} {:?} {:?}",
