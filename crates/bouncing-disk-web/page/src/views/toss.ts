@@ -14,6 +14,7 @@ import { paintImpacts, Portrait } from "./toss/portrait";
 import { Readings } from "./toss/readings";
 import { Recording, traces, type Moment } from "./toss/recording";
 import { describePath, paintPath, paintPathInset, pathAxes, Stage } from "./toss/scene";
+import { Sound } from "./toss/sound";
 import { attachThrowing, describeThrow } from "./toss/throwing";
 
 const TEXTS = WORDS.toss;
@@ -50,7 +51,11 @@ export class TossView implements View {
     () => this.recording?.periods ?? 0,
     () => this.draw(),
   );
-  private readonly controls = new Controls(this.scene.surface, this.player, () => this.period());
+  private readonly controls = new Controls(this.scene.surface, this.player, {
+    period: () => this.period(),
+    heard: (on) => this.sound.switch(on),
+  });
+  private readonly sound = new Sound();
   private recording: Recording | null = null;
   private stage: Stage | null = null;
   private held: { height: number; angle: number } | null = null;
@@ -80,6 +85,13 @@ export class TossView implements View {
     };
     attachThrowing(this.scene.surface, throwing);
     this.thrown.append(button(TEXTS.back_to_impact, () => context.change({ thrown: null })));
+    this.player.played = (from, to, seconds) => {
+      if (this.recording === null) return;
+      const { recording } = this;
+      const [begin, end] = [from * recording.period, to * recording.period];
+      const passed = recording.impacts.slice(recording.impactsUntil(begin), recording.impactsUntil(end));
+      this.sound.play(passed, begin, end, seconds);
+    };
     const scene = [this.scene.root, this.controls.root, this.gains, this.thrown, this.rounding.root, this.alternative];
     const charts = section(TEXTS.traces, null, this.heights.root, this.spins.root);
     const readings = section(TEXTS.readings, "panel", ...this.readings.elements);

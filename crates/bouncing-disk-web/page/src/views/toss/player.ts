@@ -14,6 +14,8 @@ export class Player {
   now = 0;
   /** Platform periods in a second of ours. */
   rate = 0.6;
+  /** Called for what goes by while it plays, and not where somebody jumps: from, to (periods), and in which time (s). */
+  played: (from: number, to: number, seconds: number) => void = () => {};
   private frame = 0;
   private last = 0;
 
@@ -34,7 +36,9 @@ export class Player {
       const passed = Math.min(Math.max((time - this.last) / 1000, 0), LONGEST_FRAME);
       this.last = time;
       this.frame = requestAnimationFrame(step);
-      this.seek(this.now + passed * this.rate);
+      const from = this.now;
+      this.seek(from + passed * this.rate);
+      if (this.now > from) this.played(from, this.now, passed);
     };
     this.frame = requestAnimationFrame(step);
   }
@@ -63,12 +67,13 @@ export class Controls {
     type: "range", min: 0, step: "any", "aria-label": TEXT.time_periods, oninput: () => this.scrub(),
   }); // prettier-ignore
   private readonly told = element("output", { class: "speed" });
+  private readonly sound = element("input", { type: "checkbox", onchange: () => this.host.heard(this.sound.checked) });
 
   constructor(
     surface: HTMLElement,
     private readonly player: Player,
-    /** That of the platform (s). */
-    private readonly period: () => number,
+    /** The period of the platform (s), and what switches the sound. */
+    private readonly host: { period(): number; heard(on: boolean): void },
   ) {
     const speed = element("input", { type: "range", min: 0, max: STEPS, step: 1, "aria-label": TEXT.speed_of });
     speed.value = String(Math.round((STEPS * Math.log(player.rate / SLOWEST)) / Math.log(FASTEST / SLOWEST)));
@@ -83,6 +88,7 @@ export class Controls {
       button("|◀", () => player.seek(0), { "aria-label": TEXT.start, title: TEXT.start_title }),
       element("label", { class: "grow" }, TEXT.time, this.place),
       element("label", {}, TEXT.speed, speed),
+      element("label", { title: WORDS.toss.sound_hint }, this.sound, WORDS.toss.sound),
       this.told,
     );
     surface.addEventListener("keydown", (event) => this.key(event));
@@ -95,7 +101,7 @@ export class Controls {
     if (this.place.max !== String(end)) this.place.max = String(end);
     if (document.activeElement !== this.place || player.playing) this.place.value = String(player.now);
     this.place.setAttribute("aria-valuetext", say(TEXT.aria_time, { periods: player.now.toFixed(2) }));
-    const real = player.rate * this.period();
+    const real = player.rate * this.host.period();
     setText(this.told, say(real < 1 ? TEXT.slowed : TEXT.quickened, { times: plain(real < 1 ? 1 / real : real, 2) }));
   }
 
