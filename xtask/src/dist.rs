@@ -281,9 +281,7 @@ impl Workshop {
         let mut explorer = self.xtask("explorer")?;
         explorer.arg("--tools").arg(in_workspace("target/explorer-tools")).arg("--out").arg(&built);
         succeed(explorer.args(options))?;
-        let folder = self.folder("explorer")?;
-        copy(&built.join("explorer.html"), &folder.join("explorer.html"))?;
-        copy_folder(&built.join("site"), &folder.join("site"))
+        copy(&built.join("explorer.html"), &self.folder("explorer")?.join("explorer.html"))
     }
 
     /// mdBook, compiled once and without optimisation: it runs for seconds.

@@ -21,8 +21,7 @@ const TARGET: &str = "wasm32-unknown-unknown";
 
 #[derive(Args, Debug)]
 pub(crate) struct Options {
-    /// Write the page to this folder: explorer.html, which holds everything, and site/, the same in several
-    /// files for a web server [default: explorer in cargo's target folder].
+    /// Write explorer.html, which holds everything, to this folder [default: explorer in cargo's target folder].
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Where the page will be published: links copied from the file on a disk lead there. Without it they have
@@ -84,7 +83,7 @@ pub(crate) fn run(options: &Options) -> Result<ExitCode> {
     say!("{}", out.join("explorer.html").display())?;
     if options.serve {
         let mut server = Command::new("python3");
-        server.args(["-m", "http.server", "--bind", "127.0.0.1", "--directory"]).arg(out.join("site"));
+        server.args(["-m", "http.server", "--bind", "127.0.0.1", "--directory"]).arg(&out);
         succeed(server.arg(options.port.to_string()))?;
     }
     Ok(ExitCode::SUCCESS)

@@ -1,5 +1,5 @@
 /**
- * Builds the page: one file with everything in it, and the same split for hosting.
+ * Builds the page: one file with everything in it.
  *
  *     node build.mjs --wasm MODULE.wasm --glue GLUE.js --out DIR [--words WORDS.json] [--address URL]
  *         [--check: the types first]
@@ -10,7 +10,7 @@
 
 import { execFileSync } from "node:child_process";
 import { createHash } from "node:crypto";
-import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { parseArgs } from "node:util";
@@ -58,23 +58,9 @@ const inScript = (text) => text.replaceAll(/<\/(script)/gi, "<\\/$1").replaceAll
 
 const sha256 = (text) => `'sha256-${createHash("sha256").update(text).digest("base64")}'`;
 
-/** Browsers keep old files; a new one has another address. */
-const version = (content) => createHash("sha256").update(content).digest("hex").slice(0, 10);
-
-const policy = (rules) =>
-  `<meta http-equiv="Content-Security-Policy" content="default-src 'none'; base-uri 'none'; form-action 'none'; ${rules}" />`;
-
 /** Replaced text can have dollar signs in it. */
 function filled(html, parts) {
   return Object.entries(parts).reduce((text, [name, part]) => text.replace(`<!-- ${name} -->`, () => part), html);
-}
-
-function written(path, content) {
-  mkdirSync(dirname(path), { recursive: true });
-  writeFileSync(path, content);
-  const bytes = Buffer.byteLength(content);
-  const kilobytes = (size) => `${(size / 1000).toFixed(1)} kB`.padStart(10);
-  console.log(`${path.padEnd(60)} ${kilobytes(bytes)} ${kilobytes(gzipSync(content, { level: 9 }).length)} gzipped`);
 }
 
 /** Fails where a translation lacks a text of the English one, has another one, or has other values in it. */
@@ -101,41 +87,26 @@ const source = readFileSync(join(here, "index.html"), "utf8").replace('lang="en"
 const escaped = (text) => text.replace(/[&<>"]/g, (letter) => `&#${letter.charCodeAt(0)};`);
 const named = (path) => escaped(path.split(".").reduce((part, name) => part[name], texts));
 const shell = published(source).replace(/\{\{([\w.]+)\}\}/g, (_, path) => named(path));
-const html = filled(shell, {
-  words: `<script type="application/json" id="words">\n${JSON.stringify(texts, null, 1).replaceAll("<", "\\u003c")}\n</script>`,
-});
 const page = await bundled("src/main.ts");
 const worker = await bundled("src/worker.ts");
 const module = readFileSync(wasm);
 const workerScript = `${readFileSync(glue, "utf8").trim()}\n${worker.script}\n`;
 const pageScript = inScript(page.script);
 
-// No address at all may be asked for anything by the single file: the browser itself sees to it.
-const alone = `script-src ${sha256(pageScript)} 'wasm-unsafe-eval' blob:; worker-src blob:; style-src 'unsafe-inline'; \
-img-src data: blob:; connect-src 'none'`;
-const single = filled(html, {
-  policy: policy(alone),
+// No address at all may be asked for anything: the browser itself sees to it.
+const policy = `default-src 'none'; base-uri 'none'; form-action 'none'; script-src ${sha256(pageScript)} \
+'wasm-unsafe-eval' blob:; worker-src blob:; style-src 'unsafe-inline'; img-src data: blob:; connect-src 'none'`;
+const html = filled(shell, {
+  policy: `<meta http-equiv="Content-Security-Policy" content="${policy}" />`,
+  words: `<script type="application/json" id="words">\n${JSON.stringify(texts, null, 1).replaceAll("<", "\\u003c")}\n</script>`,
   styles: `<style>${page.styles}</style>`,
   scripts:
     `<script type="text/plain" id="worker-script">${inScript(workerScript)}</script>\n` +
     `<script type="text/plain" id="module-base64">${gzipSync(module, { level: 9 }).toString("base64")}</script>\n` +
     `<script>${pageScript}</script>`,
 });
-const beside = `script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; style-src 'self' 'unsafe-inline'; \
-img-src 'self' data: blob:; connect-src 'self'`;
-const hosted = filled(html, {
-  policy: policy(beside),
-  styles: `<link rel="stylesheet" href="explorer.css?${version(page.styles)}" />`,
-  scripts:
-    `<script id="page-script" src="explorer.js?${version(page.script)}" defer ` +
-    `data-worker="worker.js?${version(workerScript)}" data-module="module.wasm?${version(module)}"></script>`,
-});
 
-const site = join(out, "site");
-rmSync(site, { recursive: true, force: true });
-written(join(out, "explorer.html"), single);
-written(join(site, "index.html"), hosted);
-written(join(site, "explorer.js"), page.script);
-written(join(site, "explorer.css"), page.styles);
-written(join(site, "worker.js"), workerScript);
-written(join(site, "module.wasm"), module);
+mkdirSync(out, { recursive: true });
+writeFileSync(join(out, "explorer.html"), html);
+const kilobytes = (content) => `${(Buffer.byteLength(content) / 1000).toFixed(1)} kB`;
+console.log(`explorer.html ${kilobytes(html)}, ${kilobytes(gzipSync(html, { level: 9 }))} gzipped`);

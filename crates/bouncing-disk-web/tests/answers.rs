@@ -261,22 +261,13 @@ fn a_longer_motion_begins_like_a_shorter_one() {
 /// However a motion is cut off, as in a contact that does not end: the balance is that of the instant.
 #[test]
 fn energy_is_balanced_at_the_end_of_any_motion() {
-    let hand = |time: f64| json!({ "amplitude": 0.06, "load_acceleration": 0.5, "contact_time": time });
-    // The rotor of Fig. 9 slides through all of it.
-    let rotor = |load: f64| {
-        json!({
-            "amplitude": 1e-6, "twist_amplitude": 0.0, "angular_frequency": 62.83185307179586, "contact_radius": 1.25e-3,
-            "gyration_radius": 6.3e-3, "friction": 0.1, "preload_acceleration": 2.4, "load_acceleration": load
-        })
-    };
-    let thrown = [[0.4, 1.4, 3.0], [4.7, 0.0, 3.0]];
-    let mut cases = [(20_u64, 0.0), (20, 1.0), (60, 0.0)]
-        .map(|(periods, load)| (periods, rotor(load), [0.0, 0.0, 30.0]))
-        .to_vec();
-    cases.extend((1..30).flat_map(|periods| {
-        [0.0, 0.03].into_iter().flat_map(move |time| thrown.map(|start| (periods, hand(time), start)))
-    }));
-    for (periods, changes, [impact_phase, speed, spin]) in cases {
+    // The disk bounces, rests between its flights, or slides for long on a platform that never throws it.
+    let motions = [(0.06, [0.4, 1.4, 3.0]), (0.06, [4.7, 0.0, 3.0]), (0.02, [0.0, 0.0, 300.0])];
+    let cases = (1_u64..30).flat_map(|periods| {
+        [0.0, 0.03].into_iter().flat_map(move |time| motions.map(|motion| (periods, time, motion)))
+    });
+    for (periods, time, (amplitude, [impact_phase, speed, spin])) in cases {
+        let changes = json!({ "amplitude": amplitude, "load_acceleration": 0.5, "contact_time": time });
         let start = json!({ "kind": "impact", "impact_phase": impact_phase, "normalised_speed": speed, "angular_speed": spin });
         let changes = system(changes);
         let request = with(changes.clone(), json!({ "start": start, "periods": periods }));
@@ -287,10 +278,7 @@ fn energy_is_balanced_at_the_end_of_any_motion() {
         let size = energy("platform_work").abs() + lost + energy("stored").abs();
         let gone = lost + energy("load_work") + energy("stored");
         assert!((energy("platform_work") - gone).abs() < 1e-12 * size, "{periods} {json}");
-        assert!(
-            number(&changes["system"], "load_acceleration") == 0.0 || energy("load_work") != 0.0,
-            "{json}"
-        );
+        assert!(energy("load_work") != 0.0, "{json}");
         let of = |name: &str| number(&changes["system"], name);
         let rotary = |row: &[f64]| of("gyration_radius") * of("gyration_radius") * row[4] * row[4];
         let held = |row: &[f64]| 0.5 * (row[3] * row[3] + rotary(row)) + of("preload_acceleration") * row[1];
@@ -298,9 +286,8 @@ fn energy_is_balanced_at_the_end_of_any_motion() {
         let mut rows = reply.numbers[..9 * number(&json, "samples") as usize].chunks(9);
         let (first, last) = (rows.next().expect("a sample"), rows.next_back().expect("another"));
         // Only a rigid contact, and one that is open, has no energy in its spring.
-        let rigid = changes["system"]["contact_time"].as_f64().is_none_or(|time| time == 0.0);
         let stored = held(last) - held(first);
-        let open = rigid || speed > 0.0 && last[1] > last[5];
+        let open = time == 0.0 || speed > 0.0 && last[1] > last[5];
         assert!(!open || (stored - energy("stored")).abs() < 1e-9 * size, "{periods} {json}");
     }
 }

@@ -5,16 +5,15 @@ import type { Refusal, Request, Response } from "./protocol";
 import { say, WORDS } from "./words";
 import type { FromWorker, ModuleSource, ToWorker } from "./worker";
 
-/** Where the page has its worker's script and its module. */
-export type Source = { script: string; base64: string } | { worker: string; module: string };
-
 /** How long (ms) an unwanted answer is waited for before the worker is replaced, which costs about as much. */
 const GRACE = 40;
 /** Workers that die before they have answered anything, in a row, until the lane gives up. */
 const MOST_DEATHS = 3;
 
-export function makeClient(source: Source): Client {
-  const workshop = workshopOf(source);
+/** The texts of the workers' script and of the module, gzipped and in base64. */
+export function makeClient(script: string, base64: string): Client {
+  const address = URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
+  const workshop: Workshop = { script: address, module: { base64 } };
   const quick = new Lane(workshop);
   const heavy = new Lane(workshop);
   quick.warm();
@@ -40,13 +39,6 @@ export function makeClient(source: Source): Client {
 
 /** What both lanes share: where the worker's script is, and the module, once one of them has compiled it. */
 type Workshop = { readonly script: string; module: ModuleSource };
-
-function workshopOf(source: Source): Workshop {
-  if ("worker" in source)
-    return { script: source.worker, module: { address: new URL(source.module, document.baseURI).href } };
-  const script = URL.createObjectURL(new Blob([source.script], { type: "text/javascript" }));
-  return { script, module: { base64: source.base64 } };
-}
 
 /** What a slot asks for, until it asks for something else. */
 type Turn = { over: boolean };

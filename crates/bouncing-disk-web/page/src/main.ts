@@ -7,7 +7,7 @@ import "./styles/screens.css";
 import "./styles/views.css";
 import "./styles/elsewhere.css";
 import { Address, embedded, isEmbedded, isLocal, link } from "./address";
-import { makeClient, type Source } from "./client";
+import { makeClient } from "./client";
 import { messageOf, VIEW_NAMES, type Context, type Offer, type State, type ViewClass, type ViewName } from "./contract";
 import { COURSES, CoursePanel, type Course } from "./courses";
 import { fileName, save } from "./drawing/files";
@@ -36,17 +36,8 @@ const VIEWS: Readonly<Record<ViewName, ViewClass>> = {
 const SLOWEST_MOTOR = 2e3 * Math.PI;
 const MOTOR_STATE = stateOf(openingPanel(PRESETS.find(({ id }) => id === "table3") as Preset));
 
-/** The worker's script and the module: in this page, or beside it. */
-function source(): Source {
-  const script = document.getElementById("worker-script")?.textContent;
-  const base64 = document.getElementById("module-base64")?.textContent;
-  if (script && base64) return { script, base64 };
-  const { worker = "worker.js", module = "module.wasm" } = byId("page-script").dataset;
-  return { worker, module };
-}
-
 function begin(): void {
-  const client = makeClient(source());
+  const client = makeClient(byId("worker-script").textContent ?? "", byId("module-base64").textContent ?? "");
   const problems = new Problems(byId("problems"));
   const statusLine = byId("status");
   // Another state comes from the form, a drag or a view; a fresh one from a preset, the tour or the address.

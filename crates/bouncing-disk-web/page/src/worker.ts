@@ -1,7 +1,7 @@
 /** What the page and a worker say to each other: the module first, then one request after the other. */
 
-/** Where a worker finds the module: compiled by another one, as gzipped base64 text, or at an address. */
-export type ModuleSource = { compiled: WebAssembly.Module } | { base64: string } | { address: string };
+/** The module as a worker gets it: compiled by another one, or gzipped and as base64 text. */
+export type ModuleSource = { compiled: WebAssembly.Module } | { base64: string };
 
 /** `request` is the JSON of a `Request`, which the module reads itself. */
 export type ToWorker = { module: ModuleSource } | { request: string };
@@ -29,15 +29,9 @@ let explorer: Explorer;
 
 async function compiled(source: ModuleSource): Promise<WebAssembly.Module> {
   if ("compiled" in source) return source.compiled;
-  if ("base64" in source) {
-    const bytes = Uint8Array.from(atob(source.base64), (letter) => letter.charCodeAt(0));
-    const inflated = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-    return WebAssembly.compile(await new Response(inflated).arrayBuffer());
-  }
-  const response = await fetch(source.address);
-  if (!response.ok) throw new Error(`${source.address} is not there (status ${response.status})`);
-  // Not compileStreaming: some static hosts send the module with another media type.
-  return WebAssembly.compile(await response.arrayBuffer());
+  const bytes = Uint8Array.from(atob(source.base64), (letter) => letter.charCodeAt(0));
+  const inflated = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+  return WebAssembly.compile(await new Response(inflated).arrayBuffer());
 }
 
 async function start(source: ModuleSource): Promise<void> {

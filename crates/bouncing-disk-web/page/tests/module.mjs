@@ -2,9 +2,9 @@
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { runInThisContext } from "node:vm";
+import { gunzipSync } from "node:zlib";
 import { build } from "esbuild";
 
 /** The page that is tested: that of `cargo xtask explorer`, if EXPLORER_HTML names no other one. */
@@ -24,17 +24,18 @@ export async function sourceOf(path) {
   return import(`data:text/javascript;base64,${Buffer.from(outputFiles[0].text).toString("base64")}`);
 }
 
-/** The module, with what its glue makes of it, in this process. */
-export function moduleOf(glue, wasm) {
-  const module = runInThisContext(`(() => { ${readFileSync(glue, "utf8")}; return wasm_bindgen; })()`);
-  module.initSync({ module: readFileSync(wasm) });
-  return module;
+/** The script of the page's workers, and the module that it runs. */
+export function partsOf(page) {
+  const part = (id) => new RegExp(`id="${id}">(.*?)</script>`, "s").exec(page)[1];
+  return { script: part("worker-script"), wasm: gunzipSync(Buffer.from(part("module-base64"), "base64")) };
 }
 
 /** Asks the module of the page: for the JSON and the arrays of an answer, and for a motion. */
 export function asker() {
-  const site = join(dirname(file), "site");
-  const explorer = new (moduleOf(join(site, "worker.js"), join(site, "module.wasm")).Explorer)();
+  const { script, wasm } = partsOf(readFileSync(file, "utf8"));
+  const module = runInThisContext(`(() => { ${script}; return wasm_bindgen; })()`);
+  module.initSync({ module: wasm });
+  const explorer = new module.Explorer();
   const ask = async (request) => {
     const { json, digest, refused, numbers, bytes } = explorer.respond(JSON.stringify(request));
     assert.equal(refused, false, `${JSON.stringify(request)}: ${json}`);

@@ -4,10 +4,10 @@ import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { dirname, join } from "node:path";
+import { join } from "node:path";
 import { test } from "node:test";
 import { fileURLToPath } from "node:url";
-import { file, WORDS } from "./module.mjs";
+import { file, partsOf, WORDS } from "./module.mjs";
 
 const SOURCES = new URL("../src/", import.meta.url);
 
@@ -42,12 +42,14 @@ function built(change, ...options) {
   const folder = mkdtempSync(join(tmpdir(), "words-"));
   const words = structuredClone(WORDS);
   change(words);
-  writeFileSync(join(folder, "words.json"), JSON.stringify(words));
-  const site = join(dirname(file), "site");
-  const inputs = ["--wasm", join(site, "module.wasm"), "--glue", join(site, "worker.js")];
-  const texts = ["--words", join(folder, "words.json"), "--out", folder, ...options];
+  const { script: glue, wasm } = partsOf(readFileSync(file, "utf8"));
+  const inputs = Object.entries({ glue, wasm, words: JSON.stringify(words) }).flatMap(([name, content]) => {
+    writeFileSync(join(folder, name), content);
+    return [`--${name}`, join(folder, name)];
+  });
   const build = fileURLToPath(new URL("../build.mjs", import.meta.url));
-  const { status, stderr } = spawnSync(process.execPath, [build, ...inputs, ...texts], { encoding: "utf8" });
+  const run = [build, ...inputs, "--out", folder, ...options];
+  const { status, stderr } = spawnSync(process.execPath, run, { encoding: "utf8" });
   const html = status === 0 && readFileSync(join(folder, "explorer.html"), "utf8");
   rmSync(folder, { recursive: true });
   return html || stderr;

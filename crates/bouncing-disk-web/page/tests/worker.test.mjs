@@ -1,12 +1,7 @@
-/** Workers that break down or are not wanted any more, and the page from a server. */
+/** Workers that break down or are not wanted any more. */
 
 import assert from "node:assert/strict";
-import { createServer } from "node:http";
-import { existsSync, readFileSync } from "node:fs";
-import { dirname, join } from "node:path";
-import { test } from "node:test";
-import { onPage, settled, type, whenAddress, within } from "./browser.mjs";
-import { file } from "./module.mjs";
+import { onPage, settled, type, whenAddress } from "./browser.mjs";
 
 /** With the first of these coefficients of friction the module breaks down, with the second no motion of it ends. */
 function breakable() {
@@ -43,22 +38,4 @@ onPage("a computation without an end is given up", { hash: "#view=diagram", scri
   await whenAddress(page, "friction", "0.3");
   await settled(page);
   assert.ok(Date.now() - began < 5000, `${Date.now() - began} ms`);
-});
-
-const MEDIA = { html: "text/html", js: "text/javascript", css: "text/css", wasm: "application/wasm" };
-
-test("the split files work from a server, and ask for nothing but themselves", async () => {
-  const site = join(dirname(file), "site");
-  const server = createServer((request, response) => {
-    const name = new URL(request.url, "http://localhost").pathname.slice(1) || "index.html";
-    const path = join(site, name);
-    if (!existsSync(path)) return response.writeHead(404).end();
-    return response.writeHead(200, { "content-type": MEDIA[name.split(".").pop()] }).end(readFileSync(path));
-  });
-  await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
-  const to = `http://127.0.0.1:${server.address().port}/`;
-  await within({ to, hash: "#view=diagram" }, async (page) => {
-    assert.ok(Number(await page.inputValue("#field-axial_forcing")) > 0);
-  });
-  server.close();
 });

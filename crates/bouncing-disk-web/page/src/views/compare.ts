@@ -168,7 +168,11 @@ export class CompareView extends ComputingView {
     if (this.words.textContent !== words.join(""))
       this.words.replaceChildren(...words.map((text) => element("li", {}, text)));
     const caption = say(TEXT.caption, { samples: SAMPLES });
-    this.chartsOf(pair).forEach((chart, index) => this.charts[index]?.show(chart, index === 2 ? caption : ""));
+    const charts = this.chartsOf(pair);
+    const show = (index: number) => this.charts[index]?.show(charts[index] as Chart, index === 2 ? caption : "");
+    [0, 1].forEach(show);
+    // In a frame of its own: all three together would hold up the page.
+    requestAnimationFrame(() => this.pair === pair && show(2));
   }
 
   /** The periods that heights and spins are shown for. */

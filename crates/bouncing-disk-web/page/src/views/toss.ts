@@ -85,12 +85,12 @@ export class TossView implements View {
     };
     attachThrowing(this.scene.surface, throwing);
     this.thrown.append(button(TEXTS.back_to_impact, () => context.change({ thrown: null })));
-    this.player.played = (from, to, seconds) => {
-      if (this.recording === null) return;
+    this.player.played = (...periods) => {
       const { recording } = this;
-      const [begin, end] = [from * recording.period, to * recording.period];
-      const passed = recording.impacts.slice(recording.impactsUntil(begin), recording.impactsUntil(end));
-      this.sound.play(passed, begin, end, seconds);
+      const [from, to] = periods.map((time) => recording?.impactsUntil(time * recording.period));
+      const passed = recording?.impacts.slice(from, to) ?? [];
+      const [fastest] = passed.sort((one, other) => other.normalised_speed - one.normalised_speed);
+      if (fastest !== undefined) this.sound.play(fastest);
     };
     const scene = [this.scene.root, this.controls.root, this.gains, this.thrown, this.rounding.root, this.alternative];
     const charts = section(TEXTS.traces, null, this.heights.root, this.spins.root);

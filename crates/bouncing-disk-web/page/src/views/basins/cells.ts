@@ -48,7 +48,7 @@ export class Cells {
   add(labels: Uint8Array, from: number): void {
     this.labels.set(labels, from * this.grid.phases);
     const top = this.grid.speeds - from;
-    this.raster.change(top - labels.length / this.grid.phases, top);
+    this.raster.change({ y: [top - labels.length / this.grid.phases, top] });
   }
 
   paint(pen: Pen, plot: Plot): void {

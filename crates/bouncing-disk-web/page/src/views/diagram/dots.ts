@@ -119,7 +119,7 @@ class OrbitPicture {
     const field = columnOf(this.quantity);
     const [columnScale, rowScale] = [this.width / (x[1] - x[0]), this.height / (y[1] - y[0])];
     this.known.fill(1, from, to);
-    this.raster.change();
+    this.raster.change({ x: [from, to] });
     for (let at = 0; at + WIDTH <= numbers.length; at += WIDTH) {
       // The last column is that of the upper end itself; the half keeps rounding from moving a column to its neighbour.
       const place = ((numbers[at] as number) - x[0]) * columnScale * ((this.width - 1) / this.width);

@@ -14,8 +14,8 @@ export class Player {
   now = 0;
   /** Platform periods in a second of ours. */
   rate = 0.6;
-  /** Called for what goes by while it plays, and not where somebody jumps: from, to (periods), and in which time (s). */
-  played: (from: number, to: number, seconds: number) => void = () => {};
+  /** Called for what goes by while it plays, and not where somebody jumps (periods). */
+  played: (from: number, to: number) => void = () => {};
   private frame = 0;
   private last = 0;
 
@@ -38,7 +38,7 @@ export class Player {
       this.frame = requestAnimationFrame(step);
       const from = this.now;
       this.seek(from + passed * this.rate);
-      if (this.now > from) this.played(from, this.now, passed);
+      if (this.now > from) this.played(from, this.now);
     };
     this.frame = requestAnimationFrame(step);
   }
