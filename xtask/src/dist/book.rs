@@ -23,7 +23,7 @@ const SOURCES: &str = "source";
 const LIVE: &str = "# Gallery and explorer\n\n\
     - [The gallery](gallery/index.html): the figures and tables of the paper, recomputed, with their data, \
     and each printed number against the computed one.\n\
-    - [The explorer](explorer/explorer.html): tosses, orbit diagrams, basins and motors, computed as you watch; \
+    - [The explorer](explorer/index.html): tosses, orbit diagrams, basins and motors, computed as you watch; \
     one file, to keep and to give to others.\n";
 
 /// Builds the site; the explorer and the figures are made already.
@@ -62,7 +62,7 @@ pub(super) fn book(workshop: &Workshop, figures: &Path) -> Result<()> {
         copy_folder(&from, &to.with_file_name(""))?;
     }
     gallery(figures, &pages.join("gallery"))?;
-    copy(&workshop.out.join("explorer/explorer.html"), &pages.join("explorer/explorer.html"))?;
+    copy(&workshop.out.join("explorer/explorer.html"), &pages.join("explorer/index.html"))?;
     let site = workshop.folder("book")?;
     succeed(workshop.mdbook()?.arg("build").arg(&folder).arg("--dest-dir").arg(&site))?;
     let broken = broken_links(&site)?;
