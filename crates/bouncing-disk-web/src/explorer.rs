@@ -57,7 +57,9 @@ impl Explorer {
             Request::MotorLoads(request) => motor::loads(&request),
             Request::MotorStall { sheet, relative_error, seed } => motor::stall(sheet, relative_error, seed),
             Request::SheetRead { text } => motor::read(&text),
-            Request::SheetOfSystem { system, mass } => motor::of_system(&system.build()?, mass),
+            Request::SheetOfSystem { system, mass, stator } => {
+                motor::of_system(&system.build()?.with_stator(stator)?, mass)
+            }
         }
     }
 }

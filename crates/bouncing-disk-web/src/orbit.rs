@@ -60,13 +60,14 @@ pub(crate) fn verdict(axial_forcing: f64, restitution: f64, start: ImpactStart) 
             "chattering"
         }
         Verdict::AtRest { .. } => "at-rest",
-        Verdict::Undecided { reason, .. } => {
-            if let UndecidedReason::ExponentNearZero { exponent: found, standard_error }
-            | UndecidedReason::NoPeriodFound { exponent: found, standard_error }
-            | UndecidedReason::TransientMayLast { exponent: found, standard_error, .. } = *reason
-            {
-                (exponent, exponent_error) = (Some(found), Some(standard_error));
-            }
+        Verdict::Undecided {
+            reason:
+                UndecidedReason::ExponentNearZero { exponent: found, standard_error }
+                | UndecidedReason::NoPeriodFound { exponent: found, standard_error }
+                | UndecidedReason::TransientMayLast { exponent: found, standard_error, .. },
+            ..
+        } => {
+            (exponent, exponent_error) = (Some(*found), Some(*standard_error));
             "undecided"
         }
         _ => "undecided",

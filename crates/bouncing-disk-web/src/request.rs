@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use bouncing_disk::core::flight::Compliance;
 use bouncing_disk::core::{ImpactMap, ImpactState, Vibration};
 use bouncing_disk::motor::MotorParameters;
-use bouncing_disk::parameters::{Contact, Waveform};
+use bouncing_disk::parameters::{Contact, StatorParameters, Waveform};
 use bouncing_disk::{DiskParameters, PlatformParameters, System};
 use serde::{Deserialize, Serialize};
 
@@ -91,7 +91,7 @@ pub(crate) enum Request {
     MotorLoads(LoadsRequest),
     MotorStall { sheet: MotorParameters, relative_error: f64, seed: u64 },
     SheetRead { text: String },
-    SheetOfSystem { system: SystemParameters, mass: f64 },
+    SheetOfSystem { system: SystemParameters, mass: f64, stator: Option<StatorParameters> },
 }
 
 /// The columns `[from, to)` of an orbit diagram of `count` forcings. Angular speeds follow from the angular

@@ -102,10 +102,6 @@ fn number(json: &Value, name: &str) -> f64 {
     found.and_then(Value::as_f64).unwrap_or_else(|| panic!("{name} of {json}"))
 }
 
-fn list<'a>(json: &'a Value, name: &str) -> &'a [Value] {
-    json[name].as_array().unwrap_or_else(|| panic!("{name} of {json}"))
-}
-
 fn bits(numbers: &[f64]) -> Vec<u64> {
     numbers.iter().map(|number| number.to_bits()).collect()
 }
@@ -194,6 +190,12 @@ fn a_value_out_of_its_range_is_named() {
         ("motor_transient", json!({ "points": 1 }), "intervals", "1"),
         ("motor_transient", json!({ "rise_times": -1.0 }), "duration", "-"),
         ("sheet_of_system", json!({ "system": pizza(), "mass": 0.0 }), "mass", "0"),
+        (
+            "sheet_of_system",
+            json!({ "system": pizza(), "mass": 1.0, "stator": { "mass": -1.0 } }),
+            "stator.mass",
+            "-1",
+        ),
     ] {
         let refusal = refused(call, changes);
         assert_eq!((&refusal["kind"], &refusal["quantity"]), (&json!("out-of-range"), &json!(quantity)));
@@ -364,7 +366,7 @@ fn shares_of_kinds_are_those_of_the_attractors_that_starts_end_on() {
     let known = [(0.45, "rest periodic"), (0.55, "rest chaotic"), (0.2, "rest"), (0.51, "periodic chaotic")];
     for (forcing, lasting) in known {
         let (json, _) = answered("attractors", json!({ "axial_forcing": forcing }));
-        let all = list(&json, "attractors");
+        let all = json["attractors"].as_array().expect("a list");
         assert_eq!(all[0]["leads_to"].is_null(), lasting.contains("rest"), "{json}");
         for kind in ["rest", "periodic", "chaotic"] {
             let end =
@@ -391,10 +393,10 @@ fn rows_of_basins_do_not_depend_on_which_are_asked_for_together() {
     }
     assert_eq!((whole.bytes.len(), &whole.bytes), (600, &labels));
     let (json, _) = answered("attractors", json!({}));
-    let known: Vec<_> = list(&json, "attractors").iter().map(|one| one["label"].as_u64()).collect();
+    let all = json["attractors"].as_array().expect("a list");
+    let known: Vec<_> = all.iter().map(|one| one["label"].as_u64()).collect();
     assert!(labels.iter().all(|label| *label == 0 || known.contains(&Some(u64::from(*label)))));
-    let shares = list(&json, "attractors").iter().map(|one| number(one, "share"));
-    let sum = shares.sum::<f64>() + number(&json, "undecided");
+    let sum = all.iter().map(|one| number(one, "share")).sum::<f64>() + number(&json, "undecided");
     assert!((sum - 1.0).abs() < 1e-12, "{sum}");
 }
 
@@ -404,26 +406,28 @@ fn the_rows_of_branches_are_those_of_the_library() {
     let (json, reply) = answered("branches", json!({ "restitution": 0.5, "axial_forcing": [0.3, 0.62] }));
     assert_eq!((json["branches"].as_u64(), branches.len() > 3), (Some(branches.len() as u64), true));
     let known = branches.iter().flat_map(|branch| &branch.bifurcations);
-    let found = list(&json, "bifurcations").iter();
+    let found = json["bifurcations"].as_array().expect("a list").iter();
     assert!(found.map(|one| number(one, "axial_forcing")).eq(known.map(|one| one.point.parameter)));
     // The impacts of each part one after the other, each along a line of its own.
-    let mut rows = reply.numbers.chunks(6);
-    let parts = branches
-        .iter()
-        .enumerate()
-        .flat_map(|(branch, own)| own.parts.iter().map(move |part| (branch, part)));
-    let lines = parts
-        .flat_map(|(branch, part)| (0..part[0].orbit.period()).map(move |impact| (branch, part, impact)));
-    for (line, (branch, part, impact)) in lines.enumerate() {
-        for point in part.iter().filter(|point| impact < point.orbit.period()) {
-            let state = point.orbit.states[impact];
-            let known = [point.parameter, state.phase().angle(), state.normalised_speed(), branch as f64];
-            let row = rows.next().expect("a row");
-            assert_eq!((bits(&row[..4]), row[4] > 0.5), (bits(&known), point.is_stable()));
-            assert_eq!(row[5].to_bits(), (line as f64).to_bits());
+    let (mut rows, mut line) = (Vec::new(), 0.0);
+    for (branch, own) in branches.iter().enumerate() {
+        for part in &own.parts {
+            for impact in 0..part[0].orbit.period() {
+                for point in part.iter().filter(|point| impact < point.orbit.period()) {
+                    let state = point.orbit.states[impact];
+                    rows.extend([
+                        point.parameter,
+                        state.phase().angle(),
+                        state.normalised_speed(),
+                        branch as f64,
+                    ]);
+                    rows.extend([if point.is_stable() { 1.0 } else { 0.0 }, line]);
+                }
+                line += 1.0;
+            }
         }
     }
-    assert!(rows.next().is_none());
+    assert_eq!(bits(&reply.numbers), bits(&rows));
 }
 
 #[test]
@@ -512,15 +516,19 @@ fn the_form_of_a_run_up_is_said_and_one_without_a_time_constant_is_told_as_such(
 
 #[test]
 fn a_sheet_that_is_written_is_read_again() {
-    let text = with(sheet(), json!({ "contact": { "time": 2e-5 } })).to_string();
+    let stator = json!({ "kind": "axial", "mass": 0.05, "quality": 300.0 });
+    let text = with(sheet(), json!({ "contact": { "time": 2e-5 }, "stator": stator })).to_string();
     let (written, _) = answered("sheet_read", json!({ "text": text }));
     let (read, _) = answered("sheet_read", json!({ "text": written["text"] }));
     assert_eq!((&read, &read["system"]["contact_time"]), (&written, &json!(2e-5)));
     assert_eq!(read["sheet"]["peak_angular_speed"], 30.0);
-    let (of_system, _) =
-        answered("sheet_of_system", json!({ "system": read["system"], "mass": read["mass"] }));
+    let (of_system, _) = answered(
+        "sheet_of_system",
+        json!({ "system": read["system"], "mass": read["mass"], "stator": stator }),
+    );
     assert_eq!(of_system["sheet"]["friction"], 0.1);
     assert_eq!(of_system["sheet"]["contact"]["time"], 2e-5);
+    assert_eq!(of_system["sheet"]["stator"], read["sheet"]["stator"]);
 }
 
 /// Soft hands by the engine against the single toss of Sec. III.
@@ -534,7 +542,8 @@ fn contacts_that_take_time_are_those_of_the_library() {
     let start = Phase::new(TOSS_START).expect("finite");
     let known =
         driven::single_toss(&platform, toss.disk(), start, InitialSpin::AbsoluteRest).expect("leaves");
-    let separation = list(&json, "event_kinds").iter().position(|kind| kind == "separation");
+    let kinds = json["event_kinds"].as_array().expect("a list");
+    let separation = kinds.iter().position(|kind| kind == "separation");
     let mut events = reply.numbers[9 * 121..].chunks(6).zip(&reply.bytes[121..]);
     let (row, _) = events.find(|(_, kind)| Some(usize::from(**kind)) == separation).expect("leaves");
     assert_eq!(bits(&[row[1], row[4]]), bits(&[known.separation_phase, known.airborne_speed]));

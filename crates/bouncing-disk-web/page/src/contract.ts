@@ -1,7 +1,7 @@
 /** What the parts of the page have in common: the state that a link reproduces, and what a view is. */
 
 import type { WORDS } from "./words";
-import type { FlightStart, ImpactStart, Range, Refusal, Request, Response, SystemParameters } from "./protocol";
+import type { FlightStart, ImpactStart, Range, Refusal, Request, Response, Stator, SystemParameters } from "./protocol";
 
 /** In the order of their tabs. */
 export const VIEW_NAMES = ["toss", "diagram", "basins", "motor", "compare", "scan"] as const;
@@ -33,8 +33,9 @@ export interface State {
   >; // prettier-ignore
   /** The window of the basins: phases in periods and normalised speeds. */
   readonly basins: Readonly<{ phase_periods: Range; normalised_speed: Range }>;
-  /** Loads of the curve as shares of the largest mean torque of friction, and the run-up's length in rise times. */
-  readonly motor: Readonly<{ loads: Range; points: number; rise_times: number }>;
+  /** Loads of the curve as shares of the largest mean torque of friction, the run-up's length in rise times, and the
+   * stator, where it yields. */
+  readonly motor: Readonly<{ loads: Range; points: number; rise_times: number; stator: Stator | null }>;
   /** What state B has instead of the shared state A; how many periods both are followed, and from which one on they
    * are shown (null: where they part). */
   readonly compare: Readonly<{ parameter: string; value: number; periods: number; from: number | null }>;

@@ -160,6 +160,5 @@ export class CoursePanel {
     else if (by !== undefined && this.course?.steps[this.step + by] !== undefined) this.go(this.step + by);
     else return;
     event.preventDefault();
-    event.stopPropagation();
   }
 }

@@ -45,22 +45,12 @@ export function rich(text: string): Node[] {
     .map((part) => (part.startsWith("_") ? element("sub", {}, part.slice(1)) : document.createTextNode(part)));
 }
 
-/** Something kept from visit to visit; null where there is none, or where a page on the disk may keep nothing. */
-export function kept(name: string, value?: string): string | null {
-  try {
-    if (value !== undefined) localStorage.setItem(`bouncing-disk ${name}`, value);
-    return localStorage.getItem(`bouncing-disk ${name}`);
-  } catch {
-    return null;
-  }
-}
-
 export const button = (label: string | Node[], press: () => void, attributes: Attributes = {}): HTMLButtonElement =>
   element("button", { type: "button", onclick: press, ...attributes }, ...[label].flat());
 
 /** The cross in the corner of what can be closed. */
 export const closeButton = (label: string, close: () => void): HTMLButtonElement =>
-  button("×", close, { class: "quiet close", "aria-label": label });
+  button("×", close, { class: "close", "aria-label": label });
 
 /** Lets arrow keys, Home and End move between the buttons of a row; `arrived` is called where they lead. */
 export function rove(row: HTMLElement, arrived: (button: HTMLButtonElement) => void = () => {}): void {

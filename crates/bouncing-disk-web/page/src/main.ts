@@ -8,7 +8,7 @@ import "./styles/views.css";
 import "./styles/elsewhere.css";
 import { Address, embedded, isEmbedded, isLocal, link } from "./address";
 import { makeClient } from "./client";
-import { messageOf, VIEW_NAMES, type Context, type Offer, type State, type ViewClass, type ViewName } from "./contract";
+import { messageOf, type Context, type Offer, type State, type ViewClass, type ViewName } from "./contract";
 import { COURSES, CoursePanel, type Course } from "./courses";
 import { fileName, save } from "./drawing/files";
 import { byId, copy } from "./elements";
@@ -16,7 +16,7 @@ import { Parameters } from "./form";
 import { Notes, Problems, showOpening } from "./notes";
 import { openingPanel, PRESETS, stateOf, type Panel, type Preset } from "./presets";
 import { printSheet } from "./sheet";
-import { choices, helpDialog, shortcutsOn, Stage } from "./shell";
+import { choices, helpDialog, Stage } from "./shell";
 import { toHash, type fromHash } from "./state";
 import { Store } from "./store";
 import { BasinsView } from "./views/basins";
@@ -70,7 +70,8 @@ function begin(): void {
   const context: Context = {
     client,
     state: () => store.state(),
-    change: (change, options) => store.change(change, options),
+    // A frame has no way back from another view.
+    change: (change, options) => store.change(isEmbedded() ? { ...change, view: store.state().view } : change, options),
     status: (text, kind = "done") => {
       clearInterval(clock);
       // What is under way changes too often to be read out.
@@ -128,7 +129,6 @@ function begin(): void {
     })),
   );
 
-  const tool = (name: string): HTMLButtonElement => byId<HTMLButtonElement>(`${name}-button`);
   const { local, not_copied_told: failed, copied_told: taken } = WORDS.page;
   const copyLink = () => void copy(link(store.state()), context.status, isLocal() ? local : taken, failed);
   const offers = (): Offer[] => stage.view?.offers() ?? [];
@@ -147,31 +147,11 @@ function begin(): void {
     { label: WORDS.page.link_offer, note: WORDS.page.copy, act: copyLink },
     { label: WORDS.sheet.label, note: WORDS.page.print, act: print },
   ]);
-  /** The tools with the keys that do the same. */
-  const tools: readonly (readonly [string, string, () => void])[] = [
-    ["p", "presets", presets],
-    ["t", "courses", courses],
-    ["e", "export", exports],
-    ["l", "link", copyLink],
-    ["?", "help", () => help.showModal()],
-  ];
-  for (const [, name, act] of tools) tool(name).addEventListener("click", act);
+  const tools = { presets, courses, export: exports, link: copyLink, help: () => help.showModal() };
+  for (const [name, act] of Object.entries(tools)) byId(`${name}-button`).addEventListener("click", act);
   byId("skip").addEventListener("click", (event) => {
     event.preventDefault();
     stage.focus();
-  });
-
-  document.addEventListener("keydown", (event) => {
-    const taken = event.defaultPrevented || event.ctrlKey || event.altKey || event.metaKey;
-    const typing = (event.target as HTMLElement).closest("input, select, textarea");
-    if (taken || typing || document.querySelector("dialog[open]") || !shortcutsOn()) return;
-    const view = VIEW_NAMES[Number(event.key) - 1];
-    // What the tools open is not there in a frame.
-    const own = isEmbedded() ? undefined : tools.find(([key]) => key === event.key)?.[2];
-    if (view !== undefined) visit(view);
-    else if (own !== undefined) own();
-    else return;
-    event.preventDefault();
   });
 
   // Only where nothing else is asked for: a link and a preset speak for themselves.

@@ -1,7 +1,7 @@
 /** What stands above a view: the note on a preset, and sentences about what could not be done. */
 
 import type { State } from "./contract";
-import { button, closeButton, element, isNarrow, kept, rich } from "./elements";
+import { button, closeButton, element, isNarrow, rich } from "./elements";
 import { PRESETS, stateOf, type Panel, type Preset } from "./presets";
 import { DEFAULT_STATE, toHash } from "./state";
 import { WORDS } from "./words";
@@ -71,12 +71,11 @@ export class Notes {
   }
 }
 
-/** What a first visit reads: one sentence, and where to begin. Once closed, it stays so. */
+/** What a visit begins with: one sentence, and where to begin. */
 export function showOpening(host: HTMLElement, ways: readonly (readonly [name: string, go: () => void])[]): void {
-  host.hidden = kept("opening") === "closed";
+  host.hidden = false;
   const close = (go?: () => void): void => {
     host.hidden = true;
-    kept("opening", "closed");
     go?.();
   };
   const { sentence, examples, close: label } = WORDS.opening;

@@ -18,9 +18,11 @@ export type SystemParameters = Record<(typeof SYSTEM_NAMES)[number], number>;
 export type MotorSheet = {
   readonly load_torque: number;
   readonly contact?: { readonly time?: number } | null;
-  /** Its mode, where it yields: effective mass (kg), and whether it also twists. */
-  readonly stator?: { readonly kind: string; readonly mass?: number; readonly quality?: number } | null;
+  readonly stator?: Stator | null;
 };
+
+/** The modes of a stator that yields, the library's `StatorParameters`: effective mass (kg), and whether it also twists. */
+export type Stator = { readonly kind: string; readonly mass?: number; readonly quality?: number };
 
 /** An impact that an orbit begins with: its phase (rad), and its normalised speed |w_A| Gamma/(A omega), positive. */
 export interface ImpactStart {

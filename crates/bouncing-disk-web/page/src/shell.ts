@@ -2,7 +2,7 @@
 
 import { VIEW_NAMES, type Context, type State, type View, type ViewClass, type ViewName } from "./contract";
 import { darkness } from "./drawing/pen";
-import { button, closeButton, div, element, kept, oncePerFrame, rove } from "./elements";
+import { button, closeButton, div, element, oncePerFrame, rove } from "./elements";
 import { say, WORDS } from "./words";
 
 /** The tabs, between which arrow keys move, and one view at a time, at the size of its place. */
@@ -101,20 +101,14 @@ export function choices(title: string, name: string, words: string, choicesNow: 
   };
 }
 
-/** Single keys get in the way of dictation and of some screen readers, so they can be switched off. */
-export const shortcutsOn = (): boolean => kept("keys") !== "off";
-
 export function helpDialog(): HTMLDialogElement {
   const texts = WORDS.shell.help;
-  const box = element("input", { type: "checkbox", id: "keys-on", checked: shortcutsOn() });
-  box.addEventListener("change", () => kept("keys", box.checked ? "on" : "off"));
   const keys = texts.keys.map(([key = "", what = ""]) => {
     const caps = key.split(" ").map((one) => element("kbd", {}, one));
     return element("div", {}, element("dt", {}, ...caps), element("dd", {}, what));
   });
   const paragraph = (...parts: (Node | string)[]): HTMLElement => element("p", {}, ...parts);
   const list = element("dl", { class: "keys" }, ...keys);
-  const switched = paragraph(element("label", {}, box, ` ${texts.on}`));
   const what = [element("h3", {}, texts.what), paragraph(say(texts.about, WORDS.opening)), paragraph(texts.model)];
-  return dialog(texts.title, "help", list, switched, ...what, paragraph(texts.licence));
+  return dialog(texts.title, "help", list, ...what, paragraph(texts.licence));
 }

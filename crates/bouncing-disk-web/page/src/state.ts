@@ -1,7 +1,7 @@
 /** The state that a link reproduces: its defaults, changes of it, and its form in the hash of the address. */
 
 import { VIEW_NAMES, type Change, type State } from "./contract";
-import { SYSTEM_NAMES, type FlightStart, type Range, type SystemParameters } from "./protocol";
+import { SYSTEM_NAMES, type FlightStart, type Range, type Stator, type SystemParameters } from "./protocol";
 import tables from "./tables.json";
 import { say, WORDS } from "./words";
 
@@ -49,7 +49,7 @@ export const DEFAULT_STATE: State = {
   thrown: null,
   diagram: { axial_forcing: [0.32, 0.62], quantity: "impact_phase", range: null, branches: true, drive: "sine" },
   basins: { phase_periods: [0, 1], normalised_speed: [0, 5] },
-  motor: { loads: [0, 1], points: 9, rise_times: 6 },
+  motor: { loads: [0, 1], points: 9, rise_times: 6, stator: null },
   compare: { parameter: "normalised_speed", value: 0, periods: 120, from: null },
   scan: {
     over: "amplitude_angle",
@@ -137,6 +137,18 @@ const THROW: Form<FlightStart> = {
   },
 };
 
+/** A table of JSON, of which the library says whether it is a stator. */
+const STATOR: Form<Stator> = {
+  print: (stator) => encodeURIComponent(JSON.stringify(stator)),
+  read(text) {
+    try {
+      return { ...JSON.parse(text) };
+    } catch {
+      throw new Unreadable(WORDS.address.stator);
+    }
+  },
+};
+
 function oneOf<Name extends string>(names: readonly Name[]): Form<Name> {
   return {
     print: (name) => name,
@@ -206,6 +218,7 @@ const KEYS: Readonly<Record<string, Key>> = {
   motor_loads: of("motor", "loads", range()),
   motor_points: of("motor", "points", whole(2, MOST_POINTS)),
   motor_rise_times: of("motor", "rise_times", bounded(0.01, MOST_RISE_TIMES)),
+  motor_stator: of("motor", "stator", orNone("none", STATOR)),
   compare_parameter: of("compare", "parameter", PARAMETER),
   compare_value: of("compare", "value", NUMBER),
   compare_periods: of("compare", "periods", whole(1, MOST_PERIODS)),

@@ -116,7 +116,7 @@ export class Store {
 
   /** What the library says against a state, of which this change is new; `null` where it has nothing to say. */
   private async refusalOf(state: State, change: Change): Promise<Refusal | null> {
-    const { system, mass, start, thrown } = state;
+    const { system, mass, start, thrown, motor } = state;
     const { client } = this;
     const motion = (slot: string, start: MotionStart) =>
       client.ask(slot, { call: "motion", system, start, periods: 1, samples_per_period: 2 });
@@ -129,9 +129,9 @@ export class Store {
         const asked = motion("check throw", { kind: "flight", ...thrown });
         await only(asked, (refusal) => ({ ...refusal, quantity: "thrown" }));
       }
-      if (change.mass !== undefined) {
-        const asked = client.ask("check mass", { call: "sheet_of_system", system, mass });
-        await only(asked, (refusal) => (refusal.quantity?.includes("mass") ? refusal : null));
+      if (change.mass !== undefined || motor.stator !== null) {
+        const asked = client.ask("check mass", { call: "sheet_of_system", system, mass, stator: motor.stator });
+        await only(asked, (refusal) => (motor.stator !== null || refusal.quantity?.includes("mass") ? refusal : null));
       }
       return null;
     } catch (error) {
@@ -172,7 +172,8 @@ function ofStart(refusal: Refusal, change: Change): Refusal | null {
 }
 
 const needsCheck = (change: Change): boolean =>
-  change.system !== undefined || change.start !== undefined || change.mass !== undefined || Boolean(change.thrown);
+  change.system !== undefined || change.start !== undefined || change.mass !== undefined ||
+  Boolean(change.thrown) || Boolean(change.motor?.stator); // prettier-ignore
 
 /** The change that takes a refused quantity back to its default; after some tries, all that can be refused. */
 function mended(refusal: Refusal, tries: number): Change {
@@ -183,6 +184,8 @@ function mended(refusal: Refusal, tries: number): Change {
     if (Object.hasOwn(start, name)) return { start: { [name]: start[name as keyof typeof start] } };
     if (name === "thrown") return { thrown: null };
     if (name === "mass") return { mass };
+    // What else is refused has to do with the stator.
+    return { motor: { stator: null } };
   }
-  return { system, mass, start, thrown: null };
+  return { system, mass, start, thrown: null, motor: { stator: null } };
 }

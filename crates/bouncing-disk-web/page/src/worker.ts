@@ -20,11 +20,8 @@ declare const wasm_bindgen: {
   Explorer: new () => Explorer;
 };
 
-/** The worker's global scope, of which the library for pages has no type. */
-const scope = globalThis as unknown as {
-  onmessage: ((event: MessageEvent<ToWorker>) => void) | null;
-  postMessage(message: FromWorker, transfer: Transferable[]): void;
-};
+/** That of a worker: the types are those of pages. */
+declare function postMessage(message: FromWorker, transfer: Transferable[]): void;
 let explorer: Explorer;
 
 async function compiled(source: ModuleSource): Promise<WebAssembly.Module> {
@@ -38,17 +35,17 @@ async function start(source: ModuleSource): Promise<void> {
   const module = await compiled(source);
   wasm_bindgen.initSync({ module });
   explorer = new wasm_bindgen.Explorer();
-  scope.postMessage({ ready: "compiled" in source ? null : module }, []);
+  postMessage({ ready: "compiled" in source ? null : module }, []);
 }
 
 function answer(request: string): void {
   const reply = explorer.respond(request);
   const { json, refused, digest, numbers, bytes } = reply;
   reply.free();
-  scope.postMessage({ json, refused, digest, numbers, bytes }, [numbers.buffer, bytes.buffer]);
+  postMessage({ json, refused, digest, numbers, bytes }, [numbers.buffer, bytes.buffer]);
 }
 
-scope.onmessage = ({ data }) => {
+globalThis.onmessage = ({ data }: MessageEvent<ToWorker>) => {
   if ("module" in data) start(data.module).catch(reportError);
   else answer(data.request);
 };

@@ -88,7 +88,7 @@ test("Feigenbaum: five doublings, their ratios, and where they lead", async () =
   step("feigenbaum", 2).says(`${first}, ${second} and ${third}`);
   const limit = read[4] + steps[3] / 3.669;
   const { state, says } = step("feigenbaum", 3);
-  says("a little below it, by less than 1 %");
+  says("below it by less than 1 %");
   // Six digits leave the last ratio open by so much.
   const slack = ratios[2] * (1e-6 / steps[3] + 1e-6 / steps[2]);
   const [least, most] = [-slack, slack].map((error) => (ratios[2] + error) / 4.669);

@@ -24,6 +24,7 @@ onPage("states with awkward numbers come back to the bit", {}, async (page) => {
     basins_phase: `${random() / 3},${0.5 + random() / 3}`, basins_speed: `${random()},${3 + random()}`,
     motor_loads: `${random() / 9},${0.5 + random() / 3}`, motor_points: "7",
     motor_rise_times: String(1 + 5 * random()),
+    motor_stator: round % 3 ? "none" : encodeURIComponent(`{"kind":"axial","mass":${positive()},"quality":${1 + random()}}`),
     compare_parameter: ["restitution", "stroke", "mass"][round % 3], compare_value: random(), compare_periods: "30",
     compare_from: round % 2 ? "parting" : 9 * random(),
     scan_over: ["contact_time", "impact_phase"][round % 2], scan_range: `${-random()},${random()}`, scan_points: "2",
@@ -79,6 +80,9 @@ const LINKS = [
     ["1.5", "weight", "best", "scan_family", "up to 5 numbers"],
   ],
   ["restitution=0&contact_time=0.03&friction=0.3", { restitution: "0.5", friction: "0.3" }, ["restitution of a contact"]],
+  ["motor_stator={&friction=0.3", { motor_stator: "none", friction: "0.3" }, ["the table of a stator"]],
+  ['motor_stator={"mass":-1,"quality":9}&friction=0.3', { motor_stator: "none", friction: "0.3" }, ["stator.mass"]],
+  ['motor_stator={"mess":1}&friction=0.3', { motor_stator: "none", friction: "0.3" }, ["mess"]],
   ["contact_time=-1&friction=0.3", { contact_time: "0", friction: "0.3" }, ["contact.time = -1"]],
   // A throw counts wherever it stands, and a link without one begins with the impact.
   [

@@ -241,4 +241,10 @@ onPage("a page in a frame shows the view alone, with a way to all of it", "#view
   await own.waitForFunction((old) => location.hash !== old, hash);
   assert.equal(await own.evaluate(() => history.length), steps);
   assert.equal(await full.getAttribute("href"), (await own.evaluate(() => location.href)).replace("?embed", ""));
+  await own.goto((await own.evaluate(() => location.href)).replace("=diagram", "=basins"));
+  await settled(own);
+  const { amplitude, normalised_speed } = await stateOf(own);
+  await own.locator("#view-basins canvas").last().click();
+  await own.waitForFunction((old) => !location.hash.includes(`=${old}&`), normalised_speed);
+  assert.deepEqual([(await stateOf(own)).view, (await stateOf(own)).amplitude], ["basins", amplitude]);
 });

@@ -7,6 +7,7 @@ import { PARAMETERS, type Parameter } from "../form";
 import { shown } from "../numbers";
 import { SYSTEM_NAMES, type Summary } from "../protocol";
 import { axialForcing, toHash } from "../state";
+import { say, WORDS } from "../words";
 import { layOut, paintAxes, type Axes, type Plot } from "./axes";
 import { contextOf, marked, plainText, SvgPen, wrapped, type Pen } from "./pen";
 
@@ -67,7 +68,9 @@ interface Picture {
 export function pictureOffers(picture: Picture): Offer[] {
   const { name, title, width, height, basis, legend = [] } = picture;
   const values = valuesOf(basis).map(({ symbol, value }) => `${symbol} = ${value}`.replaceAll(" ", "\u00a0"));
-  const words = [values.join(", "), ...(basis.more ?? [])].join("; ");
+  const { stator } = basis.state.motor;
+  const own = stator && basis.names.includes("mass") ? [say(WORDS.files.stator, { stator: JSON.stringify(stator) })] : [];
+  const words = [values.join(", "), ...own, ...(basis.more ?? [])].join("; ");
   const lines = [...legend, { colour: null, text: words }].flatMap(({ colour, text }) => {
     const left = colour === null ? SMALL_SIZE : 3 * SMALL_SIZE;
     return wrapped(text, SMALL_SIZE, width - left - SMALL_SIZE).map((line, row) => {

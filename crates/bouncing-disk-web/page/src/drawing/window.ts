@@ -136,7 +136,7 @@ class Gestures {
       const heard = (event: HTMLElementEventMap[Name]) => picture.plot !== null && act(event, picture.plot);
       surface.addEventListener(name, heard, { passive: false });
     };
-    listen("wheel", (event, plot) => this.wheel(event, plot));
+    if (this.host.move !== undefined) listen("wheel", (event, plot) => this.wheel(event, plot));
     listen("pointerdown", (event, plot) => this.down(event, plot));
     listen("pointermove", (event, plot) => this.follow(event, plot));
     listen("pointerup", (event, plot) => this.up(event, plot));

@@ -6,7 +6,7 @@ import { ScreenChart, type Chart } from "../drawing/chart";
 import { PARTS, rowsOf } from "../drawing/files";
 import { div, element, oncePerFrame, section, setText } from "../elements";
 import { percent } from "../numbers";
-import { MOST_RISE_TIMES } from "../state";
+import { changed, MOST_RISE_TIMES } from "../state";
 import { TRANSIENT_COLUMNS, type MotorSheet, type Range, type ReportJson, type SheetJson } from "../protocol";
 import { say, WORDS } from "../words";
 import { Asked, attractorsCaution, ComputingView } from "./asking";
@@ -33,7 +33,8 @@ export class MotorView extends ComputingView {
   private readonly remark = element("p", { class: "remark" });
   private readonly attractors = attractorsCaution();
   private known = new Known();
-  private imported: SheetJson | null = null;
+  /** The sheet that was read, and the motor of which it may say more than the state does. */
+  private read: { sheet: SheetJson; of: string } | null = null;
   /** What the motor that is shown depends on. */
   private shown = "";
   private readonly all = new Asked<void>();
@@ -41,10 +42,13 @@ export class MotorView extends ComputingView {
 
   constructor(host: HTMLElement, context: Context) {
     super(context, [SLOT]);
-    this.sheetPanel = new SheetPanel(context, (imported) => {
-      this.imported = imported;
-      context.change({ system: imported.system, mass: imported.mass });
-      this.show(context.state());
+    this.sheetPanel = new SheetPanel(context, (read) => {
+      const { system, mass, sheet } = read;
+      const change = { system, mass, motor: { stator: sheet.stator ?? null } };
+      this.read = { sheet: read, of: motorOf(changed(context.state(), change)) };
+      // One that says nothing new is shown again all the same.
+      this.shown = "";
+      context.change(change);
     });
     const [speed, ...others] = this.curveCharts.map(({ root }) => root);
     const charts = [
@@ -56,7 +60,7 @@ export class MotorView extends ComputingView {
   }
 
   show(state: State): void {
-    const key = this.keyOf(state);
+    const key = keyOf(state);
     // What is known of one motor never stands under another one, however long that one takes.
     if (key !== this.shown) this.forget();
     this.shown = key;
@@ -65,11 +69,10 @@ export class MotorView extends ComputingView {
   }
 
   offers(): Offer[] {
-    const { sheet, text, transient, own } = this.known;
-    if (sheet === null || text === "") return [];
+    const { text, transient, own } = this.known;
+    if (text === "") return [];
     const runUp = transient === null ? null : transientChart(transient, own);
-    const more = sheet.stator ? [say(WORDS.files.stator, { stator: JSON.stringify(sheet.stator) })] : [];
-    const basis = { state: this.context.state(), names: PARTS.rotor, more };
+    const basis = { state: this.context.state(), names: PARTS.rotor };
     return motorOffers(this.known, runUp, this.curves(), basis);
   }
 
@@ -87,14 +90,14 @@ export class MotorView extends ComputingView {
 
   protected async fetch(): Promise<void> {
     const state = this.context.state();
-    await this.all.get(this.keyOf(state), () => this.computeAll(state, this.known));
+    await this.all.get(keyOf(state), () => this.computeAll(state, this.known));
   }
 
   /** Fills in what is known of a motor; where another one is shown, what is asked for next is cancelled. */
   private async computeAll(state: State, known: Known): Promise<void> {
     const { context } = this;
     context.status(WORDS.motor.reading, "busy");
-    const { sheet, text } = this.sheetKnown(state) ?? (await sheetOf(context, state));
+    const { sheet, text } = this.read?.of === motorOf(state) ? this.read.sheet : await sheetOf(context, state);
     Object.assign(known, { sheet, text });
     this.sheetPanel.show(known);
     const report = await reportOf(context, sheet);
@@ -166,18 +169,6 @@ export class MotorView extends ComputingView {
     this.draw();
   }
 
-  /** The sheet that was read, as long as the system is still that of it: it may say more than the system does. */
-  private sheetKnown(state: State): SheetJson | null {
-    const { imported } = this;
-    if (imported === null || imported.mass !== state.mass) return null;
-    const names = Object.keys(state.system) as (keyof typeof state.system)[];
-    return names.every((name) => imported.system[name] === state.system[name]) ? imported : null;
-  }
-
-  private keyOf(state: State): string {
-    return JSON.stringify([state.system, state.mass, state.motor, this.sheetKnown(state)?.sheet.stator ?? null]);
-  }
-
   private paint(): void {
     const { report, transient, problems, own, operations, stall } = this.known;
     this.reportPanel.show(this.known);
@@ -199,6 +190,10 @@ export class MotorView extends ComputingView {
     });
   }
 }
+
+/** What tells motors apart, and what tells their pictures apart. */
+const motorOf = ({ system, mass, motor }: State): string => JSON.stringify([system, mass, motor.stator]);
+const keyOf = ({ system, mass, motor }: State): string => JSON.stringify([system, mass, motor]);
 
 /** What the library says against a motor; where another one is shown by now, nothing. */
 function problemOf(error: unknown): string {

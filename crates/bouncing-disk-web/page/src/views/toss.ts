@@ -96,7 +96,7 @@ export class TossView implements View {
     const charts = section(TEXTS.traces, null, this.heights.root, this.spins.root);
     const readings = section(TEXTS.readings, "panel", ...this.readings.elements);
     const key = element("p", { class: "remark" }, TEXTS.impacts_key);
-    const parts = [element("h3", {}, TEXTS.impacts), this.portrait.picture.layers.root, key];
+    const parts = [element("h3", {}, TEXTS.impacts), this.portrait.picture.layers.root, this.portrait.reading, key];
     const right = div("toss-right", readings, section(TEXTS.portrait, null, ...parts));
     host.append(div("toss", div("toss-left", element("div", {}, ...scene), charts), right));
   }

@@ -2,7 +2,7 @@
 
 import type { Context, State } from "../../contract";
 import { plain } from "../../numbers";
-import type { MotorSheet, OperationJson, Range, ReportJson, SheetJson, StallJson, TransientJson } from "../../protocol";
+import type { MotorSheet, OperationJson, Range, ReportJson, Request, SheetJson, StallJson, TransientJson } from "../../protocol";
 import { say, WORDS } from "../../words";
 
 /** Of all that is asked of a motor, one after the other. */
@@ -57,10 +57,12 @@ export class Known {
   stall: StallJson | null = null;
 }
 
-/** The sheet of the shared system. */
-export async function sheetOf({ client }: Context, { system, mass }: State): Promise<SheetJson> {
-  return (await client.ask<SheetJson>(SLOT, { call: "sheet_of_system", system, mass })).json;
-}
+/** Asks for the sheet of the motor of a state. */
+export const sheetRequest = ({ system, mass, motor: { stator } }: State): Request =>
+  ({ call: "sheet_of_system", system, mass, stator });
+
+export const sheetOf = async ({ client }: Context, state: State): Promise<SheetJson> =>
+  (await client.ask<SheetJson>(SLOT, sheetRequest(state))).json;
 
 export async function reportOf({ client }: Context, sheet: MotorSheet): Promise<ReportJson> {
   return (await client.series<ReportJson>(SLOT, [{ call: "motor_report", sheet }])).json;

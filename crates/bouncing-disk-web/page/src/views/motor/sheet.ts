@@ -10,15 +10,12 @@ import type { Known } from "./requests";
 
 const TEXTS = WORDS.motor.sheet;
 
-/** The data sheet: imported by pasting or from a file, shown and exported as JSON. */
+/** The data sheet: edited or pasted, shown and exported as JSON. */
 export class SheetPanel {
   readonly root: HTMLElement;
   private readonly text = element("textarea", {
     rows: 9, spellcheck: "false", "aria-label": TEXTS.label, class: "sheet-text",
     oninput: () => (this.typed = true),
-  }); // prettier-ignore
-  private readonly file = element("input", {
-    type: "file", accept: ".json,application/json", hidden: true, onchange: () => void this.readFile(),
   }); // prettier-ignore
   private typed = false;
   private readonly mass: LabelledField;
@@ -27,14 +24,13 @@ export class SheetPanel {
 
   constructor(
     private readonly context: Context,
-    private readonly take: (imported: SheetJson) => void,
+    private readonly take: (read: SheetJson) => void,
   ) {
     this.mass = new LabelledField(TEXTS.mass, context, () => this.yield());
     this.quality = new LabelledField(TEXTS.quality, context, () => this.yield());
     const stator = [this.mass.root, this.quality.root, labelled(TEXTS.twists, this.twists)];
     const use = button(TEXTS.use, () => void this.read(() => this.text.value));
-    const open = button(TEXTS.open, () => this.file.click());
-    const parts = [element("h3", {}, TEXTS.title), div("bar", ...stator), this.text, div("bar", use, open, this.file)];
+    const parts = [element("h3", {}, TEXTS.title), div("bar", ...stator), this.text, div("bar", use)];
     this.root = section(TEXTS.title, "panel", ...parts, element("p", { class: "remark" }, TEXTS.remark));
   }
 
@@ -70,14 +66,5 @@ export class SheetPanel {
     } catch (error) {
       tellFailure(this.context, error);
     }
-  }
-
-  private async readFile(): Promise<void> {
-    const file = this.file.files?.[0];
-    this.file.value = "";
-    if (file === undefined) return;
-    this.text.value = await file.text();
-    this.typed = true;
-    await this.read(() => this.text.value);
   }
 }

@@ -6,7 +6,7 @@ import type { AttractorsJson, TossJson, VerdictJson } from "../../protocol";
 import { say, WORDS } from "../../words";
 import { REST } from "../../presets";
 import { impactOf, mapOf } from "../asking";
-import { operationOf, SEED } from "../motor/requests";
+import { operationOf, SEED, sheetRequest } from "../motor/requests";
 
 type Answer = Response<unknown>;
 
@@ -70,7 +70,7 @@ const ofShare = (kind: keyof AttractorsJson["kinds"]): Result => ({
 const ofMotor = (unit: string, name: "speed" | "mechanical_power" | "efficiency"): Result => ({
   unit,
   opens: { view: "motor" },
-  request: ({ system, mass }) => ({ call: "sheet_of_system", system, mass }),
+  request: sheetRequest,
   then: ({ json }) => {
     const { sheet } = json as SheetJson;
     return { call: "motor_loads", sheet, load_torques: [sheet.load_torque], ...OPERATION };

@@ -3,12 +3,15 @@
 import { crossAt, pixelX, pixelY, roundUp, type Axes, type Plot } from "../../drawing/axes";
 import type { Pen } from "../../drawing/pen";
 import { WindowPicture, type Point } from "../../drawing/window";
+import { element, setText } from "../../elements";
+import { plain } from "../../numbers";
 import type { ImpactStart, Range } from "../../protocol";
-import { WORDS } from "../../words";
+import { say, WORDS } from "../../words";
 import type { Impact, Recording } from "./recording";
 
 export class Portrait {
   readonly picture: WindowPicture;
+  readonly reading = element("p", { class: "reading", "aria-live": "polite" });
   /** How many impacts are to be seen. */
   private shown = 0;
   private top = 1;
@@ -24,6 +27,10 @@ export class Portrait {
       paint: (pen, plot) => paintImpacts(pen, plot, this.recording?.impacts.slice(0, this.shown) ?? []),
       paintMarks: (pen, plot) => this.paintMarks(pen, plot),
       window: () => ({ x: [0, 1], y: [0, this.top] }),
+      point: (at) => {
+        const [phase, speed] = (at ?? []).map((value) => plain(value, 3));
+        setText(this.reading, phase && speed ? say(WORDS.toss.impact_reading, { phase, speed }) : "");
+      },
       pick,
     });
   }
