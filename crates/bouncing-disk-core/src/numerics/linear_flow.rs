@@ -123,17 +123,18 @@ impl<const N: usize> LinearFlow<N> {
     pub fn expand(&self, state: &Vector<N>) -> StateStep<N> {
         let mut coefficients = [*state; DEGREE + 1];
         for k in 1..=DEGREE {
-            coefficients[k] = self.speed(&coefficients[k - 1]).map(|value| value * (self.step / k as f64));
+            coefficients[k] =
+                self.vector_field(&coefficients[k - 1]).map(|value| value * (self.step / k as f64));
         }
         StateStep { coefficients, step: self.step }
     }
 
-    fn speed(&self, state: &Vector<N>) -> Vector<N> {
-        let mut speed = [0.0; N];
+    fn vector_field(&self, state: &Vector<N>) -> Vector<N> {
+        let mut derivative = [0.0; N];
         for &(row, column, entry) in &self.entries {
-            speed[row] += entry * state[column];
+            derivative[row] += entry * state[column];
         }
-        speed
+        derivative
     }
 
     /// The state after a time of at most a step.
@@ -144,7 +145,7 @@ impl<const N: usize> LinearFlow<N> {
         while last < DEGREE && (last < 4 || bound > NEGLIGIBLE) {
             last += 1;
             bound *= if last > 3 { time / (self.step * last as f64) } else { 1.0 };
-            terms[last] = self.speed(&terms[last - 1]).map(|value| value * (time / last as f64));
+            terms[last] = self.vector_field(&terms[last - 1]).map(|value| value * (time / last as f64));
         }
         let mut sum = terms[last];
         for term in terms[..last].iter().rev() {

@@ -33,7 +33,7 @@ impl StatorEngine {
         let (start, end) = (self.stated(&self.state, mode).disk, self.stated(state, mode).disk);
         ledger.record_axial_change([start.axial_velocity, end.axial_velocity], [start.height, end.height]);
         ledger.record_rotary_change(start.angular_speed, end.angular_speed);
-        ledger.record_rounding(self.reach(&self.state)[0] + span, end.axial_velocity);
+        ledger.record_rounding(self.bounds(&self.state).height + span, end.axial_velocity);
         let turned = end.angle - start.angle;
         let LoadLine { torque, slope, .. } = self.system.lines[self.line];
         stator.load_impulse = torque * span + slope * (state[ANGLE] - self.state[ANGLE]);

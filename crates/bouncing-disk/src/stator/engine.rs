@@ -121,6 +121,12 @@ pub struct StatorEngine {
 /// The next event of a stage: after which time, and which.
 type Next = Option<(f64, Crossing)>;
 
+/// The stator comes no higher, and is accelerated no more.
+pub(super) struct Bounds {
+    pub(super) height: f64,
+    acceleration: f64,
+}
+
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Crossing {
     /// The gap closes, with this relative velocity.
@@ -493,7 +499,7 @@ impl StatorEngine {
         {
             return Ok(Some((0.0, Crossing::Touch(self.state[CLOSING]))));
         }
-        let [highest, _] = self.reach(&self.state);
+        let highest = self.bounds(&self.state).height;
         let (mut passed, mut state) = (*searched, self.state);
         if passed > 0.0 {
             state = self.flown(passed);
@@ -576,20 +582,20 @@ impl StatorEngine {
         }
     }
 
-    /// While the modes ring the stator comes no higher, and is accelerated no more.
-    pub(super) fn reach(&self, state: &State) -> [f64; 2] {
+    /// Bounds on what the stator does from a state on, while its modes ring down.
+    pub(super) fn bounds(&self, state: &State) -> Bounds {
         let [a, b] = self.system.height;
         let steady = (a * a + b * b).sqrt();
-        let mut reach = [steady; 2];
+        let mut bounds = Bounds { height: steady, acceleration: steady };
         for (index, mode) in self.system.modes.iter().enumerate() {
             if mode.height != 0.0 {
                 let (r, speed) = (state[DISPLACEMENTS[index]], state[VELOCITIES[index]]);
                 let ringing = mode.height.abs() * (r * r + speed * speed / mode.stiffness).sqrt();
-                reach[0] += ringing;
-                reach[1] += ringing * (mode.stiffness + mode.damping * mode.stiffness.sqrt());
+                bounds.height += ringing;
+                bounds.acceleration += ringing * (mode.stiffness + mode.damping * mode.stiffness.sqrt());
             }
         }
-        reach
+        bounds
     }
 
     /// The time from which on a disk that flies `passed` after the last event may touch the stator again, and the state
@@ -597,7 +603,8 @@ impl StatorEngine {
     fn cleared(&self, mut passed: f64, mut state: State) -> (f64, State) {
         let step = self.regime().flow.step();
         loop {
-            let ([height, velocity], [highest, acceleration]) = (self.system.tip(&state), self.reach(&state));
+            let Bounds { height: highest, acceleration } = self.bounds(&state);
+            let [height, velocity] = self.system.tip(&state);
             // When a fall from this height with this velocity ends.
             let lands = |above: f64, velocity: f64, pull: f64| {
                 (velocity + (velocity * velocity + 2.0 * pull * above.max(0.0)).sqrt()) / pull

@@ -408,7 +408,7 @@ impl StatorEngine {
         match self.stage {
             Stage::Flight(_) if self.system.contact == Contact::Rigid || state[regime::GAP] > 0.0 => {
                 let [tip, _] = self.system.tip(state);
-                let size = self.reach(&self.state)[0] + tip.abs() + span * span;
+                let size = self.bounds(&self.state).height + tip.abs() + span * span;
                 assert!(
                     state[regime::GAP] >= -1e-13 * size,
                     "{state:?} {:?} {:?} {:?} {:?}",
