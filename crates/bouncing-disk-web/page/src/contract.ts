@@ -12,7 +12,6 @@ export type Quantity = keyof typeof WORDS.diagram.quantities;
 export type Drive = keyof typeof WORDS.diagram.drives;
 /** ... and what a scan computes at each of its points. */
 export type ResultName = keyof typeof WORDS.scan.results;
-export type Optimum = keyof typeof WORDS.scan.optima;
 
 /**
  * All that the pictures depend on. It is never altered: a change makes another one. In the hash of the address numbers stand
@@ -33,15 +32,14 @@ export interface State {
   >; // prettier-ignore
   /** The window of the basins: phases in periods and normalised speeds. */
   readonly basins: Readonly<{ phase_periods: Range; normalised_speed: Range }>;
-  /** Loads of the curve as shares of the largest mean torque of friction, the run-up's length in rise times, and the
-   * stator, where it yields. */
-  readonly motor: Readonly<{ loads: Range; points: number; rise_times: number; stator: Stator | null }>;
+  /** The length of a motor's run-up, in rise times, and its stator, where that yields. */
+  readonly motor: Readonly<{ rise_times: number; stator: Stator | null }>;
   /** What state B has instead of the shared state A; how many periods both are followed, and from which one on they
    * are shown (null: where they part). */
   readonly compare: Readonly<{ parameter: string; value: number; periods: number; from: number | null }>;
   /** A result at points of a range of one parameter, for some values of a second one (null: none). */
   readonly scan: Readonly<
-    { over: string; range: Range; points: number; result: ResultName; optimum: Optimum; family: string | null;
+    { over: string; range: Range; points: number; result: ResultName; family: string | null;
       values: readonly number[] }
   >; // prettier-ignore
 }

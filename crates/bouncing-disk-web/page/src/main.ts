@@ -71,7 +71,7 @@ function begin(): void {
     client,
     state: () => store.state(),
     // A frame has no way back from another view.
-    change: (change, options) => store.change(isEmbedded() ? { ...change, view: store.state().view } : change, options),
+    change: (change, options) => store.change(isEmbedded() ? { ...change, view: undefined } : change, options),
     status: (text, kind = "done") => {
       clearInterval(clock);
       // What is under way changes too often to be read out.
@@ -90,9 +90,9 @@ function begin(): void {
   /** What the motor's view has put aside: a hand is no motor. */
   let aside: State | null = null;
   const visit = (view: ViewName): void => {
-    const { system, compare, scan } = store.state();
+    const { system, motor, compare, scan } = store.state();
     const guest = toHash({ ...store.state(), view: "motor" }) === toHash({ ...MOTOR_STATE, compare, scan });
-    if (view === "motor" && system.angular_frequency < SLOWEST_MOTOR) {
+    if (view === "motor" && system.angular_frequency < SLOWEST_MOTOR && motor.stator === null) {
       aside = store.state();
       open({ ...MOTOR_STATE, compare, scan });
       // A scan may be that of the motor.

@@ -49,14 +49,13 @@ export const DEFAULT_STATE: State = {
   thrown: null,
   diagram: { axial_forcing: [0.32, 0.62], quantity: "impact_phase", range: null, branches: true, drive: "sine" },
   basins: { phase_periods: [0, 1], normalised_speed: [0, 5] },
-  motor: { loads: [0, 1], points: 9, rise_times: 6, stator: null },
+  motor: { rise_times: 6, stator: null },
   compare: { parameter: "normalised_speed", value: 0, periods: 120, from: null },
   scan: {
     over: "amplitude_angle",
     range: [0, 1.2],
     points: 41,
     result: "toss_speed",
-    optimum: "largest",
     family: "phase_lag",
     values: [-2, -1, 0, 1, 2].map((quarters) => (quarters * Math.PI) / 4),
   },
@@ -141,11 +140,14 @@ const THROW: Form<FlightStart> = {
 const STATOR: Form<Stator> = {
   print: (stator) => encodeURIComponent(JSON.stringify(stator)),
   read(text) {
+    const legal = (one: unknown) => typeof one === "string" || Number.isFinite(one);
     try {
-      return { ...JSON.parse(text) };
+      const stator = JSON.parse(text);
+      if (stator.constructor === Object && Object.values(stator).every(legal)) return stator;
     } catch {
-      throw new Unreadable(WORDS.address.stator);
+      // It is not even JSON.
     }
+    throw new Unreadable(WORDS.address.stator);
   },
 };
 
@@ -215,8 +217,6 @@ const KEYS: Readonly<Record<string, Key>> = {
   diagram_drive: of("diagram", "drive", oneOfTexts(WORDS.diagram.drives)),
   basins_phase: of("basins", "phase_periods", range()),
   basins_speed: of("basins", "normalised_speed", range(0)),
-  motor_loads: of("motor", "loads", range()),
-  motor_points: of("motor", "points", whole(2, MOST_POINTS)),
   motor_rise_times: of("motor", "rise_times", bounded(0.01, MOST_RISE_TIMES)),
   motor_stator: of("motor", "stator", orNone("none", STATOR)),
   compare_parameter: of("compare", "parameter", PARAMETER),
@@ -227,7 +227,6 @@ const KEYS: Readonly<Record<string, Key>> = {
   scan_range: of("scan", "range", range()),
   scan_points: of("scan", "points", whole(2, MOST_POINTS)),
   scan_result: of("scan", "result", oneOfTexts(WORDS.scan.results)),
-  scan_optimum: of("scan", "optimum", oneOfTexts(WORDS.scan.optima)),
   scan_family: of("scan", "family", orNone("none", PARAMETER)),
   scan_values: of("scan", "values", VALUES),
 };

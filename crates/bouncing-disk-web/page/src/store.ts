@@ -131,7 +131,10 @@ export class Store {
       }
       if (change.mass !== undefined || motor.stator !== null) {
         const asked = client.ask("check mass", { call: "sheet_of_system", system, mass, stator: motor.stator });
-        await only(asked, (refusal) => (motor.stator !== null || refusal.quantity?.includes("mass") ? refusal : null));
+        await only(asked, (refusal) => {
+          if (motor.stator === null) return refusal.quantity?.includes("mass") ? refusal : null;
+          return { ...refusal, quantity: "stator", message: say(WORDS.form.stator, { message: refusal.message }) };
+        });
       }
       return null;
     } catch (error) {
@@ -184,8 +187,7 @@ function mended(refusal: Refusal, tries: number): Change {
     if (Object.hasOwn(start, name)) return { start: { [name]: start[name as keyof typeof start] } };
     if (name === "thrown") return { thrown: null };
     if (name === "mass") return { mass };
-    // What else is refused has to do with the stator.
-    return { motor: { stator: null } };
+    if (name === "stator") return { motor: { stator: null } };
   }
   return { system, mass, start, thrown: null, motor: { stator: null } };
 }

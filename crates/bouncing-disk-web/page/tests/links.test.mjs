@@ -22,13 +22,12 @@ onPage("states with awkward numbers come back to the bit", {}, async (page) => {
     diagram_range: round % 2 ? "all" : `${-random()},${1 + random()}`, diagram_branches: round % 2 ? "on" : "off",
     diagram_drive: ["sine", "triangle", "sawtooth", "parabolas"][round % 4],
     basins_phase: `${random() / 3},${0.5 + random() / 3}`, basins_speed: `${random()},${3 + random()}`,
-    motor_loads: `${random() / 9},${0.5 + random() / 3}`, motor_points: "7",
     motor_rise_times: String(1 + 5 * random()),
     motor_stator: round % 3 ? "none" : encodeURIComponent(`{"kind":"axial","mass":${positive()},"quality":${1 + random()}}`),
     compare_parameter: ["restitution", "stroke", "mass"][round % 3], compare_value: random(), compare_periods: "30",
     compare_from: round % 2 ? "parting" : 9 * random(),
     scan_over: ["contact_time", "impact_phase"][round % 2], scan_range: `${-random()},${random()}`, scan_points: "2",
-    scan_result: ["orbit_period", "motor_power"][round % 2], scan_optimum: ["largest", "smallest"][round % 2],
+    scan_result: ["orbit_period", "motor_power"][round % 2],
     scan_family: ["none", "phase_lag"][round % 2], scan_values: `${random()},${-5e-324 * (round % 2)}`,
   }; // prettier-ignore
     const hash = `#${Object.entries(wanted)
@@ -75,14 +74,21 @@ const LINKS = [
     ["colour", "compare_value", "compare_periods", "compare_from", "scan_over", "2,1"],
   ],
   [
-    "scan_points=1.5&scan_result=weight&scan_optimum=best&scan_family=all&scan_values=1,2,3,4,5,6&friction=0.3",
+    "scan_points=1.5&scan_result=weight&scan_family=all&scan_values=1,2,3,4,5,6&friction=0.3",
     { scan_points: "41", scan_result: "toss_speed", scan_family: "phase_lag", friction: "0.3" },
-    ["1.5", "weight", "best", "scan_family", "up to 5 numbers"],
+    ["1.5", "weight", "scan_family", "up to 5 numbers"],
   ],
   ["restitution=0&contact_time=0.03&friction=0.3", { restitution: "0.5", friction: "0.3" }, ["restitution of a contact"]],
   ["motor_stator={&friction=0.3", { motor_stator: "none", friction: "0.3" }, ["the table of a stator"]],
   ['motor_stator={"mass":-1,"quality":9}&friction=0.3', { motor_stator: "none", friction: "0.3" }, ["stator.mass"]],
   ['motor_stator={"mess":1}&friction=0.3', { motor_stator: "none", friction: "0.3" }, ["mess"]],
+  ['motor_stator={"mass":1e400}&friction=0.3', { motor_stator: "none", friction: "0.3" }, ["the table of a stator"]],
+  // The lag of the default is none of a mode that also twists.
+  [
+    'motor_stator={"kind":"axial_twist","mass":1,"quality":9}&friction=0.3',
+    { motor_stator: "none", friction: "0.3" },
+    ["stator.kind is axial_twist"],
+  ],
   ["contact_time=-1&friction=0.3", { contact_time: "0", friction: "0.3" }, ["contact.time = -1"]],
   // A throw counts wherever it stands, and a link without one begins with the impact.
   [

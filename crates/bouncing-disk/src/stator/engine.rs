@@ -121,7 +121,7 @@ pub struct StatorEngine {
 /// The next event of a stage: after which time, and which.
 type Next = Option<(f64, Crossing)>;
 
-/// The stator comes no higher, and is accelerated no more.
+/// Bounds of the stator's height and of its acceleration.
 pub(super) struct Bounds {
     pub(super) height: f64,
     acceleration: f64,

@@ -42,6 +42,10 @@ export const PARTS = {
   all: [...SYSTEM, "mass", ...IMPACT, "angular_speed"],
 } satisfies Record<string, Basis["names"]>;
 
+/** The sentence on a stator that yields. */
+export const statorWords = ({ motor: { stator } }: State): string[] =>
+  stator === null ? [] : [say(WORDS.files.stator, { stator: JSON.stringify(stator) })];
+
 /** Parameters as in the form, with their symbols in the markup of labels, and their values with units. */
 export function valuesOf({ state, names }: Basis): { parameter: Parameter; symbol: string; value: string }[] {
   const summary = { axial_forcing: axialForcing(state.system) } as Summary;
@@ -68,9 +72,7 @@ interface Picture {
 export function pictureOffers(picture: Picture): Offer[] {
   const { name, title, width, height, basis, legend = [] } = picture;
   const values = valuesOf(basis).map(({ symbol, value }) => `${symbol} = ${value}`.replaceAll(" ", "\u00a0"));
-  const { stator } = basis.state.motor;
-  const own = stator && basis.names.includes("mass") ? [say(WORDS.files.stator, { stator: JSON.stringify(stator) })] : [];
-  const words = [values.join(", "), ...own, ...(basis.more ?? [])].join("; ");
+  const words = [values.join(", "), ...(basis.more ?? [])].join("; ");
   const lines = [...legend, { colour: null, text: words }].flatMap(({ colour, text }) => {
     const left = colour === null ? SMALL_SIZE : 3 * SMALL_SIZE;
     return wrapped(text, SMALL_SIZE, width - left - SMALL_SIZE).map((line, row) => {

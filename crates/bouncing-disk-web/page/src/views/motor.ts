@@ -3,11 +3,11 @@
 import { Cancelled, messageOf, type Context, type Offer, type State } from "../contract";
 import { clamp, evenly } from "../drawing/axes";
 import { ScreenChart, type Chart } from "../drawing/chart";
-import { PARTS, rowsOf } from "../drawing/files";
+import { PARTS, rowsOf, statorWords } from "../drawing/files";
 import { div, element, oncePerFrame, section, setText } from "../elements";
 import { percent } from "../numbers";
 import { changed, MOST_RISE_TIMES } from "../state";
-import { TRANSIENT_COLUMNS, type MotorSheet, type Range, type ReportJson, type SheetJson } from "../protocol";
+import { TRANSIENT_COLUMNS, type MotorSheet, type ReportJson, type SheetJson } from "../protocol";
 import { say, WORDS } from "../words";
 import { Asked, attractorsCaution, ComputingView } from "./asking";
 import { loadCharts, motorOffers, transientChart } from "./motor/charts";
@@ -17,6 +17,9 @@ import { SheetPanel } from "./motor/sheet";
 import { describeCurves, describeRunUp, ReportPanel, whyNothingTurns } from "./motor/words";
 
 const CURVES = Object.values(WORDS.motor.curves);
+
+/** Loads of the curve, from none to the largest torque of friction. */
+const LOADS = 9;
 
 /** A run-up that does not come this near (relative) to the steady speed goes on, three times as long, so many times. */
 const NEAR = 0.05;
@@ -72,13 +75,14 @@ export class MotorView extends ComputingView {
     const { text, transient, own } = this.known;
     if (text === "") return [];
     const runUp = transient === null ? null : transientChart(transient, own);
-    const basis = { state: this.context.state(), names: PARTS.rotor };
+    const state = this.context.state();
+    const basis = { state, names: PARTS.rotor, more: statorWords(state) };
     return motorOffers(this.known, runUp, this.curves(), basis);
   }
 
   private curves(): Chart[] {
-    const { operations, loads, report, stall } = this.known;
-    return report === null ? [] : loadCharts(operations, loads, report.largest_torque, stall);
+    const { operations, report, stall } = this.known;
+    return report === null ? [] : loadCharts(operations, report.largest_torque, stall);
   }
 
   private forget(): void {
@@ -110,7 +114,7 @@ export class MotorView extends ComputingView {
     if (known.transient === null) await this.runUp(sheet, rise_times, known);
     try {
       for (const pass of PASSES.slice(known.passes)) {
-        await this.sweep(sheet, report, state, pass, known);
+        await this.sweep(sheet, report, pass, known);
         // A run-up is shown until it is steady, or said not to be.
         for (let times = 1; known.passes === 0 && times <= LENGTHENINGS && !isSteady(known); times += 1)
           await this.runUp(sheet, Math.min(rise_times * 3 ** times, MOST_RISE_TIMES), known);
@@ -138,21 +142,13 @@ export class MotorView extends ComputingView {
   }
 
   /** The loads of the curve, and with them that of the sheet, so that there is one steady speed on the page. */
-  private async sweep(
-    sheet: MotorSheet,
-    report: ReportJson,
-    { motor: { points, loads } }: State,
-    pass: Pass,
-    known: Known,
-  ): Promise<void> {
-    const [low, high] = loads.map((load) => load * report.largest_torque) as Range;
-    const torques = evenly([low, high], points);
+  private async sweep(sheet: MotorSheet, report: ReportJson, pass: Pass, known: Known): Promise<void> {
+    const torques = evenly([0, report.largest_torque], LOADS);
     const { load_torque } = sheet;
     const asked = torques.includes(load_torque) ? torques : [...torques, load_torque];
     const values = { loads: asked.length, error: percent(pass.relative_error, 0) };
     this.context.status(say(known.passes === 0 ? WORDS.motor.rough_curve : WORDS.motor.sharp_curve, values), "busy");
     const found = await operate(this.context, sheet, asked, pass);
-    known.loads = [low, high];
     known.operations = found.slice(0, torques.length);
     known.own = found[asked.indexOf(load_torque)] ?? null;
     this.draw();

@@ -3,7 +3,7 @@
 import { Cancelled, type Change, type Context, type Offer, type State } from "../contract";
 import { clamp, evenly } from "../drawing/axes";
 import { chartOffers, ScreenChart } from "../drawing/chart";
-import { ONE_COLUMN, PARTS, tableOffers } from "../drawing/files";
+import { ONE_COLUMN, PARTS, statorWords, tableOffers } from "../drawing/files";
 import { choice, div, element, oncePerFrame, rich } from "../elements";
 import { bouncing, motor, toss } from "../presets";
 import type { Range } from "../protocol";
@@ -30,7 +30,6 @@ export class ScanView extends ComputingView {
   private readonly over = parameterChoice(TEXT.over, (over) => this.about(over, (range) => ({ over, range })));
   private readonly family = parameterChoice(TEXT.family, (name) => this.curvesOf(name), TEXT.noFamily);
   private readonly result = choice(TEXT.result, TEXT.results, (result) => this.change({ result }));
-  private readonly optimum = choice(TEXT.optimum, TEXT.optima, (optimum) => this.change({ optimum }));
   // A range is typed number by number: each counts with what stands in the other field.
   private readonly low = this.field(TEXT.from, ([low = 0]) => ({ range: [low, this.high.numbers()?.[0] ?? NaN] }));
   private readonly high = this.field(TEXT.to, ([high = 0]) => ({ range: [this.low.numbers()?.[0] ?? NaN, high] }));
@@ -47,17 +46,16 @@ export class ScanView extends ComputingView {
     super(context, ["scan"]);
     const bars = [
       div("bar", this.result.root, this.over.root, this.low.root, this.high.root),
-      div("bar", this.points.root, this.family.root, this.values.root, this.optimum.root),
+      div("bar", this.points.root, this.family.root, this.values.root),
     ];
     host.append(settings(TEXT.settings, context, READY, bars), this.chart.root, this.optima, this.gaps);
   }
 
   show(state: State): void {
-    const { over, family, range, points, result, optimum, values } = state.scan;
+    const { over, family, range, points, result, values } = state.scan;
     this.plan = planOf(state);
     this.over.select.value = over;
     this.result.select.value = result;
-    this.optimum.select.value = optimum;
     this.family.select.value = family ?? "";
     this.low.show([range[0]], varied(over));
     this.high.show([range[1]], varied(over));
@@ -73,8 +71,11 @@ export class ScanView extends ComputingView {
     const readings = readingsOf(plan, this.known);
     if (readings.flat().includes(null)) return [];
     const state = this.context.state();
-    const { system, mass, start } = state;
-    const basis = { state, names: PARTS.all.filter((name) => name !== scan.over && name !== scan.family) };
+    const { system, mass, start, motor } = state;
+    const ofMotor = RESULT[scan.result].opens.view === "motor";
+    const names = PARTS.all.filter((name) => name !== scan.over && name !== scan.family);
+    const basis = { state, names, more: ofMotor ? statorWords(state) : [] };
+    const parameters = { system, mass, start, scan, ...(ofMotor && { stator: motor.stator }) };
     const rows = function* () {
       for (const [index, { value }] of lines.entries())
         for (const [place, reading] of (readings[index] ?? []).entries()) {
@@ -84,7 +85,7 @@ export class ScanView extends ComputingView {
     };
     const columns = [scan.family ?? "family", scan.over, scan.result, "standard_error", "low_95", "high_95", "lacks"];
     return [
-      ...tableOffers({ name: "scan", parameters: { system, mass, start, scan }, columns, rows }),
+      ...tableOffers({ name: "scan", parameters, columns, rows }),
       ...chartOffers("scan", TEXT.results[scan.result], [chartOf(plan, readings)], ONE_COLUMN * 0.75, basis),
     ];
   }

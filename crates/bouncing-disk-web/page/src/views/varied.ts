@@ -56,7 +56,7 @@ export function settings(
   ready: readonly { label: string; change: Change }[],
   bars: readonly HTMLElement[],
 ): HTMLElement {
-  const buttons = ready.map((one) => button(one.label, () => change(one.change)));
+  const buttons = ready.map((one) => button(one.label, () => change({ motor: { stator: null }, ...one.change })));
   const first = div("bar", element("span", {}, WORDS.varied.ready), ...buttons);
   return element("details", { open: !isNarrow() }, element("summary", {}, title), first, ...bars);
 }

@@ -66,21 +66,15 @@ const KINDS: readonly Kind[] = [
 ];
 
 /** Speed, power and efficiency against load, with bands of two standard errors; nothing where there is no load. */
-export function loadCharts(
-  operations: readonly Operation[],
-  loads: Range,
-  largest: number,
-  stall: StallJson | null,
-): Chart[] {
+export function loadCharts(operations: readonly Operation[], largest: number, stall: StallJson | null): Chart[] {
   if (operations.length === 0) return [];
   const shown = [...operations].sort((one, two) => one.load_torque - two.load_torque);
-  const x = prefixed(TEXTS.load, padded(loads, 0.03));
+  const x = prefixed(TEXTS.load, padded([0, largest], 0.03));
   const [, end] = x.range;
   const at = shown.map(({ load_torque }) => load_torque);
   const { torque: stop = null, torque_error = 0 } = stall ?? {};
   const by = 2 * finite(torque_error ?? 0);
-  const stretches: Stretch[] = [];
-  if (end > largest * 1.001) stretches.push({ range: [largest, end], label: TEXTS.runaway, colour: "--runaway" });
+  const stretches: Stretch[] = [{ range: [largest, end], label: TEXTS.runaway, colour: "--runaway" }];
   if (stop !== null) stretches.push({ at: stop, range: [stop - by, stop + by], label: TEXTS.stall, colour: "--stall" });
   return KINDS.map(({ title, label, curves: described, factor }) => {
     const curves = described.map(({ name, ...own }) => {

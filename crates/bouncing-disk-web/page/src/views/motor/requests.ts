@@ -2,7 +2,7 @@
 
 import type { Context, State } from "../../contract";
 import { plain } from "../../numbers";
-import type { MotorSheet, OperationJson, Range, ReportJson, Request, SheetJson, StallJson, TransientJson } from "../../protocol";
+import type { MotorSheet, OperationJson, ReportJson, Request, SheetJson, StallJson, TransientJson } from "../../protocol";
 import { say, WORDS } from "../../words";
 
 /** Of all that is asked of a motor, one after the other. */
@@ -53,7 +53,6 @@ export class Known {
   passes = 0;
   /** Why there is none of these, where they cannot be computed. */
   problems: { runUp?: string; curve?: string; stall?: string } = {};
-  loads: Range = [0, 1];
   stall: StallJson | null = null;
 }
 

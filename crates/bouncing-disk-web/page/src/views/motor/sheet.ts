@@ -48,11 +48,12 @@ export class SheetPanel {
   /** Puts the mode of the fields into the sheet; what they do not show stays: volts, a resonance, a second mode. */
   private yield(): void {
     const [[mass], [quality]] = [this.mass, this.quality].map((field) => field.numbers() ?? []) as [number[], number[]];
+    if (mass === 0) return this.context.change({ motor: { stator: null } });
     void this.read(() => {
       const { stator, ...rigid } = JSON.parse(this.text.value) as MotorSheet;
       const other = stator?.kind === "axial_and_torsional" ? stator.kind : "axial";
       const kind = this.twists.checked ? "axial_twist" : other;
-      return JSON.stringify(mass === 0 ? rigid : { ...rigid, stator: { ...stator, kind, mass, quality } });
+      return JSON.stringify({ ...rigid, stator: { ...stator, kind, mass, quality } });
     });
   }
 

@@ -77,7 +77,7 @@ export function chartOf({ scan, at, lines }: Plan, readings: readonly (readonly 
     at,
     curves,
     marks: readings.flatMap((line, index) => {
-      const best = bestOf(line, scan.optimum);
+      const best = bestOf(line);
       const colour = COLOURS[index] ?? COLOURS[0];
       return line.flatMap((reading, place) => {
         const form = place === best ? "circle" : reading?.lacks !== undefined ? "cross" : null;
@@ -101,12 +101,11 @@ function endsOf({ value, error = 0, between }: Reading): readonly number[] {
 const counts = (reading: Reading | null | undefined): reading is Reading =>
   reading != null && reading.lacks === undefined && Number.isFinite(reading.value);
 
-/** The first place of the best reading; -1 if none counts. */
-export function bestOf(line: readonly (Reading | null)[], optimum: State["scan"]["optimum"]): number {
-  const sign = optimum === "largest" ? 1 : -1;
-  const scores = line.map((reading) => (counts(reading) ? sign * reading.value : -Infinity));
-  const best = Math.max(...scores);
-  return best === -Infinity ? -1 : scores.indexOf(best);
+/** The first place of the largest reading; -1 if none counts. */
+export function bestOf(line: readonly (Reading | null)[]): number {
+  const values = line.map((reading) => (counts(reading) ? reading.value : -Infinity));
+  const best = Math.max(...values);
+  return best === -Infinity ? -1 : values.indexOf(best);
 }
 
 /** A sentence on the optimum of each curve, which says what it was chosen from and what it cannot tell. */
@@ -114,11 +113,10 @@ export function describeOptima({ scan, at, lines }: Plan, readings: readonly (re
   const [over, { unit }] = [varied(scan.over), RESULT[scan.result]];
   return readings.map((line, index) => {
     const name = scan.family === null ? "" : `${lines[index]?.label ?? ""}: `;
-    const best = bestOf(line, scan.optimum);
+    const best = bestOf(line);
     const top = line[best];
     if (!counts(top)) return `${name}${WORDS.scan.none}`;
     const found = say(WORDS.scan.best, {
-      optimum: WORDS.scan.optima[scan.optimum],
       count: line.filter(counts).length,
       value: numberOf(top, unit),
       at: valueText(over, at[best] ?? NaN),

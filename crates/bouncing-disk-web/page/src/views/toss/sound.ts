@@ -8,7 +8,7 @@ const HIGHEST = 3000;
 /** The normalised speed from which on a tone is as loud as it can be, and the share of the full scale that it has then. */
 const LOUD = 2;
 const LOUDEST = 0.2;
-/** How long a tone sounds (s): those of four frames at most sound together. */
+/** How long a tone sounds (s): those of four frames, sixty of which are in a second, sound together. */
 const LENGTH = 0.06;
 
 export class Sound {
@@ -25,7 +25,8 @@ export class Sound {
     const { context } = this;
     if (context?.state !== "running" || speed <= 0) return;
     const tone = new OscillatorNode(context, { frequency: Math.min(PITCH * speed, HIGHEST) });
-    const gain = new GainNode(context, { gain: LOUDEST * Math.min(speed / LOUD, 1) ** 2 });
+    const gain = new GainNode(context);
+    gain.gain.setValueAtTime(LOUDEST * Math.min(speed / LOUD, 1) ** 2, context.currentTime);
     gain.gain.linearRampToValueAtTime(0, context.currentTime + LENGTH);
     tone.connect(gain).connect(context.destination);
     tone.start();
