@@ -51,7 +51,6 @@ const STEPS: { readonly [Course in Id]: Readonly<Record<keyof Words[Course]["ste
     release: toss({}),
     lag: toss(tossOf({ angle: 0.323 * PI, lag: PI / 2 })),
     angle: toss(tossOf({ angle: 0.323 * PI })),
-    friction: toss(tossOf({ angle: 0.323 * PI })),
     scan: { ...toss({}), view: "scan", scan: { family: "phase_lag", range: [0, 1.4] } },
   },
   motor: { sheet: motor({}), runup: motor({}), curve: motor({}), friction: motor({ friction: 0.2 }) },
@@ -139,9 +138,11 @@ export class CoursePanel {
     setText(this.place, say(TEXTS.place, { course: title, step: step + 1, steps: steps.length }));
     setText(this.title, shown.title);
     const { text, task, answer } = shown;
-    const paragraph = (words: string) => element("p", {}, ...rich(words));
+    // An equation stays in one line.
+    const whole = (words: string) => rich(words.replaceAll(" = ", "\u00a0=\u00a0"));
+    const paragraph = (words: string) => element("p", {}, ...whole(words));
     const parts: HTMLElement[] = [paragraph(text)];
-    if (task) parts.push(element("p", {}, element("b", {}, TEXTS.task), " ", ...rich(task)));
+    if (task) parts.push(element("p", {}, element("b", {}, TEXTS.task), " ", ...whole(task)));
     if (answer) parts.push(element("details", {}, element("summary", {}, TEXTS.answer), paragraph(answer)));
     this.text.replaceChildren(...parts);
     // A part of the form that the task names stands open.

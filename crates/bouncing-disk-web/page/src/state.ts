@@ -144,9 +144,7 @@ const STATOR: Form<Stator> = {
     try {
       const stator = JSON.parse(text);
       if (stator.constructor === Object && Object.values(stator).every(legal)) return stator;
-    } catch {
-      // It is not even JSON.
-    }
+    } catch {} // It is not even JSON.
     throw new Unreadable(WORDS.address.stator);
   },
 };

@@ -128,9 +128,7 @@ test("hand: the speeds of the tosses", async () => {
   const [best, low, high] = await Promise.all([0.301, 0.28, 0.35].map((share) => spin(state, at(share * Math.PI))));
   says(`${best} instead of ${await spin(state)}`, `${low.replace(" rad/s", "")} and ${high}`);
   says(await spin(step("hand", 1).state), `φ_L = ${(0.55 / Math.PI).toFixed(3)}π`);
-  const friction = step("hand", 4);
-  for (const value of [0.7, 0.5]) friction.says(`${await spin(friction.state, { friction: value })} with μ = ${value}`);
-  const scan = step("hand", 5);
+  const scan = step("hand", 4);
   const { range, points, values } = scan.state.scan;
   const width = (range[1] - range[0]) / (points - 1);
   const fastest = [];

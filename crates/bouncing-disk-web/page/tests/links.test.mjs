@@ -83,7 +83,6 @@ const LINKS = [
   ['motor_stator={"mass":-1,"quality":9}&friction=0.3', { motor_stator: "none", friction: "0.3" }, ["stator.mass"]],
   ['motor_stator={"mess":1}&friction=0.3', { motor_stator: "none", friction: "0.3" }, ["mess"]],
   ['motor_stator={"mass":1e400}&friction=0.3', { motor_stator: "none", friction: "0.3" }, ["the table of a stator"]],
-  // The lag of the default is none of a mode that also twists.
   [
     'motor_stator={"kind":"axial_twist","mass":1,"quality":9}&friction=0.3',
     { motor_stator: "none", friction: "0.3" },

@@ -159,7 +159,6 @@ onMotor("a stator that yields stays with the motor until its mass is zero, also 
   await open({ hash: await hashOf(page), settle: false }, async (copy) => {
     await hasStator(copy, { kind: "axial_twist", mass: 0.005, quality: 120 });
     await whenText(copy, "#view-motor .facts", yields);
-    // What the stator does not allow is said to be its doing; a scan that is ready made has a stator of its own.
     await type(copy, "phase_lag", "0.3");
     await whenText(copy, "#error-phase_lag", /^The stator of the motor does not allow this: .*data sheet/);
     await copy.click("#tab-scan");

@@ -212,8 +212,7 @@ onPage("impacts are heard while the motion plays, loud and soft in turn on a dou
   await page.focus("#view-toss canvas:last-child");
   for (let step = 0; step < 20; step++) await page.keyboard.press("Shift+ArrowRight");
   assert.equal((await tonesOf()).length, before, "silent where it stands still or jumps");
-  // Of a chatter one tone in a frame, which leaves room for those of the frames before.
-  await type(page, "restitution", "0.9");
+  await type(page, "restitution", "0.9"); // It chatters.
   await page.click('[aria-label="Back to the start"]');
   const tones = await heard(before + 20, 1);
   assert.equal(new Set(tones.map(({ frame }) => frame)).size, tones.length);

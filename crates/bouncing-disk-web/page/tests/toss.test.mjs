@@ -101,8 +101,7 @@ onPage("a throw is in the address, and a link of it shows the same motion", {}, 
   await whenAddress(page, "throw", state.throw);
   // The address is there before its state is.
   await page.getByRole("button", { name: WORDS.toss.back_to_impact }).waitFor();
-  // Another start takes the place of a throw.
-  await type(page, "normalised_speed", "1.2");
+  await type(page, "normalised_speed", "1.2"); // Another start takes its place.
   await whenAddress(page, "throw", "none");
 });
 

@@ -62,7 +62,7 @@ function layOutChart(pen: Pen, { x, y, curves }: Chart, width: number, height: n
 
 function paintChart(pen: Pen, chart: Chart, plot: Plot): void {
   pen.clipped(plot, () => {
-    for (const stretch of chart.stretches ?? []) paintStretch(pen, stretch, plot);
+    for (const stretch of chart.stretches ?? []) paintStretch(pen, stretch, plot, chart.curves.length);
     const [left, zero, right] = [plot.left, pixelY(plot, 0), plot.left + plot.width];
     if (inside(plot, left, zero)) pen.path([left, zero, right, zero], { stroke: "--picture-muted", width: 1 });
     for (const { x, y, form, colour } of chart.marks ?? []) {
@@ -78,7 +78,7 @@ function paintChart(pen: Pen, chart: Chart, plot: Plot): void {
   if (chart.curves.length > 1) paintLegend(pen, chart, plot);
 }
 
-function paintStretch(pen: Pen, { range, at, label, colour }: Stretch, plot: Plot): void {
+function paintStretch(pen: Pen, { range, at, label, colour }: Stretch, plot: Plot, curves: number): void {
   const { left, top, width, height, size } = plot;
   const [from = NaN, to = NaN] = range.map((end) => clamp(pixelX(plot, end), left, left + width));
   pen.rect(from, top, to - from, height, { fill: colour, opacity: at === undefined ? 1 : 0.25 });
@@ -89,7 +89,8 @@ function paintStretch(pen: Pen, { range, at, label, colour }: Stretch, plot: Plo
   const below = pixelY(plot, 0) < top + height / 2;
   const style = { colour: "--picture-text", size, anchor: below ? "start" : "end", upwards: true } as const;
   const beside = at === undefined ? 0.3 * size : line - left < 2 * size ? 1.1 * size : -0.4 * size;
-  pen.text(label, line + beside, below ? top + height - size * 0.5 : top + size * 0.5, style);
+  const above = top + size * (curves > 1 ? 1.3 * curves + 1.5 : 0.5); // Below the legend, where there is one.
+  pen.text(label, line + beside, below ? top + height - size * 0.5 : above, style);
 }
 
 /** Two standard errors on either side of a value, or its interval. */

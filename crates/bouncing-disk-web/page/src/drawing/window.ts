@@ -269,7 +269,8 @@ class Gestures {
 
   /** The keyboard's own cursor, by a fiftieth of the window; it begins in the middle. */
   private moveCross(right: number, up: number, { x, y }: Window2): void {
-    const from = this.cross ?? [(x[0] + x[1]) / 2, (y[0] + y[1]) / 2];
+    const within = ([low, high]: Range, at = NaN) => (at >= low && at <= high ? at : (low + high) / 2);
+    const from = [within(x, this.cross?.[0]), within(y, this.cross?.[1])] as const;
     const along = ([low, high]: Range, at: number, steps: number) => clamp(at + (steps * (high - low)) / 50, low, high);
     this.cross = [along(x, from[0], right), along(y, from[1], up)];
     this.picture.point(this.cross);
