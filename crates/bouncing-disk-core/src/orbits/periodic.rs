@@ -235,7 +235,7 @@ impl PeriodicOrbit {
     /// ```
     #[must_use]
     pub fn stability(&self) -> Stability {
-        let inside = 1.0 + self.monodromy.determinant() - self.trace().abs();
+        let inside = 1.0 + self.determinant() - self.trace().abs();
         if inside > self.trace_error {
             Stability::Stable
         } else if inside < -self.trace_error {
@@ -254,17 +254,23 @@ impl PeriodicOrbit {
     /// The Floquet multipliers.
     #[must_use]
     pub fn multipliers(&self) -> Multipliers {
-        Multipliers::of(self.monodromy)
+        Multipliers::of_invariants(self.trace(), self.determinant())
     }
 
     /// The error of the multipliers: how far [`Self::trace_error`] moves the roots of m^2 - T m + D, at a
     /// double root by its square root.
     #[must_use]
     pub fn multiplier_error(&self) -> f64 {
-        let (trace, determinant) = (self.trace(), self.monodromy.determinant());
+        let (trace, determinant) = (self.trace(), self.determinant());
         let radicand = (0.25 * trace * trace - determinant).abs();
         let change = 0.5 * self.trace_error * (trace.abs() + 0.5 * self.trace_error);
         0.5 * self.trace_error + (change / radicand.sqrt()).min(change.sqrt())
+    }
+
+    /// Phase space shrinks, so that the determinant is at most 1 in size. Where perturbations grow a lot, that of the
+    /// product of many matrices is all rounding and may have any size.
+    fn determinant(&self) -> f64 {
+        self.monodromy.determinant().clamp(-1.0, 1.0)
     }
 
     fn trace(&self) -> f64 {
@@ -274,7 +280,7 @@ impl PeriodicOrbit {
     /// det(1 + monodromy) = (1 + m1)(1 + m2): falls through zero where the orbit doubles its period.
     #[must_use]
     pub fn flip_function(&self) -> f64 {
-        1.0 + self.trace() + self.monodromy.determinant()
+        1.0 + self.trace() + self.determinant()
     }
 }
 

@@ -93,8 +93,8 @@ export interface Context {
 }
 
 export interface View {
-  /** Draws what this state asks for, as soon as it is known. */
-  show(state: State): void;
+  /** Draws what this state asks for, as soon as it is known; a `fresh` one comes from a lesson or a figure. */
+  show(state: State, fresh: boolean): void;
   /** Stops animations and cancels what is under way. */
   hide(): void;
   /** The size of the host or the theme has changed. */

@@ -49,7 +49,7 @@ function begin(): void {
       else address.write(state, settled);
       parameters.show(state, fresh || fromAddress);
       notes.show(state, course.running);
-      stage.show(state);
+      stage.show(state, fresh);
       showInFull(state);
       fresh = false;
     },

@@ -47,7 +47,7 @@ export class Stage {
     this.parts.get(this.present)?.host.focus();
   }
 
-  show(state: State): void {
+  show(state: State, fresh: boolean): void {
     const { tab, host } = this.parts.get(state.view) as { tab: HTMLButtonElement; host: HTMLElement };
     // A change of a parameter leaves the page where it is.
     if (host.hidden) {
@@ -62,7 +62,7 @@ export class Stage {
       this.context.status("");
     }
     if (this.view === undefined) this.made.set(state.view, new this.classes[state.view](host, this.context));
-    this.view?.show(state);
+    this.view?.show(state, fresh);
   }
 }
 

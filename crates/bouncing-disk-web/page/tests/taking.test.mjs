@@ -129,11 +129,11 @@ onPage("a sheet has the note or the task that is open, and no code where nothing
   await preset(page, "fig02");
   await print(page);
   assert.match(await page.textContent(".printed-task"), /Fig\. 2/);
-  await course(page, "doubling");
+  await course(page, "feigenbaum");
   const answer = await page.textContent(".tour details p");
   await print(page);
   const task = await page.textContent(".printed-task");
-  assert.match(task, /Period one and period two, step 1 of 4/);
+  assert.match(task, /Feigenbaum's ratio, step 1 of 3/);
   assert.ok(task.includes(await page.textContent(".tour .text p:nth-of-type(2)")) && !task.includes(answer), task);
   assert.match(await page.textContent(".printed small"), /^#view=/);
   assert.equal(await page.locator(".printed svg").count(), 0);

@@ -69,6 +69,19 @@ fn the_verdicts_of_known_attractors() {
     assert!((600..3_000).contains(&platform_periods), "{verdict:?}");
 }
 
+/// Orbits of chaos that return to within the tolerance after some 240 impacts: the cycle beside them repels by 1e18,
+/// and the determinant of its monodromy matrix is all rounding.
+#[test]
+fn a_return_of_a_chaotic_orbit_is_no_periodic_orbit() {
+    let start = ImpactState::from_normalised(0.4, 1.4).expect("legal");
+    for axial_forcing in
+        [0.5450607612456748, 0.545073014994233, 0.5450865051903114, 0.5450895778546713, 0.5451083460207613]
+    {
+        let verdict = map(axial_forcing, 0.5).verdict(start, VerdictSettings::default()).expect("no failure");
+        assert!(matches!(verdict, Verdict::Chaotic { .. }), "{axial_forcing}: {verdict:?}");
+    }
+}
+
 /// A disk that hardly leaves the platform is thrown and comes to rest once in each period.
 #[test]
 fn a_chattering_cycle_is_that_of_the_orbit_from_the_separation() {

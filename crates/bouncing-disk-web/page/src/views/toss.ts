@@ -101,7 +101,8 @@ export class TossView implements View {
     host.append(div("toss", div("toss-left", element("div", {}, ...scene), charts), right));
   }
 
-  show(state: State): void {
+  show(state: State, fresh: boolean): void {
+    if (fresh) this.asked = ""; // A motion that was seen before begins anew, too.
     this.rounding.show(this.context, state);
     this.tellThrow(state.thrown);
     void this.fetch(FIRST_PERIODS);
