@@ -109,7 +109,6 @@ export function spanOf(curves: readonly Curve[], more: readonly number[] = [], r
   return padded(all?.some((end) => end !== 0) ? all : [0, 1], room);
 }
 
-
 function paintBand(pen: Pen, { at }: Chart, curve: Curve, plot: Plot): void {
   if (curve.error === undefined && curve.between === undefined) return;
   const upper: number[] = [];
