@@ -36,7 +36,8 @@ fn in_parts<T: Storable + Send>(
         run = stored(&run);
         match pool.install(|| advance(&mut run, &StopAfter::calls(1 + 3 * stops))) {
             Ok(()) => {
-                assert!(stops >= 2, "{stops}");
+                // Each of several threads may finish its last items after another one was stopped.
+                assert!(stops >= if threads == 1 { 2 } else { 1 }, "{threads} threads: {stops}");
                 // Nothing is left to do or to stop.
                 let observer = StopAfter::calls(2);
                 let all = run.results().total();

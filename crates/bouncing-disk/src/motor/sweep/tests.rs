@@ -210,8 +210,10 @@ fn threads_and_stops_change_no_bit() {
                 run = serde_json::from_str(&text).expect("reads");
             }
         }
-        // It was stopped before anything was finished, and in between.
-        assert!(kept[0] == 0 && kept.iter().any(|&done| 0 < done && done < 21), "{threads}: {kept:?}");
+        // It was stopped before anything was finished, and in between; of several threads, all others may
+        // finish after that.
+        let between = kept.iter().any(|&done| 0 < done && done < 21);
+        assert!(kept[0] == 0 && (between || threads > 1), "{threads}: {kept:?}");
         assert!(run.into_result(&sweep).expect("done") == at_once, "{threads} threads, in parts");
     }
 }

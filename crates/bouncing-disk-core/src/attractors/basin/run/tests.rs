@@ -63,7 +63,8 @@ fn a_run_that_is_stopped_ends_in_the_labels_of_one_call() {
             let run = BasinRun::new(map, grid(columns, rows), &known, settings).expect("few cells");
             let (basins, stops) = in_parts(run, threads, |stops| 1 + stops);
             assert_eq!(basins, at_once, "{threads} threads");
-            assert!(stops >= 3, "{stops}");
+            // Each of several threads may finish its last cells after another one was stopped.
+            assert!(stops >= if threads == 1 { 3 } else { 1 }, "{threads} threads: {stops}");
         }
     }
 }
