@@ -50,7 +50,6 @@ const STEPS: { readonly [Course in Id]: Readonly<Record<keyof Words[Course]["ste
   hand: {
     release: toss({}),
     lag: toss(tossOf({ angle: 0.323 * PI, lag: PI / 2 })),
-    angle: toss(tossOf({ angle: 0.323 * PI })),
     scan: { ...toss({}), view: "scan", scan: { family: "phase_lag", range: [0, 1.4] } },
   },
   motor: { sheet: motor({}), runup: motor({}), curve: motor({}), friction: motor({ friction: 0.2 }) },
