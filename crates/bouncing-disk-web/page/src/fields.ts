@@ -15,7 +15,8 @@ interface Field {
   tell(problem: string | null): void;
 }
 
-type Meaning = Readonly<{ unit?: string; angle?: boolean }>;
+/** An `exact` number always has all its digits. */
+type Meaning = Readonly<{ unit?: string; angle?: boolean; exact?: boolean }>;
 
 export class NumberField {
   readonly input: HTMLInputElement;
@@ -55,12 +56,13 @@ export class NumberField {
     this.field.tell(problem);
   }
 
-  /** All digits while somebody edits, as many as fit otherwise. */
+  /** All digits while somebody edits, otherwise as many as fit. */
   print(): void {
     if (this.input.hasAttribute("aria-invalid")) return;
     this.input.title = this.values.join("; ");
     const short = this.values.map((value) => written(value, this.meaning.angle)).join("; ");
-    this.input.value = this.printed = document.activeElement === this.input ? this.input.title : short;
+    const whole = this.meaning.exact || document.activeElement === this.input;
+    this.input.value = this.printed = whole ? this.input.title : short;
   }
 
   private entered(): void {

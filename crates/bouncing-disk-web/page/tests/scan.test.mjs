@@ -102,6 +102,7 @@ onPage("a disk at rest and one that is thrown end differently, by the library", 
 onPage("the sixteenth digit: chaos shows it, the same number does nothing, another is refused", "#view=compare", async (page) => {
   await page.click("text=The sixteenth digit");
   await whenText(page, "#view-compare .differs", /ε: 0\.5000000000000001 instead of 0\.5\./);
+  assert.equal(await page.inputValue("#view-compare input[aria-label^='value of B']"), "0.5000000000000001");
   await whenText(page, "#view-compare .optima", /for the first time after/);
   const { columns, rows } = await saved(page, "comparison");
   const apart = rows.map((row) => row[columns.indexOf("difference_over_A")]);

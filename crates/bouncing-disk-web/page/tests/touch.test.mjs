@@ -31,7 +31,7 @@ async function drag(page, touch, from, to, steps = 8) {
   await touch("touchEnd");
 }
 
-onTelephone("a finger on the disk throws it, and the page stays where it is", "toss", async (page, touch) => {
+onTelephone("a finger on a paused disk throws it, and the page stays where it is", "toss", async (page, touch) => {
   await page.tap(".controls .play");
   await page.focus("#view-toss .picture canvas:last-child");
   await page.keyboard.press("Home");
@@ -43,7 +43,12 @@ onTelephone("a finger on the disk throws it, and the page stays where it is", "t
   assert.equal(await page.evaluate(() => scrollY), 0);
 });
 
-onTelephone("a finger beside the disk scrolls the page", "toss", async (page, touch) => {
+onTelephone("a finger on a moving disk, or beside it, scrolls the page", "toss", async (page, touch) => {
+  const [x, y] = await placeOfDisk(page);
+  await drag(page, touch, [x, y], [x, y - 150], 16);
+  await page.waitForFunction(() => scrollY > 50);
+  await drag(page, touch, [x, 200], [x, 500], 16);
+  await page.waitForFunction(() => scrollY < 10);
   const box = await boxOf(page, "toss");
   await drag(page, touch, [box.x + 20, box.y + box.height - 20], [box.x + 20, box.y - 150], 16);
   await page.waitForFunction(() => scrollY > 50);

@@ -32,7 +32,8 @@ export class Raster {
     const paper = pen.colour("--picture-paper");
     if (paper !== this.paper) this.change({});
     this.paper = paper;
-    if (this.changed !== UNCHANGED) this.colour(pen.colour, this.changed);
+    const { x: columns, y: rows } = this.changed;
+    if (columns[0] < columns[1] && rows[0] < rows[1]) this.colour(pen.colour, this.changed);
     const [left, top] = [pixelX(plot, x[0]), pixelY(plot, y[1])];
     pen.image(this.canvas, left, top, pixelX(plot, x[1]) - left, pixelY(plot, y[0]) - top);
   }

@@ -76,7 +76,7 @@ export class CompareView extends ComputingView {
   show(state: State): void {
     const { parameter, value, periods } = state.compare;
     this.parameter.select.value = parameter;
-    this.value.show([value], varied(parameter));
+    this.value.show([value], { ...varied(parameter), exact: true });
     this.periods.show([periods]);
     this.redraw();
   }

@@ -71,6 +71,7 @@ export class TossView implements View {
     private readonly context: Context,
   ) {
     const throwing = {
+      playing: () => this.player.playing,
       stage: () => this.stage,
       pose: () => this.moment(),
       system: () => context.state().system,

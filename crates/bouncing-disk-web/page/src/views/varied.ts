@@ -78,7 +78,7 @@ export class LabelledField extends NumberField {
   }
 
   /** Values of a parameter, or mere numbers. */
-  override show(values: readonly number[], parameter: Partial<Parameter> = {}): void {
+  override show(values: readonly number[], parameter: Partial<Parameter> & { exact?: boolean } = {}): void {
     super.show(values, parameter);
     const { unit = "" } = parameter;
     this.unit.textContent = unit;

@@ -12,6 +12,7 @@ const LONGEST_FLIGHT = 12;
 const LONGEST_PAUSE = 150;
 
 interface ThrowHost {
+  playing(): boolean;
   stage(): Stage | null;
   pose(): Pose | null;
   system(): Readonly<SystemParameters>;
@@ -37,7 +38,8 @@ export function attachThrowing(surface: HTMLElement, host: ThrowHost): void {
   surface.addEventListener("pointerdown", (event) => {
     const stage = host.stage();
     const pose = host.pose();
-    if (stage === null || pose === null || event.button > 0) return;
+    const swiped = event.pointerType === "touch" && host.playing();
+    if (stage === null || pose === null || event.button > 0 || swiped) return;
     const from = place(event);
     const [x, y] = stage.placeOfDisk(pose);
     if (Math.abs(from.x - x) > stage.pixels || Math.abs(from.y - y) > Math.max(0.6 * stage.pixels, 24)) return;
@@ -45,7 +47,7 @@ export function attachThrowing(surface: HTMLElement, host: ThrowHost): void {
     surface.setPointerCapture(event.pointerId);
     event.preventDefault();
   });
-  // A finger on the disk drags it; beside it, the same movement scrolls the page.
+  // A finger drags a disk that is paused; elsewhere, and while it moves, the same movement scrolls the page.
   const keep = (event: TouchEvent) => {
     if (held !== null) event.preventDefault();
   };
