@@ -49,7 +49,10 @@ const STEPS: { readonly [Course in Id]: Readonly<Record<keyof Words[Course]["ste
   rest: { plane: basins(0.45), edge: SLOW, flight: bouncing(0.45, REST), push: bouncing(0.45, REST) },
   hand: {
     release: toss({}),
-    lag: toss(tossOf({ angle: 0.323 * PI, lag: PI / 2 })),
+    lag: {
+      ...{ ...toss(tossOf({ angle: 0.323 * PI })), view: "scan" },
+      scan: { over: "phase_lag", family: null, range: [-PI / 2, PI / 2], points: 17 },
+    },
     scan: { ...toss({}), view: "scan", scan: { family: "phase_lag", range: [0, 1.4] } },
   },
   motor: { sheet: motor({}), runup: motor({}), curve: motor({}), friction: motor({ friction: 0.2 }) },
@@ -86,6 +89,8 @@ export class CoursePanel {
   private readonly text = element("div", { class: "text" });
   private readonly back = button(TEXTS.back, () => this.go(this.step - 1));
   private readonly next = button("", () => this.go(this.step + 1), { class: "primary" });
+  /** What tasks have opened of the form. */
+  private readonly opened: HTMLDetailsElement[] = [];
   private course: Course | null = null;
   private step = 0;
   /** What was shown before the course, and what had the focus. */
@@ -125,6 +130,7 @@ export class CoursePanel {
 
   private end(): void {
     const { before } = this;
+    for (const group of this.opened.splice(0)) group.open = false;
     this.stay();
     if (before !== null) this.open(before.state);
   }
@@ -145,13 +151,15 @@ export class CoursePanel {
     if (answer) parts.push(element("details", {}, element("summary", {}, TEXTS.answer), paragraph(answer)));
     this.text.replaceChildren(...parts);
     // A part of the form that the task names stands open.
-    for (const group of document.querySelectorAll<HTMLDetailsElement>(".group"))
-      if (task?.includes(`“${group.firstElementChild?.textContent}”`)) group.open = true;
+    for (const group of document.querySelectorAll<HTMLDetailsElement>(".group:not([open])"))
+      if (task?.includes(`“${group.firstElementChild?.textContent}”`)) this.opened.push(group);
+    for (const group of this.opened) group.open = true;
     this.back.disabled = step === 0;
     setText(this.next, step === steps.length - 1 ? TEXTS.finish : TEXTS.next);
     this.open(shown.state);
     // A screen reader begins with the new step; the arrow keys work from here.
     this.title.focus({ preventScroll: true });
+    for (const one of [window, byId("main")]) one.scrollTo(0, 0);
   }
 
   private pressed(event: KeyboardEvent): void {

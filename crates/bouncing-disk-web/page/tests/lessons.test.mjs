@@ -113,31 +113,30 @@ test("rest: two attractors, and slow starts of only one of them", async () => {
 test("hand: the speeds of the tosses", async () => {
   const spin = async (state, change) => `${(await thrown(state, change)).angular_speed.toFixed(1)} rad/s`;
   step("hand", 1).says(await spin(step("hand", 1).state));
-  const lag = step("hand", 2);
-  const { system } = lag.state;
-  const printed = await spin(lag.state, { phase_lag: 0 });
-  lag.says(`only ${await spin(lag.state)}`, printed);
-  const stroke = Math.hypot(system.amplitude, system.contact_radius * system.twist_amplitude);
-  const at = (angle, phase_lag) =>
-    ({ amplitude: stroke * Math.cos(angle), twist_amplitude: (stroke * Math.sin(angle)) / system.contact_radius, phase_lag });
-  const scan = step("hand", 3);
-  const { range, points, values } = scan.state.scan;
-  const width = (range[1] - range[0]) / (points - 1);
-  const fastest = [];
-  for (const phase_lag of values) {
+  const [lag, angle] = [2, 3].map((number) => step("hand", number));
+  const fastest = async ({ system, start, scan: { range, points } }, change) => {
     let most = { angular_speed: -Infinity };
-    // The last one does not throw.
-    for (let point = 1; point < points - 1; point += 1) {
-      const { angular_speed } = await thrown(lag.state, at(point * width, phase_lag));
-      if (angular_speed > most.angular_speed) most = { angular_speed, angle: point * width, phase_lag };
+    for (let point = 0; point < points; point += 1) {
+      const at = range[0] + (point * (range[1] - range[0])) / (points - 1);
+      // A hand that only twists does not throw.
+      const { angular_speed = NaN } = (await thrown({ system, start }, change(at))) ?? {};
+      if (angular_speed > most.angular_speed) most = { angular_speed, at };
     }
-    fastest.push(most);
-  }
-  const [first, second] = fastest.sort((one, other) => other.angular_speed - one.angular_speed);
-  assert.equal(first.phase_lag, 0);
-  scan.says(`${first.angular_speed.toFixed(1)} rad/s at φ_L = ${first.angle.toFixed(3)}`, `${(first.angle / Math.PI).toFixed(3)}π`);
-  scan.says("φ_L = 0.323π", `faster than ${printed}`);
-  scan.says(`θ = ${second.phase_lag / Math.PI}π, with ${second.angular_speed.toFixed(1)} rad/s`);
+    return { ...most, text: `${most.angular_speed.toFixed(1)} rad/s` };
+  };
+  const printed = await fastest(lag.state, (phase_lag) => ({ phase_lag }));
+  assert.ok(Math.abs(printed.at) < 1e-15);
+  lag.says(`for ${lag.state.scan.points} lags`, `Of these ${lag.state.scan.points} lags θ = 0 is`, `with ${printed.text}`);
+  const { amplitude, contact_radius, twist_amplitude } = angle.state.system;
+  const stroke = Math.hypot(amplitude, contact_radius * twist_amplitude);
+  const at = (phase_lag) => (angle) =>
+    ({ amplitude: stroke * Math.cos(angle), twist_amplitude: (stroke * Math.sin(angle)) / contact_radius, phase_lag });
+  const lags = angle.state.scan.values;
+  const found = await Promise.all(lags.map((phase_lag) => fastest(angle.state, at(phase_lag))));
+  const [best] = [...found].sort((one, other) => other.angular_speed - one.angular_speed);
+  assert.equal(lags[found.indexOf(best)], 0);
+  angle.says(`${best.text} at φ_L = ${best.at.toFixed(3)}, that is ${(best.at / Math.PI).toFixed(3)}π`);
+  angle.says(`φ_L = 0.323π = ${(0.323 * Math.PI).toFixed(3)}`, `than the ${printed.text}`);
 }); // prettier-ignore
 
 test("motor: what the sheet, the run-up and the curve say", async () => {

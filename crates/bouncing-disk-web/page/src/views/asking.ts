@@ -48,7 +48,7 @@ export abstract class ComputingView implements View {
     this.compute = debounced(PAUSE, () => this.attempt(() => this.fetch()));
   }
 
-  abstract show(state: State): void;
+  abstract show(state: State, fresh: boolean): void;
   abstract offers(): Offer[];
   protected abstract readonly draw: () => void;
   /** Asks for what is not there or on its way. */

@@ -79,9 +79,9 @@ export class DiagramView extends ComputingView {
     );
   }
 
-  show(state: State): void {
+  show(state: State, fresh: boolean): void {
     const { quantity, branches, drive } = state.diagram;
-    this.verdict.follow(state);
+    this.verdict.follow(state, fresh);
     this.quantity.select.value = quantity;
     this.drive.select.value = drive;
     this.branchesBox.checked = branches;

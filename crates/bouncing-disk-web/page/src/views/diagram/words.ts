@@ -28,12 +28,12 @@ export class Verdict {
     this.root = section(TEXTS.orbit, "panel", element("h3", {}, TEXTS.orbit), this.facts.root, spoken);
   }
 
-  /** A reading of another system, or of a forcing that is not seen any more, does not stay. */
-  follow(state: State): void {
+  /** A reading of another system or lesson, or of a forcing that is not seen any more, does not stay. */
+  follow(state: State, fresh: boolean): void {
     const { system, diagram } = state;
     const own = JSON.stringify([system.restitution, system.contact_time, impactOf(state), diagram.drive]);
     const [low, high] = diagram.axial_forcing;
-    if (own === this.own && !(this.forcing < low || this.forcing > high)) return;
+    if (!fresh && own === this.own && !(this.forcing < low || this.forcing > high)) return;
     Object.assign(this, { own, forcing: NaN });
     this.ask.stop();
     this.facts.clear("–");
@@ -70,7 +70,7 @@ export class Verdict {
     const exponent = withError(verdict.exponent, verdict.exponent_error);
     this.facts.set({ orbit, period: round, multipliers, exponent });
     // The library writes for terminals, too.
-    setText(this.sentence, `Γ ${plain(forcing, 4)}: ${verdict.text.replaceAll("+-", "±")}`);
+    setText(this.sentence, `Γ ${plain(forcing, 4)}: ${verdict.text.replaceAll("+-", "±").replaceAll(" -", " −")}`);
     this.caution.hidden = !verdict.rounding_dependent;
   }
 }
