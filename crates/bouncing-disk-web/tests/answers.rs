@@ -162,8 +162,8 @@ fn what_is_no_request_is_told() {
 fn a_value_out_of_its_range_is_named() {
     let samples = |periods: u64, samples: u64| json!({ "periods": periods, "samples_per_period": samples });
     let under = json!({ "kind": "flight", "phase": 0.0, "gap": -0.3, "relative_velocity": 0.0, "angular_speed": 0.0 });
-    let branches =
-        |restitution: f64, window: [f64; 2]| json!({ "restitution": restitution, "axial_forcing": window });
+    let light = json!({ "system": pizza(), "mass": 1.0, "stator": { "mass": -1.0 } });
+    let branches = |own: f64, window: [f64; 2]| json!({ "restitution": own, "axial_forcing": window });
     for (call, changes, quantity, value) in [
         ("check", system(json!({ "restitution": 1.5 })), "restitution", "1.5"),
         ("check", system(json!({ "amplitude": -1.0 })), "amplitude", "-1"),
@@ -190,12 +190,7 @@ fn a_value_out_of_its_range_is_named() {
         ("motor_transient", json!({ "points": 1 }), "intervals", "1"),
         ("motor_transient", json!({ "rise_times": -1.0 }), "duration", "-"),
         ("sheet_of_system", json!({ "system": pizza(), "mass": 0.0 }), "mass", "0"),
-        (
-            "sheet_of_system",
-            json!({ "system": pizza(), "mass": 1.0, "stator": { "mass": -1.0 } }),
-            "stator.mass",
-            "-1",
-        ),
+        ("sheet_of_system", light, "stator.mass", "-1"),
     ] {
         let refusal = refused(call, changes);
         assert_eq!((&refusal["kind"], &refusal["quantity"]), (&json!("out-of-range"), &json!(quantity)));
@@ -414,14 +409,9 @@ fn the_rows_of_branches_are_those_of_the_library() {
         for part in &own.parts {
             for impact in 0..part[0].orbit.period() {
                 for point in part.iter().filter(|point| impact < point.orbit.period()) {
-                    let state = point.orbit.states[impact];
-                    rows.extend([
-                        point.parameter,
-                        state.phase().angle(),
-                        state.normalised_speed(),
-                        branch as f64,
-                    ]);
-                    rows.extend([if point.is_stable() { 1.0 } else { 0.0 }, line]);
+                    let (state, stable) = (point.orbit.states[impact], f64::from(point.is_stable()));
+                    rows.extend([point.parameter, state.phase().angle(), state.normalised_speed()]);
+                    rows.extend([branch as f64, stable, line]);
                 }
                 line += 1.0;
             }
@@ -522,10 +512,8 @@ fn a_sheet_that_is_written_is_read_again() {
     let (read, _) = answered("sheet_read", json!({ "text": written["text"] }));
     assert_eq!((&read, &read["system"]["contact_time"]), (&written, &json!(2e-5)));
     assert_eq!(read["sheet"]["peak_angular_speed"], 30.0);
-    let (of_system, _) = answered(
-        "sheet_of_system",
-        json!({ "system": read["system"], "mass": read["mass"], "stator": stator }),
-    );
+    let system = json!({ "system": read["system"], "mass": read["mass"], "stator": stator });
+    let (of_system, _) = answered("sheet_of_system", system);
     assert_eq!(of_system["sheet"]["friction"], 0.1);
     assert_eq!(of_system["sheet"]["contact"]["time"], 2e-5);
     assert_eq!(of_system["sheet"]["stator"], read["sheet"]["stator"]);

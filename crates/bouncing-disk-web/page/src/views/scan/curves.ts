@@ -101,11 +101,11 @@ function endsOf({ value, error = 0, between }: Reading): readonly number[] {
 const counts = (reading: Reading | null | undefined): reading is Reading =>
   reading != null && reading.lacks === undefined && Number.isFinite(reading.value);
 
-/** The first place of the largest reading; -1 if none counts. */
+/** The first place of the largest reading, whichever of equal ones rounding has made the largest; -1 if none counts. */
 export function bestOf(line: readonly (Reading | null)[]): number {
   const values = line.map((reading) => (counts(reading) ? reading.value : -Infinity));
   const best = Math.max(...values);
-  return best === -Infinity ? -1 : values.indexOf(best);
+  return values.findIndex((value) => value > -Infinity && value >= best - ROUNDING * Math.abs(best));
 }
 
 /** A sentence on the optimum of each curve, which says what it was chosen from and what it cannot tell. */
