@@ -35,12 +35,7 @@ const STEPS: { readonly [Course in Id]: Readonly<Record<keyof Words[Course]["ste
     motor: motor({}),
     lag: diagram("angular_speed", withTwist(withForcing(multipleToss, 0.486), 1), [0.32, 0.58]),
   },
-  doubling: {
-    one: bouncing(0.45),
-    two: bouncing(0.48),
-    diagram: cascade(0.48, 0.44, 0.53),
-    multiplier: bouncing(0.5),
-  },
+  doubling: { one: bouncing(0.45), two: bouncing(0.48), diagram: cascade(0.48, 0.44, 0.53), multiplier: bouncing(0.5) },
   feigenbaum: {
     cascade: cascade(0.53, 0.48, 0.545),
     ratios: cascade(0.5424, 0.542, 0.5427, [0.19, 0.235]),
@@ -126,11 +121,12 @@ export class CoursePanel {
     // What began it may be hidden by now.
     (focus?.checkVisibility() ? focus : byId("main")).focus();
     this.before = null;
+    this.opened.length = 0;
   }
 
   private end(): void {
     const { before } = this;
-    for (const group of this.opened.splice(0)) group.open = false;
+    for (const group of this.opened) group.open = false;
     this.stay();
     if (before !== null) this.open(before.state);
   }

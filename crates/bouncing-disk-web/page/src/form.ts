@@ -114,11 +114,7 @@ const FORCING: Parameter = {
 
 /** What a newcomer changes first stands open; the rest is folded. */
 const GROUPS: Readonly<Record<keyof typeof WORDS.form.groups, readonly Parameter[]>> = {
-  essentials: [
-    FORCING,
-    ofSystem("restitution", "ε", "", () => [0, 0.95]),
-    ofSystem("friction", "μ", "", () => [0, 1]),
-  ],
+  essentials: [FORCING, ofSystem("restitution", "ε", "", () => [0, 0.95]), ofSystem("friction", "μ", "", () => [0, 1])],
   platform: [
     ofSystem("amplitude", "A", "m", LOGARITHMIC, { hint: metres }),
     ofSystem("twist_amplitude", "Φ", "rad", LOGARITHMIC, {

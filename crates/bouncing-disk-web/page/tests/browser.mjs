@@ -103,19 +103,15 @@ export const stateOf = async (page) =>
   Object.fromEntries((await hashOf(page)).slice(1).split("&").map((part) => part.split("=")));
 
 /** The address follows the state a little later when much changes at once. */
-export const whenAddress = (page, name, value) =>
-  page.waitForFunction(
-    ([key, expected]) => new URLSearchParams(location.hash.slice(1)).get(key) === expected,
-    [name, value],
-    { timeout: 5000 },
-  );
+export const whenAddress = (page, name, value) => {
+  const has = ([key, wanted]) => new URLSearchParams(location.hash.slice(1)).get(key) === wanted;
+  return page.waitForFunction(has, [name, value], { timeout: 5000 });
+};
 
-export const whenText = (page, selector, pattern, timeout = 30_000) =>
-  page.waitForFunction(
-    ([wanted, source]) => new RegExp(source).test(document.querySelector(wanted)?.textContent ?? ""),
-    [selector, pattern.source],
-    { timeout },
-  );
+export const whenText = (page, selector, pattern, timeout = 30_000) => {
+  const has = ([wanted, source]) => new RegExp(source).test(document.querySelector(wanted)?.textContent ?? "");
+  return page.waitForFunction(has, [selector, pattern.source], { timeout });
+};
 
 export async function type(page, name, text) {
   const field = page.locator(`#field-${name}`);

@@ -165,6 +165,7 @@ onPage("tables have distinct impacts and bifurcations, and the diagram copies th
   assert.ok(Math.abs(doublings[0] - Math.hypot(1 / 3, 20 / 18 / Math.PI)) < 1e-9, `${doublings[0]}`);
   assert.deepEqual(doublings, doublings.toSorted((one, other) => one - other));
   assert.ok((await table("branches")).rows.length > 1000);
+  assert.match(await svgOf(page, "orbit diagram"), /dashed lines: unstable ones; .*doubling at 0\.4860/s);
   const copied = await copiedBy(page, () => page.click("text=Copy the bifurcations"));
   assert.deepEqual(copied.split("\n").map((row) => row.split("\t")), [found.columns, ...found.rows]);
 });

@@ -111,7 +111,7 @@ export class DiagramView extends ComputingView {
       ...plotOffers({
         name: TEXTS.file,
         title: TEXTS.title,
-        basis: basisOf(state),
+        basis: basisOf(state, lines),
         width: TWO_COLUMNS,
         height: TWO_COLUMNS * 0.5,
         axes: this.axes(),
@@ -236,10 +236,12 @@ export class DiagramView extends ComputingView {
 }
 
 /** What the diagram depends on: the vertical motion on less than the rotation. */
-function basisOf(state: State): Basis {
-  const { quantity, drive } = state.diagram;
+function basisOf(state: State, lines: Branches | null): Basis {
+  const { quantity, drive, axial_forcing } = state.diagram;
   const names = quantity === "angular_speed" ? PARTS.rotation : PARTS.vertical;
-  return { state, names, more: drive === "sine" ? [] : [say(WORDS.files.drive, { drive: TEXTS.drives[drive] })] };
+  const driven = drive === "sine" ? [] : [say(WORDS.files.drive, { drive: TEXTS.drives[drive] })];
+  const branches = lines === null ? [] : [TEXTS.key, describeBifurcations(lines, axial_forcing)];
+  return { state, names, more: [...driven, ...branches] };
 }
 
 /** What the columns depend on: the amplitude of the system does not count, for the forcing takes its place. */
