@@ -67,12 +67,11 @@ for (const { id, steps } of COURSES)
     assert.deepEqual([await hashOf(page), await open()], before);
   });
 
-onPage("a reading stays no longer than its step", {}, async (page) => {
-  await course(page, "feigenbaum");
+onPage("a reading stays no longer than its step", "#view=diagram&diagram_forcing=0.44,0.53", async (page) => {
   const { x, y, width } = await boxOf(page, "diagram");
-  await page.mouse.move(x + 0.94 * width, y + 100);
-  await whenText(page, "#view-diagram .facts", /chaotic|impact/);
-  await page.click(".tour .primary");
+  await page.mouse.move(x + 0.7 * width, y + 100);
+  await whenText(page, "#view-diagram .facts", /2 impacts in 2 periods/);
+  await course(page, "feigenbaum");
   await whenText(page, "#view-diagram .facts", /Period–/);
 });
 
