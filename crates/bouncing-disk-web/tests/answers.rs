@@ -162,8 +162,8 @@ fn what_is_no_request_is_told() {
 fn a_value_out_of_its_range_is_named() {
     let samples = |periods: u64, samples: u64| json!({ "periods": periods, "samples_per_period": samples });
     let under = json!({ "kind": "flight", "phase": 0.0, "gap": -0.3, "relative_velocity": 0.0, "angular_speed": 0.0 });
-    let light = json!({ "system": pizza(), "mass": 1.0, "stator": { "mass": -1.0 } });
-    let branches = |own: f64, window: [f64; 2]| json!({ "restitution": own, "axial_forcing": window });
+    let negative = json!({ "system": pizza(), "mass": 1.0, "stator": { "mass": -1.0 } });
+    let branches = |epsilon: f64, range: [f64; 2]| json!({ "restitution": epsilon, "axial_forcing": range });
     for (call, changes, quantity, value) in [
         ("check", system(json!({ "restitution": 1.5 })), "restitution", "1.5"),
         ("check", system(json!({ "amplitude": -1.0 })), "amplitude", "-1"),
@@ -190,7 +190,7 @@ fn a_value_out_of_its_range_is_named() {
         ("motor_transient", json!({ "points": 1 }), "intervals", "1"),
         ("motor_transient", json!({ "rise_times": -1.0 }), "duration", "-"),
         ("sheet_of_system", json!({ "system": pizza(), "mass": 0.0 }), "mass", "0"),
-        ("sheet_of_system", light, "stator.mass", "-1"),
+        ("sheet_of_system", negative, "stator.mass", "-1"),
     ] {
         let refusal = refused(call, changes);
         assert_eq!((&refusal["kind"], &refusal["quantity"]), (&json!("out-of-range"), &json!(quantity)));

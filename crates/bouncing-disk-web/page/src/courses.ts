@@ -23,6 +23,8 @@ function cascade(forcing: number, low: number, high: number, range: Range | null
 /** Starts that are nearly at rest. */
 const SLOW = { ...basins(0.45), basins: { phase_periods: [0, 1], normalised_speed: [0, 0.6] } } satisfies Change;
 
+const LAGS: Change["scan"] = { over: "phase_lag", family: null, range: [-PI / 2, PI / 2], points: 17 };
+
 /** The states of the steps, from the defaults; all have their words. */
 const STEPS: { readonly [Course in Id]: Readonly<Record<keyof Words[Course]["steps"], Change>> } = {
   tour: {
@@ -44,10 +46,7 @@ const STEPS: { readonly [Course in Id]: Readonly<Record<keyof Words[Course]["ste
   rest: { plane: basins(0.45), edge: SLOW, flight: bouncing(0.45, REST), push: bouncing(0.45, REST) },
   hand: {
     release: toss({}),
-    lag: {
-      ...{ ...toss(tossOf({ angle: 0.323 * PI })), view: "scan" },
-      scan: { over: "phase_lag", family: null, range: [-PI / 2, PI / 2], points: 17 },
-    },
+    lag: { ...toss(tossOf({ angle: 0.323 * PI })), view: "scan", scan: LAGS },
     scan: { ...toss({}), view: "scan", scan: { family: "phase_lag", range: [0, 1.4] } },
   },
   motor: { sheet: motor({}), runup: motor({}), curve: motor({}), friction: motor({ friction: 0.2 }) },
@@ -147,9 +146,8 @@ export class CoursePanel {
     if (answer) parts.push(element("details", {}, element("summary", {}, TEXTS.answer), paragraph(answer)));
     this.text.replaceChildren(...parts);
     // A part of the form that the task names stands open.
-    for (const group of document.querySelectorAll<HTMLDetailsElement>(".group:not([open])"))
-      if (task?.includes(`“${group.firstElementChild?.textContent}”`)) this.opened.push(group);
-    for (const group of this.opened) group.open = true;
+    for (const one of document.querySelectorAll<HTMLDetailsElement>(".group:not([open])"))
+      if (task?.includes(`“${one.firstElementChild?.textContent}”`)) this.opened.push(Object.assign(one, { open: true }));
     this.back.disabled = step === 0;
     setText(this.next, step === steps.length - 1 ? TEXTS.finish : TEXTS.next);
     this.open(shown.state);

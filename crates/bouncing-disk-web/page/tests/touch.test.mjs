@@ -47,8 +47,7 @@ onTelephone("a finger on a moving disk, or beside it, scrolls the page", "toss",
   const [x, y] = await placeOfDisk(page);
   await drag(page, touch, [x, y], [x, y - 150], 16);
   await page.waitForFunction(() => scrollY > 50);
-  await drag(page, touch, [x, 200], [x, 500], 16);
-  await page.waitForFunction(() => scrollY < 10);
+  await page.evaluate(() => scrollTo(0, 0));
   const box = await boxOf(page, "toss");
   await drag(page, touch, [box.x + 20, box.y + box.height - 20], [box.x + 20, box.y - 150], 16);
   await page.waitForFunction(() => scrollY > 50);

@@ -32,7 +32,7 @@ export class Raster {
     const paper = pen.colour("--picture-paper");
     if (paper !== this.paper) this.change({});
     this.paper = paper;
-    const { x: columns, y: rows } = this.changed;
+    const { x: columns, y: rows } = this.changed; // None have changed, at first.
     if (columns[0] < columns[1] && rows[0] < rows[1]) this.colour(pen.colour, this.changed);
     const [left, top] = [pixelX(plot, x[0]), pixelY(plot, y[1])];
     pen.image(this.canvas, left, top, pixelX(plot, x[1]) - left, pixelY(plot, y[0]) - top);

@@ -240,7 +240,7 @@ function basisOf(state: State, lines: Branches | null): Basis {
   const { quantity, drive, axial_forcing } = state.diagram;
   const names = quantity === "angular_speed" ? PARTS.rotation : PARTS.vertical;
   const driven = drive === "sine" ? [] : [say(WORDS.files.drive, { drive: TEXTS.drives[drive] })];
-  const branches = lines === null ? [] : [TEXTS.key, describeBifurcations(lines, axial_forcing)];
+  const branches = !lines?.json.branches ? [] : [TEXTS.key, describeBifurcations(lines, axial_forcing)];
   return { state, names, more: [...driven, ...branches] };
 }
 

@@ -47,10 +47,7 @@ export class TossView implements View {
   private readonly heights = new ScreenChart(chartHeight);
   private readonly spins = new ScreenChart(chartHeight);
   private readonly portrait = new Portrait((at) => this.choose(at));
-  private readonly player = new Player(
-    () => this.recording?.periods ?? 0,
-    () => this.draw(),
-  );
+  private readonly player = new Player(() => this.recording?.periods ?? 0, () => this.draw()); // prettier-ignore
   private readonly controls = new Controls(this.scene.surface, this.player, {
     period: () => this.period(),
     heard: (on) => this.sound.switch(on),

@@ -35,7 +35,7 @@ export class Verdict {
     const [low, high] = diagram.axial_forcing;
     if (!fresh && own === this.own && !(this.forcing < low || this.forcing > high)) return;
     Object.assign(this, { own, forcing: NaN });
-    this.ask.stop();
+    this.stop();
     this.facts.clear("–");
     setText(this.sentence, TEXTS.hint);
     this.caution.hidden = true;
@@ -145,7 +145,8 @@ export const behaviour = ({ kind, impacts }: VerdictJson): string =>
 /** "doubling at 0.4860, fold at 0.3333", for the text beside the picture; the first few. */
 export function describeBifurcations({ json }: Branches, window: Range): string {
   const kinds: Readonly<Record<string, string>> = TEXTS.bifurcation_kinds;
-  const words = json.bifurcations.map(({ kind, axial_forcing }) =>
+  const seen = json.bifurcations.filter(({ axial_forcing: at }) => at >= window[0] && at <= window[1]);
+  const words = seen.map(({ kind, axial_forcing }) =>
     say(TEXTS.bifurcation, { kind: kinds[kind] ?? kind, forcing: forcingText(axial_forcing, window) }),
   );
   const distinct = [...new Set(words)];
