@@ -121,12 +121,12 @@ test("hand: the speeds of the tosses", async () => {
       const { angular_speed = NaN } = (await thrown({ system, start }, change(at))) ?? {};
       if (angular_speed > most.angular_speed) most = { angular_speed, at };
     }
-    return { ...most, text: `${most.angular_speed.toFixed(2)} rad/s` };
+    return { ...most, points, text: `${most.angular_speed.toFixed(2)} rad/s` };
   };
   const printed = await fastest(lag.state, (phase_lag) => ({ phase_lag }));
-  assert.ok(Math.abs(printed.at) < 1e-15);
-  assert.equal(await spin(lag.state, { phase_lag: 0.04 * Math.PI }), await spin(lag.state, { phase_lag: 0 }));
-  lag.says(`for ${lag.state.scan.points} lags`, `Of these ${lag.state.scan.points} lags θ = 0 is`, `with ${printed.text}`);
+  const { angular_speed } = await thrown(lag.state, { phase_lag: 0.04 * Math.PI });
+  assert.ok(Math.abs(angular_speed - printed.angular_speed) < 1e-9, `${angular_speed}`);
+  lag.says(`for ${printed.points} lags`, `Of these ${printed.points} lags θ = ${Number(printed.at.toFixed(9))} is`, `with ${printed.text}`);
   const { amplitude, contact_radius, twist_amplitude } = angle.state.system;
   const stroke = Math.hypot(amplitude, contact_radius * twist_amplitude);
   const at = (phase_lag) => (own) =>
