@@ -4,7 +4,6 @@
 //! A new module is declared here and listed once in [`crate::registry::paper`] or
 //! [`crate::registry::extras`].
 
-pub mod extra_attractors;
 pub mod extra_branches;
 pub mod extra_cascade;
 pub mod extra_contact;

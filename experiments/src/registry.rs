@@ -2,10 +2,10 @@
 
 use crate::experiment::{RegisteredExperiment, entry};
 use crate::figures::{
-    extra_attractors, extra_branches, extra_cascade, extra_contact, extra_crisis, extra_design, extra_drives,
-    extra_efficiency, extra_fit, extra_lyapunov, extra_manifolds, extra_regimes, extra_restitution_law,
-    extra_torque_speed, extra_traps, extra_yielding, fig01, fig02, fig03, fig04, fig05, fig06, fig07, fig08,
-    fig09, fig10, fig11, fig12, fig13, fig14, table1, table2, table3,
+    extra_branches, extra_cascade, extra_contact, extra_crisis, extra_design, extra_drives, extra_efficiency,
+    extra_fit, extra_lyapunov, extra_manifolds, extra_regimes, extra_restitution_law, extra_torque_speed,
+    extra_traps, extra_yielding, fig01, fig02, fig03, fig04, fig05, fig06, fig07, fig08, fig09, fig10, fig11,
+    fig12, fig13, fig14, table1, table2, table3,
 };
 use crate::measured::Layout;
 
@@ -49,7 +49,6 @@ pub fn extras() -> Vec<RegisteredExperiment> {
         entry::<extra_cascade::ExtraCascade>(),
         entry::<extra_crisis::ExtraCrisis>(),
         entry::<extra_manifolds::ExtraManifolds>(),
-        entry::<extra_attractors::ExtraAttractors>(),
         entry::<extra_drives::ExtraDrives>(),
         entry::<extra_contact::ExtraContact>(),
         entry::<extra_yielding::ExtraYielding>(),

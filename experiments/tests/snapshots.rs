@@ -60,7 +60,6 @@ snapshots![
     extra_cascade,
     extra_crisis,
     extra_manifolds,
-    extra_attractors,
     extra_drives,
     extra_contact,
     extra_yielding,

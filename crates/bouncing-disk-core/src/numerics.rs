@@ -10,6 +10,7 @@ pub mod double_double;
 pub mod elementary;
 pub(crate) mod error;
 pub mod fraction;
+pub mod lifetime;
 pub mod linear_flow;
 pub mod power_law;
 pub mod quasi_polynomial;

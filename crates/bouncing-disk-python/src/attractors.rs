@@ -32,11 +32,17 @@ const SAMPLES: u32 = 64;
 fn shown_attractor<'py>(py: Python<'py>, all: &AttractorsModel, number: usize, own: &Attractor) -> Made<'py> {
     let mut leads_to = None;
     let (mut radius, mut exponent, mut error) = (f64::NAN, f64::NAN, f64::NAN);
+    let (mut mean_life, mut mean_life_interval) = (f64::NAN, (f64::NAN, f64::NAN));
     match &own.kind {
         AttractorKind::Rest(AfterRest::LeadsTo(other)) => leads_to = Some(*other),
         AttractorKind::Periodic(known) => radius = known.radius(),
         AttractorKind::Chaotic { exponent: growth, standard_error, .. } => {
             (exponent, error) = (*growth, *standard_error);
+        }
+        AttractorKind::Transient { exponent: growth, standard_error, lifetime, .. } => {
+            (exponent, error) = (*growth, *standard_error);
+            mean_life = lifetime.mean().unwrap_or(f64::NAN);
+            mean_life_interval = lifetime.interval();
         }
         _ => {}
     }
@@ -49,6 +55,9 @@ fn shown_attractor<'py>(py: Python<'py>, all: &AttractorsModel, number: usize, o
         radius,
         exponent,
         error,
+        own.kind.recurrence().map(|recurrence| recurrence.impacts),
+        mean_life,
+        mean_life_interval,
         own.starts.value(),
         own.starts.interval(),
         own.kind.lasts(),
@@ -67,9 +76,10 @@ fn shown_attractors(py: Python<'_>, found: AttractorsModel) -> Made<'_> {
 
 fn search(a: &Arguments<'_>) -> PyResult<AttractorSearch> {
     let (starts, cells, longest) = (a.u32("starts")?, a.u32("cells")?, a.usize("longest_period")?);
-    let (transient, impacts) = (a.u64("transient")?, a.u64("impacts")?);
+    let (transient, impacts, budget) = (a.u64("transient")?, a.u64("impacts")?, a.u64("budget")?);
     AttractorSearch::default()
-        .with_starts(starts)
+        .with_starts(0)
+        .and_then(|search| search.with_budget(budget)?.with_starts(starts))
         .and_then(|search| {
             search.with_impacts(transient, impacts)?.with_longest_period(longest)?.with_cells(cells)
         })

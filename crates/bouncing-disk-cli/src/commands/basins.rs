@@ -282,7 +282,8 @@ fn legend(known: &Known) -> Vec<(Label, String)> {
             AttractorKind::Chaotic { exponent, standard_error, .. } => {
                 format!("chaos, exponent {exponent:.4} +- {standard_error:.4}")
             }
-            _ => "of no certain kind".to_owned(),
+            AttractorKind::Transient { lifetime, .. } => format!("chaotic transient, {lifetime}"),
+            _ => "not decided".to_owned(),
         };
         legend.push((label, words));
     }

@@ -10,10 +10,11 @@ pub(crate) mod settings;
 mod starts;
 
 use crate::attractors::basin::{KnownOrbit, Label};
-use crate::attractors::verdict::{RestCycle, UndecidedReason};
+use crate::attractors::verdict::RestCycle;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::error::{Error, finite, not_negative, within};
 use crate::numerics::fraction::Fraction;
+use crate::numerics::lifetime::Lifetime;
 use crate::numerics::stored::read_checked;
 use crate::orbits::periodic::PeriodicOrbit;
 use crate::run::Observer;
@@ -36,12 +37,15 @@ pub enum AfterRest {
     /// It separates and never comes to rest again: the rest is not an attractor but lies in the basin of the
     /// one with this number in [`Attractors::all`], and so do all starts that come to rest.
     LeadsTo(usize),
+    /// It separates, and [`AttractorSearch::impacts`] impacts do not show what follows.
+    Undecided,
 }
 
 read_checked!(enum AfterRest as UncheckedAfterRest {
     StaysForEver,
     RestsAgain(cycle: RestCycle),
     LeadsTo(attractor: usize),
+    Undecided,
 });
 
 impl AfterRest {
@@ -50,7 +54,7 @@ impl AfterRest {
     pub const fn leads_to(&self) -> Option<usize> {
         match self {
             Self::LeadsTo(attractor) => Some(*attractor),
-            Self::StaysForEver | Self::RestsAgain(_) => None,
+            Self::StaysForEver | Self::RestsAgain(_) | Self::Undecided => None,
         }
     }
 
@@ -65,15 +69,17 @@ impl AfterRest {
     }
 }
 
-/// Where one orbit on an attractor that is not periodic has been.
+/// Where one orbit of a motion without a period has been, and how long others have stayed there.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedRecurrence"))]
 pub struct Recurrence {
     /// The cells that it visited in the second half of its impacts.
     pub cells: VisitedCells,
-    /// Impacts for which it was followed without coming to rest.
+    /// Impacts for which it and others, which began on it, were followed.
     pub impacts: u64,
+    /// How many of the others did not leave within these impacts.
+    pub orbits: u64,
     /// Its last impact.
     pub state: ImpactState,
 }
@@ -81,6 +87,7 @@ pub struct Recurrence {
 read_checked!(Recurrence as UncheckedRecurrence {
     cells: VisitedCells,
     impacts: u64,
+    orbits: u64,
     state: ImpactState,
 });
 
@@ -108,7 +115,10 @@ pub enum AttractorKind {
     /// are born: it attracts from one side, or rounding decides whether it does. Starts approach it ever more
     /// slowly and stay undecided in basins.
     Marginal(PeriodicOrbit),
-    /// Small perturbations grow for certain ([`Verdict::Chaotic`](crate::attractors::Verdict::Chaotic)).
+    /// A motion whose small perturbations grow for certain
+    /// ([`Verdict::Chaotic`](crate::attractors::Verdict::Chaotic)), and which none of
+    /// [`Recurrence::orbits`] orbits has left within [`Recurrence::impacts`] impacts. Nothing is claimed
+    /// beyond that number.
     Chaotic {
         /// The largest Lyapunov exponent per impact.
         exponent: f64,
@@ -117,11 +127,17 @@ pub enum AttractorKind {
         /// Where it has been.
         recurrence: Recurrence,
     },
-    /// A set on which orbits stay, with nothing else certain: a period longer than the longest one, or
-    /// a motion without period whose perturbations neither grow nor shrink.
-    Unclassified {
-        /// Why it is neither periodic nor chaotic.
-        reason: UndecidedReason,
+    /// A motion whose small perturbations grow, and which orbits leave, or may leave because they were not
+    /// followed for long enough for dissipation to act
+    /// ([`ImpactMap::transient_impacts`](crate::ImpactMap::transient_impacts)). Its starts are those that are
+    /// still on it after [`Recurrence::impacts`] impacts.
+    Transient {
+        /// The largest Lyapunov exponent per impact.
+        exponent: f64,
+        /// Its standard error, by batch means.
+        standard_error: f64,
+        /// Its mean life, or a bound of it.
+        lifetime: Lifetime,
         /// Where it has been.
         recurrence: Recurrence,
     },
@@ -132,11 +148,11 @@ read_checked!(enum AttractorKind as UncheckedKind {
     Periodic(known: KnownOrbit),
     Marginal(orbit: PeriodicOrbit),
     Chaotic { exponent: f64, standard_error: f64, recurrence: Recurrence },
-    Unclassified { reason: UndecidedReason, recurrence: Recurrence },
+    Transient { exponent: f64, standard_error: f64, lifetime: Lifetime, recurrence: Recurrence },
 });
 
 impl AttractorKind {
-    /// Its name: `rest`, `periodic`, `marginal`, `chaotic` or `unclassified`.
+    /// Its name: `rest`, `periodic`, `marginal`, `chaotic` or `transient`.
     #[must_use]
     pub const fn name(&self) -> &'static str {
         match self {
@@ -144,7 +160,7 @@ impl AttractorKind {
             Self::Periodic(_) => "periodic",
             Self::Marginal(_) => "marginal",
             Self::Chaotic { .. } => "chaotic",
-            Self::Unclassified { .. } => "unclassified",
+            Self::Transient { .. } => "transient",
         }
     }
 
@@ -160,18 +176,20 @@ impl AttractorKind {
 
     /// Checks a value that was deserialised.
     fn check(&self) -> Result<(), Error> {
-        if let Self::Chaotic { exponent, standard_error, .. } = self {
+        if let Self::Chaotic { exponent, standard_error, .. }
+        | Self::Transient { exponent, standard_error, .. } = self
+        {
             finite("exponent", *exponent)?;
             not_negative("standard error of an exponent", *standard_error)?;
         }
         Ok(())
     }
 
-    /// Where an attractor that is known by its cells has been.
+    /// Where a motion without a period has been.
     #[must_use]
     pub const fn recurrence(&self) -> Option<&Recurrence> {
         match self {
-            Self::Chaotic { recurrence, .. } | Self::Unclassified { recurrence, .. } => Some(recurrence),
+            Self::Chaotic { recurrence, .. } | Self::Transient { recurrence, .. } => Some(recurrence),
             Self::Rest(_) | Self::Periodic(_) | Self::Marginal(_) => None,
         }
     }
@@ -186,10 +204,16 @@ impl AttractorKind {
         }
     }
 
-    /// Whether the motion lasts: it does not if the disk rests and never does so again.
+    /// Whether the motion lasts: for ever at rest, and on an attracting orbit; for as many impacts as
+    /// [`Recurrence::impacts`] tells if it is chaotic. Not, or not for certain, if the disk rests and may
+    /// never do so again, on a marginal orbit, and in a transient.
     #[must_use]
     pub const fn lasts(&self) -> bool {
-        !matches!(self, Self::Rest(AfterRest::LeadsTo(_)))
+        match self {
+            Self::Rest(after) => matches!(after, AfterRest::StaysForEver | AfterRest::RestsAgain(_)),
+            Self::Periodic(_) | Self::Chaotic { .. } => true,
+            Self::Marginal(_) | Self::Transient { .. } => false,
+        }
     }
 }
 
@@ -213,6 +237,9 @@ impl core::fmt::Display for AttractorKind {
             Self::Rest(AfterRest::LeadsTo(other)) => {
                 write!(formatter, "comes to rest, then attractor {other}")
             }
+            Self::Rest(AfterRest::Undecided) => {
+                formatter.write_str("comes to rest, then a motion that is not decided")
+            }
             Self::Periodic(known) => {
                 let (impacts, periods) = (known.orbit().period(), known.orbit().platform_periods);
                 write!(formatter, "periodic orbit: impacts {impacts}, platform periods {periods}")
@@ -221,10 +248,14 @@ impl core::fmt::Display for AttractorKind {
                 let (impacts, periods) = (orbit.period(), orbit.platform_periods);
                 write!(formatter, "marginal periodic orbit: impacts {impacts}, platform periods {periods}")
             }
-            Self::Chaotic { exponent, .. } => {
-                write!(formatter, "chaotic: exponent {exponent:.digits$} per impact")
+            Self::Chaotic { exponent, recurrence, .. } => {
+                let Recurrence { impacts, orbits, .. } = recurrence;
+                write!(formatter, "chaotic: exponent {exponent:.digits$} per impact, ")?;
+                write!(formatter, "not left by {orbits} orbits within {impacts} impacts")
             }
-            Self::Unclassified { reason, .. } => write!(formatter, "not classified: {reason:.digits$}"),
+            Self::Transient { exponent, lifetime, .. } => {
+                write!(formatter, "chaotic transient: exponent {exponent:.digits$} per impact, {lifetime}")
+            }
         }
     }
 }
@@ -276,7 +307,7 @@ impl Attractors {
             AttractorKind::Rest(_) => 0,
             AttractorKind::Periodic(_) => 1,
             AttractorKind::Marginal(_) => 2,
-            AttractorKind::Chaotic { .. } | AttractorKind::Unclassified { .. } => 3_usize,
+            AttractorKind::Chaotic { .. } | AttractorKind::Transient { .. } => 3_usize,
         };
         let rests = self.all.iter().filter(|attractor| rank(attractor) == 0).count();
         if rests != 1 {
@@ -324,7 +355,9 @@ impl Attractors {
         self.all.iter().enumerate().filter(|(_, attractor)| attractor.kind.lasts())
     }
 
-    /// The starts that ended on none of them: their period was seen but not found again.
+    /// The starts that ended on none of them: their perturbations neither grow nor shrink for certain, as
+    /// where motion creeps past the place of a fold, or they shrink but no period was found; or the
+    /// [budget](AttractorSearch::budget) was used up.
     #[must_use]
     pub fn undecided(&self) -> Fraction {
         let starts = u64::from(self.search.starts());
@@ -366,15 +399,17 @@ impl ImpactMap {
     /// Starts are spread evenly over the trapping region ([`Self::impact_speed_bound_at`]), which no
     /// attractor can leave, so that no window can miss one. Each is followed until it rests, or is seen to
     /// come ever nearer to a periodic orbit, which is then refined; of those that do neither, one is followed
-    /// for long, and others that return to the cells it has visited are on the same attractor. Periodic
+    /// for [`AttractorSearch::impacts`] impacts, and so are 256 orbits that begin where it has been. If none
+    /// of these leaves, others that return to the cells it has visited are on the same attractor. If one
+    /// does, it is a [transient](AttractorKind::Transient), and all starts are followed for as long. Periodic
     /// orbits are the same as in [`Self::periodic_orbits`], wherever they begin.
     ///
     /// Attracting orbits with one impact, by their closed form, and those that [`AttractorSearch::orbits`]
     /// finds are included in any case, however small their basins.
     ///
     /// Two things are not proven. An attractor whose basin no start has hit is missed; its share is then
-    /// below the upper end of the [interval](Fraction::interval) of zero starts. And an orbit that has not
-    /// come to rest within [`AttractorSearch::impacts`] may still do so.
+    /// below the upper end of the [interval](Fraction::interval) of zero starts. And a chaotic motion may end
+    /// after more impacts than it states.
     ///
     /// The items of `observer` are the starts, each counted when it has been examined and when its
     /// attractor is known.

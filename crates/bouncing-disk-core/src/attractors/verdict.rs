@@ -3,7 +3,7 @@
 
 mod display;
 mod proof;
-mod returns;
+pub(crate) mod returns;
 pub(crate) mod witness;
 
 use crate::chatter::policy::ChatterPolicy;
@@ -460,7 +460,7 @@ impl VerdictSettings {
     }
 
     /// Impacts after which an orbit is left.
-    pub(super) const fn allowed(&self) -> u64 {
+    pub(crate) const fn allowed(&self) -> u64 {
         self.transient.saturating_add(self.impacts)
     }
 }

@@ -43,15 +43,20 @@ class Attractor(Result):
     """An attractor of an impact map.
 
     Attributes:
-        kind: ``"rest"``, ``"periodic"``, ``"marginal"``, ``"chaotic"`` or ``"unclassified"``.
+        kind: ``"rest"``, ``"periodic"``, ``"marginal"``, ``"chaotic"`` or ``"transient"``.
         label: its label in :attr:`Basins.labels`.
         orbit: the orbit of a periodic or marginal one.
         radius: the radius (rad) within which a start counts as caught by that orbit, else NaN.
-        exponent, standard_error: the largest Lyapunov exponent per impact of a chaotic one and its standard
-            error, else NaN.
+        exponent, standard_error: the largest Lyapunov exponent per impact of a chaotic motion or transient
+            and its standard error, else NaN.
+        survived: impacts for which orbits on a chaotic motion were followed without one leaving it, or, of a
+            transient, after which `share` counts the starts that are still on it; None for other kinds.
+        mean_life, mean_life_interval: the mean life of a transient in impacts and its 95 % interval, else
+            NaN. If no orbit was seen to leave, the mean is NaN and the interval ends at infinity.
         share: the share of the starts that ended on it.
         interval: its 95 % interval.
-        lasts: whether the motion lasts: false if the disk rests once and never again.
+        lasts: whether the motion lasts, a chaotic one for the impacts in `survived`; false for a rest that may
+            never come again, a marginal orbit, and a transient.
         leads_to: the number of the attractor to which a rest leads.
         meaning: what it is, in words.
         is_exact: false for a disk that comes to rest again and again in a cycle chosen by rounding.
@@ -63,6 +68,9 @@ class Attractor(Result):
     radius: float
     exponent: float
     standard_error: float
+    survived: int | None
+    mean_life: float
+    mean_life_interval: tuple[float, float]
     share: float
     interval: tuple[float, float]
     lasts: bool
@@ -152,6 +160,7 @@ def attractors(
     impacts: Int = 100_000,
     longest_period: Int = 256,
     cells: Int = 256,
+    budget: Int = 2**28,
     progress: Progress = None,
 ) -> Attractors:
     """The attractors of a map, found without known orbits.
@@ -159,9 +168,11 @@ def attractors(
     Args:
         starts: starts, spread evenly over all impacts that an attractor can have, in [0, 2^18].
         transient: impacts that are skipped, at least 1.
-        impacts: impacts over which one orbit of each aperiodic attractor is followed, at least 64.
+        impacts: impacts over which orbits of each aperiodic motion are followed, at least 64.
         longest_period: the longest period, in impacts, in [1, 4096].
-        cells: cells along each axis of the grid that distinguishes aperiodic attractors, in [8, 4096].
+        cells: cells along each axis of the grid that distinguishes aperiodic motions, in [8, 4096].
+        budget: impacts of the whole search at most, about, in [256 a start, 2^50]; starts that are still under
+            way when it is used up are undecided.
 
     >>> import bouncing_disk as bd
     >>> found = bd.attractors(bd.ImpactMap(axial_forcing=0.486, restitution=0.5))
@@ -374,6 +385,7 @@ def basin_fractions_over(
     impacts: Int = 100_000,
     longest_period: Int = 256,
     cells: Int = 256,
+    budget: Int = 2**28,
     progress: Progress = None,
 ) -> BasinFractions:
     """The attractors at each of some forcings, matched from one to the next, and the shares of their basins.
@@ -387,7 +399,7 @@ def basin_fractions_over(
         axial_forcing: axial forcing parameter Gamma, in the order in which attractors are to be followed; at
             most 65536, shape (n,).
         reach: how far an attractor may be from where it was at the forcing before (rad), in [0, 100].
-        starts, transient, impacts, longest_period, cells: as of :func:`attractors`.
+        starts, transient, impacts, longest_period, cells, budget: as of :func:`attractors`.
 
     The period-1 orbit appears at Gamma = 1/3, beside the disk at rest:
 

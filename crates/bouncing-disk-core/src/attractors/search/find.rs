@@ -1,16 +1,19 @@
 //! The search for attractors.
 
 use super::cells::VisitedCells;
-use super::follow::{Seen, come_back, first_look, long_look, overlap};
+use super::follow::{
+    FOLLOWED, LongLook, SHARE_IN_CELLS, Seen, first_look, follow, long_look, overlap, share_in,
+};
 use super::settings::AttractorSearch;
 use super::starts::starts;
 use super::{AfterRest, Attractor, AttractorKind, Attractors, MOST_ATTRACTORS, Recurrence};
 use crate::attractors::basin::KnownOrbit;
-use crate::attractors::verdict::{UndecidedReason, Verdict};
+use crate::attractors::verdict::{UndecidedReason, Verdict, VerdictSettings};
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::error::Error;
 use crate::numerics::fraction::Fraction;
+use crate::numerics::lifetime::Lifetime;
 use crate::orbits::periodic::newton::same_orbit;
 use crate::orbits::periodic::{PeriodicOrbit, Stability, phase_difference};
 use crate::run::{Observer, Progress};
@@ -23,6 +26,10 @@ const MOST_PERIOD_ONE: u64 = 10_000;
 
 /// Starts on each circle by which the radius of an attractor is found.
 const SAMPLES: u32 = 64;
+
+/// An orbit that was on an attractor known by its cells has left it if fewer than this share of its impacts lie
+/// there: half of what it takes to be on it.
+const HAS_LEFT: f64 = 0.5 * SHARE_IN_CELLS;
 
 /// How many cells away an orbit that creeps towards a marginal one may have been from it.
 const CELLS_AWAY: f64 = 1.5;
@@ -62,11 +69,22 @@ struct Periodic {
     starts: u64,
 }
 
-/// An attractor that is known by its cells.
+/// A motion without a period, which is known by its cells.
 struct Recurrent {
-    verdict: Verdict,
+    /// The exponent per impact and its standard error.
+    growth: (f64, f64),
+    /// Whether it was followed for long enough for dissipation to act.
+    settled: bool,
     recurrence: Recurrence,
+    lifetime: Lifetime,
     starts: u64,
+}
+
+/// A start without a verdict: where it was when all were followed, and where it is.
+#[derive(Clone, Copy)]
+struct Open {
+    from: ImpactState,
+    at: ImpactState,
 }
 
 /// Where a disk ends that has come to rest.
@@ -85,6 +103,10 @@ struct Finder<'a> {
     recurrent: Vec<Recurrent>,
     /// Starts that were followed, and those whose attractor is known.
     done: u64,
+    /// Impacts that the search may still make.
+    budget: u64,
+    /// Impacts for which all starts without a verdict were followed, once they have been.
+    followed: Option<u64>,
 }
 
 pub(super) fn find(
@@ -92,29 +114,29 @@ pub(super) fn find(
     search: &AttractorSearch,
     observer: &dyn Observer,
 ) -> Result<Attractors, Error> {
-    let mut finder =
-        Finder { map, search, observer, rests: 0, periodic: Vec::new(), recurrent: Vec::new(), done: 0 };
+    let mut finder = Finder {
+        map,
+        search,
+        observer,
+        rests: 0,
+        periodic: Vec::new(),
+        recurrent: Vec::new(),
+        done: 0,
+        budget: search.budget(),
+        followed: None,
+    };
     let starts = starts(map, search.starts());
     let part = Part { counts: true, ..finder.part() };
     let seen = part.whole(first_look(map, &starts, search.first_look(), &part))?;
     finder.done = starts.len() as u64;
+    finder.spend(finder.done * search.first_look().allowed());
     let mut open = Vec::new();
     for (start, seen) in starts.iter().zip(seen) {
-        match seen {
-            Seen::Rest => finder.rests += 1,
-            Seen::Verdict(Verdict::Periodic { impacts, platform_periods, state, .. }) => {
-                finder.repeats(state, impacts, platform_periods, 1);
-            }
-            Seen::Verdict(Verdict::Undecided {
-                reason: UndecidedReason::OnPeriodicOrbit { impacts, state, .. },
-                ..
-            }) if finder.stays_at(state, impacts) => {}
-            Seen::Verdict(_) => {
-                open.push(*start);
-                continue;
-            }
+        if finder.close(&seen, 1) {
+            finder.done += 1;
+        } else {
+            open.push(Open { from: *start, at: *start });
         }
-        finder.done += 1;
     }
     finder.add_candidates()?;
     finder.settle(open)?;
@@ -133,6 +155,27 @@ impl<'a> Finder<'a> {
         Part { observer: self.observer, done: self.done, total, counts: false }
     }
 
+    /// Takes impacts from the budget.
+    const fn spend(&mut self, impacts: u64) {
+        self.budget = self.budget.saturating_sub(impacts);
+    }
+
+    /// Counts so many starts with this fate, if it is one that lasts.
+    fn close(&mut self, seen: &Seen, starts: u64) -> bool {
+        match *seen {
+            Seen::Rest => self.rests += starts,
+            Seen::Verdict(Verdict::Periodic { impacts, platform_periods, state, .. }) => {
+                self.repeats(state, impacts, platform_periods, starts);
+            }
+            Seen::Verdict(Verdict::Undecided {
+                reason: UndecidedReason::OnPeriodicOrbit { impacts, state, .. },
+                ..
+            }) => return self.stays_at(state, impacts, starts),
+            Seen::Verdict(_) => return false,
+        }
+        true
+    }
+
     /// Counts starts that approach an attracting orbit through this impact; if no orbit goes through it, the
     /// starts stay undecided.
     fn repeats(&mut self, state: ImpactState, impacts: u64, platform_periods: u64, starts: u64) {
@@ -149,11 +192,11 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// Counts a start that stays at an orbit through this impact, unless that repels.
-    fn stays_at(&mut self, state: ImpactState, impacts: u64) -> bool {
+    /// Counts starts that stay at an orbit through this impact, unless that repels.
+    fn stays_at(&mut self, state: ImpactState, impacts: u64, starts: u64) -> bool {
         let orbit = self.orbit_through(state, impacts).ok();
         let orbit = orbit.filter(|orbit| orbit.stability() != Stability::Unstable);
-        orbit.map(|orbit| self.add(orbit, 1)).is_some()
+        orbit.map(|orbit| self.add(orbit, starts)).is_some()
     }
 
     /// The orbit of so many impacts through this one, its fastest impact first.
@@ -179,8 +222,7 @@ impl<'a> Finder<'a> {
     }
 
     /// The marginal orbit towards which an orbit that visited these cells has crept.
-    fn marginal(&mut self, recurrence: &Recurrence) -> Option<&mut Periodic> {
-        let cells = &recurrence.cells;
+    fn marginal(&mut self, cells: &VisitedCells) -> Option<&mut Periodic> {
         let width = CELLS_AWAY / f64::from(cells.side());
         let beside = |orbit: &PeriodicOrbit, (phase, velocity): (f64, f64)| {
             orbit.states.iter().any(|state| {
@@ -194,76 +236,162 @@ impl<'a> Finder<'a> {
         })
     }
 
-    /// Finds the attractors of the starts that have neither rested nor repeated themselves.
-    fn settle(&mut self, mut open: Vec<ImpactState>) -> Result<(), Error> {
-        let looks = (self.search.long_look(), self.search.cells());
+    /// Finds the attractors of the starts that have neither rested nor repeated themselves: one after the
+    /// other is followed for long, and the others are compared with where it has been. As soon as one leaves
+    /// the others are followed, too: those that are still under way have not left for so many impacts, also
+    /// when they are followed again from where they were.
+    fn settle(&mut self, mut open: Vec<Open>) -> Result<(), Error> {
         while let Some(start) = open.first().copied() {
+            let Some(look) = self.search.look_within(self.followed.unwrap_or(self.budget / 4)) else { break };
             open.remove(0);
             self.done += 1;
             let part = self.part();
-            let (seen, recurrence) = part.whole(long_look(self.map, start, false, looks, &part))?;
-            let verdict = match seen {
-                Seen::Rest => {
-                    self.rests += 1;
-                    continue;
-                }
-                Seen::Verdict(Verdict::Periodic { impacts, platform_periods, state, .. }) => {
-                    self.repeats(state, impacts, platform_periods, 1);
-                    continue;
-                }
-                // Next to a doubling only the motion itself shows whether it repeats after twice as many
-                // impacts.
+            let looks = (look, self.search.cells());
+            let long = part.whole(long_look(self.map, start.from, false, looks, &part))?;
+            self.spend(long.impacts);
+            // Next to a doubling only the motion itself shows whether it repeats after twice as many impacts.
+            let twice = match long.seen {
                 Seen::Verdict(Verdict::Undecided {
                     reason: UndecidedReason::OnPeriodicOrbit { impacts, .. },
                     ..
-                }) if self.stays_at(recurrence.state, 2 * impacts) => continue,
-                Seen::Verdict(verdict) => verdict,
+                }) => self.stays_at(long.last, 2 * impacts, 1),
+                _ => false,
             };
-            if self.marginal(&recurrence).is_some() {
-                let (left, back) = self.compare(&recurrence.cells, &open)?;
+            if twice || self.close(&long.seen, 1) {
+                if self.followed.is_none() {
+                    open = self.follow_all(&open)?;
+                }
+            } else if self.marginal(&long.cells).is_some() {
+                let (left, back) = self.compare(&long.cells, &open)?;
                 open = left;
-                if let Some(known) = self.marginal(&recurrence) {
+                if let Some(known) = self.marginal(&long.cells) {
                     known.starts += 1 + back;
                 }
-                continue;
-            }
-            let (number, new) = self.recurs(verdict, recurrence);
-            self.recurrent[number].starts += 1;
-            if new {
-                let cells = self.recurrent[number].recurrence.cells.clone();
-                let (left, back) = self.compare(&cells, &open)?;
-                open = left;
-                self.recurrent[number].starts += back;
+            } else if let Some((number, new)) = self.recurs(&long, look)? {
+                self.recurrent[number].starts += 1;
+                if self.followed.is_none() && self.recurrent[number].lifetime.left() > 0 {
+                    open = self.follow_all(&open)?;
+                }
+                if new {
+                    let (left, back) = self.compare(&long.cells, &open)?;
+                    open = left;
+                    self.recurrent[number].starts += back;
+                }
+            } else {
+                // It neither repeats itself nor separates from its neighbours, and those that come where it
+                // has been are undecided, too.
+                open = self.compare(&long.cells, &open)?.0;
             }
         }
         Ok(())
     }
 
-    /// The number of the attractor known by these cells, and whether it is new.
-    fn recurs(&mut self, verdict: Verdict, recurrence: Recurrence) -> (usize, bool) {
-        let same = |known: &Recurrent| overlap(&known.recurrence.cells, &recurrence.cells);
-        if let Some(number) = self.recurrent.iter().position(same) {
-            return (number, false);
+    /// Follows all starts without a verdict; those that are still under way.
+    fn follow_all(&mut self, open: &[Open]) -> Result<Vec<Open>, Error> {
+        let each = self.budget / (open.len() as u64).max(1);
+        let impacts = each.min(self.search.long_look().allowed());
+        self.followed = Some(impacts);
+        let starts: Vec<_> = open.iter().map(|start| start.from).collect();
+        let mut left = Vec::new();
+        for (start, (seen, reached)) in starts.iter().zip(self.follow(&starts, impacts)?) {
+            if seen.is_some_and(|seen| self.close(&seen, 1)) {
+                self.done += 1;
+            } else {
+                left.push(Open { from: *start, at: reached.0 });
+            }
         }
-        self.recurrent.push(Recurrent { verdict, recurrence, starts: 0 });
-        (self.recurrent.len() - 1, true)
+        Ok(left)
+    }
+
+    /// Follows starts for so many impacts: the fate of those that rest or repeat themselves, where each is,
+    /// and after how many impacts.
+    #[expect(clippy::type_complexity, reason = "one row for each start")]
+    fn follow(
+        &mut self,
+        starts: &[ImpactState],
+        impacts: u64,
+    ) -> Result<Vec<(Option<Seen>, (ImpactState, u64))>, Error> {
+        let (map, part, settings) = (self.map, self.part(), self.search.long_look());
+        let mut all = part.whole(follow(map, starts, &|_| impacts, settings, &part))?;
+        let returned: Vec<_> = (0..all.len()).filter(|index| all[*index].repeats).collect();
+        let states: Vec<_> = returned.iter().map(|index| all[*index].state).collect();
+        let verdicts = part.whole(first_look(map, &states, self.search.first_look(), &part))?;
+        let mut seen: Vec<_> = all.iter().map(|own| own.rests.then_some(Seen::Rest)).collect();
+        let mut on = Vec::new();
+        for (index, verdict) in returned.into_iter().zip(verdicts) {
+            if self.close(&verdict, 0) {
+                seen[index] = Some(verdict);
+            } else {
+                on.push(index);
+            }
+        }
+        // A near return that proves nothing: further on, whether or not it repeats itself.
+        let states: Vec<_> = on.iter().map(|index| all[*index].state).collect();
+        let rest = |index: usize| impacts - all[on[index]].impacts;
+        let none = VerdictSettings { tolerance: 0.0, ..settings };
+        let further = part.whole(follow(map, &states, &rest, none, &part))?;
+        for (index, own) in on.into_iter().zip(further) {
+            let impacts = all[index].impacts + own.impacts;
+            all[index] = super::follow::Followed { impacts, ..own };
+            seen[index] = own.rests.then_some(Seen::Rest);
+        }
+        self.spend(all.iter().map(|own| own.impacts).sum());
+        Ok(seen.into_iter().zip(all).map(|(seen, own)| (seen, (own.state, own.impacts))).collect())
+    }
+
+    /// The number of the motion without a period on which this orbit is, and whether it is new; `None` if
+    /// its perturbations do not grow for certain.
+    fn recurs(&mut self, long: &LongLook, look: VerdictSettings) -> Result<Option<(usize, bool)>, Error> {
+        let same = |known: &Recurrent| overlap(&known.recurrence.cells, &long.cells);
+        if let Some(number) = self.recurrent.iter().position(same) {
+            return Ok(Some((number, false)));
+        }
+        let (growth, settled) = match long.seen {
+            Seen::Verdict(Verdict::Chaotic { exponent, standard_error, .. }) => {
+                ((exponent, standard_error), true)
+            }
+            Seen::Verdict(Verdict::Undecided {
+                reason: UndecidedReason::TransientMayLast { exponent, standard_error, .. },
+                ..
+            }) => ((exponent, standard_error), false),
+            _ => return Ok(None),
+        };
+        let each = self.budget / (2 * FOLLOWED as u64);
+        let Some(look) = self.search.look_within(each.min(look.allowed())) else { return Ok(None) };
+        let impacts = look.allowed();
+        let (lifetime, orbits) = self.lifetime(long, impacts)?;
+        let recurrence = Recurrence { cells: long.cells.clone(), impacts, orbits, state: long.last };
+        self.recurrent.push(Recurrent { growth, settled, recurrence, lifetime, starts: 0 });
+        Ok(Some((self.recurrent.len() - 1, true)))
+    }
+
+    /// How long orbits stay where this one has been, from orbits that begin on it and are followed for so
+    /// many impacts, and the number of those that have not left.
+    fn lifetime(&mut self, long: &LongLook, impacts: u64) -> Result<(Lifetime, u64), Error> {
+        let followed = self.follow(&long.beside, impacts)?;
+        let total: u64 = followed.iter().map(|(_, (_, impacts))| impacts).sum();
+        let on: Vec<_> =
+            followed.iter().filter(|(seen, _)| seen.is_none()).map(|(_, (state, _))| *state).collect();
+        let part = self.part();
+        let shares = part.whole(share_in(self.map, &on, &long.cells, 0, &part))?;
+        let stay = shares.iter().filter(|share| share.is_some_and(|share| share >= HAS_LEFT)).count();
+        let left = (followed.len() - stay) as u64;
+        Ok((Lifetime::new(total as f64, left)?, stay as u64))
     }
 
     /// The starts whose attractor is not known but for those that rest or come back to these cells, and how
     /// many do.
-    fn compare(
-        &mut self,
-        cells: &VisitedCells,
-        open: &[ImpactState],
-    ) -> Result<(Vec<ImpactState>, u64), Error> {
+    fn compare(&mut self, cells: &VisitedCells, open: &[Open]) -> Result<(Vec<Open>, u64), Error> {
         let part = self.part();
-        let back = part.whole(come_back(self.map, open, cells, self.search.transient(), &part))?;
+        let at: Vec<_> = open.iter().map(|start| start.at).collect();
+        let transient = if self.followed.is_some() { 0 } else { self.search.transient() };
+        let shares = part.whole(share_in(self.map, &at, cells, transient, &part))?;
         let (mut left, mut on_it) = (Vec::new(), 0);
-        for (start, back) in open.iter().zip(back) {
-            match back {
+        for (start, share) in open.iter().zip(shares) {
+            match share {
                 None => self.rests += 1,
-                Some(true) => on_it += 1,
-                Some(false) => {
+                Some(share) if share >= SHARE_IN_CELLS => on_it += 1,
+                Some(_) => {
                     left.push(*start);
                     continue;
                 }
@@ -289,6 +417,8 @@ impl<'a> Finder<'a> {
                 break;
             }
             self.add_candidate(orbit);
+            // Thousands of them, for little dissipation: there is no need to tell them apart.
+            self.check_count()?;
         }
         if let Some(orbits) = self.search.orbits() {
             let part = self.part();
@@ -308,10 +438,12 @@ impl<'a> Finder<'a> {
     /// The further motion of a disk at rest, that is of a disk put on the platform at its lowest point.
     fn after_rest(&mut self) -> Result<RestLeadsTo, Error> {
         let lowest = ImpactState::of_impact(Phase::new(1.5 * PI)?, 0.0);
-        let looks = (self.search.long_look(), self.search.cells());
+        // What has been spent does not count: a rest is there in any case.
+        let most = self.search.budget() / 4;
+        let look = self.search.look_within(most).unwrap_or_else(|| self.search.first_look());
         let part = self.part();
-        let (seen, recurrence) = part.whole(long_look(self.map, lowest, true, looks, &part))?;
-        Ok(match seen {
+        let long = part.whole(long_look(self.map, lowest, true, (look, self.search.cells()), &part))?;
+        Ok(match long.seen {
             Seen::Verdict(Verdict::Chattering { cycle, .. }) => {
                 RestLeadsTo::Nothing(AfterRest::RestsAgain(cycle))
             }
@@ -323,16 +455,25 @@ impl<'a> Finder<'a> {
             Seen::Rest | Seen::Verdict(Verdict::AtRest { .. }) => {
                 RestLeadsTo::Nothing(AfterRest::StaysForEver)
             }
-            Seen::Verdict(verdict) => RestLeadsTo::Recurrent(self.recurs(verdict, recurrence).0),
+            Seen::Verdict(_) => match self.recurs(&long, look)? {
+                Some((number, _)) => RestLeadsTo::Recurrent(number),
+                None => RestLeadsTo::Nothing(AfterRest::Undecided),
+            },
         })
     }
 
-    fn into_attractors(mut self, after: RestLeadsTo) -> Result<Attractors, Error> {
+    /// Refuses more attractors than there are labels.
+    fn check_count(&self) -> Result<(), Error> {
         let count = self.periodic.len() + self.recurrent.len();
         if count > MOST_ATTRACTORS {
             let (count, limit) = (count as u64, MOST_ATTRACTORS as u64);
             return Err(Error::TooLarge { what: "attractors", count, limit });
         }
+        Ok(())
+    }
+
+    fn into_attractors(mut self, after: RestLeadsTo) -> Result<Attractors, Error> {
+        self.check_count()?;
         self.periodic.sort_by(|a, b| {
             let (first, second) = (a.orbit.states[0], b.orbit.states[0]);
             let order = |orbit: &PeriodicOrbit| {
@@ -366,14 +507,12 @@ impl<'a> Finder<'a> {
             };
             all.push(attractor(kind, starts)?);
         }
-        for Recurrent { verdict, recurrence, starts } in self.recurrent {
-            let kind = match verdict {
-                Verdict::Chaotic { exponent, standard_error, .. } => {
-                    AttractorKind::Chaotic { exponent, standard_error, recurrence }
-                }
-                Verdict::Undecided { reason, .. } => AttractorKind::Unclassified { reason, recurrence },
-                // None of the others is known by its cells.
-                _ => continue,
+        for Recurrent { growth, settled, recurrence, lifetime, starts } in self.recurrent {
+            let (exponent, standard_error) = growth;
+            let kind = if settled && lifetime.left() == 0 {
+                AttractorKind::Chaotic { exponent, standard_error, recurrence }
+            } else {
+                AttractorKind::Transient { exponent, standard_error, lifetime, recurrence }
             };
             all.push(attractor(kind, starts)?);
         }

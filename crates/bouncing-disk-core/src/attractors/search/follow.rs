@@ -4,6 +4,7 @@ use core::ops::ControlFlow;
 
 use super::cells::{CellMarks, VisitedCells};
 use super::{Attractors, Recurrence};
+use crate::attractors::verdict::returns::Returns;
 use crate::attractors::verdict::witness::Witness;
 use crate::attractors::verdict::{Verdict, VerdictSettings};
 use crate::chatter::policy::ChatterPolicy;
@@ -16,6 +17,13 @@ use crate::sweep::{SweepEvent, sweep};
 /// there.
 pub(super) const COMPARED: u64 = 512;
 pub(super) const SHARE_IN_CELLS: f64 = 0.5;
+
+/// Orbits of an attractor without a period that are followed to see whether any leaves it.
+pub(super) const FOLLOWED: usize = 256;
+
+/// How much slower than an impact of the attractor each of them begins: states of one orbit have the same
+/// future, and one beside it has its own after some hundred impacts.
+const BESIDE: f64 = 1.0e-7;
 
 /// The observed fate of a start.
 #[derive(Debug, Clone)]
@@ -54,35 +62,50 @@ pub(super) fn first_look(
     Ok(seen.collect())
 }
 
+/// An orbit that was followed for long.
+#[derive(Debug, Clone)]
+pub(super) struct LongLook {
+    pub(super) seen: Seen,
+    /// The cells that it visited in the second half of its impacts.
+    pub(super) cells: VisitedCells,
+    /// Impacts since the start or the rest.
+    pub(super) impacts: u64,
+    pub(super) last: ImpactState,
+    /// Impacts beside some of the second half, evenly spaced, each with an orbit of its own.
+    pub(super) beside: Vec<ImpactState>,
+}
+
 /// One orbit that is followed for long.
 struct Recorder {
     witness: Witness,
     marks: CellMarks,
-    /// Impacts since the start or the rest, and after how many cells are marked.
     impacts: u64,
-    from: u64,
     last: ImpactState,
+    beside: Vec<ImpactState>,
     rests: bool,
 }
 
-/// The fate of a start that is followed for long, and the cells that its orbit visits: through its first
-/// rest, or up to it.
+/// The fate of a start that is followed for long, and where its orbit has been: through its first rest, or
+/// up to it.
 pub(super) fn long_look(
     map: &ImpactMap,
     start: ImpactState,
     through_rest: bool,
     (settings, side): (VerdictSettings, u32),
     observer: &dyn Observer,
-) -> Result<(Seen, Recurrence), Error> {
+) -> Result<LongLook, Error> {
     let top = map.impact_speed_bound();
+    // The second half of the impacts over which the exponent is measured.
+    let from = settings.transient.saturating_add(settings.impacts / 2);
+    let spacing = (settings.impacts.div_ceil(2) / FOLLOWED as u64).max(1);
     let mut recorders = sweep(
         &[map.orbit(start, ChatterPolicy::Complete)],
         |_| Recorder {
             witness: Witness::new((*map, start), settings),
             marks: CellMarks::new(side, top),
             impacts: 0,
-            from: settings.transient.saturating_add(settings.impacts / 2),
             last: start,
+            beside: Vec::new(),
             rests: false,
         },
         |recorder, event| match event {
@@ -93,38 +116,92 @@ pub(super) fn long_look(
             SweepEvent::Attachment(_) => {
                 recorder.impacts = 0;
                 recorder.marks.clear();
+                recorder.beside.clear();
                 recorder.witness.see(event)
             }
             SweepEvent::Impact(impact) => {
                 recorder.impacts += 1;
                 recorder.last = impact.state;
-                if recorder.impacts > recorder.from {
+                if recorder.impacts > from {
                     recorder.marks.visit(impact.state);
+                    let another = recorder.beside.len() < FOLLOWED;
+                    if another && (recorder.impacts - from).is_multiple_of(spacing) {
+                        let slower = impact.state.velocity() * (1.0 - BESIDE);
+                        recorder.beside.push(ImpactState::of_impact(impact.state.phase(), slower));
+                    }
                 }
                 recorder.witness.see(event)
             }
         },
         observer,
     )?;
-    let Recorder { witness, marks, impacts, last, rests, .. } =
+    let Recorder { witness, marks, impacts, last, beside, rests } =
         recorders.pop().ok_or(Error::Stopped { done: 0, total: 1 })?;
     let seen = match witness.verdict() {
         _ if rests => Seen::Rest,
         Verdict::AtRest { .. } if !through_rest => Seen::Rest,
         verdict => Seen::Verdict(verdict),
     };
-    Ok((seen, Recurrence { cells: marks.into_cells(), impacts, state: last }))
+    Ok(LongLook { seen, cells: marks.into_cells(), impacts, last, beside })
 }
 
-/// Whether starts, after the transient, come back to cells: `None` for those that rest before they have been
-/// compared.
-pub(super) fn come_back(
+/// Where an orbit is that was followed without a verdict.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Followed {
+    pub(super) impacts: u64,
+    pub(super) state: ImpactState,
+    pub(super) rests: bool,
+    /// It nearly repeated itself there, and is followed no further.
+    pub(super) repeats: bool,
+}
+
+/// Follows each start for so many impacts as are given for it, without derivatives, until it rests or nearly
+/// repeats itself.
+pub(super) fn follow(
+    map: &ImpactMap,
+    starts: &[ImpactState],
+    impacts: &(dyn Fn(usize) -> u64 + Sync),
+    settings: VerdictSettings,
+    observer: &dyn Observer,
+) -> Result<Vec<Followed>, Error> {
+    let orbits: Vec<_> = starts.iter().map(|start| map.orbit(*start, ChatterPolicy::Complete)).collect();
+    let followed = sweep(
+        &orbits,
+        |index| {
+            let own = Followed { impacts: 0, state: starts[index], rests: false, repeats: false };
+            (own, Returns::new(), impacts(index))
+        },
+        |(own, returns, most), event| {
+            let SweepEvent::Impact(impact) = event else {
+                own.rests = true;
+                return ControlFlow::Break(());
+            };
+            own.impacts += 1;
+            own.state = impact.state;
+            own.repeats = returns.see(impact.state, impact.turns, &settings).is_some();
+            if own.repeats || own.impacts >= *most {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        },
+        observer,
+    )?;
+    // An orbit that ends without an event has not left the platform.
+    let ended = |own: &Followed, most| own.rests || !(own.repeats || own.impacts >= most);
+    let followed = followed.into_iter();
+    Ok(followed.map(|(own, _, most)| Followed { rests: ended(&own, most), ..own }).collect())
+}
+
+/// The share of impacts of each start, after the transient, that lie in these cells: `None` for those that
+/// rest before they have been compared.
+pub(super) fn share_in(
     map: &ImpactMap,
     starts: &[ImpactState],
     cells: &VisitedCells,
     transient: u64,
     observer: &dyn Observer,
-) -> Result<Vec<Option<bool>>, Error> {
+) -> Result<Vec<Option<f64>>, Error> {
     let orbits: Vec<_> = starts.iter().map(|start| map.orbit(*start, ChatterPolicy::Complete)).collect();
     let seen = sweep(
         &orbits,
@@ -142,10 +219,8 @@ pub(super) fn come_back(
         },
         observer,
     )?;
-    let compared = |(impacts, hits)| {
-        (impacts >= transient + COMPARED).then_some(hits as f64 >= SHARE_IN_CELLS * COMPARED as f64)
-    };
-    Ok(seen.into_iter().map(compared).collect())
+    let share = |(impacts, hits)| (impacts >= transient + COMPARED).then_some(hits as f64 / COMPARED as f64);
+    Ok(seen.into_iter().map(share).collect())
 }
 
 /// Whether two orbits have been in the same cells: half of the cells of the one that has been in fewer of

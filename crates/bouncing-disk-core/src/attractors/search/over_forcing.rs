@@ -118,7 +118,7 @@ pub(super) fn places(attractor: &Attractor) -> Option<Places> {
         AttractorKind::Rest(_) => None,
         AttractorKind::Periodic(known) => impacts(known.orbit()),
         AttractorKind::Marginal(orbit) => impacts(orbit),
-        AttractorKind::Chaotic { recurrence, .. } | AttractorKind::Unclassified { recurrence, .. } => {
+        AttractorKind::Chaotic { recurrence, .. } | AttractorKind::Transient { recurrence, .. } => {
             Some(recurrence.cells.centres().collect())
         }
     }

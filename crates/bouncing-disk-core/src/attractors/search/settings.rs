@@ -7,6 +7,9 @@ use crate::numerics::stored::read_checked;
 use crate::orbits::periodic::MAX_PERIOD;
 use crate::orbits::periodic::search::OrbitSearch;
 
+/// Fewest impacts of a start for anything to be said about its motion.
+const FEWEST_EACH: u64 = 256;
+
 /// How attractors are searched for ([`ImpactMap::attractors`](crate::ImpactMap::attractors)).
 ///
 /// ```
@@ -26,6 +29,7 @@ pub struct AttractorSearch {
     longest_period: usize,
     side: u32,
     orbits: Option<OrbitSearch>,
+    budget: u64,
 }
 
 read_checked!(AttractorSearch as UncheckedSearch {
@@ -35,7 +39,14 @@ read_checked!(AttractorSearch as UncheckedSearch {
     longest_period: usize,
     side: u32,
     orbits: Option<OrbitSearch>,
+    #[serde(default = "default_budget")]
+    budget: u64,
 });
+
+/// Impacts that a search makes at most, also one that was stored without them.
+const fn default_budget() -> u64 {
+    1 << 28
+}
 
 /// The search after each change of a number.
 impl Default for AttractorSearch {
@@ -47,6 +58,7 @@ impl Default for AttractorSearch {
             longest_period: 256,
             side: 256,
             orbits: OrbitSearch::new(2, 64).and_then(|search| search.with_starts(48, 48)).ok(),
+            budget: default_budget(),
         }
     }
 }
@@ -107,6 +119,18 @@ impl AttractorSearch {
         Self { orbits, ..self }
     }
 
+    /// The same with at most about this number of impacts in all, in [256 a start, 2^50]; default 2^28, or
+    /// some seconds. It does not count the search for periodic orbits ([`Self::with_orbits`]). Many starts
+    /// are followed for fewer impacts each, and starts that are still under way when it is used up are
+    /// undecided.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for the number.
+    pub fn with_budget(self, budget: u64) -> Result<Self, Error> {
+        let search = Self { budget, ..self };
+        search.check().map(|()| search)
+    }
+
     /// Checks a value that was deserialised.
     fn check(&self) -> Result<(), Error> {
         let most = Self::MAX_IMPACTS as f64;
@@ -117,6 +141,9 @@ impl AttractorSearch {
         within("longest period", longest, 1.0, MAX_PERIOD as f64, "[1, 4096] impacts")?;
         let (least, most) = VisitedCells::SIDES;
         within("cells along an axis", self.side.into(), least.into(), most.into(), "[8, 4096]")?;
+        let least = (FEWEST_EACH * u64::from(self.starts.max(1))) as f64;
+        let most = (1_u64 << 50) as f64;
+        within("impacts of all starts", self.budget as f64, least, most, "[256 a start, 2^50]")?;
         Ok(())
     }
 
@@ -156,9 +183,26 @@ impl AttractorSearch {
         self.orbits
     }
 
-    /// How every start is followed at first.
+    /// Impacts of the whole search but for periodic orbits.
+    #[must_use]
+    pub const fn budget(&self) -> u64 {
+        self.budget
+    }
+
+    /// How every start is followed at first: a quarter of the budget at most.
     pub(super) fn first_look(&self) -> VerdictSettings {
-        VerdictSettings { transient: self.transient, impacts: self.transient.max(64), ..self.long_look() }
+        let most = self.budget / (4 * u64::from(self.starts.max(1)));
+        let transient = self.transient.min(most / 2);
+        let impacts = self.transient.max(64).min(most - transient).max(64);
+        VerdictSettings { transient, impacts, ..self.long_look() }
+    }
+
+    /// [`Self::long_look`] with at most so many impacts; `None` if these are too few.
+    pub(super) fn look_within(&self, impacts: u64) -> Option<VerdictSettings> {
+        let look = self.long_look();
+        let all = look.allowed().min(impacts);
+        let transient = look.transient.min(all / 2);
+        (all >= FEWEST_EACH).then_some(VerdictSettings { transient, impacts: all - transient, ..look })
     }
 
     /// How one start of each attractor is followed that is not found at first.

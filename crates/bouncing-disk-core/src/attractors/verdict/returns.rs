@@ -12,7 +12,7 @@ const LEAST_WAIT: u64 = 16;
 /// 1, 2, 4, ... impacts, up to the longest period. So short periods are found early, and only one impact is
 /// kept.
 #[derive(Debug, Clone)]
-pub(super) struct Returns {
+pub(crate) struct Returns {
     reference: Option<ImpactState>,
     /// Impacts since the reference, and after how many it is renewed.
     age: usize,
@@ -27,14 +27,14 @@ pub(super) struct Returns {
 }
 
 impl Returns {
-    pub(super) const fn new() -> Self {
+    pub(crate) const fn new() -> Self {
         Self { reference: None, age: 0, window: 1, turns: 0, impacts: 0, wait: 0, nearest: [None; 2] }
     }
 
     /// Takes the next impact, before which the phase passed 0 `turns` times. If this impact is a return,
     /// gives the number of impacts after which it comes.
     #[inline]
-    pub(super) fn see(
+    pub(crate) fn see(
         &mut self,
         state: ImpactState,
         turns: u64,
