@@ -3,6 +3,8 @@
 pub(crate) mod basins;
 mod design;
 mod diagram;
+#[cfg(test)]
+mod documented;
 mod doublings;
 mod fit;
 mod map;
