@@ -76,3 +76,63 @@ fn main() -> ExitCode {
         }
     }
 }
+
+#[cfg(all(test, feature = "figures"))]
+mod tests {
+    use std::fs;
+
+    use clap::error::ErrorKind;
+
+    use super::*;
+
+    /// The commands on a page that begin with `cargo xtask`: code in a line of text, and lines of blocks.
+    fn commands(page: &str) -> Vec<&str> {
+        let mut found = Vec::new();
+        let mut inside = false;
+        for line in page.lines() {
+            inside ^= line.starts_with("```");
+            if inside || line.starts_with("    ") {
+                found.extend(line.split(" #").next());
+            } else {
+                found.extend(line.split('`').skip(1).step_by(2));
+            }
+        }
+        found.iter().filter_map(|command| command.trim().strip_prefix("cargo xtask ")).collect()
+    }
+
+    #[test]
+    fn every_chore_that_the_documentation_names_is_legal() {
+        let mut pages = vec![workspace::in_workspace("README.md")];
+        for folder in ["docs", "docs/numerics", "data/measured", "crates/bouncing-disk-web"] {
+            let entries = fs::read_dir(workspace::in_workspace(folder)).unwrap();
+            pages.extend(entries.map(|entry| entry.unwrap().path()));
+        }
+        pages.retain(|page| page.extension().is_some_and(|ending| ending == "md"));
+        let (mut checked, mut faults) = (0, Vec::new());
+        for page in pages {
+            let text = fs::read_to_string(&page).unwrap();
+            for command in commands(&text) {
+                checked += 1;
+                let words = ["cargo xtask"].into_iter().chain(command.split_whitespace());
+                let error = Arguments::try_parse_from(words).err();
+                let error = error.filter(|error| error.kind() != ErrorKind::DisplayHelp);
+                faults.extend(error.map(|error| format!("{}: {command}\n{error}", page.display())));
+            }
+        }
+        assert!(faults.is_empty(), "{}", faults.join("\n"));
+        assert!(checked > 30, "{checked}");
+    }
+
+    #[test]
+    fn chores_are_found() {
+        let page = "Run `cargo xtask figures --extras`, or `cargo test`.\n\n    cargo xtask dist  # all\n```sh\n\
+                    cargo xtask figure # a fault\n```\n";
+        let found = commands(page);
+        assert_eq!(found, ["figures --extras", "dist", "figure"]);
+        let legal = found.iter().map(|line| {
+            let words = ["cargo xtask"].into_iter().chain(line.split_whitespace());
+            Arguments::try_parse_from(words).is_ok()
+        });
+        assert_eq!(legal.collect::<Vec<_>>(), [true, true, false]);
+    }
+}
