@@ -12,7 +12,7 @@ use crate::commands::prelude::*;
 #[command(after_help = "\
 All loads ride on one vertical motion: a curve costs little more than a point, unless loads settle slowly. Errors are standard errors at exactly these \
 inputs; the spread is over motors whose preload and amplitude lie within the tolerance, and the relaunch perturbation within \
-a decade: 95 of 100 further ones lie between its ends. A load beyond \
+a decade: of 39 draws or more, at least 95 of 100 further ones lie between its ends. A load beyond \
 the largest torque mu m g a_e overpowers the motor, which then has no mean speed. A picture marks the stall where the \
 speed changes its sign, on a straight line between two loads; `motor stall` computes it. With a [drive] that is not a sine each \
 load has its own vertical motion, as on a [stator] that yields; with one of these, or with a contact.time, there is no spread. See docs/designing-a-motor.md.

@@ -140,8 +140,9 @@ pub(super) fn phase_lag(args: &LagArgs, context: Context) -> Result<()> {
 #[derive(Debug, Args)]
 #[command(after_help = "\
 A motor in a trap repeats a short cycle of flights and rest, whose speed may be far from that beside the trap, or near it. A \
-motor whose preload is known to 1 % meets a trap of relative width w with a chance of up to w/2 %. Speeds are \
-those near both edges and in the middle of the range, under the load of the data sheet. See docs/designing-a-motor.md.
+motor whose preload is known to 1 % on either side lies in a given trap of relative width w with a probability of up to 50 w: \
+2.5 % for a width of 0.0005, the least unless given. Speeds are those near both edges and in the middle of the range, under the \
+load of the data sheet. See docs/designing-a-motor.md.
 
 Example:
   bouncing-disk motor traps motor.toml --from 4 --to 6")]
@@ -193,4 +194,27 @@ pub(super) fn traps(args: &TrapsArgs, context: Context) -> Result<()> {
         figure: None,
     };
     report.deliver(&args.operation.output, context)
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory as _;
+
+    use super::*;
+
+    /// A preload known to within 1 % is somewhere in an interval of 2 %.
+    #[test]
+    fn the_help_of_traps_has_the_probability_of_the_least_width() {
+        let mut line = crate::commands::CommandLine::command();
+        let traps = line.find_subcommand_mut("motor").and_then(|motor| motor.find_subcommand_mut("traps"));
+        let help = traps.unwrap().render_long_help().to_string();
+        let words = help.split_whitespace().collect::<Vec<_>>().join(" ");
+        let interval = 1.01 - 0.99;
+        let said = format!(
+            "up to {:.0} w: {:.1} % for a width of {LEAST_TRAP_WIDTH}",
+            1.0 / interval,
+            100.0 * LEAST_TRAP_WIDTH / interval
+        );
+        assert!(words.contains(&said), "{said}: {words}");
+    }
 }
