@@ -23,8 +23,9 @@
 //! | --- | --- |
 //! | [`parameters`] | stroke, units, and the numbers without units that decide the motion |
 //! | [`motion`] | states, segments and energies between events |
-//! | [`driven`] | platforms that move in any way: waveforms, schedules, their tosses and motors |
 //! | [`toss`] | single tosses, many tosses, the best toss |
+//! | [`driven`] | platforms that move in any way: waveforms, schedules, their tosses |
+//! | [`stator`] | stators that yield: their modes feel the impacts and the friction |
 //! | [`motor`] | motors: run-up, speed under a load, sweeps, sensitivities |
 //! | [`estimate`] | fits of computed and measured speeds, with intervals |
 //! | `store` | the origin of files, and the journal of a long computation (feature `storage`) |

@@ -421,3 +421,91 @@ fn the_contents_list_every_page() {
     }
     faults.report();
 }
+
+/// The modules that a library shows.
+fn public_modules(text: &str) -> BTreeSet<&str> {
+    let hidden = |before: &str| before.trim() == "#[doc(hidden)]";
+    let lines: Vec<&str> = text.lines().collect();
+    let shown = lines.windows(2).filter(|pair| !hidden(pair[0])).map(|pair| pair[1]);
+    shown.filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';')).collect()
+}
+
+/// The libraries that have chapters and rooms: the name in docs/architecture.md, and the folder.
+const LIBRARIES: [(&str, &str); 2] =
+    [("core", "crates/bouncing-disk-core/src"), ("model", "crates/bouncing-disk/src")];
+
+#[test]
+fn every_module_is_a_chapter_of_its_library() {
+    let mut faults = Faults::default();
+    for (_, folder) in LIBRARIES {
+        let text = read(&format!("{folder}/lib.rs"));
+        let rows = text.lines().filter(|line| line.starts_with("//! | "));
+        let chapters: BTreeSet<&str> = rows.filter_map(|row| code_words(row).next()).collect();
+        for module in public_modules(&text) {
+            let is_listed = chapters.contains(module) || chapters.contains(&*format!("mod@{module}"));
+            faults.check(is_listed, || format!("{folder}/lib.rs has no chapter {module}"));
+        }
+    }
+    faults.report();
+}
+
+/// What the library itself, without its tests, takes from other modules of its crate.
+fn modules_used_by<'a>(
+    texts: &[(String, String)],
+    folder: &str,
+    room: &str,
+    all: &[&'a str],
+) -> Vec<&'a str> {
+    let own = [format!("{folder}/{room}.rs"), format!("{folder}/{room}/")];
+    let is_test = |path: &str| path.contains("/tests/") || path.ends_with("tests.rs");
+    let files = texts.iter().filter(|(path, _)| *path == own[0] || path.starts_with(&own[1]));
+    let library = files
+        .filter(|(path, _)| !is_test(path))
+        .map(|(_, text)| text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default());
+    let code: String =
+        library.flat_map(str::lines).filter(|line| !line.trim_start().starts_with("//")).collect();
+    let is_used = |module: &&&str| code.contains(&format!("crate::{module}::"));
+    all.iter().filter(is_used).copied().collect()
+}
+
+/// A room uses only rooms before its own.
+#[test]
+fn every_module_is_a_room_in_its_place() {
+    let mut faults = Faults::default();
+    let architecture = read("docs/architecture.md");
+    for (name, folder) in LIBRARIES {
+        let mut texts = files();
+        texts.retain(|path| path.starts_with(folder) && path.ends_with(".rs"));
+        let texts: Vec<_> = texts.into_iter().map(|path| (path.clone(), read(&path))).collect();
+        let row = architecture.lines().find(|line| line.starts_with(&format!("| {name} |")));
+        let rooms: Vec<&str> =
+            code_words(row.expect("a row")).map(|room| room.trim_end_matches('/')).collect();
+        let library = read(&format!("{folder}/lib.rs"));
+        for module in public_modules(&library) {
+            faults.check(rooms.contains(&module), || format!("{name} has no room {module}"));
+        }
+        for (place, room) in rooms.iter().enumerate() {
+            for used in modules_used_by(&texts, folder, room, &rooms) {
+                let is_before = rooms[..=place].contains(&used);
+                faults.check(is_before, || format!("{name}: {room} uses {used}, which comes after it"));
+            }
+        }
+    }
+    faults.report();
+}
+
+#[test]
+fn the_readme_lists_every_chapter_on_how_to_use_it_and_how_it_is_computed() {
+    let mut faults = Faults::default();
+    let (contents, readme) = (read("docs/SUMMARY.md"), read("README.md"));
+    let (_, book) = readme.split_once("\n## The book\n").expect("a section");
+    let parts = contents.split("\n# ");
+    let wanted = |part: &&str| part.starts_with("Getting started") || part.starts_with("How it is computed");
+    for part in parts.filter(wanted) {
+        for page in part.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
+            let listed = book.contains(&format!("](docs/{page})"));
+            faults.check(listed, || format!("README.md does not list docs/{page}"));
+        }
+    }
+    faults.report();
+}
