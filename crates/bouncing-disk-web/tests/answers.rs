@@ -376,6 +376,24 @@ fn shares_of_kinds_are_those_of_the_attractors_that_starts_end_on() {
     }
 }
 
+/// The page's labels of the motors of Fig. 12 at their printed amplitudes.
+#[test]
+fn the_motors_of_fig_12_are_called_what_they_are() {
+    let words = include_str!("../page/src/words.json");
+    let words: Value = serde_json::from_str(words).expect("JSON");
+    let labels = words["presets"]["fig12"]["panels"].as_array().expect("a list");
+    let motors = [(1e-7, 0.5), (1e-8, 1.0)];
+    assert_eq!(labels.len(), motors.len());
+    for (label, (amplitude, preload)) in labels.iter().zip(motors) {
+        let changes = json!({ "amplitude": amplitude, "preload_acceleration": preload });
+        let (report, _) = answered("motor_report", motor(changes));
+        let (label, regime) = (label.as_str().expect("text"), report["regime"].as_str().expect("text"));
+        for kind in ["long", "short"] {
+            assert_eq!(label.contains(kind), regime.contains(kind), "{label}: {regime}");
+        }
+    }
+}
+
 #[test]
 fn rows_of_basins_do_not_depend_on_which_are_asked_for_together() {
     let mut explorer = Explorer::new();
