@@ -240,3 +240,15 @@ fn orbits_beyond_the_crisis_are_born_in_folds_and_handed_on_in_grazes() {
         graze_before = Some(graze);
     }
 }
+
+/// In a list of attractors the disk at rest is the first.
+#[test]
+fn words_count_attractors_from_one_as_labels_do() {
+    // A disk that comes to rest is thrown onto another attractor here.
+    let found = map(0.51, 0.5).attractors(&AttractorSearch::default(), &Unobserved).expect("no failure");
+    let AttractorKind::Rest(after) = &found.all()[0].kind else { panic!("{:?}", found.all()[0]) };
+    let index = after.leads_to().expect("it never rests again");
+    let label = found.label(index).expect("an attractor");
+    assert_eq!(usize::from(label), found.all()[..index].len() + 1);
+    assert_eq!(found.all()[0].kind.to_string(), format!("comes to rest, then attractor {label}"));
+}

@@ -376,6 +376,15 @@ fn shares_of_kinds_are_those_of_the_attractors_that_starts_end_on() {
     }
 }
 
+/// The page numbers the list from one.
+#[test]
+fn the_text_of_a_rest_names_the_place_of_its_target_in_the_list() {
+    let (json, _) = answered("attractors", json!({ "axial_forcing": 0.51 }));
+    let rest = &json["attractors"][0];
+    let place = 1 + rest["leads_to"].as_u64().expect("it does not last");
+    assert_eq!(rest["text"], format!("comes to rest, then attractor {place}"));
+}
+
 /// The page's labels of the motors of Fig. 12 at their printed amplitudes.
 #[test]
 fn the_motors_of_fig_12_are_called_what_they_are() {

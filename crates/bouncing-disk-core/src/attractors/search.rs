@@ -218,7 +218,7 @@ impl AttractorKind {
 }
 
 /// `comes to rest for ever`, `periodic orbit: impacts 1, platform periods 1`, and so on; a precision given
-/// applies to the exponent.
+/// applies to the exponent. Words count attractors from one, as [labels](Attractors::label) do.
 impl core::fmt::Display for AttractorKind {
     fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         let digits = formatter.precision().unwrap_or(4);
@@ -235,7 +235,7 @@ impl core::fmt::Display for AttractorKind {
                 formatter.write_str("comes to rest again and again, in a cycle that rounding chooses")
             }
             Self::Rest(AfterRest::LeadsTo(other)) => {
-                write!(formatter, "comes to rest, then attractor {other}")
+                write!(formatter, "comes to rest, then attractor {}", other + 1)
             }
             Self::Rest(AfterRest::Undecided) => {
                 formatter.write_str("comes to rest, then a motion that is not decided")

@@ -44,7 +44,7 @@ class Attractor(Result):
 
     Attributes:
         kind: ``"rest"``, ``"periodic"``, ``"marginal"``, ``"chaotic"`` or ``"transient"``.
-        label: its label in :attr:`Basins.labels`.
+        label: its label in :attr:`Basins.labels`; words count attractors by these, from one.
         orbit: the orbit of a periodic or marginal one.
         radius: the radius (rad) within which a start counts as caught by that orbit, else NaN.
         exponent, standard_error: the largest Lyapunov exponent per impact of a chaotic motion or transient
@@ -57,7 +57,7 @@ class Attractor(Result):
         interval: its 95 % interval.
         lasts: whether the motion lasts, a chaotic one for the impacts in `survived`; false for a rest that may
             never come again, a marginal orbit, and a transient.
-        leads_to: the number of the attractor to which a rest leads.
+        leads_to: the index in :attr:`Attractors.all` of the attractor to which a rest leads, one below its label.
         meaning: what it is, in words.
         is_exact: false for a disk that comes to rest again and again in a cycle chosen by rounding.
     """
@@ -121,7 +121,7 @@ class Attractors(Stored):
 
     Attributes:
         impact_map: the map.
-        all: the disk at rest, which is number 0, and all other attractors: a tuple of :class:`Attractor`.
+        all: the disk at rest, which has the index 0, and all other attractors: a tuple of :class:`Attractor`.
         undecided: the share of the starts that ended on none of them.
     """
 
@@ -339,16 +339,16 @@ class BasinFractions(Result):
     """The attractors of impact maps over the axial forcing, each followed from one forcing to the next, with the
     shares of their basins.
 
-    Made by :func:`basin_fractions_over`. There are n forcings and m attractors; number 0 is the disk at rest.
+    Made by :func:`basin_fractions_over`. There are n forcings and m attractors; index 0 is the disk at rest.
 
     Attributes:
         restitution: coefficient of restitution.
         axial_forcing: axial forcing parameter Gamma, in the order in which they were followed, shape (n,).
         attractors: the attractors at each forcing: a tuple of n :class:`Attractors`.
         followed: which of the m attractors each of those at a forcing is: a tuple of n int64 arrays.
-        appears: the first forcing at which each attractor was found, by its number, shape (m,): it appears
+        appears: the first forcing at which each attractor was found, by its index, shape (m,): it appears
             between this one and the one before.
-        vanishes: the last forcing at which each was found, by its number, shape (m,): it vanishes between
+        vanishes: the last forcing at which each was found, by its index, shape (m,): it vanishes between
             this one and the next.
         share: share of the starts that end on each attractor at each forcing, shape (m, n); NaN where it is
             absent. The starts are spread over all impacts that an attractor can have at this forcing.

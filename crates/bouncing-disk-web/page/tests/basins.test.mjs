@@ -93,8 +93,16 @@ onPage("the share of the window is the answer, and that of all starts has a line
 onPage("printed basins have their map and a legend", DOUBLING, async (page) => {
   const svg = (await svgOf(page, "basins")).replaceAll(/<[^>]*>/g, " ").replaceAll(/\s+/g, " ");
   assert.match(svg, /Γ = 0\.486, ε = 0\.5/);
-  const [words] = /^[^.;:]*/.exec(await page.locator(".attractors li").first().textContent());
-  assert.ok(svg.includes(words.trim().split(" ").slice(0, 3).join(" ")), `${words}: ${svg}`);
+  const [words] = /^1\. [^.;:]*/.exec(await page.locator(".attractors li").first().textContent());
+  assert.ok(svg.includes(words.trim().split(" ").slice(0, 4).join(" ")), `${words}: ${svg}`);
   for (const bold of await page.locator(".attractors b").allTextContents()) assert.ok(svg.includes(`${bold} of`), bold);
   assert.match(svg, /Undecided/);
 });
+
+onPage("attractors are numbered from one, as their texts name them", `#view=basins&${FORCING(0.51)}`, async (page) => {
+  const [rest, ...others] = (await page.locator(".attractors li").allTextContents()).slice(0, -1);
+  [rest, ...others].forEach((entry, index) => assert.ok(entry.startsWith(`${index + 1}. `), entry));
+  const [, number] = /then attractor (\d+);/.exec(rest);
+  const [target] = others[number - 2].replace(/^\d+\. /, "").split(/\.(?!\d)/);
+  assert.ok(rest.includes(`leads to: ${target}.`), `${rest} ${target}`);
+}); // prettier-ignore

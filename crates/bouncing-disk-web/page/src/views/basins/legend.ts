@@ -51,13 +51,14 @@ interface Entry {
 
 const UNDECIDED = "--undecided";
 
-/** The attractors in the order of their colours, and at the end what is undecided. */
+/** The attractors in the order of their colours, numbered as their texts name each other, and what is undecided. */
 function entriesOf(found: AttractorsJson, shares: Shares | null): Entry[] {
   const known = found.attractors.map((attractor, index) => {
     const [share = "", low = "", high = ""] = [attractor.share, ...attractor.interval].map((one) => percent(one));
     const own = shares === null || attractor.label === null ? null : (shares.get(attractor.label) ?? 0);
     const all = say(TEXTS.all, { share, low, high });
-    return { colour: categoryColour(index), words: describe(attractor, found), share: own, all };
+    const words = say(TEXTS.numbered, { number: String(index + 1), text: describe(attractor, found) });
+    return { colour: categoryColour(index), words, share: own, all };
   });
   const all = say(TEXTS.all_undecided, { share: percent(found.undecided) });
   return [...known, { colour: UNDECIDED, words: TEXTS.undecided, share: undecidedShare(found, shares), all }];
