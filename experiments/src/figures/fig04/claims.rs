@@ -1,6 +1,6 @@
 //! The statements of the paper about Fig. 4, compared with the data.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::PI;
 
 use bouncing_disk::toss::InitialSpin;
 
@@ -146,10 +146,10 @@ fn optimal_phase_lag(data: &Fig04Data) -> Option<Claim> {
         "section3.optimal_phase_lag",
         linear(fastest) && linear(efficient),
         format!(
-            "dough at rest at the start: of all phase lags and φ_L the fastest toss has θ = {:.1e}π and the most efficient θ = {:.1e}π (or π \
+            "dough at rest at the start: of all phase lags and φ_L the fastest toss has θ = {} and the most efficient θ = {} (or π \
              more). A dough that starts with the hand is fastest, {:.2} rad/s, at θ = {}, φ_L = {}",
-            absolute.fastest_phase_lag_rad / PI,
-            absolute.most_efficient_phase_lag_rad / PI,
+            pi(absolute.fastest_phase_lag_rad),
+            pi(absolute.most_efficient_phase_lag_rad),
             relative.fastest.airborne_speed_rad_per_s,
             pi(relative.fastest_phase_lag_rad),
             pi(relative.fastest.amplitude_angle_rad),
@@ -284,11 +284,9 @@ fn dependence(data: &Fig04Data) -> Claim {
 }
 
 fn separation(data: &Fig04Data) -> Claim {
-    let highest = data.separation.highest_rad;
-    Claim::printed("section3.separation_highest", highest)
-        .note(format!(
-            "{:.1e} rad below π/2: sin τ_sep = g/(cω² cos φ_L) reaches 1 at the end of the range of φ_L; π/4 is a misprint of π/2",
-            FRAC_PI_2 - highest
-        ))
+    Claim::printed("section3.separation_highest", data.separation.highest_rad)
+        .note(
+            "sin τ_sep = g/(cω² cos φ_L) reaches 1 at the end of the range of φ_L; π/4 is a misprint of π/2",
+        )
         .cause("π/4 misprinted for π/2")
 }
