@@ -71,7 +71,7 @@ pub(crate) fn variables(motor: &Motor) -> Vec<Variable> {
         of(
             "vibration_amplitude",
             "m",
-            "Amplitude of the stator's height",
+            "Amplitude of the stator's height about its mean place, at the frequency of the drive",
             0.0,
             Role::Output(|at| at.amplitude),
         ),

@@ -261,7 +261,8 @@ class OperatingPoints(Result):
             and in friction (W).
         efficiency, efficiency_error: mechanical power over the power put in.
         stator_amplitude, stator_amplitude_error: amplitude under load of a stator that yields (m), else NaN, as the
-            next three.
+            next three: 2^(1/2) times the root mean square of the speed of its axial mode over the angular frequency
+            of the drive. A static sag is not in it.
         drive_power, drive_power_error: power that the drive puts into such a stator (W).
         damping_loss, damping_loss_error: power lost in the damping of its modes (W).
         electrical_efficiency, electrical_efficiency_error: mechanical power over the power of the drive.

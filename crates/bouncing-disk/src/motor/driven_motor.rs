@@ -266,8 +266,8 @@ impl DrivenMotor {
         Ok(self.run_up(phase, settings, observer)?.0)
     }
 
-    /// As [`Self::transient`], with the amplitude (m) of the axial mode at the end of each interval: how far its free
-    /// vibration would go without a drive and losses. Empty for a stator that does not yield. On one that yields the
+    /// As [`Self::transient`], with the amplitude (m) of the axial mode at the end of each interval, that of
+    /// [`MotorOutputs::amplitude`](crate::motor::MotorOutputs::amplitude). Empty for a stator that does not yield. On one that yields the
     /// chatter policy of the settings has no effect: impacts are followed down to a chatter of 1e-7 rad.
     ///
     /// # Errors

@@ -91,10 +91,13 @@ pub struct MotorOutputs {
     /// Mean torque of the stator on rotor and shaft (N m) since the last call, or in the step before if no time has passed: that of the load, and what accelerates
     /// their inertia.
     pub shaft_torque: f64,
-    /// Amplitude of the stator's height (m): how far its mode would swing freely; of a prescribed motion its own.
+    /// Amplitude of the stator's height (m) about its mean place: of the sine at the frequency of the drive that has the
+    /// present height and velocity. The mean place is the static one under the preload and friction; in a flight of more
+    /// than a period it is that of the free stator. It is constant in a steady motion without a rotor or under one that
+    /// lies; one that bounces adds the harmonics of its impacts. With the drive off the frequency is the resonance of the
+    /// mode. A prescribed motion has its own amplitude.
     pub amplitude: f64,
-    /// Amplitude of the current (A), as if the modes moved as sines at the frequency of the drive; `None` without a
-    /// capacitance.
+    /// Amplitude of the current (A), with each mode as such a sine; `None` without a capacitance.
     pub current: Option<f64>,
     /// Mean power (W) of the drive in the modes, and of a motion that is prescribed, since the last call: without the
     /// latter the real part of voltage times current.
@@ -166,7 +169,8 @@ pub struct MotorSimulation {
 }
 
 impl MotorSimulation {
-    /// A motor whose rotor lies at rest at the time 0, on a stator that has moved under these inputs for long.
+    /// A motor whose rotor lies at rest at the time 0, on a stator that has moved under these inputs for long without it;
+    /// with the drive off, on a stator at rest under the rotor.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for illegal inputs and settings; [`Error::LoadInTime`] for a table `[load]` that varies in time: the
@@ -194,7 +198,10 @@ impl MotorSimulation {
         })?;
         let built = built(&sheet, &inputs)?;
         let start = DrivenStart::Contact { phase: Phase::new(settings.phase)?, angular_speed: 0.0 };
-        let engine = StatorEngine::new(built.system, start)?;
+        let mut engine = StatorEngine::new(built.system, start)?;
+        if !inputs.on {
+            engine.calm();
+        }
         let began = (0.0, engine.time());
         let generator = SplitMix64::new(settings.seed);
         let now = Ahead { engine, generator, totals: Totals::default() };
@@ -340,31 +347,31 @@ impl MotorSimulation {
             speed: totals.speed,
             shaft_torque: mean(gained + (totals.load - self.last.load), self.means[0]),
             amplitude: at.engine.amplitude_after(0.0).map_or(prescribed, |amplitude| amplitude * unit.length),
-            current: self.current(at.engine.time().phase.angle(), state.modes),
+            current: self.current(&at.engine),
             power: mean(totals.work - self.last.work, self.means[1]),
             impacts: totals.impacts,
         }
     }
 
-    /// The amplitude of C_0 dV/dt and of each mode's force per volt times its speed.
-    fn current(&self, phase: f64, modes: [[f64; 2]; 2]) -> Option<f64> {
+    /// The amplitude of C_0 dV/dt and of each mode's force per volt times its speed, each a sine that is known by its
+    /// value now and a quarter of a period later.
+    fn current(&self, engine: &StatorEngine) -> Option<f64> {
         let stator = self.motor.stator()?;
         let circuit = stator.circuit()?;
-        let (mut along, mut across) = (0.0, 0.0);
-        for ([place, speed], (mode, per_volt)) in modes
+        let capacitance = circuit.capacitance?;
+        let volts = if self.inputs.on { capacitance * circuit.volts } else { 0.0 };
+        let (sin, cos) = sin_cos(engine.time().phase.angle() + circuit.phase);
+        let (mut now, mut later) = (volts * cos, -volts * sin);
+        for (vibration, (mode, per_volt)) in engine
+            .vibration_after(0.0)
             .into_iter()
             .zip(stator.modes().iter().zip([circuit.force_per_volt, circuit.torque_per_volt]))
         {
-            // q sin(phase + a) from the coordinate and its speed.
             let unit = if mode.height == 0.0 { self.unit.angle } else { self.unit.length };
-            let (sin, cos) = sin_cos(phase);
-            along += per_volt * unit * (speed * cos + place * sin);
-            across += per_volt * unit * (place * cos - speed * sin);
+            now += per_volt * unit * vibration.speed;
+            later -= per_volt * unit * vibration.frequency * vibration.distance;
         }
-        let capacitance = circuit.capacitance?;
-        let volts = if self.inputs.on { capacitance * circuit.volts } else { 0.0 };
-        let (sin, cos) = sin_cos(circuit.phase);
-        Some(hypot(along + volts * cos, across + volts * sin) / self.unit.time)
+        Some(hypot(now, later) / self.unit.time)
     }
 }
 

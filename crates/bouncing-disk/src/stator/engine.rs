@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use bouncing_disk_core::flight::MAX_FLIGHT_DURATION;
-use bouncing_disk_core::numerics::elementary::{exp, exp_m1, ln_1p, sin_cos};
+use bouncing_disk_core::numerics::elementary::{exp, exp_m1, hypot, ln_1p, sin_cos};
 use bouncing_disk_core::numerics::linear_flow::{Functional, LinearFlow, Vector, dot};
 
 use super::impact::impact;
@@ -77,6 +77,22 @@ impl StatorRecord {
     }
 }
 
+/// The motion of a mode at an instant, as a sine about its mean place.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Vibration {
+    /// Of the coordinate from its mean place.
+    pub(crate) distance: f64,
+    pub(crate) speed: f64,
+    /// Of the sine, in units of that of the drive.
+    pub(crate) frequency: f64,
+}
+
+impl Vibration {
+    fn amplitude(self) -> f64 {
+        hypot(self.distance, self.speed / self.frequency)
+    }
+}
+
 /// What the disk does until the next event.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Stage {
@@ -114,6 +130,8 @@ pub struct StatorEngine {
     ties: u32,
     /// So long after the last event the disk flies without another one.
     searched: f64,
+    /// So long the disk has flown before `now`.
+    aloft: f64,
     /// Without it ledgers stay empty.
     pub(crate) with_energy: bool,
 }
@@ -214,6 +232,7 @@ impl StatorEngine {
             line: 0,
             ties: 0,
             searched: 0.0,
+            aloft: 0.0,
             with_energy: true,
         };
         engine.line = engine.line_at(engine.state[SPEED]);
@@ -307,13 +326,51 @@ impl StatorEngine {
         }
     }
 
-    /// The amplitude of the first mode, if it moves in height, so long after the last event: how far it would go
-    /// without a drive, losses and a disk.
+    /// The amplitude of the first mode, if it moves in height, so long after the last event.
     pub(crate) fn amplitude_after(&self, span: f64) -> Option<f64> {
-        let mode = self.system.modes[0];
+        (self.system.modes[0].height != 0.0).then(|| self.vibration_after(span)[0].amplitude())
+    }
+
+    /// How each mode vibrates so long after the last event: at the frequency of the drive, or at its own resonance if
+    /// nothing drives the modes.
+    pub(crate) fn vibration_after(&self, span: f64) -> [Vibration; MODES] {
         let state = if span > 0.0 { self.carried(span) } else { self.state };
-        let [place, speed] = self.mode_state(0, &state);
-        (mode.height != 0.0).then(|| (place * place + speed * speed / mode.stiffness).sqrt())
+        let means = self.bent(self.mean_forces(&state, self.aloft + span));
+        let still = self.system.modes.iter().all(|mode| mode.steady == [0.0; 2]);
+        std::array::from_fn(|index| {
+            let [place, speed] = self.mode_state(index, &state);
+            let frequency = if still { self.system.modes[index].stiffness.sqrt() } else { 1.0 };
+            Vibration { distance: place - means[index], speed, frequency }
+        })
+    }
+
+    /// The mean normal force and the mean torque of friction on a disk in this state that is `aloft` for so long: its
+    /// weight, and what holds against the load or slips; nothing in a flight that is longer than a period.
+    fn mean_forces(&self, state: &State, aloft: f64) -> [f64; 2] {
+        match self.stage {
+            Stage::Flight(_) if aloft > TAU => [0.0; 2],
+            Stage::Contact { grip: grip @ (Grip::Forward | Grip::Backward), .. } => {
+                [1.0, -grip.sign() * self.system.base.friction()]
+            }
+            _ => [1.0, self.held_load(state)],
+        }
+    }
+
+    /// The load on a disk, as far as friction holds it.
+    fn held_load(&self, state: &State) -> f64 {
+        let LoadLine { torque, slope, .. } = self.system.lines[self.line];
+        let friction = self.system.base.friction();
+        (torque + slope * state[SPEED]).clamp(-friction, friction)
+    }
+
+    /// Where a constant normal force and torque bend each mode to.
+    fn bent(&self, [force, torque]: [f64; 2]) -> [f64; MODES] {
+        self.system.modes.map(|mode| {
+            if mode.stiffness == 0.0 {
+                return 0.0;
+            }
+            -(mode.by_force * force + mode.by_torque * torque) / mode.stiffness
+        })
     }
 
     /// Moves the origin of the present motion to `span` later, in which time no event comes.
@@ -330,6 +387,7 @@ impl StatorEngine {
         if span > 0.0
             && let Stage::Flight(launch) = &mut self.stage
         {
+            self.aloft += span;
             *launch = if self.state[GAP] < 0.0 { Launch::Below } else { Launch::Air };
         }
         let here = self.state();
@@ -365,11 +423,12 @@ impl StatorEngine {
         Some(record)
     }
 
-    /// Stills the modes: the stator is at rest, and the disk as it is relative to it.
+    /// Stills the modes under a disk that lies at rest, where its weight and its load bend them to.
     pub(crate) fn calm(&mut self) {
-        for index in 0..MODES {
+        let means = self.bent([1.0, self.held_load(&self.state)]);
+        for (index, mean) in means.into_iter().enumerate() {
             let [place, speed] = self.system.steady(index, (self.state[SIN], self.state[COS]));
-            (self.state[DISPLACEMENTS[index]], self.state[VELOCITIES[index]]) = (-place, -speed);
+            (self.state[DISPLACEMENTS[index]], self.state[VELOCITIES[index]]) = (mean - place, -speed);
         }
         self.searched = 0.0;
         self.go_on();
@@ -397,6 +456,7 @@ impl StatorEngine {
         self.state[GAP] *= longer;
         self.state[CLOSING] *= faster;
         self.state[SPEED] *= faster;
+        self.aloft *= faster;
         self.angle.scale(longer);
         self.system = to;
         self.go_on();
@@ -831,6 +891,8 @@ impl StatorEngine {
             if self.with_energy { self.ledgers(span, &state) } else { Default::default() };
         let before = self.stated(&state, self.mode());
         self.ties = if span == 0.0 && crossing.is_of_friction() { self.ties + 1 } else { 0 };
+        let flies_on = self.launches() && matches!(crossing, Crossing::Line(_));
+        self.aloft = if flies_on { self.aloft + span } else { 0.0 };
         self.now = self.now.after(PhaseSpan::from_radians(span));
         // The phase of the clock decides.
         (state[SIN], state[COS]) = (self.now.phase.sin(), self.now.phase.cos());

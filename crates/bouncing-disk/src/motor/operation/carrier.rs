@@ -209,7 +209,7 @@ impl CarriedEngine {
         }
     }
 
-    /// The amplitude to which the axial mode would ring freely, so long after the last event.
+    /// The amplitude of the axial mode, so long after the last event.
     pub(crate) fn amplitude_after(&self, span: f64) -> Option<f64> {
         match self {
             Self::Driven(_) => None,

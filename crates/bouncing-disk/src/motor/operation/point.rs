@@ -105,7 +105,9 @@ pub struct OperatingPoint {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct StatorPoint {
-    /// Amplitude of the axial mode under load (m): that of the sine which loses as much in its damping.
+    /// Amplitude of the axial mode under load (m): 2^(1/2) times the root mean square of its speed over the angular
+    /// frequency of the drive, which is that of the sine that loses as much in its damping. A static sag is not in it;
+    /// what does not move at the frequency of the drive counts by its speed.
     pub amplitude: Estimate,
     /// Power that the drive puts into the modes, and into a twist that is prescribed (W): in volts, the real part of
     /// voltage times current.

@@ -19,7 +19,7 @@ pub enum SweepQuantity {
     FrictionLoss,
     /// Mechanical power over the power put in.
     Efficiency,
-    /// Amplitude under load of a stator that yields (m).
+    /// Amplitude under load of a stator that yields (m), as [`StatorPoint::amplitude`](crate::motor::StatorPoint::amplitude).
     StatorAmplitude,
     /// Power that the drive puts into such a stator (W).
     DrivePower,
