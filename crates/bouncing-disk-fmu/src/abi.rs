@@ -89,6 +89,42 @@ unsafe fn write<T>(to: *mut T, value: T) {
     }
 }
 
+/// A folder on this machine: a path or, as FMI 2.0 had it and some masters still pass it, an address by RFC 8089.
+fn folder_of(text: &str) -> Result<PathBuf, String> {
+    let Some(address) =
+        text.get(..5).filter(|scheme| scheme.eq_ignore_ascii_case("file:")).map(|_| &text[5..])
+    else {
+        return Ok(PathBuf::from(text));
+    };
+    let path = match address.strip_prefix("//") {
+        None => address,
+        Some(rest) => {
+            let (host, path) = rest.split_at(rest.find('/').unwrap_or(rest.len()));
+            if !host.is_empty() && !host.eq_ignore_ascii_case("localhost") {
+                return Err(format!("the resource path {text} is on another machine: {host}"));
+            }
+            path
+        }
+    };
+    let decoded = decoded(path).ok_or_else(|| format!("the resource path {text} is not UTF-8"))?;
+    // A drive of Windows stands behind the slash.
+    let is_drive = matches!(decoded.as_bytes(), [b'/', letter, b':', ..] if letter.is_ascii_alphabetic());
+    Ok(PathBuf::from(if is_drive { &decoded[1..] } else { &decoded }))
+}
+
+/// With %20 and the like as the characters that they stand for; a percent sign that begins none stays. `None` if the
+/// result is not UTF-8.
+fn decoded(text: &str) -> Option<String> {
+    let (bytes, mut decoded, mut at) = (text.as_bytes(), Vec::new(), 0);
+    while let Some(&byte) = bytes.get(at) {
+        let digit = |place: usize| char::from(*bytes.get(place)?).to_digit(16);
+        let escaped = digit(at + 1).zip(digit(at + 2)).filter(|_| byte == b'%');
+        decoded.push(escaped.map_or(byte, |(high, low)| (16 * high + low) as u8));
+        at += if escaped.is_some() { 3 } else { 1 };
+    }
+    String::from_utf8(decoded).ok()
+}
+
 #[unsafe(no_mangle)]
 extern "C" fn fmi3GetVersion() -> *const c_char {
     c"3.0".as_ptr()
@@ -113,8 +149,7 @@ unsafe extern "C" fn fmi3InstantiateCoSimulation(
     let made = caught(|| {
         // SAFETY: texts of the master, by the standard.
         let (given, folder) = unsafe { (text(instantiation_token)?, text(resource_path)?) };
-        // Some masters pass an address, as FMI 2.0 had it.
-        let path = PathBuf::from(folder.strip_prefix("file://").unwrap_or(&folder)).join(SHEET);
+        let path = folder_of(&folder)?.join(SHEET);
         let sheet = std::fs::read_to_string(&path);
         let sheet = sheet.map_err(|error| format!("{} cannot be read: {error}", path.display()))?;
         if token(&sheet) != given {
@@ -350,3 +385,32 @@ macro_rules! of_another_kind {
 }
 
 of_another_kind! { fmi3InstantiateModelExchange fmi3InstantiateScheduledExecution }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn resource_paths_are_paths_or_addresses() {
+        for (text, folder) in [
+            ("/tmp/sp ace/", "/tmp/sp ace/"),
+            ("/tmp/100%20/", "/tmp/100%20/"),
+            ("resources", "resources"),
+            ("file:///tmp/a/resources", "/tmp/a/resources"),
+            ("file:///tmp/sp%20ace/", "/tmp/sp ace/"),
+            ("file:///tmp/sp ace/", "/tmp/sp ace/"),
+            ("file:/tmp/%C3%A4%2B/", "/tmp/\u{e4}+/"),
+            ("file://localhost/tmp/a", "/tmp/a"),
+            ("FILE://LocalHost/tmp/a", "/tmp/a"),
+            ("file:///tmp/100%/%zz%2", "/tmp/100%/%zz%2"),
+            ("file:///tmp/%2520", "/tmp/%20"),
+            ("file:///C:/Program%20Files/a", "C:/Program Files/a"),
+        ] {
+            assert_eq!(folder_of(text), Ok(PathBuf::from(folder)), "{text}");
+        }
+        for (text, named) in [("file://server/share/a", "server"), ("file:///tmp/%ff", "UTF-8")] {
+            let refused = folder_of(text).expect_err("not a folder of this machine");
+            assert!(refused.contains(named) && refused.contains(text), "{refused}");
+        }
+    }
+}

@@ -336,7 +336,7 @@ impl StatorEngine {
     pub(crate) fn vibration_after(&self, span: f64) -> [Vibration; MODES] {
         let state = if span > 0.0 { self.carried(span) } else { self.state };
         let means = self.bent(self.mean_forces(&state, self.aloft + span));
-        let still = self.system.modes.iter().all(|mode| mode.steady == [0.0; 2]);
+        let still = self.system.modes.iter().all(|mode| mode.steady.iter().all(|part| *part == 0.0));
         std::array::from_fn(|index| {
             let [place, speed] = self.mode_state(index, &state);
             let frequency = if still { self.system.modes[index].stiffness.sqrt() } else { 1.0 };
