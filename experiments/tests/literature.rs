@@ -88,8 +88,8 @@ impl Checked<'_> {
 
     /// The forcing of a doubling of the cascade.
     fn doubling(&self, number: usize) -> f64 {
-        doubling_cascade(self.restitution(), number, &Unobserved).expect("converges")[number - 1]
-            .axial_forcing
+        let found = doubling_cascade(self.restitution(), number, &Unobserved).expect("converges");
+        found.doublings[number - 1].axial_forcing
     }
 
     /// Where the doublings accumulate, from the last two of nine.

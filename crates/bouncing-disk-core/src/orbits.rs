@@ -12,7 +12,7 @@
 //! let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
 //! let found = map.periodic_orbits(&OrbitSearch::new(1, 1)?, &Unobserved)?;
 //! assert_eq!(found.orbits.len(), 2); // The node and the saddle of one impact in one period.
-//! let doublings = doubling_cascade(0.5, 2, &Unobserved)?;
+//! let doublings = doubling_cascade(0.5, 2, &Unobserved)?.doublings;
 //! assert!((doublings[0].axial_forcing - 0.486_003_078_3).abs() < 1e-9);
 //! # Ok::<(), bouncing_disk_core::Error>(())
 //! ```
@@ -28,7 +28,7 @@ pub(crate) mod over_forcing;
 pub(crate) mod periodic;
 
 pub use cascade::feigenbaum::{FeigenbaumEstimate, feigenbaum_estimates};
-pub use cascade::{CascadeDoubling, MAX_DOUBLINGS, doubling_cascade};
+pub use cascade::{CascadeDoubling, DoublingCascade, MAX_DOUBLINGS, doubling_cascade};
 pub use closing::ContinuationParameter;
 pub use continuation::{Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation};
 pub use follow_attractor::{Followed, Following, follow_attractor};

@@ -244,7 +244,7 @@ fn the_impact_speed_of_period_one_does_not_depend_on_the_forcing() {
 
 #[test]
 fn cascade_agrees_with_the_closed_form_and_with_feigenbaum() {
-    let cascade = doubling_cascade(0.5, 6, &Unobserved).expect("the cascade exists");
+    let cascade = doubling_cascade(0.5, 6, &Unobserved).expect("the cascade exists").doublings;
     assert!((cascade[0].axial_forcing - ImpactMap::first_doubling_forcing(0.5)).abs() < 1e-12);
     let periods: Vec<_> = cascade.iter().map(|doubling| doubling.period).collect();
     assert_eq!(periods, [1, 2, 4, 8, 16, 32]);

@@ -202,6 +202,7 @@ pub(crate) fn doubling_cascade(a: Arguments<'_>) -> Made<'_> {
         bouncing_disk::core::orbits::doubling_cascade(restitution, count, observer)
             .map_err(|error: CoreError| Error::from(error))
     })?;
+    let (cascade, ended_by) = (cascade.doublings, cascade.ended_by.map(|error| error.to_string()));
     let estimates = feigenbaum_estimates(&cascade);
     make!(
         py,
@@ -217,5 +218,6 @@ pub(crate) fn doubling_cascade(a: Arguments<'_>) -> Made<'_> {
         column(py, &estimates, |one| one.delta_error),
         column(py, &estimates, |one| one.alpha),
         column(py, &estimates, |one| one.alpha_error),
+        ended_by,
     )
 }

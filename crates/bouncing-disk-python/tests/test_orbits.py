@@ -346,3 +346,12 @@ def test_a_trajectory_without_events_says_that_it_has_no_samples() -> None:
     friction = 0.3 * 9.81 * 0.1 / 0.07**2
     assert abs(sliding.samples(count=3).angular_speed[-1] - (friction - 120.12)) < 1e-9
     assert sliding.energy.friction_loss > 0.0
+
+
+def test_a_cascade_that_ends_has_the_doublings_before() -> None:
+    found = bd.doubling_cascade(restitution=0.01, count=8)
+    assert found.axial_forcing == pytest.approx([1.162039896, 1.243863813], abs=1e-9)
+    assert found.ended_by is not None and "an impact comes after" in found.ended_by
+    assert bd.doubling_cascade(restitution=0.01, count=2).ended_by is None
+    with pytest.raises(bd.InvalidError, match="count"):
+        bd.doubling_cascade(restitution=0.5, count=0)

@@ -9,7 +9,7 @@ use bouncing_disk::core::Unobserved;
 use bouncing_disk::core::orbits::{doubling_cascade, feigenbaum_estimates};
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let cascade = doubling_cascade(0.5, 10, &Unobserved)?;
+    let cascade = doubling_cascade(0.5, 10, &Unobserved)?.doublings;
     for doubling in &cascade {
         println!(
             "{:2}: period {:3} to {:4} at Gamma = {:.13} +- {:.0e}",

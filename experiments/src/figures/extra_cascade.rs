@@ -102,8 +102,8 @@ impl Experiment for ExtraCascade {
 
 fn cascade(restitution: &str, count: usize) -> Result<Cascade, bouncing_disk::core::Error> {
     let exact: DoubleDouble = restitution.parse()?;
-    let found = doubling_cascade(exact, count, &Unobserved)?;
-    let in_doubles = doubling_cascade(exact.high(), count, &Unobserved)?;
+    let found = doubling_cascade(exact, count, &Unobserved)?.complete()?;
+    let in_doubles = doubling_cascade(exact.high(), count, &Unobserved)?.complete()?;
     let separation = |index: usize| (found[index].axial_forcing - found[index - 1].axial_forcing).high();
     let mut to_limit = separation(count - 1) / (PUBLISHED[0] - 1.0);
     let mut doublings = Vec::new();

@@ -371,7 +371,7 @@ mod tests {
         const PAGE: &str = include_str!("../../../docs/studying-the-dynamics.md");
         let data = ExtraDrives::compute(Quality::Draft, &Silent).unwrap();
         let [sine, _, _, arcs, spline, cubic] = data.diagrams.try_into().unwrap();
-        let exact = doubling_cascade(data.restitution, 1, &Unobserved).unwrap()[0].axial_forcing;
+        let exact = doubling_cascade(data.restitution, 1, &Unobserved).unwrap().doublings[0].axial_forcing;
         assert!((sine.doublings[0] - exact).abs() < 1e-12);
         let ends = |diagram: &Diagram| (diagram.births[0], diagram.doublings[0]);
         let ((arcs_from, arcs_to), (cubic_from, cubic_to)) = (ends(&arcs), ends(&cubic));

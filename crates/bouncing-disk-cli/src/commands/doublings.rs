@@ -14,7 +14,7 @@ use super::prelude::*;
 #[command(after_help = "\
 The cascade starts from the orbit with one impact in each period of the platform, at the paper's Gamma_1, Gamma_2, ... From \
 the seventh doubling on there are estimates of Feigenbaum's constants. The error is what rounding may have moved a \
-forcing by. The command finds the forcings, so that there is no --axial-forcing; of a system it takes the restitution alone. See docs/numerics/dynamics.md.
+forcing by. A cascade that ends before gives the doublings up to there, and says why it ends. The command finds the forcings, so that there is no --axial-forcing; of a system it takes the restitution alone. See docs/numerics/dynamics.md.
 
 Examples:
   bouncing-disk doublings
@@ -22,7 +22,7 @@ Examples:
 pub(crate) struct DoublingsArgs {
     #[command(flatten)]
     map: MapArgs,
-    /// Doublings that are looked for, at most 13
+    /// Doublings that are looked for, in [1, 13]
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, short = 'n', value_name = "N", default_value_t = 8)]
     count: usize,
     #[command(flatten)]
@@ -32,7 +32,8 @@ pub(crate) struct DoublingsArgs {
 pub(super) fn run(args: &DoublingsArgs, context: Context) -> Result<()> {
     let Some(system) = args.map.system.begin(&args.output, true, context)? else { return Ok(()) };
     let (_, restitution) = args.map.pair(&system, None, 0.0)?;
-    let found = doubling_cascade(restitution, args.count, &context.watch("doublings"))?;
+    let cascade = doubling_cascade(restitution, args.count, &context.watch("doublings"))?;
+    let (found, ended_by) = (cascade.doublings, cascade.ended_by.map(|error| error.to_string()));
     let estimates = feigenbaum_estimates(&found);
     let of = |doubling: &CascadeDoubling| estimates.iter().find(|own| own.number == doubling.number).copied();
     let forcings: Vec<f64> = found.iter().map(|doubling| doubling.axial_forcing).collect();
@@ -40,15 +41,19 @@ pub(super) fn run(args: &DoublingsArgs, context: Context) -> Result<()> {
     let job = json!({ "restitution": restitution, "count": args.count });
     let report = Report {
         provenance: provenance("bouncing-disk doublings", &job)?,
-        text: text(&found, &estimates),
+        text: text(&found, &estimates, ended_by.as_deref()),
         table: columns().csv_of(rows),
-        data: vec![("doublings", stored(&found)?), ("feigenbaum_estimates", stored(&estimates)?)],
+        data: vec![
+            ("doublings", stored(&found)?),
+            ("feigenbaum_estimates", stored(&estimates)?),
+            ("ended_by", stored(&ended_by)?),
+        ],
         figure: Some(Box::new(move || pictures::doublings(restitution, &forcings))),
     };
     report.deliver(&args.output, context)
 }
 
-fn text(found: &[CascadeDoubling], estimates: &[FeigenbaumEstimate]) -> String {
+fn text(found: &[CascadeDoubling], estimates: &[FeigenbaumEstimate], ended_by: Option<&str>) -> String {
     let columns = Columns::<CascadeDoubling>::new()
         .column("number", "1", |own| own.number)
         .column("period", "impacts", |own| own.period)
@@ -65,6 +70,9 @@ fn text(found: &[CascadeDoubling], estimates: &[FeigenbaumEstimate]) -> String {
             rounded(last.alpha_error, 1),
             last.number
         );
+    }
+    if let Some(error) = ended_by {
+        text += &format!("no doubling {}: {error}\n", found.len() + 1);
     }
     text
 }

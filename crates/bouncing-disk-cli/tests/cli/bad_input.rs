@@ -336,6 +336,7 @@ fn words_of_the_line_that_are_not_legal() {
         ("basins --speed 1:1.0000000000000002 --cells 9", "are nearer than numbers can be"),
         ("orbits --impacts 0", "impacts"),
         ("doublings --count 99", "count"),
+        ("doublings --count 0", "count"),
         ("doublings -r 0", "restitution"),
         ("design --friction 0.7:0.5", "reversed"),
         ("design --stroke -1", "stroke = -1 is"),

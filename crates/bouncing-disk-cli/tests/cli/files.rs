@@ -158,7 +158,7 @@ fn pictures_of_the_least_are_drawn() {
         "orbits -G 0",
         "orbits -G 0.01 --impacts 64 --platform-periods 1 --starts 2",
         "doublings --count 1",
-        "doublings --count 0",
+        "doublings -r 0.01",
         "motor sweep --over friction=0.1 --relative-error 0.5 --members 4",
         "motor sweep --over load_torque=1e-3:2e-3:2 --relative-error 0.5 --members 4",
         "motor sweep --over load_torque=1e-3 --over phase_lag=-0.1 --relative-error 0.5 --members 4",

@@ -347,9 +347,15 @@ fn basins_with_a_chaotic_attractor() {
 
 #[test]
 fn doublings() {
+    // What is found before the cascade ends, and why it ends.
+    let (found, two) = (written("doublings -r 0.01"), doubling_cascade(0.01, 2, &Unobserved).unwrap());
+    assert_eq!(found["doublings"], stored(&two.doublings));
+    let ended_by = doubling_cascade(0.01, 8, &Unobserved).unwrap().ended_by.unwrap();
+    assert_eq!(found["ended_by"], json!(ended_by.to_string()));
+    assert_eq!(written("doublings --count 6")["ended_by"], json!(null));
     assert_eq!(
         written("doublings --count 6")["doublings"],
-        stored(&doubling_cascade(0.5, 6, &Unobserved).unwrap())
+        stored(&doubling_cascade(0.5, 6, &Unobserved).unwrap().doublings)
     );
 }
 

@@ -53,7 +53,26 @@ impl<R: Real> core::fmt::Display for CascadeDoubling<R> {
     }
 }
 
-/// The first `count` <= [`MAX_DOUBLINGS`] period doublings of the orbit with one impact per period of the
+/// The doublings that were found, and why there are not as many as were asked for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DoublingCascade<R = f64> {
+    /// In their order, at least one.
+    pub doublings: Vec<CascadeDoubling<R>>,
+    /// What ended the cascade before the number of doublings that were asked for.
+    pub ended_by: Option<Error>,
+}
+
+impl<R> DoublingCascade<R> {
+    /// As many doublings as were asked for.
+    ///
+    /// # Errors
+    /// The one that ended the cascade before.
+    pub fn complete(self) -> Result<Vec<CascadeDoubling<R>>, Error> {
+        self.ended_by.map_or(Ok(self.doublings), Err)
+    }
+}
+
+/// The first `count`, in [1, [`MAX_DOUBLINGS`]], period doublings of the orbit with one impact per period of the
 /// platform, for `restitution` in (0, 1), to as many digits as its kind of number has.
 ///
 /// In doubles every forcing is the one of a multiplier of -1, within [`CascadeDoubling::forcing_error`]: at
@@ -70,27 +89,30 @@ impl<R: Real> core::fmt::Display for CascadeDoubling<R> {
 /// use bouncing_disk_core::orbits::doubling_cascade;
 /// use bouncing_disk_core::{ImpactMap, Unobserved};
 ///
-/// let cascade = doubling_cascade(0.5, 4, &Unobserved)?;
+/// let cascade = doubling_cascade(0.5, 4, &Unobserved)?.doublings;
 /// assert!((cascade[0].axial_forcing - ImpactMap::first_doubling_forcing(0.5)).abs() < 1e-15);
 /// assert_eq!(cascade[3].period, 8);
 ///
 /// let restitution: DoubleDouble = "0.5".parse()?;
-/// let cascade = doubling_cascade(restitution, 3, &Unobserved)?;
+/// let cascade = doubling_cascade(restitution, 3, &Unobserved)?.doublings;
 /// assert_eq!(format!("{:.25}", cascade[2].axial_forcing), "0.5401020860760663669196152");
 /// # Ok::<(), bouncing_disk_core::Error>(())
 /// ```
 ///
+/// A cascade may end earlier: by [`Error::NotSettled`] if a branch is lost, and with the margin where an orbit comes so
+/// near to an earlier impact that more digits than those of doubles would decide; by [`Error::EarlierImpact`] if the
+/// orbit meets the platform earlier. It then has the doublings up to there, and that error.
+///
 /// # Errors
-/// [`Error::OutOfRange`] for the restitution or the count; [`Error::NotSettled`] if a branch is lost, and
-/// with the margin where an orbit comes so near to an earlier impact that more digits than those of doubles
-/// would decide; [`Error::EarlierImpact`] if a branch ends because its orbit meets the platform earlier.
+/// [`Error::OutOfRange`] for the restitution or the count; [`Error::Stopped`] if the observer breaks; what ends the
+/// cascade before its first doubling.
 pub fn doubling_cascade<R: Real>(
     restitution: R,
     count: usize,
     observer: &dyn Observer,
-) -> Result<Vec<CascadeDoubling<R>>, Error> {
-    let found = flip_points(restitution, count, observer)?;
-    let described = found.iter().map(|found| {
+) -> Result<DoublingCascade<R>, Error> {
+    let (found, lost) = flip_points(restitution, count, observer)?;
+    let mut described = found.iter().map(|found| {
         let (number, graze_margin) = (found.number, found.graze_margin);
         // The margin is one of doubles, and proves nothing of further digits.
         if R::EPSILON < f64::EPSILON && graze_margin < UNSURE_MARGIN {
@@ -108,7 +130,15 @@ pub fn doubling_cascade<R: Real>(
             graze_margin,
         })
     });
-    described.collect()
+    let mut unsure = None;
+    let doublings: Vec<_> = described
+        .by_ref()
+        .map_while(|doubling| doubling.map_err(|error| unsure = Some(error)).ok())
+        .collect();
+    match unsure.or(lost) {
+        Some(error) if doublings.is_empty() => Err(error),
+        ended_by => Ok(DoublingCascade { doublings, ended_by }),
+    }
 }
 
 /// A doubling, its number, and the smallest graze margin of its orbit.
@@ -119,30 +149,33 @@ pub(crate) struct Found<R> {
     pub(crate) graze_margin: f64,
 }
 
-/// The first doublings in any precision.
+/// The first doublings in any precision, and why there is no further one.
 pub(crate) fn flip_points<R: Real>(
     restitution: R,
     count: usize,
     observer: &dyn Observer,
-) -> Result<Vec<Found<R>>, Error> {
+) -> Result<(Vec<Found<R>>, Option<Error>), Error> {
     const { assert!(1 << (MAX_DOUBLINGS - 1) == MAX_PERIOD) };
     within("restitution", restitution.value(), f64::MIN_POSITIVE, 1.0 - f64::EPSILON, "(0, 1)")?;
-    within("count", count as f64, 0.0, MAX_DOUBLINGS as f64, "[0, 13]")?;
+    within("count", count as f64, 1.0, MAX_DOUBLINGS as f64, "[1, 13]")?;
     let watch = Watch::begin(observer, 0, count as u64)?;
     let mut work = watch.work();
     let tick = &mut |impacts| work.spend(impacts);
     let mut found: Vec<Found<R>> = Vec::with_capacity(count);
     for number in 1..=count {
         let point = match found.last() {
-            None => first_flip(restitution, tick)?,
-            Some(last) => next_flip(&last.point, number, restitution, tick)?,
+            None => first_flip(restitution, tick),
+            Some(last) => next_flip(&last.point, number, restitution, tick),
         };
-        let graze_margin = point.graze_margin(restitution)?;
-        found.push(Found { number, point, graze_margin });
+        match point.and_then(|point| Ok((point.graze_margin(restitution)?, point))) {
+            Ok((graze_margin, point)) => found.push(Found { number, point, graze_margin }),
+            Err(stopped @ Error::Stopped { .. }) => return Err(stopped),
+            Err(error) => return Ok((found, Some(error))),
+        }
         watch.finish(1);
     }
     watch.end();
-    Ok(found)
+    Ok((found, None))
 }
 
 #[cfg(test)]

@@ -375,6 +375,7 @@ class DoublingCascade(Result):
         feigenbaum_number: the last doubling that was used for each estimate, from 1, shape (m,).
         delta, delta_error, alpha, alpha_error: Feigenbaum's numbers, extrapolated, and how far they may be
             off, shape (m,).
+        ended_by: why there are not as many doublings as were asked for; ``None`` if there are.
     """
 
     period: IntArray
@@ -388,6 +389,7 @@ class DoublingCascade(Result):
     delta_error: FloatArray
     alpha: FloatArray
     alpha_error: FloatArray
+    ended_by: str | None
 
 
 def doubling_cascade(*, restitution: Float, count: Int, progress: Progress = None) -> DoublingCascade:
@@ -396,7 +398,8 @@ def doubling_cascade(*, restitution: Float, count: Int, progress: Progress = Non
 
     Args:
         restitution: coefficient of restitution, in (0, 1).
-        count: number of doublings, in [1, 13].
+        count: number of doublings, in [1, 13]; fewer are found where the cascade ends, as for the restitution 0.01
+            after two.
 
     >>> import bouncing_disk as bd
     >>> bd.doubling_cascade(restitution=0.5, count=3).axial_forcing.round(4)

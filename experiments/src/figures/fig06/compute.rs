@@ -240,7 +240,7 @@ impl Searches {
         let others = || -> Result<_, ExperimentError> {
             let single_tosses = chattering::single_tosses(cycles, section, settings.policy)?;
             progress.advance(1);
-            let doublings = doubling_cascade(inputs.restitution, 7, &Unobserved)?;
+            let doublings = doubling_cascade(inputs.restitution, 7, &Unobserved)?.complete()?;
             progress.advance(1);
             let below = walk.iter().rev().find(|at| at.axial_forcing <= explored::ZOOM.0);
             let zoom = explored::zoom(below.map_or(*first, |at| at.state), inputs, quality)?;

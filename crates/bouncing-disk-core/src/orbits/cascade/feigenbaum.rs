@@ -58,7 +58,7 @@ impl core::fmt::Display for FeigenbaumEstimate {
 /// use bouncing_disk_core::orbits::{doubling_cascade, feigenbaum_estimates};
 /// use bouncing_disk_core::Unobserved;
 ///
-/// let estimates = feigenbaum_estimates(&doubling_cascade(0.5, 10, &Unobserved)?);
+/// let estimates = feigenbaum_estimates(&doubling_cascade(0.5, 10, &Unobserved)?.doublings);
 /// let last = estimates.last().expect("from the seventh doubling on");
 /// assert!((last.delta - 4.669_201_609).abs() <= last.delta_error && last.delta_error < 1e-4);
 /// # Ok::<(), bouncing_disk_core::Error>(())

@@ -13,7 +13,7 @@ use crate::run::testing::StopAfter;
 #[test]
 fn the_orbit_is_one_of_the_impact_map() {
     for restitution in [0.1, 0.5, 0.8] {
-        let found = flip_points::<f64>(restitution, 5, &Unobserved).expect("found");
+        let found = flip_points::<f64>(restitution, 5, &Unobserved).expect("found").0;
         for found in &found {
             let point = &found.point;
             let map = ImpactMap::new(Vibration::new(point.peak).expect("legal"), restitution).expect("legal");
@@ -33,11 +33,19 @@ fn the_orbit_is_one_of_the_impact_map() {
 
 /// Below a restitution of about 1/20 the orbit of the third doubling would dip through the platform.
 #[test]
-fn a_cascade_that_ends_at_a_graze_says_so() {
-    assert_eq!(doubling_cascade(0.01, 2, &Unobserved).map(|found| found.len()), Ok(2));
-    let ended = doubling_cascade(0.01, 3, &Unobserved);
-    let Err(Error::EarlierImpact { sought, found, .. }) = ended else { panic!("{ended:?}") };
-    assert!(found < sought, "{found} {sought}");
+fn a_cascade_that_ends_at_a_graze_has_the_doublings_before() {
+    let whole = doubling_cascade(0.01, 2, &Unobserved).expect("found");
+    assert!(whole.ended_by.is_none() && whole.doublings.len() == 2);
+    assert!((whole.doublings[0].axial_forcing - ImpactMap::first_doubling_forcing(0.01)).abs() < 1e-14);
+    for count in [3, 4, 13] {
+        let found = doubling_cascade(0.01, count, &Unobserved).expect("some are found");
+        assert_eq!(found.doublings, whole.doublings);
+        let Some(error @ Error::EarlierImpact { sought, found: first, .. }) = found.ended_by else {
+            panic!("{found:?}")
+        };
+        assert!(first < sought, "{first} {sought}");
+        assert_eq!(found.complete(), Err(error));
+    }
 }
 
 /// From next to nothing to next to one: found, or a typed error, never a number that is none.
@@ -58,16 +66,17 @@ fn every_restitution_has_an_answer() {
     ] {
         for count in [1, 2, 4] {
             match doubling_cascade(restitution, count, &Unobserved) {
-                Ok(found) => assert!(
-                    found.len() == count
-                        && found.iter().all(|doubling| doubling.multiplier.is_finite())
-                        && found.windows(2).all(|pair| pair[0].axial_forcing < pair[1].axial_forcing),
-                    "{restitution:e}: {found:?}"
+                Ok(DoublingCascade { doublings, ended_by }) => assert!(
+                    (doublings.len() == count) == ended_by.is_none()
+                        && doublings.iter().all(|doubling| doubling.multiplier.is_finite())
+                        && doublings.windows(2).all(|pair| pair[0].axial_forcing < pair[1].axial_forcing)
+                        && matches!(
+                            ended_by,
+                            None | Some(Error::NotSettled { .. } | Error::EarlierImpact { .. })
+                        ),
+                    "{restitution:e}: {doublings:?} {ended_by:?}"
                 ),
-                Err(error) => assert!(
-                    matches!(error, Error::NotSettled { .. } | Error::EarlierImpact { .. }) && count > 1,
-                    "{restitution:e}: {error}"
-                ),
+                Err(error) => panic!("{restitution:e}: {error}"),
             }
         }
     }
@@ -77,8 +86,10 @@ fn every_restitution_has_an_answer() {
             "{restitution}"
         );
     }
-    assert!(matches!(doubling_cascade(0.5, 14, &Unobserved), Err(Error::OutOfRange { .. })));
-    assert_eq!(doubling_cascade(0.5, 0, &Unobserved), Ok(Vec::new()));
+    for count in [0, 14] {
+        let refused = doubling_cascade(0.5, count, &Unobserved);
+        assert!(matches!(refused, Err(Error::OutOfRange { field: "count", .. })), "{refused:?}");
+    }
 }
 
 #[test]
@@ -113,7 +124,7 @@ fn first_doubling_forcing(r: DoubleDouble) -> DoubleDouble {
 #[test]
 fn the_first_doubling_is_its_closed_form() {
     for text in ["0.001", "0.1", "0.2", "0.3", "0.4", "0.5", "0.6", "0.7", "0.8", "0.9", "0.999"] {
-        let found = doubling_cascade(number(text), 1, &Unobserved).expect("found")[0];
+        let found = doubling_cascade(number(text), 1, &Unobserved).expect("found").doublings[0];
         let distance = (found.axial_forcing - first_doubling_forcing(number(text))).abs().high();
         assert!(distance < 1e-28, "{text}: {distance:e}");
         assert!(distance <= found.forcing_error, "{text}: {distance:e}");
@@ -124,7 +135,7 @@ fn the_first_doubling_is_its_closed_form() {
 #[test]
 fn the_constants_are_those_of_feigenbaum_and_each_error_is_confirmed() {
     for text in ["0.1", "0.5", "0.8"] {
-        let cascade = doubling_cascade(number(text), 13, &Unobserved).expect("found");
+        let cascade = doubling_cascade(number(text), 13, &Unobserved).expect("found").doublings;
         let estimates = feigenbaum_estimates(&cascade);
         assert_eq!(estimates.first().map(|first| first.number), Some(7));
         assert_eq!(estimates.last().map(|last| last.number), Some(13));
@@ -145,8 +156,9 @@ fn the_constants_are_those_of_feigenbaum_and_each_error_is_confirmed() {
 #[test]
 fn doubles_are_as_good_as_they_say() {
     for restitution in [0.05, 0.1, 0.25, 0.5, 0.7, 0.8, 0.9, 0.95, 0.99] {
-        let exact = doubling_cascade(DoubleDouble::from(restitution), 13, &Unobserved).expect("found");
-        let found = doubling_cascade(restitution, 13, &Unobserved).expect("found");
+        let exact =
+            doubling_cascade(DoubleDouble::from(restitution), 13, &Unobserved).expect("found").doublings;
+        let found = doubling_cascade(restitution, 13, &Unobserved).expect("found").doublings;
         for (found, exact) in found.iter().zip(&exact) {
             let error = (DoubleDouble::from(found.axial_forcing) - exact.axial_forcing).abs().high();
             assert!(error <= found.forcing_error, "{restitution}: {found:?} {error:e}");
@@ -167,7 +179,7 @@ fn twenty_five_digits_are_those_of_an_independent_program() {
         ("0.5", 2, "0.540102086076066366919615211223"),
         ("0.1", 2, "1.06144457818861617255719788652"),
     ] {
-        let found = doubling_cascade(number(restitution), 3, &Unobserved).expect("found")[index];
+        let found = doubling_cascade(number(restitution), 3, &Unobserved).expect("found").doublings[index];
         let distance = (found.axial_forcing - number(forcing)).abs().high();
         assert!(distance < 1e-26, "{restitution}: {found:?} {distance:e}");
     }
@@ -176,7 +188,7 @@ fn twenty_five_digits_are_those_of_an_independent_program() {
 /// Each doubling is a root, not what the way to it left.
 #[test]
 fn the_multiplier_is_minus_one() {
-    let cascade = doubling_cascade(number("0.5"), 13, &Unobserved).expect("found");
+    let cascade = doubling_cascade(number("0.5"), 13, &Unobserved).expect("found").doublings;
     for doubling in &cascade {
         let left = (doubling.multiplier + DoubleDouble::ONE).abs().high();
         // The distance of two doublings takes the multiplier from 1 to -1.
@@ -191,7 +203,7 @@ fn the_multiplier_is_minus_one() {
 
 #[test]
 fn doublings_and_estimates_are_printed() {
-    let cascade = doubling_cascade(number("0.5"), 8, &Unobserved).expect("found");
+    let cascade = doubling_cascade(number("0.5"), 8, &Unobserved).expect("found").doublings;
     assert_eq!(
         format!("{:.25}", cascade[2]),
         "Gamma_3 = 0.5401020860760663669196152, of the orbit of 4 impacts"

@@ -107,7 +107,7 @@ fn folds_are_those_of_the_closed_form_to_1e_13() {
 /// From branch to doubled branch: the cascade, as the search of its own finds it by another way.
 #[test]
 fn doubled_branches_double_where_the_cascade_does() {
-    let cascade = doubling_cascade(0.5, 3, &Unobserved).expect("found");
+    let cascade = doubling_cascade(0.5, 3, &Unobserved).expect("found").doublings;
     let (map, orbit) = node(1, 0.5, 0.1);
     let settings = forcing(0.3, 0.6, true).with_steps(0.003, 0.02, 10_000).expect("legal");
     let mut branch = map.continued(&orbit, &settings, &Unobserved).expect("continued");
@@ -188,7 +188,7 @@ fn a_range_ends_a_branch_on_its_own_side_of_the_fold_only() {
 #[test]
 fn a_range_ends_a_doubled_branch_on_its_own_side_of_the_birth_only() {
     for r in [0.1, 0.5, 0.8, 0.99] {
-        let cascade = doubling_cascade(r, 3, &Unobserved).expect("found");
+        let cascade = doubling_cascade(r, 3, &Unobserved).expect("found").doublings;
         let (map, orbit) = node(1, r, 0.8 * (cascade[0].axial_forcing - birth(1, r)));
         let settings = forcing(0.5 * birth(1, r), 1.5, true).with_steps(0.002, 0.02, 10_000).expect("legal");
         let mut branch = map.continued(&orbit, &settings, &Unobserved).expect("continued");
