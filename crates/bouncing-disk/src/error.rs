@@ -112,6 +112,35 @@ pub enum Error {
         /// The name of the second.
         other: &'static str,
     },
+    /// Two lists that belong together have different lengths.
+    #[error(
+        "{one} has {count} {} and {other} {other_count}: they need the same length",
+        if *count == 1 { "entry" } else { "entries" }
+    )]
+    Lengths {
+        /// The name of the first list.
+        one: &'static str,
+        /// Its entries.
+        count: usize,
+        /// The name of the second list.
+        other: &'static str,
+        /// Its entries.
+        other_count: usize,
+    },
+    /// A number of a stator's electrical side, without the force per volt that it acts by.
+    #[error(
+        "{field} needs stator.force_per_volt, or stator.anti_resonance with stator.capacitance; specify the drive once: amplitude \
+         (no rotor, at the drive frequency), stator.force or stator.volts"
+    )]
+    NoForcePerVolt {
+        /// The name of the number.
+        field: &'static str,
+    },
+    /// A load that switches the drive of a motion that is prescribed.
+    #[error(
+        "load.on and load.off switch the drive, which needs a table [stator]: a motion that is prescribed would stop with a jump"
+    )]
+    SwitchedMotion,
     /// An axis of a sweep has no values.
     #[error("the axis of {parameter} has no values; give at least one")]
     EmptyAxis {

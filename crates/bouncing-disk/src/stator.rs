@@ -34,6 +34,7 @@ mod regime;
 #[cfg(test)]
 mod tests;
 
+use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 use bouncing_disk_core::flight::Compliance;
@@ -53,6 +54,10 @@ pub const MODES: usize = 2;
 
 /// Least and largest contact time (rad) on a stator that yields.
 pub const CONTACT_TIMES: [f64; 2] = [1.0e-2, 1.0e4];
+
+/// Quality factors of modes.
+pub(crate) const QUALITIES: RangeInclusive<f64> = 0.5..=1.0e5;
+pub(crate) const QUALITIES_IN_WORDS: &str = "[0.5, 1e5]";
 
 /// Nearer to a jam than this share of the friction that jams, a disk moves too fast for steps.
 const NEAREST_JAM: f64 = 0.99;
@@ -179,7 +184,7 @@ impl StatorSystem {
             check((1.0e-6..=1.0e20).contains(&mode.mass), "mass of a mode", mode.mass, "[1e-6, 1e20]")?;
             let range = "[1e-3, 1e3]";
             check((least..=most).contains(&mode.frequency), "frequency of a mode", mode.frequency, range)?;
-            check((0.5..=1.0e5).contains(&mode.quality), "quality of a mode", mode.quality, "[0.5, 1e5]")?;
+            check(QUALITIES.contains(&mode.quality), "quality of a mode", mode.quality, QUALITIES_IN_WORDS)?;
             check(mode.angle.abs() <= 1.0e6, "angle of a mode", mode.angle, "[-1e6, 1e6]")?;
             let is_one = |value: f64| (value - 1.0).abs() <= 0.0;
             let pure = mode.height == 0.0 && is_one(mode.angle);

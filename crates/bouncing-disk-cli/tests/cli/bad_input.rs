@@ -211,6 +211,11 @@ fn stators() {
     folder.write("load.toml", &load);
     folder.write("times.toml", &format!("{load}times = [1]\nfactors = [0]\n"));
     folder.done("motor transient load.toml --members 1 --duration 0.01 --intervals 3");
+    let reports = ["motor report load.toml", "motor report times.toml"].map(|line| folder.done(line));
+    assert!(
+        reports.iter().all(|report| report.ends_with("the table [load] changes none of this\n")),
+        "{reports:?}"
+    );
     let stator = "motor report --set stator.mass=0.01 --set stator.quality=300";
     let loose = |command: &str| stator.replace("report", command) + " --relative-error 0.5 --most-impacts 1";
     assert!(folder.done(&loose("curve")).contains("stator amplitude (m)"));
@@ -249,7 +254,6 @@ fn stators() {
             "motor sweep --over friction=0.1:0.2:2 --up-and-down",
             "the table stator of a continued sweep is not given",
         ),
-        ("motor report load.toml", "holds for a constant load only: replace the table [load] by load_torque"),
         ("motor curve load.toml --template", "--template writes no table [load]"),
     ];
     folder.all_refused(2, &lines);
@@ -338,6 +342,10 @@ fn words_of_the_line_that_are_not_legal() {
         ("doublings --count 99", "count"),
         ("doublings --count 0", "count"),
         ("doublings -r 0", "restitution"),
+        (
+            "motor curve --set friction=0",
+            "without friction the largest torque is 0, so there is no torque-speed curve",
+        ),
         ("design --friction 0.7:0.5", "reversed"),
         ("design --stroke -1", "stroke = -1 is"),
         ("design --highest-flight -1", "highest_flight = -1 is"),

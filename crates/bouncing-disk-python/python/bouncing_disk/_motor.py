@@ -191,7 +191,9 @@ class Motor(Parameters):
         return Motor.from_dict({**kept, **changes})
 
     def report(self, *, progress: Progress = None) -> MotorReport:
-        """The consequences of the data sheet, before any run: forcing, regime, largest torque."""
+        """The consequences of the data sheet, before any run: forcing, regime, largest torque. Nothing in it depends
+        on the load.
+        """
         return native.report(locals())
 
     def stator_report(self) -> dict[str, float] | None:

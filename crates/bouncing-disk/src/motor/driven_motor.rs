@@ -7,7 +7,7 @@ use bouncing_disk_core::run::{Watch, in_parallel};
 use bouncing_disk_core::{Observer, Phase, Progress};
 
 use crate::driven::DrivenSystem;
-use crate::error::{Error, check};
+use crate::error::Error;
 use crate::motion::event::Event;
 use crate::motor::batch::members::TransientMember;
 use crate::motor::data_sheet::Motor;
@@ -87,13 +87,9 @@ impl DrivenMotor {
         let (mut own, bound) = with_shaft(&motor)?;
         if let Some(load) = motor.load() {
             let stops = !load.drives_at(f64::NEG_INFINITY) || !load.drives_at(f64::MAX);
-            let yields = motor.stator().is_some();
-            check(
-                yields || !stops,
-                "load.off",
-                f64::NAN,
-                "only with a table [stator]: a prescribed motion stops with a jump",
-            )?;
+            if stops && motor.stator().is_none() {
+                return Err(Error::SwitchedMotion);
+            }
             own = own.with_load(&lines(&load, 0.0, &bound, motor.mass()))?;
         }
         Ok(Self { motor, stator, carrier: Carrier::Yielding(Box::new(own)), bound })
@@ -111,7 +107,7 @@ impl DrivenMotor {
     ///
     /// # Errors
     /// Those of [`Self::new`]; [`Error::ScheduledDrive`] if the motion is a schedule; [`Error::BothGiven`] for a stator
-    /// that yields, or a load that varies.
+    /// that yields, or a load that varies; [`Error::SwitchedMotion`] for a load that switches a prescribed motion.
     pub fn of_drive(motor: Motor, drive: &DriveParameters) -> Result<Self, Error> {
         Self::on(motor, DrivenPlatform::of_drive(*motor.system().platform(), drive)?)
     }

@@ -490,6 +490,12 @@ mod tests {
             drive.height,
             Waveform::Pieces(vec![(0.5, [0.0, 1.0, 0.0, 0.0]), (0.5, [0.5, -1.0, 0.0, 0.0])])
         );
+        for rise in ["1e-10", "1.0"] {
+            let steep: DriveParameters =
+                toml::from_str(&format!("height = {{ sawtooth = {rise} }}")).expect("a shape");
+            let refused = DrivenPlatform::of_drive(hand(), &steep).expect_err("too steep").to_string();
+            assert!(refused.contains("outside its legal range [1e-9, 1 - 1e-9], a share"), "{refused}");
+        }
         for (text, words) in [
             (text.replace("[1, 0.0]", "[1, 0.0, 7.0]"), "this is not a shape; write \"sine\", "),
             (pieces.replace("-1]", "-1, 0, 0, 9]"), "this is not a shape"),

@@ -16,8 +16,12 @@ impl Nodes {
     /// The names are those of the abscissas, of the values and of their number.
     fn new(names: [&'static str; 3], places: &[f64], values: &[f64], least: usize) -> Result<Self, Error> {
         let (count, mut nodes) = (places.len(), [(0.0, 0.0); MAX_LOAD_NODES]);
-        let legal = (least..=MAX_LOAD_NODES).contains(&count) && values.len() == count;
-        check(legal, names[2], count as f64, "as many as of the other list, and at most 16")?;
+        if values.len() != count {
+            let [one, other, _] = names;
+            return Err(Error::Lengths { one, count, other, other_count: values.len() });
+        }
+        let legal = (least..=MAX_LOAD_NODES).contains(&count);
+        check(legal, names[2], count as f64, if least == 0 { "[0, 16]" } else { "[1, 16]" })?;
         let mut last = f64::NEG_INFINITY;
         for (node, (&place, &value)) in nodes.iter_mut().zip(places.iter().zip(values)) {
             finite(names[1], value)?;
@@ -73,8 +77,8 @@ impl LoadLaw {
     /// speed stands for a constant torque.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for speeds that do not rise, for numbers that are not finite, a slope included, and for other
-    /// numbers of speeds and torques than one to [`MAX_LOAD_NODES`], the same of both.
+    /// [`Error::OutOfRange`] for speeds that do not rise, for numbers that are not finite, a slope included, and for none
+    /// or more than [`MAX_LOAD_NODES`] speeds; [`Error::Lengths`] for another number of torques.
     pub fn new(speeds: &[f64], torques: &[f64]) -> Result<Self, Error> {
         let names = ["load.speeds", "load.torques", "number of load.speeds"];
         let torques = Nodes::new(names, speeds, torques, 1)?;
@@ -114,7 +118,7 @@ impl LoadLaw {
     /// With a factor of the torque from each of these times (s) on; 1 before the first.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] as for [`Self::new`]; none of both is legal.
+    /// As [`Self::new`]; none of both is legal.
     pub fn with_factors(self, times: &[f64], factors: &[f64]) -> Result<Self, Error> {
         let names = ["load.times", "load.factors", "number of load.times"];
         Ok(Self { factors: Nodes::new(names, times, factors, 0)?, ..self })
@@ -133,6 +137,7 @@ impl LoadLaw {
     /// # Errors
     /// [`Error::OutOfRange`] unless the first comes before the second.
     pub fn with_drive(self, on: f64, off: f64) -> Result<Self, Error> {
+        check(on < f64::INFINITY, "load.on", on, "[-inf, inf) (s)")?;
         check(on < off, "load.off", off, "after load.on (s)")?;
         Ok(Self { drive: [on, off], ..self })
     }
@@ -294,7 +299,6 @@ mod tests {
         let many: Vec<f64> = (0..17).map(f64::from).collect();
         for (result, field) in [
             (LoadLaw::new(&[], &[]), "number of load.speeds"),
-            (LoadLaw::new(&[1.0], &[1.0, 2.0]), "number of load.speeds"),
             (LoadLaw::new(&many, &many), "number of load.speeds"),
             (LoadLaw::new(&[1.0, 1.0], &[1.0, 2.0]), "load.speeds"),
             (LoadLaw::new(&[f64::NAN], &[1.0]), "load.speeds"),
@@ -303,9 +307,10 @@ mod tests {
             (LoadLaw::new(&[1e300, 1.1e300], &[0.0, 1.7e308]), "load.torques at speed 0"),
             (law.with_factors(&[0.0, -1.0], &[1.0, 1.0]), "load.times"),
             (law.with_factors(&[0.0], &[f64::NAN]), "load.factors"),
-            (law.with_factors(&[0.0], &[]), "number of load.times"),
             (law.with_inertia(-1.0), "load.inertia"),
             (law.with_drive(1.0, 1.0), "load.off"),
+            (law.with_drive(1.0, f64::NAN), "load.off"),
+            (law.with_drive(f64::NAN, 1.0), "load.on"),
             (LoadLaw::fan(0.0, 1.0, 3), "rated_speed"),
             (LoadLaw::fan(1.0, f64::NAN, 3), "rated_torque"),
             (LoadLaw::fan(1.0, 1.0, 8), "pieces"),

@@ -7,6 +7,7 @@ use bouncing_disk_core::numerics::elementary::{atan2, hypot};
 
 use crate::error::{Error, check, finite, not_negative, positive};
 use crate::parameters::platform::{Platform, PlatformParameters};
+use crate::stator::{QUALITIES, QUALITIES_IN_WORDS};
 
 /// Which of the stator's motions yield.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -34,7 +35,7 @@ pub struct StatorParameters {
     /// Effective mass M of the axial mode at the tip (kg), positive; needed.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub mass: Option<f64>,
-    /// Its quality factor Q, at least 1/2; needed.
+    /// Its quality factor Q, in [0.5, 1e5]; needed.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub quality: Option<f64>,
     /// Its resonance omega_1/(2 pi) (Hz), positive, with the electrodes short-circuited. Default: the drive frequency,
@@ -48,7 +49,7 @@ pub struct StatorParameters {
     /// Effective moment of inertia of the torsional mode (kg m^2), positive.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub inertia: Option<f64>,
-    /// Its quality factor, at least 1/2.
+    /// Its quality factor, in [0.5, 1e5].
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub torsional_quality: Option<f64>,
     /// Its resonance (Hz), positive. Default: the drive frequency.
@@ -90,7 +91,7 @@ pub struct VibrationMode {
     pub mass: f64,
     /// Angular frequency omega_1 of its resonance without damping (rad/s).
     pub angular_frequency: f64,
-    /// Quality factor Q, at least 1/2.
+    /// Quality factor Q, in [0.5, 1e5].
     pub quality: f64,
     /// The tip's height over the coordinate: 1 for an axial mode, 0 for a torsional one.
     pub height: f64,
@@ -258,7 +259,7 @@ impl StatorParameters {
         use StatorKind::{Axial, AxialAndTorsional, AxialTwist};
         type Legal = fn(&'static str, f64) -> Result<f64, Error>;
         let quality: Legal =
-            |field, value| check(value >= 0.5 && value.is_finite(), field, value, "[0.5, inf)");
+            |field, value| check(QUALITIES.contains(&value), field, value, QUALITIES_IN_WORDS);
         let all: &[StatorKind] = &[Axial, AxialTwist, AxialAndTorsional];
         let torsional: &[StatorKind] = &[AxialAndTorsional];
         let fields: [(_, _, Legal, _); 15] = [
@@ -310,12 +311,11 @@ impl StatorParameters {
                 return Err(Error::NotGiven { field: needs });
             }
         }
-        let needs_circuit =
-            ["stator.volts", "stator.torque_per_volt", "stator.capacitance"].into_iter().any(given);
-        if needs_circuit && !has_circuit {
-            return Err(Error::NeitherGiven { one: "stator.force_per_volt", other: "stator.anti_resonance" });
+        let needs_circuit = ["stator.volts", "stator.torque_per_volt", "stator.capacitance"];
+        match needs_circuit.into_iter().find(|field| given(field)) {
+            Some(field) if !has_circuit => Err(Error::NoForcePerVolt { field }),
+            _ => Ok(()),
         }
-        Ok(())
     }
 
     /// The stator whose steady motion without a rotor is this.

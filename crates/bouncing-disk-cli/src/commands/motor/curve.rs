@@ -41,6 +41,7 @@ pub(super) fn run(args: &CurveArgs, context: Context) -> Result<()> {
     warn(&motor, context);
     let load_torques = match args.loads {
         Some(loads) => loads,
+        None if motor.largest_torque() == 0.0 => return Err(Failure::Usage(NO_FRICTION.to_owned())),
         None => Range::new(0.0, motor.largest_torque(), 11).map_err(Failure::Usage)?,
     };
     let loads: Vec<f64> = load_torques.values().collect();
@@ -75,6 +76,8 @@ pub(super) fn run(args: &CurveArgs, context: Context) -> Result<()> {
     };
     report.deliver(&args.output, context)
 }
+
+const NO_FRICTION: &str = "without friction the largest torque is 0, so there is no torque-speed curve";
 
 fn draw(largest_torque: f64, rows: &[Row]) -> Figure {
     let point = |(operation, spread): &Row| {

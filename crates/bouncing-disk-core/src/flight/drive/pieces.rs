@@ -116,14 +116,14 @@ impl Drive {
         Self::sawtooth(amplitude, 0.5)
     }
 
-    /// A sawtooth that rises for this share of the period, in (0, 1), and falls for the rest: from 0 at time
+    /// A sawtooth that rises for this share of the period, in [1e-9, 1 - 1e-9], and falls for the rest: from 0 at time
     /// 0 to `amplitude`, to -`amplitude`, and back.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for numbers outside their range.
     pub fn sawtooth(amplitude: f64, rise: f64) -> Result<Self, Error> {
         let a = within("amplitude", amplitude, 0.0, 1.0e8, "[0, 1e8] (units of g/omega^2)")?;
-        within("rise", rise, 1.0e-9, 1.0 - 1.0e-9, "(0, 1), a share of the period")?;
+        within("rise", rise, 1.0e-9, 1.0 - 1.0e-9, "[1e-9, 1 - 1e-9], a share of the period")?;
         let (crest, trough) = (0.5 * rise * TAU, (1.0 - 0.5 * rise) * TAU);
         let (up, down) = (a / crest, -2.0 * a / (trough - crest));
         Self::joined(

@@ -126,19 +126,22 @@ enum Column {
 
 #[cfg(feature = "csv")]
 impl Column {
-    fn of(name: &str, said: Option<SpeedUnit>) -> Option<Self> {
+    /// `None` for a name that is unknown; of a known one its unit, if it is another one, and that of the column.
+    fn of(name: &str, said: Option<SpeedUnit>) -> Option<Result<Self, (String, &'static str)>> {
         if name == "speed_error" {
-            return Some(Self::SpeedError);
+            return Some(Ok(Self::SpeedError));
         }
         let (plain, unit) = name_and_unit(name);
         if NAMES[1].contains(&plain.as_str()) {
             let own = |unit| SpeedUnit::of(unit).filter(|own| said.is_none_or(|said| said == *own));
-            return unit.map_or(said, own).map(Self::Speed);
+            return unit.map_or(said, own).map(|own| Ok(Self::Speed(own)));
         }
         let error = plain.strip_suffix("_error");
         let field: MotorField = error.unwrap_or(&plain).parse().ok()?;
-        let is_its_unit = unit.is_none_or(|unit| unit == field.unit());
-        is_its_unit.then_some(if error.is_some() { Self::Error(field) } else { Self::Value(field) })
+        if let Some(other) = unit.filter(|unit| *unit != field.unit()) {
+            return Some(Err((shortened(other), field.unit())));
+        }
+        Some(Ok(if error.is_some() { Self::Error(field) } else { Self::Value(field) }))
     }
 }
 
@@ -148,9 +151,9 @@ fn table(bytes: &[u8], said: Option<SpeedUnit>) -> Result<Option<Vec<RatedPoint>
     let Some(header) = lines.next() else { return Ok(None) };
     let separator = SEPARATORS.into_iter().find(|separator| header.1.contains(*separator)).unwrap_or(',');
     let names = fields(header, separator)?;
-    let columns: Vec<Option<Column>> = names.iter().map(|name| Column::of(name, said)).collect();
+    let columns: Vec<_> = names.iter().map(|name| Column::of(name, said)).collect();
     let of_time = |name: &str| NAMES[0].contains(&name_and_unit(name).0.as_str());
-    let has_value = columns.iter().any(|column| matches!(column, Some(Column::Value(_))));
+    let has_value = columns.iter().any(|column| matches!(column, Some(Ok(Column::Value(_)) | Err(_))));
     if !has_value || names.iter().any(|name| of_time(name)) {
         return Ok(None);
     }
@@ -158,12 +161,15 @@ fn table(bytes: &[u8], said: Option<SpeedUnit>) -> Result<Option<Vec<RatedPoint>
         Located(Some(line), Some(place + 1), CsvFault::Points(what))
     };
     for (place, (column, name)) in columns.iter().zip(&names).enumerate() {
-        let what = if column.is_none() { "unknown, or has another unit" } else { "there twice" };
-        if column.is_none() || columns[..place].contains(column) {
-            return Err(fault(header.0, place, format!("the column {:?} is {what}", shortened(name))));
-        }
+        let what = match column {
+            None => "is unknown, or has another unit".to_owned(),
+            Some(Err((unit, own))) => format!("has the unit {unit:?}, and must be in {own}"),
+            Some(Ok(_)) if columns[..place].contains(column) => "is there twice".to_owned(),
+            Some(Ok(_)) => continue,
+        };
+        return Err(fault(header.0, place, format!("the column {:?} {what}", shortened(name))));
     }
-    let columns: Vec<Column> = columns.into_iter().flatten().collect();
+    let columns: Vec<Column> = columns.into_iter().flatten().flatten().collect();
     let unit =
         columns.iter().find_map(|column| if let Column::Speed(unit) = column { Some(*unit) } else { None });
     let unit = unit

@@ -263,6 +263,10 @@ fn a_table_of_points_is_read_or_its_fault_placed() {
             "line 1, field 2: the column \"load_torq\" is unknown",
         ),
         ("speed,load_torque\n1,2\n", "field 1: the column \"speed\" is unknown, or has another unit"),
+        (
+            "speed_rad_s,load_torque (uN m)\n1,2\n",
+            "line 1, field 2: the column \"load_torque (uN m)\" has the unit \"uN m\", and must be in N m",
+        ),
         ("load_torque\n1\n", "the column of the speed, or its unit, is missing"),
         ("speed_rad_s,load_torque,load_torque\n1,2,3\n", "is there twice"),
         ("speed_rad_s,load_torque\n1,2,3\n", "line 2: it has 3 fields"),

@@ -45,7 +45,7 @@ pub struct MotorReport {
 
 impl Motor {
     /// Follows the rotor for 20 000 to 300 000 impacts, which takes a few to some 100 ms, and reports its
-    /// motion.
+    /// motion. Nothing in it depends on the load.
     ///
     /// The items of `observer` are the impacts of up to three motions, each counted from 0.
     ///
@@ -53,7 +53,9 @@ impl Motor {
     /// [`Error::YieldingStator`], of which [`Self::stator_report`] says what is known; those of the core, for a flight
     /// longer than it can count.
     pub fn report(&self, observer: &dyn Observer) -> Result<MotorReport, Error> {
-        self.system().prescribed()?;
+        if self.stator().is_some() {
+            return Err(Error::YieldingStator);
+        }
         let (regime, flight) = regime(self.system().dimensionless(), observer)?;
         let system = self.system();
         let impact_speed = flight.map(|mean| mean.impact_speed * system.scales().velocity);
