@@ -45,6 +45,27 @@ def test_a_manifold_has_pieces_on_branches(kind: Any) -> None:
     assert sum(len(found.of(piece)[0]) for piece in range(pieces)) == found.offsets[-1]
 
 
+def test_orbits_of_another_motion_are_refused_by_name() -> None:
+    own, other = (bd.ImpactMap(axial_forcing=forcing, restitution=0.8) for forcing in (0.2, 0.345))
+    orbit = own.settled_orbit(impact_phase=1.0, normalised_speed=1.1)
+    assert orbit is not None and orbit.period == 1
+    known: Any = {"phases": 3, "speeds": 3, "known_orbits": [(orbit, 0.01)]}
+    bd.basins(own, **known)
+    for call in [
+        lambda: orbit.trapping_radius(other),
+        lambda: bd.basins(other, **known),
+        lambda: bd.basins(other, **{**known, "known_orbits": [orbit]}),
+        lambda: bd.basins(own, **known, drive=bd.Drive.parabolas()),
+        lambda: bd.basins(own, **known, contact_time=0.1),
+        lambda: bd.continued(other, orbit, parameter_range=(0.3, 0.4)),
+        lambda: bd.manifold(other, saddle_of(own), arclength=1.0),
+    ]:
+        with pytest.raises(bd.InvalidError) as refused:
+            call()
+        assert refused.value.kind == "not-an-orbit" and refused.value.details["impact"] == 0
+        assert refused.value.details["distance"] > 1e-3
+
+
 def test_what_is_no_saddle_has_no_manifold() -> None:
     attracting = MAP.settled_orbit(impact_phase=1.2, normalised_speed=1.3)
     assert attracting is not None

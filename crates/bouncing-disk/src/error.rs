@@ -70,14 +70,12 @@ pub enum Error {
         load: f64,
     },
     /// The given orbit is not a periodic orbit of this system.
-    #[error(
-        "impact {impact} does not lead to the next impact of the orbit: it misses it by {distance:?} (rad, or relative speed)"
-    )]
+    #[error("{}", bouncing_disk_core::Error::NotAnOrbit { impact: *impact, distance: *distance })]
     NotAnOrbit {
         /// The impact, from 0 on.
         impact: usize,
         /// How far the impact that follows it is from the next one of the orbit (rad, or relative to 1 + the
-        /// speed).
+        /// largest impact speed of the orbit); infinite if the disk stays on the platform.
         distance: f64,
     },
     /// Low-period traps leave too few motors of a range for a straight line.

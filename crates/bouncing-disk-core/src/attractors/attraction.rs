@@ -206,10 +206,11 @@ impl PeriodicOrbit {
     /// difference over the whole region, and shows that no flight from there meets the platform earlier.
     ///
     /// # Errors
-    /// [`Error::NotAttracting`] unless the orbit is [stable](Self::stability); [`Error::NothingProven`] if
-    /// the region would be no larger than the rounding, as next to a graze; those of
-    /// [`Vibration::first_impact`](crate::Vibration::first_impact).
+    /// [`Error::NotAnOrbit`] for an orbit of another map; [`Error::NotAttracting`] unless the orbit is
+    /// [stable](Self::stability); [`Error::NothingProven`] if the region would be no larger than the
+    /// rounding, as next to a graze; those of [`Vibration::first_impact`](crate::Vibration::first_impact).
     pub fn proven_radius(&self, map: &ImpactMap) -> Result<f64, Error> {
+        map.check_orbit(self)?;
         if self.stability() != Stability::Stable {
             let spectral_radius = self.multipliers().spectral_radius();
             return Err(Error::NotAttracting { spectral_radius, trace_error: self.trace_error });
@@ -255,8 +256,8 @@ impl PeriodicOrbit {
     /// The items of `observer` are the starts, counted at their maximum.
     ///
     /// # Errors
-    /// [`Error::NotAttracting`] unless the orbit is [stable](Self::stability); those of
-    /// [`Self::proven_radius`] where samples find no radius either.
+    /// [`Error::NotAnOrbit`] for an orbit of another map; [`Error::NotAttracting`] unless the orbit is
+    /// [stable](Self::stability); those of [`Self::proven_radius`] where samples find no radius either.
     pub fn trapping_radius(
         &self,
         map: &ImpactMap,
@@ -264,7 +265,7 @@ impl PeriodicOrbit {
         observer: &dyn Observer,
     ) -> Result<f64, Error> {
         let proven = self.proven_radius(map);
-        if let Err(refused @ Error::NotAttracting { .. }) = proven {
+        if let Err(refused @ (Error::NotAnOrbit { .. } | Error::NotAttracting { .. })) = proven {
             return Err(refused);
         }
         let (scale, samples) = (map.vibration().peak_acceleration(), samples.max(1));

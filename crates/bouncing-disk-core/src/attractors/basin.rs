@@ -200,6 +200,15 @@ pub(crate) fn check_number_of(known: &[KnownOrbit]) -> Result<(), Error> {
     within("number of known orbits", known.len() as f64, 0.0, MAX_KNOWN, "[0, 250]").map(|_| ())
 }
 
+/// The same, and orbits of another map.
+pub(super) fn check_known(
+    known: &[KnownOrbit],
+    check_orbit: impl Fn(&PeriodicOrbit) -> Result<(), Error>,
+) -> Result<(), Error> {
+    check_number_of(known)?;
+    known.iter().try_for_each(|known| check_orbit(&known.orbit))
+}
+
 /// How long a start is followed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -339,14 +348,15 @@ impl ImpactMap {
     /// The label of one start: [`ATTACHED`], the index of a known orbit + [`FIRST_ORBIT`], or [`UNDECIDED`].
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for more than 250 known orbits; those of [`crate::Vibration::first_impact`].
+    /// [`Error::OutOfRange`] for more than 250 known orbits; [`Error::NotAnOrbit`] for one of another map;
+    /// those of [`crate::Vibration::first_impact`].
     pub fn basin_label(
         &self,
         start: ImpactState,
         known: &[KnownOrbit],
         settings: BasinSettings,
     ) -> Result<Label, Error> {
-        check_number_of(known)?;
+        check_known(known, |orbit| self.check_orbit(orbit))?;
         self.label_of(start, known, settings, || Ok(()))
     }
 
@@ -403,8 +413,9 @@ impl ImpactMap {
     /// stopped.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for more than 250 known orbits; [`Error::TooLarge`] for a grid of more than
-    /// [`MAX_CELLS`] cells or than there is memory for; those of [`crate::Vibration::first_impact`].
+    /// [`Error::OutOfRange`] for more than 250 known orbits; [`Error::NotAnOrbit`] for one of another map;
+    /// [`Error::TooLarge`] for a grid of more than [`MAX_CELLS`] cells or than there is memory for; those of
+    /// [`crate::Vibration::first_impact`].
     pub fn basins(
         &self,
         grid: Grid,

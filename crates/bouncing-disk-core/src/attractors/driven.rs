@@ -4,7 +4,7 @@ use core::f64::consts::PI;
 use core::ops::Range;
 
 use super::basin::{
-    ATTACHED, BasinSettings, Basins, Grid, KnownOrbit, Label, MAX_CELLS, UNDECIDED, caught, check_number_of,
+    ATTACHED, BasinSettings, Basins, Grid, KnownOrbit, Label, MAX_CELLS, UNDECIDED, caught, check_known,
 };
 use crate::flight::platform::phase::Phase;
 use crate::map::driven_map::{DrivenEvent, DrivenMap, DrivenOrbit};
@@ -62,8 +62,8 @@ impl DrivenMap {
     /// The items of `observer` are the rows.
     ///
     /// # Errors
-    /// [`Error::TooLarge`] beyond [`MAX_CELLS`]; [`Error::OutOfRange`] for more than 250 known orbits; the
-    /// first error of an orbit; [`Error::Stopped`].
+    /// [`Error::TooLarge`] beyond [`MAX_CELLS`]; [`Error::OutOfRange`] for more than 250 known orbits;
+    /// [`Error::NotAnOrbit`] for one of another map; the first error of an orbit; [`Error::Stopped`].
     pub fn basins(
         &self,
         grid: Grid,
@@ -86,7 +86,7 @@ impl DrivenMap {
         settings: BasinSettings,
         observer: &dyn Observer,
     ) -> Result<Basins, Error> {
-        check_number_of(known)?;
+        check_known(known, |orbit| self.check_orbit(orbit))?;
         let (columns, expected) = (grid.phase().cells(), grid.speed().cells() as u64);
         if rows.end as u64 > expected {
             let what = "end of the rows of a grid";

@@ -294,7 +294,7 @@ read_checked!(Attractors as UncheckedAttractors {
 
 impl Attractors {
     /// Checks what is read: the disk at rest first, then periodic ones, then all others, no more than there
-    /// are labels, and of no more starts than there were.
+    /// are labels, orbits of this map, and of no more starts than there were.
     fn check(&self) -> Result<(), Error> {
         let refuse = |what, found: usize, expected: usize| {
             Err(Error::Unfitting { what, found: found as u64, expected: expected as u64 })
@@ -321,6 +321,7 @@ impl Attractors {
         {
             return refuse("attractor that a rest leads to", target, count - 1);
         }
+        self.all.iter().filter_map(|own| own.kind.orbit()).try_for_each(|own| self.map.check_orbit(own))?;
         let starts = u64::from(self.search.starts());
         if let Some(other) = self.all.iter().find(|attractor| attractor.starts.of() != starts) {
             return refuse("starts of an attractor", other.starts.of() as usize, starts as usize);

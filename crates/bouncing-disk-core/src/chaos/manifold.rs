@@ -233,7 +233,7 @@ impl ImpactMap {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if the orbit is not a saddle, or for a stable manifold and restitution 0;
-    /// [`Error::NotSettled`] if it is not an orbit of this map; those of
+    /// [`Error::NotAnOrbit`] if it is not an orbit of this map; those of
     /// [`Vibration::first_impact`](crate::Vibration::first_impact).
     pub fn manifold(
         &self,

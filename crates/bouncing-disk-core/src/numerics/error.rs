@@ -91,6 +91,17 @@ pub enum Error {
         /// The smallest region that was tried (rad).
         region: f64,
     },
+    /// The given orbit is not a periodic orbit of the map.
+    #[error(
+        "impact {impact} does not lead to the next impact of the orbit: it misses it by {distance:?} (rad, or relative speed)"
+    )]
+    NotAnOrbit {
+        /// The impact, from 0 on.
+        impact: usize,
+        /// How far the impact that follows it is from the next one of the orbit (rad, or relative to 1 + the
+        /// largest impact speed of the orbit); infinite if the disk stays on the platform.
+        distance: f64,
+    },
     /// The solution that an iteration settled on has an impact without speed: a disk at rest, not a periodic
     /// orbit.
     #[error(
@@ -250,6 +261,7 @@ mod tests {
                 Error::NotSettled { what: "search", iterations: 7, residual: number },
                 Error::NotAttracting { spectral_radius: number, trace_error: number },
                 Error::NothingProven { region: number },
+                Error::NotAnOrbit { impact: 3, distance: number },
                 Error::ImpactWithoutSpeed { index: 3, phase: number },
                 Error::NoPlatformPeriods { impacts: 2, speed: number },
                 Error::EarlierImpact { index: 5, sought: number, found: number },

@@ -320,8 +320,8 @@ impl ImpactMap {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if the parameter of this map is outside of the range, or the restitution is 0;
-    /// [`Error::NoBranch`] if `orbit` is not an orbit of this map, or not an isolated one: start beside a
-    /// fold or a birth, not on it.
+    /// [`Error::NotAnOrbit`] if `orbit` is not an orbit of this map; [`Error::NoBranch`] if it is not an
+    /// isolated one: start beside a fold or a birth, not on it.
     pub fn continued(
         &self,
         orbit: &PeriodicOrbit,
@@ -330,6 +330,13 @@ impl ImpactMap {
     ) -> Result<Branch, Error> {
         settings.check()?;
         orbit.check()?;
+        self.check_parameter(settings)?;
+        self.check_orbit(orbit)?;
+        self.continued_from(orbit, settings, observer)
+    }
+
+    /// Refuses a continuation in whose range this map does not lie, and one of a disk without restitution.
+    fn check_parameter(&self, settings: &Continuation) -> Result<(), Error> {
         within("restitution of a continuation", self.restitution(), f64::MIN_POSITIVE, 1.0, "(0, 1)")?;
         let parameter = settings.parameter.of(self);
         // The forcing of a map, P/pi, is rounded: that of a map made for an end of the range may lie beside
@@ -339,6 +346,17 @@ impl ImpactMap {
             let legal = "[low, high] of the `Continuation`";
             within("parameter of a continuation", parameter, settings.low, settings.high, legal)?;
         }
+        Ok(())
+    }
+
+    /// [`Self::continued`] from an orbit of this map or of one next to it.
+    pub(crate) fn continued_from(
+        &self,
+        orbit: &PeriodicOrbit,
+        settings: &Continuation,
+        observer: &dyn Observer,
+    ) -> Result<Branch, Error> {
+        self.check_parameter(settings)?;
         let watch = Watch::begin(observer, 0, settings.max_points as u64)?;
         let (closing, mut at) = Closing::of(self, settings.parameter, &orbit.states)?;
         at.parameter = at.parameter.clamp(settings.low, settings.high);

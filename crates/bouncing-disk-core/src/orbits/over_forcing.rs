@@ -117,7 +117,8 @@ impl Found {
         // Back through the fold, on whose other side are the saddles, and on to the doublings.
         for rising in [false, true] {
             let range = (low, STRIDE * forcing);
-            let Some(branch) = if_any(map.continued(orbit, &settings(range, rising)?, &Unobserved))? else {
+            let Some(branch) = if_any(map.continued_from(orbit, &settings(range, rising)?, &Unobserved))?
+            else {
                 continue;
             };
             let pieces = self.followed(branch, low, enough)?;
@@ -141,7 +142,7 @@ impl Found {
             if range.0 >= range.1 {
                 break;
             }
-            let next = last.map_at(forcing)?.continued(&tip.orbit, &settings(range, true)?, &Unobserved);
+            let next = last.map_at(forcing)?.continued_from(&tip.orbit, &settings(range, true)?, &Unobserved);
             let Some(next) = if_any(next)? else { break };
             pieces.push(next);
         }
@@ -167,7 +168,8 @@ impl Found {
             if let [first, second, ..] = branch.points.as_slice() {
                 let back = second.parameter < first.parameter;
                 let map = branch.map_at(first.parameter)?;
-                if let Some(stem) = if_any(map.continued(&first.orbit, &settings(range, back)?, &Unobserved))?
+                if let Some(stem) =
+                    if_any(map.continued_from(&first.orbit, &settings(range, back)?, &Unobserved))?
                 {
                     self.add(&stem)?;
                 }

@@ -205,7 +205,7 @@ def basins(
         phase_range: lowest and highest impact phase, in periods.
         speeds: cells along the normalised impact speed, up to 100000.
         speed_range: lowest and highest normalised speed.
-        known_orbits: attracting orbits, at most 250, each a :class:`PeriodicOrbit` or a pair of one and the
+        known_orbits: attracting orbits of this motion, at most 250, each a :class:`PeriodicOrbit` or a pair of one and the
             radius (rad) within which a start counts as caught; without a radius it is the
             :meth:`PeriodicOrbit.trapping_radius`.
         max_impacts: impacts after which a start is left undecided.
@@ -213,6 +213,9 @@ def basins(
             needs a radius.
         contact_time: as of :func:`orbit_diagram`.
         chatter: how a chatter ends; ``None`` sums it.
+
+    Raises:
+        InvalidError: ``"not-an-orbit"`` for an orbit of another map, drive or contact.
 
     >>> import bouncing_disk as bd
     >>> bouncing = bd.ImpactMap(axial_forcing=0.34, restitution=0.5)

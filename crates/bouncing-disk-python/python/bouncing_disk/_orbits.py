@@ -205,6 +205,7 @@ class PeriodicOrbit(Stored):
             In radians (a radian counts as much as the peak velocity of the platform).
 
         Raises:
+            InvalidError: ``"not-an-orbit"`` for an orbit of another map.
             ComputationError: ``"not-attracting"`` unless the orbit attracts; ``"nothing-proven"`` next to a
                 graze, where samples find no radius either.
         """
@@ -350,6 +351,9 @@ def continued(
         rising: whether it goes towards higher values at first.
         first_step, largest_step: arclength of the first and of the largest step, in [1e-9, 1].
         max_points: the most orbits, in [2, 1000000].
+
+    Raises:
+        InvalidError: ``"not-an-orbit"`` for an orbit of another map.
 
     >>> import bouncing_disk as bd
     >>> bouncing = bd.ImpactMap(axial_forcing=0.45, restitution=0.5)

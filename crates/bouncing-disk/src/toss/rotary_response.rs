@@ -1,19 +1,13 @@
 //! How a disk turns on a periodic orbit of the vertical motion, stable or unstable: its steady spin and the
 //! rotary multiplier (docs/numerics/dynamics.md, "The spin on a periodic orbit").
 
-use std::f64::consts::TAU;
-
-use bouncing_disk_core::Phase;
 use bouncing_disk_core::orbits::PeriodicOrbit;
+use bouncing_disk_core::{Error as CoreError, Phase};
 
-use crate::error::{Error, all_finite, check};
+use crate::error::{Error, all_finite};
 use crate::motion::impact::{available_impulse, axial_impulse};
 use crate::motion::state::SlipDirection;
 use crate::parameters::dimensionless::DimensionlessSystem;
-
-/// How far from the next impact of a given orbit the map may take the one before it (rad, or relative to 1 +
-/// the speed). An orbit of this map closes far better; one of another map hardly ever closes so well.
-const CLOSES: f64 = 1.0e-6;
 
 /// The fate of the spin of a disk on a periodic orbit.
 #[derive(Debug, Clone, PartialEq)]
@@ -171,19 +165,15 @@ struct SpinMap {
 impl SpinMap {
     /// The map for an orbit, after a check that it is one of this system.
     fn of(system: &DimensionlessSystem, orbit: &PeriodicOrbit) -> Result<Self, Error> {
+        system.map().check_orbit(orbit).map_err(|error| match error {
+            CoreError::NotAnOrbit { impact, distance } => Error::NotAnOrbit { impact, distance },
+            CoreError::OutOfRange { field, value, legal } => Error::OutOfRange { field, value, legal },
+            error => error.into(),
+        })?;
         let states = &orbit.states;
-        check(!states.is_empty(), "impacts of a periodic orbit", 0.0, "at least 1")?;
         let mut durations = Vec::with_capacity(states.len());
-        for (index, state) in states.iter().enumerate() {
-            let impact = system.map().step(*state)?;
-            let target = states[(index + 1) % states.len()];
-            let turned = (impact.phase.angle() - target.phase().angle()).abs();
-            let speed = (impact.velocity - target.velocity()).abs() / (1.0 + target.velocity().abs());
-            let distance = turned.min(TAU - turned).max(speed);
-            if distance > CLOSES {
-                return Err(Error::NotAnOrbit { impact: index, distance });
-            }
-            durations.push(impact.duration());
+        for state in states {
+            durations.push(system.map().step(*state)?.duration());
         }
         let friction = system.friction();
         let available: Vec<f64> = states

@@ -4,7 +4,7 @@
 mod stored;
 
 use super::starts::Cells;
-use super::{BasinSettings, Basins, Grid, KnownOrbit, Label, MAX_CELLS, UNDECIDED, check_number_of};
+use super::{BasinSettings, Basins, Grid, KnownOrbit, Label, MAX_CELLS, UNDECIDED, check_known};
 use crate::map::impact_map::ImpactMap;
 use crate::numerics::error::{Error, room_for};
 use crate::run::{Observer, Watch, in_parallel, threads};
@@ -37,15 +37,15 @@ impl BasinRun {
     /// A run with no row finished.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for more than 250 known orbits; [`Error::TooLarge`] for a grid of more than
-    /// [`MAX_CELLS`] cells or than there is memory for.
+    /// [`Error::OutOfRange`] for more than 250 known orbits; [`Error::NotAnOrbit`] for one of another map;
+    /// [`Error::TooLarge`] for a grid of more than [`MAX_CELLS`] cells or than there is memory for.
     pub fn new(
         map: ImpactMap,
         grid: Grid,
         known: &[KnownOrbit],
         settings: BasinSettings,
     ) -> Result<Self, Error> {
-        check_number_of(known)?;
+        check_known(known, |orbit| map.check_orbit(orbit))?;
         let (columns, rows) = (grid.phase().cells(), grid.speed().cells());
         // The system provides these zeros at once; writing those of a large grid would take seconds without a
         // call of the observer. The first line checks that there is room for them.

@@ -241,7 +241,7 @@ fn what_is_no_saddle_has_no_manifold() {
     let moved = ImpactState::new(node.states[0].phase(), -4.0).expect("legal");
     let none = PeriodicOrbit { states: vec![moved], ..node.clone() };
     assert!(
-        matches!(refused(&map, &none, ManifoldKind::Stable), Error::NotSettled { residual, .. } if residual > 0.01)
+        matches!(refused(&map, &none, ManifoldKind::Stable), Error::NotAnOrbit { distance, .. } if distance > 0.01)
     );
     let empty = PeriodicOrbit { states: Vec::new(), ..node };
     assert!(matches!(refused(&map, &empty, ManifoldKind::Stable), Error::OutOfRange { .. }));

@@ -48,7 +48,7 @@ impl Branch {
     /// # let map = ImpactMap::new(Vibration::from_axial_forcing(0.34)?, 0.5)?;
     /// # let orbit = map.refine(&[map.period_one(1).expect("it exists")])?;
     /// let whole = Continuation::new(ContinuationParameter::Forcing, (0.1, 0.6), true)?;
-    /// let branch = map.continued(&orbit, &whole, &Unobserved)?;
+    /// let branch = map.continued_from(&orbit, &whole, &Unobserved)?;
     /// let parts = branch.within((0.45, 0.45 + 1e-6), 100)?;
     /// assert_eq!(parts.len(), 1);
     /// assert!(parts[0].len() >= 100);
@@ -161,7 +161,7 @@ impl Branch {
                 let step = (0.5 * gap * share.sqrt()).clamp(SMALLEST_STEP, LARGEST_STEP);
                 let settings = settings.with_steps(step, step, MOST_TO_EDGE)?;
                 let map = self.map_at(at)?;
-                let to_edge = map.continued(&known[from].point.orbit, &settings, &Unobserved)?;
+                let to_edge = map.continued_from(&known[from].point.orbit, &settings, &Unobserved)?;
                 to_edge.points.last().filter(|_| to_edge.end == BranchEnd::RangeLimit(edge)).cloned()
             };
             let Some(entry) = entry else { continue };
@@ -186,14 +186,17 @@ impl Branch {
         let map = self.map_at(at)?;
         let settings = Continuation::new(self.parameter, (low, high), rising)?;
         let most = points * PATIENCE;
-        let mut part =
-            map.continued(&from.orbit, &settings.with_steps(FIRST_STEP, LARGEST_STEP, most)?, &Unobserved)?;
+        let mut part = map.continued_from(
+            &from.orbit,
+            &settings.with_steps(FIRST_STEP, LARGEST_STEP, most)?,
+            &Unobserved,
+        )?;
         // A branch that ends in its birth may have no point but the first before it.
         let ends = part.points.iter().chain(part.of_kind(BifurcationKind::Birth).map(|birth| &birth.point));
         let length = ends.fold(0.0_f64, |most, end| most.max(end.arclength));
         if part.points.len() < points && length > 0.0 {
             let step = (length / points as f64).clamp(SMALLEST_STEP, LARGEST_STEP);
-            part = map.continued(&from.orbit, &settings.with_steps(step, step, most)?, &Unobserved)?;
+            part = map.continued_from(&from.orbit, &settings.with_steps(step, step, most)?, &Unobserved)?;
         }
         let birth = part.of_kind(BifurcationKind::Birth).next().map(|found| twice(&found.point));
         part.points.extend(birth.filter(|birth| (low..=high).contains(&birth.parameter)));

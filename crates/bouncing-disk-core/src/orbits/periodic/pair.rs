@@ -8,8 +8,8 @@ use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::error::Error;
 
-/// By how much, relative to the flight, the first impact may come early and still count as that of the closed
-/// form. Its root is simple: an earlier one is at least 2 |w_A|/(1 + P) away, which is 3e-8 of a flight under
+/// By how much, relative to the flight, the first impact may come early, or its speed differ, and still count
+/// as that of the closed form. Its root is simple: an earlier one is at least 2 |w_A|/(1 + P) away, which is 3e-8 of a flight under
 /// the largest P.
 const SAME_IMPACT: f64 = 1.0e-9;
 
@@ -42,7 +42,8 @@ impl PeriodOneOrbit {
         Multipliers::of_invariants(self.trace, self.determinant)
     }
 
-    /// Whether the orbit is one of the map: no earlier impact ends its flight, and the disk does take off.
+    /// Whether the orbit is one of the map, and not only of another one: no earlier impact ends its flight, and
+    /// the disk does take off.
     ///
     /// # Errors
     /// Those of [`ImpactMap::step`] but for [`Error::NoLiftOff`].
@@ -50,7 +51,8 @@ impl PeriodOneOrbit {
         match map.step(self.state) {
             Ok(impact) => {
                 let flight = TAU * self.platform_periods as f64;
-                Ok((impact.duration() - flight).abs() <= SAME_IMPACT * flight)
+                let differs = (impact.velocity - self.state.velocity()).abs();
+                Ok((impact.duration() - flight).abs().max(differs) <= SAME_IMPACT * flight)
             }
             Err(Error::NoLiftOff { .. }) => Ok(false),
             Err(error) => Err(error),

@@ -1,4 +1,4 @@
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::orbits::OrbitSearch;
