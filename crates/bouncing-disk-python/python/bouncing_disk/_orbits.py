@@ -225,19 +225,20 @@ def periodic_orbits(
 ) -> list[PeriodicOrbit]:
     """The periodic orbits of few impacts, stable and unstable.
 
-    Those of one impact come from the closed form and are complete. All others are found from a grid of
-    starts, which cannot prove that the list is complete.
+    Those of one impact come from a closed form and are complete, except with a contact time. All others are
+    found from a grid of starts, which cannot prove that the list is complete.
 
     Args:
         max_impacts: the most impacts of an orbit, in [1, 64].
         max_platform_periods: the most periods of the platform that it takes, in [1, 10000].
         phases, speeds: starts along each axis, in [2, 4096].
-        drive: how the platform moves; ``None`` for the sine. On another drive all orbits are found from the grid,
-            and those with an impact on a kink are left out: they have no multipliers.
+        drive: how the platform moves; ``None`` for the sine. Orbits with an impact on a kink are left out: they
+            have no multipliers.
         contact_time: as of :func:`orbit_diagram`.
 
     Returns:
-        By rising number of impacts, then of platform periods, then by falling speed.
+        By rising number of impacts, then of platform periods, then by falling speed of the fastest impact,
+            which is the first of each.
 
     >>> import bouncing_disk as bd
     >>> bouncing = bd.ImpactMap(axial_forcing=0.5, restitution=0.5)

@@ -1,12 +1,17 @@
-//! Periodic orbits on a drive: Newton's method by multiple shooting, and a search from a grid of starts.
+//! Periodic orbits on a drive: Newton's method by multiple shooting, and a search from a grid of starts
+//! (docs/numerics/drives.md, "Periodic orbits").
 
 use core::f64::consts::TAU;
+use core::ops::RangeInclusive;
 
 use glam::{DMat2, DVec2};
 
-use super::newton::{Shooting, moved, prime_period, same_orbit, speed_scale};
-use super::search::OrbitSearch;
-use super::{MAX_NEWTON_STEPS, MAX_PERIOD, PeriodicOrbit};
+use self::fold::Beside;
+use self::one_impact::OneImpact;
+use super::margin::next_to_margin;
+use super::newton::{Shooting, moved, prime_period, speed_scale};
+use super::search::{Catalogue, OrbitSearch};
+use super::{MAX_NEWTON_STEPS, MAX_PERIOD, PeriodicOrbit, phase_difference};
 use crate::chatter::policy::ChatterPolicy;
 use crate::flight::platform::phase::Phase;
 use crate::map::driven_map::{DrivenEvent, DrivenMap};
@@ -15,15 +20,32 @@ use crate::numerics::block_cyclic::solve_block_cyclic;
 use crate::numerics::error::{Error, within};
 use crate::run::{Observer, Watch, in_parallel};
 
+mod fold;
+mod one_impact;
+
 /// A shooting residual (rad, relative speed) at which an orbit counts as found, if it no longer shrinks.
 const SHOOTING_RESIDUAL: f64 = 1.0e-11;
 
 /// The error of one step of the map (rad, relative speed): that of its phase, made generous.
 const MAP_ROUNDING: f64 = 1.0e-14;
 
+/// How far (rad) an iteration may end from the orbit of one impact that it belongs to: next to a fold by the
+/// root of the residual.
+const REACH: f64 = 1.0e-3;
+
+/// How closely (rad, and relative speed) an orbit repeats a shorter one next to the doubling that it is born in:
+/// by the root of |1 - T + D|.
+const DOUBLED: f64 = 1.0e-2;
+
+/// The position error (rad) up to which the end of an iteration is kept beside the exact phase.
+const EXACT: f64 = 1.0e-12;
+
 impl DrivenMap {
     /// The periodic orbit next to `guess` (its impacts in order), with its multipliers. Its errors are
     /// estimates: what a rounding of each impact makes of the orbit, and that of the trace.
+    ///
+    /// Next to a fold an iteration may end where there is no orbit. One is returned only if it exists beyond
+    /// rounding, or as [`Marginal`](super::Stability::Marginal) where rounding decides whether it does.
     ///
     /// ```
     /// use bouncing_disk_core::{Drive, DrivenMap, ImpactMap, Vibration};
@@ -42,6 +64,16 @@ impl DrivenMap {
     /// [`Error::ImpactOnKink`] for an orbit without multipliers; [`Error::ImpactWithoutSpeed`] and
     /// [`Error::NoPlatformPeriods`] for a disk at rest; those of [`Self::step`].
     pub fn refine(&self, guess: &[ImpactState]) -> Result<PeriodicOrbit, Error> {
+        let orbit = self.iterated(guess)?;
+        let (residual, iterations) = (orbit.position_error, MAX_NEWTON_STEPS);
+        let one_impact = self.one_impact(orbit.platform_periods..=orbit.platform_periods);
+        let existing = self.existing(orbit, one_impact.as_ref()).into_iter().next();
+        let orbit = existing.ok_or(Error::NotSettled { what: "multiple shooting", iterations, residual })?;
+        orbit.check_motion().map(|()| orbit)
+    }
+
+    /// The end of an iteration from a guess, which need not be an orbit next to a fold.
+    fn iterated(&self, guess: &[ImpactState]) -> Result<PeriodicOrbit, Error> {
         within("period", guess.len() as f64, 1.0, MAX_PERIOD as f64, "[1, 4096] impacts")?;
         let mut states = guess.to_vec();
         let mut residual = f64::INFINITY;
@@ -65,8 +97,16 @@ impl DrivenMap {
     }
 
     /// The periodic orbits that Newton's method finds from the first impacts of the orbits of a grid of
-    /// starts, the shortest first: all of them only if the grid is fine enough. Orbits with an impact on a
-    /// kink have no multipliers and are left out, and so are those that come to rest.
+    /// starts: all of them only if the grid is fine enough. Orbits with an impact on a kink have no multipliers
+    /// and are left out, and so are those that come to rest. With rigid impacts the orbits of one impact come from
+    /// the phases at which the platform has their velocity, and are complete; of a family, as on a triangle, one
+    /// member is given, with its position error the length of the family.
+    ///
+    /// They have the order of [`OrbitsFound`](super::search::OrbitsFound): by rising number of impacts, then of
+    /// platform periods, then by falling speed of their fastest impact, which is the first of each.
+    ///
+    /// Next to a fold both orbits are given, one [marginal](super::Stability::Marginal) one where rounding decides
+    /// whether they exist, or none.
     ///
     /// The items of `observer` are the starts.
     ///
@@ -79,26 +119,32 @@ impl DrivenMap {
     ) -> Result<Vec<PeriodicOrbit>, Error> {
         let (columns, rows) = (search.phases() as usize, search.speeds() as usize);
         let watch = Watch::begin(observer, 0, (columns * rows) as u64)?;
+        let one_impact = self.one_impact(1..=search.max_platform_periods());
         let found = in_parallel(columns * rows, |start| {
             watch.ask()?;
             let angle = TAU * ((start % columns) as f64 + 0.5) / columns as f64;
             let share = ((start / columns) as f64 + 0.5) / rows as f64;
             let state = ImpactState::new(Phase::new(angle)?, -share * self.impact_speed_bound())?;
-            let orbits = self.orbits_from(state, search);
+            let orbits = self.orbits_from(state, search, one_impact.as_ref());
             watch.finish(1);
             Ok::<_, Error>(orbits)
         });
-        let mut orbits: Vec<PeriodicOrbit> = Vec::new();
+        let mut catalogue = Catalogue::default();
         for of_start in found {
             for orbit in of_start? {
-                if !orbits.iter().any(|known| same_orbit(known, &orbit)) {
-                    orbits.push(orbit);
-                }
+                catalogue.add(orbit, 1, false);
             }
         }
+        for orbit in one_impact.iter().flat_map(OneImpact::orbits) {
+            catalogue.add(orbit.clone(), 1, false);
+        }
         watch.end();
-        orbits.sort_by_key(|orbit| (orbit.period(), orbit.platform_periods));
-        Ok(orbits)
+        Ok(catalogue.into_sorted())
+    }
+
+    /// The orbits of one impact by their phases; `None` for contacts that take time, of which these are not known.
+    fn one_impact(&self, platform_periods: RangeInclusive<u64>) -> Option<OneImpact> {
+        self.compliant().is_none().then(|| OneImpact::of(self, platform_periods))
     }
 
     /// No impact of a periodic orbit is faster: from w the disk rises with at most V + r w, falls by the
@@ -112,8 +158,13 @@ impl DrivenMap {
         (speed + (speed * speed + 2.0 * fall * lost).sqrt()) / lost
     }
 
-    /// The orbits that the first impacts of one orbit lead to.
-    fn orbits_from(&self, start: ImpactState, search: &OrbitSearch) -> Vec<PeriodicOrbit> {
+    /// The orbits that the first impacts of one orbit lead to, each with its fastest impact first.
+    fn orbits_from(
+        &self,
+        start: ImpactState,
+        search: &OrbitSearch,
+        one_impact: Option<&OneImpact>,
+    ) -> Vec<PeriodicOrbit> {
         let impacts = self.orbit(start, ChatterPolicy::Complete).map_while(|event| match event {
             Ok(DrivenEvent::Impact(landing)) => Some(ImpactState::from(landing.impact)),
             _ => None,
@@ -122,13 +173,85 @@ impl DrivenMap {
         states.extend(impacts.take(search.max_impacts() - 1));
         let mut orbits = Vec::new();
         for n in 1..=states.len() {
-            let Ok(orbit) = self.refine(&states[..n]) else { continue };
-            let prime = prime_period(&orbit.states, 2.0 * orbit.position_error + 1.0e-9);
-            let orbit = if prime < n { self.refine(&orbit.states[..prime]) } else { Ok(orbit) };
+            let Ok(orbit) = self.prime(self.iterated(&states[..n])) else { continue };
             let within = |orbit: &PeriodicOrbit| orbit.platform_periods <= search.max_platform_periods();
-            orbits.extend(orbit.ok().filter(|orbit| within(orbit)));
+            let existing = self.existing(orbit, one_impact).into_iter();
+            // Beside a doubled orbit lies the one that it doubles, passed twice.
+            let prime = existing.filter(|orbit| prime_period_of(orbit) == orbit.period() && within(orbit));
+            orbits.extend(prime.filter_map(|orbit| self.fastest_first(orbit)));
         }
         orbits
+    }
+
+    /// The end of an iteration, or that of the shorter orbit that it repeats.
+    fn prime(&self, end: Result<PeriodicOrbit, Error>) -> Result<PeriodicOrbit, Error> {
+        let end = end?;
+        let prime = prime_period_of(&end);
+        if prime < end.period() { self.iterated(&end.states[..prime]) } else { Ok(end) }
+    }
+
+    /// The orbit from its fastest impact on.
+    fn fastest_first(&self, mut orbit: PeriodicOrbit) -> Option<PeriodicOrbit> {
+        let fastest = (1..orbit.period()).fold(0, |fastest, i| {
+            if orbit.states[i].velocity() < orbit.states[fastest].velocity() { i } else { fastest }
+        });
+        if fastest > 0 {
+            orbit.states.rotate_left(fastest);
+            orbit.monodromy = self.shoot(&orbit.states).ok()?.monodromy;
+        }
+        Some(orbit)
+    }
+
+    /// The orbits that do exist at the end of an iteration, the nearest first, and those beside it in a fold.
+    /// Away from folds it is the end itself.
+    fn existing(&self, end: PeriodicOrbit, one_impact: Option<&OneImpact>) -> Vec<PeriodicOrbit> {
+        if let Some(all) = one_impact.filter(|_| end.period() == 1) {
+            if all.is_of_family(&end) {
+                return vec![undecided(end)];
+            }
+            let apart = |orbit: &PeriodicOrbit| {
+                phase_difference(orbit.states[0].phase().angle(), end.states[0].phase().angle()).abs()
+            };
+            let mut orbits = all.orbits_with(end.platform_periods).to_vec();
+            orbits.retain(|orbit| apart(orbit) <= REACH);
+            orbits.sort_by(|one, other| apart(one).total_cmp(&apart(other)));
+            if let Some(nearest) = orbits.first_mut()
+                && end.position_error <= EXACT
+                && apart(nearest) <= EXACT
+                && !next_to_fold(&end)
+            {
+                *nearest = end;
+            }
+            return orbits;
+        }
+        // Beside the doubling that it is born in, an orbit is no member of a pair: its errors tell what is known.
+        let is_doubled = prime_period(&end.states, DOUBLED) < end.period();
+        if is_doubled || !next_to_fold(&end) && self.keeps_its_derivative(&end) {
+            return vec![end];
+        }
+        match self.orbits_beside(&end) {
+            Some(Beside::Orbits(orbits)) => orbits,
+            Some(Beside::Family) | None => vec![undecided(end)],
+        }
+    }
+
+    /// Whether the condition of Newton and Kantorovich holds: over twice the error of an orbit its trace changes by
+    /// less than half of 1 - T + D. Only where acceleration may jump it can fail away from folds.
+    fn keeps_its_derivative(&self, orbit: &PeriodicOrbit) -> bool {
+        if self.drive().next_joint(0.0).is_none() {
+            return true;
+        }
+        let reach = 2.0 * orbit.position_error;
+        let most = 0.5 * (1.0 - orbit.trace() + orbit.determinant()).abs();
+        [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)].into_iter().all(|(phase, velocity)| {
+            let step = DVec2::new(phase * reach, velocity * reach);
+            let there = moved(&orbit.states, &vec![step; orbit.period()]);
+            let there = there.and_then(|states| self.shoot(&states).ok());
+            there.is_some_and(|there| {
+                let trace = there.monodromy.x_axis.x + there.monodromy.y_axis.y;
+                (trace - orbit.trace()).abs() < most
+            })
+        })
     }
 
     fn shoot(&self, states: &[ImpactState]) -> Result<Shooting, Error> {
@@ -164,3 +287,22 @@ impl DrivenMap {
         }
     }
 }
+
+/// The number of impacts after which an orbit repeats itself.
+fn prime_period_of(orbit: &PeriodicOrbit) -> usize {
+    prime_period(&orbit.states, 2.0 * orbit.position_error + 1.0e-9)
+}
+
+/// Whether a multiplier is next to 1.
+fn next_to_fold(orbit: &PeriodicOrbit) -> bool {
+    next_to_margin(orbit.monodromy, orbit.determinant()).0
+}
+
+/// The orbit as one of which rounding decides whether it exists.
+fn undecided(orbit: PeriodicOrbit) -> PeriodicOrbit {
+    let inside = 1.0 + orbit.determinant() - orbit.trace().abs();
+    PeriodicOrbit { trace_error: orbit.trace_error.max(inside.abs()), ..orbit }
+}
+
+#[cfg(test)]
+mod tests;
