@@ -10,6 +10,7 @@ use crate::numerics::error::{Error, finite, within};
 use crate::numerics::quasi_polynomial::{DampedSine, QuasiPolynomial};
 
 pub(crate) mod contact;
+mod extremes;
 pub(crate) mod landing;
 pub(crate) mod pieces;
 mod spline;

@@ -24,10 +24,10 @@ const FIRST_PASS: f64 = 0.05;
 #[derive(Debug, PartialEq)]
 pub(crate) struct Pieces {
     /// When each piece begins, and 2 pi.
-    starts: Vec<f64>,
-    coefficients: Vec<[f64; 4]>,
+    pub(super) starts: Vec<f64>,
+    pub(super) coefficients: Vec<[f64; 4]>,
     /// By how much the velocity jumps where a piece begins.
-    jumps: Vec<f64>,
+    pub(super) jumps: Vec<f64>,
     /// When the velocity jumps, and by how much.
     kinks: Vec<(f64, f64)>,
     /// The first piece, this one or a later one, in which a contact ends that holds at its start; the number
@@ -188,7 +188,7 @@ struct Stretch {
 }
 
 impl Pieces {
-    fn count(&self) -> usize {
+    pub(super) fn count(&self) -> usize {
         self.coefficients.len()
     }
 
@@ -202,7 +202,7 @@ impl Pieces {
         after.saturating_sub(1).min(self.count() - 1)
     }
 
-    fn length(&self, piece: usize) -> f64 {
+    pub(super) fn length(&self, piece: usize) -> f64 {
         self.starts[piece + 1] - self.starts[piece]
     }
 
