@@ -7,8 +7,8 @@ use bouncing_disk::motion::{
 };
 use bouncing_disk::parameters::{Contact, DrivenPlatform, Scales};
 use bouncing_disk::toss::{
-    InitialSpin, RotaryOutcome, TOSS_START, TossPerformance, rotary_response as response,
-    single_toss as toss, toss_trajectory as toss_motion,
+    InitialSpin, RotaryOutcome, TossPerformance, rotary_response as response, single_toss as toss,
+    toss_trajectory as toss_motion,
 };
 use bouncing_disk::{
     Engine, Error, Event, EventRecord, InitialCondition, System as SystemModel, Trajectory as Motion,
@@ -91,7 +91,7 @@ pub(crate) fn single_toss<'py>(
             return toss(&system, initial);
         }
         let hand = DrivenPlatform::of_drive(*system.platform(), &drive)?.with_contact(contact);
-        driven::single_toss(&hand, system.disk(), Phase::new(TOSS_START)?, initial)
+        driven::single_toss(&hand, system.disk(), None, initial)
     })?;
     shown_toss(py, &done.map_err(|error| errors::of(py, error))?)
 }

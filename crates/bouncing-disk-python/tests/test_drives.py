@@ -55,6 +55,20 @@ def test_a_contact_that_takes_time_moves_the_orbit() -> None:
         )
 
 
+@pytest.mark.parametrize("shift", [1e-9, 0.5 * np.pi, np.pi, 4.0, 2.0 * np.pi - 1e-9])
+def test_a_toss_starts_at_the_lowest_point_whenever_the_recording_begins(shift: float) -> None:
+    toss, known = bd.System.pizza_toss(), bd.single_toss(bd.System.pizza_toss())
+    own = bd.single_toss(toss, drive=bd.Drive.fourier([(1.0, shift)], [(1.0, shift)]))
+    assert own.airborne_speed == pytest.approx(known.airborne_speed, rel=1e-9)
+    assert own.speed_ratio == pytest.approx(known.speed_ratio, rel=1e-9)
+
+
+def test_speed_ratios_are_to_the_largest_speed_of_the_drive() -> None:
+    toss, drive = bd.System.pizza_toss(), bd.Drive.fourier([(1.0, 0.0)], [(2.0, 0.0)])
+    own, peak = bd.single_toss(toss, drive=drive), 2.0 * toss.twist_amplitude * toss.angular_frequency
+    assert own.speed_ratio == pytest.approx(own.airborne_speed / peak, rel=1e-12)
+
+
 def test_tosses_and_motors_of_a_sum_of_one_sine_are_those_of_the_sine() -> None:
     drive = bd.Drive.fourier([(1.0, 0.0)], [(1.0, 0.0)])
     toss, motor = bd.System.pizza_toss(), bd.Motor.paper_70_khz()

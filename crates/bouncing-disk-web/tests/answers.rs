@@ -556,7 +556,7 @@ fn contacts_that_take_time_are_those_of_the_library() {
     let platform = DrivenPlatform::from(*toss.platform()).with_contact(Some((ContactLaw::Damper, 0.03)));
     let start = Phase::new(TOSS_START).expect("finite");
     let known =
-        driven::single_toss(&platform, toss.disk(), start, InitialSpin::AbsoluteRest).expect("leaves");
+        driven::single_toss(&platform, toss.disk(), Some(start), InitialSpin::AbsoluteRest).expect("leaves");
     let kinds = json["event_kinds"].as_array().expect("a list");
     let separation = kinds.iter().position(|kind| kind == "separation");
     let mut events = reply.numbers[9 * 121..].chunks(6).zip(&reply.bytes[121..]);

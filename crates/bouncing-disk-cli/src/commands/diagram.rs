@@ -216,13 +216,15 @@ impl GridJob for DiagramJob {
         for row in rows.clone() {
             let (forcing, restitution) = (self.axial_forcings.value(row), self.restitution);
             let map = map(forcing, restitution)?;
+            let own = (!is_rigid_sine(&self.drive, self.contact_time))
+                .then(|| driven_map(&self.drive, self.contact_time, forcing, restitution))
+                .transpose()?;
+            let rise = own.as_ref().map_or(0.0, |own| own.drive().fastest_rise_phase());
             for (start, kind) in self.starts.iter().enumerate() {
-                if let Some(state) = kind.of(&map)? {
-                    if is_rigid_sine(&self.drive, self.contact_time) {
-                        orbits.push(map.orbit(state, ChatterPolicy::Complete));
-                    } else {
-                        let map = driven_map(&self.drive, self.contact_time, forcing, restitution)?;
-                        driven.push(map.orbit(state, ChatterPolicy::Complete));
+                if let Some(state) = kind.of(&map, rise)? {
+                    match &own {
+                        None => orbits.push(map.orbit(state, ChatterPolicy::Complete)),
+                        Some(own) => driven.push(own.orbit(state, ChatterPolicy::Complete)),
                     }
                     places.push((row - rows.start, start));
                 }

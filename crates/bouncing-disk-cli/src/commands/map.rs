@@ -104,7 +104,7 @@ const BESIDE: f64 = 1.01;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub(crate) enum Start {
-    /// At rest on the platform.
+    /// At rest on the platform as it rises fastest.
     Rest,
     /// An impact as the platform rises fastest, with the speed of the period-1 orbit.
     Rise,
@@ -115,16 +115,18 @@ pub(crate) enum Start {
 }
 
 /// The possible starts, for the help.
-pub(crate) const STARTS: &str = "`rest` on the platform; `rise`, an impact as the platform rises fastest, with the speed of the \
-    period-1 orbit; `period-1`, 1 % faster than the impact of the period-1 orbit, where there is one; or PHASE,SPEED, the impact phase \
+pub(crate) const STARTS: &str = "`rest` on the platform and `rise`, an impact with the speed of the period-1 orbit, both as the platform rises \
+    fastest; `period-1`, 1 % faster than the impact of the period-1 orbit, where there is one; or PHASE,SPEED, the impact phase \
     in periods (tau/2pi) and the normalised impact speed |w_A Gamma/(omega A)|";
 
 impl Start {
-    /// The impact in a map; `None` where the map has no such start.
-    pub(crate) fn of(self, map: &ImpactMap) -> Result<Option<ImpactState>, Error> {
+    /// The impact in a map, on a platform that rises fastest at the phase `rise` (0 for the sine); `None` where the
+    /// map has no such start.
+    pub(crate) fn of(self, map: &ImpactMap, rise: f64) -> Result<Option<ImpactState>, Error> {
         match self {
-            Self::Rest => ImpactState::new(Phase::new(0.0)?, 0.0).map(Some),
-            Self::Rise => ImpactState::new(Phase::new(0.0)?, -map.period_one_impact_speed(1)).map(Some),
+            // There every platform holds the disk.
+            Self::Rest => ImpactState::new(Phase::new(rise)?, 0.0).map(Some),
+            Self::Rise => ImpactState::new(Phase::new(rise)?, -map.period_one_impact_speed(1)).map(Some),
             Self::PeriodOne => map
                 .period_one(1)
                 .map(|orbit| ImpactState::new(orbit.phase(), BESIDE * orbit.velocity()))
@@ -201,10 +203,31 @@ mod tests {
         }
     }
 
+    /// From the same height and speed of the platform, whenever its period begins.
+    #[test]
+    fn shifted_platforms_have_the_same_starts() {
+        let (sine, shape) = (map(0.5, 0.5).unwrap(), |phase: f64| Waveform::Fourier(vec![(1.0, phase)]));
+        for (start, shift) in [Start::Rest, Start::Rise].into_iter().flat_map(|start| {
+            [0.0, 1.0, 0.5 * TAU, 134.0 / 360.0 * TAU, 5.0, TAU.next_down()].map(|shift| (start, shift))
+        }) {
+            let state = |shift: f64| {
+                let driven = driven_map(&shape(shift), None, 0.5, 0.5).unwrap();
+                let state = start.of(&sine, driven.drive().fastest_rise_phase()).unwrap().unwrap();
+                (driven.drive().at(state.phase().angle()), driven.step(state).unwrap().impact, state)
+            };
+            let ((known, next, from), (own, then, to)) = (state(0.0), state(shift));
+            assert!(
+                (known.height - own.height).abs() < 1e-14 && (known.velocity - own.velocity).abs() < 1e-14
+            );
+            assert!((next.velocity - then.velocity).abs() < 1e-12, "{start} {shift}: {next:?} {then:?}");
+            assert!(from.velocity().to_bits() == to.velocity().to_bits());
+        }
+    }
+
     #[test]
     fn below_its_birth_there_is_no_period_one_orbit() {
-        let of = |forcing: f64| Start::PeriodOne.of(&map(forcing, 0.5).unwrap()).unwrap();
+        let of = |forcing: f64| Start::PeriodOne.of(&map(forcing, 0.5).unwrap(), 0.0).unwrap();
         assert!(of(0.3).is_none() && of(0.4).is_some());
-        assert!(Start::Rise.of(&map(0.0, 0.5).unwrap()).unwrap().is_some());
+        assert!(Start::Rise.of(&map(0.0, 0.5).unwrap(), 0.0).unwrap().is_some());
     }
 }

@@ -40,7 +40,7 @@ pub(super) fn instants(given: Option<u32>, periods: u64) -> u32 {
 #[command(after_help = "\
 The first toss from rest is that of Sec. III of the paper. For a file whose [drive] is a schedule, the command prints the \
 impacts up to the first landing. A contact.time, of soft hands, makes contacts take time in a single toss. With --many the disk is followed through all tosses that come \
-after it (Sec. IV). .csv and pictures show the motion, .json has both the motion and the numbers; with --many a picture of more \
+after it (Sec. IV). A [drive] that gives the height alone leaves the angle a sine, and the reverse. .csv and pictures show the motion, .json has both the motion and the numbers; with --many a picture of more \
 than 20 periods of the platform shows the last 20 of them. Units are SI; energies \
 are per unit mass (J/kg). See docs/model.md and docs/tutorial.md.
 

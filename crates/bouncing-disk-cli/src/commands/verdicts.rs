@@ -124,7 +124,7 @@ impl GridJob for VerdictsJob {
         let start = |index: usize| {
             let (forcing, restitution) = self.cell(rows.start + index / columns, index % columns);
             let map = map(forcing, restitution)?;
-            Ok::<_, Failure>(self.start.of(&map)?.map(|state| (map, state)))
+            Ok::<_, Failure>(self.start.of(&map, 0.0)?.map(|state| (map, state)))
         };
         let (mut all, mut seen) = (Vec::new(), 0_usize);
         let each = |cell: Option<Verdict>| {

@@ -217,13 +217,25 @@ fn tosses_and_motors_on_drives() {
     let toss = System::pizza_toss();
     let hand = DrivenPlatform::new(*toss.platform(), Waveform::Triangle, angle.clone()).unwrap();
     let phase = Phase::new(TOSS_START).unwrap();
-    let own = driven::single_toss(&hand, toss.disk(), phase, InitialSpin::AbsoluteRest).unwrap();
+    let own = driven::single_toss(&hand, toss.disk(), Some(phase), InitialSpin::AbsoluteRest).unwrap();
     assert_eq!(written("toss toss.toml")["performance"], stored(&own));
     let start = DrivenStart::Contact { phase, angular_speed: 0.0 };
     let settings = MultiTossSettings { transient_impacts: 50, examined_impacts: 64, ..Default::default() };
     let system = DrivenSystem::new(&hand, toss.disk()).unwrap();
     let orbit = driven::multi_toss(system, start, &settings, &Unobserved).unwrap();
     assert_eq!(written("toss toss.toml --many --transient 50 --examined 64")["orbit"], stored(&orbit));
+    // A toss starts at the lowest point, at whichever phase that is.
+    let shifted = "[drive]\nheight = { fourier = [[1, 2.0]] }\nangle = { fourier = [[1, 2.0]] }\n";
+    folder.write("shifted.toml", &(folder.done("toss --template") + shifted));
+    let speed = |found: &Value| found["performance"]["airborne_speed"].as_f64().unwrap();
+    assert!((speed(&written("toss shifted.toml")) - speed(&written("toss"))).abs() < 1e-9);
+    for line in ["toss shifted.toml", "toss shifted.toml --many --transient 50 --examined 64"] {
+        let found = written(line);
+        let heights = found["motion"].as_array().unwrap().iter();
+        let mut heights = heights.map(|own| own["platform_height_m"].as_f64().unwrap());
+        let first = heights.next().unwrap();
+        assert!(heights.all(|height| height >= first - 1e-15), "{line}");
+    }
     // A schedule of one segment is the motion itself.
     let schedule = format!("{drive}start_phase = {TOSS_START}\nsegments = [{{}}]\n");
     folder.write("schedule.toml", &(folder.done("toss --template") + &schedule));
@@ -260,7 +272,7 @@ fn contacts_that_take_time() {
     let toss = System::pizza_toss().with_contact(Some(soft(0.05))).unwrap();
     let hand = DrivenPlatform::from(*toss.platform()).with_contact(toss.soft_contact());
     let phase = Phase::new(TOSS_START).unwrap();
-    let own = driven::single_toss(&hand, toss.disk(), phase, InitialSpin::AbsoluteRest).unwrap();
+    let own = driven::single_toss(&hand, toss.disk(), Some(phase), InitialSpin::AbsoluteRest).unwrap();
     let found = written("toss --set contact.time=0.05");
     assert_eq!(found["performance"], stored(&own));
     assert!(found["performance"] != written("toss")["performance"]);

@@ -131,7 +131,8 @@ class Drive:
     dictionary of one item, ``sawtooth``, ``fourier``, ``pieces`` or ``sampled``. The shapes are checked as the object is made.
 
     Args:
-        height, angle: the shapes; the angle is the phase lag earlier.
+        height, angle: the shapes; the angle is the phase lag earlier. One that is left out is the plain sine, whatever
+            the other one is: a recorded motion needs both.
         start_phase, segments, then: a schedule for files of the command line; the calls of this package refuse it.
             Where it starts (rad); dictionaries of ``periods``, ``amplitude``, ``ramp_to``, ``frequency`` and ``lag``;
             ``"repeat"`` the last one, or ``"rest"``.

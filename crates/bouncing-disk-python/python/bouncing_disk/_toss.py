@@ -79,6 +79,9 @@ def single_toss(
 ) -> TossPerformance:
     """The toss of a disk from its platform, up to the separation.
 
+    It starts at the lowest point of the platform, whatever its motion. A disk that starts on a kink moves with the
+    platform after the kink.
+
     Args:
         initial_spin: whether the disk does not turn at first, or turns with the platform.
         drive: how the platform moves; ``None`` for the sine.

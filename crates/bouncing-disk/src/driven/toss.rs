@@ -19,9 +19,10 @@ use crate::toss::{InitialSpin, MultiTossSettings, TossOrbit, TossPerformance};
 /// may be hit at each kink for ever.
 const MOST_CONTACT_EVENTS: usize = 10_000;
 
-/// The toss of a disk that lies on the hand at `phase`, until the hand falls away from it or a kink throws it. Where
-/// the hand moves at `phase`, it has given the disk its velocity; the speed ratio is to omega Phi, whatever the
-/// waveform.
+/// The toss of a disk that lies on the hand at `phase`, until the hand falls away from it or a kink throws it; `None`
+/// is the hand's [lowest point](bouncing_disk_core::Drive::lowest_phase), at which a toss starts in the paper. Where
+/// the hand moves at `phase`, it has given the disk its velocity: a disk that starts on a kink moves with the hand
+/// after the kink, and is not hit. The speed ratio is to the hand's largest rotary speed with this waveform.
 ///
 /// # Errors
 /// [`Error::NeverLeaves`] if it stays on the hand; [`Error::OutOfRange`] for a phase at which the hand already
@@ -29,12 +30,17 @@ const MOST_CONTACT_EVENTS: usize = 10_000;
 pub fn single_toss(
     platform: &DrivenPlatform,
     disk: &Disk,
-    phase: Phase,
+    phase: Option<Phase>,
     initial: InitialSpin,
 ) -> Result<TossPerformance, Error> {
     let (system, scales) = (DrivenSystem::new(platform, disk)?, platform.scales(disk));
+    let phase = phase.map_or_else(|| Phase::new(system.height().lowest_phase()), Ok)?;
     let peak_acceleration = system.height().bounds().acceleration;
-    let peak = platform.platform().peak_angular_speed();
+    let sine = platform.platform();
+    // Of the sine omega Phi to the last bit.
+    let nominal = sine.twist_amplitude() / scales.angle;
+    let share = if nominal > 0.0 { system.angle().peak_speed() / nominal } else { 0.0 };
+    let peak = share * sine.peak_angular_speed();
     let start = system.height().at(phase.angle());
     let angular_speed = match initial {
         InitialSpin::AbsoluteRest => 0.0,
@@ -102,6 +108,10 @@ impl VerticalMap for DrivenMap {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::{PI, TAU};
+
+    use bouncing_disk_core::numerics::elementary::{cos, sin};
+    use bouncing_disk_core::numerics::roots::bisection;
     use bouncing_disk_core::{Drive, Unobserved};
 
     use super::*;
@@ -120,7 +130,9 @@ mod tests {
         let start = Phase::new(TOSS_START).expect("finite");
         for initial in [InitialSpin::AbsoluteRest, InitialSpin::RestRelativeToHand] {
             let known = crate::toss::single_toss(&system, initial).expect("leaves");
-            let toss = single_toss(&(*system.platform()).into(), system.disk(), start, initial);
+            let toss = single_toss(&(*system.platform()).into(), system.disk(), None, initial);
+            let own = single_toss(&(*system.platform()).into(), system.disk(), Some(start), initial);
+            assert_eq!(toss, own);
             let toss = toss.expect("leaves");
             near(toss.airborne_speed, known.airborne_speed);
             near(toss.launch_speed, known.launch_speed);
@@ -130,9 +142,10 @@ mod tests {
         }
         let still = system.with_platform(|hand| hand.amplitude = 0.01).expect("legal");
         let crest = Phase::new(1.5).expect("finite");
-        let late = single_toss(&(*system.platform()).into(), system.disk(), crest, InitialSpin::AbsoluteRest);
+        let late =
+            single_toss(&(*system.platform()).into(), system.disk(), Some(crest), InitialSpin::AbsoluteRest);
         assert!(matches!(late, Err(Error::OutOfRange { field: "phase of the start", .. })), "{late:?}");
-        let stays = single_toss(&(*still.platform()).into(), still.disk(), start, InitialSpin::AbsoluteRest);
+        let stays = single_toss(&(*still.platform()).into(), still.disk(), None, InitialSpin::AbsoluteRest);
         assert!(matches!(stays, Err(Error::NeverLeaves { .. })));
     }
 
@@ -152,17 +165,154 @@ mod tests {
         let system = System::pizza_toss();
         let triangle = Waveform::Triangle;
         let hand = DrivenPlatform::new(*system.platform(), triangle.clone(), triangle).expect("legal");
-        let start = Phase::new(TOSS_START).expect("finite");
-        let toss = single_toss(&hand, system.disk(), start, InitialSpin::AbsoluteRest).expect("leaves");
+        let toss = single_toss(&hand, system.disk(), None, InitialSpin::AbsoluteRest).expect("leaves");
         let share = std::f64::consts::FRAC_2_PI;
         let hand = system.platform();
         let speed = share * hand.angular_frequency() * hand.amplitude();
         near(toss.launch_speed, speed);
-        near(toss.speed_ratio.expect("turns"), share);
+        near(toss.airborne_speed, share * hand.peak_angular_speed());
+        near(toss.speed_ratio.expect("turns"), 1.0);
         let rim_speed = system.disk().gyration_radius() * share * hand.peak_angular_speed();
         let (rotary, lift) = (0.5 * rim_speed * rim_speed, 2.0 * hand.amplitude());
         let axial = 0.5 * speed * speed + system.disk().preload_acceleration() * lift;
         near(toss.efficiency, rotary / (rotary + axial + toss.energy.friction_loss));
+    }
+
+    /// The hand of Table I, or one with another friction, with this shape of height and of angle.
+    fn thrown(height: Waveform, angle: Waveform, friction: f64) -> TossPerformance {
+        let system = System::pizza_toss().with_disk(|dough| dough.friction = friction).expect("legal");
+        let hand = DrivenPlatform::new(*system.platform(), height, angle).expect("legal");
+        single_toss(&hand, system.disk(), None, InitialSpin::AbsoluteRest).expect("leaves")
+    }
+
+    /// The dough moves with the hand from the kink at the bottom on: with its weight alone friction speeds it up for
+    /// 0.3 of a period, and it never reaches the hand.
+    #[test]
+    fn the_toss_of_a_sawtooth_is_as_derived_by_hand() {
+        let sawtooth = Waveform::Sawtooth(0.3);
+        let toss = thrown(sawtooth.clone(), sawtooth, 0.6);
+        let period = TAU / 15.0;
+        near(toss.airborne_speed, 0.6 * 9.8 * 0.135 / (0.11 * 0.11) * 0.3 * period);
+        assert!((toss.airborne_speed - 8.244).abs() < 5e-4, "{toss:?}");
+        let hand = *System::pizza_toss().platform();
+        // From bottom to top in 0.3 periods.
+        near(toss.launch_speed, 2.0 * hand.amplitude() / (0.3 * period));
+        let turns = 2.0 * hand.twist_amplitude() / (0.3 * period);
+        assert!(toss.sliding_at_separation && turns > toss.airborne_speed, "{turns}");
+        near(toss.speed_ratio.expect("turns"), toss.airborne_speed / turns);
+    }
+
+    /// With little friction the dough slides all the way up, and its speed is the impulse of friction: of the weight
+    /// from the lowest point to the separation, and of the vertical momentum.
+    #[test]
+    fn a_hand_with_two_harmonics_throws_from_its_lowest_point() {
+        let toss = thrown(Waveform::Fourier(vec![(1.0, 0.0), (0.15, 0.5)]), Waveform::Sine, 0.05);
+        let (a, omega) = (System::pizza_toss().platform().amplitude(), 15.0);
+        let velocity = |t: f64| a * omega * (cos(t) + 0.3 * cos(2.0 * t + 0.5));
+        let force = |t: f64| 9.8 - a * omega * omega * (sin(t) + 0.6 * sin(2.0 * t + 0.5));
+        let root = |low: f64, high: f64, before: &dyn Fn(f64) -> bool| {
+            bisection(low, high, 60, |t| Ok::<_, Error>(before(t))).expect("no error")
+        };
+        let lowest = root(-2.5, -1.0, &|t| velocity(t) < 0.0);
+        let leaves = root(lowest, 1.5, &|t| force(t) > 0.0);
+        let impulse = 9.8 * (leaves - lowest) / omega + velocity(leaves);
+        near(toss.airborne_speed, 0.05 * 0.135 / (0.11 * 0.11) * impulse);
+        assert!((toss.airborne_speed - 2.759).abs() < 5e-4, "{toss:?}");
+    }
+
+    /// When a recording begins makes no difference.
+    #[test]
+    fn a_shifted_hand_throws_alike() {
+        let shifts = [
+            0.0,
+            1e-12,
+            0.5,
+            0.5 * PI,
+            2.0,
+            3.0,
+            PI,
+            PI + 1e-9,
+            4.0,
+            1.5 * PI,
+            5.5,
+            TAU - 1e-9,
+            TAU.next_down(),
+        ];
+        let alike = |one: &TossPerformance, other: &TossPerformance| {
+            let numbers = |toss: &TossPerformance| {
+                [toss.airborne_speed, toss.launch_speed, toss.efficiency, toss.speed_ratio.expect("turns")]
+            };
+            for (one, other) in numbers(one).into_iter().zip(numbers(other)) {
+                assert!((one - other).abs() < 1e-9 * other.abs(), "{one:?} {other:?}");
+            }
+        };
+        // The shape `shift` earlier.
+        let pieces = |shift: f64| {
+            let line = |from: f64, to: f64, share: f64| (share, [from, (to - from) / share, 0.0, 0.0]);
+            let share = shift / TAU;
+            let mut lines: Vec<(f64, [f64; 4])> = Vec::new();
+            // Up for 0.3 of a period to 1 at 0.15, down to -1 at 0.85, and up.
+            let corners: [(f64, f64); 7] =
+                [(0.0, 0.0), (0.15, 1.0), (0.85, -1.0), (1.0, 0.0), (1.15, 1.0), (1.85, -1.0), (2.0, 0.0)];
+            for [(from, low), (to, high)] in corners.windows(2).map(|two| [two[0], two[1]]) {
+                let (start, end) = (from.max(share), to.min(share + 1.0));
+                if end > start {
+                    let at = |time: f64| low + (high - low) * (time - from) / (to - from);
+                    lines.push(line(at(start), at(end), end - start));
+                }
+            }
+            Waveform::Pieces(lines)
+        };
+        for friction in [0.05, 0.6] {
+            let sine = System::pizza_toss().with_disk(|dough| dough.friction = friction).expect("legal");
+            let sine = crate::toss::single_toss(&sine, InitialSpin::AbsoluteRest).expect("leaves");
+            let two = |shift: f64| Waveform::Fourier(vec![(1.0, shift), (0.15, 0.5 + 2.0 * shift)]);
+            let twice = thrown(two(0.0), two(0.0), friction);
+            let sawtooth = thrown(Waveform::Sawtooth(0.3), Waveform::Sawtooth(0.3), friction);
+            for shift in shifts {
+                let one = || Waveform::Fourier(vec![(1.0, shift)]);
+                alike(&thrown(one(), one(), friction), &sine);
+                alike(&thrown(two(shift), two(shift), friction), &twice);
+                // Pieces of no duration are not legal.
+                if shift / TAU > 1e-6 && shift / TAU < 1.0 - 1e-6 {
+                    alike(&thrown(pieces(shift), pieces(shift), friction), &sawtooth);
+                }
+            }
+            let samples: Vec<f64> = (0..48)
+                .map(|k| f64::from(k) / 48.0 * TAU)
+                .map(|tau| sin(tau) + 0.2 * sin(2.0 * tau + 1.0) - 0.1 * cos(3.0 * tau))
+                .collect();
+            let known =
+                thrown(Waveform::Sampled(samples.clone()), Waveform::Sampled(samples.clone()), friction);
+            for shift in 1..48 {
+                let mut own = samples.clone();
+                own.rotate_left(shift);
+                alike(&thrown(Waveform::Sampled(own.clone()), Waveform::Sampled(own), friction), &known);
+            }
+        }
+    }
+
+    /// cos t and 2 cos t by another amplitude, cos t + 0.6 cos(2 t), and straight lines of the slope 2/pi.
+    #[test]
+    fn speed_ratios_are_to_the_largest_rotary_speed_of_the_hand() {
+        let sine = Waveform::Sine;
+        let known = thrown(sine.clone(), sine.clone(), 0.6);
+        let toss = thrown(sine.clone(), Waveform::Fourier(vec![(2.0, 0.0)]), 0.6);
+        let peak = System::pizza_toss().platform().peak_angular_speed();
+        near(toss.speed_ratio.expect("turns"), toss.airborne_speed / (2.0 * peak));
+        near(known.speed_ratio.expect("turns"), known.airborne_speed / peak);
+        let toss = thrown(sine.clone(), Waveform::Fourier(vec![(1.0, 0.0), (0.3, 0.0)]), 0.6);
+        near(toss.speed_ratio.expect("turns"), toss.airborne_speed / (1.6 * peak));
+        // Of cos t + 0.6 sin(2 t) the largest value is where sin t = 1.2 cos(2 t).
+        let toss = thrown(sine.clone(), Waveform::Fourier(vec![(1.0, 0.0), (0.3, -0.5 * PI)]), 0.6);
+        let sine_there = (-1.0 + (1.0 + 8.0 * 1.2 * 1.2_f64).sqrt()) / (4.0 * 1.2);
+        let cosine = (1.0 - sine_there * sine_there).sqrt();
+        near(
+            toss.speed_ratio.expect("turns"),
+            toss.airborne_speed / (peak * cosine * (1.0 + 1.2 * sine_there)),
+        );
+        let toss = thrown(sine, Waveform::Triangle, 0.6);
+        near(toss.speed_ratio.expect("turns"), toss.airborne_speed / (2.0 / PI * peak));
     }
 
     /// A periodic orbit, a chattering one and a disk at rest.

@@ -209,7 +209,8 @@ fn pieces_of(pieces: &[(f64, [f64; 4])], size: f64) -> Result<Drive, bouncing_di
 }
 
 /// A [`Platform`] with any [`Waveform`]s f and h in place of its sines: the height is A f(tau), the angle
-/// Phi h(tau + theta). The axial forcing Gamma = A omega^2/(pi g) keeps its meaning.
+/// Phi h(tau + theta). The axial forcing Gamma = A omega^2/(pi g) keeps its form: A multiplies f as it is, and is half
+/// of the stroke only if f goes from -1 to 1.
 ///
 /// ```
 /// use bouncing_disk::System;
@@ -306,9 +307,9 @@ impl From<Platform> for DrivenPlatform {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields, default, expecting = "the table drive"))]
 pub struct DriveParameters {
-    /// The shape of the height.
+    /// The shape of the height; the sine unless given, whatever the angle is.
     pub height: Waveform,
-    /// The shape of the angle.
+    /// The shape of the angle; the sine unless given, whatever the height is.
     pub angle: Waveform,
     /// Phase at which the first segment starts (rad).
     pub start_phase: f64,

@@ -18,7 +18,8 @@ use crate::motion::trajectory::Trajectory;
 use crate::parameters::scales::Scales;
 use crate::parameters::system::System;
 
-/// Phase at which a toss starts: the lowest point of the hand.
+/// Phase at which a toss starts on the sine of Eq. (1): the lowest point of the hand. That of other motions is
+/// [`Drive::lowest_phase`](bouncing_disk_core::Drive::lowest_phase).
 pub const TOSS_START: f64 = 1.5 * PI;
 
 /// How the dough turns at the start of a toss. The two differ if the phase lag is not zero: the hand then
@@ -48,7 +49,7 @@ pub struct TossPerformance {
     /// hand that takes energy back. The formula is that of [`SiEnergy::efficiency`].
     #[cfg_attr(feature = "serde", serde(deserialize_with = "bouncing_disk_core::stored::nan_if_none"))]
     pub efficiency: f64,
-    /// Airborne rotary speed over the largest rotary speed of the hand, omega Phi; `None` without twist.
+    /// Airborne rotary speed over the largest rotary speed of the hand, omega Phi for the sine; `None` without twist.
     pub speed_ratio: Option<f64>,
     /// Phase of the separation (rad).
     pub separation_phase: f64,

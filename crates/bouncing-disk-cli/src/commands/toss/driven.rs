@@ -8,7 +8,7 @@ use bouncing_disk::driven::{
     single_toss,
 };
 use bouncing_disk::parameters::{DriveParameters, DrivenPlatform};
-use bouncing_disk::toss::{InitialSpin, TOSS_START};
+use bouncing_disk::toss::InitialSpin;
 use bouncing_disk::{Event, System};
 use serde::Serialize;
 
@@ -23,15 +23,18 @@ pub(super) fn run(system: &System, drive: &DriveParameters, args: &TossArgs, con
         // Cycles and exponents are those of rigid impacts.
         system.rigid()?;
     }
-    let motion = motion(system, drive, args.spin)?;
     let own = (system, Some(drive));
     let period = TAU / system.platform().angular_frequency();
     let platform = DrivenPlatform::of_drive(*system.platform(), drive);
     let platform = platform.map(|platform| platform.with_contact(system.soft_contact()));
+    let of_disk = match &platform {
+        Ok(platform) => Some(DrivenSystem::new(platform, system.disk())?),
+        Err(_) => None,
+    };
+    let lowest = of_disk.as_ref().map_or(0.0, |of_disk| of_disk.height().lowest_phase());
+    let motion = motion(system, drive, lowest, args.spin)?;
     let toss = match &platform {
-        Ok(platform) if !args.many => {
-            Some(single_toss(platform, system.disk(), Phase::new(TOSS_START)?, args.spin)?)
-        }
+        Ok(platform) if !args.many => Some(single_toss(platform, system.disk(), None, args.spin)?),
         _ => None,
     };
     let landing = landing(motion.clone());
@@ -43,7 +46,7 @@ pub(super) fn run(system: &System, drive: &DriveParameters, args: &TossArgs, con
         let told = (String::new(), quantities(system, &toss), speed);
         return deliver(own, args, context, &samples, told, ("performance", stored(&toss)?));
     }
-    let Ok(platform) = platform else {
+    let Some(of_disk) = of_disk else {
         let columns = Columns::<Impact>::new()
             .column("time", "s", |row| row.time_s)
             .column("segment", "1", |row| row.segment)
@@ -53,8 +56,7 @@ pub(super) fn run(system: &System, drive: &DriveParameters, args: &TossArgs, con
         let told = (text, Quantities::default(), speed);
         return deliver(own, args, context, &samples, told, ("impacts", stored(&impacts)?));
     };
-    let of_disk = DrivenSystem::new(&platform, system.disk())?;
-    let phase = Phase::new(TOSS_START)?;
+    let phase = Phase::new(lowest)?;
     let angular_speed = match args.spin {
         InitialSpin::AbsoluteRest => 0.0,
         _ => of_disk.angle().velocity(phase.angle()),
@@ -65,11 +67,16 @@ pub(super) fn run(system: &System, drive: &DriveParameters, args: &TossArgs, con
     deliver(own, args, context, &samples, told, ("orbit", stored(&orbit)?))
 }
 
-/// The motion from rest on the platform; a periodic drive starts at the lowest point of the sine.
-fn motion(system: &System, drive: &DriveParameters, spin: InitialSpin) -> Result<ScheduledEngine> {
+/// The motion from rest on the platform; a periodic drive starts at its lowest point.
+fn motion(
+    system: &System,
+    drive: &DriveParameters,
+    lowest: f64,
+    spin: InitialSpin,
+) -> Result<ScheduledEngine> {
     let mut drive = drive.clone();
     if !drive.is_schedule() {
-        (drive.start_phase, drive.segments) = (TOSS_START, vec![ScheduleSegment::default()]);
+        (drive.start_phase, drive.segments) = (lowest, vec![ScheduleSegment::default()]);
     }
     let schedule = Schedule::of_drive(system, &drive)?;
     let at_rest = |speed| ScheduledEngine::at_rest(&schedule, system.disk(), speed, ChatterPolicy::Complete);
