@@ -117,6 +117,12 @@ impl Mode {
 }
 
 impl Event {
+    /// Whether it launches a disk that lay on the platform: a separation, as the platform falls away, or a kick, as
+    /// it hits the disk. Every such relaunch is perturbed alike.
+    pub(crate) const fn is_relaunch(&self) -> bool {
+        matches!(self, Self::Separation | Self::Kick { .. })
+    }
+
     /// The event without its numbers.
     #[must_use]
     pub const fn kind(&self) -> EventKind {

@@ -357,13 +357,11 @@ impl DrivenMotor {
             };
             match event {
                 Event::Impact { .. } | Event::Kick { .. } | Event::Recontact => impacts += 1,
-                Event::Separation => {
-                    separations += 1;
-                    if settings.relaunch_perturbation > 0.0 {
-                        engine.perturb_launch(settings.relaunch_perturbation * generator.unit());
-                    }
-                }
+                Event::Separation => separations += 1,
                 _ => {}
+            }
+            if event.is_relaunch() && settings.relaunch_perturbation > 0.0 {
+                engine.perturb_launch(settings.relaunch_perturbation * generator.unit());
             }
             let passed = engine.time().since(&began).radians();
             bins.add(passed * unit.time, engine.disk().angle - angle);
@@ -465,6 +463,73 @@ mod tests {
             // follow multiplies that by some hundred: its speed decides on another long flight.
             let near = |(own, sine): (&f64, &f64)| (own - sine).abs() <= 1e-8 * sine.abs();
             assert!(own.speeds.iter().zip(&sine.speeds).all(near), "{own:?} {sine:?}");
+        }
+    }
+
+    /// A stator that saws: its kinks end each rest by a kick, and never by a separation.
+    fn sawing(amplitude: f64) -> DrivenMotor {
+        let sheet = Motor::paper_70_khz().with(|sheet| sheet.amplitude = Some(amplitude)).expect("legal");
+        let shape = Waveform::Sawtooth(0.7);
+        DrivenMotor::new(sheet, shape.clone(), shape).expect("legal")
+    }
+
+    /// The seed of the perturbations matters if there are any, and only then.
+    #[test]
+    fn relaunches_by_kicks_are_perturbed_as_separations_are() {
+        let run = |relaunch_perturbation: f64, seed: u64| {
+            let settings = TransientSettings {
+                duration: 0.02,
+                intervals: 4,
+                relaunch_perturbation,
+                seed,
+                ..TransientSettings::default()
+            };
+            // It starts on the falling line.
+            let phase = Phase::new(std::f64::consts::PI).expect("finite");
+            sawing(3e-10).transient(phase, &settings, &Unobserved).expect("no failure")
+        };
+        let calm = run(0.0, 1);
+        assert_eq!((calm.separations, run(0.0, 2).speeds), (0, calm.speeds.clone()));
+        let known = run(1e-3, 1);
+        assert!(known.speeds != calm.speeds && run(1e-3, 2).speeds != known.speeds, "{known:?}");
+    }
+
+    /// Amplitudes that differ by a billionth give the same speed within the stated errors, whatever cycle their rounding
+    /// would select.
+    #[test]
+    fn a_stator_with_kinks_does_not_lock_the_motor_on_a_rounded_cycle() {
+        let points = [0.0, 1.0, 2.0, 3.0].map(|k| {
+            let motor = sawing(3e-10 * (1.0 + 1e-9 * k));
+            let curve = motor.torque_speed_curve(&[0.0], &settings(), &Unobserved).expect("no failure");
+            *curve[0].steady().expect("known")
+        });
+        for (own, known) in points.iter().flat_map(|own| points.iter().map(move |known| (own, known))) {
+            let error = own.speed.standard_error + known.speed.standard_error;
+            assert!((own.speed.value - known.speed.value).abs() <= 3.0 * error, "{own:?} {known:?}");
+        }
+        assert!(points.iter().all(|point| point.perturbation_power > 0.0), "{points:?}");
+    }
+
+    /// A triangle at 1 nm kicks the rotor once, and then carries it in flights that keep their phase: each start has
+    /// a speed of its own.
+    #[test]
+    fn a_neutral_family_of_motions_is_said_to_depend_on_the_start() {
+        let sheet = Motor::paper_70_khz().with(|sheet| sheet.amplitude = Some(1e-9)).expect("legal");
+        let motor = DrivenMotor::new(sheet, Waveform::Triangle, Waveform::Sine).expect("legal");
+        let few = OperatingSettings { most_impacts: 200_000, ..settings() };
+        let curve = motor.torque_speed_curve(&[0.0], &few, &Unobserved).expect("no failure");
+        let Operation::Unsettled(point, Shortfall::Drift { drift, .. }) = curve[0] else {
+            panic!("{:?}", curve[0])
+        };
+        // The 95 % interval covers the speed of each start, and with it those of a motor started once.
+        assert!(drift > 1.0 && 1.96 * point.speed.standard_error > drift, "{point:?} {drift}");
+        for seed in 1..4 {
+            let settings =
+                TransientSettings { duration: 1.0, intervals: 10, seed, ..TransientSettings::default() };
+            let curve = motor.transient(Phase::new(0.3).expect("finite"), &settings, &Unobserved);
+            let speed = curve.expect("no failure").speeds[9];
+            let off = (speed - point.speed.value).abs();
+            assert!(off < 1.96 * point.speed.standard_error, "{speed} {point:?}");
         }
     }
 

@@ -301,12 +301,11 @@ impl MotorSimulation {
             None => next.engine.pause(REST),
         };
         self.add(&mut next.totals, &record.ledger, &record.stator, 1.0);
-        match record.event {
-            Event::Impact { .. } | Event::Recontact => next.totals.impacts += 1,
-            Event::Separation => {
-                next.engine.perturb_launch(self.perturbation * next.generator.unit());
-            }
-            _ => {}
+        if matches!(record.event, Event::Impact { .. } | Event::Recontact) {
+            next.totals.impacts += 1;
+        }
+        if record.event.is_relaunch() {
+            next.engine.perturb_launch(self.perturbation * next.generator.unit());
         }
         Ok(Some(next))
     }

@@ -280,14 +280,14 @@ impl Rotor {
             Event::SlipToStick | Event::SlipReversal(_) if self.engine.driven().is_none() => {
                 self.recurrences += 1
             }
-            Event::Separation => {
-                let speed = self.perturbation * self.generator.unit();
-                let before = self.engine.disk().axial_velocity;
-                self.engine.perturb_launch(speed);
-                let after = self.engine.disk().axial_velocity;
-                self.given += 0.5 * (after - before) * (after + before);
-            }
             _ => {}
+        }
+        if event.is_relaunch() {
+            let speed = self.perturbation * self.generator.unit();
+            let before = self.engine.disk().axial_velocity;
+            self.engine.perturb_launch(speed);
+            let after = self.engine.disk().axial_velocity;
+            self.given += 0.5 * (after - before) * (after + before);
         }
         Ok(true)
     }

@@ -3,15 +3,18 @@
 use std::f64::consts::TAU;
 
 use bouncing_disk_core::Observer;
+use bouncing_disk_core::numerics::statistics::{NORMAL_975, mean};
 use bouncing_disk_core::run::Watch;
 
 use crate::error::{Error, positive, within_limit};
 use crate::motor::batch::shared_orbit::shared_by;
 use crate::motor::operation::carrier::{Carrier, Left};
 use crate::motor::operation::member::{Member, far_above};
-use crate::motor::operation::point::{Estimate, OperatingPoint, Operation, Shortfall, StatorPoint};
+use crate::motor::operation::point::{
+    Estimate, OperatingPoint, Operation, Shortfall, StatorPoint, error_of_mean,
+};
 use crate::motor::operation::settings::OperatingSettings;
-use crate::motor::operation::settling::{left_out, shortfall};
+use crate::motor::operation::settling::{decided_by_start, left_out, shortfall};
 use crate::motor::operation::window::{AxialWindow, RotorWindow, Window};
 use crate::parameters::driven_platform::DrivenPlatform;
 use crate::parameters::scales::Scales;
@@ -436,9 +439,28 @@ impl<'a> Run<'a> {
         self.shortfalls = (0..self.asked)
             .map(|motor| {
                 let [middle, above] = &speeds[motor];
-                shortfall(middle, above, self.wanted).or_else(|| self.unbalanced(motor))
+                self.undecided(motor, middle)
+                    .or_else(|| shortfall(middle, above, self.wanted))
+                    .or_else(|| self.unbalanced(motor))
             })
             .collect();
+    }
+
+    /// By how much (rad/s) the speed depends on the start, of a motor whose stator has kinks. Between two kinks such a
+    /// stator may carry a whole family of motions, each of which keeps a speed of its own.
+    fn apart(&self, motor: usize, speeds: &[Vec<f64>]) -> f64 {
+        let carrier = self.motors[motor].stator.and_then(|(_, carrier)| carrier.driven());
+        let has_kinks = carrier.is_some_and(|system| system.height().kinks().next().is_some());
+        if has_kinks { decided_by_start(speeds).unwrap_or(0.0) } else { 0.0 }
+    }
+
+    /// A dependence on the start that is larger than the requested error.
+    fn undecided(&self, motor: usize, speeds: &[Vec<f64>]) -> Option<Shortfall> {
+        let drift = self.apart(motor, speeds);
+        let means: Vec<f64> = speeds.iter().map(|windows| mean(windows)).collect();
+        let standard_error = error_of_mean(&means);
+        (standard_error + drift / NORMAL_975 > self.wanted && drift > 0.0)
+            .then_some(Shortfall::Drift { drift, standard_error })
     }
 
     /// The energy that the disk still stores, if it is too large a part of the supplied energy. For a disk
@@ -522,10 +544,13 @@ impl<'a> Run<'a> {
             .iter()
             .map(|(_, windows)| windows[..after].iter().map(|window| window.axial.duration).sum::<f64>());
         let whole = self.total(index, 0..self.windows());
+        // The error covers the members that differ by their start.
+        let known = estimate(&speed)?;
+        let apart = self.apart(index, &self.speeds(index)[0]);
         let point = OperatingPoint {
             load_torque: load_torque.value,
             load_torque_error: load_torque.standard_error,
-            speed: estimate(&speed)?,
+            speed: known.bounded_by(Estimate { value: known.value + apart, ..known }),
             mechanical_power,
             input_power: estimate(&input)?,
             restitution_loss: estimate(&restitution)?,

@@ -13,7 +13,8 @@ pub struct Estimate {
     /// The estimate.
     pub value: f64,
     /// Its standard error, half of its 95 % interval over 1.96: it covers the scatter over a few members
-    /// (Student's distribution) and, for a mean over time, a bound on the rest of the start-up.
+    /// (Student's distribution) and, for a mean over time, a bound on the rest of the start-up. For the speed of a
+    /// motor whose stator has kinks it also covers the members, where each start has a speed of its own.
     pub standard_error: f64,
 }
 
@@ -135,7 +136,8 @@ pub enum Shortfall {
     /// start.
     Drift {
         /// The late mean minus the early one (rad/s), or by how much rotors that started from far above are
-        /// still faster.
+        /// still faster, or, on a stator with kinks, by how much the speed from one start differs most from the mean
+        /// over starts.
         drift: f64,
         /// The standard error of this difference (rad/s).
         standard_error: f64,

@@ -1,7 +1,7 @@
 //! When a mean over windows is steady, and how well it is known: judged by the spread over independent
 //! members, and by what still depends on the start.
 
-use bouncing_disk_core::numerics::statistics::{NORMAL_975, mean};
+use bouncing_disk_core::numerics::statistics::{NORMAL_975, mean, standard_deviation};
 
 use crate::motor::operation::point::{Estimate, Shortfall, error_of_mean};
 
@@ -18,6 +18,10 @@ const NEGLIGIBLE: f64 = 1e-3;
 /// Parts of the windows: the first is always omitted as start-up.
 const PARTS: usize = 3;
 
+/// Where the means of members differ by so many times what the scatter of their own windows explains, the start
+/// decides on them. Windows that follow one another may be alike, which that scatter does not show.
+const DECIDED: f64 = 5.0;
+
 /// The number of windows, of so many, that are omitted.
 pub(crate) const fn left_out(windows: usize) -> usize {
     windows / PARTS
@@ -33,6 +37,20 @@ fn steady_speed(middle: &Speeds, above: &Speeds) -> Option<Estimate> {
     let of =
         |speeds: &Speeds| Estimate::of(&speeds.iter().map(|windows| mean(windows)).collect::<Vec<_>>()).ok();
     Some(of(middle)?.bounded_by(of(above)?))
+}
+
+/// By how much the mean of a member differs most from the mean of all, if its start decides on it; `None` if the scatter
+/// in time explains the differences.
+pub(crate) fn decided_by_start(speeds: &Speeds) -> Option<f64> {
+    let means: Vec<f64> = speeds.iter().map(|windows| mean(windows)).collect();
+    let own = |windows: &Vec<f64>| {
+        let deviation = standard_deviation(windows);
+        deviation * deviation / windows.len() as f64
+    };
+    let explained = mean(&speeds.iter().map(own).collect::<Vec<_>>()).sqrt();
+    let (all, between) = (mean(&means), standard_deviation(&means));
+    let most = means.iter().fold(0.0_f64, |most, own| (own - all).abs().max(most));
+    (between > DECIDED * explained).then_some(most)
 }
 
 /// Judges the mean speed of windows: `None` if it is steady, its standard error at most `wanted`, and no more
@@ -116,6 +134,23 @@ mod tests {
         assert_eq!(shortfall(&below, &near, 0.2), None);
         let error = |above: &Speeds| steady_speed(&below, above).expect("finite").standard_error;
         assert!((error(&near) - error(&below) - 0.01 / NORMAL_975).abs() < 1e-12);
+    }
+
+    /// Members that keep speeds of their own differ by much more than their windows do.
+    #[test]
+    fn starts_that_decide_on_the_speed_are_seen() {
+        let speeds = noisy(16, 12, |_| 5.0);
+        assert_eq!(decided_by_start(&speeds), None);
+        let apart: Vec<Vec<f64>> = (0..16_i32)
+            .zip(&speeds)
+            .map(|(member, windows)| windows.iter().map(|speed| speed + f64::from(member)).collect())
+            .collect();
+        // Members at 0 to 15 about their mean of 7.5.
+        let most = decided_by_start(&apart).expect("they differ");
+        assert!((most - 7.5).abs() < 0.5, "{most}");
+        let neutral: Vec<Vec<f64>> = (0..4).map(|member| vec![f64::from(member); 8]).collect();
+        assert_eq!(decided_by_start(&neutral), Some(1.5));
+        assert_eq!(decided_by_start(&vec![vec![1.0; 6]; 4]), None);
     }
 
     #[test]

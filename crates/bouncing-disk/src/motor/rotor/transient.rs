@@ -39,8 +39,9 @@ pub struct TransientSettings {
     /// Number of equal intervals over which the speed is averaged, in [3, 1000000]. None may be shorter than
     /// 1e-15 rad of the platform's motion. Default 600.
     pub intervals: usize,
-    /// Size of the relaunch perturbation in units of g/omega, in [0, 1e100]: each separation from rest gets a
-    /// relative velocity drawn evenly from [0, size). Zero gives the cycle chosen by rounding. Default 1e-3.
+    /// Size of the relaunch perturbation in units of g/omega, in [0, 1e100]: each launch from rest, by a
+    /// separation or a kick, gets a relative velocity drawn evenly from [0, size). Zero gives the cycle chosen by
+    /// rounding. Default 1e-3.
     pub relaunch_perturbation: f64,
     /// Seed of the perturbations and of the starting phases. Default 1.
     pub seed: u64,
