@@ -15,6 +15,9 @@ use crate::parameters::scales::Scales;
 /// Most of [`Waveform::acceleration_change`]: 6 samples of a sine have 0.25, a corner 0.5, noise alone 0.8.
 const LARGEST_CHANGE: f64 = 0.3;
 
+/// How far apart two samples of the same instant may be, as a share of the range of all.
+const SAME_INSTANT: f64 = 1.0e-3;
+
 /// The shape of a motion over one period tau = 0 to 2 pi: the height or the angle, divided by its amplitude.
 /// [`DrivenPlatform::new`] checks it.
 ///
@@ -156,6 +159,19 @@ impl Waveform {
             peak = peak.max(bend(k).abs());
         }
         Some(change / peak)
+    }
+
+    /// Whether the last sample is the first one again: both are as good as equal, and the shape is smoother there, by
+    /// its fourth difference, without the last than with it.
+    fn repeats_its_first_sample(&self) -> bool {
+        let Self::Sampled(samples) = self else { return false };
+        let [first, second, third, .., c, b, last] = samples.as_slice() else { return false };
+        let range = |pick: fn(f64, f64) -> f64| samples.iter().copied().fold(*first, pick);
+        let is_closed = (last - first).abs() <= SAME_INSTANT * (range(f64::max) - range(f64::min));
+        let difference = |y: [&f64; 5]| (y[0] - 4.0 * y[1] + 6.0 * y[2] - 4.0 * y[3] + y[4]).abs();
+        let without = difference([c, b, first, second, third]);
+        let with = difference([c, b, last, first, second]).max(difference([b, last, first, second, third]));
+        is_closed && without < with
     }
 
     /// The motion with this amplitude, `lag` (rad) earlier.
@@ -343,10 +359,16 @@ impl DriveParameters {
         self.angle.check("angle")
     }
 
-    /// What is legal but unlikely to be intended: samples with noise or corners, or too few of them.
+    /// What is legal but unlikely to be intended: samples of which the last one repeats the first, samples with noise or
+    /// corners, or too few of them.
     pub fn warnings(&self) -> impl Iterator<Item = String> {
         let both = [("height", &self.height), ("angle", &self.angle)];
         both.into_iter().filter_map(|(of, shape)| {
+            if shape.repeats_its_first_sample() {
+                return Some(format!(
+                    "the {of}: the last sample seems to repeat the first, which begins the next period; leave it out,                      so that the others keep their distances"
+                ));
+            }
             let change = shape.acceleration_change().filter(|change| *change > LARGEST_CHANGE)?;
             let percent = rough(100.0 * change);
             Some(format!(
@@ -445,6 +467,36 @@ mod tests {
         assert!(!warned(6, 0.0, Waveform::Sine) && warned(5, 0.0, Waveform::Sine));
         assert!(!warned(64, 1e-4, Waveform::Sine) && warned(64, 1e-2, Waveform::Sine));
         assert!(!warned(64, 0.0, Waveform::Parabolas) && warned(64, 0.0, Waveform::Triangle));
+    }
+
+    /// A sum of harmonics from any phase and a recording of a loop, with its first sample at the end and without it; and
+    /// shapes whose ends are equal, though no sample is there twice.
+    #[test]
+    fn a_first_sample_at_the_end_gives_a_warning_of_its_own() {
+        let sums: [&[(f64, f64)]; 2] = [&[(1.0, 0.0)], &[(1.0, 0.4), (0.15, 0.9), (0.02, 0.0)]];
+        for (count, start) in (0..40).map(|k| (16 << (k % 5), 0.16 * f64::from(k))) {
+            for (sum, noise) in sums.iter().flat_map(|sum| [(sum, 0.0), (sum, 1e-4 / f64::from(count))]) {
+                let track = Waveform::Fourier(sum.to_vec()).track("height", 1.0, start).expect("legal");
+                let sample = |k| {
+                    let own = if k % 3 == 0 { noise } else { -noise };
+                    track.height(TAU * f64::from(k) / f64::from(count)) + own
+                };
+                let open: Vec<_> = (0..count).map(sample).collect();
+                let closed: Vec<_> = open.iter().copied().chain([open[0] + noise]).collect();
+                let of =
+                    |samples| DriveParameters { height: Waveform::Sampled(samples), ..Default::default() };
+                assert_eq!(of(open).warnings().count(), 0, "{count} {start}");
+                let told: Vec<_> = of(closed).warnings().collect();
+                assert!(told.len() == 1 && told[0].contains("the last sample"), "{count} {start}: {told:?}");
+            }
+        }
+        // The middle of the period between two samples; a trapezoid that rests at both ends.
+        let cosine =
+            |k: u32| bouncing_disk_core::numerics::elementary::cos(TAU * (f64::from(k) + 0.5) / 32.0);
+        let trapezoid = |k: u32| (f64::from(k.min(31 - k)) / 8.0 - 0.5).clamp(0.0, 1.0);
+        for shape in [(0..32).map(cosine).collect(), (0..32).map(trapezoid).collect(), vec![0.0; 8]] {
+            assert!(!Waveform::Sampled(shape).repeats_its_first_sample());
+        }
     }
 
     #[test]
