@@ -2,6 +2,8 @@
 //!
 //! Python owns the signatures: a function there hands over its `locals()`, and what it returns is made here.
 
+use std::fmt::{self, Display, Formatter};
+
 use bouncing_disk::Error;
 use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Orbit, Vibration};
 use bouncing_disk::estimate::FitError;
@@ -12,7 +14,9 @@ use pyo3::intern;
 use pyo3::prelude::*;
 use pyo3::pyclass::boolean_struct::True;
 use pyo3::sync::PyOnceLock;
-use pyo3::types::{PyBool, PyDict, PyFloat};
+use pyo3::types::{PyBool, PyBytes, PyDict, PyFloat, PyFrozenSet, PyMapping, PySet, PyString};
+use serde::de::DeserializeOwned;
+use serde_json::Value;
 
 use crate::errors;
 
@@ -30,18 +34,21 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Arguments<'py> {
     }
 }
 
-/// An argument of some type; an error of the type names the argument.
+/// An argument of some type, or an entry of one; an error of the type names it.
 pub(crate) fn extracted<'py, T: for<'a> FromPyObject<'a, 'py>>(
     value: &Bound<'py, PyAny>,
-    name: &str,
+    name: impl Display,
 ) -> PyResult<T> {
     let extracted: Result<T, PyErr> = value.extract::<T>().map_err(Into::into);
-    extracted.map_err(|error| {
-        if !error.is_instance_of::<PyTypeError>(value.py()) {
-            return error;
-        }
-        PyTypeError::new_err(format!("argument '{name}': {}", error.value(value.py())))
-    })
+    extracted.map_err(|error| named(value.py(), error, name))
+}
+
+/// An error, which names the argument if it is one of the type.
+fn named(py: Python<'_>, error: PyErr, name: impl Display) -> PyErr {
+    if !error.is_instance_of::<PyTypeError>(py) {
+        return error;
+    }
+    PyTypeError::new_err(format!("argument '{name}': {}", error.value(py)))
 }
 
 impl<'py> Arguments<'py> {
@@ -73,8 +80,40 @@ impl<'py> Arguments<'py> {
     }
 
     pub(crate) fn pair(&self, name: &str) -> PyResult<(f64, f64)> {
-        let [Real(low), Real(high)] = self.of(name)?;
-        Ok((low, high))
+        pair(&self.get(name)?, &Place::Argument(name)).map(Into::into)
+    }
+
+    /// The items of a list.
+    pub(crate) fn list(&self, name: &str) -> PyResult<Vec<Bound<'py, PyAny>>> {
+        let (given, place) = (self.get(name)?, Place::Argument(name));
+        items(&given, &place)?.ok_or_else(|| place.wrong(&given, "a list"))
+    }
+
+    /// The two ends of each of the named `ranges`.
+    pub(crate) fn ranges(&self) -> PyResult<Vec<(String, [f64; 2])>> {
+        let place = Place::Argument("ranges");
+        let range = |(name, given): (String, Bound<'_, PyAny>)| {
+            let ends = pair(&given, &Place::Entry(&place, &name))?;
+            Ok((name, ends))
+        };
+        self.entries("ranges")?.into_iter().map(range).collect()
+    }
+
+    /// The entries of a table, by their names.
+    pub(crate) fn entries(&self, name: &str) -> PyResult<Vec<(String, Bound<'py, PyAny>)>> {
+        entries(&self.get(name)?, &Place::Argument(name))
+    }
+
+    /// The table of a file that an argument is; `None` if it is not given.
+    pub(crate) fn table<T: DeserializeOwned>(&self, name: &str) -> PyResult<Option<T>> {
+        let Some(given) = self.given(name)? else { return Ok(None) };
+        self.read(name, plain(&given, &Place::Argument(name))?).map(Some)
+    }
+
+    /// What the library makes of plain values.
+    pub(crate) fn read<T: DeserializeOwned>(&self, name: &str, values: Value) -> PyResult<T> {
+        let wrong = |error| errors::of_text(self.py(), format!("the {name} cannot be read: {error}"), None);
+        serde_json::from_value(values).map_err(wrong)
     }
 
     /// A whole number up to `most`.
@@ -178,6 +217,155 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Real {
             Err(error) => Err(error),
         }
     }
+}
+
+/// What is a text, or a list of texts.
+const TEXTS: [&str; 7] = ["angle", "geometry", "height", "kind", "law", "materials", "then"];
+
+/// What is a list.
+const LISTS: [&str; 9] =
+    ["factors", "fourier", "materials", "pieces", "sampled", "segments", "speeds", "times", "torques"];
+
+/// What is a list of lists.
+const NESTED: [&str; 2] = ["fourier", "pieces"];
+
+/// What is a table, or a list of tables.
+const TABLES: [&str; 6] = ["angle", "contact", "height", "load", "segments", "stator"];
+
+/// Where a value stands among the arguments of a call, such as `stator.mass` or `height.sampled[3]`.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Place<'a> {
+    Argument(&'a str),
+    Entry(&'a Self, &'a str),
+    Item(&'a Self, usize),
+}
+
+impl Display for Place<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Argument(name) => f.write_str(name),
+            Self::Entry(table, name) => write!(f, "{table}.{name}"),
+            Self::Item(list, index) => write!(f, "{list}[{index}]"),
+        }
+    }
+}
+
+impl Place<'_> {
+    /// The name of the entry that the value is, or that holds it.
+    const fn name(&self) -> &str {
+        match self {
+            Self::Argument(name) | Self::Entry(_, name) => name,
+            Self::Item(list, _) => list.name(),
+        }
+    }
+
+    fn is_one_of(&self, names: &[&str]) -> bool {
+        names.contains(&self.name())
+    }
+
+    /// Whether a list stands here.
+    fn takes_list(&self) -> bool {
+        self.is_one_of(if matches!(self, Self::Item(..)) { &NESTED } else { &LISTS })
+    }
+
+    /// What stands here, in words.
+    fn expected(&self) -> &'static str {
+        if self.takes_list() {
+            "a list"
+        } else if self.is_one_of(&TABLES) {
+            if self.is_one_of(&TEXTS) { "a name or a table (a dictionary)" } else { "a table (a dictionary)" }
+        } else if self.is_one_of(&TEXTS) {
+            "a text"
+        } else {
+            "one real number"
+        }
+    }
+
+    /// The error of a value of another type.
+    fn wrong(&self, value: &Bound<'_, PyAny>, expected: &str) -> PyErr {
+        let found =
+            value.get_type().name().map_or_else(|_| "something else".to_owned(), |name| name.to_string());
+        PyTypeError::new_err(format!("argument '{self}': must be {expected}, and is {found}"))
+    }
+}
+
+/// A value as a file has it: a text, a finite number, or a list or a table of such. Numbers and arrays of NumPy are
+/// numbers and lists; nothing else is taken for one.
+pub(crate) fn plain(value: &Bound<'_, PyAny>, place: &Place<'_>) -> PyResult<Value> {
+    let wrong = || Err(place.wrong(value, place.expected()));
+    let takes_list = place.takes_list();
+    if value.cast::<PyMapping>().is_ok() {
+        if takes_list || !place.is_one_of(&TABLES) {
+            return wrong();
+        }
+        // As an argument that is None, such an entry is not given.
+        let given = entries(value, place)?.into_iter().filter(|(_, own)| !own.is_none());
+        return given
+            .map(|(name, own)| {
+                let own = plain(&own, &Place::Entry(place, &name))?;
+                Ok((name, own))
+            })
+            .collect();
+    }
+    if let Ok(text) = value.cast::<PyString>() {
+        return if place.is_one_of(&TEXTS) && !takes_list { Ok(text.to_str()?.into()) } else { wrong() };
+    }
+    match items(value, place)? {
+        Some(items) if takes_list => {
+            let items = items.iter().enumerate();
+            items.map(|(index, item)| plain(item, &Place::Item(place, index))).collect()
+        }
+        None if takes_list && !matches!(place, Place::Item(..)) => wrong(),
+        None if !place.is_one_of(&TABLES) && !place.is_one_of(&TEXTS) => {
+            number(value, place).map(Value::from)
+        }
+        _ => wrong(),
+    }
+}
+
+/// A finite number.
+fn number(value: &Bound<'_, PyAny>, place: &Place<'_>) -> PyResult<f64> {
+    let Real(number) = extracted(value, place)?;
+    if !number.is_finite() {
+        return Err(errors::out_of_range(value.py(), &place.to_string(), number, "(-inf, inf)"));
+    }
+    Ok(number)
+}
+
+/// The items of a list, an array or another ordered collection; `None` of what is none.
+fn items<'py>(value: &Bound<'py, PyAny>, place: &Place<'_>) -> PyResult<Option<Vec<Bound<'py, PyAny>>>> {
+    let is_unordered = value.is_instance_of::<PySet>() || value.is_instance_of::<PyFrozenSet>();
+    if is_unordered || value.is_instance_of::<PyBytes>() || value.is_instance_of::<PyString>() {
+        return Ok(None);
+    }
+    refuse_masked(value).map_err(|error| named(value.py(), error, place))?;
+    // Arrays of no dimensions, as all else that is no collection, are not iterable.
+    value.try_iter().map_or(Ok(None), |items| items.collect::<PyResult<_>>().map(Some))
+}
+
+/// The entries of a table, by their names.
+pub(crate) fn entries<'py>(
+    table: &Bound<'py, PyAny>,
+    place: &Place<'_>,
+) -> PyResult<Vec<(String, Bound<'py, PyAny>)>> {
+    let Ok(table) = table.cast::<PyMapping>() else {
+        return Err(place.wrong(table, "a table (a dictionary)"));
+    };
+    let entry = |item: Bound<'py, PyAny>| {
+        let (name, value): (Bound<'_, PyAny>, _) = item.extract()?;
+        Ok((name.extract().map_err(|_| place.wrong(&name, "a table whose names are texts"))?, value))
+    };
+    table.items()?.iter().map(entry).collect()
+}
+
+/// Two numbers; the range of their quantity is the library's.
+pub(crate) fn pair(value: &Bound<'_, PyAny>, place: &Place<'_>) -> PyResult<[f64; 2]> {
+    let items = items(value, place)?.ok_or_else(|| place.wrong(value, "two numbers"))?;
+    let [low, high] = items.as_slice() else {
+        return Err(PyValueError::new_err(format!("{place} must be two numbers, and has {}", items.len())));
+    };
+    let number = |value, index| extracted::<Real>(value, Place::Item(place, index));
+    Ok([number(low, 0)?.0, number(high, 1)?.0])
 }
 
 /// Refuses True and False, which Python takes for 1 and 0.

@@ -10,7 +10,7 @@ use pyo3::call::PyCallArgs;
 use pyo3::exceptions::{PyOSError, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
-use pyo3::types::{IntoPyDict, PyDict};
+use pyo3::types::{IntoPyDict, PyDict, PyMapping};
 
 /// The exception of a class of the module of errors.
 fn raise<'py>(py: Python<'py>, class: &str, arguments: impl PyCallArgs<'py>) -> PyErr {
@@ -23,7 +23,7 @@ fn raise<'py>(py: Python<'py>, class: &str, arguments: impl PyCallArgs<'py>) -> 
 }
 
 /// The errors that arguments are the reason of which do not fit together.
-const INVALID: [&str; 18] = [
+const INVALID: [&str; 19] = [
     "not-of-kind",
     "no-closed-form",
     "no-decimal",
@@ -40,6 +40,7 @@ const INVALID: [&str; 18] = [
     "drive-not-sine",
     "scheduled-drive",
     "yielding-stator",
+    "soft-contact",
     "load-law",
     "load-in-time",
 ];
@@ -153,6 +154,13 @@ fn argument(quantity: &'static str, call: &Bound<'_, PyDict>) -> Option<String> 
     if quantity.starts_with("restitution of ") {
         return Some(head);
     }
+    // A field of a table, such as `stator.mass`, is named in full; `contact.time` may be an argument of its own.
+    let is_table =
+        |name| call.get_item(name).ok().flatten().is_some_and(|own| own.cast::<PyMapping>().is_ok());
+    if head.split_once('.').is_some_and(|(table, _)| is_table(table)) && quantity.ends_with(&head) {
+        return Some(head);
+    }
+    let head = head.replace('.', "_");
     let spellings = ["", "max_"].map(|prefix| format!("{prefix}{head}"));
     let plurals = ["s", "_torque", "_torques"].map(|suffix| format!("{head}{suffix}"));
     let others = ARGUMENTS.iter().filter(|(library, _)| *library == head).flat_map(|(_, names)| *names);

@@ -15,9 +15,9 @@ use bouncing_disk::{Error, System as SystemModel};
 use numpy::PyArray1;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyMapping};
+use pyo3::types::PyDict;
 
-use crate::arguments::{Arguments, Made, Real, runs};
+use crate::arguments::{Arguments, Made, Place, Real, entries, extracted, runs};
 use crate::errors;
 use crate::parameters::Motor;
 use crate::results::{array, column, make, matrix, room_for};
@@ -133,11 +133,11 @@ pub(crate) fn fit_transients(a: Arguments<'_>) -> Made<'_> {
 }
 
 /// A rated point from its numbers by name.
-fn rated_point(numbers: &Bound<'_, PyMapping>) -> PyResult<RatedPoint> {
+fn rated_point(numbers: &Bound<'_, PyAny>, place: &Place<'_>) -> PyResult<RatedPoint> {
     let mut point = RatedPoint { speed: f64::NAN, speed_error: 0.0, conditions: Vec::new() };
     let mut errors = Vec::new();
-    for item in numbers.items()? {
-        let (name, Real(value)): (String, Real) = item.extract()?;
+    for (name, value) in entries(numbers, place)? {
+        let Real(value) = extracted(&value, Place::Entry(place, &name))?;
         let field = |name: &str| {
             name.parse::<MotorField>().map_err(|unknown| PyValueError::new_err(format!("points: {unknown}")))
         };
@@ -160,11 +160,12 @@ fn rated_point(numbers: &Bound<'_, PyMapping>) -> PyResult<RatedPoint> {
 #[pyfunction]
 pub(crate) fn fit_rated_points(a: Arguments<'_>) -> Made<'_> {
     let (motor, py) = (a.motor()?, a.py());
-    let points = a.of::<Vec<Bound<'_, PyMapping>>>("points")?;
-    let points = points.iter().map(rated_point).collect::<PyResult<Vec<_>>>()?;
+    let place = Place::Argument("points");
+    let points = a.list("points")?.into_iter().enumerate();
+    let points = points.map(|(index, point)| rated_point(&point, &Place::Item(&place, index)));
+    let points = points.collect::<PyResult<Vec<_>>>()?;
     let mut ranges = Vec::new();
-    for item in a.of::<Bound<'_, PyMapping>>("ranges")?.items()? {
-        let (name, [Real(low), Real(high)]): (String, [Real; 2]) = item.extract()?;
+    for (name, [low, high]) in a.ranges()? {
         let parameter = FitParameter::ALL.into_iter().find(|parameter| parameter.name() == name);
         let all = FitParameter::ALL.map(FitParameter::name).join(", ");
         let unknown =

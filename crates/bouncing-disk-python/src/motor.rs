@@ -10,9 +10,9 @@ use bouncing_disk::parameters::DriveParameters;
 use numpy::PyArray1;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyMapping, PyString, PyTuple};
+use pyo3::types::{PyDict, PyString, PyTuple};
 
-use crate::arguments::{Arguments, Made, Real, row};
+use crate::arguments::{Arguments, Made, row};
 use crate::parameters::Motor;
 use crate::results::{column, made, make, signed};
 
@@ -215,8 +215,7 @@ pub(crate) fn best_phase_lag(a: Arguments<'_>) -> Made<'_> {
 pub(crate) fn motor_map(a: Arguments<'_>) -> Made<'_> {
     let (motor, settings, py) = (a.motor()?, settings(&a)?, a.py());
     let (mut axes, values) = (Vec::new(), PyDict::new(py));
-    for item in a.of::<Bound<'_, PyMapping>>("axes")?.items()? {
-        let (name, given): (String, Bound<'_, PyAny>) = item.extract()?;
+    for (name, given) in a.entries("axes")? {
         let parameter: MotorField =
             name.parse().map_err(|unknown| PyValueError::new_err(format!("axes: {unknown}")))?;
         let axis = SweepAxis::new(parameter, row(&given, &name)?);
@@ -365,9 +364,8 @@ struct Sample<'py> {
 impl<'py> Sample<'py> {
     fn of(a: &Arguments<'py>) -> PyResult<Self> {
         let mut ranges = Vec::new();
-        for item in a.of::<Bound<'_, PyMapping>>("ranges")?.items()? {
-            let (name, [Real(low), Real(high)]): (String, [Real; 2]) = item.extract()?;
-            ranges.push((parameter(&name)?, [low, high]));
+        for (name, range) in a.ranges()? {
+            ranges.push((parameter(&name)?, range));
         }
         let names = PyTuple::new(a.py(), ranges.iter().map(|(parameter, _)| parameter.name()))?;
         let sampling = SamplingSettings { rows: a.usize("rows")?, seed: a.u64("sampling_seed")? };

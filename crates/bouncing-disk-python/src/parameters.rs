@@ -5,15 +5,15 @@ use std::f64::consts::TAU;
 use bouncing_disk::core::{ChatterCut as Cut, ChatterPolicy, ImpactMap, ImpactState, Phase, Vibration};
 use bouncing_disk::motion::PAPER_CUT;
 use bouncing_disk::motor::{DrivenMotor, MotorField, MotorParameters};
-use bouncing_disk::parameters::{DriveParameters, Waveform};
+use bouncing_disk::parameters::{Contact, DriveParameters, StatorParameters, Waveform};
 use bouncing_disk::{DiskParameters, Error, Motor as MotorModel, PlatformParameters, System as SystemModel};
 use numpy::PyArray2;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
 
-use crate::arguments::{Arguments, Count, Made, Real, extracted, held};
-use crate::results::matrix;
+use crate::arguments::{Arguments, Count, Made, Place, Real, extracted, held, plain};
+use crate::results::{matrix, stored};
 use crate::{errors, long_call};
 
 /// The contents of a `System`. Its numbers are made when Python asks for the first one.
@@ -36,21 +36,32 @@ impl System {
             ("rise_time", Some(self.0.rise_time())),
         ];
         let all = given.map(|(name, number)| (name, Some(number))).into_iter().chain(derived);
-        numbers(py, given.into_py_dict(py)?.into_any(), all)
+        let given = given.into_py_dict(py)?;
+        if let Some(contact) = self.0.contact() {
+            given.set_item("contact", from_json(py, &stored(contact)?)?)?;
+        }
+        if let Some(stator) = self.0.stator() {
+            given.set_item("stator", from_json(py, &stored(&stator.parameters())?)?)?;
+        }
+        numbers(py, given.into_any(), all)
     }
 
     /// The system with other values of some arguments.
     fn replaced(&self, changes: Arguments<'_>) -> PyResult<Self> {
         let mut numbers = numbers_of(&self.0);
+        let mut tables = tables_of(&self.0);
         for name in changes.0.keys() {
             let name: String = name.extract()?;
-            let Some(place) = SYSTEM.iter().position(|known| *known == name) else {
-                return Err(PyTypeError::new_err(format!("System has no argument '{name}'")));
-            };
-            numbers[place] = changes.real(&name)?;
+            match (SYSTEM.iter().position(|known| *known == name), name.as_str()) {
+                (Some(place), _) => numbers[place] = changes.real(&name)?,
+                (None, "contact") => tables.0 = changes.table("contact")?,
+                (None, "stator") => tables.1 = changes.table("stator")?,
+                _ => return Err(PyTypeError::new_err(format!("System has no argument '{name}'"))),
+            }
         }
-        system_of(numbers).map(Self).or_else(|error| {
+        system_of(numbers, tables).map(Self).or_else(|error| {
             let call = named(numbers).into_py_dict(changes.py())?;
+            call.update(changes.0.as_mapping())?;
             Err(errors::of_call(changes.py(), error, &call))
         })
     }
@@ -83,7 +94,7 @@ impl Motor {
             ("largest_torque", Some(motor.largest_torque())),
             ("static_deflection", motor.static_deflection()),
         ];
-        let all = numbers(py, py.import("json")?.call_method1("loads", (self.0.to_json(),))?, all)?;
+        let all = numbers(py, from_json(py, &self.0.to_json())?, all)?;
         all.set_item("system", python_system(py, motor.system())?)?;
         Ok(all)
     }
@@ -106,6 +117,23 @@ impl ChatterCut {
         all.set_item("short_flights", self.0.short_flights())?;
         all.set_item("_given", all.copy()?)?;
         Ok(all)
+    }
+}
+
+/// The contents of a `Drive`.
+#[pyclass(frozen, module = "bouncing_disk._native")]
+pub(crate) struct Drive(DriveParameters);
+
+#[pymethods]
+impl Drive {
+    fn numbers<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let all: Bound<'_, PyDict> = from_json(py, &stored(&self.0)?)?.cast_into()?;
+        all.set_item("_given", all.copy()?)?;
+        Ok(all)
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        self.0.warnings().collect()
     }
 }
 
@@ -157,6 +185,11 @@ impl Map {
         }
         Ok(long_call::caught(|| Ok(self.0.period_one(periods).map(pair)))?.unwrap_or(None))
     }
+}
+
+/// The dictionaries, lists and numbers of a text of the library's.
+fn from_json<'py>(py: Python<'py>, json: &str) -> Made<'py> {
+    py.import("json")?.call_method1("loads", (json,))
 }
 
 /// What becomes of an impact of these two numbers.
@@ -231,8 +264,15 @@ fn named(numbers: [f64; 10]) -> [(&'static str, f64); 10] {
     std::array::from_fn(|place| (SYSTEM[place], numbers[place]))
 }
 
+/// The tables that a system may have.
+type Tables = (Option<Contact>, Option<StatorParameters>);
+
+fn tables_of(system: &SystemModel) -> Tables {
+    (system.contact().copied(), system.stator().map(|stator| stator.parameters()))
+}
+
 /// The system of these parameters.
-fn system_of(numbers: [f64; 10]) -> Result<SystemModel, Error> {
+fn system_of(numbers: [f64; 10], (contact, stator): Tables) -> Result<SystemModel, Error> {
     let [amplitude, twist_amplitude, angular_frequency, phase_lag, contact_radius, gyration_radius, ..] =
         numbers;
     let [.., friction, restitution, preload_acceleration, load_acceleration] = numbers;
@@ -245,7 +285,7 @@ fn system_of(numbers: [f64; 10]) -> Result<SystemModel, Error> {
         preload_acceleration,
         load_acceleration,
     };
-    SystemModel::new(platform.build()?, disk.build()?)
+    SystemModel::new(platform.build()?, disk.build()?)?.with_contact(contact)?.with_stator(stator)
 }
 
 /// A system by its arguments.
@@ -255,7 +295,8 @@ pub(crate) fn system(a: Arguments<'_>) -> PyResult<System> {
     for (name, number) in SYSTEM.iter().zip(&mut numbers) {
         *number = a.real(name)?;
     }
-    system_of(numbers).map(System).map_err(|error| a.refused(error))
+    let tables = (a.table("contact")?, a.table("stator")?);
+    system_of(numbers, tables).map(System).map_err(|error| a.refused(error))
 }
 
 /// The system that the library has made, as Python has it.
@@ -290,19 +331,11 @@ pub(crate) fn motor(a: Arguments<'_>) -> PyResult<Motor> {
         friction: a.real("friction")?,
         restitution: a.real("restitution")?,
         load_torque: a.real("load_torque")?,
-        contact: None,
-        stator: table(&a, "stator")?,
-        load: table(&a, "load")?,
+        contact: a.table("contact")?,
+        stator: a.table("stator")?,
+        load: a.table("load")?,
     };
     sheet.build().map(Motor).map_err(|error| a.refused(error))
-}
-
-/// A table of a data sheet, as files have it.
-fn table<T: serde::de::DeserializeOwned>(a: &Arguments<'_>, name: &str) -> PyResult<Option<T>> {
-    let Some(table) = a.given(name)? else { return Ok(None) };
-    let text: String = a.py().import("json")?.call_method1("dumps", (table,))?.extract()?;
-    let wrong = |error| errors::of_text(a.py(), format!("the {name} cannot be read: {error}"), None);
-    serde_json::from_str(&text).map(Some).map_err(wrong)
 }
 
 /// A motor of the paper, or of the text of a data sheet.
@@ -370,31 +403,31 @@ pub(crate) fn paper_cut() -> ChatterCut {
     ChatterCut(PAPER_CUT)
 }
 
-/// A drive; the sine if it is `None`.
-pub(crate) fn drive(given: &Bound<'_, PyAny>, name: &str) -> PyResult<DriveParameters> {
+/// A drive that an argument is; the sine if it is `None`.
+pub(crate) fn held_drive(given: &Bound<'_, PyAny>, name: &str) -> PyResult<DriveParameters> {
     if given.is_none() {
         return Ok(DriveParameters::default());
     }
-    let json = given.getattr("to_json");
-    let json = json.map_err(|_| PyTypeError::new_err(format!("argument '{name}' must be a Drive")))?;
-    let (text, py): (String, _) = (json.call0()?.extract()?, given.py());
-    let drive: DriveParameters = serde_json::from_str(&text)
-        .map_err(|error| errors::of_text(py, format!("the drive cannot be read: {error}"), None))?;
-    drive.check().map_err(|error| errors::of(py, error))?;
-    Ok(drive)
+    held::<Drive>(given, name).map(|drive| drive.get().0.clone())
 }
 
-/// Checks a drive.
+/// A drive by its arguments.
 #[pyfunction]
-pub(crate) fn check_drive(a: Arguments<'_>) -> PyResult<()> {
-    a.drive("self").map(|_| ())
+pub(crate) fn drive(a: Arguments<'_>) -> PyResult<Drive> {
+    let mut table = serde_json::Map::new();
+    for name in ["height", "angle", "start_phase", "segments", "then"] {
+        table.insert(name.to_owned(), plain(&a.get(name)?, &Place::Argument(name))?);
+    }
+    let drive: DriveParameters = a.read("drive", table.into())?;
+    drive.check().map_err(|error| errors::of(a.py(), error))?;
+    Ok(Drive(drive))
 }
 
 /// The objects of this module among the arguments of a call.
 impl<'py> Arguments<'py> {
     /// A drive; the sine if it is not given.
     pub(crate) fn drive(&self, name: &str) -> PyResult<DriveParameters> {
-        drive(&self.get(name)?, name)
+        held_drive(&self.get(name)?, name)
     }
 
     /// The shape of the height of `drive` and `contact_time`, which decide the vertical motion; `None` for rigid
@@ -416,6 +449,12 @@ impl<'py> Arguments<'py> {
 
     pub(crate) fn system(&self) -> PyResult<SystemModel> {
         Ok(self.held::<System>("system")?.get().0)
+    }
+
+    /// The system of what is computed for rigid impacts on a prescribed platform only.
+    pub(crate) fn rigid_system(&self) -> PyResult<SystemModel> {
+        let system = self.system()?;
+        system.rigid().map(|()| system).map_err(|error| self.refused(error))
     }
 
     pub(crate) fn motor(&self) -> PyResult<MotorModel> {

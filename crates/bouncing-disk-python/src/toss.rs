@@ -80,7 +80,7 @@ pub(crate) fn single_toss<'py>(
 ) -> Made<'py> {
     let (py, system) = (system.py(), held::<System>(system, "system")?.get().0);
     let initial = choice(initial_spin, "initial_spin", &SPINS)?;
-    let drive = parameters::drive(drive, "drive")?;
+    let drive = parameters::held_drive(drive, "drive")?;
     let time = extracted::<Option<Real>>(contact_time, "contact_time")?;
     let done = long_call::caught(|| {
         let contact = time.map(|Real(time)| Contact { time: Some(time), ..Contact::default() });
@@ -234,7 +234,7 @@ pub(crate) fn events(a: Arguments<'_>) -> Made<'_> {
 /// The whole toss of a disk from its platform.
 #[pyfunction]
 pub(crate) fn toss_trajectory(a: Arguments<'_>) -> Made<'_> {
-    let (system, initial) = (a.system()?, a.choice("initial_spin", &SPINS)?);
+    let (system, initial) = (a.rigid_system()?, a.choice("initial_spin", &SPINS)?);
     let motion = long_call::short(&a, || toss_motion(&system, initial))?;
     shown_trajectory(a.py(), (system, motion))
 }
@@ -243,7 +243,7 @@ pub(crate) fn toss_trajectory(a: Arguments<'_>) -> Made<'_> {
 #[pyfunction]
 pub(crate) fn simulate(a: Arguments<'_>) -> Made<'_> {
     const RANGE: &str = "[1, 1000000]";
-    let (system, policy, py) = (a.system()?, a.policy()?, a.py());
+    let (system, policy, py) = (a.rigid_system()?, a.policy()?, a.py());
     let start = start(&a, &system)?;
     let (most, duration) = (a.count("events", MOST_EVENTS, RANGE)?, a.optional("duration")?);
     if most == 0 {
@@ -279,7 +279,7 @@ pub(crate) fn simulate(a: Arguments<'_>) -> Made<'_> {
 /// What becomes of the spin of a disk on a periodic orbit.
 #[pyfunction]
 pub(crate) fn rotary_response(a: Arguments<'_>) -> Made<'_> {
-    let (system, orbit, py) = (a.system()?, a.held::<PeriodicOrbit>("orbit")?, a.py());
+    let (system, orbit, py) = (a.rigid_system()?, a.held::<PeriodicOrbit>("orbit")?, a.py());
     let (unit, none) = (system.scales().angular_speed, f64::NAN);
     let found = long_call::short(&a, || response(system.dimensionless(), &orbit.get().0))?;
     let (outcome, own, limit, change) = match &found {

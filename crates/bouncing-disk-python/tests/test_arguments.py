@@ -491,7 +491,105 @@ def test_pairs_are_tuples_or_lists_of_two() -> None:
     expected = bd.basins(MAP, phases=3, speeds=3, phase_range=(0.0, 0.5))
     listed: Any = [0, 0.5]
     assert bd.basins(MAP, phases=3, speeds=3, phase_range=listed) == expected
+    assert bd.basins(MAP, phases=3, speeds=3, phase_range=np.array([0.0, 0.5])) == expected
     wrong: list[Any] = [(0.0,), (0.0, 0.5, 1.0), (), 1.0, None, "ab", {0.0, 1.0}, np.float64(1.0)]
     for pair in wrong:
         with pytest.raises((TypeError, ValueError)):
             bd.basins(MAP, phases=3, speeds=3, phase_range=pair)
+
+
+STATOR = {"mass": 0.05, "quality": 300.0}
+LOAD = {"speeds": [0.0, 8.0], "torques": [0.0, 0.5]}
+POINT = {"speed": 20.0, "speed_error": 9.0, "load_torque": 0.0}
+RATED: dict[str, Any] = {"ranges": {"friction": (0.1, 0.3)}, "most_evaluations": 8, "most_impacts": 2000}
+LOOSE: dict[str, Any] = {"rows": 8, "relative_error": 0.5, "members": 4, "most_impacts": 100}
+#: The cosine, which six samples resolve.
+HEXAGON = [1.0, 0.5, -0.5, -1.0, -0.5, 0.5]
+
+#: Calls of one number within a table or a list, and how an error names its place.
+PLACES: list[tuple[str, Callable[[Any], object]]] = [
+    ("stator.quality", lambda value: MOTOR.replace(stator={**STATOR, "quality": value})),
+    ("load.inertia", lambda value: MOTOR.replace(load={**LOAD, "inertia": value})),
+    ("load.torques[1]", lambda value: MOTOR.replace(load={**LOAD, "torques": [0.0, value]})),
+    ("contact.time", lambda value: MOTOR.replace(drive_frequency=1.0, contact={"time": value})),
+    ("stator.quality", lambda value: TOSS.replace(stator={**STATOR, "quality": value})),
+    ("height.sawtooth", lambda value: bd.Drive.sawtooth(value)),
+    ("height.sampled[1]", lambda value: bd.Drive.sampled([1.0, value, -0.5, -1.0, -0.5, 0.5])),
+    ("angle.sampled[5]", lambda value: bd.Drive.sampled(HEXAGON, [*HEXAGON[:5], value])),
+    ("height.fourier[0][1]", lambda value: bd.Drive.fourier([(1.0, value)])),
+    ("angle.pieces[1][0]", lambda value: bd.Drive(angle={"pieces": [(0.5, [1.0]), (value, [1.0])]})),
+    ("start_phase", lambda value: bd.Drive(start_phase=value)),
+    ("segments[1].periods", lambda value: bd.Drive(segments=[{}, {"periods": value}])),
+]
+
+#: Calls of pairs and points, whose numbers need not be finite: the library judges them by their range.
+PAIRS_AND_POINTS: list[tuple[str, Callable[[Any], object]]] = [
+    ("points[1].speed", lambda value: bd.fit_rated_points(MOTOR, points=[POINT, {"speed": value}], **RATED)),
+    ("ranges.friction[0]", lambda value: bd.sobol_indices(MOTOR, ranges={"friction": (value, 0.9)}, **LOOSE)),
+    ("ranges.friction[1]", lambda value: bd.elementary_effects(MOTOR, ranges={"friction": [0.1, value]}, **LOOSE)),
+    ("phase_range[1]", lambda value: bd.basins(MAP, phases=3, speeds=3, phase_range=(0.0, value))),
+]
+
+#: Calls of a list of numbers within a table.
+LISTS: list[tuple[str, Callable[[Any], object]]] = [
+    ("load.torques", lambda value: MOTOR.replace(load={**LOAD, "torques": value})),
+    ("height.sampled", lambda value: bd.Drive.sampled(value)),
+    ("angle.sampled", lambda value: bd.Drive(angle={"sampled": value})),
+    ("height.pieces[0][1]", lambda value: bd.Drive.pieces([(1.0, value)])),
+]
+
+NO_NUMBER: list[Any] = ["0.5", b"0.5", True, np.True_, 0.5j, np.complex64(0.5), np.ma.masked, np.ma.array(0.5, mask=True)]
+NO_NUMBER += [{"a": 0.5}, {0.5}, object(), np.str_("0.5")]
+NOT_FINITE: list[Any] = [math.nan, math.inf, np.float32("nan"), np.array(-math.inf), 10**400]
+NO_LIST: list[Any] = ["0, 1", b"01", {0.0, 1.0}, {"a": 0.5}, np.ma.array([0.0, 50.0], mask=[False, True])]
+NO_LIST += [np.array([False, True]), np.array([0.0, 1j]), np.array(["0", "1"]), ["0", "1"], [0.0, True]]
+
+
+@pytest.mark.parametrize(("place", "call", "value", "error"), [
+    *((*row, value, TypeError) for row in PLACES + PAIRS_AND_POINTS for value in NO_NUMBER),
+    *((*row, value, bd.OutOfRangeError) for row in PLACES for value in NOT_FINITE),
+    *((*row, value, TypeError) for row in LISTS for value in NO_LIST),
+    *((*row, 0.5, TypeError) for row in LISTS[:3]),
+], ids=repr)  # fmt: skip
+def test_what_tables_do_not_hold_is_refused_by_its_place(
+    place: str, call: Callable[[Any], object], value: Any, error: type[Exception]
+) -> None:
+    with pytest.raises(error) as refused:
+        call(value)
+    text = str(refused.value)
+    assert text.startswith((f"argument '{place}", f"{place} = ")), text
+    assert "JSON" not in text and "f64" not in text and "float values" not in text
+    if isinstance(refused.value, bd.OutOfRangeError):
+        assert (refused.value.field, refused.value.range) == (place, "(-inf, inf)")
+
+
+@pytest.mark.parametrize("row", PLACES + PAIRS_AND_POINTS, ids=lambda row: row[0])
+def test_tables_hold_numbers_of_all_kinds(row: tuple[str, Callable[[Any], object]]) -> None:
+    call, expected = row[1], row[1](0.5)
+    half = [np.float64(0.5), np.float32(0.5), np.float16(0.5), np.array(0.5), np.ma.array(0.5), Fraction(1, 2), Decimal("0.5")]
+    for value in half:
+        assert call(value) == expected
+
+
+@pytest.mark.parametrize("row", LISTS, ids=lambda row: row[0])
+def test_tables_hold_lists_of_all_kinds(row: tuple[str, Callable[[Any], object]]) -> None:
+    own = {"load.torques": [0.5, 0.5], "height.pieces[0][1]": [0.5]}.get(row[0], [0.5, 0.5, 0.5])
+    call, expected = row[1], row[1](own)
+    for kind in (tuple, np.array, np.ma.array, lambda row: np.array(row, np.float32), lambda row: np.repeat(row, 2)[::2], iter):
+        assert call(kind(own)) == expected
+    whole = [bd.Drive.sampled(kind([2, 1, -1, -2, -1, 1])) for kind in (list, np.array, lambda row: np.array(row, np.int8))]
+    assert whole[0] == whole[1] == whole[2] == bd.Drive.sampled([2.0, 1.0, -1.0, -2.0, -1.0, 1.0])
+
+
+def test_fields_of_tables_are_named_in_full() -> None:
+    for place, call in (
+        ("stator.quality", lambda: MOTOR.replace(stator={**STATOR, "quality": 0.1})),
+        ("contact.time", lambda: MOTOR.replace(contact={"time": -1.0})),
+        ("contact_time", lambda: bd.stall_load(MOTOR, contact_time=-1.0)),
+    ):
+        with pytest.raises(bd.OutOfRangeError) as refused:
+            call()
+        assert refused.value.field == place
+    for wrong, told in (({"mas": 1.0}, "unknown field `mas`"), ({"kind": "twisted"}, "twisted")):
+        with pytest.raises(bd.InvalidError, match=f"stator cannot be read: .*{told}"):
+            MOTOR.replace(stator=wrong)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 
 import numpy as np
@@ -102,13 +103,13 @@ def test_a_contact_time_changes_tosses_and_motors_and_a_tiny_one_nothing() -> No
     ("make", "told"),
     [
         (lambda: bd.Drive("triangel"), "triangle"),
-        (lambda: bd.Drive.fourier([(1.0, float("nan"))]), "Out of range float"),
+        (lambda: bd.Drive.fourier([(1.0, float("nan"))]), r"height.fourier\[0\]\[1\] = NaN"),
         (lambda: bd.Drive.pieces([]), "sum of the durations"),
         (lambda: bd.Drive.pieces([(1.0, (0.0, 1.0, 0.0, 0.0))]), "jumps by -1"),
         (lambda: bd.Drive.sampled([0.0, 1.0]), "samples = 2"),
         (lambda: bd.Drive.sawtooth(1.0), "rise = 1"),
-        (lambda: bd.stall_load(bd.Motor.paper_70_khz(), contact_time=-1.0), "contact.time = -1"),
-        (lambda: bd.best_phase_lag(bd.Motor.paper_70_khz(), contact_time=0.0), "contact.time = 0"),
+        (lambda: bd.stall_load(bd.Motor.paper_70_khz(), contact_time=-1.0), "contact_time = -1"),
+        (lambda: bd.best_phase_lag(bd.Motor.paper_70_khz(), contact_time=0.0), "contact_time = 0"),
         (lambda: diagram(bd.Drive(segments=[{"periods": 1.0}])), "schedule"),
         (lambda: bd.basins(BOUNCING, known_orbits=[], drive=bd.Drive(then="rest")), "schedule"),
     ],
@@ -116,3 +117,22 @@ def test_a_contact_time_changes_tosses_and_motors_and_a_tiny_one_nothing() -> No
 def test_bad_drives_are_refused_by_name(make: Callable[[], object], told: str) -> None:
     with pytest.raises(ValueError, match=told):
         make()
+
+
+@pytest.mark.parametrize("count", [16, 100, 1000])
+@pytest.mark.parametrize("start", [0.0, 0.7, 1.5])
+def test_a_first_sample_at_the_end_gives_a_warning(count: int, start: float) -> None:
+    closed = np.sin(start + 2.0 * np.pi * np.arange(count + 1) / count)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        drive = bd.Drive.sampled(closed[:-1])
+    with pytest.warns(UserWarning, match="the angle: the last sample seems to repeat the first"):
+        bd.Drive.sampled(closed[:-1], closed)
+    with pytest.warns(UserWarning, match="the height: the last sample seems to repeat the first"):
+        longer = bd.Drive.sampled(closed)
+    assert longer != drive
+
+
+def test_noisy_samples_give_a_warning() -> None:
+    with pytest.warns(UserWarning, match="if they have noise"):
+        bd.Drive.sampled(np.sin(2.0 * np.pi * np.arange(64) / 64) + 0.01 * (-1.0) ** np.arange(64))

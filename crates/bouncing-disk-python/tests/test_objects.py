@@ -62,19 +62,73 @@ def test_representations_are_one_line(name: str) -> None:
         assert "\n" not in text
         assert len(text) < 1500
 
-PARAMETERS: list[Any] = [bd.System.motor(), MAP, MOTOR, bd.ChatterCut.paper()]
+STATOR = {"kind": "axial", "mass": 0.05, "quality": 300.0}
+VOLTS = {"mass": 0.05, "quality": 300, "resonance": 70e3, "volts": 10, "anti_resonance": 70.4e3, "capacitance": 1.2e-9}
+LAYER = {"materials": ["steel", "polyimide"], "geometry": "layer", "area": 1e-5, "thickness": 1e-4, "roughness": 1e-7}
+LOAD = {"speeds": [-5.0, 20.0], "torques": [0.0, 1e-7], "times": [1.0], "factors": [0.5], "inertia": 1e-8, "on": 0.0, "off": 2.0}
+
+#: Motors and systems with each of the tables that files have, and drives of all shapes.
+WITH_TABLES: dict[str, Any] = {
+    "contact of a time": MOTOR.replace(contact={"time": 1e-6, "law": "hysteresis"}),
+    "contact of materials": MOTOR.replace(contact=LAYER),
+    "stator": MOTOR.replace(stator=STATOR),
+    "stator in volts": MOTOR.replace(amplitude=None, stator=VOLTS),
+    "load": MOTOR.replace(load=LOAD),
+    "all": MOTOR.replace(contact={"time": 1e-6}, stator=STATOR, load=LOAD),
+    "system with contact": MOTOR.replace(contact=LAYER).system,
+    "system with stator": MOTOR.replace(stator=STATOR).system,
+    "sawtooth": bd.Drive.sawtooth(0.3),
+    "fourier": bd.Drive.fourier([(1.0, 0.0), (0.1, 0.5)], [(1.0, 0.2)]),
+    "pieces": bd.Drive.pieces([(0.5, (0.0, 8.0, -16.0)), (0.5, (0.0, -8.0, 16.0))]),
+    "sampled": bd.Drive.sampled(np.sin(2.0 * np.pi * np.arange(16) / 16)),
+    "schedule": bd.Drive("cubics", start_phase=0.5, segments=[{"periods": 3, "ramp_to": 2.0}, {"lag": 0.1}], then="rest"),
+}
+
+PARAMETERS: list[Any] = [bd.System.motor(), MAP, MOTOR, bd.ChatterCut.paper(), *WITH_TABLES.values()]
 STORED = ["PeriodicOrbit", "Attractors", "Branch", "Trajectory", "Crisis"]
 READABLE: list[Any] = [*PARAMETERS, *(EVERYTHING[name] for name in STORED)]
 
 
 @pytest.mark.parametrize("one", PARAMETERS, ids=lambda one: type(one).__name__)
 def test_parameters_are_the_call_that_makes_them(one: Any) -> None:
-    again = eval(repr(one), vars(bd).copy())
-    assert again == one and hash(again) == hash(one)
-    assert type(one).from_dict(one.to_dict()) == one
-    assert type(one).from_dict(json.loads(one.to_json())) == one
+    written = json.loads(one.to_json())
+    for again in (
+        eval(repr(one), vars(bd).copy()),
+        type(one).from_dict(one.to_dict()),
+        type(one).from_dict(written),
+        type(one).from_json(one.to_json()),
+        one.replace(),
+        copy.copy(one),
+        copy.deepcopy(one),
+        pickle.loads(pickle.dumps(one)),
+    ):
+        assert again == one and hash(again) == hash(one) and repr(again) == repr(one)
+        assert json.loads(again.to_json()) == written
     with pytest.raises(AttributeError):
         one.restitution = 0.1
+
+
+@pytest.mark.parametrize("one", WITH_TABLES.values(), ids=list(WITH_TABLES))
+def test_tables_are_kept_when_another_value_changes(one: Any) -> None:
+    other = one.replace(**({"then": "rest"} if isinstance(one, bd.Drive) else {"restitution": 0.375}))
+    tables = {"contact", "stator", "load", "height", "angle", "segments"}
+    own, changed = ({key: value for key, value in each.to_dict().items() if key in tables} for each in (one, other))
+    assert own == changed and own
+    # What a user does with the dictionary changes no object.
+    before = repr(one)
+    for table in one.to_dict().values():
+        if isinstance(table, (dict, list)):
+            table.clear()
+    assert repr(one) == before
+
+
+def test_a_system_keeps_what_its_calls_refuse() -> None:
+    for system in (WITH_TABLES["system with stator"], WITH_TABLES["stator"].system):
+        for again in (system, pickle.loads(pickle.dumps(system)), system.replace(friction=0.2)):
+            with pytest.raises(bd.InvalidError) as refused:
+                bd.simulate(again, events=3)
+            assert refused.value.kind == "yielding-stator"
+    assert len(set(PARAMETERS)) == len(PARAMETERS)
 
 
 #: Texts that are none of ours, whatever was to be read.

@@ -4,7 +4,8 @@
 from __future__ import annotations
 
 import json as json_module
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from copy import deepcopy
 from dataclasses import fields
 from typing import TYPE_CHECKING, Any, ClassVar, SupportsFloat, SupportsIndex, TypeAlias, TypeVar
 
@@ -28,6 +29,7 @@ __all__ = [
     "Progress",
     "Result",
     "Stored",
+    "Table",
     "readable",
     "set_threads",
     "threads",
@@ -42,7 +44,9 @@ ComplexArray: TypeAlias = npt.NDArray[np.complex128]
 
 Float: TypeAlias = SupportsFloat | SupportsIndex
 Int: TypeAlias = SupportsIndex
-Pair: TypeAlias = tuple[Float, Float] | list[float]
+Pair: TypeAlias = tuple[Float, Float] | list[float] | FloatArray
+#: A table of a file: numbers, texts and lists by their names.
+Table: TypeAlias = Mapping[str, Any]
 Progress: TypeAlias = Callable[[int, int], object] | None
 
 Own = TypeVar("Own", bound="Parameters")
@@ -52,7 +56,7 @@ Kept = TypeVar("Kept", bound="Stored")
 class Parameters:
     """An immutable object made of keywords, which are checked as it is made."""
 
-    _given: dict[str, float]
+    _given: dict[str, Any]
     _native: Any
 
     if not TYPE_CHECKING:
@@ -70,8 +74,7 @@ class Parameters:
     __delattr__ = __setattr__  # type: ignore[assignment]
 
     def _key(self) -> object:
-        # A table, such as that of a stator, is a dictionary.
-        return tuple((name, repr(own) if isinstance(own, dict) else own) for name, own in self._given.items())
+        return _hashable(self._given)
 
     def __eq__(self, other: object) -> bool:
         return self._key() == other._key() if isinstance(other, type(self)) else NotImplemented
@@ -98,7 +101,7 @@ class Parameters:
 
     def to_dict(self) -> dict[str, Any]:
         """The arguments of the constructor that were given."""
-        return dict(self._given)
+        return deepcopy(self._given)
 
     @classmethod
     def from_dict(cls: type[Own], parameters: dict[str, Any]) -> Own:
@@ -139,6 +142,13 @@ def readable(text: str) -> str:
     except UnicodeEncodeError as error:
         raise _unreadable(error, position=error.start) from None
     return text
+
+
+def _hashable(value: Any) -> object:
+    """A number or a text, and tables and lists of such as tuples."""
+    if isinstance(value, dict):
+        return tuple((name, _hashable(own)) for name, own in value.items())
+    return tuple(map(_hashable, value)) if isinstance(value, list) else value
 
 
 def _of(cls: Any, arguments: dict[str, Any]) -> Any:

@@ -214,7 +214,7 @@ def fit_rated_points(
     motor: Motor,
     *,
     points: Sequence[Mapping[str, Float]],
-    ranges: Mapping[str, tuple[Float, Float]],
+    ranges: Mapping[str, Pair],
     most_evaluations: Int = 120,
     most_impacts: Int = 500_000,
     seed: Int = 1,

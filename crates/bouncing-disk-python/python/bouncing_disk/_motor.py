@@ -106,6 +106,8 @@ class Motor(Parameters):
         friction: coefficient of friction mu, not negative.
         restitution: coefficient of restitution, in [0, 1).
         load_torque: load torque T_L (N m); a positive one decelerates a positive rotation.
+        contact: the table ``[contact]`` of a file: ``time`` (s) and ``law`` of contacts that take time, or the ``materials``
+            (two names), the ``geometry`` and its sizes, from which a report estimates it.
         stator: the table ``[stator]`` of a file, by the names of its fields (SI), of a stator that yields: ``mass`` and
             ``quality``, and, in place of ``amplitude``, ``force``, or ``volts`` with ``force_per_volt`` or with
             ``anti_resonance`` and ``capacitance``; docs/designing-a-motor.md has them all.
@@ -165,8 +167,9 @@ class Motor(Parameters):
         friction: Float,
         restitution: Float,
         load_torque: Float = 0.0,
-        stator: Mapping[str, float | str] | None = None,
-        load: Mapping[str, float | list[float]] | None = None,
+        contact: Table | None = None,
+        stator: Table | None = None,
+        load: Table | None = None,
     ) -> None:
         self.__dict__["_native"] = native.motor(locals())
 

@@ -3,12 +3,9 @@
 # mypy: disable-error-code="no-any-return"
 from __future__ import annotations
 
-import json as json_module
-from collections.abc import Iterable
-from dataclasses import asdict, dataclass, field
-from typing import Any
-
-import numpy as np
+from collections.abc import Iterable, Mapping
+from typing import Any, Literal, TypeAlias
+from warnings import warn
 
 from bouncing_disk import _native as native
 from bouncing_disk._base import *
@@ -18,6 +15,9 @@ __all__ = [
     "Drive",
     "System",
 ]
+
+#: The name of a shape, or a dictionary of one.
+Shape: TypeAlias = str | Mapping[str, Any]
 
 
 class System(Parameters):
@@ -36,6 +36,8 @@ class System(Parameters):
         restitution: coefficient of restitution, in [0, 1).
         preload_acceleration: preload acceleration g (m/s^2), positive.
         load_acceleration: angular deceleration by a load torque (rad/s^2).
+        contact, stator: the tables ``[contact]`` and ``[stator]`` of a file, as of :class:`Motor`; that of the
+            contact has the ``mass`` of the disk unless it has a time. Calls that do not compute with them refuse them.
 
     Attributes:
         period: period of the platform (s).
@@ -90,6 +92,8 @@ class System(Parameters):
         restitution: Float,
         preload_acceleration: Float,
         load_acceleration: Float = 0.0,
+        contact: Table | None = None,
+        stator: Table | None = None,
     ) -> None:
         self.__dict__["_native"] = native.system(locals())
 
@@ -111,24 +115,26 @@ class System(Parameters):
         return made
 
     def to_dict(self) -> dict[str, Any]:
-        """The parameters as the Rust library stores them: ``{"platform": {...}, "disk": {...}}``."""
-        parts = list(self._given.items())
-        return {"platform": dict(parts[:4]), "disk": dict(parts[4:])}
+        """The parameters as the Rust library stores them: ``{"platform": {...}, "disk": {...}}``, and the tables."""
+        parts = list(super().to_dict().items())
+        return {"platform": dict(parts[:4]), "disk": dict(parts[4:10]), **dict(parts[10:])}
 
     @classmethod
     def from_dict(cls, parameters: dict[str, Any]) -> System:
         """The system of such a dictionary."""
-        if not isinstance(parameters, dict) or set(parameters) != {"platform", "disk"}:
-            raise TypeError("a system is a dictionary of two: its platform and its disk")
-        return System(**parameters["platform"], **parameters["disk"])
+        tables = dict(parameters) if isinstance(parameters, dict) else {}
+        platform, disk = tables.pop("platform", None), tables.pop("disk", None)
+        if platform is None or disk is None or not set(tables) <= {"contact", "stator"}:
+            raise TypeError("a system is a dictionary of its platform and its disk, and perhaps its contact and its stator")
+        return System(**platform, **disk, **tables)
 
 
-@dataclass(frozen=True)
-class Drive:
+class Drive(Parameters):
     """How a platform moves in place of the sine: the table ``[drive]`` of the command line's files.
 
     A shape multiplies the amplitude of the platform: ``"sine"``, ``"triangle"``, ``"parabolas"``, ``"cubics"``, or a
-    dictionary of one item, ``sawtooth``, ``fourier``, ``pieces`` or ``sampled``. The shapes are checked as the object is made.
+    dictionary of one item, ``sawtooth``, ``fourier``, ``pieces`` or ``sampled``. The shapes are checked as the object is made;
+    samples that are unlikely to be intended, such as those of which the last one repeats the first, give a warning.
 
     Args:
         height, angle: the shapes; the angle is the phase lag earlier. One that is left out is the plain sine, whatever
@@ -144,14 +150,23 @@ class Drive:
     True
     """
 
-    height: Any = "sine"
-    angle: Any = "sine"
-    start_phase: float = 0.0
-    segments: list[dict[str, float]] = field(default_factory=list)
-    then: str = "repeat"
+    height: Any
+    angle: Any
+    start_phase: float
+    segments: list[dict[str, float]]
+    then: str
 
-    def __post_init__(self) -> None:
-        native.check_drive(locals())
+    def __init__(
+        self,
+        height: Shape = "sine",
+        angle: Shape = "sine",
+        start_phase: Float = 0.0,
+        segments: Iterable[Mapping[str, Float | None]] = (),
+        then: Literal["repeat", "rest"] = "repeat",
+    ) -> None:
+        self.__dict__["_native"] = native.drive(locals())
+        for warning in self._native.warnings():
+            warn(warning, UserWarning, stacklevel=2)
 
     @staticmethod
     def fourier(height: Iterable[Pair], angle: Iterable[Pair] | None = None) -> Drive:
@@ -161,7 +176,7 @@ class Drive:
             height: those of the height.
             angle: those of the angle; the sine unless given.
         """
-        return Drive._of(lambda sums: {"fourier": np.asarray(list(sums), float).tolist()}, height, angle)
+        return Drive._of("fourier", height, angle)
 
     @staticmethod
     def pieces(height: Iterable[Any], angle: Iterable[Any] | None = None) -> Drive:
@@ -171,19 +186,17 @@ class Drive:
             height: those of the height, which is continuous; its velocity may jump.
             angle: those of the angle; the sine unless given.
         """
-        return Drive._of(
-            lambda all: {"pieces": [[float(d), np.asarray(c, float).tolist()] for d, c in all]}, height, angle
-        )
+        return Drive._of("pieces", height, angle)
 
     @staticmethod
     def sampled(height: ArrayLike, angle: ArrayLike | None = None) -> Drive:
         """The periodic cubic spline through samples at equal distances over one period.
 
         Args:
-            height: at least 3 heights, in multiples of the amplitude, shape (n,).
+            height: at least 3 heights, in multiples of the amplitude, shape (n,); the first one is not repeated at the end.
             angle: those of the angle; the sine unless given.
         """
-        return Drive._of(lambda samples: {"sampled": np.asarray(samples, float).tolist()}, height, angle)
+        return Drive._of("sampled", height, angle)
 
     @staticmethod
     def triangle() -> Drive:
@@ -197,7 +210,7 @@ class Drive:
         Args:
             rise: share of the period in which it rises, in [1e-9, 1 - 1e-9].
         """
-        return Drive({"sawtooth": float(rise)})
+        return Drive({"sawtooth": rise})
 
     @staticmethod
     def parabolas() -> Drive:
@@ -205,17 +218,8 @@ class Drive:
         return Drive("parabolas")
 
     @staticmethod
-    def _of(shape: Any, height: Any, angle: Any) -> Drive:
-        return Drive(shape(height), "sine" if angle is None else shape(angle))
-
-    def to_json(self) -> str:
-        """The table as JSON."""
-        return json_module.dumps(asdict(self), allow_nan=False)
-
-    @staticmethod
-    def from_json(json: str) -> Drive:
-        """The drive of such a text."""
-        return Drive(**json_module.loads(readable(json)))
+    def _of(kind: str, height: Any, angle: Any) -> Drive:
+        return Drive({kind: height}, "sine" if angle is None else {kind: angle})
 
 
 class ChatterCut(Parameters):
