@@ -51,6 +51,9 @@ mod _native {
     use crate::threads::{set_threads, threads};
     #[pymodule_export]
     use crate::toss::{Trajectory, events, rotary_response, samples, simulate, single_toss, toss_trajectory};
+    /// The version of the package.
+    #[pymodule_export]
+    const VERSION: &str = env!("CARGO_PKG_VERSION");
     /// Label of a start that was neither at rest nor near a known orbit after the impacts that were allowed.
     #[pymodule_export]
     const UNDECIDED: u8 = bouncing_disk::core::attractors::UNDECIDED;

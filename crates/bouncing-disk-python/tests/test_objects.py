@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import contextlib
 import copy
+import dataclasses
 import inspect
 import json
 import math
 import pickle
+from importlib import metadata
 from typing import Any
 
 import bouncing_disk as bd
@@ -129,6 +131,34 @@ def test_a_system_keeps_what_its_calls_refuse() -> None:
                 bd.simulate(again, events=3)
             assert refused.value.kind == "yielding-stator"
     assert len(set(PARAMETERS)) == len(PARAMETERS)
+
+
+RESULTS = [name for name, one in EVERYTHING.items() if isinstance(one, bd.Result)]
+
+
+@pytest.mark.parametrize("name", RESULTS)
+def test_results_are_written_as_json(name: str) -> None:
+    one = EVERYTHING[name]
+    written = json.loads(one.to_json(), parse_constant=lambda constant: pytest.fail(constant))
+    if name in STORED:
+        return  # As the library stores them.
+    for field in dataclasses.fields(one):
+        value, own = getattr(one, field.name), written[field.name]
+        if isinstance(value, np.ndarray) and np.iscomplexobj(value):
+            value = np.stack([value.real, value.imag], axis=-1)
+        if isinstance(value, np.ndarray):
+            again = np.array(own, dtype=float).reshape(value.shape)
+            assert np.array_equal(again, np.where(np.isfinite(value), value, np.nan), equal_nan=True)
+        elif isinstance(value, (str, int)) or value is None:
+            assert own == value
+
+
+def test_what_numbers_stand_for_is_in_the_json() -> None:
+    verdicts = EVERYTHING["Verdicts"]
+    written = json.loads(verdicts.to_json())
+    assert [written["kinds"][kind] for kind in written["kind"]] == verdicts.names()
+    basins = EVERYTHING["Basins"]
+    assert json.loads(basins.to_json())["impact_map"] == basins.impact_map.to_dict()
 
 
 #: Texts that are none of ours, whatever was to be read.
@@ -280,3 +310,7 @@ def test_errors_pickle_with_their_numbers(error: bd.BouncingDiskError) -> None:
     assert vars(again) == vars(error)
     assert str(again) == str(error) == error.args[0]
     assert isinstance(error, (ValueError, RuntimeError))
+
+
+def test_the_version_is_that_of_the_package() -> None:
+    assert bd.__version__ == metadata.version("bouncing-disk")

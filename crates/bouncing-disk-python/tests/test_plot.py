@@ -135,6 +135,9 @@ def test_basins_are_where_they_were_computed() -> None:
     assert pixels[0].min() == 1.0
     names = texts_of(ax)
     assert names[0].startswith("comes to rest (") and names[1].startswith("period 1 (")
+    _, found = plot.basins(bd.attractors(bouncing), phases=40, speeds=30, speed_range=(0.0, 5.0))
+    own: Any = found.images[0]
+    assert np.array_equal(own.get_array(), image.get_array()) and texts_of(found) == names
 
 
 @pytest.mark.parametrize("forcing", [0.34, 0.486, 0.5, 0.55, 0.6])

@@ -21,6 +21,7 @@ from bouncing_disk import (
     _errors,
     _estimate,
     _motor,
+    _native,
     _orbits,
     _system,
     _toss,
@@ -34,6 +35,8 @@ from bouncing_disk._motor import *
 from bouncing_disk._orbits import *
 from bouncing_disk._system import *
 from bouncing_disk._toss import *
+
+__version__: str = _native.VERSION
 
 # Sweeps and their errors are imported on first use: their imports take longer than all else here.
 if TYPE_CHECKING:

@@ -6,7 +6,8 @@ from __future__ import annotations
 import json as json_module
 from collections.abc import Callable, Mapping
 from copy import deepcopy
-from dataclasses import fields
+from dataclasses import fields, is_dataclass
+from math import isfinite
 from typing import TYPE_CHECKING, Any, ClassVar, SupportsFloat, SupportsIndex, TypeAlias, TypeVar
 
 import numpy as np
@@ -178,6 +179,27 @@ def _same(one: Any, other: Any) -> bool:
     return type(one) is type(other) and bool(one == other)
 
 
+def _as_json(value: Any) -> Any:
+    """A value of a result as JSON has it, which knows neither complex numbers nor such that are not finite."""
+    if isinstance(value, np.ndarray):
+        if np.iscomplexobj(value):
+            value = np.stack([value.real, value.imag], axis=-1)
+        return _as_json(value.tolist())
+    if isinstance(value, float):
+        return value if isfinite(value) else None
+    if is_dataclass(value):
+        words = {name.lower(): own for name, own in vars(type(value)).items() if name.isupper()}
+        values = {field.name: getattr(value, field.name) for field in fields(value)}
+        return _as_json({**values, **words})
+    if isinstance(value, tuple) and hasattr(value, "_asdict"):
+        value = value._asdict()
+    if isinstance(value, dict):
+        return {name: _as_json(own) for name, own in value.items()}
+    if isinstance(value, (tuple, list)):
+        return [_as_json(own) for own in value]
+    return value.to_dict() if isinstance(value, Parameters) else value
+
+
 def _shown(value: Any) -> str:
     """A value in a line of text: long arrays by their type and shape, and many results by their number."""
     if isinstance(value, tuple) and any(isinstance(item, (Result, np.ndarray)) for item in value):
@@ -232,6 +254,11 @@ class Result:
         if type(self) is not type(other):
             return NotImplemented
         return all(_same(getattr(self, field.name), getattr(other, field.name)) for field in fields(self))
+
+    def to_json(self) -> str:
+        """The fields as a JSON object: arrays as lists, complex numbers as pairs, and null for what is not finite. Words
+        that numbers stand for, such as the ``KINDS`` of verdicts, are lists of their own (``kinds``)."""
+        return json_module.dumps(_as_json(self), allow_nan=False)
 
     def __repr__(self) -> str:
         """The fields, long arrays by their shape; not those that are NaN throughout."""

@@ -186,7 +186,7 @@ def dots_legend(ax: Any, own: bool) -> None:
 
 
 def basins(
-    basins: bd.Basins | bd.ImpactMap,
+    basins: bd.Basins | bd.Attractors | bd.ImpactMap,
     *,
     phases: int = 600,
     speeds: int = 400,
@@ -198,10 +198,10 @@ def basins(
     for ever.
 
     Args:
-        basins: the basins to draw; for a map, the basins of all attractors that :func:`bouncing_disk.attractors`
-            finds.
-        phases, speeds: cells along the impact phase and speed, of a map.
-        speed_range: lowest and highest normalised speed, of a map.
+        basins: the basins to draw, or attractors, or a map: then those of all attractors that
+            :func:`bouncing_disk.attractors` finds.
+        phases, speeds: cells along the impact phase and speed, of attractors or a map.
+        speed_range: lowest and highest normalised speed, of attractors or a map.
         legend: whether the colours are explained above the axes.
         ax: where it is drawn.
 
@@ -213,9 +213,11 @@ def basins(
     [0.0, 1.0]
     """
     if isinstance(basins, bd.ImpactMap):
-        basins = bd.attractors(basins).basins(phases=phases, speeds=speeds, speed_range=speed_range)
+        basins = bd.attractors(basins)
+    if isinstance(basins, bd.Attractors):
+        basins = basins.basins(phases=phases, speeds=speeds, speed_range=speed_range)
     elif not isinstance(basins, bd.Basins):
-        raise TypeError(f"basins must be Basins or an ImpactMap, not {type(basins).__name__}")
+        raise TypeError(f"basins must be Basins, Attractors or an ImpactMap, not {type(basins).__name__}")
     colours = _basin_colours(len(basins.meaning))
     factor, unit = unit_of(basins.speed_range, "")
     low, high = (factor * speed for speed in basins.speed_range)
