@@ -3,6 +3,8 @@
 #[cfg(feature = "csv")]
 pub(crate) mod csv_file;
 #[cfg(feature = "csv")]
+pub(crate) mod decimal_marks;
+#[cfg(feature = "csv")]
 pub(crate) mod error;
 pub(crate) mod units;
 

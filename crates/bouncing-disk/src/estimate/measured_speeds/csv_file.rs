@@ -8,6 +8,7 @@ use std::io::Read;
 use std::path::Path;
 
 use crate::csv_records::{RecordFault, fields, lines, number, plain, text};
+use crate::estimate::measured_speeds::decimal_marks::DecimalMarks;
 use crate::estimate::measured_speeds::error::{CsvFault, MeasuredSpeedsError};
 use crate::estimate::measured_speeds::units::{SpeedUnit, TimeUnit};
 use crate::estimate::measured_speeds::{MeasuredRun, MeasuredSpeeds};
@@ -152,7 +153,7 @@ fn runs_of(bytes: &[u8], columns: &CsvColumns) -> Result<(Runs, (TimeUnit, Speed
     let mut header = Header::find(&mut lines, columns)?;
     if let Some(&line) = lines.peek() {
         let row = fields(line, header.separator)?;
-        let is_text = row.iter().all(|field| header.number(field).is_none());
+        let is_text = row.iter().all(|field| header.marks.number(field).is_err());
         if row.len() >= header.fields && is_text && row.iter().any(|field| !field.is_empty()) {
             header.units_below(line.0, &row)?;
             lines.next();
@@ -178,10 +179,7 @@ fn runs_of(bytes: &[u8], columns: &CsvColumns) -> Result<(Runs, (TimeUnit, Speed
         times.push(time);
         speeds.push(speed);
     }
-    if let (Some((line, field)), false) = (header.comma, header.commas_are_decimal) {
-        let fault = CsvFault::DecimalMarks("its commas may separate thousands");
-        return Err(Located(Some(line), Some(field), fault));
-    }
+    header.marks.check()?;
     if runs.is_empty() {
         runs.insert(0, (Vec::new(), Vec::new()));
     }
@@ -221,11 +219,7 @@ struct Header<'a> {
     member: Option<usize>,
     /// For times and speeds the unit in the name, or below it.
     units: [Option<&'a str>; 2],
-    /// Line and field of the first decimal point and of the first comma.
-    point: Option<(usize, usize)>,
-    comma: Option<(usize, usize)>,
-    /// Whether a number shows that commas do not separate thousands.
-    commas_are_decimal: bool,
+    marks: DecimalMarks,
 }
 
 impl<'a> Header<'a> {
@@ -302,9 +296,7 @@ impl<'a> Header<'a> {
             places: [times.ok_or_else(|| missing(0))?, speeds.ok_or_else(|| missing(1))?],
             member,
             units: [units[0], units[1]],
-            point: None,
-            comma: None,
-            commas_are_decimal: false,
+            marks: DecimalMarks::new(separator),
         })
     }
 
@@ -345,38 +337,6 @@ impl<'a> Header<'a> {
         Ok((time, columns.speed_unit.or(speed).ok_or_else(|| fault(1))?))
     }
 
-    /// The number of a field, with the decimal mark that the separator leaves.
-    fn number(&self, field: &str) -> Option<f64> {
-        let comma = self.separator != ',' && field.contains(',');
-        if comma { number(&field.replacen(',', ".", 1)).ok() } else { number(field).ok() }
-    }
-
-    /// Notes the decimal mark of a number.
-    fn note_mark(&mut self, line: usize, place: usize, text: &str) -> Result<(), Located> {
-        let here = Some((line, place + 1));
-        if text.contains('.') {
-            self.point = self.point.or(here);
-        }
-        let digits = text.trim_start_matches(['+', '-']);
-        match digits.split_once(',') {
-            Some((whole, part)) => {
-                self.comma = self.comma.or(here);
-                let may_be_thousand =
-                    part.len() == 3 && (1..=3).contains(&whole.len()) && !whole.starts_with('0');
-                self.commas_are_decimal |= !may_be_thousand;
-            }
-            None => {
-                let is_whole = digits.bytes().all(|digit| digit.is_ascii_digit());
-                self.commas_are_decimal |= is_whole && digits.len() > 3;
-            }
-        }
-        if self.point.is_some() && self.comma.is_some() {
-            let fault = CsvFault::DecimalMarks("it has points and commas in its numbers");
-            return Err(Located(Some(line), Some(place + 1), fault));
-        }
-        Ok(())
-    }
-
     /// Time, speed and member of a line.
     fn row(&mut self, line: usize, mut row: Vec<&str>) -> Result<(f64, f64, u32), Located> {
         while row.len() > self.fields && row[row.len() - 1].is_empty() {
@@ -390,10 +350,8 @@ impl<'a> Header<'a> {
         for (column, value) in numbers.iter_mut().enumerate() {
             let place = self.places[column];
             let text = row[place];
-            if self.separator != ',' {
-                self.note_mark(line, place, text)?;
-            }
-            *value = self.number(text).ok_or_else(|| self.refuse(line, column, place, text))?;
+            self.marks.note(line, place, text)?;
+            *value = self.marks.number(text).map_err(|_| self.refuse(line, column, place, text))?;
         }
         let member = match self.member {
             None => 0,

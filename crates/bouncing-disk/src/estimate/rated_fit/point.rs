@@ -1,12 +1,14 @@
 //! A point that a maker prints, and tables of such.
 
 #[cfg(feature = "csv")]
-use crate::csv_records::{fields, lines, number, text};
+use crate::csv_records::{fields, lines, text};
 use crate::error::{Error, finite, not_negative};
 #[cfg(feature = "csv")]
 use crate::estimate::measured_speeds::csv_file::{
     LARGEST_FILE, Located, NAMES, SEPARATORS, name_and_unit, shortened,
 };
+#[cfg(feature = "csv")]
+use crate::estimate::measured_speeds::decimal_marks::DecimalMarks;
 #[cfg(feature = "csv")]
 use crate::estimate::measured_speeds::error::{CsvFault, MeasuredSpeedsError};
 #[cfg(feature = "csv")]
@@ -98,8 +100,9 @@ impl RatedPoint {
 impl RatedPoint {
     /// The points of a file of separated values: the columns `speed_rad_s` (or another unit, such as `speed (rpm)`),
     /// perhaps `speed_error` in that unit, and fields of the data sheet by their names, in its units, each perhaps with
-    /// its standard error (`load_torque_error`). An empty field leaves the value of the data sheet, or no error. `None`
-    /// where no column is a field of the data sheet, or one has times: not a table of points. Feature `csv`.
+    /// its standard error (`load_torque_error`). Decimal commas are read as in run-ups. An empty field leaves the value
+    /// of the data sheet, or no error. `None` where no column is a field of the data sheet, or one has times: not a table
+    /// of points. Feature `csv`.
     ///
     /// # Errors
     /// [`MeasuredSpeedsError`] names file, line and field.
@@ -174,7 +177,7 @@ fn table(bytes: &[u8], said: Option<SpeedUnit>) -> Result<Option<Vec<RatedPoint>
         columns.iter().find_map(|column| if let Column::Speed(unit) = column { Some(*unit) } else { None });
     let unit = unit
         .ok_or_else(|| fault(header.0, 0, "the column of the speed, or its unit, is missing".to_owned()))?;
-    let mut points = Vec::new();
+    let (mut points, mut marks) = (Vec::new(), DecimalMarks::new(separator));
     for line in lines {
         let row = fields(line, separator)?;
         if row.len() != columns.len() {
@@ -187,7 +190,9 @@ fn table(bytes: &[u8], said: Option<SpeedUnit>) -> Result<Option<Vec<RatedPoint>
             if text.is_empty() && !matches!(column, Column::Speed(_)) {
                 continue;
             }
-            let value = number(text)
+            marks.note(line.0, place, text)?;
+            let value = marks
+                .number(text)
                 .map_err(|reason| fault(line.0, place, format!("{:?} is {reason}", shortened(text))))?;
             match *column {
                 Column::Speed(_) => point.speed = unit.to_si(value),
@@ -203,5 +208,6 @@ fn table(bytes: &[u8], said: Option<SpeedUnit>) -> Result<Option<Vec<RatedPoint>
         }
         points.push(point);
     }
+    marks.check()?;
     Ok(Some(points))
 }

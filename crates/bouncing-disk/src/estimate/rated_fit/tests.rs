@@ -257,6 +257,9 @@ fn a_table_of_points_is_read_or_its_fault_placed() {
     let load = RatedCondition { field: MotorField::LoadTorque, value: 2e-5, error: 1e-6 };
     assert_eq!((points.len(), &points[1].conditions), (2, &vec![load]));
     assert_eq!(read("time_s,speed_rad_s\n0,1\n").expect("legal"), None);
+    // Decimal commas, as in run-ups.
+    let commas = read(&text.replace("\n0;2e-5;1e-6", "\n0;2,0e-5;0,1e-5")).expect("legal").expect("points");
+    assert_eq!(commas, points);
     for (text, words) in [
         (
             "speed_rad_s,load_torq,load_torque\n1,2,3\n",
@@ -271,6 +274,12 @@ fn a_table_of_points_is_read_or_its_fault_placed() {
         ("speed_rad_s,load_torque,load_torque\n1,2,3\n", "is there twice"),
         ("speed_rad_s,load_torque\n1,2,3\n", "line 2: it has 3 fields"),
         ("speed_rad_s,load_torque\n1,x\n", "line 2, field 2: \"x\" is not a number"),
+        (
+            "speed_rad_s;load_torque\n1,5;2\n1.5;2\n",
+            "line 3, field 1: the decimal mark of the file is ambiguous",
+        ),
+        ("speed_rad_s;load_torque\n1,234;2\n", "line 2, field 1: the decimal mark of the file is ambiguous"),
+        ("speed_rad_s;load_torque\n1,2,3;2\n", "line 2, field 1: \"1,2,3\" is not a number"),
         ("speed_rad_s,load_torque,load_torque_error\n1,,3\n", "the error of load_torque is without a value"),
     ] {
         let error = read(text).expect_err("a fault").to_string();
