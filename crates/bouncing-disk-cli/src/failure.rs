@@ -1,9 +1,11 @@
 //! The failures that end a command before its result is there, and their exit statuses.
 
+use std::fmt::Display;
 use std::io;
+use std::path::Path;
 use std::process::ExitCode;
 
-use bouncing_disk::estimate::FitError;
+use bouncing_disk::estimate::{FitError, MeasuredSpeedsError};
 use bouncing_disk::store::StorageError;
 use bouncing_disk_plot::DrawError;
 
@@ -38,6 +40,19 @@ impl Failure {
         };
         complain(&text);
         ExitCode::from(status)
+    }
+}
+
+/// A file that cannot be read: the one form of all commands.
+pub(crate) fn unreadable(path: &Path, why: impl Display) -> Failure {
+    Failure::Usage(format!("{} cannot be read: {why}", path.display()))
+}
+
+/// A file of measured speeds, or of points, that gives none.
+pub(crate) fn unmeasured(path: &Path, error: MeasuredSpeedsError) -> Failure {
+    match error {
+        MeasuredSpeedsError::Unreadable { source, .. } => unreadable(path, source),
+        error => Failure::Usage(with_causes(error)),
     }
 }
 

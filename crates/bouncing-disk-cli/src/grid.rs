@@ -18,7 +18,7 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use crate::context::{Context, Watcher};
-use crate::failure::{Failure, Result};
+use crate::failure::{Failure, Result, unreadable};
 use crate::interrupt;
 use crate::output::files::{Kind, check_place};
 use crate::output::{OutputArgs, PROGRAM, Report, VERSION};
@@ -203,14 +203,14 @@ const LONGEST: u64 = 1 << 26;
 /// The command and the job of which a file has a part.
 pub(crate) fn computation_of(path: &Path) -> Result<(String, Value)> {
     let refuse = |why: &str| Failure::Usage(format!("{}: {why}", path.display()));
-    let unreadable = |error: io::Error| refuse(&format!("it cannot be read: {error}"));
-    if !fs::metadata(path).map_err(unreadable)?.is_file() {
-        return Err(refuse("it is not a regular file"));
+    let refuse_file = |error: io::Error| unreadable(path, error);
+    if !fs::metadata(path).map_err(refuse_file)?.is_file() {
+        return Err(unreadable(path, "it is not a regular file"));
     }
     let mut line = String::new();
-    BufReader::new(File::open(path).map_err(unreadable)?.take(LONGEST))
+    BufReader::new(File::open(path).map_err(refuse_file)?.take(LONGEST))
         .read_line(&mut line)
-        .map_err(unreadable)?;
+        .map_err(refuse_file)?;
     let stored: Value = serde_json::from_str(&line)
         .map_err(|_| refuse("it is not a part of a computation, as --chunk of this version writes it"))?;
     let provenance = Provenance::read(JOURNAL, &stored["provenance"], path)?;
@@ -225,8 +225,7 @@ pub(crate) fn merge<J: GridJob>(
     output: &OutputArgs,
     context: Context,
 ) -> Result<()> {
-    let job = J::deserialize(job)
-        .map_err(|error| Failure::Usage(format!("{}: it cannot be read: {error}", parts[0].display())))?;
+    let job = J::deserialize(job).map_err(|error| unreadable(&parts[0], error))?;
     let (rows, key) = (job.rows(), key(&job)?);
     let mut finished = PartialResults::new(rows);
     for part in parts {

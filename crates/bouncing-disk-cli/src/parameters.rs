@@ -13,7 +13,7 @@ use clap::{Args, ValueEnum};
 use serde::de::DeserializeOwned;
 
 use crate::context::Context;
-use crate::failure::{Failure, Result};
+use crate::failure::{Failure, Result, unreadable};
 use crate::lines::visible;
 use crate::output::OutputArgs;
 use crate::range::{Words, one_of};
@@ -235,9 +235,8 @@ fn read_text(path: &Path) -> Result<(String, Format)> {
     let ending = path.extension().unwrap_or_default().to_string_lossy();
     let format = Format::from_str(&ending, true)
         .map_err(|_| Failure::Usage(format!("{name}: a file of parameters ends in .json or .toml")))?;
-    let unreadable = |why: &str| Failure::Usage(format!("{name} cannot be read: {why}"));
-    let bytes = regular_file::read(path, LARGEST).map_err(|error| unreadable(&error.to_string()))?;
-    let text = String::from_utf8(bytes).map_err(|_| unreadable("it is no text in UTF-8"))?;
+    let bytes = regular_file::read(path, LARGEST).map_err(|error| unreadable(path, error))?;
+    let text = String::from_utf8(bytes).map_err(|_| unreadable(path, "it is no text in UTF-8"))?;
     // Some editors put a byte-order mark before the text.
     Ok((text.trim_start_matches('\u{feff}').to_owned(), format))
 }

@@ -12,7 +12,7 @@ use bouncing_disk::motor::OperatingSettings;
 use bouncing_disk_plot::Figure;
 
 use super::prelude::*;
-use crate::failure::with_causes;
+use crate::failure::unmeasured;
 use crate::parameters::{Described as _, Setting, setting};
 
 /// Fits measured run-ups: steady speed and time constant, or parameters of a motor
@@ -111,7 +111,7 @@ pub(super) fn run(args: &FitArgs, context: Context) -> Result<()> {
     let of_run_ups = args.time_column.is_some() || args.speed_column.is_some() || args.time_unit.is_some();
     if !args.parameter.is_empty() && !of_run_ups {
         let points = RatedPoint::table_from_csv(&args.file, args.speed_unit);
-        if let Some(points) = points.map_err(|error| Failure::Usage(with_causes(error)))? {
+        if let Some(points) = points.map_err(|error| unmeasured(&args.file, error))? {
             return rated(args, &points, context)?.deliver(&args.output, context);
         }
     }
@@ -121,8 +121,8 @@ pub(super) fn run(args: &FitArgs, context: Context) -> Result<()> {
         time_unit: args.time_unit,
         speed_unit: args.speed_unit,
     };
-    let speeds = MeasuredSpeeds::from_csv_with(&args.file, &columns)
-        .map_err(|error| Failure::Usage(with_causes(error)))?;
+    let speeds =
+        MeasuredSpeeds::from_csv_with(&args.file, &columns).map_err(|error| unmeasured(&args.file, error))?;
     let fit = if args.parameter.is_empty() { rise } else { parameters };
     fit(args, speeds, context)?.deliver(&args.output, context)
 }

@@ -35,10 +35,16 @@ fn files_of_parameters_that_cannot_be_read() {
         ("motor report missing.json", "missing.json cannot be read"),
         ("motor report empty.json", "empty.json: line 1"),
         ("motor report a.txt", "ends in .json or .toml"),
-        ("fit missing.csv", "missing.csv"),
-        ("merge missing.json", "missing.json: it cannot be read"),
+        // Whichever command it is.
+        ("fit missing.csv", "error: missing.csv cannot be read: No such file"),
+        (
+            "fit missing.csv --preset paper-70-khz --parameter friction=0.1:0.3",
+            "error: missing.csv cannot be read: ",
+        ),
+        ("fit folder.toml", "error: folder.toml cannot be read: it is a folder, not a regular file"),
+        ("merge missing.json", "error: missing.json cannot be read: No such file"),
+        ("merge folder.toml", "error: folder.toml cannot be read: it is not a regular file"),
         ("merge empty.json", &no_part("empty.json")),
-        ("merge folder.toml", "not a regular file"),
         ("toss negative.toml", "error: negative.toml: friction = -1 is outside its legal range"),
         ("toss toss.toml --set disk.restitution=1", "toss.toml with --set: restitution = 1 is outside"),
         (

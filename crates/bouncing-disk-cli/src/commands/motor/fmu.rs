@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use bouncing_disk_fmu::{library_name, packed};
 
 use crate::commands::prelude::*;
+use crate::failure::unreadable;
 use crate::output::files::Kind;
 use crate::parameters::sine;
 
@@ -42,8 +43,7 @@ pub(super) fn run(args: &FmuArgs, context: Context) -> Result<()> {
         Some(given) => given.clone(),
         None => beside_this_program()?,
     };
-    let unreadable = |error| Failure::Usage(format!("{} cannot be read: {error}", library.display()));
-    let bytes = std::fs::read(&library).map_err(unreadable)?;
+    let bytes = std::fs::read(&library).map_err(|error| unreadable(&library, error))?;
     let unit = packed(&motor, &bytes).map_err(|error| {
         Failure::Usage(match error {
             error @ bouncing_disk_fmu::PackageError::Library => format!("{}: {error}", library.display()),
