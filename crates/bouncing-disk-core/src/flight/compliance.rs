@@ -45,6 +45,10 @@ const GAUSS: [(f64, f64); 4] = [
     (0.861_136_311_594_052_6, 0.173_927_422_568_726_93),
 ];
 
+/// A disk that rises faster than this (units of g/omega) may fly through more oscillations of the platform than can be
+/// searched one after the other.
+const FAST: f64 = 1.0e5;
+
 /// A transient that has decayed to this share of the force is rounding.
 const SETTLED: f64 = 1.0e-18;
 
@@ -454,8 +458,21 @@ impl CompliantPlatform {
         if pull == 0.0 && (rise < 0.0 || rise == 0.0 && presses.at(0.0, 0.0).bend < 0.0) {
             return Ok(Some(at(0.0, gap, velocity)));
         }
-        let pressed = decided(&presses, to)?.root.map_or(f64::INFINITY, |root| root.at);
-        let freed = decided(&(height.clone() * -1.0), to.min(pressed))?.root;
+        let frees = |to: f64| decided(&(height.clone() * -1.0), to).map(|found| found.root);
+        let presses =
+            |to: f64| decided(&presses, to).map(|found| found.root.map_or(f64::INFINITY, |root| root.at));
+        let (freed, pressed) = match self.time_above(from) {
+            // It is free before that time, and only until then can the spring press.
+            Some(above) => {
+                let freed = frees(to.min(above))?;
+                let pressed = presses(freed.map_or(to.min(above), |freed| freed.at))?;
+                (freed.filter(|freed| freed.at <= pressed), pressed)
+            }
+            None => {
+                let pressed = presses(to)?;
+                (frees(to.min(pressed))?, pressed)
+            }
+        };
         if let Some(freed) = freed {
             let there = at(freed.at, 0.0, height.at(freed.at, freed.at).slope.max(0.0));
             let then = self.touch(there.state, limit - freed.at)?;
@@ -470,6 +487,13 @@ impl CompliantPlatform {
             // No force acts there yet.
             at(pressed, -damping / stiffness * jet.slope, jet.slope)
         }))
+    }
+
+    /// When a fast disk that feels no force is at the top of its flight, if that is above all of the platform.
+    fn time_above(&self, from: RelativeState) -> Option<f64> {
+        let speed = self.drive.velocity(from.time) + from.velocity;
+        let depth = self.drive.bounds().highest - (self.drive.height(from.time) + from.gap);
+        (speed > FAST && 0.5 * speed * speed > 2.0 * depth).then_some(speed)
     }
 
     /// The gap of a disk that feels no force.

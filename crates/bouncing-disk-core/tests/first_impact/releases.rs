@@ -251,3 +251,34 @@ fn orbits_are_chains_of_steps_and_end_where_the_disk_settles() {
         assert!(refused.is_err(), "{flight:?}");
     }
 }
+
+/// Flights through up to a million oscillations, from a spring that is not free at the release: the touch is where the
+/// gap of the flight closes first.
+#[test]
+fn long_flights_are_skipped() {
+    for (peak, periods) in
+        [1e4, 1e5, 1e6, 4e6].into_iter().flat_map(|peak| [1e-6, 1e-3, 0.1].map(|own| (peak, own)))
+    {
+        let map = sine(peak, 0.8).with_contact_time(periods * TAU).unwrap();
+        let platform = map.compliant().unwrap();
+        let compliance = platform.compliance();
+        for phase in (0..12).map(|k| 0.1 + 0.5 * f64::from(k)) {
+            let speed = 1.5 * peak;
+            let start = -compliance.damping() / compliance.stiffness() * speed;
+            let from = RelativeState { time: phase, gap: start, velocity: speed };
+            let touch = platform.touch(from, f64::INFINITY).unwrap().unwrap();
+            let gap = |t: f64| {
+                let raised = libm::sin(phase + t) - libm::sin(phase);
+                start + t * (speed + peak * libm::cos(phase) - 0.5 * t) - peak * raised
+            };
+            let flight = touch.duration;
+            let rounding = 8.0 * f64::EPSILON * (flight * flight + peak);
+            assert!(gap(flight).abs() <= rounding, "{peak} {periods} {phase}: {}", gap(flight));
+            assert!(touch.state.gap == 0.0 && touch.state.velocity < 0.0);
+            let on_the_way = (100..1000).map(|k| f64::from(k) / 1000.0 * flight);
+            let at_last = (1..4000).map(|k| flight - 0.005 * f64::from(k));
+            assert!(on_the_way.chain(at_last).all(|t| gap(t) > -rounding), "{peak} {periods} {phase}");
+            assert!(map.step(state(phase, -speed / 0.8)).is_ok());
+        }
+    }
+}
