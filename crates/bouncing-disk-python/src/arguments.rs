@@ -294,6 +294,13 @@ impl Place<'_> {
 pub(crate) fn plain(value: &Bound<'_, PyAny>, place: &Place<'_>) -> PyResult<Value> {
     let wrong = || Err(place.wrong(value, place.expected()));
     let takes_list = place.takes_list();
+    let takes_number = !place.is_one_of(&TABLES)
+        && !place.is_one_of(&TEXTS)
+        && (!takes_list || matches!(place, Place::Item(..)));
+    // Most samples are such, and what follows takes far longer.
+    if takes_number && value.is_instance_of::<PyFloat>() {
+        return number(value, place).map(Value::from);
+    }
     if value.cast::<PyMapping>().is_ok() {
         if takes_list || !place.is_one_of(&TABLES) {
             return wrong();
@@ -315,10 +322,7 @@ pub(crate) fn plain(value: &Bound<'_, PyAny>, place: &Place<'_>) -> PyResult<Val
             let items = items.iter().enumerate();
             items.map(|(index, item)| plain(item, &Place::Item(place, index))).collect()
         }
-        None if takes_list && !matches!(place, Place::Item(..)) => wrong(),
-        None if !place.is_one_of(&TABLES) && !place.is_one_of(&TEXTS) => {
-            number(value, place).map(Value::from)
-        }
+        None if takes_number => number(value, place).map(Value::from),
         _ => wrong(),
     }
 }
