@@ -35,7 +35,7 @@ const REACH: f64 = 1.0e-3;
 
 /// How closely (rad, and relative speed) an orbit repeats a shorter one next to the doubling that it is born in:
 /// by the root of |1 - T + D|.
-const DOUBLED: f64 = 1.0e-2;
+const DOUBLED: f64 = 0.1;
 
 /// The position error (rad) up to which the end of an iteration is kept beside the exact phase.
 const EXACT: f64 = 1.0e-12;
@@ -224,15 +224,36 @@ impl DrivenMap {
             }
             return orbits;
         }
-        // Beside the doubling that it is born in, an orbit is no member of a pair: its errors tell what is known.
-        let is_doubled = prime_period(&end.states, DOUBLED) < end.period();
-        if is_doubled || !next_to_fold(&end) && self.keeps_its_derivative(&end) {
+        if prime_period(&end.states, DOUBLED) < end.period() {
+            return vec![self.doubled(end)];
+        }
+        if !next_to_fold(&end) && self.keeps_its_derivative(&end) {
             return vec![end];
         }
         match self.orbits_beside(&end) {
             Some(Beside::Orbits(orbits)) => orbits,
             Some(Beside::Family) | None => vec![undecided(end)],
         }
+    }
+
+    /// An orbit beside the doubling that it is born in, which is no member of a pair. Its weak direction has opposite
+    /// signs in both halves, which roundings of one sign do not move.
+    fn doubled(&self, end: PeriodicOrbit) -> PeriodicOrbit {
+        let Ok(shooting) = self.shoot(&end.states) else { return end };
+        let room = (shooting.worst + MAP_ROUNDING) * speed_scale(&end.states);
+        let (mut position_error, mut trace_error) = (end.position_error, end.trace_error);
+        for signs in [DVec2::new(room, room), DVec2::new(room, -room)] {
+            let half = end.period() / 2;
+            let right: Vec<_> = (0..end.period()).map(|i| if i < half { signs } else { -signs }).collect();
+            let steps = solve_block_cyclic(&shooting.derivatives, &right);
+            for step in &steps {
+                position_error = position_error.max(step.x.abs()).max(step.y.abs());
+            }
+            let there = moved(&end.states, &steps).and_then(|states| self.shoot(&states).ok());
+            let trace = there.map_or(f64::MAX, |there| there.monodromy.x_axis.x + there.monodromy.y_axis.y);
+            trace_error = trace_error.max((trace - end.trace()).abs());
+        }
+        PeriodicOrbit { position_error, trace_error, ..end }
     }
 
     /// Whether the condition of Newton and Kantorovich holds: over twice the error of an orbit its trace changes by
