@@ -60,9 +60,9 @@ impl SharedAttractors {
 }
 
 fn kinds(found: &Attractors) -> Result<Value, Refusal> {
-    let kind = |one| leads_to(one).and_then(|last| found.all().get(last)).unwrap_or(one).kind.name();
+    let end = |one| &leads_to(one).and_then(|last| found.all().get(last)).unwrap_or(one).kind;
     let share = |name: &str| {
-        let own = found.all().iter().filter(|one| kind(one) == name);
+        let own = found.all().iter().filter(|one| end(one).lasts() && end(one).name() == name);
         let count = own.map(|one| one.starts.count()).sum();
         let share = Fraction::new(count, u64::from(found.search().starts()))?;
         let (low, high) = share.interval();

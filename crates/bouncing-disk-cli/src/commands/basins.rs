@@ -279,11 +279,13 @@ fn legend(known: &Known) -> Vec<(Label, String)> {
             }
             AttractorKind::Periodic(known) => of_orbit(known.orbit()),
             AttractorKind::Marginal(orbit) => format!("{}, marginal", of_orbit(orbit)),
-            AttractorKind::Chaotic { exponent, standard_error, .. } => {
-                format!("chaos, exponent {exponent:.4} +- {standard_error:.4}")
+            AttractorKind::Rest(AfterRest::Undecided) => "at rest, then undecided".to_owned(),
+            AttractorKind::Chaotic { exponent, standard_error, recurrence } => {
+                let chaos = format!("chaos, exponent {exponent:.4} +- {standard_error:.4}");
+                format!("{chaos}, {} orbits stay for {} impacts", recurrence.orbits, recurrence.impacts)
             }
             AttractorKind::Transient { lifetime, .. } => format!("chaotic transient, {lifetime}"),
-            _ => "not decided".to_owned(),
+            _ => "of another kind".to_owned(),
         };
         legend.push((label, words));
     }

@@ -34,10 +34,11 @@ pub enum AfterRest {
     StaysForEver,
     /// It separates, always in the same way, and comes to rest again.
     RestsAgain(RestCycle),
-    /// It separates and never comes to rest again: the rest is not an attractor but lies in the basin of the
-    /// one with this number in [`Attractors::all`], and so do all starts that come to rest.
+    /// It separates and does not come to rest again in the search: the rest is no attractor but leads to the
+    /// motion at this index of [`Attractors::all`], and so do all starts that come to rest. If that is a
+    /// transient, the disk may rest again later.
     LeadsTo(usize),
-    /// It separates, and [`AttractorSearch::impacts`] impacts do not show what follows.
+    /// It separates, and the impacts of the search do not show what follows.
     Undecided,
 }
 
@@ -76,9 +77,10 @@ impl AfterRest {
 pub struct Recurrence {
     /// The cells that it visited in the second half of its impacts.
     pub cells: VisitedCells,
-    /// Impacts for which it and others, which began on it, were followed.
+    /// Impacts for which orbits that began on it were followed; of a transient, those after which its starts
+    /// were counted.
     pub impacts: u64,
-    /// How many of the others did not leave within these impacts.
+    /// How many of 256 orbits that began on it did not leave.
     pub orbits: u64,
     /// Its last impact.
     pub state: ImpactState,
@@ -182,6 +184,10 @@ impl AttractorKind {
             finite("exponent", *exponent)?;
             not_negative("standard error of an exponent", *standard_error)?;
         }
+        if let Self::Chaotic { recurrence, .. } = self {
+            let orbits = recurrence.orbits as f64;
+            within("orbits on a chaotic motion", orbits, 1.0, f64::MAX, "at least 1")?;
+        }
         Ok(())
     }
 
@@ -253,8 +259,12 @@ impl core::fmt::Display for AttractorKind {
                 write!(formatter, "chaotic: exponent {exponent:.digits$} per impact, ")?;
                 write!(formatter, "not left by {orbits} orbits within {impacts} impacts")
             }
-            Self::Transient { exponent, lifetime, .. } => {
-                write!(formatter, "chaotic transient: exponent {exponent:.digits$} per impact, {lifetime}")
+            Self::Transient { exponent, lifetime, recurrence, .. } => {
+                write!(
+                    formatter,
+                    "chaotic transient: exponent {exponent:.digits$} per impact, {lifetime}, "
+                )?;
+                write!(formatter, "starts counted after {} impacts", recurrence.impacts)
             }
         }
     }
@@ -400,9 +410,10 @@ impl ImpactMap {
     /// Starts are spread evenly over the trapping region ([`Self::impact_speed_bound_at`]), which no
     /// attractor can leave, so that no window can miss one. Each is followed until it rests, or is seen to
     /// come ever nearer to a periodic orbit, which is then refined; of those that do neither, one is followed
-    /// for [`AttractorSearch::impacts`] impacts, and so are 256 orbits that begin where it has been. If none
-    /// of these leaves, others that return to the cells it has visited are on the same attractor. If one
-    /// does, it is a [transient](AttractorKind::Transient), and all starts are followed for as long. Periodic
+    /// for as many impacts as the [search](AttractorSearch::with_impacts) allows, and so are 256 orbits that
+    /// begin where it has been. If none of these leaves, others that return to the cells it has visited are on
+    /// the same attractor. If one does, it is a [transient](AttractorKind::Transient), and all starts are
+    /// followed for so many impacts, or for as many as the budget allows. Periodic
     /// orbits are the same as in [`Self::periodic_orbits`], wherever they begin.
     ///
     /// Attracting orbits with one impact, by their closed form, and those that [`AttractorSearch::orbits`]

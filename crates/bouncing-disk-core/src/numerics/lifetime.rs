@@ -8,6 +8,9 @@ use crate::numerics::stored::read_checked;
 /// this: ln 20.
 const NONE_LEFT: f64 = 2.995_732_273_553_991;
 
+/// The 2.5 % quantile of chi squared for two degrees of freedom, halved: -ln 0.975.
+const ONE_LEFT: f64 = 0.025_317_807_984_289_876;
+
 /// How long a motion lasts in the mean that orbits leave at a constant rate: the impacts of all orbits that
 /// were followed on it, over the number of those that left. Orbits that had not left when they were no longer
 /// followed count with their impacts.
@@ -61,7 +64,7 @@ impl Lifetime {
 
     /// The 95 % interval of the mean life (impacts): twice the impacts over the quantiles of chi squared for
     /// twice the orbits that left, and twice one more for the lower end (B. Epstein, Technometrics 2, 447
-    /// (1960)), by the approximation of E. B. Wilson and M. M. Hilferty. If no orbit has left, the lower end
+    /// (1960)), by the approximation of E. B. Wilson and M. M. Hilferty but for one orbit. If no orbit has left, the lower end
     /// is a bound with 95 % confidence and the upper end is infinite.
     #[must_use]
     pub fn interval(&self) -> (f64, f64) {
@@ -74,7 +77,8 @@ impl Lifetime {
             let root = 1.0 - ninth + z * ninth.sqrt();
             half * root * root * root
         };
-        let (fewest, most) = (quantile(left, -NORMAL_975), quantile(left + 1.0, NORMAL_975));
+        let fewest = if self.left == 1 { ONE_LEFT } else { quantile(left, -NORMAL_975) };
+        let most = quantile(left + 1.0, NORMAL_975);
         (self.impacts / most, self.impacts / fewest)
     }
 }
@@ -109,18 +113,21 @@ mod tests {
     use crate::numerics::random::SplitMix64;
     use crate::numerics::testing::stored;
 
-    /// Quantiles of chi squared from tables: 0.0506 and 11.143 for 2 and 4 degrees of freedom, 9.591 and
-    /// 36.781 for 20 and 22, 162.73 and 243.26 for 200 and 202 (the first one is approximated from below).
+    /// Quantiles of chi squared from tables: 0.05064 and 11.143 for 2 and 4 degrees of freedom, 0.4844 and
+    /// 14.449 for 4 and 6 (approximated from below), 9.591 and 36.781 for 20 and 22, 162.73 and 243.26 for 200
+    /// and 202.
     #[test]
     fn intervals_follow_from_chi_squared() {
         assert!((ln(20.0) - NONE_LEFT).abs() < 1e-15);
         let none = stored(&Lifetime::new(3.0e6, 0).expect("legal"));
         assert_eq!((none.mean(), none.interval()), (None, (3.0e6 / NONE_LEFT, f64::INFINITY)));
-        for (left, fewest, most) in [(1_u64, 0.0506, 11.143), (10, 9.591, 36.781), (100, 162.73, 243.26)] {
+        for (left, fewest, most) in
+            [(1_u64, 0.050_64, 11.143), (2, 0.484_4, 14.449), (10, 9.591, 36.781), (100, 162.73, 243.26)]
+        {
             let (low, high) = Lifetime::new(1.0e6, left).expect("legal").interval();
             assert!((low * most / 2.0e6 - 1.0).abs() < 2e-3, "{left}: {low}");
             let wider = high * fewest / 2.0e6;
-            assert!(wider > 0.999 && wider < if left == 1 { 2.0 } else { 1.002 }, "{left}: {high}");
+            assert!(wider > 0.999 && wider < if left == 2 { 1.1 } else { 1.002 }, "{left}: {high}");
         }
         for wrong in [-1.0, f64::NAN, f64::INFINITY] {
             assert!(Lifetime::new(wrong, 1).is_err(), "{wrong}");

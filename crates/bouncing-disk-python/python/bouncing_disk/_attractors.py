@@ -171,8 +171,8 @@ def attractors(
         impacts: impacts over which orbits of each aperiodic motion are followed, at least 64.
         longest_period: the longest period, in impacts, in [1, 4096].
         cells: cells along each axis of the grid that distinguishes aperiodic motions, in [8, 4096].
-        budget: impacts of the whole search at most, about, in [256 a start, 2^50]; starts that are still under
-            way when it is used up are undecided.
+        budget: approximate limit on the impacts of the whole search, in [256 a start, 2^50]; starts that are
+            still under way when it is used up are undecided.
 
     >>> import bouncing_disk as bd
     >>> found = bd.attractors(bd.ImpactMap(axial_forcing=0.486, restitution=0.5))

@@ -103,11 +103,10 @@ impl CellMarks {
         Self { side, top, marks: vec![false; side as usize * side as usize] }
     }
 
-    /// Marks the cell of an impact; one beyond the top has none.
-    pub(super) fn visit(&mut self, state: ImpactState) {
-        if let Some(cell) = cell(self.side, self.top, state) {
-            self.marks[cell as usize] = true;
-        }
+    /// Marks the cell of an impact, and tells whether it was marked before; one beyond the top has none.
+    pub(super) fn visit(&mut self, state: ImpactState) -> bool {
+        let cell = cell(self.side, self.top, state);
+        cell.is_some_and(|cell| core::mem::replace(&mut self.marks[cell as usize], true))
     }
 
     /// Forgets all visits.

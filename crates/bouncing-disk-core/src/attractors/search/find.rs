@@ -2,7 +2,8 @@
 
 use super::cells::VisitedCells;
 use super::follow::{
-    FOLLOWED, LongLook, SHARE_IN_CELLS, Seen, first_look, follow, long_look, overlap, share_in,
+    COMPARED, FOLLOWED, LongLook, SHARE_IN_CELLS, Seen, first_look, follow, last_in, long_look, overlap,
+    share_in,
 };
 use super::settings::AttractorSearch;
 use super::starts::starts;
@@ -27,9 +28,11 @@ const MOST_PERIOD_ONE: u64 = 10_000;
 /// Starts on each circle by which the radius of an attractor is found.
 const SAMPLES: u32 = 64;
 
-/// An orbit that was on an attractor known by its cells has left it if fewer than this share of its impacts lie
-/// there: half of what it takes to be on it.
+/// An orbit has left a motion if fewer of its impacts lie in the cells than this share of what is usual there.
 const HAS_LEFT: f64 = 0.5 * SHARE_IN_CELLS;
+
+/// The least share of impacts in cells visited before by which cells tell motions apart.
+const LEAST_COVERAGE: f64 = 0.1;
 
 /// How many cells away an orbit that creeps towards a marginal one may have been from it.
 const CELLS_AWAY: f64 = 1.5;
@@ -78,6 +81,13 @@ struct Recurrent {
     recurrence: Recurrence,
     lifetime: Lifetime,
     starts: u64,
+}
+
+impl Recurrent {
+    /// Whether no orbit was seen to leave it, and dissipation had the time to act.
+    const fn lasts(&self) -> bool {
+        self.settled && self.lifetime.left() == 0
+    }
 }
 
 /// A start without a verdict: where it was when all were followed, and where it is.
@@ -194,9 +204,14 @@ impl<'a> Finder<'a> {
 
     /// Counts starts that stay at an orbit through this impact, unless that repels.
     fn stays_at(&mut self, state: ImpactState, impacts: u64, starts: u64) -> bool {
-        let orbit = self.orbit_through(state, impacts).ok();
-        let orbit = orbit.filter(|orbit| orbit.stability() != Stability::Unstable);
+        let orbit = self.not_repelling(state, impacts);
         orbit.map(|orbit| self.add(orbit, starts)).is_some()
+    }
+
+    /// The orbit of so many impacts through this one, unless it repels.
+    fn not_repelling(&self, state: ImpactState, impacts: u64) -> Option<PeriodicOrbit> {
+        let orbit = self.orbit_through(state, impacts).ok();
+        orbit.filter(|orbit| orbit.stability() != Stability::Unstable)
     }
 
     /// The orbit of so many impacts through this one, its fastest impact first.
@@ -232,6 +247,7 @@ impl<'a> Finder<'a> {
         };
         self.periodic.iter_mut().find(|known| {
             known.orbit.stability() == Stability::Marginal
+                && !cells.visited().is_empty()
                 && cells.centres().all(|centre| beside(&known.orbit, centre))
         })
     }
@@ -242,7 +258,10 @@ impl<'a> Finder<'a> {
     /// when they are followed again from where they were.
     fn settle(&mut self, mut open: Vec<Open>) -> Result<(), Error> {
         while let Some(start) = open.first().copied() {
-            let Some(look) = self.search.look_within(self.followed.unwrap_or(self.budget / 4)) else { break };
+            let comparison = open.len() as u64 * (self.transient() + COMPARED);
+            let most = self.followed.unwrap_or(u64::MAX).min(self.budget.saturating_sub(comparison) / 4);
+            // Starts for which the budget does not suffice stay undecided.
+            let Some(look) = self.search.look_within(most) else { break };
             open.remove(0);
             self.done += 1;
             let part = self.part();
@@ -262,33 +281,39 @@ impl<'a> Finder<'a> {
                     open = self.follow_all(&open)?;
                 }
             } else if self.marginal(&long.cells).is_some() {
-                let (left, back) = self.compare(&long.cells, &open)?;
+                let (left, back) = self.compare(&long, &open)?;
                 open = left;
                 if let Some(known) = self.marginal(&long.cells) {
                     known.starts += 1 + back;
                 }
             } else if let Some((number, new)) = self.recurs(&long, look)? {
                 self.recurrent[number].starts += 1;
-                if self.followed.is_none() && self.recurrent[number].lifetime.left() > 0 {
+                if self.followed.is_none() && !self.recurrent[number].lasts() {
                     open = self.follow_all(&open)?;
                 }
                 if new {
-                    let (left, back) = self.compare(&long.cells, &open)?;
+                    let (left, back) = self.compare(&long, &open)?;
                     open = left;
                     self.recurrent[number].starts += back;
                 }
             } else {
                 // It neither repeats itself nor separates from its neighbours, and those that come where it
                 // has been are undecided, too.
-                open = self.compare(&long.cells, &open)?.0;
+                open = self.compare(&long, &open)?.0;
             }
         }
         Ok(())
     }
 
-    /// Follows all starts without a verdict; those that are still under way.
+    /// Impacts that are skipped before starts are compared with cells: none after they have been followed.
+    fn transient(&self) -> u64 {
+        if self.followed.is_some() { 0 } else { self.search.first_look().transient }
+    }
+
+    /// Follows all starts without a verdict, for half of the impacts that are left; those that are still
+    /// under way.
     fn follow_all(&mut self, open: &[Open]) -> Result<Vec<Open>, Error> {
-        let each = self.budget / (open.len() as u64).max(1);
+        let each = self.budget / (2 * (open.len() as u64).max(1));
         let impacts = each.min(self.search.long_look().allowed());
         self.followed = Some(impacts);
         let starts: Vec<_> = open.iter().map(|start| start.from).collect();
@@ -319,9 +344,10 @@ impl<'a> Finder<'a> {
         let mut seen: Vec<_> = all.iter().map(|own| own.rests.then_some(Seen::Rest)).collect();
         let mut on = Vec::new();
         for (index, verdict) in returned.into_iter().zip(verdicts) {
-            if self.close(&verdict, 0) {
+            // A rest may come after these impacts.
+            if !matches!(verdict, Seen::Rest) && self.close(&verdict, 0) {
                 seen[index] = Some(verdict);
-            } else {
+            } else if all[index].impacts < impacts {
                 on.push(index);
             }
         }
@@ -346,6 +372,9 @@ impl<'a> Finder<'a> {
         if let Some(number) = self.recurrent.iter().position(same) {
             return Ok(Some((number, false)));
         }
+        if long.coverage < LEAST_COVERAGE {
+            return Ok(None);
+        }
         let (growth, settled) = match long.seen {
             Seen::Verdict(Verdict::Chaotic { exponent, standard_error, .. }) => {
                 ((exponent, standard_error), true)
@@ -369,28 +398,43 @@ impl<'a> Finder<'a> {
     /// many impacts, and the number of those that have not left.
     fn lifetime(&mut self, long: &LongLook, impacts: u64) -> Result<(Lifetime, u64), Error> {
         let followed = self.follow(&long.beside, impacts)?;
-        let total: u64 = followed.iter().map(|(_, (_, impacts))| impacts).sum();
-        let on: Vec<_> =
-            followed.iter().filter(|(seen, _)| seen.is_none()).map(|(_, (state, _))| *state).collect();
+        let (mut total, mut left) = (0, 0);
+        let mut on = Vec::new();
+        for (start, (seen, (state, impacts))) in long.beside.iter().zip(&followed) {
+            if seen.is_some() {
+                total += impacts;
+                left += 1;
+            } else {
+                on.push((*start, *state));
+            }
+        }
         let part = self.part();
-        let shares = part.whole(share_in(self.map, &on, &long.cells, 0, &part))?;
-        let stay = shares.iter().filter(|share| share.is_some_and(|share| share >= HAS_LEFT)).count();
-        let left = (followed.len() - stay) as u64;
-        Ok((Lifetime::new(total as f64, left)?, stay as u64))
+        let ends: Vec<_> = on.iter().map(|(_, state)| *state).collect();
+        let shares = part.whole(share_in(self.map, &ends, &long.cells, 0, &part))?;
+        // Those that rest soon after these impacts have not left within them.
+        let gone = |share: &Option<f64>| share.is_some_and(|share| share < HAS_LEFT * long.coverage);
+        let elsewhere: Vec<_> =
+            on.iter().zip(&shares).filter(|(_, share)| gone(share)).map(|((start, _), _)| *start).collect();
+        let stay = (on.len() - elsewhere.len()) as u64;
+        let last = part.whole(last_in(self.map, &elsewhere, &long.cells, impacts, &part))?;
+        total += stay * impacts + last.iter().sum::<u64>();
+        left += elsewhere.len() as u64;
+        self.spend(elsewhere.len() as u64 * impacts + on.len() as u64 * COMPARED);
+        Ok((Lifetime::new(total as f64, left)?, stay))
     }
 
     /// The starts whose attractor is not known but for those that rest or come back to these cells, and how
     /// many do.
-    fn compare(&mut self, cells: &VisitedCells, open: &[Open]) -> Result<(Vec<Open>, u64), Error> {
+    fn compare(&mut self, long: &LongLook, open: &[Open]) -> Result<(Vec<Open>, u64), Error> {
         let part = self.part();
         let at: Vec<_> = open.iter().map(|start| start.at).collect();
-        let transient = if self.followed.is_some() { 0 } else { self.search.transient() };
-        let shares = part.whole(share_in(self.map, &at, cells, transient, &part))?;
+        let shares = part.whole(share_in(self.map, &at, &long.cells, self.transient(), &part))?;
+        self.spend(open.len() as u64 * (self.transient() + COMPARED));
         let (mut left, mut on_it) = (Vec::new(), 0);
         for (start, share) in open.iter().zip(shares) {
             match share {
                 None => self.rests += 1,
-                Some(share) if share >= SHARE_IN_CELLS => on_it += 1,
+                Some(share) if share >= SHARE_IN_CELLS * long.coverage.max(LEAST_COVERAGE) => on_it += 1,
                 Some(_) => {
                     left.push(*start);
                     continue;
@@ -455,6 +499,16 @@ impl<'a> Finder<'a> {
             Seen::Rest | Seen::Verdict(Verdict::AtRest { .. }) => {
                 RestLeadsTo::Nothing(AfterRest::StaysForEver)
             }
+            Seen::Verdict(Verdict::Undecided {
+                reason: UndecidedReason::OnPeriodicOrbit { impacts, state, .. },
+                ..
+            }) => match self.not_repelling(state, impacts) {
+                Some(orbit) => {
+                    self.add(orbit.clone(), 0);
+                    RestLeadsTo::Periodic(orbit)
+                }
+                None => RestLeadsTo::Nothing(AfterRest::Undecided),
+            },
             Seen::Verdict(_) => match self.recurs(&long, look)? {
                 Some((number, _)) => RestLeadsTo::Recurrent(number),
                 None => RestLeadsTo::Nothing(AfterRest::Undecided),
@@ -507,11 +561,14 @@ impl<'a> Finder<'a> {
             };
             all.push(attractor(kind, starts)?);
         }
-        for Recurrent { growth, settled, recurrence, lifetime, starts } in self.recurrent {
-            let (exponent, standard_error) = growth;
-            let kind = if settled && lifetime.left() == 0 {
+        for own in self.recurrent {
+            let lasts = own.lasts();
+            let Recurrent { growth: (exponent, standard_error), mut recurrence, lifetime, starts, .. } = own;
+            let kind = if lasts {
                 AttractorKind::Chaotic { exponent, standard_error, recurrence }
             } else {
+                // Its starts are counted after these.
+                recurrence.impacts = self.followed.unwrap_or(recurrence.impacts);
                 AttractorKind::Transient { exponent, standard_error, lifetime, recurrence }
             };
             all.push(attractor(kind, starts)?);

@@ -71,8 +71,11 @@ pub(super) struct LongLook {
     /// Impacts since the start or the rest.
     pub(super) impacts: u64,
     pub(super) last: ImpactState,
-    /// Impacts beside some of the second half, evenly spaced, each with an orbit of its own.
+    /// Starts beside evenly spaced impacts of the second half.
     pub(super) beside: Vec<ImpactState>,
+    /// The share of its last impacts, a quarter of the second half, in cells that it had visited before; 0 if
+    /// there are none.
+    pub(super) coverage: f64,
 }
 
 /// One orbit that is followed for long.
@@ -82,6 +85,8 @@ struct Recorder {
     impacts: u64,
     last: ImpactState,
     beside: Vec<ImpactState>,
+    /// The last impacts, and how many of them lie in cells visited before.
+    late: (u64, u64),
     rests: bool,
 }
 
@@ -97,6 +102,7 @@ pub(super) fn long_look(
     let top = map.impact_speed_bound();
     // The second half of the impacts over which the exponent is measured.
     let from = settings.transient.saturating_add(settings.impacts / 2);
+    let late = settings.allowed() - settings.impacts / 8;
     let spacing = (settings.impacts.div_ceil(2) / FOLLOWED as u64).max(1);
     let mut recorders = sweep(
         &[map.orbit(start, ChatterPolicy::Complete)],
@@ -106,6 +112,7 @@ pub(super) fn long_look(
             impacts: 0,
             last: start,
             beside: Vec::new(),
+            late: (0, 0),
             rests: false,
         },
         |recorder, event| match event {
@@ -117,13 +124,18 @@ pub(super) fn long_look(
                 recorder.impacts = 0;
                 recorder.marks.clear();
                 recorder.beside.clear();
+                recorder.late = (0, 0);
                 recorder.witness.see(event)
             }
             SweepEvent::Impact(impact) => {
                 recorder.impacts += 1;
                 recorder.last = impact.state;
                 if recorder.impacts > from {
-                    recorder.marks.visit(impact.state);
+                    let before = recorder.marks.visit(impact.state);
+                    if recorder.impacts > late {
+                        recorder.late.0 += 1;
+                        recorder.late.1 += u64::from(before);
+                    }
                     let another = recorder.beside.len() < FOLLOWED;
                     if another && (recorder.impacts - from).is_multiple_of(spacing) {
                         let slower = impact.state.velocity() * (1.0 - BESIDE);
@@ -135,14 +147,15 @@ pub(super) fn long_look(
         },
         observer,
     )?;
-    let Recorder { witness, marks, impacts, last, beside, rests } =
+    let Recorder { witness, marks, impacts, last, beside, late, rests } =
         recorders.pop().ok_or(Error::Stopped { done: 0, total: 1 })?;
     let seen = match witness.verdict() {
         _ if rests => Seen::Rest,
         Verdict::AtRest { .. } if !through_rest => Seen::Rest,
         verdict => Seen::Verdict(verdict),
     };
-    Ok(LongLook { seen, cells: marks.into_cells(), impacts, last, beside })
+    let coverage = if late.0 > 0 { late.1 as f64 / late.0 as f64 } else { 0.0 };
+    Ok(LongLook { seen, cells: marks.into_cells(), impacts, last, beside, coverage })
 }
 
 /// Where an orbit is that was followed without a verdict.
@@ -223,10 +236,38 @@ pub(super) fn share_in(
     Ok(seen.into_iter().map(share).collect())
 }
 
+/// After how many of so many impacts each orbit was in these cells for the last time.
+pub(super) fn last_in(
+    map: &ImpactMap,
+    starts: &[ImpactState],
+    cells: &VisitedCells,
+    impacts: u64,
+    observer: &dyn Observer,
+) -> Result<Vec<u64>, Error> {
+    let orbits: Vec<_> = starts.iter().map(|start| map.orbit(*start, ChatterPolicy::Complete)).collect();
+    let seen = sweep(
+        &orbits,
+        |_| (0_u64, 0_u64),
+        |(done, last), event| {
+            let SweepEvent::Impact(impact) = event else { return ControlFlow::Break(()) };
+            *done += 1;
+            if cells.contains(impact.state) {
+                *last = *done;
+            }
+            if *done >= impacts { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        },
+        observer,
+    )?;
+    Ok(seen.into_iter().map(|(_, last)| last).collect())
+}
+
 /// Whether two orbits have been in the same cells: half of the cells of the one that has been in fewer of
 /// them.
 pub(super) fn overlap(one: &VisitedCells, other: &VisitedCells) -> bool {
     let (few, many) = if one.visited().len() <= other.visited().len() { (one, other) } else { (other, one) };
+    if few.visited().is_empty() {
+        return false;
+    }
     let shared = few.visited().iter().filter(|cell| many.visited().binary_search(cell).is_ok()).count();
     shared as f64 >= SHARE_IN_CELLS * few.visited().len() as f64
 }

@@ -43,7 +43,7 @@ read_checked!(AttractorSearch as UncheckedSearch {
     budget: u64,
 });
 
-/// Impacts that a search makes at most, also one that was stored without them.
+/// The default budget, also of a search that was stored before there was one.
 const fn default_budget() -> u64 {
     1 << 28
 }
@@ -82,8 +82,9 @@ impl AttractorSearch {
     }
 
     /// The same with these numbers of impacts: `transient` in [1, 2^40] that are skipped (default 2,000),
-    /// and then `impacts` in [64, 2^40], over which one orbit of each attractor that is not periodic
-    /// is followed (default 100,000). All other starts are followed for twice the transient at most.
+    /// and then `impacts` in [64, 2^40] (default 100,000). For so many impacts in all orbits of each motion
+    /// without a period are followed, and all starts if one leaves it; all other starts are followed for
+    /// twice the transient at most.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for either number.
@@ -119,13 +120,14 @@ impl AttractorSearch {
         Self { orbits, ..self }
     }
 
-    /// The same with at most about this number of impacts in all, in [256 a start, 2^50]; default 2^28, or
-    /// some seconds. It does not count the search for periodic orbits ([`Self::with_orbits`]). Many starts
-    /// are followed for fewer impacts each, and starts that are still under way when it is used up are
-    /// undecided.
+    /// The same with about this number of impacts at most, in [256 a start, 2^50]; default 2^28, which takes
+    /// up to ten seconds on two cores. It does not count the search for periodic orbits
+    /// ([`Self::with_orbits`]) and the proofs of periods. Many starts are followed for fewer impacts each, and
+    /// starts that are still under way when it is used up are undecided.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for the number.
+    /// [`Error::OutOfRange`] for the number. A smaller number of [starts](Self::with_starts) allows a smaller
+    /// budget.
     pub fn with_budget(self, budget: u64) -> Result<Self, Error> {
         let search = Self { budget, ..self };
         search.check().map(|()| search)
@@ -143,7 +145,7 @@ impl AttractorSearch {
         within("cells along an axis", self.side.into(), least.into(), most.into(), "[8, 4096]")?;
         let least = (FEWEST_EACH * u64::from(self.starts.max(1))) as f64;
         let most = (1_u64 << 50) as f64;
-        within("impacts of all starts", self.budget as f64, least, most, "[256 a start, 2^50]")?;
+        within("budget", self.budget as f64, least, most, "[256 a start, 2^50]")?;
         Ok(())
     }
 
@@ -159,7 +161,7 @@ impl AttractorSearch {
         self.transient
     }
 
-    /// Impacts over which an orbit of an attractor that is not periodic is followed.
+    /// Impacts, after the transient, over which orbits of motions without a period are followed.
     #[must_use]
     pub const fn impacts(&self) -> u64 {
         self.impacts
@@ -189,7 +191,7 @@ impl AttractorSearch {
         self.budget
     }
 
-    /// How every start is followed at first: a quarter of the budget at most.
+    /// How every start is followed at first: for a quarter of the budget at most, or 96 impacts.
     pub(super) fn first_look(&self) -> VerdictSettings {
         let most = self.budget / (4 * u64::from(self.starts.max(1)));
         let transient = self.transient.min(most / 2);
@@ -200,7 +202,10 @@ impl AttractorSearch {
     /// [`Self::long_look`] with at most so many impacts; `None` if these are too few.
     pub(super) fn look_within(&self, impacts: u64) -> Option<VerdictSettings> {
         let look = self.long_look();
-        let all = look.allowed().min(impacts);
+        if impacts >= look.allowed() {
+            return Some(look);
+        }
+        let all = impacts;
         let transient = look.transient.min(all / 2);
         (all >= FEWEST_EACH).then_some(VerdictSettings { transient, impacts: all - transient, ..look })
     }
