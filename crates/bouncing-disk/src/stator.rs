@@ -34,7 +34,6 @@ mod regime;
 #[cfg(test)]
 mod tests;
 
-use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 use bouncing_disk_core::flight::Compliance;
@@ -43,6 +42,7 @@ use bouncing_disk_core::numerics::elementary::sin_cos;
 use crate::error::{Error, check, finite};
 use crate::parameters::contact::ContactLaw;
 use crate::parameters::dimensionless::DimensionlessSystem;
+use crate::parameters::stator::{QUALITIES, QUALITIES_IN_WORDS};
 use crate::parameters::system::System;
 
 pub use engine::{StatorEngine, StatorRecord, StatorState};
@@ -54,10 +54,6 @@ pub const MODES: usize = 2;
 
 /// Least and largest contact time (rad) on a stator that yields.
 pub const CONTACT_TIMES: [f64; 2] = [1.0e-2, 1.0e4];
-
-/// Quality factors of modes.
-pub(crate) const QUALITIES: RangeInclusive<f64> = 0.5..=1.0e5;
-pub(crate) const QUALITIES_IN_WORDS: &str = "[0.5, 1e5]";
 
 /// Nearer to a jam than this share of the friction that jams, a disk moves too fast for steps.
 const NEAREST_JAM: f64 = 0.99;

@@ -2,12 +2,16 @@
 //! in docs/numerics/motors.md, "A stator driven in volts".
 
 use std::f64::consts::{PI, TAU};
+use std::ops::RangeInclusive;
 
 use bouncing_disk_core::numerics::elementary::{atan2, hypot};
 
 use crate::error::{Error, check, finite, not_negative, positive};
 use crate::parameters::platform::{Platform, PlatformParameters};
-use crate::stator::{QUALITIES, QUALITIES_IN_WORDS};
+
+/// Quality factors of modes.
+pub(crate) const QUALITIES: RangeInclusive<f64> = 0.5..=1.0e5;
+pub(crate) const QUALITIES_IN_WORDS: &str = "[0.5, 1e5]";
 
 /// Which of the stator's motions yield.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
