@@ -3,8 +3,8 @@
 use bouncing_disk::motor::{
     ElementaryEffects, Estimate, InputSpread, InputTolerance, MotorField, MotorRegime, MotorSweep,
     OperatingPoint, OperatingSettings, Operation, ParameterRange, SamplingSettings, SensitivityMethod,
-    SensitivityParameter, SensitivityQuantity, SensitivitySettings, SobolIndices, SweepAxis, SweepQuantity,
-    TrapVerdict,
+    SensitivityParameter, SensitivityQuantity, SensitivitySettings, Shortfall, SobolIndices, SweepAxis,
+    SweepQuantity, TrapVerdict,
 };
 use bouncing_disk::parameters::DriveParameters;
 use numpy::PyArray1;
@@ -90,6 +90,9 @@ fn numbers(operation: &Operation) -> Numbers {
     let nothing = [f64::NAN; COLUMNS];
     match operation {
         Operation::Steady(point) => (of_point(operation, point), signed(point.impacts), 0),
+        Operation::Unsettled(point, Shortfall::Start { .. }) => {
+            (of_point(operation, point), signed(point.impacts), 3)
+        }
         Operation::Unsettled(point, _) => (of_point(operation, point), signed(point.impacts), 1),
         Operation::Runaway { load_torque, acceleration, .. } => {
             let mut values = nothing;

@@ -124,7 +124,7 @@ impl Start {
     /// map has no such start.
     pub(crate) fn of(self, map: &ImpactMap, rise: f64) -> Result<Option<ImpactState>, Error> {
         match self {
-            // There every platform holds the disk.
+            // A platform that falls away there at once, as at a joint of parabolas, launches the disk.
             Self::Rest => ImpactState::new(Phase::new(rise)?, 0.0).map(Some),
             Self::Rise => ImpactState::new(Phase::new(rise)?, -map.period_one_impact_speed(1)).map(Some),
             Self::PeriodOne => map

@@ -347,16 +347,19 @@ impl Basins {
 impl ImpactMap {
     /// The label of one start: [`ATTACHED`], the index of a known orbit + [`FIRST_ORBIT`], or [`UNDECIDED`].
     ///
+    /// This call serves loops over starts and does not check that the known orbits belong to this map, as
+    /// [`Self::basins`] does: see [`Self::check_orbit`].
+    ///
     /// # Errors
-    /// [`Error::OutOfRange`] for more than 250 known orbits; [`Error::NotAnOrbit`] for one of another map;
-    /// those of [`crate::Vibration::first_impact`].
+    /// [`Error::OutOfRange`] for more than 250 known orbits; those of
+    /// [`crate::Vibration::first_impact`].
     pub fn basin_label(
         &self,
         start: ImpactState,
         known: &[KnownOrbit],
         settings: BasinSettings,
     ) -> Result<Label, Error> {
-        check_known(known, |orbit| self.check_orbit(orbit))?;
+        check_number_of(known)?;
         self.label_of(start, known, settings, || Ok(()))
     }
 

@@ -280,7 +280,7 @@ class OperatingPoints(Result):
         status: a place in :attr:`STATUSES`.
     """
 
-    STATUSES: ClassVar[tuple[str, ...]] = ("steady", "unsettled", "runaway")
+    STATUSES: ClassVar[tuple[str, ...]] = ("steady", "unsettled", "runaway", "depends-on-start")
 
     load_torque: FloatArray
     speed: FloatArray

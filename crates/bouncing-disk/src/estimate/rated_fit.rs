@@ -409,6 +409,7 @@ fn response_of(operation: &Operation, bend: f64) -> Response {
         Operation::Unsettled(_, Shortfall::Drift { drift, .. }) => {
             drift.abs() + NORMAL_975 * point.speed.standard_error
         }
+        Operation::Unsettled(_, Shortfall::Start { spread, .. }) => *spread,
         Operation::Unsettled(_, Shortfall::PowerBalance { stored_power, input_power }) => {
             bend * (stored_power / input_power).abs().min(1.0)
         }

@@ -5,7 +5,7 @@ use bouncing_disk::Motor;
 use bouncing_disk::core::Unobserved;
 use bouncing_disk::core::numerics::statistics::NORMAL_975;
 use bouncing_disk::motor::{
-    DrivenMotor, Estimate, InputTolerance, OperatingSettings, Operation, SweepQuantity,
+    DrivenMotor, Estimate, InputTolerance, OperatingSettings, Operation, Shortfall, SweepQuantity,
 };
 
 /// The settings of the library, with its defaults.
@@ -92,6 +92,7 @@ pub(super) fn lock_note(motor: &Motor) -> Result<String> {
 pub(super) const fn state(operation: &Operation) -> &'static str {
     match operation {
         Operation::Steady(_) => "steady",
+        Operation::Unsettled(_, Shortfall::Start { .. }) => "depends-on-start",
         Operation::Unsettled(..) => "unsettled",
         Operation::Runaway { .. } => "runaway",
         _ => "unknown",

@@ -48,7 +48,7 @@ impl Branch {
     /// # let map = ImpactMap::new(Vibration::from_axial_forcing(0.34)?, 0.5)?;
     /// # let orbit = map.refine(&[map.period_one(1).expect("it exists")])?;
     /// let whole = Continuation::new(ContinuationParameter::Forcing, (0.1, 0.6), true)?;
-    /// let branch = map.continued_from(&orbit, &whole, &Unobserved)?;
+    /// let branch = map.continued(&orbit, &whole, &Unobserved)?;
     /// let parts = branch.within((0.45, 0.45 + 1e-6), 100)?;
     /// assert_eq!(parts.len(), 1);
     /// assert!(parts[0].len() >= 100);

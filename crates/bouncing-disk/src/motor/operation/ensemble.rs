@@ -356,7 +356,7 @@ impl<'a> Run<'a> {
                 let ratio = standard_error / wanted;
                 MARGIN * ratio * ratio
             }
-            Shortfall::Drift { .. } | Shortfall::PowerBalance { .. } => 2.0,
+            Shortfall::Drift { .. } | Shortfall::Start { .. } | Shortfall::PowerBalance { .. } => 2.0,
         }
     }
 
@@ -456,11 +456,11 @@ impl<'a> Run<'a> {
 
     /// A dependence on the start that is larger than the requested error.
     fn undecided(&self, motor: usize, speeds: &[Vec<f64>]) -> Option<Shortfall> {
-        let drift = self.apart(motor, speeds);
+        let spread = self.apart(motor, speeds);
         let means: Vec<f64> = speeds.iter().map(|windows| mean(windows)).collect();
         let standard_error = error_of_mean(&means);
-        (standard_error + drift / NORMAL_975 > self.wanted && drift > 0.0)
-            .then_some(Shortfall::Drift { drift, standard_error })
+        (standard_error + spread / NORMAL_975 > self.wanted && spread > 0.0)
+            .then_some(Shortfall::Start { spread, standard_error })
     }
 
     /// The energy that the disk still stores, if it is too large a part of the supplied energy. For a disk
@@ -544,7 +544,7 @@ impl<'a> Run<'a> {
             .iter()
             .map(|(_, windows)| windows[..after].iter().map(|window| window.axial.duration).sum::<f64>());
         let whole = self.total(index, 0..self.windows());
-        // The error covers the members that differ by their start.
+        // The error also includes the spread between starts.
         let known = estimate(&speed)?;
         let apart = self.apart(index, &self.speeds(index)[0]);
         let point = OperatingPoint {

@@ -133,13 +133,19 @@ pub enum Shortfall {
         wanted: f64,
     },
     /// The speed still drifts: the early part of the average differs from the late one, or it depends on the
-    /// start.
+    /// speed at the start.
     Drift {
         /// The late mean minus the early one (rad/s), or by how much rotors that started from far above are
-        /// still faster, or, on a stator with kinks, by how much the speed from one start differs most from the mean
-        /// over starts.
+        /// still faster.
         drift: f64,
         /// The standard error of this difference (rad/s).
+        standard_error: f64,
+    },
+    /// Each start keeps a speed of its own, as on some stators with kinks: there is no one steady speed.
+    Start {
+        /// The largest difference (rad/s) of the speed from one start and the mean over starts.
+        spread: f64,
+        /// The standard error of the mean over starts (rad/s).
         standard_error: f64,
     },
     /// The disk still stores energy: the input power is not equal to output and losses.

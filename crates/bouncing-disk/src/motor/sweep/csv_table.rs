@@ -72,6 +72,7 @@ fn of_operation(operation: &Operation, quantities: &[SweepQuantity]) -> Vec<Stri
         Operation::Steady(_) => ("steady", "", None),
         Operation::Unsettled(_, Shortfall::Error { .. }) => ("unsettled", "error", None),
         Operation::Unsettled(_, Shortfall::Drift { .. }) => ("unsettled", "drift", None),
+        Operation::Unsettled(_, Shortfall::Start { .. }) => ("unsettled", "start", None),
         Operation::Unsettled(_, Shortfall::PowerBalance { .. }) => ("unsettled", "power-balance", None),
         Operation::Runaway { largest_torque, acceleration, .. } => {
             ("runaway", "", Some((*largest_torque, *acceleration)))

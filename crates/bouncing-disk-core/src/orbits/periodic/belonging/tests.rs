@@ -43,7 +43,6 @@ fn orbits_of_another_map_are_refused_by_all_that_take_one() {
     let grid = Grid::new(Axis::new(0.0, 1.0, 4).expect("legal"), Axis::new(0.0, 2.0, 4).expect("legal"));
     let (grid, settings) = (grid.expect("legal"), BasinSettings::default());
     let known = [KnownOrbit::new(node.clone(), 0.01).expect("legal")];
-    let start = node.states[0];
     let way = Continuation::new(ContinuationParameter::Forcing, (0.15, 0.4), true).expect("legal");
     let manifold = ManifoldSettings::new(1.0, 100).expect("legal");
     let refusals = |other: &ImpactMap| {
@@ -51,7 +50,6 @@ fn orbits_of_another_map_are_refused_by_all_that_take_one() {
             misses(node.trapping_radius(other, 64, &Unobserved)),
             misses(node.proven_radius(other)),
             misses(other.basins(grid, &known, settings, &Unobserved)),
-            misses(other.basin_label(start, &known, settings)),
             misses(BasinRun::new(*other, grid, &known, settings)),
             misses(other.continued(&node, &way, &Unobserved)),
             misses(other.manifold(&saddle, ManifoldKind::Unstable, &manifold, &Unobserved)),
