@@ -87,6 +87,9 @@ impl From<bouncing_disk::Error> for Failure {
             | Error::NotGiven { .. }
             | Error::NeitherGiven { .. }
             | Error::BothGiven { .. }
+            | Error::Lengths { .. }
+            | Error::NoForcePerVolt { .. }
+            | Error::SwitchedMotion
             | Error::EmptyAxis { .. }
             | Error::RepeatedAxis { .. }
             | Error::Waveform { .. }

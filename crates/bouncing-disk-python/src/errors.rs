@@ -23,7 +23,7 @@ fn raise<'py>(py: Python<'py>, class: &str, arguments: impl PyCallArgs<'py>) -> 
 }
 
 /// The errors that arguments are the reason of which do not fit together.
-const INVALID: [&str; 19] = [
+const INVALID: [&str; 22] = [
     "not-of-kind",
     "no-closed-form",
     "no-decimal",
@@ -33,6 +33,9 @@ const INVALID: [&str; 19] = [
     "not-given",
     "neither-given",
     "both-given",
+    "lengths",
+    "no-force-per-volt",
+    "switched-motion",
     "empty-axis",
     "repeated-axis",
     "waveform",

@@ -32,6 +32,18 @@ def test_a_data_sheet_is_its_system() -> None:
         MOTOR.replace(preload_force=0.02, preload_acceleration=20.0)
 
 
+def test_loads_and_stators_that_do_not_fit_are_invalid() -> None:
+    with pytest.raises(bd.InvalidError, match="need the same length") as lengths:
+        MOTOR.replace(load={"speeds": [0.0, 1.0], "torques": [1e-6]})
+    assert lengths.value.kind == "lengths"
+    with pytest.raises(bd.InvalidError, match="force_per_volt") as volts:
+        MOTOR.replace(amplitude=None, stator={"mass": 0.05, "quality": 300.0, "volts": 20.0})
+    assert volts.value.kind == "no-force-per-volt"
+    with pytest.raises(bd.InvalidError, match="load.off") as switched:
+        bd.ensemble(MOTOR.replace(load={"off": 1.0}), members=2, duration=0.02, intervals=4)
+    assert switched.value.kind == "switched-motion"
+
+
 def test_a_report_tells_what_is_known_before_anything_turns() -> None:
     report = MOTOR.report()
     assert report.axial_forcing == MOTOR.system.axial_forcing
