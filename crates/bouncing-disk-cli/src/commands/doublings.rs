@@ -14,7 +14,7 @@ use super::prelude::*;
 #[command(after_help = "\
 The cascade starts from the orbit with one impact in each period of the platform, at the paper's Gamma_1, Gamma_2, ... From \
 the seventh doubling on there are estimates of Feigenbaum's constants. The error is what rounding may have moved a \
-forcing by. A cascade that ends before gives the doublings up to there, and says why it ends. The command finds the forcings, so that there is no --axial-forcing; of a system it takes the restitution alone. See docs/numerics/dynamics.md.
+forcing by. If the cascade ends early, the doublings found so far are printed with the reason. The command finds the forcings, so that there is no --axial-forcing; of a system it takes the restitution alone. See docs/numerics/dynamics.md.
 
 Examples:
   bouncing-disk doublings
@@ -50,7 +50,12 @@ pub(super) fn run(args: &DoublingsArgs, context: Context) -> Result<()> {
         ],
         figure: Some(Box::new(move || pictures::doublings(restitution, &forcings))),
     };
-    report.deliver(&args.output, context)
+    report.deliver(&args.output, context)?;
+    // The text says it; files of a table or a picture have no place for it.
+    if let Some(error) = ended_by.filter(|_| !args.output.out.is_empty()) {
+        context.note(&format!("warning: no doubling {}: {error}", found.len() + 1));
+    }
+    Ok(())
 }
 
 fn text(found: &[CascadeDoubling], estimates: &[FeigenbaumEstimate], ended_by: Option<&str>) -> String {

@@ -146,6 +146,17 @@ fn a_computed_run_up_is_read_by_fit() {
 }
 
 /// One value, one cell, nothing found, nothing that turns: each has a picture.
+/// A file of a table has no place for it.
+#[test]
+fn a_cascade_that_ends_early_says_why_beside_its_files() {
+    let folder = Folder::new();
+    let said = |line: &str| crate::common::errors(&folder.command(line).output().unwrap());
+    let early = said("doublings -r 0.01 --out early.csv");
+    assert!(early.contains("warning: no doubling 3: "), "{early}");
+    assert!(!said("doublings -r 0.01 -n 2 --out two.csv").contains("warning"));
+    assert!(folder.done("doublings -r 0.01").contains("no doubling 3: "));
+}
+
 #[test]
 fn pictures_of_the_least_are_drawn() {
     let folder = Folder::new();
