@@ -18,6 +18,10 @@ const LARGEST_CHANGE: f64 = 0.3;
 /// How far apart two samples of the same instant may be, as a share of the range of all.
 const SAME_INSTANT: f64 = 1.0e-3;
 
+/// How many times the fourth difference without the last sample, and how many times the usual one, is that of a sample
+/// which is there twice. Smooth shapes of 16 samples have 2 and 4 at their turning points, and more elsewhere.
+const STANDS_OUT: [f64; 2] = [1.5, 3.0];
+
 /// The shape of a motion over one period tau = 0 to 2 pi: the height or the angle, divided by its amplitude.
 /// [`DrivenPlatform::new`] checks it.
 ///
@@ -161,17 +165,28 @@ impl Waveform {
         Some(change / peak)
     }
 
-    /// Whether the last sample is the first one again: both are as good as equal, and the shape is smoother there, by
-    /// its fourth difference, without the last than with it.
+    /// Whether the last sample is the first one again: both are as good as equal, also beside their neighbours, and there
+    /// the fourth differences stand out with the last sample, but not without it. Noise of a shape that rests at both ends
+    /// does not do this, as its fourth differences are as large all over.
     fn repeats_its_first_sample(&self) -> bool {
         let Self::Sampled(samples) = self else { return false };
-        let [first, second, third, .., c, b, last] = samples.as_slice() else { return false };
-        let range = |pick: fn(f64, f64) -> f64| samples.iter().copied().fold(*first, pick);
-        let is_closed = (last - first).abs() <= SAME_INSTANT * (range(f64::max) - range(f64::min));
-        let difference = |y: [&f64; 5]| (y[0] - 4.0 * y[1] + 6.0 * y[2] - 4.0 * y[3] + y[4]).abs();
-        let without = difference([c, b, first, second, third]);
-        let with = difference([c, b, last, first, second]).max(difference([b, last, first, second, third]));
-        is_closed && without < with
+        let count = samples.len();
+        let difference = |y: &[f64]| (y[0] - 4.0 * y[1] + 6.0 * y[2] - 4.0 * y[3] + y[4]).abs();
+        let mut elsewhere: Vec<_> = samples.windows(5).map(difference).collect();
+        elsewhere.sort_by(f64::total_cmp);
+        let Some(typical) = elsewhere.get(elsewhere.len() / 2) else { return false };
+        // The last three samples and the first three.
+        let [c, b, last, first, second, third] = [3, 2, 1, 0, -1, -2].map(|back| {
+            let place = (count as i64 - back) % count as i64;
+            samples[place as usize]
+        });
+        let range = |pick: fn(f64, f64) -> f64| samples.iter().copied().fold(first, pick);
+        let gap = (last - first).abs();
+        let neighbours = (second - first).abs().max((last - b).abs());
+        let is_closed = gap <= SAME_INSTANT * (range(f64::max) - range(f64::min)) && 8.0 * gap < neighbours;
+        let without = difference(&[c, b, first, second, third]);
+        let with = difference(&[c, b, last, first, second]).max(difference(&[b, last, first, second, third]));
+        is_closed && with > STANDS_OUT[0] * without && with > STANDS_OUT[1] * typical
     }
 
     /// The motion with this amplitude, `lag` (rad) earlier.
@@ -366,7 +381,8 @@ impl DriveParameters {
         both.into_iter().filter_map(|(of, shape)| {
             if shape.repeats_its_first_sample() {
                 return Some(format!(
-                    "the {of}: the last sample seems to repeat the first, which begins the next period; leave it out,                      so that the others keep their distances"
+                    "the {of}: the last sample seems to repeat the first, which begins the next period; leave it out, \
+                     so that the others keep their distances"
                 ));
             }
             let change = shape.acceleration_change().filter(|change| *change > LARGEST_CHANGE)?;
@@ -488,6 +504,32 @@ mod tests {
                 assert_eq!(of(open).warnings().count(), 0, "{count} {start}");
                 let told: Vec<_> = of(closed).warnings().collect();
                 assert!(told.len() == 1 && told[0].contains("the last sample"), "{count} {start}: {told:?}");
+            }
+        }
+        // As few samples as can show it.
+        let few = DriveParameters {
+            height: Waveform::Sampled(vec![0.0, 1.0, 0.0, -1.0, 0.0]),
+            ..Default::default()
+        };
+        assert!(few.warnings().any(|told| told.contains("the last sample") && !told.contains("  ")));
+        assert!(!Waveform::Sampled(vec![0.0, 1.0, 0.0, -1.0]).repeats_its_first_sample());
+        // A throw between two rests, with noise from a generator of its own.
+        for (count, level) in [64_u32, 256, 1024]
+            .into_iter()
+            .flat_map(|count| [1e-6, 1e-5, 1e-4, 3e-4].map(|level| (count, level)))
+        {
+            let mut state = u64::from(count);
+            for draw in 0..50 {
+                let sample = |k| {
+                    let phase = f64::from(k) / f64::from(count);
+                    let sine = bouncing_disk_core::numerics::elementary::sin(TAU * (phase - 0.25));
+                    let bump = if (0.25..0.75).contains(&phase) { sine * sine } else { 0.0 };
+                    state =
+                        state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                    bump + level * ((state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0)
+                };
+                let shape = Waveform::Sampled((0..count).map(sample).collect());
+                assert!(!shape.repeats_its_first_sample(), "{count} {level:e} {draw}");
             }
         }
         // The middle of the period between two samples; a trapezoid that rests at both ends.
