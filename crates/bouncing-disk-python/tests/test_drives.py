@@ -108,6 +108,7 @@ def test_a_contact_time_changes_tosses_and_motors_and_a_tiny_one_nothing() -> No
         (lambda: bd.Drive.pieces([(1.0, (0.0, 1.0, 0.0, 0.0))]), "jumps by -1"),
         (lambda: bd.Drive.sampled([0.0, 1.0]), "samples = 2"),
         (lambda: bd.Drive.sawtooth(1.0), "rise = 1"),
+        *((lambda kind=kind: bd.Drive.sampled(kind(b"\0\1\2")), "height.sampled") for kind in (bytes, bytearray, memoryview)),
         (lambda: bd.stall_load(bd.Motor.paper_70_khz(), contact_time=-1.0), "contact_time = -1"),
         (lambda: bd.best_phase_lag(bd.Motor.paper_70_khz(), contact_time=0.0), "contact_time = 0"),
         (lambda: diagram(bd.Drive(segments=[{"periods": 1.0}])), "schedule"),
@@ -131,6 +132,19 @@ def test_a_first_sample_at_the_end_gives_a_warning(count: int, start: float) -> 
     with pytest.warns(UserWarning, match="the height: the last sample seems to repeat the first"):
         longer = bd.Drive.sampled(closed)
     assert longer != drive
+
+
+def test_a_warning_is_of_the_line_that_makes_the_drive() -> None:
+    closed = [0.0, 1.0, 0.0, -1.0, 0.0]
+    makers: list[Callable[[], bd.Drive]] = [
+        lambda: bd.Drive({"sampled": closed}),
+        lambda: bd.Drive.sampled(closed),
+        lambda: bd.Drive.from_dict({"height": {"sampled": closed}}),
+    ]
+    for make in makers:
+        with pytest.warns(UserWarning, match="the last sample") as told:
+            make()
+        assert [warning.filename for warning in told] == [__file__]
 
 
 def test_noisy_samples_give_a_warning() -> None:

@@ -3,7 +3,9 @@
 # mypy: disable-error-code="no-any-return"
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterable, Mapping
+from pathlib import Path
 from typing import Any, Literal, TypeAlias
 from warnings import warn
 
@@ -18,6 +20,14 @@ __all__ = [
 
 #: The name of a shape, or a dictionary of one.
 Shape: TypeAlias = str | Mapping[str, Any]
+
+
+def _callers_level() -> int:
+    """The ``stacklevel`` at which the caller of this function warns of a line outside of this package."""
+    frame, level = sys._getframe(1), 1
+    while frame.f_back is not None and Path(frame.f_code.co_filename).parent == Path(__file__).parent:
+        frame, level = frame.f_back, level + 1
+    return level
 
 
 class System(Parameters):
@@ -166,7 +176,7 @@ class Drive(Parameters):
     ) -> None:
         self.__dict__["_native"] = native.drive(locals())
         for warning in self._native.warnings():
-            warn(warning, UserWarning, stacklevel=2)
+            warn(warning, UserWarning, stacklevel=_callers_level())
 
     @staticmethod
     def fourier(height: Iterable[Pair], angle: Iterable[Pair] | None = None) -> Drive:
