@@ -14,7 +14,9 @@ use pyo3::intern;
 use pyo3::prelude::*;
 use pyo3::pyclass::boolean_struct::True;
 use pyo3::sync::PyOnceLock;
-use pyo3::types::{PyBool, PyBytes, PyDict, PyFloat, PyFrozenSet, PyMapping, PySet, PyString};
+use pyo3::types::{
+    PyBool, PyByteArray, PyBytes, PyDict, PyFloat, PyFrozenSet, PyMapping, PyMemoryView, PySet, PyString,
+};
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
@@ -339,7 +341,10 @@ fn number(value: &Bound<'_, PyAny>, place: &Place<'_>) -> PyResult<f64> {
 /// The items of a list, an array or another ordered collection; `None` of what is none.
 fn items<'py>(value: &Bound<'py, PyAny>, place: &Place<'_>) -> PyResult<Option<Vec<Bound<'py, PyAny>>>> {
     let is_unordered = value.is_instance_of::<PySet>() || value.is_instance_of::<PyFrozenSet>();
-    if is_unordered || value.is_instance_of::<PyBytes>() || value.is_instance_of::<PyString>() {
+    let is_bytes = value.is_instance_of::<PyBytes>()
+        || value.is_instance_of::<PyByteArray>()
+        || value.is_instance_of::<PyMemoryView>();
+    if is_unordered || is_bytes || value.is_instance_of::<PyString>() {
         return Ok(None);
     }
     refuse_masked(value).map_err(|error| named(value.py(), error, place))?;

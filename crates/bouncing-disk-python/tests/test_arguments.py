@@ -493,6 +493,7 @@ def test_pairs_are_tuples_or_lists_of_two() -> None:
     assert bd.basins(MAP, phases=3, speeds=3, phase_range=listed) == expected
     assert bd.basins(MAP, phases=3, speeds=3, phase_range=np.array([0.0, 0.5])) == expected
     wrong: list[Any] = [(0.0,), (0.0, 0.5, 1.0), (), 1.0, None, "ab", {0.0, 1.0}, np.float64(1.0)]
+    wrong += [kind(b"\0\1") for kind in (bytes, bytearray, memoryview)]
     for pair in wrong:
         with pytest.raises((TypeError, ValueError)):
             bd.basins(MAP, phases=3, speeds=3, phase_range=pair)
