@@ -99,8 +99,11 @@ fn folder_of(text: &str) -> Result<PathBuf, String> {
     let path = match address.strip_prefix("//") {
         None => address,
         Some(rest) => {
-            let (host, path) = rest.split_at(rest.find('/').unwrap_or(rest.len()));
-            if !host.is_empty() && !host.eq_ignore_ascii_case("localhost") {
+            let (host, path) = rest.split_at(rest.find(['/', '\\']).unwrap_or(rest.len()));
+            // A drive of Windows that some masters put in the place of the host.
+            let is_drive = matches!(host.as_bytes(), [letter, b':'] if letter.is_ascii_alphabetic());
+            let path = if is_drive { rest } else { path };
+            if !is_drive && !host.is_empty() && !host.eq_ignore_ascii_case("localhost") {
                 return Err(format!("the resource path {text} is on another machine: {host}"));
             }
             path
@@ -405,10 +408,14 @@ mod tests {
             ("file:///tmp/100%/%zz%2", "/tmp/100%/%zz%2"),
             ("file:///tmp/%2520", "/tmp/%20"),
             ("file:///C:/Program%20Files/a", "C:/Program Files/a"),
+            ("file://C:/Program%20Files/a", "C:/Program Files/a"),
+            ("file://c:\\units\\a", "c:\\units\\a"),
         ] {
             assert_eq!(folder_of(text), Ok(PathBuf::from(folder)), "{text}");
         }
-        for (text, named) in [("file://server/share/a", "server"), ("file:///tmp/%ff", "UTF-8")] {
+        for (text, named) in
+            [("file://server/share/a", "server"), ("file://1:/a", "1:"), ("file:///tmp/%ff", "UTF-8")]
+        {
             let refused = folder_of(text).expect_err("not a folder of this machine");
             assert!(refused.contains(named) && refused.contains(text), "{refused}");
         }
