@@ -162,6 +162,7 @@ pub(crate) fn flip_points<R: Real>(
     let mut work = watch.work();
     let tick = &mut |impacts| work.spend(impacts);
     let mut found: Vec<Found<R>> = Vec::with_capacity(count);
+    let mut ended_by = None;
     for number in 1..=count {
         let point = match found.last() {
             None => first_flip(restitution, tick),
@@ -170,12 +171,15 @@ pub(crate) fn flip_points<R: Real>(
         match point.and_then(|point| Ok((point.graze_margin(restitution)?, point))) {
             Ok((graze_margin, point)) => found.push(Found { number, point, graze_margin }),
             Err(stopped @ Error::Stopped { .. }) => return Err(stopped),
-            Err(error) => return Ok((found, Some(error))),
+            Err(error) => {
+                ended_by = Some(error);
+                break;
+            }
         }
         watch.finish(1);
     }
     watch.end();
-    Ok((found, None))
+    Ok((found, ended_by))
 }
 
 #[cfg(test)]

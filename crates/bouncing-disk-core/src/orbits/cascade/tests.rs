@@ -48,6 +48,21 @@ fn a_cascade_that_ends_at_a_graze_has_the_doublings_before() {
     }
 }
 
+/// One that ends early is done, too.
+#[test]
+fn the_observer_hears_of_the_end() {
+    use core::sync::atomic::{AtomicU64, Ordering};
+    for restitution in [0.5, 0.01] {
+        let last = AtomicU64::new(0);
+        let observer = |progress: crate::run::Progress| {
+            last.store(progress.done, Ordering::Relaxed);
+            core::ops::ControlFlow::Continue(())
+        };
+        doubling_cascade(restitution, 5, &observer).expect("some are found");
+        assert_eq!(last.into_inner(), 5, "{restitution}");
+    }
+}
+
 /// From next to nothing to next to one: found, or a typed error, never a number that is none.
 #[test]
 fn every_restitution_has_an_answer() {
