@@ -44,7 +44,7 @@ pub(super) fn run(command: MotorCommand, context: Context) -> Result<()> {
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Forcing parameters, the regime of the vertical motion, the largest torque, and what in the data sheet is unlikely to be \
-meant; of a [stator] that yields its circuit, and the preload that it no longer lifts. Nothing in it depends on a [load]. See docs/designing-a-motor.md.
+meant; of a [stator] that yields its circuit, and the preload that it no longer lifts. Nothing in it but the warning of an overload depends on the load. See docs/designing-a-motor.md.
 
 Examples:
   bouncing-disk motor report --template > motor.toml
@@ -99,7 +99,7 @@ fn of_stator<'a>(motor: &Motor, report: &StatorReport) -> Result<Report<'a>> {
 
 fn written<'a>(motor: &Motor, mut text: String, list: Quantities) -> Result<Report<'a>> {
     if motor.load().is_some() {
-        text += "\nthe table [load] changes none of this";
+        text += "\nthe table [load] changes none of this but the warning of an overload";
     }
     Ok(Report {
         provenance: provenance("bouncing-disk motor report", &json!({ "motor": motor }))?,

@@ -219,9 +219,18 @@ fn stators() {
     folder.done("motor transient load.toml --members 1 --duration 0.01 --intervals 3");
     let reports = ["motor report load.toml", "motor report times.toml"].map(|line| folder.done(line));
     assert!(
-        reports.iter().all(|report| report.ends_with("the table [load] changes none of this\n")),
+        reports.iter().all(|report| report
+            .ends_with("the table [load] changes none of this but the warning of an overload\n")),
         "{reports:?}"
     );
+    for (name, table, told) in [
+        ("switched", "off = 1", "needs a table [stator]"),
+        ("short", "speeds = [0, 1]\ntorques = [1e-6]", "they need the same length"),
+    ] {
+        let sheet = folder.done("motor report --template") + &format!("\n[load]\n{table}\n");
+        folder.write(&format!("{name}.toml"), &sheet);
+        folder.all_refused(2, &[(&format!("motor transient {name}.toml"), told)]);
+    }
     let stator = "motor report --set stator.mass=0.01 --set stator.quality=300";
     let loose = |command: &str| stator.replace("report", command) + " --relative-error 0.5 --most-impacts 1";
     assert!(folder.done(&loose("curve")).contains("stator amplitude (m)"));
@@ -252,6 +261,11 @@ fn stators() {
         ("motor transient drive.toml", "both drive and stator are given"),
         ("motor report --set stator.mass=0.01 --set stator.quality=0.4", "stator.quality = 0.4 is outside"),
         ("motor curve --set stator.mass=0.01", "stator.quality is not given"),
+        (
+            "motor stall --set friction=0",
+            "without friction the largest torque is 0, so there is no stall torque",
+        ),
+        ("motor phase-lag --set friction=0", "so there is no best phase lag"),
         ("motor phase-lag times.toml", "a steady operation knows no time, and the table [load] has times"),
         ("motor curve times.toml", "a steady operation knows no time"),
         ("motor stall times.toml", "a steady operation knows no time"),

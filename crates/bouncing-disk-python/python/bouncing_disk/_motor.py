@@ -194,8 +194,8 @@ class Motor(Parameters):
         return Motor.from_dict({**kept, **changes})
 
     def report(self, *, progress: Progress = None) -> MotorReport:
-        """The consequences of the data sheet, before any run: forcing, regime, largest torque. Nothing in it depends
-        on the load.
+        """The consequences of the data sheet, before any run: forcing, regime, largest torque. Nothing in it but
+        the warning of an overload depends on the load.
         """
         return native.report(locals())
 

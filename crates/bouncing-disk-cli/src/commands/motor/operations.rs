@@ -60,6 +60,7 @@ pub(crate) struct StallArgs {
 pub(super) fn stall(args: &StallArgs, context: Context) -> Result<()> {
     let Some(given) = args.operation.begin(context)? else { return Ok(()) };
     let (motor, settings) = (given.0, args.operation.settings.settings());
+    needs_friction(&motor, "stall torque")?;
     let driven = DrivenMotor::where_needed(motor, &given.1)?;
     let watch = context.watch("motor stall");
     let stall = match &driven {
@@ -98,6 +99,15 @@ pub(super) fn stall(args: &StallArgs, context: Context) -> Result<()> {
     report.deliver(&args.operation.output, context)
 }
 
+/// Refuses a motor that nothing turns, whose speed would be that of rounding.
+fn needs_friction(motor: &Motor, sought: &str) -> Result<()> {
+    if motor.largest_torque() == 0.0 {
+        let told = format!("without friction the largest torque is 0, so there is no {sought}");
+        return Err(Failure::Usage(told));
+    }
+    Ok(())
+}
+
 /// The phase lag at which the motor turns fastest
 #[derive(Debug, Args)]
 #[command(after_help = "\
@@ -114,6 +124,7 @@ pub(crate) struct LagArgs {
 pub(super) fn phase_lag(args: &LagArgs, context: Context) -> Result<()> {
     let Some(given) = args.operation.begin(context)? else { return Ok(()) };
     let settings = args.operation.settings.settings();
+    needs_friction(&given.0, "best phase lag")?;
     let watch = context.watch("motor phase-lag");
     let best = match DrivenMotor::where_needed(given.0, &given.1)? {
         None => given.0.best_phase_lag(&settings, &watch)?,

@@ -45,7 +45,7 @@ pub struct MotorReport {
 
 impl Motor {
     /// Follows the rotor for 20 000 to 300 000 impacts, which takes a few to some 100 ms, and reports its
-    /// motion. Nothing in it depends on the load.
+    /// motion. Nothing in it but the warning of an overload depends on the load.
     ///
     /// The items of `observer` are the impacts of up to three motions, each counted from 0.
     ///

@@ -718,6 +718,8 @@ fn a_load_on_a_motion_that_is_prescribed() {
         assert!(!Error::SwitchedMotion.to_string().contains("NaN"));
     }
     assert_eq!(with(fan).report(&Unobserved), motor.report(&Unobserved));
+    let heavy = with(LoadLaw::constant(-2.0 * motor.largest_torque()).expect("legal")).warnings();
+    assert!(heavy.iter().any(|warning| matches!(warning, MotorWarning::Overload { .. })), "{heavy:?}");
 }
 
 /// Nothing treats a yielding stator as a prescribed one, nor a load that varies as none.

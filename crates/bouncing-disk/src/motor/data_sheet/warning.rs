@@ -113,7 +113,7 @@ impl Display for MotorWarning {
             }
             Self::Overload { load_torque, largest_torque } => write!(
                 f,
-                "load_torque = {} N m is more than the largest torque of the motor, mu m g a_e = {} N m",
+                "the load torque at rest, {} N m, is more than the largest torque of the motor, mu m g a_e = {} N m",
                 n(load_torque),
                 n(largest_torque)
             ),
@@ -182,7 +182,8 @@ impl Motor {
                     .map(|(field, value)| MotorWarning::OutsideRotor { field, value, rotor_radius }),
             );
         }
-        let (load_torque, largest_torque) = (self.load_torque(), self.largest_torque());
+        let at_rest = self.load().map(|load| load.torque_at(0.0, 0.0));
+        let (load_torque, largest_torque) = (at_rest.unwrap_or(self.load_torque()), self.largest_torque());
         if load_torque.abs() > largest_torque {
             warnings.push(MotorWarning::Overload { load_torque, largest_torque });
         }
