@@ -80,7 +80,8 @@ pub(crate) fn variables(motor: &Motor) -> Vec<Variable> {
     ];
     if motor.stator().and_then(|stator| stator.circuit()?.capacitance).is_some() {
         let current = |at: &MotorOutputs| at.current.unwrap_or_default();
-        all.push(of("current", "A", "Amplitude of the current", 0.0, Role::Output(current)));
+        let text = "Amplitude of the current about its mean, at the frequency of the drive";
+        all.push(of("current", "A", text, 0.0, Role::Output(current)));
     }
     let given =
         MotorField::ALL.into_iter().filter_map(|field| Some((field, field.value(&motor.parameters())?)));

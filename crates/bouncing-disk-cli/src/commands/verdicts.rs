@@ -24,13 +24,13 @@ const PLAIN: u64 = 4;
 #[derive(Debug, Args)]
 #[command(after_help = "\
 A verdict names the long-term motion of the orbit from the start, with its evidence: rest, a cycle with rest, a period that is \
-proved by Newton's method, chaos by growth that neither neutral motion nor the error explains, or undecided. A range of restitutions \
+proved by Newton's method, chaos by growth over --impacts impacts that neither neutral motion nor the error explains, or undecided. A range of restitutions \
 makes a map of regimes, a row for each. On the terminal a map is a count of its verdicts. See \
 docs/studying-the-dynamics.md.
 
 Examples:
   bouncing-disk verdicts --axial-forcing 0.3:0.6:7
-  bouncing-disk verdicts -G 0:3:300 -r 0:0.95:200 --impacts 2000 --out map.png
+  bouncing-disk verdicts -G 0:3:300 -r 0:0.95:200 --impacts 20000 --out map.png
   bouncing-disk verdicts -G 0:3:4000 -r 0:0.95:4000 --chunk 17/500 --out part-17.json")]
 pub(crate) struct VerdictsArgs {
     /// Axial forcing parameter Gamma = A omega^2/(pi g): a number, or a range FIRST:LAST:POINTS, both ends

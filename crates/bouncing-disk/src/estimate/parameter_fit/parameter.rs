@@ -32,7 +32,7 @@ pub enum FitParameter {
     /// Effective mass M of a stator that yields (kg). Coordinate: its logarithm. This one and the next two: not from
     /// transients.
     StatorMass,
-    /// Its quality factor Q, at least 1/2. Coordinate: its logarithm.
+    /// Its quality factor Q, in [0.5, 1e5]. Coordinate: its logarithm.
     StatorQuality,
     /// Twist over height kappa of its mode (rad/m). Coordinate: itself.
     TwistPerHeight,
