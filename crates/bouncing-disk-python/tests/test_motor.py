@@ -33,14 +33,13 @@ def test_a_data_sheet_is_its_system() -> None:
 
 
 def test_loads_and_stators_that_do_not_fit_are_invalid() -> None:
-    with pytest.raises(bd.InvalidError, match="need the same length") as lengths:
+    with pytest.raises(bd.InvalidError, match="need the same length"):
         MOTOR.replace(load={"speeds": [0.0, 1.0], "torques": [1e-6]})
-    assert lengths.value.kind == "lengths"
     with pytest.raises(bd.InvalidError, match="force_per_volt") as volts:
         MOTOR.replace(amplitude=None, stator={"mass": 0.05, "quality": 300.0, "volts": 20.0})
     assert volts.value.kind == "no-force-per-volt"
     with pytest.raises(bd.InvalidError, match="load.off") as switched:
-        bd.ensemble(MOTOR.replace(load={"off": 1.0}), members=2, duration=0.02, intervals=4)
+        bd.ensemble(MOTOR.replace(load={"speeds": [0.0], "torques": [0.0], "off": 1.0}), members=2, duration=0.02, intervals=4)
     assert switched.value.kind == "switched-motion"
 
 

@@ -224,7 +224,7 @@ fn stators() {
         "{reports:?}"
     );
     for (name, table, told) in [
-        ("switched", "off = 1", "needs a table [stator]"),
+        ("switched", "speeds = [0]\ntorques = [0]\noff = 1", "needs a table [stator]"),
         ("short", "speeds = [0, 1]\ntorques = [1e-6]", "they need the same length"),
     ] {
         let sheet = folder.done("motor report --template") + &format!("\n[load]\n{table}\n");
