@@ -8,9 +8,9 @@ use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::error::Error;
 
-/// By how much, relative to the flight, the first impact may come early, or its speed differ, and still count
-/// as that of the closed form. Its root is simple: an earlier one is at least 2 |w_A|/(1 + P) away, which is 3e-8 of a flight under
-/// the largest P.
+/// By how much, relative to the flight, the first impact may come early, or a speed differ from that of the
+/// closed form, and still count as the same. Its root is simple: an earlier one is at least 2 |w_A|/(1 + P)
+/// away, which is 3e-8 of a flight under the largest P.
 const SAME_IMPACT: f64 = 1.0e-9;
 
 /// One of the two orbits with one impact every k periods of the platform, in closed form.
@@ -48,12 +48,18 @@ impl PeriodOneOrbit {
     /// # Errors
     /// Those of [`ImpactMap::step`] but for [`Error::NoLiftOff`].
     pub fn is_admissible(&self, map: &ImpactMap) -> Result<bool, Error> {
+        let flight = TAU * self.platform_periods as f64;
+        let room = SAME_IMPACT * flight;
+        // The conditions of the closed form. A flight magnifies the rounding of its phase by P^2.
+        let r = map.restitution();
+        let peak = map.vibration().peak_acceleration();
+        let platform = peak * self.state.phase().cos() - 0.5 * flight * ((1.0 - r) / (1.0 + r));
+        let impact = self.state.velocity() + flight / (1.0 + r);
+        if platform.abs() > room + 4.0 * f64::EPSILON * peak || impact.abs() > room {
+            return Ok(false);
+        }
         match map.step(self.state) {
-            Ok(impact) => {
-                let flight = TAU * self.platform_periods as f64;
-                let differs = (impact.velocity - self.state.velocity()).abs();
-                Ok((impact.duration() - flight).abs().max(differs) <= SAME_IMPACT * flight)
-            }
+            Ok(impact) => Ok((impact.duration() - flight).abs() <= room),
             Err(Error::NoLiftOff { .. }) => Ok(false),
             Err(error) => Err(error),
         }
@@ -170,6 +176,26 @@ mod tests {
         assert_eq!(map(0.0, 0.5).period_one_pair(1), None);
         assert_eq!(map(0.9, 0.5).period_one_pair(3), None);
         assert_eq!(map(0.9, 0.5).period_one_pair(u64::MAX), None);
+    }
+
+    /// By hand: with its phase just before pi/2 the platform is highest, and no higher until the next impact. With
+    /// its phase just after 3 pi/2 it soon outruns the disk.
+    #[test]
+    fn on_fast_platforms_one_orbit_of_each_pair_is_admissible() {
+        for forcing in [1e3, 1e4, 1e6] {
+            let [own, other] = [0.5, 0.5001].map(|r| map(forcing, r));
+            let faster = map(1.0001 * forcing, 0.5);
+            for k in 1..=3 {
+                let pair = own.period_one_pair(k).expect("born at k/3");
+                let cosine = k as f64 / 3.0 / forcing;
+                assert!((pair.node.state.phase().cos() - cosine).abs() < 4e-16, "{forcing} {k}");
+                assert_eq!(pair.node.is_admissible(&own), Ok(true), "{forcing} {k}");
+                assert_eq!(pair.saddle.is_admissible(&own), Ok(false), "{forcing} {k}");
+                for another in [&other, &faster] {
+                    assert_eq!(pair.node.is_admissible(another), Ok(false), "{forcing} {k}");
+                }
+            }
+        }
     }
 
     /// Where the platform outruns the disk the closed form is no orbit of the map.
