@@ -66,7 +66,8 @@ impl DrivenMap {
     pub fn refine(&self, guess: &[ImpactState]) -> Result<PeriodicOrbit, Error> {
         let orbit = self.iterated(guess)?;
         let (residual, iterations) = (orbit.position_error, MAX_NEWTON_STEPS);
-        let one_impact = self.one_impact(orbit.platform_periods..=orbit.platform_periods);
+        let periods = orbit.platform_periods;
+        let one_impact = (orbit.period() == 1).then(|| self.one_impact(periods..=periods)).flatten();
         let existing = self.existing(orbit, one_impact.as_ref()).into_iter().next();
         let orbit = existing.ok_or(Error::NotSettled { what: "multiple shooting", iterations, residual })?;
         orbit.check_motion().map(|()| orbit)
@@ -224,7 +225,7 @@ impl DrivenMap {
             }
             return orbits;
         }
-        if prime_period(&end.states, DOUBLED) < end.period() {
+        if self.is_beside_its_doubling(&end) {
             return vec![self.doubled(end)];
         }
         if !next_to_fold(&end) && self.keeps_its_derivative(&end) {
@@ -234,6 +235,15 @@ impl DrivenMap {
             Some(Beside::Orbits(orbits)) => orbits,
             Some(Beside::Family) | None => vec![undecided(end)],
         }
+    }
+
+    /// Whether an orbit nearly repeats its half, and that is next to its doubling.
+    fn is_beside_its_doubling(&self, end: &PeriodicOrbit) -> bool {
+        let half = prime_period(&end.states, DOUBLED);
+        2 * half == end.period()
+            && self
+                .iterated(&end.states[..half])
+                .is_ok_and(|half| next_to_margin(half.monodromy, half.determinant()).1)
     }
 
     /// An orbit beside the doubling that it is born in, which is no member of a pair. Its weak direction has opposite

@@ -241,6 +241,10 @@ fn turning_points(drive: &Drive) -> Vec<f64> {
 /// ends tell, if |A'(m)| > max|A''| h. All other cells are halved.
 fn zeros_of_acceleration(drive: &Drive, times: &mut Vec<f64>) {
     let (bounds, harmonic) = (drive.bounds(), drive.highest_harmonic());
+    // Of a platform that does not accelerate each acceleration is zero.
+    if bounds.acceleration == 0.0 {
+        return;
+    }
     let cells = 8.0 * harmonic;
     let mut left = MOST_CELLS;
     let mut open = Vec::new();
@@ -323,5 +327,18 @@ impl DrivenMap {
         let size = monodromy.to_cols_array().iter().fold(1.0, |sum, entry| sum + entry.abs());
         let trace_error = 16.0 * f64::EPSILON * size + (1.0 + r) * (1.0 + r) * change;
         Some(PeriodicOrbit { states: vec![state], platform_periods, monodromy, position_error, trace_error })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_platform_at_rest_has_no_stretches() {
+        let still = Drive::fourier(&[]).expect("legal");
+        assert_eq!(turning_points(&still), []);
+        let map = DrivenMap::new(still, 0.5).expect("legal");
+        assert_eq!(OneImpact::of(&map, 1..=3).orbits().count(), 0);
     }
 }
