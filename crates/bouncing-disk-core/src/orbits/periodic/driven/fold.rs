@@ -62,7 +62,8 @@ pub(super) enum Beside {
 }
 
 impl DrivenMap {
-    /// The orbits at and beside an approximate one next to a fold; `None` if the curve cannot be followed.
+    /// The orbits at and beside an approximate one next to a fold; `None` if the curve cannot be followed to both
+    /// sides until the sign of the push is certain.
     pub(super) fn orbits_beside(&self, orbit: &PeriodicOrbit) -> Option<Beside> {
         let curve = Curve::new(self, orbit)?;
         let middle = curve.point(0.0, &orbit.states)?;
@@ -83,6 +84,11 @@ impl DrivenMap {
             {
                 extremes.push(curve.extreme(point, next));
             }
+        }
+        // Beyond an end at which the push is not certain there may be more.
+        let (first, last) = (certain.first()?, certain.last()?);
+        if !(first.at < 0.0 && 0.0 < last.at) {
+            return None;
         }
         let mut found = Vec::new();
         for pair in certain.windows(2) {

@@ -337,7 +337,7 @@ mod tests {
     #[test]
     fn a_platform_at_rest_has_no_stretches() {
         let still = Drive::fourier(&[]).expect("legal");
-        assert_eq!(turning_points(&still), []);
+        assert!(turning_points(&still).is_empty());
         let map = DrivenMap::new(still, 0.5).expect("legal");
         assert_eq!(OneImpact::of(&map, 1..=3).orbits().count(), 0);
     }
