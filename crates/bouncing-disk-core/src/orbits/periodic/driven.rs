@@ -11,7 +11,7 @@ use self::one_impact::OneImpact;
 use super::margin::next_to_margin;
 use super::newton::{Shooting, moved, prime_period, speed_scale};
 use super::search::{Catalogue, OrbitSearch};
-use super::{MAX_NEWTON_STEPS, MAX_PERIOD, PeriodicOrbit, phase_difference};
+use super::{MAX_NEWTON_STEPS, MAX_PERIOD, PeriodicOrbit, Stability, phase_difference};
 use crate::chatter::policy::ChatterPolicy;
 use crate::flight::platform::phase::Phase;
 use crate::map::driven_map::{DrivenEvent, DrivenMap};
@@ -88,11 +88,16 @@ impl DrivenMap {
             }
             residual = worst;
             let steps = solve_block_cyclic(&shooting.derivatives, &shooting.right);
-            states = moved(&states, &steps).ok_or(Error::NotSettled {
-                what: "multiple shooting",
-                iterations,
-                residual,
-            })?;
+            states = match moved(&states, &steps) {
+                Some(states) => states,
+                // A member of a family of orbits of one impact, where the derivative is singular.
+                None if worst <= SHOOTING_RESIDUAL && states.len() == 1 && self.compliant().is_none() => {
+                    let orbit = self.measured(states, &shooting);
+                    orbit.check_motion()?;
+                    return Ok(orbit);
+                }
+                None => return Err(Error::NotSettled { what: "multiple shooting", iterations, residual }),
+            };
         }
         Err(Error::NotSettled { what: "multiple shooting", iterations: MAX_NEWTON_STEPS, residual })
     }
@@ -130,17 +135,19 @@ impl DrivenMap {
             watch.finish(1);
             Ok::<_, Error>(orbits)
         });
-        let mut catalogue = Catalogue::default();
+        let (mut catalogue, mut of_one) = (Catalogue::default(), Vec::new());
         for of_start in found {
             for orbit in of_start? {
-                catalogue.add(orbit, 1, false);
+                if one_impact.is_some() && orbit.period() == 1 {
+                    of_one.push(orbit);
+                } else {
+                    catalogue.add(orbit, 1, false);
+                }
             }
         }
-        for orbit in one_impact.iter().flat_map(OneImpact::orbits) {
-            catalogue.add(orbit.clone(), 1, false);
-        }
+        let of_one = one_impact.map_or_else(Vec::new, |all| all.with_found(&of_one));
         watch.end();
-        Ok(catalogue.into_sorted())
+        Ok(catalogue.into_sorted_with(of_one))
     }
 
     /// The orbits of one impact by their phases; `None` for contacts that take time, of which these are not known.
@@ -207,8 +214,8 @@ impl DrivenMap {
     /// Away from folds it is the end itself.
     fn existing(&self, end: PeriodicOrbit, one_impact: Option<&OneImpact>) -> Vec<PeriodicOrbit> {
         if let Some(all) = one_impact.filter(|_| end.period() == 1) {
-            if all.is_of_family(&end) {
-                return vec![undecided(end)];
+            if let Some(member) = all.member(self, &end) {
+                return vec![member];
             }
             let apart = |orbit: &PeriodicOrbit| {
                 phase_difference(orbit.states[0].phase().angle(), end.states[0].phase().angle()).abs()
@@ -220,6 +227,7 @@ impl DrivenMap {
                 && end.position_error <= EXACT
                 && apart(nearest) <= EXACT
                 && !next_to_fold(&end)
+                && nearest.stability() != Stability::Marginal
             {
                 *nearest = end;
             }

@@ -392,7 +392,12 @@ impl Catalogue {
 
     /// The orbits by impacts, platform periods, falling speed of the first impact, phase of the first impact.
     pub(super) fn into_sorted(self) -> Vec<PeriodicOrbit> {
-        let mut orbits: Vec<_> = self.entries.into_iter().map(|entry| entry.orbit).collect();
+        self.into_sorted_with(Vec::new())
+    }
+
+    /// The same together with others, none of which is known.
+    pub(super) fn into_sorted_with(self, mut orbits: Vec<PeriodicOrbit>) -> Vec<PeriodicOrbit> {
+        orbits.extend(self.entries.into_iter().map(|entry| entry.orbit));
         orbits.sort_by(|a, b| {
             let (first, second) = (a.states[0], b.states[0]);
             (a.period(), a.platform_periods)

@@ -4,12 +4,13 @@
 use core::f64::consts::{PI, TAU};
 use core::ops::RangeInclusive;
 
+use super::EXACT;
 use crate::flight::drive::Drive;
 use crate::flight::platform::phase::Phase;
 use crate::map::driven_map::DrivenMap;
 use crate::map::impact_map::ImpactState;
 use crate::numerics::elementary::wrapped_angle;
-use crate::orbits::periodic::PeriodicOrbit;
+use crate::orbits::periodic::{PeriodicOrbit, Stability, phase_difference};
 
 /// The rounding of a velocity and of the value that it must have, in units of the sizes of both.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
@@ -57,7 +58,21 @@ pub(super) struct OneImpact {
 #[derive(Debug)]
 struct Found {
     orbits: Vec<PeriodicOrbit>,
-    families: Vec<(f64, f64)>,
+    families: Vec<Family>,
+}
+
+/// A stretch on which every phase has the velocity.
+#[derive(Debug)]
+struct Family {
+    from: f64,
+    to: f64,
+    has_member: bool,
+}
+
+impl Family {
+    fn contains(&self, orbit: &PeriodicOrbit) -> bool {
+        wrapped_angle(orbit.states[0].phase().angle() - self.from) <= self.to - self.from
+    }
 }
 
 /// The stretches of a drive.
@@ -93,8 +108,11 @@ impl OneImpact {
                 phases.filter_map(|phase| orbit(phase, Some(to - from))).next()
             };
             let isolated = single.into_iter().chain(touching).filter_map(|phase| orbit(phase, None));
-            let orbits = isolated.chain(families.iter().filter_map(member)).collect();
-            Found { orbits, families }
+            let members: Vec<_> = families.iter().map(member).collect();
+            let is_known = members.iter().map(Option::is_some);
+            let families = families.iter().zip(is_known);
+            let families = families.map(|(&(from, to), has_member)| Family { from, to, has_member }).collect();
+            Found { orbits: isolated.chain(members.into_iter().flatten()).collect(), families }
         });
         Self { first, found: found.collect() }
     }
@@ -114,11 +132,41 @@ impl OneImpact {
         self.with(platform_periods).map_or(&[], |found| &found.orbits)
     }
 
-    /// Whether an orbit of one impact is a member of a family of them.
-    pub(super) fn is_of_family(&self, orbit: &PeriodicOrbit) -> bool {
+    /// The family that an orbit of one impact is a member of.
+    fn family(&self, orbit: &PeriodicOrbit) -> Option<&Family> {
+        self.with(orbit.platform_periods)?.families.iter().find(|family| family.contains(orbit))
+    }
+
+    /// The member at the phase of an orbit of one impact, if that belongs to a family.
+    pub(super) fn member(&self, map: &DrivenMap, orbit: &PeriodicOrbit) -> Option<PeriodicOrbit> {
+        let family = self.family(orbit)?;
         let phase = orbit.states[0].phase().angle();
-        let families = self.with(orbit.platform_periods).map_or(&[][..], |found| &found.families);
-        families.iter().any(|&(from, to)| (from..=to).contains(&phase))
+        map.orbit_of_one_impact(phase, orbit.platform_periods, Some(family.to - family.from))
+    }
+
+    /// All of [`Self::orbits`], however near they are to each other: as they were found from starts where these
+    /// meet them, and members of families of which only starts know one.
+    pub(super) fn with_found(&self, found: &[PeriodicOrbit]) -> Vec<PeriodicOrbit> {
+        let mut all: Vec<PeriodicOrbit> = Vec::new();
+        for own in self.orbits() {
+            let meets = |orbit: &&PeriodicOrbit| {
+                let apart = phase_difference(own.states[0].phase().angle(), orbit.states[0].phase().angle());
+                orbit.platform_periods == own.platform_periods && apart.abs() <= EXACT
+            };
+            let is_decided = own.stability() != Stability::Marginal;
+            let as_found = found.iter().filter(|_| is_decided).find(meets);
+            all.push(as_found.unwrap_or(own).clone());
+        }
+        for orbit in found {
+            if let Some(family) = self.family(orbit).filter(|family| !family.has_member)
+                && !all.iter().any(|known| {
+                    known.platform_periods == orbit.platform_periods && family.contains(known)
+                })
+            {
+                all.push(orbit.clone());
+            }
+        }
+        all
     }
 }
 
@@ -290,8 +338,9 @@ impl DrivenMap {
         PI * platform_periods as f64 * ((1.0 - r) / (1.0 + r))
     }
 
-    /// The orbit of one impact at this phase with its errors, of a family on a stretch of some length; `None` if an earlier impact forestalls it, the
-    /// disk does not leave the platform, or the impact is on a kink.
+    /// The orbit of one impact at this phase with its errors; `family` is the length of the stretch if the orbit
+    /// belongs to one. `None` if an earlier impact occurs, the disk does not leave the platform, or the impact is on
+    /// a kink.
     fn orbit_of_one_impact(
         &self,
         phase: f64,

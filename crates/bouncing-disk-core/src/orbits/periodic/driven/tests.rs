@@ -5,7 +5,7 @@ use crate::flight::drive::Drive;
 use crate::flight::platform::vibration::Vibration;
 use crate::map::impact_map::ImpactMap;
 use crate::orbits::continuation::{BifurcationKind, Continuation};
-use crate::orbits::{ContinuationParameter, Stability};
+use crate::orbits::ContinuationParameter;
 use crate::run::Unobserved;
 
 fn driven(drive: Result<Drive, Error>, restitution: f64) -> DrivenMap {
@@ -139,6 +139,57 @@ fn on_a_triangle_there_is_a_family_or_no_orbit() {
             assert_eq!(found(&own, 1, 12), [], "{restitution} {offset:e}");
             assert!(own.refine(&guess(0.3, restitution)).is_err(), "{restitution} {offset:e}");
         }
+    }
+}
+
+/// Pieces (duration, height and its derivatives) in units of the period, for which a slope of 1 is the velocity of
+/// an orbit with one impact every period under the restitution 0.5.
+fn in_periods(pieces: &[(f64, [f64; 3])]) -> DrivenMap {
+    let own = pieces.iter().map(|&(duration, [c0, c1, c2])| {
+        let height = 2.0 * PI * PI / 3.0;
+        (TAU * duration, [height * c0, height * c1 / TAU, height * c2 / (TAU * TAU), 0.0])
+    });
+    driven(Drive::pieces(&own.collect::<Vec<_>>()), 0.5)
+}
+
+#[test]
+fn each_family_is_listed_beside_other_orbits() {
+    let two = in_periods(&[
+        (0.25, [0.0, 1.0, 0.0]),
+        (0.25, [0.25, 0.0, 0.0]),
+        (0.25, [0.25, 1.0, 0.0]),
+        (0.25, [0.5, -2.0, 0.0]),
+    ]);
+    let one = in_periods(&[(0.25, [0.0, 1.0, 0.0]), (0.25, [0.25, 2.0, -4.0]), (0.5, [0.5, -1.0, 0.0])]);
+    for starts in [2, 12] {
+        let phases = |map: &DrivenMap| -> Vec<f64> {
+            let orbits = found(map, 1, starts);
+            let mut phases: Vec<_> =
+                orbits.iter().map(|orbit| orbit.states[0].phase().angle() / TAU).collect();
+            phases.sort_by(f64::total_cmp);
+            phases
+        };
+        let of_two = phases(&two);
+        assert!(
+            matches!(of_two[..], [first, second] if first < 0.25 && second > 0.5 && second < 0.75),
+            "{of_two:?}"
+        );
+        let of_one = phases(&one);
+        assert!(
+            matches!(of_one[..], [member, single] if member < 0.25 && (single - 0.375).abs() < 1e-14),
+            "{of_one:?}"
+        );
+    }
+}
+
+#[test]
+fn members_of_a_family_across_the_seam_are_refined() {
+    let map = driven(Drive::triangle(0.5 * PI * PI / 3.0), 0.5);
+    for phase in [1.6 * PI, 1.9 * PI, 0.1 * PI, 0.4 * PI] {
+        let own = map.refine(&guess(phase, 0.5)).expect("a member");
+        assert_eq!((own.period(), own.stability()), (1, Stability::Marginal), "{phase}");
+        assert!((own.states[0].phase().angle() - phase).abs() < 1e-9, "{phase} {own:?}");
+        assert!((own.position_error - PI).abs() < 1e-12, "half of the period: {own:?}");
     }
 }
 
