@@ -111,7 +111,8 @@ impl OneImpact {
             let members: Vec<_> = families.iter().map(member).collect();
             let is_known = members.iter().map(Option::is_some);
             let families = families.iter().zip(is_known);
-            let families = families.map(|(&(from, to), has_member)| Family { from, to, has_member }).collect();
+            let families =
+                families.map(|(&(from, to), has_member)| Family { from, to, has_member }).collect();
             Found { orbits: isolated.chain(members.into_iter().flatten()).collect(), families }
         });
         Self { first, found: found.collect() }
@@ -159,9 +160,9 @@ impl OneImpact {
         }
         for orbit in found {
             if let Some(family) = self.family(orbit).filter(|family| !family.has_member)
-                && !all.iter().any(|known| {
-                    known.platform_periods == orbit.platform_periods && family.contains(known)
-                })
+                && !all
+                    .iter()
+                    .any(|known| known.platform_periods == orbit.platform_periods && family.contains(known))
             {
                 all.push(orbit.clone());
             }
