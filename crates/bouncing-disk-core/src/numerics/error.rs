@@ -92,9 +92,7 @@ pub enum Error {
         region: f64,
     },
     /// The given orbit is not a periodic orbit of the map.
-    #[error(
-        "impact {impact} does not lead to the next impact of the orbit: it misses it by {distance:?} (rad, or relative speed)"
-    )]
+    #[error("not an orbit of this map: {}", missed(*impact, *distance))]
     NotAnOrbit {
         /// The impact, from 0 on.
         impact: usize,
@@ -224,6 +222,16 @@ pub(crate) fn within(
     if value >= low && value <= high { Ok(value) } else { Err(Error::OutOfRange { field, value, legal }) }
 }
 
+/// What follows an impact that is not followed by the next one of an orbit, the impact numbered from 1 on.
+fn missed(impact: usize, distance: f64) -> String {
+    let number = impact.saturating_add(1);
+    if distance.is_infinite() {
+        format!("the disk stays on the platform after impact {number}")
+    } else {
+        format!("after impact {number} the next impact is off by {distance:?} (rad, or relative speed)")
+    }
+}
+
 /// Checks that `value` is finite.
 pub(crate) fn finite(field: &'static str, value: f64) -> Result<f64, Error> {
     within(field, value, f64::MIN, f64::MAX, "finite")
@@ -271,6 +279,15 @@ mod tests {
                 assert!(text.contains(&format!("{number:e}")) && text.len() < 160, "{text}");
             }
         }
+    }
+
+    #[test]
+    fn a_missed_impact_is_numbered_from_one() {
+        let text = |distance| Error::NotAnOrbit { impact: 0, distance }.to_string();
+        let off = "not an orbit of this map: after impact 1 the next impact is off by 0.45 (rad, or relative speed)";
+        assert_eq!(text(0.45), off);
+        let stays = "not an orbit of this map: the disk stays on the platform after impact 1";
+        assert_eq!(text(f64::INFINITY), stays);
     }
 
     /// A count that was too large was told as 1073741825.0.
