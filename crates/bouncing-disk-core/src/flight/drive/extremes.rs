@@ -16,8 +16,10 @@ type Candidate = (f64, f64);
 
 impl Drive {
     /// The phase in [0, 2 pi) at which the platform is lowest: 3 pi/2 for a sine. If it is lowest more than once
-    /// in a period, the first of these phases; if it stays lowest for a while, the start of that while. Heights
-    /// that differ by rounding count as equal. 0 for a platform that does not move, and for a ramp.
+    /// in a period, the first of these phases, which depends on where the period begins: a recording of two equal
+    /// minima that begins between them has the other one. If it stays lowest for a while, the start of that
+    /// interval. Heights that differ by rounding count as equal. 0 for a platform that does not move, and for a
+    /// ramp.
     ///
     /// ```
     /// use std::f64::consts::PI;
@@ -271,6 +273,9 @@ mod tests {
         assert_eq!((falls.lowest_phase(), falls.fastest_rise_phase()), (0.5 * PI, PI));
         let twice = Drive::fourier(&[(0.0, 0.0), (0.7, 0.0)]).expect("legal");
         assert_eq!((twice.lowest_phase(), twice.fastest_rise_phase()), (0.75 * PI, PI));
+        // The first of two that are equal: the other one for a period that begins between them.
+        let later = twice.earlier(0.8 * PI).expect("finite");
+        assert!((later.lowest_phase() - (1.75 - 0.8) * PI).abs() < 1e-14, "{}", later.lowest_phase());
         // Straight lines: from the kink on.
         let sawtooth = Drive::sawtooth(1.0, 0.3).expect("legal");
         let trough = sawtooth.kinks().find(|(_, jump)| *jump > 0.0).expect("there is one").0;
