@@ -42,8 +42,8 @@ impl PeriodOneOrbit {
         Multipliers::of_invariants(self.trace, self.determinant)
     }
 
-    /// Whether the orbit is one of the map, and not only of another one: no earlier impact ends its flight, and
-    /// the disk does take off.
+    /// Whether the orbit is one of the map, and not only of another one: no earlier impact ends its flight,
+    /// and the disk does take off.
     ///
     /// # Errors
     /// Those of [`ImpactMap::step`] but for [`Error::NoLiftOff`].
@@ -178,8 +178,8 @@ mod tests {
         assert_eq!(map(0.9, 0.5).period_one_pair(u64::MAX), None);
     }
 
-    /// By hand: with its phase just before pi/2 the platform is highest, and no higher until the next impact. With
-    /// its phase just after 3 pi/2 it soon outruns the disk.
+    /// By hand: with its phase just before pi/2 the platform is highest, and no higher until the next impact.
+    /// With its phase just after 3 pi/2 it soon outruns the disk.
     #[test]
     fn on_fast_platforms_one_orbit_of_each_pair_is_admissible() {
         for forcing in [1e3, 1e4, 1e6] {

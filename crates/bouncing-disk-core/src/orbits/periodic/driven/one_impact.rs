@@ -1,5 +1,5 @@
-//! The orbits of one impact on a drive with rigid impacts: the phases at which the velocity of the platform has
-//! one value (docs/numerics/drives.md, "Periodic orbits").
+//! The orbits of one impact on a drive with rigid impacts: the phases at which the velocity of the platform
+//! has one value (docs/numerics/drives.md, "Periodic orbits").
 
 use core::f64::consts::{PI, TAU};
 use core::ops::RangeInclusive;
@@ -118,8 +118,8 @@ impl OneImpact {
         Self { first, found: found.collect() }
     }
 
-    /// All orbits of one impact but for those that an earlier impact forestalls or whose impact is on a kink; of
-    /// each family one.
+    /// All orbits of one impact but for those that an earlier impact forestalls or whose impact is on a kink;
+    /// of each family one.
     pub(super) fn orbits(&self) -> impl Iterator<Item = &PeriodicOrbit> {
         self.found.iter().flat_map(|found| &found.orbits)
     }
@@ -145,8 +145,8 @@ impl OneImpact {
         map.orbit_of_one_impact(phase, orbit.platform_periods, Some(family.to - family.from))
     }
 
-    /// All of [`Self::orbits`], however near they are to each other: as they were found from starts where these
-    /// meet them, and members of families of which only starts know one.
+    /// All of [`Self::orbits`], however near they are to each other: as they were found from starts where
+    /// these meet them, and members of families of which only starts know one.
     pub(super) fn with_found(&self, found: &[PeriodicOrbit]) -> Vec<PeriodicOrbit> {
         let mut all: Vec<PeriodicOrbit> = Vec::new();
         for own in self.orbits() {
@@ -286,8 +286,8 @@ fn turning_points(drive: &Drive) -> Vec<f64> {
 
 /// The zeros of the acceleration of a Fourier sum in [0, 2 pi), each found, and perhaps other times.
 ///
-/// A cell about m with the half width h has none if |A(m)| > max|A'| h, and one at most, which the signs at its
-/// ends tell, if |A'(m)| > max|A''| h. All other cells are halved.
+/// A cell about m with the half width h has none if |A(m)| > max|A'| h, and one at most, which the signs at
+/// its ends tell, if |A'(m)| > max|A''| h. All other cells are halved.
 fn zeros_of_acceleration(drive: &Drive, times: &mut Vec<f64>) {
     let (bounds, harmonic) = (drive.bounds(), drive.highest_harmonic());
     // Of a platform that does not accelerate each acceleration is zero.
@@ -339,9 +339,9 @@ impl DrivenMap {
         PI * platform_periods as f64 * ((1.0 - r) / (1.0 + r))
     }
 
-    /// The orbit of one impact at this phase with its errors; `family` is the length of the stretch if the orbit
-    /// belongs to one. `None` if an earlier impact occurs, the disk does not leave the platform, or the impact is on
-    /// a kink.
+    /// The orbit of one impact at this phase with its errors; `family` is the length of the stretch if the
+    /// orbit belongs to one. `None` if an earlier impact occurs, the disk does not leave the platform, or the
+    /// impact is on a kink.
     fn orbit_of_one_impact(
         &self,
         phase: f64,
