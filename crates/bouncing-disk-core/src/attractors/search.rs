@@ -80,7 +80,7 @@ pub struct Recurrence {
     /// Impacts for which orbits that began on it were followed; of a transient, those after which its starts
     /// were counted.
     pub impacts: u64,
-    /// How many of 256 orbits that began on it did not leave.
+    /// How many of the orbits that began on it, at most 1,024, did not leave.
     pub orbits: u64,
     /// Its last impact.
     pub state: ImpactState,
@@ -410,7 +410,7 @@ impl ImpactMap {
     /// Starts are spread evenly over the trapping region ([`Self::impact_speed_bound_at`]), which no
     /// attractor can leave, so that no window can miss one. Each is followed until it rests, or is seen to
     /// come ever nearer to a periodic orbit, which is then refined; of those that do neither, one is followed
-    /// for as many impacts as the [search](AttractorSearch::with_impacts) allows, and so are 256 orbits that
+    /// for as many impacts as the [search](AttractorSearch::with_impacts) allows, and so are 1,024 orbits that
     /// begin where it has been. If none of these leaves, others that return to the cells it has visited are on
     /// the same attractor. If one does, it is a [transient](AttractorKind::Transient), and all starts are
     /// followed for so many impacts, or for as many as the budget allows. Periodic

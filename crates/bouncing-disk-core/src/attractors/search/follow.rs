@@ -19,7 +19,7 @@ pub(super) const COMPARED: u64 = 512;
 pub(super) const SHARE_IN_CELLS: f64 = 0.5;
 
 /// Orbits of an attractor without a period that are followed to see whether any leaves it.
-pub(super) const FOLLOWED: usize = 256;
+pub(super) const FOLLOWED: usize = 1_024;
 
 /// How much slower than an impact of the attractor each of them begins: states of one orbit have the same
 /// future, and one beside it has its own after some hundred impacts.

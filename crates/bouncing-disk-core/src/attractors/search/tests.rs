@@ -47,7 +47,7 @@ fn the_attractors_along_the_paper_s_route() {
     assert!(*exponent > 0.05 && *standard_error < 0.1 * exponent, "{exponent} {standard_error}");
     assert!(recurrence.cells.contains(recurrence.state));
     // None of the orbits that were followed beside it has left.
-    assert_eq!((recurrence.impacts, recurrence.orbits), (21_000, 256));
+    assert_eq!((recurrence.impacts, recurrence.orbits), (21_000, 1_024));
     assert!(chaos.starts.count() > 30 && rest.starts.count() > 30);
     let gone = found(0.6, 0.5, 300);
     assert_eq!((gone.all().len(), gone.all()[0].starts.count()), (1, 300));
