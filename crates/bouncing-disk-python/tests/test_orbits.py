@@ -51,7 +51,7 @@ def test_orbits_of_another_motion_are_refused_by_name() -> None:
     assert orbit is not None and orbit.period == 1
     known: Any = {"phases": 3, "speeds": 3, "known_orbits": [(orbit, 0.01)]}
     bd.basins(own, **known)
-    for call in [
+    calls: list[Callable[[], Any]] = [
         lambda: orbit.trapping_radius(other),
         lambda: bd.basins(other, **known),
         lambda: bd.basins(other, **{**known, "known_orbits": [orbit]}),
@@ -59,11 +59,12 @@ def test_orbits_of_another_motion_are_refused_by_name() -> None:
         lambda: bd.basins(own, **known, contact_time=0.1),
         lambda: bd.continued(other, orbit, parameter_range=(0.3, 0.4)),
         lambda: bd.manifold(other, saddle_of(own), arclength=1.0),
-    ]:
+    ]
+    for call in calls:
         with pytest.raises(bd.InvalidError) as refused:
             call()
         assert refused.value.kind == "not-an-orbit" and refused.value.details["impact"] == 0
-        assert refused.value.details["distance"] > 1e-3
+        assert float(refused.value.details["distance"]) > 1e-3
 
 
 def test_what_is_no_saddle_has_no_manifold() -> None:
