@@ -170,7 +170,7 @@ def test_python_goes_on_while_a_call_computes() -> None:
 
     ticking = threading.Thread(target=tick)
     ticking.start()
-    bd.orbit_diagram(axial_forcing=np.full(64, 0.56), transient=60_000, recorded=1, **STARTS)
+    bd.orbit_diagram(axial_forcing=np.full(64, 0.56), transient=600_000, recorded=1, **STARTS)
     stop.set()
     ticking.join()
     gaps = np.diff(ticks)
