@@ -8,7 +8,7 @@ use crate::attractors::verdict::returns::Returns;
 use crate::attractors::verdict::witness::Witness;
 use crate::attractors::verdict::{Verdict, VerdictSettings};
 use crate::chatter::policy::ChatterPolicy;
-use crate::map::impact_map::{ImpactMap, ImpactState};
+use crate::map::impact_map::{ImpactMap, ImpactState, Orbit};
 use crate::numerics::error::Error;
 use crate::run::Observer;
 use crate::sweep::{SweepEvent, sweep};
@@ -34,6 +34,11 @@ pub(super) enum Seen {
     Verdict(Verdict),
 }
 
+/// The orbits of starts, with chatters that are summed.
+fn orbits(map: &ImpactMap, starts: &[ImpactState]) -> Vec<Orbit> {
+    starts.iter().map(|start| map.orbit(*start, ChatterPolicy::Complete)).collect()
+}
+
 /// Follows every start until it rests or there is a verdict.
 pub(super) fn first_look(
     map: &ImpactMap,
@@ -41,7 +46,7 @@ pub(super) fn first_look(
     settings: VerdictSettings,
     observer: &dyn Observer,
 ) -> Result<Vec<Seen>, Error> {
-    let orbits: Vec<_> = starts.iter().map(|start| map.orbit(*start, ChatterPolicy::Complete)).collect();
+    let orbits = orbits(map, starts);
     let seen = sweep(
         &orbits,
         |index| (Witness::new((*map, starts[index]), settings), false),
@@ -177,7 +182,7 @@ pub(super) fn follow(
     settings: VerdictSettings,
     observer: &dyn Observer,
 ) -> Result<Vec<Followed>, Error> {
-    let orbits: Vec<_> = starts.iter().map(|start| map.orbit(*start, ChatterPolicy::Complete)).collect();
+    let orbits = orbits(map, starts);
     let followed = sweep(
         &orbits,
         |index| {
@@ -215,7 +220,7 @@ pub(super) fn share_in(
     transient: u64,
     observer: &dyn Observer,
 ) -> Result<Vec<Option<f64>>, Error> {
-    let orbits: Vec<_> = starts.iter().map(|start| map.orbit(*start, ChatterPolicy::Complete)).collect();
+    let orbits = orbits(map, starts);
     let seen = sweep(
         &orbits,
         |_| (0_u64, 0_u64),
@@ -244,7 +249,7 @@ pub(super) fn last_in(
     impacts: u64,
     observer: &dyn Observer,
 ) -> Result<Vec<u64>, Error> {
-    let orbits: Vec<_> = starts.iter().map(|start| map.orbit(*start, ChatterPolicy::Complete)).collect();
+    let orbits = orbits(map, starts);
     let seen = sweep(
         &orbits,
         |_| (0_u64, 0_u64),
