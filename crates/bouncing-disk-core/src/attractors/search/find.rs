@@ -2,8 +2,8 @@
 
 use super::cells::VisitedCells;
 use super::follow::{
-    COMPARED, FOLLOWED, LongLook, SHARE_IN_CELLS, Seen, first_look, follow, last_in, long_look, overlap,
-    share_in,
+    COMPARED, FOLLOWED, Followed, LongLook, SHARE_IN_CELLS, Seen, first_look, follow, last_in, long_look,
+    overlap, share_in,
 };
 use super::settings::AttractorSearch;
 use super::starts::starts;
@@ -95,6 +95,13 @@ impl Recurrent {
 struct Open {
     from: ImpactState,
     at: ImpactState,
+}
+
+/// Where a start is that was followed, and after how many impacts; its fate if it rests or repeats itself.
+struct Reached {
+    seen: Option<Seen>,
+    state: ImpactState,
+    impacts: u64,
 }
 
 /// Where a disk ends that has come to rest.
@@ -318,24 +325,18 @@ impl<'a> Finder<'a> {
         self.followed = Some(impacts);
         let starts: Vec<_> = open.iter().map(|start| start.from).collect();
         let mut left = Vec::new();
-        for (start, (seen, reached)) in starts.iter().zip(self.follow(&starts, impacts)?) {
-            if seen.is_some_and(|seen| self.close(&seen, 1)) {
+        for (start, reached) in starts.iter().zip(self.follow(&starts, impacts)?) {
+            if reached.seen.is_some_and(|seen| self.close(&seen, 1)) {
                 self.done += 1;
             } else {
-                left.push(Open { from: *start, at: reached.0 });
+                left.push(Open { from: *start, at: reached.state });
             }
         }
         Ok(left)
     }
 
-    /// Follows starts for so many impacts: the fate of those that rest or repeat themselves, where each is,
-    /// and after how many impacts.
-    #[expect(clippy::type_complexity, reason = "one row for each start")]
-    fn follow(
-        &mut self,
-        starts: &[ImpactState],
-        impacts: u64,
-    ) -> Result<Vec<(Option<Seen>, (ImpactState, u64))>, Error> {
+    /// Follows starts for so many impacts, or until they rest or repeat themselves.
+    fn follow(&mut self, starts: &[ImpactState], impacts: u64) -> Result<Vec<Reached>, Error> {
         let (map, part, settings) = (self.map, self.part(), self.search.long_look());
         let mut all = part.whole(follow(map, starts, &|_| impacts, settings, &part))?;
         let returned: Vec<_> = (0..all.len()).filter(|index| all[*index].repeats).collect();
@@ -358,11 +359,12 @@ impl<'a> Finder<'a> {
         let further = part.whole(follow(map, &states, &rest, none, &part))?;
         for (index, own) in on.into_iter().zip(further) {
             let impacts = all[index].impacts + own.impacts;
-            all[index] = super::follow::Followed { impacts, ..own };
+            all[index] = Followed { impacts, ..own };
             seen[index] = own.rests.then_some(Seen::Rest);
         }
         self.spend(all.iter().map(|own| own.impacts).sum());
-        Ok(seen.into_iter().zip(all).map(|(seen, own)| (seen, (own.state, own.impacts))).collect())
+        let reached = seen.into_iter().zip(all);
+        Ok(reached.map(|(seen, Followed { state, impacts, .. })| Reached { seen, state, impacts }).collect())
     }
 
     /// The number of the motion without a period on which this orbit is, and whether it is new; `None` if
@@ -420,12 +422,12 @@ impl<'a> Finder<'a> {
         let followed = self.follow(starts, impacts)?;
         let (mut total, mut left) = (0, 0);
         let mut on = Vec::new();
-        for (start, (seen, (state, impacts))) in starts.iter().zip(&followed) {
-            if seen.is_some() {
-                total += impacts;
+        for (start, reached) in starts.iter().zip(&followed) {
+            if reached.seen.is_some() {
+                total += reached.impacts;
                 left += 1;
             } else {
-                on.push((*start, *state));
+                on.push((*start, reached.state));
             }
         }
         let part = self.part();
