@@ -131,17 +131,7 @@ pub(super) fn find(
     search: &AttractorSearch,
     observer: &dyn Observer,
 ) -> Result<Attractors, Error> {
-    let mut finder = Finder {
-        map,
-        search,
-        observer,
-        rests: 0,
-        periodic: Vec::new(),
-        recurrent: Vec::new(),
-        done: 0,
-        budget: search.budget(),
-        followed: None,
-    };
+    let mut finder = Finder::new(map, search, observer);
     let starts = starts(map, search.starts());
     let part = Part { counts: true, ..finder.part() };
     let seen = part.whole(first_look(map, &starts, search.first_look(), &part))?;
@@ -166,6 +156,20 @@ pub(super) fn find(
 }
 
 impl<'a> Finder<'a> {
+    const fn new(map: &'a ImpactMap, search: &'a AttractorSearch, observer: &'a dyn Observer) -> Self {
+        Self {
+            map,
+            search,
+            observer,
+            rests: 0,
+            periodic: Vec::new(),
+            recurrent: Vec::new(),
+            done: 0,
+            budget: search.budget(),
+            followed: None,
+        }
+    }
+
     /// A part whose items do not count.
     fn part(&self) -> Part<'a> {
         let total = 2 * u64::from(self.search.starts());
@@ -596,5 +600,34 @@ impl<'a> Finder<'a> {
             all.push(attractor(kind, starts)?);
         }
         Ok(Attractors { map: *self.map, search: *self.search, all })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::attractors::search::cells::CellMarks;
+    use crate::map::impact_map::map;
+    use crate::run::Unobserved;
+
+    #[test]
+    fn orbits_that_go_on_elsewhere_have_left() {
+        let search = AttractorSearch::default().with_orbits(None).with_impacts(1_000, 20_000);
+        let (map, search) = (map(0.55, 0.5), search.expect("legal"));
+        let found = map.attractors(&search, &Unobserved).expect("no failure");
+        let chaos = found.all().iter().find_map(|one| one.kind.recurrence()).expect("chaos").state;
+        let looks = (search.long_look(), 64);
+        let long = long_look(&map, chaos, false, looks, &Unobserved).expect("no failure");
+        let mut finder = Finder::new(&map, &search, &Unobserved);
+        let starts = &long.beside[..16];
+        let (life, stay) = finder.life_of(&long, starts, 4_000).expect("no failure");
+        assert_eq!((life.left(), life.impacts(), stay), (0, 64_000.0, 16));
+        assert!(finder.budget <= search.budget() - 64_000);
+        // The slowest impacts, where this motion never comes.
+        let mut marks = CellMarks::new(64, map.impact_speed_bound());
+        marks.visit(ImpactState::from_normalised(1.0, 1e-3).expect("legal"));
+        let elsewhere = LongLook { cells: marks.into_cells(), ..long.clone() };
+        let (life, stay) = finder.life_of(&elsewhere, starts, 4_000).expect("no failure");
+        assert_eq!((life.left(), life.impacts(), stay), (16, 0.0, 0));
     }
 }

@@ -263,6 +263,24 @@ fn extreme_settings_are_honest() {
     assert!(aperiodic(&unknown).is_empty() && unknown.undecided().count() == 40, "{unknown:?}");
 }
 
+/// At restitution 0.99 dissipation ends a transient within some 500 impacts: that no orbit leaves within 401
+/// shows nothing, that none leaves within 2,001 does.
+#[test]
+fn a_motion_that_dissipation_has_not_acted_on_is_no_attractor() {
+    let search = AttractorSearch::default().with_orbits(None).with_starts(40).expect("legal");
+    let (map, search) = (map(3.0, 0.99), search.with_cells(8).expect("legal"));
+    for (impacts, name) in [(400, "transient"), (2_000, "chaotic")] {
+        assert_eq!(map.transient_impacts() > 1.0 + impacts as f64, name == "transient");
+        let search = search.with_impacts(1, impacts).expect("legal");
+        let found = map.attractors(&search, &Unobserved).expect("no failure");
+        let [one] = aperiodic(&found)[..] else { panic!("{found:?}") };
+        assert_eq!((one.kind.name(), one.kind.lasts()), (name, name == "chaotic"), "{}", one.kind);
+        if let AttractorKind::Transient { lifetime, .. } = &one.kind {
+            assert_eq!(lifetime.left(), 0, "{lifetime}");
+        }
+    }
+}
+
 /// The disk that comes to rest may never do so again.
 #[test]
 fn a_rest_that_leads_elsewhere_says_where() {
