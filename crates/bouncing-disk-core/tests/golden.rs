@@ -37,3 +37,23 @@ fn orbits_with_compliance() {
 fn basin_labels() {
     assert_none(&results::basin_labels());
 }
+
+#[test]
+fn branches() {
+    assert_none(&results::branches());
+}
+
+#[test]
+fn cascade() {
+    assert_none(&results::cascade());
+}
+
+#[test]
+fn attractors() {
+    assert_none(&results::attractors());
+}
+
+#[test]
+fn drops() {
+    assert_none(&results::drops());
+}

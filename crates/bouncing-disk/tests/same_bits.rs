@@ -46,6 +46,10 @@ fn flights_orbits_and_basins_are_the_golden_ones() {
         golden::orbits_on_drives(),
         golden::orbits_with_compliance(),
         golden::basin_labels(),
+        golden::branches(),
+        golden::cascade(),
+        golden::attractors(),
+        golden::drops(),
     ];
     assert_eq!(differences.concat(), Vec::<String>::new());
 }
@@ -255,4 +259,19 @@ fn stators() -> Result<Digest, Error> {
         }
     }
     Ok(digest_of(numbers))
+}
+
+#[path = "golden/motors.rs"]
+mod motors;
+
+#[test]
+fn run_ups_taps_and_fits_are_the_golden_ones() {
+    let differences = [
+        motors::taps().expect("no failure"),
+        motors::run_ups_on_stators().expect("no failure"),
+        motors::transient_fits(),
+        #[cfg(feature = "fit")]
+        motors::rated_fits(),
+    ];
+    assert_eq!(differences.concat(), Vec::<String>::new());
 }

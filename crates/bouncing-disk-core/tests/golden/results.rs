@@ -8,8 +8,14 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::attractors::{Axis, BasinSettings, Grid, KnownOrbit, Label};
+use bouncing_disk_core::attractors::{
+    AttractorKind, AttractorSearch, Axis, BasinSettings, Grid, KnownOrbit, Label,
+};
+use bouncing_disk_core::numerics::double_double::DoubleDouble;
 use bouncing_disk_core::numerics::elementary;
+use bouncing_disk_core::orbits::{
+    BifurcationKind, Branch, BranchPoint, Continuation, ContinuationParameter, doubling_cascade,
+};
 use bouncing_disk_core::sweep::{InstructionSet, OrbitBatch};
 use bouncing_disk_core::{
     ChatterPolicy, Drive, DrivenEvent, DrivenMap, ImpactMap, ImpactState, OrbitEvent, Phase, Unobserved,
@@ -327,4 +333,118 @@ pub(crate) fn basin_labels() -> Vec<String> {
         lines.push("labels in lockstep differ from those one by one".to_owned());
     }
     lines
+}
+
+fn add_point(digest: &mut Digest, point: &BranchPoint) {
+    for number in [point.parameter, point.trace, point.determinant, point.arclength] {
+        digest.number(number);
+    }
+    point.orbit.states.iter().for_each(|state| add_state(digest, *state));
+}
+
+fn add_branch(digest: &mut Digest, branch: &Branch) {
+    branch.points.iter().for_each(|point| add_point(digest, point));
+    for bifurcation in &branch.bifurcations {
+        digest.bytes(bifurcation.kind.name().as_bytes());
+        add_point(digest, &bifurcation.point);
+    }
+}
+
+/// Branches over both parameters and both ways, and those that double from them.
+pub(crate) fn branches() -> Vec<String> {
+    let vibration = Vibration::from_axial_forcing(0.45).expect("legal");
+    let map = ImpactMap::new(vibration, RESTITUTION).expect("legal");
+    let orbit = map.refine(&[map.period_one(1).expect("exists")]).expect("refines");
+    let (mut continued, mut switched) = (Digest::new(), Digest::new());
+    for (parameter, range) in
+        [(ContinuationParameter::Forcing, (0.1, 0.6)), (ContinuationParameter::Restitution, (0.1, 0.9))]
+    {
+        for rising in [false, true] {
+            let settings = Continuation::new(parameter, range, rising).expect("legal");
+            let branch = map.continued(&orbit, &settings, &Unobserved).expect("found");
+            add_branch(&mut continued, &branch);
+            let doubling = branch.bifurcations.iter().position(|one| one.kind == BifurcationKind::Doubling);
+            if let Some(index) = doubling {
+                let branch = branch.switched(index, &settings, &Unobserved).expect("found");
+                add_branch(&mut switched, &branch);
+            }
+        }
+    }
+    let mut lines = one("continued branches", continued, 0xd963_20aa_b414_c07b);
+    lines.extend(one("switched branches", switched, 0xb9a2_b265_f4a8_b6c2));
+    lines
+}
+
+/// In doubles and in twice their digits.
+pub(crate) fn cascade() -> Vec<String> {
+    let mut digest = Digest::new();
+    for restitution in [0.2, RESTITUTION] {
+        for one in doubling_cascade(restitution, 8, &Unobserved).expect("found").doublings {
+            let numbers = [one.axial_forcing, one.forcing_error, one.multiplier, one.width, one.graze_margin];
+            numbers.into_iter().for_each(|number| digest.number(number));
+        }
+    }
+    let restitution: DoubleDouble = "0.5".parse().expect("a number");
+    for one in doubling_cascade(restitution, 5, &Unobserved).expect("found").doublings {
+        for number in [one.axial_forcing, one.multiplier, one.width] {
+            digest.number(number.high());
+            digest.number(number.low());
+        }
+    }
+    self::one("doubling cascade", digest, 0x3ad0_c4ed_3b23_0506)
+}
+
+/// At rest, with three attractors, in chaos, and beyond it.
+pub(crate) fn attractors() -> Vec<String> {
+    let search = AttractorSearch::default().with_starts(64).expect("legal");
+    let search = search.with_impacts(500, 4_000).expect("legal").with_cells(64).expect("legal");
+    let mut digest = Digest::new();
+    for forcing in [0.25, 0.486, 0.55, 0.62] {
+        let vibration = Vibration::from_axial_forcing(forcing).expect("legal");
+        let map = ImpactMap::new(vibration, RESTITUTION).expect("legal");
+        for found in map.attractors(&search, &Unobserved).expect("found").all() {
+            digest.bytes(found.kind.name().as_bytes());
+            digest.number(found.starts.count() as f64);
+            match &found.kind {
+                AttractorKind::Periodic(known) => {
+                    digest.number(known.radius());
+                    known.orbit().states.iter().for_each(|state| add_state(&mut digest, *state));
+                }
+                AttractorKind::Chaotic { exponent, standard_error, recurrence }
+                | AttractorKind::Transient { exponent, standard_error, recurrence, .. } => {
+                    let numbers = [
+                        *exponent,
+                        *standard_error,
+                        recurrence.cells.visited().len() as f64,
+                        recurrence.orbits as f64,
+                    ];
+                    numbers.into_iter().for_each(|number| digest.number(number));
+                    add_state(&mut digest, recurrence.state);
+                }
+                _ => {}
+            }
+        }
+    }
+    one("attractors", digest, 0xfff1_90fb_f476_b4e4)
+}
+
+/// Disks that start in the air, near and far, rising and falling.
+pub(crate) fn drops() -> Vec<String> {
+    let mut digest = Digest::new();
+    for k in 0..LAUNCHES {
+        let peak = libm::exp10(-1.0 + 3.0 * third(k));
+        let gap = libm::exp10(-9.0 + 12.0 * spread(k, 0.324_717_957_244_746));
+        let speed = (2.0 * second(k) - 1.0) * libm::exp10(4.0 * spread(k, 0.438_579_021_010_183) - 2.0);
+        let vibration = Vibration::new(peak).expect("legal");
+        let phase = Phase::new(TAU * first(k)).expect("finite");
+        match vibration.first_impact_of_drop(phase, gap, speed) {
+            Ok(impact) => {
+                digest.bytes(&impact.periods.to_le_bytes());
+                digest.number(impact.remainder);
+                add_state(&mut digest, impact.into());
+            }
+            Err(_) => digest.bytes(b"none"),
+        }
+    }
+    one("drops", digest, 0xf1ab_afb1_ae36_e6fc)
 }
