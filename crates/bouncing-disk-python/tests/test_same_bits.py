@@ -113,10 +113,16 @@ def crisis(digest: Digest) -> None:
     digest.numbers(*found.lives(beyond=[1e-4, 1e-3], orbits=50, impacts=20_000).impacts)
 
 
-def operations(digest: Digest) -> None:
+def motor_sweep(digest: Digest) -> None:
     axes = {"friction": [0.1, 0.2], "amplitude": [1e-8, 1.1e-8]}
     digest.numbers(*bd.motor_map(MOTOR, axes=axes, relative_error=0.05).speed.ravel())
+
+
+def local_sensitivities(digest: Digest) -> None:
     digest.numbers(*bd.local_sensitivities(MOTOR, parameters=["friction"], relative_error=0.05).derivative)
+
+
+def global_indices(digest: Digest) -> None:
     ranges = {"friction": (0.05, 0.2), "phase_lag": (-0.2, 0.2)}
     sample: dict[str, Any] = {"ranges": ranges, "rows": 8, "sampling_seed": 3, "relative_error": 0.05}
     digest.numbers(*bd.sobol_indices(MOTOR, **sample).total)
@@ -145,7 +151,9 @@ CALLS: dict[str, Callable[[Digest], None]] = {
     "spectra": spectra,
     "manifolds": manifolds,
     "crisis": crisis,
-    "operations": operations,
+    "motor sweep": motor_sweep,
+    "local sensitivities": local_sensitivities,
+    "global indices": global_indices,
     "stators": stators,
 }
 

@@ -65,7 +65,9 @@ fn all() -> Result<Vec<(&'static str, Digest)>, Error> {
         ("spectra", spectra()?),
         ("manifolds", manifolds()?),
         ("crisis", crisis()?),
-        ("operations", operations()?),
+        ("motor sweep", motor_sweep()?),
+        ("local sensitivities", local_sensitivities()?),
+        ("global indices", global_indices()?),
         ("stators", stators()?),
     ])
 }
@@ -203,29 +205,41 @@ fn crisis() -> Result<Digest, Error> {
     Ok(digest_of(numbers.into_iter().chain(lives.iter().map(|life| life.impacts))))
 }
 
-fn operations() -> Result<Digest, Error> {
+fn small_motor() -> Result<(Motor, OperatingSettings), Error> {
     let motor = Motor::paper_70_khz().with(|sheet| sheet.mass = Some(1e-3))?;
-    let settings = OperatingSettings { relative_error: 0.05, ..OperatingSettings::default() };
+    Ok((motor, OperatingSettings { relative_error: 0.05, ..OperatingSettings::default() }))
+}
+
+fn motor_sweep() -> Result<Digest, Error> {
+    let (motor, settings) = small_motor()?;
     let axes = vec![
         SweepAxis::new(MotorField::Friction, vec![0.1, 0.2]),
         SweepAxis::new(MotorField::Amplitude, vec![1e-8, 1.1e-8]),
     ];
     let sweep = MotorSweep::new(motor, axes, settings)?.run(&Unobserved)?;
     let speeds = sweep.matrix(SweepQuantity::Speed).into_iter().flatten();
-    let mut numbers: Vec<_> = speeds.map(|speed| speed.unwrap_or(f64::NAN)).collect();
+    Ok(digest_of(speeds.map(|speed| speed.unwrap_or(f64::NAN))))
+}
+
+fn local_sensitivities() -> Result<Digest, Error> {
+    let (motor, operating) = small_motor()?;
+    let near = SensitivitySettings { operating, ..SensitivitySettings::default() };
     let quantity = SensitivityQuantity::SteadySpeed;
-    let near = SensitivitySettings { operating: settings, ..SensitivitySettings::default() };
     let slopes =
         motor.local_sensitivities(quantity, &[SensitivityParameter::Friction], &near, &Unobserved)?;
-    numbers.extend(slopes.iter().map(|one| one.derivative.value));
+    Ok(digest_of(slopes.iter().map(|one| one.derivative.value)))
+}
+
+fn global_indices() -> Result<Digest, Error> {
+    let (motor, settings) = small_motor()?;
+    let quantity = SensitivityQuantity::SteadySpeed;
     let ranges =
         [(SensitivityParameter::Friction, [0.05, 0.2]), (SensitivityParameter::PhaseLag, [-0.2, 0.2])];
     let sampling = SamplingSettings { rows: 8, seed: 3 };
     let indices = motor.sobol_indices(quantity, &ranges, sampling, &settings, &Unobserved)?;
-    numbers.extend(indices.iter().map(|one| one.total.value));
     let effects = motor.elementary_effects(quantity, &ranges, sampling, &settings, &Unobserved)?;
-    numbers.extend(effects.iter().map(|one| one.mean.value));
-    Ok(digest_of(numbers))
+    let totals = indices.iter().map(|one| one.total.value);
+    Ok(digest_of(totals.chain(effects.iter().map(|one| one.mean.value))))
 }
 
 /// Operating points on stators that yield: one mode with rigid impacts, and two with contacts that take time.
