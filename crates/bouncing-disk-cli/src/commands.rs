@@ -1,7 +1,6 @@
 //! The command line: its commands, one file each.
 
 pub(crate) mod basins;
-mod design;
 mod diagram;
 #[cfg(test)]
 mod documented;
@@ -59,7 +58,6 @@ pub(crate) enum Command {
     Basins(basins::BasinsArgs),
     Doublings(doublings::DoublingsArgs),
     Fit(fit::FitArgs),
-    Design(design::DesignArgs),
     Merge(merge::MergeArgs),
     Completions(shell::CompletionsArgs),
     Man(shell::ManArgs),
@@ -75,7 +73,6 @@ pub(crate) fn run(command: Command, context: Context) -> Result<()> {
         Command::Basins(args) => basins::run(&args, context),
         Command::Doublings(args) => doublings::run(&args, context),
         Command::Fit(args) => fit::run(&args, context),
-        Command::Design(args) => design::run(&args, context),
         Command::Merge(args) => merge::run(&args, context),
         Command::Completions(args) => shell::completions(&args, CommandLine::command()),
         Command::Man(args) => shell::man(&args, CommandLine::command()),

@@ -99,10 +99,7 @@ impl From<bouncing_disk::Error> for Failure {
             | Error::YieldingStator
             | Error::LoadLaw
             | Error::LoadInTime
-            | Error::ScheduledDrive
-            | Error::Segment { .. }
-            | Error::ScheduleJump { .. }
-            | Error::RampOfPieces { .. } => Self::Usage(error.to_string()),
+            | Error::StartPhase => Self::Usage(error.to_string()),
             _ => Self::Failed(error.to_string()),
         }
     }

@@ -222,17 +222,17 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Real {
 }
 
 /// What is a text, or a list of texts.
-const TEXTS: [&str; 7] = ["angle", "geometry", "height", "kind", "law", "materials", "then"];
+const TEXTS: [&str; 6] = ["angle", "geometry", "height", "kind", "law", "materials"];
 
 /// What is a list.
-const LISTS: [&str; 9] =
-    ["factors", "fourier", "materials", "pieces", "sampled", "segments", "speeds", "times", "torques"];
+const LISTS: [&str; 8] =
+    ["factors", "fourier", "materials", "pieces", "sampled", "speeds", "times", "torques"];
 
 /// What is a list of lists.
 const NESTED: [&str; 2] = ["fourier", "pieces"];
 
 /// What is a table, or a list of tables.
-const TABLES: [&str; 6] = ["angle", "contact", "height", "load", "segments", "stator"];
+const TABLES: [&str; 5] = ["angle", "contact", "height", "load", "stator"];
 
 /// Where a value stands among the arguments of a call, such as `stator.mass` or `height.sampled[3]`.
 #[derive(Debug, Clone, Copy)]

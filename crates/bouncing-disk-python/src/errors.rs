@@ -41,7 +41,7 @@ const INVALID: [&str; 22] = [
     "waveform",
     "waveform-jump",
     "drive-not-sine",
-    "scheduled-drive",
+    "start-phase",
     "yielding-stator",
     "soft-contact",
     "load-law",

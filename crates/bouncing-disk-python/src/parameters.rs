@@ -415,7 +415,7 @@ pub(crate) fn held_drive(given: &Bound<'_, PyAny>, name: &str) -> PyResult<Drive
 #[pyfunction]
 pub(crate) fn drive(a: Arguments<'_>) -> PyResult<Drive> {
     let mut table = serde_json::Map::new();
-    for name in ["height", "angle", "start_phase", "segments", "then"] {
+    for name in ["height", "angle", "start_phase"] {
         table.insert(name.to_owned(), plain(&a.get(name)?, &Place::Argument(name))?);
     }
     let drive: DriveParameters = a.read("drive", table.into())?;
@@ -434,8 +434,8 @@ impl<'py> Arguments<'py> {
     /// impacts on the sine.
     pub(crate) fn shape(&self) -> PyResult<Option<(Waveform, Option<f64>)>> {
         let drive = self.drive("drive")?;
-        if drive.is_schedule() {
-            return Err(self.refused(Error::ScheduledDrive));
+        if drive.start_phase.is_some() {
+            return Err(self.refused(Error::StartPhase));
         }
         let contact_time = self.optional("contact_time")?;
         let is_rigid_sine = drive.height == Waveform::Sine && contact_time.is_none();

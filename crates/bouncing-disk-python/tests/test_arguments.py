@@ -520,7 +520,6 @@ PLACES: list[tuple[str, Callable[[Any], object]]] = [
     ("height.fourier[0][1]", lambda value: bd.Drive.fourier([(1.0, value)])),
     ("angle.pieces[1][0]", lambda value: bd.Drive(angle={"pieces": [(0.5, [1.0]), (value, [1.0])]})),
     ("start_phase", lambda value: bd.Drive(start_phase=value)),
-    ("segments[1].periods", lambda value: bd.Drive(segments=[{}, {"periods": value}])),
 ]
 
 #: Calls of pairs and points, whose numbers need not be finite: the library judges them by their range.

@@ -1,15 +1,18 @@
 //! A start-up: a first motion takes a dough that rests in the hand to the fast orbit of the semielliptical
 //! motion, which does not reach it alone (Sec. IV B of the paper: performers begin with a linear motion). It
-//! searches first motions, repeats the safest with errors of 2 %, and draws it.
+//! searches first motions, and repeats the safest with errors of 2 %. One engine follows the other: the disk
+//! goes on in the state in which the first motion leaves it.
 //!
-//!     cargo run --release -p bouncing-disk --example start_up -- start_up.svg
+//!     cargo run --release -p bouncing-disk --example start_up
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
 
 use std::f64::consts::{PI, TAU};
 
-use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk::core::numerics::random::SplitMix64;
-use bouncing_disk::driven::{AfterSchedule, Schedule, ScheduleSegment, ScheduledEngine};
+use bouncing_disk::core::{ChatterPolicy, Phase};
+use bouncing_disk::driven::{DrivenEngine, DrivenStart, DrivenSystem};
+use bouncing_disk::motion::{Mode, PhaseTime};
+use bouncing_disk::parameters::DrivenPlatform;
 use bouncing_disk::{Error, Event, System};
 
 /// The quantities with errors: amplitude and frequency of the first motion as factors of those of the second,
@@ -23,8 +26,11 @@ struct StartUp {
     restitution: f64,
 }
 
-/// Periods after which the last impacts are examined.
+/// Periods of the second motion, counted from the start, after which the last impacts are examined.
 const PERIODS: f64 = 40.0;
+
+/// Phase lag of the fastest rotation.
+const LAG: f64 = -0.26 * PI;
 
 fn main() -> Result<(), Error> {
     let mut works = Vec::new();
@@ -50,53 +56,75 @@ fn main() -> Result<(), Error> {
         "{} periods and a quarter with amplitude x{:.1}, frequency x{:.1}: {successes} of 400 with errors of 2 % succeed",
         best.periods, best.amplitude, best.frequency
     );
-    if let Some(path) = std::env::args().nth(1) {
-        let written = std::fs::write(&path, best.picture()?);
-        println!("{path}: {}", written.map_or_else(|error| error.to_string(), |()| "written".to_owned()));
-    }
     Ok(())
 }
 
 impl StartUp {
-    /// The hand of Table I with this forcing, from its lowest point: first in phase, up to height zero, where the two
-    /// motions join; then with the phase lag of the fastest rotation.
-    fn motion(&self) -> Result<ScheduledEngine, Error> {
+    /// The dough of Table I on its hand with this forcing, and with factors of amplitude and frequency.
+    fn system(&self, amplitude: f64, frequency: f64, lag: f64) -> Result<System, Error> {
         let table = System::pizza_toss();
-        let forced = table
-            .with_platform(|hand| hand.amplitude *= self.forcing / table.axial_forcing())?
-            .with_disk(|dough| dough.restitution = self.restitution)?;
-        let lag = -0.26 * PI;
-        let (amplitude, frequency) = (self.amplitude, self.frequency);
-        let linear =
-            ScheduleSegment { periods: self.periods + 0.25, amplitude, frequency, ..Default::default() };
-        let second = ScheduleSegment { lag, ..Default::default() };
-        let first = if self.periods > 0.0 { linear } else { ScheduleSegment { lag, ..linear } };
-        let schedule = Schedule {
-            platform: (*forced.platform()).into(),
-            start_phase: 1.5 * PI,
-            segments: vec![first, second],
-            then: AfterSchedule::Repeat,
-        };
-        ScheduledEngine::at_rest(&schedule, forced.disk(), 0.0, ChatterPolicy::Complete)
+        let hand = table.with_platform(|hand| {
+            hand.amplitude *= amplitude * self.forcing / table.axial_forcing();
+            hand.twist_amplitude *= amplitude;
+            hand.angular_frequency *= frequency;
+            hand.phase_lag = lag;
+        });
+        hand?.with_disk(|dough| dough.restitution = self.restitution)
+    }
+
+    /// The second motion from where it follows the first one: from the lowest point in phase, up to height zero, where
+    /// the two motions join. The hand changes its velocity there, and with it the dough in it: it leaves or is hit.
+    fn second_motion(&self) -> Result<DrivenEngine, Error> {
+        let lag = if self.periods > 0.0 { 0.0 } else { LAG };
+        let (first, second) =
+            (self.system(self.amplitude, self.frequency, lag)?, self.system(1.0, 1.0, LAG)?);
+        let of =
+            |system: &System| DrivenSystem::new(&DrivenPlatform::from(*system.platform()), system.disk());
+        let start = DrivenStart::Contact { phase: Phase::new(1.5 * PI)?, angular_speed: 0.0 };
+        let mut engine = DrivenEngine::new(of(&first)?, start, ChatterPolicy::Complete)?;
+        let mut left = (self.periods + 0.25) * TAU;
+        loop {
+            let mut next = engine.clone();
+            match next.advance()?.map(|record| record.span.radians()) {
+                Some(span) if span < left => (engine, left) = (next, left - span),
+                _ => break,
+            }
+        }
+        let (time, mut disk) = engine.state_after(left);
+        let gap = disk.height - engine.system().height().height(time.phase.angle());
+        // From the units of the one motion to those of the other.
+        let faster = first.scales().velocity / second.scales().velocity;
+        let (joint, second) = (Phase::new(0.0)?, of(&second)?);
+        disk.height = second.height().height(joint.angle());
+        if disk.mode == Mode::Flight {
+            disk.height += gap.max(0.0) * faster * faster;
+        }
+        disk.axial_velocity *= faster;
+        disk.angular_speed *= faster;
+        if (disk.axial_velocity - second.height().velocity(joint.angle())).abs() > 1e-9 {
+            disk.mode = Mode::Flight;
+        }
+        DrivenEngine::of_state(second, PhaseTime::in_first_period(joint), disk, ChatterPolicy::Complete)
     }
 
     /// Whether the last impacts are one period apart, within a tenth: near a doubling orbits settle slowly.
     fn reaches_orbit(&self) -> Result<bool, Error> {
-        let period = TAU / System::pizza_toss().platform().angular_frequency();
-        let mut times = Vec::new();
-        for event in self.motion()? {
-            let event = event?;
-            match event.record.event {
-                Event::Impact { .. } => times.push(event.time),
-                Event::Attachment { .. } => times.clear(),
+        let mut elapsed = (self.periods + 0.25) / self.frequency;
+        let mut impacts = Vec::new();
+        for record in self.second_motion()? {
+            let record = record?;
+            elapsed += record.span.radians() / TAU;
+            match record.event {
+                Event::Impact { .. } => impacts.push(elapsed),
+                Event::Attachment { .. } => impacts.clear(),
                 _ => {}
             }
-            if event.time > PERIODS * period {
+            if elapsed > PERIODS {
                 break;
             }
         }
-        let steady = |two: &[f64]| ((two[1] - two[0]) / period - 1.0).abs() < 0.1;
-        Ok(times.len() > 8 && times[times.len() - 8..].windows(2).all(steady))
+        let steady = |two: &[f64]| (two[1] - two[0] - 1.0).abs() < 0.1;
+        Ok(impacts.len() > 8 && impacts[impacts.len() - 8..].windows(2).all(steady))
     }
 
     /// How many repetitions succeed, with uniform errors of up to 2 % in all but the number of periods.
@@ -115,43 +143,5 @@ impl StartUp {
             successes += usize::from(other.reaches_orbit()?);
         }
         Ok(successes)
-    }
-
-    /// Heights of hand and dough over the first motion and some periods.
-    fn picture(&self) -> Result<String, Error> {
-        let (mut hand, mut dough) = (String::new(), String::new());
-        let mut motion = self.motion()?;
-        while motion.time() < 4.5 {
-            let before = motion.clone();
-            let Some(event) = motion.advance()? else { break };
-            let Some(scales) = before.scales_of(event.segment) else { break };
-            for step in 0..=20 {
-                let span = event.record.span.radians() * f64::from(step) / 20.0;
-                let (time, state) = before.engine().state_after(span);
-                let x = 20.0 + 150.0 * (before.time() + span * scales.time);
-                let platform = before.engine().system().height().height(time.phase.angle());
-                for (line, height) in [(&mut hand, platform), (&mut dough, state.height)] {
-                    line.push_str(&format!("{x:.1},{:.1} ", 330.0 - 700.0 * height * scales.length));
-                }
-            }
-        }
-        let line =
-            |points, colour| format!("<polyline points=\"{points}\" fill=\"none\" stroke=\"{colour}\"/>");
-        let mut axes = String::new();
-        for tenths in -1..=3 {
-            let (y, height) = (330 - 70 * tenths, 0.1 * f64::from(tenths));
-            axes.push_str(&format!(
-                "<path d=\"M20 {y}H770\" stroke=\"#ddd\"/><text x=\"775\" y=\"{y}\">{height:.1}</text>"
-            ));
-        }
-        for second in 0..=5 {
-            axes.push_str(&format!("<text x=\"{}\" y=\"425\">{second}</text>", 16 + 150 * second));
-        }
-        Ok(format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 820 440\">\n{axes}\n{}\n{}\n<text x=\"20\" y=\"20\">Height (m) of \
-             hand (grey) and dough (red) over time (s)</text>\n</svg>\n",
-            line(hand, "#888"),
-            line(dough, "#c22")
-        ))
     }
 }

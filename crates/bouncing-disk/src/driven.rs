@@ -1,5 +1,4 @@
-//! A disk on a platform that moves in any way: Fourier sums, pieces of polynomials, measured waveforms, and
-//! schedules of them.
+//! A disk on a platform that moves in any way: Fourier sums, pieces of polynomials, measured waveforms.
 //!
 //! The laws are those of [`motion`](crate::motion), with the height s and the angle beta of any platform in
 //! place of Eq. (1): in contact the force is N = 1 + s'' (Eq. 3), the acceleration of a disk that slides is
@@ -26,8 +25,8 @@
 //! ```
 //!
 //! [`single_toss`] and [`multi_toss`] compute the tosses of such a hand, and
-//! [`DrivenMotor`](crate::motor::DrivenMotor) a motor with such a stator. A [`Schedule`] joins several
-//! motions, as in a start-up. The core's [`DrivenMap`](crate::core::DrivenMap) has the vertical motion alone.
+//! [`DrivenMotor`](crate::motor::DrivenMotor) a motor with such a stator. Where one motion
+//! follows another, as in a start-up, [`DrivenEngine::of_state`] goes on from the state of the one before. The core's [`DrivenMap`](crate::core::DrivenMap) has the vertical motion alone.
 
 use bouncing_disk_core::Drive;
 use bouncing_disk_core::flight::{Compliance, CompliantPlatform};
@@ -42,13 +41,10 @@ use crate::parameters::system::System;
 mod chatter;
 mod contact;
 pub(crate) mod engine;
-pub(crate) mod schedule;
 pub(crate) mod toss;
 
 pub use crate::motion::initial_condition::InitialCondition as DrivenStart;
-pub use crate::parameters::driven_platform::{AfterSchedule, ScheduleSegment};
 pub use engine::DrivenEngine;
-pub use schedule::{Schedule, ScheduledEngine, ScheduledRecord};
 pub use toss::{multi_toss, single_toss};
 
 /// A disk on a platform with any drives of height and angle, without units, as [`DimensionlessSystem`] for
@@ -144,10 +140,6 @@ impl DrivenSystem {
     #[must_use]
     pub const fn angle(&self) -> &Drive {
         &self.angle
-    }
-
-    fn is_ramp(&self) -> bool {
-        self.height.duration().is_finite() || self.angle.duration().is_finite()
     }
 }
 

@@ -199,35 +199,9 @@ pub enum Error {
          (`motor transient`)"
     )]
     LoadInTime,
-    /// A schedule in place of a periodic motion.
-    #[error(
-        "the drive is a schedule (segments, start_phase or then), and this needs a periodic motion: leave these out, or run it by `bouncing-disk toss` or a `ScheduledEngine`"
-    )]
-    ScheduledDrive,
-    /// A number of a segment of a schedule lies outside its legal range.
-    #[error("segment {segment}: {source}")]
-    Segment {
-        /// Which segment, from 0.
-        segment: usize,
-        /// What is wrong.
-        source: bouncing_disk_core::Error,
-    },
-    /// The segments of a schedule do not join.
-    #[error(
-        "the platform jumps by {jump:?} m where segment {segment} begins: let the one before end where both are equally high"
-    )]
-    ScheduleJump {
-        /// Which segment, from 0.
-        segment: usize,
-        /// By how much (m).
-        jump: f64,
-    },
-    /// A segment of a schedule cannot be a ramp.
-    #[error("segment {segment}: ramp_to needs a height and an angle that are the sine or a Fourier sum")]
-    RampOfPieces {
-        /// Which segment, from 0.
-        segment: usize,
-    },
+    /// A phase at which a toss starts, where nothing is tossed.
+    #[error("start_phase is where a toss starts, and nothing is tossed here: leave it out")]
+    StartPhase,
     /// An error of the math core.
     #[error(transparent)]
     Core(#[from] bouncing_disk_core::Error),

@@ -24,7 +24,7 @@
 //! | [`parameters`] | stroke, units, and the numbers without units that decide the motion |
 //! | [`motion`] | states, segments and energies between events |
 //! | [`toss`] | single tosses, many tosses, the best toss |
-//! | [`driven`] | platforms that move in any way: waveforms, schedules, their tosses |
+//! | [`driven`] | platforms that move in any way: waveforms, their tosses |
 //! | [`stator`] | stators that yield: their modes feel the impacts and the friction |
 //! | [`motor`] | motors: run-up, speed under a load, sweeps, sensitivities |
 //! | [`estimate`] | fits of computed and measured speeds, with intervals |

@@ -177,19 +177,27 @@ fn examples() -> Vec<String> {
 const TUTORIALS: [&str; 3] =
     ["docs/tutorial.md", "docs/designing-a-motor.md", "docs/studying-the-dynamics.md"];
 
-/// The blocks of the tutorials in this language.
-fn blocks(language: &str) -> Vec<String> {
+/// The blocks of a page in this language.
+fn fenced(page: &str, language: &str) -> Vec<String> {
     let fence = format!("```{language}\n");
     let body = |part: &str| part.split_once("```").map(|(body, _)| body.to_owned());
-    let pages = TUTORIALS.map(read);
-    pages.iter().flat_map(|page| page.split(&fence).skip(1).filter_map(body)).collect()
+    page.split(&fence).skip(1).filter_map(body).collect()
 }
+
+/// The blocks of the tutorials in this language.
+fn blocks(language: &str) -> Vec<String> {
+    TUTORIALS.map(read).iter().flat_map(|page| fenced(page, language)).collect()
+}
+
+/// Examples whose program no page shows, and the page that has what they print.
+const QUOTED: [(&str, &str); 1] = [("start_up", "docs/numerics/drives.md")];
 
 #[test]
 fn the_programs_of_the_tutorial_are_the_examples() {
     let blocks: BTreeSet<String> = blocks("rust").into_iter().collect();
-    let examples: BTreeSet<String> = examples().iter().map(|name| shown(name)).collect();
-    assert_eq!(blocks, examples);
+    let quoted = |name: &String| QUOTED.iter().any(|(own, _)| own == name);
+    let examples = examples().into_iter().filter(|name| !quoted(name)).map(|name| shown(&name));
+    assert_eq!(blocks, examples.collect());
 }
 
 /// `cargo test` builds the examples beside the tests; they run here, so that they run wherever the tests do.
@@ -197,25 +205,33 @@ fn the_programs_of_the_tutorial_are_the_examples() {
 fn the_examples_print_what_the_tutorial_says() {
     let this = std::env::current_exe().expect("known");
     let folder = this.parent().and_then(Path::parent).expect("a target folder").join("examples");
+    let named =
+        |program: &String| examples().into_iter().find(|name| shown(name) == *program).expect("an example");
+    let shown_on_pages = blocks("rust").iter().map(named).zip(blocks("text")).collect::<Vec<_>>();
+    assert_eq!(blocks("rust").len(), blocks("text").len());
+    let quoted = QUOTED.map(|(name, page)| {
+        let page = read(page);
+        assert!(page.contains(&format!("examples/{name}.rs")), "{name}");
+        (name.to_owned(), fenced(&page, "text").into_iter().next().expect("what it prints"))
+    });
     // All are begun before the first is awaited, since each keeps one processor busy.
-    let begun: Vec<_> = blocks("rust")
-        .iter()
-        .map(|program| {
-            let name = examples().into_iter().find(|name| shown(name) == *program).expect("an example");
+    let begun: Vec<_> = shown_on_pages
+        .into_iter()
+        .chain(quoted)
+        .map(|(name, printed)| {
             let path = folder.join(format!("{name}{}", std::env::consts::EXE_SUFFIX));
             let process = Command::new(&path).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn();
             let process = process
                 .unwrap_or_else(|error| panic!("{path:?}: {error} (cargo test -p bouncing-disk builds it)"));
-            (name, process)
+            (name, printed, process)
         })
         .collect();
-    for ((name, process), printed) in begun.into_iter().zip(&blocks("text")) {
+    for (name, printed, process) in begun {
         let output = process.wait_with_output().expect("ends");
         assert!(output.status.success(), "{name}: {}", String::from_utf8_lossy(&output.stderr));
         let output = String::from_utf8_lossy(&output.stdout).replace("\r\n", "\n");
-        assert_eq!(output, *printed, "{name}");
+        assert_eq!(output, printed, "{name}");
     }
-    assert_eq!(blocks("rust").len(), blocks("text").len());
 }
 
 /// The crises and the coexisting attractors that the tutorial warns of: each is looked for a hundredth of a

@@ -38,9 +38,8 @@ pub(super) fn instants(given: Option<u32>, periods: u64) -> u32 {
 /// One toss of a disk from its platform, or many
 #[derive(Debug, Args)]
 #[command(after_help = "\
-The first toss from rest is that of Sec. III of the paper. For a file whose [drive] is a schedule, the command prints the \
-impacts up to the first landing. A contact.time, of soft hands, makes contacts take time in a single toss. With --many the disk is followed through all tosses that come \
-after it (Sec. IV). A [drive] that gives the height alone leaves the angle a sine, and the reverse. .csv and pictures show the motion, .json has both the motion and the numbers; with --many a picture of more \
+The first toss from rest is that of Sec. III of the paper. A contact.time, of soft hands, makes contacts take time in a single toss. With --many the disk is followed through all tosses that come \
+after it (Sec. IV). A [drive] that gives the height alone leaves the angle a sine, and the reverse; its start_phase (rad) is where the disk starts. .csv and pictures show the motion, .json has both the motion and the numbers; with --many a picture of more \
 than 20 periods of the platform shows the last 20 of them. Units are SI; energies \
 are per unit mass (J/kg). See docs/model.md and docs/tutorial.md.
 
@@ -52,7 +51,7 @@ Examples:
 pub(crate) struct TossArgs {
     #[command(flatten)]
     system: SystemArgs,
-    /// How the disk turns at the start, at the lowest point of the platform
+    /// How the disk turns at the start, at the lowest point of the platform unless its drive has a start_phase
     #[arg(help_heading = OWN, long, value_name = "SPIN", default_value = "absolute-rest", value_parser = one_of(SPINS))]
     spin: InitialSpin,
     /// Follows the disk through many tosses, and says what it settles on

@@ -147,10 +147,6 @@ impl Quantities {
         }
     }
 
-    pub(crate) fn append(&mut self, other: Self) {
-        self.0.extend(other.0);
-    }
-
     /// One line each, the unit after the value, and after it the interval.
     pub(crate) fn to_text(&self) -> String {
         let width = self.0.iter().filter(|own| !own.is_end).map(|own| own.name.len()).max().unwrap_or(0);

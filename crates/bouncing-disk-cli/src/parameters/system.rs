@@ -1,8 +1,6 @@
 //! A disk on a platform: what a file and `--set` have for the commands of tosses and orbits.
 
 use bouncing_disk::System;
-use bouncing_disk::core::ChatterPolicy;
-use bouncing_disk::driven::{Schedule, ScheduledEngine};
 use bouncing_disk::parameters::{Contact, DriveParameters, StatorParameters};
 use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
@@ -101,12 +99,6 @@ impl Described for System {
         file.disk.load_acceleration.get_or_insert(0.0);
         file.drive.check().map_err(|error| error.to_string())?;
         let system = build(tables(&file)?, settings)?;
-        if file.drive.is_schedule() {
-            let motion = Schedule::of_drive(&system, &file.drive).and_then(|schedule| {
-                ScheduledEngine::at_rest(&schedule, system.disk(), 0.0, ChatterPolicy::Complete)
-            });
-            motion.map_err(|error| error.to_string())?;
-        }
         Ok((system, file.drive))
     }
 

@@ -76,12 +76,15 @@ fn drives() {
         file("nan", "height = { fourier = [[1, 0], [nan, 0]] }");
         file("none", "angle = { pieces = [] }");
         file("few", "height = { sampled = [0, 1] }");
-        file("burst", "segments = [{ periods = 2.25 }]");
+        file("segments", "segments = [{ periods = 2.25 }]");
+        file("then", "then = 'rest'");
+        file("start", "height = 'triangle'\nstart_phase = 1.0");
+        file("infinite", "start_phase = inf");
         let sine_only = "this analysis holds for the sine of Eq. (1) only";
         let lines = if command == "toss" {
-            ["verdicts", "doublings", "design", "toss --template"]
+            &["verdicts", "doublings", "toss --template"][..]
         } else {
-            ["motor report", "motor traps", "motor sweep --over friction=0.1:0.2:2", ""]
+            &["motor report", "motor traps", "motor sweep --over friction=0.1:0.2:2", ""]
         };
         let (template, sine) = lines.split_last().unwrap();
         for line in sine {
@@ -91,10 +94,7 @@ fn drives() {
             let copy = "--template writes no table [drive]";
             folder.all_refused(2, &[(&format!("{template} triangle.toml"), copy)]);
             folder.all_refused(2, &[("diagram triangle.toml --start period-1", "give rest, rise or")]);
-            folder.all_refused(2, &[("orbits burst.toml", "the drive is a schedule")]);
-            file("segment", "segments = [{}, { periods = 0 }]");
-            folder
-                .all_refused(2, &[("toss segment.toml", "segment.toml: segment 1: periods = 0 is outside")]);
+            folder.all_refused(2, &[("orbits start.toml", "start_phase is where a toss starts")]);
         }
         for (name, told) in [
             ("key", "\"hight\" is unknown; did you mean \"height\"?"),
@@ -102,6 +102,12 @@ fn drives() {
             ("jump", "jump.toml: the height jumps by -0.5 amplitudes where piece 0 begins"),
             ("nan", "nan.toml: the height: harmonic number 1"),
             ("none", "none.toml: sum of the durations of the pieces = 0"),
+            (
+                "segments",
+                "drive.segments is no key: a drive is one motion that repeats. Give a start-up or a burst",
+            ),
+            ("then", "drive.then is no key: "),
+            ("infinite", "infinite.toml: start_phase = inf is outside"),
             ("few", "few.toml: the height: number of samples = 2"),
         ] {
             folder.all_refused(2, &[(&format!("{command} {name}.toml"), told)]);
@@ -114,11 +120,7 @@ fn drives() {
 fn contacts() {
     let folder = Folder::new();
     for (command, soft, takes_none) in [
-        (
-            "toss",
-            "0.02",
-            &["toss --many", "verdicts", "doublings", "design", "diagram", "orbits", "basins"][..],
-        ),
+        ("toss", "0.02", &["toss --many", "verdicts", "doublings", "diagram", "orbits", "basins"][..]),
         ("motor report", "1e-5", &["motor traps"][..]),
     ] {
         let template = folder.done(&format!("{command} --template"));
@@ -157,10 +159,6 @@ fn contacts() {
             2,
             &[(line, "a periodic Fourier sum: a contact that takes time has no other drive")],
         );
-        if command == "toss" {
-            file("joined", &format!("{time}\n[drive]\nsegments = [{{}}, {{}}]"));
-            folder.all_refused(2, &[("toss joined.toml", "segments that join have rigid impacts")]);
-        }
     }
     let lines = [
         ("motor curve --set contact.time=0", "--set: contact.time = 0 is outside"),
@@ -177,7 +175,7 @@ fn stators() {
     let folder = Folder::new();
     for (lines, computed, mass) in [
         (
-            &["toss", "toss --many", "verdicts", "doublings", "design", "diagram", "orbits", "basins"][..],
+            &["toss", "toss --many", "verdicts", "doublings", "diagram", "orbits", "basins"][..],
             &[][..],
             "0.5",
         ),
@@ -366,9 +364,6 @@ fn words_of_the_line_that_are_not_legal() {
             "motor curve --set friction=0",
             "without friction the largest torque is 0, so there is no torque-speed curve",
         ),
-        ("design --friction 0.7:0.5", "reversed"),
-        ("design --stroke -1", "stroke = -1 is"),
-        ("design --highest-flight -1", "highest_flight = -1 is"),
         ("basins --phase -1:x", "\"x\" is no number"),
         ("fit a.csv --parameter mass=0:1", "cannot be fitted"),
         ("fit a.csv --parameter friction=0.1:0.4", "--motor FILE"),

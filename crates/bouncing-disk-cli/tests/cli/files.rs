@@ -189,7 +189,6 @@ fn pictures_of_the_least_are_drawn() {
         "toss --many --set platform.amplitude=0 --transient 1 --examined 2",
         "toss --many --periods 0 --transient 1 --examined 2",
         "toss --many --set platform.amplitude=0 --periods 3 --transient 1 --examined 2",
-        "design --phase-lag 3.1416",
     ]
     .into_iter()
     .enumerate()
@@ -228,7 +227,6 @@ fn a_template_goes_into_a_file_by_the_rules_of_results() {
     let folder = Folder::new();
     for (line, name) in [
         ("toss --template", "toss.toml"),
-        ("design --template --set disk.friction=0.25", "design.toml"),
         ("basins --template --preset motor", "basins.toml"),
         ("motor sweep --template --preset paper-184-khz", "motor.toml"),
         ("motor stall --template", "stall.toml"),

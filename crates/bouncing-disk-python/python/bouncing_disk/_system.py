@@ -149,30 +149,24 @@ class Drive(Parameters):
     Args:
         height, angle: the shapes; the angle is the phase lag earlier. One that is left out is the plain sine, whatever
             the other one is: a recorded motion needs both.
-        start_phase, segments, then: a schedule for files of the command line; the calls of this package refuse it.
-            Where it starts (rad); dictionaries of ``periods``, ``amplitude``, ``ramp_to``, ``frequency`` and ``lag``;
-            ``"repeat"`` the last one, or ``"rest"``.
+        start_phase: phase (rad) at which the command line's toss starts, which the calls of this package refuse.
 
     >>> import bouncing_disk as bd
     >>> bd.Drive.sawtooth(0.3)
-    Drive(height={'sawtooth': 0.3}, angle='sine', start_phase=0.0, segments=[], then='repeat')
+    Drive(height={'sawtooth': 0.3}, angle='sine', start_phase=None)
     >>> bd.Drive.from_json(bd.Drive.parabolas().to_json()) == bd.Drive(height="parabolas")
     True
     """
 
     height: Any
     angle: Any
-    start_phase: float
-    segments: list[dict[str, float]]
-    then: str
+    start_phase: float | None
 
     def __init__(
         self,
         height: Shape = "sine",
         angle: Shape = "sine",
-        start_phase: Float = 0.0,
-        segments: Iterable[Mapping[str, Float | None]] = (),
-        then: Literal["repeat", "rest"] = "repeat",
+        start_phase: Float | None = None,
     ) -> None:
         self.__dict__["_native"] = native.drive(locals())
         for warning in self._native.warnings():

@@ -13,7 +13,6 @@ use std::f64::consts::TAU;
 
 use bouncing_disk_core::Drive;
 use bouncing_disk_core::flight::{Branch, MAX_FLIGHT_DURATION, Pressed, TimeAhead};
-use bouncing_disk_core::numerics::elementary::wrapped_angle;
 use bouncing_disk_core::numerics::quasi_polynomial::{FirstRoot, QuasiPolynomial};
 
 use super::DrivenSystem;
@@ -451,14 +450,7 @@ impl Touching<'_> {
     }
 
     fn repeats(&self) -> bool {
-        matches!(self.ride, Ride::Platform(_)) && !self.system.is_ramp()
-    }
-}
-
-impl DrivenSystem {
-    /// Time `span` after `at`: in [0, 2 pi) unless the motion is a ramp.
-    pub(super) fn time_after(&self, at: f64, span: f64) -> f64 {
-        if self.is_ramp() { at + span } else { wrapped_angle(at + span) }
+        matches!(self.ride, Ride::Platform(_))
     }
 }
 

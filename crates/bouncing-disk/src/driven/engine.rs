@@ -77,7 +77,7 @@ enum Then {
 /// The instant of an event, for the drive and for the record.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Clock {
-    /// Time of the drive: in [0, 2 pi) unless it is a ramp.
+    /// Time of the drive, in [0, 2 pi).
     at: f64,
     periods: u64,
 }
@@ -149,35 +149,6 @@ impl DrivenEngine {
     ) -> Result<Self, Error> {
         let mut engine = Self::begin(system, Clock { at: time.phase.angle(), periods: time.periods }, policy);
         engine.resume(state)?;
-        Ok(engine)
-    }
-
-    /// As [`Self::of_state`], at a time of the drive, with the velocity that the platform has had before.
-    pub(super) fn joined(
-        system: DrivenSystem,
-        at: f64,
-        state: DiskState,
-        policy: ChatterPolicy,
-        short_flights: ShortFlightCount,
-    ) -> Result<Self, Error> {
-        let mut engine = Self::begin(system, Clock { at, periods: 0 }, policy);
-        engine.short_flights = short_flights;
-        let jump = engine.state.axial_velocity - state.axial_velocity;
-        let size = engine.state.axial_velocity.abs() + state.axial_velocity.abs();
-        let height = engine.state.height;
-        engine.resume(state)?;
-        if state.mode != Mode::Flight && jump.abs() > SAME_PLACE * size {
-            // It lies there until its next event, a kick or a separation at once.
-            let slip = SlipDirection::of(engine.state.angular_speed - engine.system.angle.at(at).velocity);
-            engine.state = DiskState {
-                mode: mode_of(slip),
-                height,
-                axial_velocity: state.axial_velocity,
-                ..engine.state
-            };
-            let end = TimeAhead { after: 0.0, time: at, velocity_jump: jump };
-            engine.stage = Stage::Contact(Contact { slip, end: Some(end), then: Then::Leaves });
-        }
         Ok(engine)
     }
 
@@ -328,7 +299,7 @@ impl DrivenEngine {
             None => (f64::INFINITY, Then::Leaves),
         };
         let ahead = |after| {
-            let time = self.system.time_after(from.time, after);
+            let time = wrapped_angle(from.time + after);
             TimeAhead { after, time, velocity_jump: 0.0 }
         };
         let end = after.is_finite().then(|| ahead(after));
@@ -384,11 +355,6 @@ impl DrivenEngine {
     /// Whether a flight begins now.
     pub(crate) const fn launches(&self) -> bool {
         matches!(self.stage, Stage::Flight { .. } | Stage::Separated)
-    }
-
-    /// The short flights that a cut has counted.
-    pub(super) const fn short_flights(&self) -> ShortFlightCount {
-        self.short_flights
     }
 
     /// When, and the disk, `span` radians after the last event, if no event comes before. A chatter that is
@@ -589,11 +555,7 @@ impl DrivenEngine {
 
     fn land_on(&mut self, impact: &bouncing_disk_core::Impact) -> EventRecord {
         let span = impact.duration();
-        let to = if self.system.is_ramp() {
-            self.later(span)
-        } else {
-            Clock { at: impact.phase.angle(), periods: self.now.periods + impact.turns }
-        };
+        let to = Clock { at: impact.phase.angle(), periods: self.now.periods + impact.turns };
         self.hit(span, to, impact.velocity, span, false)
     }
 
@@ -941,32 +903,18 @@ impl DrivenEngine {
         }
     }
 
-    /// The record of a joint `span` after the last event.
-    pub(super) fn pause(&mut self, span: f64) -> EventRecord {
-        let to = self.later(span);
-        let change = self.change(span, to.at);
-        let ledger = self.ledger_of(span, to.at, change);
-        let before = self.drifted(span, to.at, change);
-        self.moved(span, to, Event::Joint, change.angle, (before, before), ledger)
-    }
-
     fn later(&self, span: f64) -> Clock {
-        self.clock_at(span, self.system.time_after(self.now.at, span))
+        self.clock_at(span, wrapped_angle(self.now.at + span))
     }
 
     /// The clock `span` later, where the drive is at `at`.
     fn clock_at(&self, span: f64, at: f64) -> Clock {
         let turns = ((self.now.at + span - at) / TAU + 0.5) as u64;
-        let turns = if self.system.is_ramp() { 0 } else { turns };
         Clock { at, periods: self.now.periods.saturating_add(turns) }
     }
 
     fn record_time(&self, clock: Clock) -> PhaseTime {
-        if self.system.is_ramp() {
-            PhaseTime::in_first_period(phase_at(0.0)).after(PhaseSpan::from_radians(clock.at))
-        } else {
-            PhaseTime { periods: clock.periods, phase: phase_at(wrapped_angle(clock.at)) }
-        }
+        PhaseTime { periods: clock.periods, phase: phase_at(wrapped_angle(clock.at)) }
     }
 }
 

@@ -63,7 +63,7 @@ pub enum Event {
     Recontact,
     /// In a contact that takes time without a damper: its spring begins to load, to unload, or to hold still.
     Turn,
-    /// A segment of a [`Schedule`](crate::driven::Schedule) ends.
+    /// A stator that yields gets another load or drive, as a table of a file says.
     Joint,
 }
 
@@ -72,7 +72,7 @@ pub enum Event {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct EventRecord {
-    /// When it happened; in a ramp counted from its start.
+    /// When it happened.
     pub time: PhaseTime,
     /// The event.
     pub event: Event,

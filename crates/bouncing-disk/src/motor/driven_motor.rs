@@ -106,8 +106,7 @@ impl DrivenMotor {
     /// The motor with the motion that the table `[drive]` of a file gives.
     ///
     /// # Errors
-    /// Those of [`Self::new`]; [`Error::ScheduledDrive`] if the motion is a schedule; [`Error::BothGiven`] for a stator
-    /// that yields, or a load that varies; [`Error::SwitchedMotion`] for a load that switches a prescribed motion.
+    /// Those of [`Self::new`]; [`Error::StartPhase`]; [`Error::BothGiven`] for a stator that yields, or a load that varies; [`Error::SwitchedMotion`] for a load that switches a prescribed motion.
     pub fn of_drive(motor: Motor, drive: &DriveParameters) -> Result<Self, Error> {
         Self::on(motor, DrivenPlatform::of_drive(*motor.system().platform(), drive)?)
     }

@@ -6,7 +6,7 @@ use std::fmt::{self, Display, Formatter};
 use bouncing_disk_core::{Drive, DrivenMap, ImpactMap};
 
 use crate::display::rough;
-use crate::error::{Error, check};
+use crate::error::{Error, check, finite};
 use crate::parameters::contact::ContactLaw;
 use crate::parameters::disk::Disk;
 use crate::parameters::platform::Platform;
@@ -116,15 +116,6 @@ impl Display for Waveform {
 }
 
 impl Waveform {
-    /// The harmonics of a sine or a Fourier sum.
-    pub(crate) fn harmonics(&self) -> Option<Vec<(f64, f64)>> {
-        match self {
-            Self::Sine => Some(vec![(1.0, 0.0)]),
-            Self::Fourier(harmonics) => Some(harmonics.clone()),
-            _ => None,
-        }
-    }
-
     /// That the shape is that of Eq. (1).
     ///
     /// # Errors
@@ -198,9 +189,10 @@ impl Waveform {
             source => Error::Waveform { of, source },
         };
         let track = match self {
-            Self::Sine | Self::Fourier(_) => {
-                let harmonics = self.harmonics().into_iter().flatten();
-                Drive::fourier(&harmonics.map(|(a, phase)| (amplitude * a, phase)).collect::<Vec<_>>())
+            Self::Sine => Drive::fourier(&[(amplitude, 0.0)]),
+            Self::Fourier(harmonics) => {
+                let harmonics = harmonics.iter().map(|(a, phase)| (amplitude * a, *phase));
+                Drive::fourier(&harmonics.collect::<Vec<_>>())
             }
             Self::Sampled(samples) => {
                 let samples: Vec<_> = samples.iter().map(|sample| amplitude * sample).collect();
@@ -276,10 +268,11 @@ impl DrivenPlatform {
     /// This platform with the motion that the table `[drive]` of a file gives.
     ///
     /// # Errors
-    /// Those of [`Self::new`]; [`Error::ScheduledDrive`] if the motion is a schedule.
+    /// Those of [`Self::new`]; [`Error::StartPhase`] if the table has one: [`Self::new`] takes the
+    /// shapes alone.
     pub fn of_drive(platform: Platform, drive: &DriveParameters) -> Result<Self, Error> {
-        if drive.is_schedule() {
-            return Err(Error::ScheduledDrive);
+        if drive.start_phase.is_some() {
+            return Err(Error::StartPhase);
         }
         Self::new(platform, drive.height.clone(), drive.angle.clone())
     }
@@ -332,22 +325,46 @@ impl From<Platform> for DrivenPlatform {
 }
 
 /// The table `[drive]` of a file: the motion of the platform in place of the sine of Eq. (1).
-/// [`DrivenPlatform::of_drive`] checks a periodic motion, and
-/// [`Schedule::of_drive`](crate::driven::Schedule::of_drive) one with segments.
+/// [`DrivenPlatform::of_drive`] checks it.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields, default, expecting = "the table drive"))]
+#[cfg_attr(feature = "serde", serde(try_from = "GivenDrive"))]
 pub struct DriveParameters {
     /// The shape of the height; the sine unless given, whatever the angle is.
     pub height: Waveform,
     /// The shape of the angle; the sine unless given, whatever the height is.
     pub angle: Waveform,
-    /// Phase at which the first segment starts (rad).
-    pub start_phase: f64,
-    /// Motions one after the other; without segments the motion is periodic.
-    pub segments: Vec<ScheduleSegment>,
-    /// What the platform does after the last segment.
-    pub then: AfterSchedule,
+    /// Phase at which a toss starts (rad); `None` is the lowest point of the height.
+    pub start_phase: Option<f64>,
+}
+
+/// The table as a file has it, with the keys that are refused by name.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize, Default)]
+#[serde(deny_unknown_fields, default, expecting = "the table drive")]
+struct GivenDrive {
+    height: Waveform,
+    angle: Waveform,
+    start_phase: Option<f64>,
+    segments: Option<serde::de::IgnoredAny>,
+    then: Option<serde::de::IgnoredAny>,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<GivenDrive> for DriveParameters {
+    type Error = String;
+
+    fn try_from(given: GivenDrive) -> Result<Self, String> {
+        let GivenDrive { height, angle, start_phase, segments, then } = given;
+        let refused = [("segments", segments.is_some()), ("then", then.is_some())];
+        let Some((key, _)) = refused.into_iter().find(|(_, is_given)| *is_given) else {
+            return Ok(Self { height, angle, start_phase });
+        };
+        Err(format!(
+            "drive.{key} is no key: a drive is one motion that repeats. Give a start-up or a burst as a table of samples, \
+             {{ sampled = [...] }}, or in Rust go on from one `DrivenEngine` to the next by `DrivenEngine::of_state`"
+        ))
+    }
 }
 
 impl DriveParameters {
@@ -360,16 +377,19 @@ impl DriveParameters {
     /// That the platform moves as in Eq. (1).
     ///
     /// # Errors
-    /// [`Error::DriveNotSine`].
+    /// [`Error::DriveNotSine`]; [`Error::StartPhase`].
     pub fn sine(&self) -> Result<(), Error> {
-        if self.is_sine() { Ok(()) } else { Err(Error::DriveNotSine) }
+        self.height.sine()?;
+        self.angle.sine()?;
+        if self.start_phase.is_none() { Ok(()) } else { Err(Error::StartPhase) }
     }
 
-    /// Checks the shapes; a schedule is checked with its disk.
+    /// Checks the shapes and the phase.
     ///
     /// # Errors
     /// As [`DrivenPlatform::new`].
     pub fn check(&self) -> Result<(), Error> {
+        self.start_phase.map(|phase| finite("start_phase", phase)).transpose()?;
         self.height.check("height")?;
         self.angle.check("angle")
     }
@@ -393,49 +413,6 @@ impl DriveParameters {
             ))
         })
     }
-
-    /// Whether the motion is a schedule of segments and not periodic.
-    #[must_use]
-    pub fn is_schedule(&self) -> bool {
-        !self.segments.is_empty() || self.start_phase != 0.0 || self.then != AfterSchedule::Repeat
-    }
-}
-
-/// A part of a [`Schedule`](crate::driven::Schedule): its motion relative to that of the schedule's platform.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields, default, expecting = "the table of a segment"))]
-pub struct ScheduleSegment {
-    /// Duration in its own periods, in (0, 1e5].
-    pub periods: f64,
-    /// Height and angle are this many times those of the platform, in [0, 1e6].
-    pub amplitude: f64,
-    /// The factor of the amplitude at the end of the segment, in [0, 1e6]; it changes linearly in time.
-    /// `None` for a constant amplitude.
-    pub ramp_to: Option<f64>,
-    /// The frequency is this many times that of the platform, in (0, 1e6].
-    pub frequency: f64,
-    /// The angle is this much (rad of the fundamental) earlier than the platform's.
-    pub lag: f64,
-}
-
-impl Default for ScheduleSegment {
-    /// One period of the platform's own motion.
-    fn default() -> Self {
-        Self { periods: 1.0, amplitude: 1.0, ramp_to: None, frequency: 1.0, lag: 0.0 }
-    }
-}
-
-/// What the platform does after the last segment of a schedule.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
-pub enum AfterSchedule {
-    /// It repeats the last segment for ever.
-    #[default]
-    Repeat,
-    /// It stops at its last height; a disk in the air comes down and settles on it.
-    Rest,
 }
 
 #[cfg(test)]
@@ -571,12 +548,12 @@ mod tests {
         let text = "height = { fourier = [[1, 0.0], [0.1, 1.5]] }\nangle = \"triangle\"\n";
         let drive: DriveParameters = toml::from_str(text).expect("legal");
         assert_eq!(drive.height, Waveform::Fourier(vec![(1.0, 0.0), (0.1, 1.5)]));
-        assert_eq!((&drive.angle, drive.is_schedule()), (&Waveform::Triangle, false));
+        assert_eq!((&drive.angle, drive.start_phase), (&Waveform::Triangle, None));
         assert!(DrivenPlatform::of_drive(hand(), &drive).is_ok());
-        let schedule = format!("{text}then = \"rest\"\n[[segments]]\nperiods = 2.25\nlag = 0.3\n");
-        let drive: DriveParameters = toml::from_str(&schedule).expect("legal");
-        assert_eq!((drive.segments[0].lag, drive.then), (0.3, AfterSchedule::Rest));
-        assert_eq!(DrivenPlatform::of_drive(hand(), &drive), Err(Error::ScheduledDrive));
+        let shifted = format!("{text}start_phase = 0.25\n");
+        let drive: DriveParameters = toml::from_str(&shifted).expect("legal");
+        assert_eq!(drive.start_phase, Some(0.25));
+        assert_eq!(DrivenPlatform::of_drive(hand(), &drive), Err(Error::StartPhase));
         let again = serde_json::to_string(&drive).expect("written");
         assert_eq!(serde_json::from_str::<DriveParameters>(&again).expect("read"), drive);
         let pieces = "height = { pieces = [[0.5, [0.0, 1.0]], [0.5, [0.5, -1]]] }";
@@ -600,10 +577,21 @@ mod tests {
             let refused = toml::from_str::<DriveParameters>(&text).expect_err("refused").to_string();
             assert!(refused.contains(words), "{refused}");
         }
-        for (from, to) in [("angle", "angel"), ("lag", "leg"), ("triangle", "triangel")] {
-            let refused =
-                toml::from_str::<DriveParameters>(&schedule.replace(from, to)).expect_err("refused");
+        for (from, to) in [("angle", "angel"), ("start", "strat"), ("triangle", "triangel")] {
+            let refused = toml::from_str::<DriveParameters>(&shifted.replace(from, to)).expect_err("refused");
             assert!(refused.to_string().contains(to), "{refused}");
         }
+        for (entry, key) in
+            [("segments = [{ lag = 0.3 }]", "drive.segments"), ("then = 'rest'", "drive.then")]
+        {
+            let refused =
+                toml::from_str::<DriveParameters>(&format!("{text}{entry}\n")).expect_err("refused");
+            assert!(
+                refused.to_string().contains(&format!("{key} is no key: a drive is one motion")),
+                "{refused}"
+            );
+        }
+        let nan = DriveParameters { start_phase: Some(f64::NAN), ..DriveParameters::default() };
+        assert!(matches!(nan.check(), Err(Error::OutOfRange { field: "start_phase", .. })));
     }
 }

@@ -727,7 +727,6 @@ fn a_load_on_a_motion_that_is_prescribed() {
 fn what_needs_a_prescribed_motion_refuses_a_stator_that_yields() {
     use crate::motor::operation::settings::OperatingSettings;
     use crate::motor::{TransientMember, low_period_traps, transient, transients};
-    use crate::parameters::driven_platform::DriveParameters;
     use crate::toss::{InitialSpin, single_toss};
     let motor = yielding()[0];
     let (settings, run_up) = (OperatingSettings::default(), TransientSettings::default());
@@ -754,7 +753,6 @@ fn what_needs_a_prescribed_motion_refuses_a_stator_that_yields() {
         let member = TransientMember { system: *motor.system(), phase, settings: run_up };
         refused(transients(&[member], &Unobserved).expect("not stopped").remove(0).err());
         refused(single_toss(motor.system(), InitialSpin::AbsoluteRest).err());
-        refused(crate::driven::Schedule::of_drive(motor.system(), &DriveParameters::default()).err());
     }
 }
 
