@@ -1,4 +1,4 @@
-//! The products of the results of all figures: the gallery with `claims.json` and its table, and the committed pages.
+//! The products of the results of all figures: the gallery with `claims.json`, and the committed pages.
 //!
 //! A claim becomes a row of words once; one set of templates turns rows into HTML and Markdown.
 
@@ -6,8 +6,7 @@ pub mod counts;
 mod digits;
 pub mod gallery;
 pub mod pages;
-mod table;
-mod verdicts;
+mod schema;
 
 use minijinja::{Environment, ErrorKind, UndefinedBehavior, Value, context};
 use serde::Serialize;

@@ -20,7 +20,7 @@ use crate::workspace::{cargo, in_workspace};
 const CRATES: [&str; 5] =
     ["bouncing-disk-core", "bouncing-disk", "bouncing-disk-plot", "bouncing-disk-fmu", "bouncing-disk-cli"];
 /// What comes from PyPI: other versions may write other bytes.
-const TOOLS: [&str; 4] = ["maturin==1.16.0", "ziglang==0.17.1", "cargo-zigbuild==0.24.1", "typst==0.15.2"];
+const TOOLS: [&str; 3] = ["maturin==1.16.0", "ziglang==0.17.1", "cargo-zigbuild==0.24.1"];
 const MDBOOK: &str = "0.5.4";
 /// The oldest C library that the wheel and the program run on, where zig links them: that of manylinux2014.
 const OLDEST_GLIBC: &str = "2.17";
@@ -41,8 +41,6 @@ enum Part {
     Book,
     /// The command line for this kind of machine, with the library of its mock-up units.
     Program,
-    /// The claims, the data of the figures and the report for Zenodo.
-    Archive,
 }
 
 impl Part {
@@ -54,7 +52,6 @@ impl Part {
             Self::Explorer => "explorer/",
             Self::Book => "book/",
             Self::Program => "program/",
-            Self::Archive => "archive/",
         }
     }
 }
@@ -62,7 +59,7 @@ impl Part {
 #[derive(Args, Debug)]
 pub(crate) struct Options {
     /// Make these parts alone.
-    #[arg(value_enum, value_name = "PART", default_values = ["crates", "wheel", "explorer", "book", "program", "archive"])]
+    #[arg(value_enum, value_name = "PART", default_values = ["crates", "wheel", "explorer", "book", "program"])]
     parts: Vec<Part>,
     /// The folder to write to, from the root of the workspace.
     #[arg(long, value_name = "DIR", default_value = "target/dist")]
@@ -104,10 +101,6 @@ pub(crate) fn run(options: &Options) -> Result<ExitCode> {
     }
     if asked(Part::Book) {
         book::book(&workshop, crate::figures::of_the_paper(&workshop.built.join("figures"))?.path())?;
-    }
-    if asked(Part::Archive) {
-        let python = workshop.tool("python");
-        crate::archive::archive(&out, Path::new(python.get_program()), &workshop.built.join("figures"))?;
     }
     succeed(workshop.python().args(["-c", PACK, "sums"]).arg(&out).arg(SUMS))?;
     say!("{}", out.join(SUMS).display())?;

@@ -59,12 +59,12 @@ pub(crate) struct Options {
     /// List the figures and tables and whether they are up to date
     #[arg(long)]
     list: bool,
-    /// Write nothing; fail when an output, docs/results.md, docs/errata.md, docs/report.md or a picture in docs/figures, with
-    /// --extras a picture in docs/extras, is missing or out of date
+    /// Write nothing; fail when an output, docs/results.md, docs/errata.md or a picture in docs/figures, with --extras a
+    /// picture in docs/extras, is missing or out of date
     #[arg(long, conflicts_with = "force")]
     check: bool,
-    /// Make the figures and tables of the paper and write docs/results.md, docs/errata.md, docs/report.md and docs/figures
-    /// from it; with --extras make those beyond the paper and write docs/extras
+    /// Make the figures and tables of the paper and write docs/results.md, docs/errata.md and docs/figures from it; with
+    /// --extras make those beyond the paper and write docs/extras
     #[arg(long, conflicts_with_all = ["ids", "list", "check", "quality"])]
     docs: bool,
     /// Make figures again even when they are up to date

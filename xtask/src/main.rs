@@ -1,12 +1,9 @@
 //! The chores of this repository.
 //!
 //! `cargo xtask figures` computes and draws the figures and tables of the paper, `cargo xtask explorer`
-//! builds the page for browsers, `cargo xtask archive` packs the claims with their data and the report,
-//! `cargo xtask dist` makes what is published, and `cargo xtask dependencies` counts what it depends on and
+//! builds the page for browsers, `cargo xtask dist` makes what is published, and `cargo xtask dependencies` counts what it depends on and
 //! checks the licences.
 
-#[cfg(feature = "figures")]
-mod archive;
 mod dependencies;
 #[cfg(feature = "figures")]
 mod dist;
@@ -18,8 +15,6 @@ mod forward;
 mod output;
 #[cfg(feature = "figures")]
 mod report;
-#[cfg(feature = "figures")]
-mod typeset;
 #[path = "../../experiments/src/visible.rs"]
 #[allow(dead_code, unreachable_pub, reason = "it is the experiments', without which this program may be")]
 mod visible;
@@ -27,8 +22,6 @@ mod visible;
 mod work;
 mod workspace;
 
-#[cfg(not(feature = "figures"))]
-use forward as archive;
 #[cfg(not(feature = "figures"))]
 use forward as dist;
 #[cfg(not(feature = "figures"))]
@@ -51,8 +44,6 @@ enum Chore {
     Figures(figures::Options),
     /// Build the page that shows the model in a browser.
     Explorer(explorer::Options),
-    /// Pack the claims, the data of the figures and the report.
-    Archive(archive::Options),
     /// Make the packages, the explorer and the book that are given to others, with checksums.
     Dist(dist::Options),
     /// Count the crates that each dependency brings, and check licences and sources.
@@ -64,7 +55,6 @@ fn main() -> ExitCode {
     let done = match chore {
         Chore::Figures(options) => figures::run(&options),
         Chore::Explorer(options) => explorer::run(&options),
-        Chore::Archive(options) => archive::run(&options),
         Chore::Dist(options) => dist::run(&options),
         Chore::Dependencies => dependencies::run(),
     };

@@ -1,12 +1,12 @@
-//! The products of all figures in a folder: `claims.json`, the same as a table, its schema, and the gallery, one HTML
-//! page without scripts and without anything from the network.
+//! The products of all figures in a folder: `claims.json`, its schema, and the gallery, one HTML page without scripts
+//! and without anything from the network.
 
 use minijinja::context;
 use serde::Serialize;
 use serde_json::Value;
 
 use super::counts::Counts;
-use super::table::{csv, schema};
+use super::schema::schema;
 use super::{Section, environment};
 use crate::cache_key::Stale;
 use crate::claims::Claim;
@@ -18,8 +18,6 @@ use crate::{json, provenance};
 
 /// The claims of all figures.
 pub const CLAIMS_FILE: &str = "claims.json";
-/// The same as a table.
-pub const TABLE_FILE: &str = "claims.csv";
 /// The form of `claims.json`.
 pub const SCHEMA_FILE: &str = "claims.schema.json";
 /// The gallery.
@@ -30,8 +28,6 @@ pub const PAGE_FILE: &str = "index.html";
 pub struct Summary {
     /// The content of `claims.json`.
     pub claims: String,
-    /// The content of `claims.csv`.
-    pub table: String,
     /// The content of `claims.schema.json`.
     pub schema: String,
     /// The content of `index.html`.
@@ -107,9 +103,9 @@ impl Summary {
             origins.push(origin);
         }
         let counts = Counts::of(&all_claims);
-        let (table, schema) = (csv(&stored_claims), json::to_text(&schema()));
+        let schema = json::to_text(&schema());
         let claims = json::to_text(&Value::Array(stored_claims));
-        Ok(Self { claims, table, schema, page: html(&pages, &origins, &counts), counts, left_out, warnings })
+        Ok(Self { claims, schema, page: html(&pages, &origins, &counts), counts, left_out, warnings })
     }
 
     /// Collects all figures whose results lie in the folder and writes the common files. No other run writes
@@ -125,9 +121,9 @@ impl Summary {
         Ok(summary)
     }
 
-    fn files(&self) -> [(&'static str, &str); 4] {
-        let Self { claims, table, schema, page, .. } = self;
-        [(CLAIMS_FILE, claims), (TABLE_FILE, table), (SCHEMA_FILE, schema), (PAGE_FILE, page)]
+    fn files(&self) -> [(&'static str, &str); 3] {
+        let Self { claims, schema, page, .. } = self;
+        [(CLAIMS_FILE, claims), (SCHEMA_FILE, schema), (PAGE_FILE, page)]
     }
 
     /// The names of common files that are missing or out of date.
@@ -230,10 +226,8 @@ mod tests {
             "<meta name=\"provenance\" content=\"{&quot;program&quot;:&quot;bouncing-disk-experiments&quot;";
         assert!(page.contains(head) && !page.contains("http") && !page.contains("<script"), "{page}");
         assert!(!page.contains("beyond") && page.contains("1 figures and tables."), "{page}");
-        let files = [CLAIMS_FILE, TABLE_FILE, SCHEMA_FILE, PAGE_FILE];
+        let files = [CLAIMS_FILE, SCHEMA_FILE, PAGE_FILE];
         assert_eq!(first.outdated(&folder).expect("readable"), files);
-        let row = "demo,Sec. 1,last phase,rad,";
-        assert!(first.table.lines().nth(1).is_some_and(|line| line.starts_with(row)), "{}", first.table);
         assert_eq!(Summary::update(&entries, &folder, &none).expect("writable"), first);
         assert!(first.outdated(&folder).expect("readable").is_empty());
         // A record of another version, and a run that was killed before it wrote its cache key.

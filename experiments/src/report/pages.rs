@@ -1,5 +1,4 @@
-//! The committed pages and pictures: `docs/results.md`, `docs/errata.md`, `docs/report.md`, `docs/figures` and
-//! `docs/extras`.
+//! The committed pages and pictures: `docs/results.md`, `docs/errata.md`, `docs/figures` and `docs/extras`.
 //!
 //! They are made in paper quality. Whether they are out of date must be known without the minutes that takes:
 //! [`Digests`], written with the pictures, holds for each figure a digest of what it was made from in *both*
@@ -15,7 +14,7 @@ use minijinja::{Value, context};
 use serde::{Deserialize, Serialize};
 
 use super::counts::Counts;
-use super::{Section, TemplateError, digits, environment, verdicts};
+use super::{Section, TemplateError, digits, environment};
 use crate::cache_key::Stale;
 use crate::claims::{Claim, Computed, Source};
 use crate::experiment::{ExperimentError, Made, Quality, RegisteredExperiment};
@@ -26,8 +25,6 @@ use crate::{json, provenance};
 pub const RESULTS_FILE: &str = "results.md";
 /// Prose by hand, every number in it from the data of a figure.
 pub const ERRATA_FILE: &str = "errata.md";
-/// All verdicts on a few pages, as an article has them.
-pub const REPORT_FILE: &str = "report.md";
 /// The digests, in the folder of the pictures.
 pub const DIGESTS_FILE: &str = "digests.json";
 /// How large the file of a picture may be (bytes), where a smaller width helps.
@@ -37,45 +34,18 @@ pub const LARGEST_VECTOR: usize = 700_000;
 /// Widths of a picture (pixels), from the best on: the first counts whose file is small enough.
 const PICTURE_WIDTHS: [u16; 4] = [1100, 950, 800, 650];
 
-/// The templates of the errata and of the report. The numbers that it writes out are printed in the paper: a test reads all of
-/// them. A number of ours is one of the data of a figure, `{{ fig06.merging.survived|number(".7") }}`, or
+/// The template of the errata. The numbers that it writes out are printed in the paper: a test reads all of them. A number of ours is one of the data of a figure, `{{ fig06.merging.survived|number(".7") }}`, or
 /// that of the claim that answers an entry of the catalogue, `{{ claims["section4.merging"]|number(".4") }}`:
 /// the computed number, or the share of the inputs that print alike for which it holds.
 const ERRATA: &str = include_str!("errata.md");
-/// A line `@PAGE WORDS` is replaced by the paragraph, list item or table of that chapter that begins with the words.
-const REPORT: &str = include_str!("report.md");
-/// The chapters that the report quotes. Their tests compute what they say.
-const QUOTED: [(&str, &str); 2] = [
-    ("stators-that-yield.md", include_str!("../../../docs/stators-that-yield.md")),
-    ("contacts-that-take-time.md", include_str!("../../../docs/contacts-that-take-time.md")),
-];
+/// The name of that template among those of the pages.
+const ERRATA_TEMPLATE: &str = "template of errata.md";
 const RESULTS: &str = include_str!("results.md");
 const SECTION: &str = include_str!("section.md");
 
-/// The pages of prose, and the template of each.
-fn prose() -> [(&'static str, String); 2] {
-    [(ERRATA_FILE, ERRATA.to_owned()), (REPORT_FILE, with_quotations(REPORT))]
-}
-
-/// The digests of the templates by their names among those of the pages.
-pub fn templates() -> [(String, String); 2] {
-    prose().map(|(page, template)| (template_of(page), digest(template.as_bytes())))
-}
-
-fn template_of(page: &str) -> String {
-    format!("template of {page}")
-}
-
-fn with_quotations(template: &str) -> String {
-    let quoted = |line: &str| {
-        let (name, words) = line.strip_prefix('@')?.split_once(' ')?;
-        let (_, page) = QUOTED.iter().find(|(page, _)| *page == name)?;
-        let mut lines = page.lines().skip_while(|line| !line.starts_with(words));
-        let first = lines.next()?;
-        let rest = lines.take_while(|line| !line.is_empty() && !line.starts_with("- "));
-        Some([first].into_iter().chain(rest).collect::<Vec<_>>().join("\n"))
-    };
-    template.lines().map(|line| quoted(line).unwrap_or_else(|| line.to_owned()) + "\n").collect()
+/// The template's name among those of the pages, and its digest.
+pub fn template() -> (&'static str, String) {
+    (ERRATA_TEMPLATE, digest(ERRATA.as_bytes()))
 }
 
 /// Which pictures.
@@ -138,7 +108,7 @@ pub enum PagesError {
 pub struct Digests {
     /// Which version of the program wrote them.
     provenance: Provenance,
-    /// Of the pages that belong to the pictures, and of their templates.
+    /// Of the pages that belong to the pictures, and of the template.
     pub pages: BTreeMap<String, String>,
     /// By identifier of the figure.
     pub figures: BTreeMap<String, FigureDigests>,
@@ -235,11 +205,11 @@ pub fn write(
     draft: &OutputFolder,
     docs: &OutputFolder,
 ) -> Result<(), PagesError> {
-    write_with(&prose(), pictures, entries, [paper, draft], docs)
+    write_with(ERRATA, pictures, entries, [paper, draft], docs)
 }
 
 fn write_with(
-    prose: &[(&'static str, String)],
+    errata: &str,
     pictures: Pictures,
     entries: &[&RegisteredExperiment],
     [paper, draft]: [&OutputFolder; 2],
@@ -270,10 +240,8 @@ fn write_with(
     let mut pages = Vec::new();
     if pictures == Pictures::Paper {
         pages.push((RESULTS_FILE, results(&figures)?));
-        for (name, template) in prose {
-            pages.push((*name, filled(name, template, &figures)?));
-            digests.pages.insert(template_of(name), digest(template.as_bytes()));
-        }
+        pages.push((ERRATA_FILE, filled(errata, &figures)?));
+        digests.pages.insert(ERRATA_TEMPLATE.to_owned(), digest(errata.as_bytes()));
     }
     for (name, page) in &pages {
         digests.pages.insert((*name).to_owned(), digest(page.as_bytes()));
@@ -295,11 +263,11 @@ pub fn outdated(
     made: &OutputFolder,
     docs: &OutputFolder,
 ) -> Result<Vec<String>, PagesError> {
-    outdated_with(&prose(), pictures, entries, (quality, made), docs)
+    outdated_with(ERRATA, pictures, entries, (quality, made), docs)
 }
 
 fn outdated_with(
-    prose: &[(&'static str, String)],
+    errata: &str,
     pictures: Pictures,
     entries: &[&RegisteredExperiment],
     (quality, made): (Quality, &OutputFolder),
@@ -312,14 +280,14 @@ fn outdated_with(
         .map_err(Box::new)?;
     let digests = Digests::deserialize(stored).ok();
     let mut outdated = Vec::new();
-    let pages = prose.iter().map(|(name, template)| (*name, Some(template)));
-    let pages = [(RESULTS_FILE, None)].into_iter().chain(pages);
-    for (name, template) in pages.filter(|_| pictures == Pictures::Paper) {
+    if pictures == Pictures::Paper {
         let known = |name: &str| digests.as_ref().and_then(|digests| digests.pages.get(name));
-        let is_other = |own: &String| known(&template_of(name)) != Some(&digest(own.as_bytes()));
-        let edited = docs.read(name)?.is_none_or(|page| known(name) != Some(&digest(&page)));
-        if edited || template.is_some_and(is_other) {
-            outdated.push(name.to_owned());
+        let other_template = known(ERRATA_TEMPLATE) != Some(&digest(errata.as_bytes()));
+        for (name, other_template) in [(RESULTS_FILE, false), (ERRATA_FILE, other_template)] {
+            let edited = docs.read(name)?.is_none_or(|page| known(name) != Some(&digest(&page)));
+            if edited || other_template {
+                outdated.push(name.to_owned());
+            }
         }
     }
     for entry in entries {
@@ -360,20 +328,15 @@ fn results(figures: &[(&str, Figure)]) -> Result<String, TemplateError> {
     environment().render_named_str("results.md", RESULTS, values)
 }
 
-/// A page of prose with the numbers of the figures, and what the report takes from all claims.
-fn filled(name: &str, template: &str, figures: &[(&str, Figure)]) -> Result<String, TemplateError> {
+/// The errata with the numbers of the figures and claims.
+fn filled(template: &str, figures: &[(&str, Figure)]) -> Result<String, TemplateError> {
     let cited = environment().template_from_str(template)?.undeclared_variables(false);
     let cited = figures.iter().filter(|(id, _)| cited.contains(*id));
     let mut values: BTreeMap<&str, Value> =
         cited.map(|(id, figure)| (*id, Value::from_serialize(&figure.made.data))).collect();
-    let claims = || figures.iter().flat_map(|(_, figure)| &figure.made.claims);
-    let counts = Counts::of(claims());
-    values.insert("claims", Value::from_serialize(claim_numbers(claims())));
-    values.insert("headline", counts.headline().into());
-    values.insert("beside", counts.beside().into());
-    values.insert("verdicts", verdicts::values(claims()));
-    values.insert("version", env!("CARGO_PKG_VERSION").into());
-    let page = environment().render_named_str(name, template, Value::from_serialize(values))?;
+    let claims = figures.iter().flat_map(|(_, figure)| &figure.made.claims);
+    values.insert("claims", Value::from_serialize(claim_numbers(claims)));
+    let page = environment().render_named_str(ERRATA_FILE, template, Value::from_serialize(values))?;
     Ok(digits::rounded(&page))
 }
 
@@ -403,10 +366,6 @@ mod tests {
 
     const PROSE: &str = "The last phase is {{ demo.impact_phase_rad[0]|number(\".2\") }}.\n";
 
-    fn own(template: &str) -> [(&'static str, String); 2] {
-        [(ERRATA_FILE, template.to_owned()), (REPORT_FILE, "{{ headline }}\n".to_owned())]
-    }
-
     struct Folders {
         _scratch: tempfile::TempDir,
         demo: RegisteredExperiment,
@@ -433,12 +392,12 @@ mod tests {
 
         fn write(&self, pictures: Pictures) -> Result<(), PagesError> {
             let folders = [&self.paper, &self.draft];
-            write_with(&own(PROSE), pictures, &[&self.demo], folders, &self.docs)
+            write_with(PROSE, pictures, &[&self.demo], folders, &self.docs)
         }
 
         fn outdated(&self, pictures: Pictures, quality: Quality) -> Vec<String> {
             let made = if quality == Quality::Draft { &self.draft } else { &self.paper };
-            let found = outdated_with(&own(PROSE), pictures, &[&self.demo], (quality, made), &self.docs);
+            let found = outdated_with(PROSE, pictures, &[&self.demo], (quality, made), &self.docs);
             found.expect("readable")
         }
     }
@@ -457,8 +416,8 @@ mod tests {
         ] {
             assert!(page.contains(part), "{part}\n\n{page}");
         }
-        assert_eq!(filled("", PROSE, &figure()).expect("filled in"), "The last phase is 0.09.\n");
-        filled("", "{{ demo.none|number(\".1\") }}", &figure()).expect_err("no such number");
+        assert_eq!(filled(PROSE, &figure()).expect("filled in"), "The last phase is 0.09.\n");
+        filled("{{ demo.none|number(\".1\") }}", &figure()).expect_err("no such number");
     }
 
     /// The numbers of verdicts that the README names are those of the page.
@@ -481,8 +440,7 @@ mod tests {
             let name = format!("{}/demo.png", pictures.folder());
             let picture = std::slice::from_ref(&name);
             let folder = OutputFolder::existing(folders.docs.path().join(pictures.folder()));
-            let pages =
-                if pictures == Pictures::Paper { &[RESULTS_FILE, ERRATA_FILE, REPORT_FILE][..] } else { &[] };
+            let pages = if pictures == Pictures::Paper { &[RESULTS_FILE, ERRATA_FILE][..] } else { &[] };
             let all: Vec<_> = pages.iter().copied().chain([name.as_str()]).collect();
             assert_eq!(folders.outdated(pictures, Draft), all);
             let write = || folders.write(pictures).expect("writable");
@@ -503,11 +461,9 @@ mod tests {
             // Figures that have not been made are not compared; a changed drawing of the draft alone is
             // detected.
             let nothing = OutputFolder::existing(folders.docs.path());
-            let unmade =
-                outdated_with(&own(PROSE), pictures, &[&folders.demo], (Draft, &nothing), &folders.docs);
+            let unmade = outdated_with(PROSE, pictures, &[&folders.demo], (Draft, &nothing), &folders.docs);
             assert!(unmade.expect("readable").is_empty() && current());
-            let other =
-                outdated_with(&own(""), pictures, &[&folders.demo], (Draft, &folders.draft), &folders.docs);
+            let other = outdated_with("", pictures, &[&folders.demo], (Draft, &folders.draft), &folders.docs);
             assert_eq!(other.expect("readable"), pages.get(1..2).unwrap_or_default());
             folders.draft.write("demo.svg", b"<svg/>").expect("writable");
             assert_eq!(folders.outdated(pictures, Draft), picture);
@@ -545,17 +501,12 @@ mod tests {
     }
 
     #[test]
-    fn every_reference_is_to_a_figure_an_entry_or_a_chapter() {
-        const OTHERS: [&str; 5] = ["beside", "claims", "headline", "verdicts", "version"];
+    fn every_reference_is_to_a_figure_or_an_entry() {
         let environment = environment();
         let entries = crate::registry::all();
-        for (page, text) in prose() {
-            let template = environment.template_from_str(&text).expect("well formed");
-            for variable in template.undeclared_variables(false) {
-                let is_known = OTHERS.contains(&variable.as_str());
-                assert!(is_known || entries.iter().any(|entry| entry.id == variable), "{variable}");
-            }
-            assert!(!text.lines().any(|line| line.starts_with('@')), "{page} quotes what is not there");
+        let template = environment.template_from_str(ERRATA).expect("well formed");
+        for variable in template.undeclared_variables(false) {
+            assert!(variable == "claims" || entries.iter().any(|entry| entry.id == variable), "{variable}");
         }
         for reference in ERRATA.split("{{").skip(1).filter_map(|rest| rest.split("}}").next()) {
             // The length of a cycle that rounding chooses is no number: only that of a `robust_cycle` is one.
@@ -582,7 +533,7 @@ mod tests {
 
     /// Numbers written out beside the references are printed in the paper, or name a place in it.
     #[test]
-    fn every_other_number_of_errata_and_report_is_printed_in_the_paper() {
+    fn every_other_number_of_the_errata_is_printed_in_the_paper() {
         /// Numbers that are neither results nor the paper's: of definitions, years and articles.
         const WRITTEN_OUT: [&str; 4] = ["2", "3", "2009", "046201"];
         let entries = catalogue::entries().expect("reads");
@@ -591,10 +542,7 @@ mod tests {
             texts.into_iter().flat_map(numbers).collect::<Vec<_>>()
         });
         let printed: BTreeSet<String> = printed.chain(WRITTEN_OUT.map(str::to_owned)).collect();
-        let by_hand = |line: &&str| !line.starts_with(['@', '>', '!']);
-        let text: String = REPORT.lines().filter(by_hand).flat_map(|line| [line, "\n"]).collect();
-        let text = [ERRATA, &text].concat();
-        let text: String = text.split("{{").map(|piece| piece.split("}}").last().unwrap_or("")).collect();
+        let text: String = ERRATA.split("{{").map(|piece| piece.split("}}").last().unwrap_or("")).collect();
         // Names in code, and the figures, tables, sections, equations and indices that are referred to.
         let plain: String = text.split('`').step_by(2).collect::<Vec<_>>().join(" ");
         let mut unknown: Vec<String> = Vec::new();

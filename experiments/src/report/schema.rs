@@ -1,29 +1,8 @@
-//! The claims as a table, and the schema of `claims.json`.
+//! The schema of `claims.json`.
 
 use serde_json::{Value, json};
 
 use crate::claims::{Class, Kind, Verdict};
-
-/// Where a claim of `claims.json` has the columns of `claims.csv`; a column's name is this path with underscores.
-const COLUMNS: &str = "id place quantity unit printed computed tolerance verdict class kind cause share \
-    single_orbits/verdict single_orbits/cases/holding single_orbits/cases/tried note \
-    provenance/parameters/quality provenance/program provenance/version";
-
-/// One row for each claim as `claims.json` has it. What a claim does not have is an empty field.
-pub(super) fn csv(claims: &[Value]) -> String {
-    let mut table = csv::Writer::from_writer(Vec::new());
-    let field = |claim: &Value, place: &str| match claim.pointer(&format!("/{place}")) {
-        None | Some(Value::Null) => String::new(),
-        Some(Value::String(text)) => text.clone(),
-        Some(other) => other.to_string(),
-    };
-    // A vector takes everything, and every row has as many fields as the first.
-    let _ = table.write_record(COLUMNS.replace('/', "_").split(' '));
-    for claim in claims {
-        let _ = table.write_record(COLUMNS.split(' ').map(|place| field(claim, place)));
-    }
-    String::from_utf8(table.into_inner().unwrap_or_default()).unwrap_or_default()
-}
 
 /// The form of `claims.json`, by JSON Schema of 2020-12.
 pub(super) fn schema() -> Value {
@@ -70,7 +49,7 @@ mod tests {
     use crate::claims::{Cases, Claim};
 
     #[test]
-    fn the_schema_has_every_field_and_the_table_every_value() {
+    fn the_schema_has_every_field() {
         let full = Claim::printed("section4.doubling_1", 0.6).cause("a \"misprint\", it seems");
         let full = full.single_orbits(Cases { holding: 3, tried: 4 }).note("first\nsecond");
         let claims = [full, Claim::statement("fig06", "", "ours", None, "")];
@@ -92,20 +71,5 @@ mod tests {
             "{smallest:?}"
         );
         assert_eq!(form["properties"]["verdict"]["enum"][2], "depends-on-unprinted-digits");
-        let text = csv(&claims);
-        let mut table = csv::Reader::from_reader(text.as_bytes());
-        assert!(table.headers().expect("a head").iter().eq(COLUMNS.replace('/', "_").split(' ')));
-        let rows: Vec<csv::StringRecord> = table.records().collect::<Result<_, _>>().expect("a table");
-        for (row, claim) in rows.iter().zip(&claims) {
-            for (field, place) in row.iter().zip(COLUMNS.split(' ')) {
-                let value = claim
-                    .pointer(&format!("/{place}"))
-                    .filter(|value| !value.is_null())
-                    .map(ToString::to_string);
-                let value = value.map(|text| serde_json::from_str::<String>(&text).unwrap_or(text));
-                assert_eq!(field, value.unwrap_or_default(), "{place}");
-            }
-        }
-        assert_eq!((rows.len(), &rows[0][13]), (2, "3"));
     }
 }
