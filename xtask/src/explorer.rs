@@ -44,9 +44,6 @@ pub(crate) struct Options {
     /// The linker of WebAssembly, where rustc has none of its own.
     #[arg(long, value_name = "PATH")]
     linker: Option<PathBuf>,
-    /// The folder of wasm-bindgen [default: explorer-tools in cargo's target folder].
-    #[arg(long, value_name = "DIR", hide = true)]
-    tools: Option<PathBuf>,
 }
 
 pub(crate) fn run(options: &Options) -> Result<ExitCode> {
@@ -95,7 +92,7 @@ fn bound(options: &Options, target: &Path, folder: &Path) -> Result<()> {
     let module = compiled(options, target)?;
     std::fs::create_dir_all(folder).with_context(|| format!("{} cannot be made", folder.display()))?;
     complain!("2/4 What binds it to JavaScript: some seconds, the first time some minutes");
-    let wasm_bindgen = tools::wasm_bindgen(options.tools.as_ref().unwrap_or(&target.join("explorer-tools")))?;
+    let wasm_bindgen = tools::wasm_bindgen(&target.join("explorer-tools"))?;
     succeed(
         Command::new(wasm_bindgen)
             .args(["--target", "no-modules", "--no-typescript", "--out-name", LIBRARY, "--out-dir"])

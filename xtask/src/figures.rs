@@ -2,7 +2,7 @@
 
 use std::ffi::OsStr;
 use std::num::NonZeroUsize;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use anyhow::Context as _;
@@ -165,18 +165,6 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
         return Run { measurements: &Measurements::none(), ..run }.write_docs(&folder);
     }
     run.make(options.quality, &folder)
-}
-
-/// The figures of the paper in this folder, without a user's measurements and made where they are out of date.
-pub(crate) fn of_the_paper(folder: &Path) -> anyhow::Result<OutputFolder> {
-    let options = Options { out: Some(folder.to_owned()), ..Options::default() };
-    let (entries, measurements) = (registry::all(), &Measurements::none());
-    let selected: Vec<_> = entries.iter().filter(|entry| !entry.is_extra()).collect();
-    let folder = OutputFolder::create(options.folder())?;
-    let run = Run { options: &options, entries: &entries, selected: &selected, measurements };
-    let code = run.make(Quality::Paper, &folder)?;
-    anyhow::ensure!(code == ExitCode::SUCCESS, "the figures cannot be made");
-    Ok(folder)
 }
 
 fn threads(options: &Options) -> usize {
