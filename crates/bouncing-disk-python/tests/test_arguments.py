@@ -88,9 +88,9 @@ def test_an_error_names_an_argument_and_its_value(
 
 def test_no_call_is_left_out() -> None:
     # What takes a whole object, a text or a file, and no number.
-    plain = {"threads", "of_system", "read_speeds", "sweep", "read_sweep", "to_json", "to_dict", "from_json"}
+    plain = {"threads", "of_system", "read_speeds", "sweep", "to_json", "to_dict", "from_json"}
     plain |= {"from_dict", "pizza_toss", "motor", "paper", "names", "reasons", "stator_report"}
-    plain |= {"of", "column", "share", "branch_end_names", "to_xarray", "to_netcdf"}
+    plain |= {"of", "column", "share", "branch_end_names"}
     surface = set()
     for name in bd.__all__:
         thing = getattr(bd, name)

@@ -77,7 +77,7 @@ def blocks() -> list[tuple[str, str]]:
 
 
 def test_the_page_prints_what_it_says(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    needs("distributed", "xarray")
+    needs("dask.array", "xarray", "netCDF4", "scipy", "SALib", "joblib")
     monkeypatch.chdir(tmp_path)
     names: dict[str, Any] = {"__name__": "__main__"}
     printed = ""

@@ -12,9 +12,6 @@ long call is called as ``progress(done, total)`` by the calling thread; an excep
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
-
 from bouncing_disk import (
     _attractors,
     _chaos,
@@ -23,6 +20,7 @@ from bouncing_disk import (
     _motor,
     _native,
     _orbits,
+    _sweep,
     _system,
     _toss,
 )
@@ -33,45 +31,19 @@ from bouncing_disk._errors import *
 from bouncing_disk._estimate import *
 from bouncing_disk._motor import *
 from bouncing_disk._orbits import *
+from bouncing_disk._sweep import *
 from bouncing_disk._system import *
 from bouncing_disk._toss import *
 
 __version__: str = _native.VERSION
 
-# Sweeps and their errors are imported on first use: their imports take longer than all else here.
-if TYPE_CHECKING:
-    from bouncing_disk._sweep import *
-
-__all__ = [
-    "FailedPoint",
-    "MissingDependencyError",
-    "Result",
-    "SweepClusterError",
-    "SweepFailedError",
-    "SweepFolderError",
-    "SweepFolderWarning",
-    "SweepFunctionError",
-    "SweepResult",
-    "read_sweep",
-    "set_threads",
-    "sweep",
-    "threads",
-]
+__all__ = ["Result", "set_threads", "threads"]
 __all__ += _attractors.__all__
 __all__ += _chaos.__all__
 __all__ += _errors.__all__
 __all__ += _estimate.__all__
 __all__ += _motor.__all__
 __all__ += _orbits.__all__
+__all__ += _sweep.__all__
 __all__ += _system.__all__
 __all__ += _toss.__all__
-
-
-def __getattr__(name: str) -> Any:
-    if name in __all__:
-        return getattr(import_module("bouncing_disk._sweep"), name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-
-
-def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})

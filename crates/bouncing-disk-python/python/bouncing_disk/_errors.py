@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import Any
 
 __all__ = [
@@ -9,6 +10,7 @@ __all__ = [
     "ComputationError",
     "FitRefusedError",
     "InvalidError",
+    "MissingDependencyError",
     "OutOfRangeError",
     "TooLargeError",
 ]
@@ -100,3 +102,25 @@ class ComputationError(BouncingDiskError, RuntimeError):
 
     kind: str
     details: dict[str, float | int | str]
+
+
+class MissingDependencyError(BouncingDiskError, ImportError):
+    """An optional package is not installed.
+
+    Attributes:
+        package: the package that is missing.
+        install: the command that installs it.
+    """
+
+    package: str
+    install: str
+
+    @classmethod
+    def checked(cls, module: str, purpose: str, extra: str) -> Any:
+        """A module of an optional package; the error says what needs it, and which extra brings it."""
+        try:
+            return import_module(module)
+        except ImportError as error:
+            package, install = module.partition(".")[0], f"pip install 'bouncing-disk[{extra}]'"
+            message = f"{purpose} needs {package}, which is not installed: {install}"
+            raise cls(message, package, install) from error
