@@ -1,11 +1,12 @@
 //! The chores of this repository.
 //!
 //! `cargo xtask figures` computes and draws the figures and tables of the paper, `cargo xtask explorer`
-//! builds the page for browsers.
+//! builds the page for browsers, and `cargo xtask fmu` packs a motor for other simulators.
 
 mod explorer;
 #[cfg(feature = "figures")]
 mod figures;
+mod fmu;
 #[cfg(not(feature = "figures"))]
 mod forward;
 mod output;
@@ -38,6 +39,8 @@ enum Chore {
     Figures(figures::Options),
     /// Build the page that shows the model in a browser.
     Explorer(explorer::Options),
+    /// Build a motor as a functional mock-up unit (FMI 3.0) for this machine.
+    Fmu(fmu::Options),
 }
 
 fn main() -> ExitCode {
@@ -45,6 +48,7 @@ fn main() -> ExitCode {
     let done = match chore {
         Chore::Figures(options) => figures::run(&options),
         Chore::Explorer(options) => explorer::run(&options),
+        Chore::Fmu(options) => fmu::run(&options),
     };
     match done {
         Ok(code) => code,

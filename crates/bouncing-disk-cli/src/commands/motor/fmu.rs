@@ -61,8 +61,8 @@ fn beside_this_program() -> Result<PathBuf> {
     let places = [folder.join("deps").join(&name), folder.join(&name), folder.join("../lib").join(&name)];
     places.into_iter().find(|place| place.is_file()).ok_or_else(|| {
         Failure::Usage(format!(
-            "{name} is not beside this program: put it there from the archive that the program comes in, or build it in a copy \
-             of the repository by `cargo build --release --package bouncing-disk-fmu` and give --library target/release/{name}"
+            "{name} is not beside this program: put it there from the archive that the program comes in, or run \
+             `cargo xtask fmu` in a copy of the repository, which builds it"
         ))
     })
 }
