@@ -1,10 +1,9 @@
 //! Motors: data sheets, operating points, stall, sweeps, traps and sensitivities.
 
 use bouncing_disk::motor::{
-    ElementaryEffects, Estimate, InputSpread, InputTolerance, MotorField, MotorRegime, MotorSweep,
-    OperatingPoint, OperatingSettings, Operation, ParameterRange, SamplingSettings, SensitivityMethod,
-    SensitivityParameter, SensitivityQuantity, SensitivitySettings, Shortfall, SobolIndices, SweepAxis,
-    SweepQuantity, TrapVerdict,
+    Estimate, InputSpread, InputTolerance, MotorField, MotorRegime, MotorSweep, OperatingPoint,
+    OperatingSettings, Operation, SensitivityMethod, SensitivityParameter, SensitivityQuantity,
+    SensitivitySettings, Shortfall, SweepAxis, SweepQuantity, TrapVerdict,
 };
 use bouncing_disk::parameters::DriveParameters;
 use numpy::PyArray1;
@@ -353,51 +352,4 @@ pub(crate) fn local_sensitivities(a: Arguments<'_>) -> Made<'_> {
         traps,
         a.get("quantity")?,
     )
-}
-
-/// The arguments that the two calls over ranges share.
-struct Sample<'py> {
-    ranges: Vec<ParameterRange>,
-    quantity: SensitivityQuantity,
-    sampling: SamplingSettings,
-    operating: OperatingSettings,
-    names: Bound<'py, PyTuple>,
-}
-
-impl<'py> Sample<'py> {
-    fn of(a: &Arguments<'py>) -> PyResult<Self> {
-        let mut ranges = Vec::new();
-        for (name, range) in a.ranges()? {
-            ranges.push((parameter(&name)?, range));
-        }
-        let names = PyTuple::new(a.py(), ranges.iter().map(|(parameter, _)| parameter.name()))?;
-        let sampling = SamplingSettings { rows: a.usize("rows")?, seed: a.u64("sampling_seed")? };
-        Ok(Self { ranges, quantity: quantity(a)?, sampling, operating: settings(a)?, names })
-    }
-}
-
-/// Which share of the variance each parameter has over its range.
-#[pyfunction]
-pub(crate) fn sobol_indices(a: Arguments<'_>) -> Made<'_> {
-    let (motor, py) = (a.motor()?, a.py());
-    let Sample { ranges, quantity, sampling, operating, names } = Sample::of(&a)?;
-    let found: Vec<SobolIndices> =
-        a.run(|observer| motor.sobol_indices(quantity, &ranges, sampling, &operating, observer))?;
-    let [first, first_error] = estimates(py, &found, |one| one.first);
-    let [total, total_error] = estimates(py, &found, |one| one.total);
-    make!(py, "SobolIndices", names, first, first_error, total, total_error, a.get("quantity")?)
-}
-
-/// By how much a motor changes with each parameter over its range.
-#[pyfunction]
-pub(crate) fn elementary_effects(a: Arguments<'_>) -> Made<'_> {
-    let (motor, py) = (a.motor()?, a.py());
-    let Sample { ranges, quantity, sampling, operating, names } = Sample::of(&a)?;
-    let found: Vec<ElementaryEffects> =
-        a.run(|observer| motor.elementary_effects(quantity, &ranges, sampling, &operating, observer))?;
-    let [mean, mean_error] = estimates(py, &found, |one| one.mean);
-    let [size, size_error] = estimates(py, &found, |one| one.mean_size);
-    let [spread, spread_error] = estimates(py, &found, |one| one.deviation);
-    let asked = a.get("quantity")?;
-    make!(py, "ElementaryEffects", names, mean, mean_error, size, size_error, spread, spread_error, asked)
 }

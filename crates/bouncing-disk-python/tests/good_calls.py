@@ -175,10 +175,4 @@ def good() -> list[tuple[Callable[..., Any], list[Any], dict[str, Any]]]:
             [MOTOR],
             quick | {"parameters": ["friction"], "half_range": 0.2, "points": 5, "quantity": "steady-speed"},
         ),
-        (
-            bd.sobol_indices,
-            [MOTOR],
-            quick | {"ranges": {"friction": (0.1, 0.2)}, "rows": 8, "sampling_seed": 1},
-        ),
-        (bd.elementary_effects, [MOTOR], quick | {"ranges": {"friction": (0.1, 0.2)}, "rows": 8}),
     ]

@@ -503,7 +503,12 @@ STATOR = {"mass": 0.05, "quality": 300.0}
 LOAD = {"speeds": [0.0, 8.0], "torques": [0.0, 0.5]}
 POINT = {"speed": 20.0, "speed_error": 9.0, "load_torque": 0.0}
 RATED: dict[str, Any] = {"ranges": {"friction": (0.1, 0.3)}, "most_evaluations": 8, "most_impacts": 2000}
-LOOSE: dict[str, Any] = {"rows": 8, "relative_error": 0.5, "members": 4, "most_impacts": 100}
+
+
+def rated(ranges: Any) -> bd.RatedFit:
+    return bd.fit_rated_points(MOTOR, points=[POINT], **{**RATED, "ranges": ranges})
+
+
 #: The cosine, which six samples resolve.
 HEXAGON = [1.0, 0.5, -0.5, -1.0, -0.5, 0.5]
 
@@ -525,8 +530,8 @@ PLACES: list[tuple[str, Callable[[Any], object]]] = [
 #: Calls of pairs and points, whose numbers need not be finite: the library judges them by their range.
 PAIRS_AND_POINTS: list[tuple[str, Callable[[Any], object]]] = [
     ("points[1].speed", lambda value: bd.fit_rated_points(MOTOR, points=[POINT, {"speed": value}], **RATED)),
-    ("ranges.friction[0]", lambda value: bd.sobol_indices(MOTOR, ranges={"friction": (value, 0.9)}, **LOOSE)),
-    ("ranges.friction[1]", lambda value: bd.elementary_effects(MOTOR, ranges={"friction": [0.1, value]}, **LOOSE)),
+    ("ranges.friction[0]", lambda value: rated({"friction": (value, 0.9)})),
+    ("ranges.friction[1]", lambda value: rated({"friction": [0.1, value]})),
     ("phase_range[1]", lambda value: bd.basins(MAP, phases=3, speeds=3, phase_range=(0.0, value))),
 ]
 
@@ -561,6 +566,13 @@ def test_what_tables_do_not_hold_is_refused_by_its_place(
     assert "JSON" not in text and "f64" not in text and "float values" not in text
     if isinstance(refused.value, bd.OutOfRangeError):
         assert (refused.value.field, refused.value.range) == (place, "(-inf, inf)")
+
+
+def test_ranges_are_a_table_of_known_names() -> None:
+    with pytest.raises(ValueError, match="twist"):
+        rated({"twist": (0.1, 0.2)})
+    with pytest.raises(TypeError):
+        rated([("friction", (0.1, 0.2))])
 
 
 @pytest.mark.parametrize("row", PLACES + PAIRS_AND_POINTS, ids=lambda row: row[0])

@@ -48,8 +48,6 @@ ENDLESS = {
     "motor map": "bd.motor_map(MOTOR, axes={'amplitude': np.linspace(1e-8, 2e-8, 50)}, relative_error=1e-6,"
     " most_impacts=10**15)",
     "sensitivities": "bd.local_sensitivities(MOTOR, relative_error=1e-6, most_impacts=10**15)",
-    "sobol": "bd.sobol_indices(MOTOR, ranges={'friction': (0.1, 0.2)}, rows=10**6)",
-    "effects": "bd.elementary_effects(MOTOR, ranges={'friction': (0.1, 0.2)}, rows=10**6)",
     "crisis": "bd.crisis(restitution=0.5, axial_forcing=(0.55, 0.56), impacts=10**12)",
 }
 

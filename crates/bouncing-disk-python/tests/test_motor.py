@@ -186,33 +186,7 @@ def test_local_sensitivities_are_those_of_the_speed() -> None:
     assert stall.quantity == "stall-torque" and stall.derivative[0] > 0.3
 
 
-def test_shares_of_the_variance_and_effects_agree() -> None:
-    ranges = {"peak_angular_speed": (20.0, 40.0), "friction": (0.1, 0.11)}
-    shares = bd.sobol_indices(MOTOR, ranges=ranges, rows=24, **LOOSE)
-    assert shares.parameters == ("peak_angular_speed", "friction")
-    assert shares.total[0] > 0.8 > 0.2 > shares.total[1]
-    effects = bd.elementary_effects(MOTOR, ranges=ranges, rows=8, **LOOSE)
-    assert effects.mean[0] > 5.0 * effects.mean_size[1] and (effects.mean_size >= np.abs(effects.mean)).all()
-    assert shares == bd.sobol_indices(MOTOR, ranges=ranges, rows=24, **LOOSE)
-    assert shares != bd.sobol_indices(MOTOR, ranges=ranges, rows=24, sampling_seed=2, **LOOSE)
-
-
 def test_what_sensitivities_refuse() -> None:
-    for call in (bd.sobol_indices, bd.elementary_effects):
-        with pytest.raises(bd.OutOfRangeError) as refused:
-            call(MOTOR, ranges={"friction": (0.2, 0.1)}, rows=8, **LOOSE)
-        assert refused.value.field == "ranges"
-        with pytest.raises(bd.OutOfRangeError) as refused:
-            call(MOTOR, ranges={}, rows=8, **LOOSE)
-        assert refused.value.field == "ranges"
-        with pytest.raises(bd.OutOfRangeError) as refused:
-            call(MOTOR, ranges={"friction": (0.1, 0.2)}, rows=7, **LOOSE)
-        assert (refused.value.field, refused.value.value) == ("rows", 7.0)
-        with pytest.raises(ValueError, match="twist"):
-            call(MOTOR, ranges={"twist": (0.1, 0.2)}, rows=8, **LOOSE)
-        pairs: Any = [("friction", (0.1, 0.2))]
-        with pytest.raises(TypeError):
-            call(MOTOR, ranges=pairs, rows=8, **LOOSE)
     wrong: Any = "friction"
     with pytest.raises(TypeError, match="one text"):
         bd.local_sensitivities(MOTOR, parameters=wrong, **LOOSE)

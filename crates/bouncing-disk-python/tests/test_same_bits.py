@@ -122,13 +122,6 @@ def local_sensitivities(digest: Digest) -> None:
     digest.numbers(*bd.local_sensitivities(MOTOR, parameters=["friction"], relative_error=0.05).derivative)
 
 
-def global_indices(digest: Digest) -> None:
-    ranges = {"friction": (0.05, 0.2), "phase_lag": (-0.2, 0.2)}
-    sample: dict[str, Any] = {"ranges": ranges, "rows": 8, "sampling_seed": 3, "relative_error": 0.05}
-    digest.numbers(*bd.sobol_indices(MOTOR, **sample).total)
-    digest.numbers(*bd.elementary_effects(MOTOR, **sample).mean)
-
-
 def stators(digest: Digest) -> None:
     modes: dict[str, float | str] = {"mass": 0.05, "quality": 300.0}
     twisting = modes | {"kind": "axial_twist", "twist_per_height": 700.0}
@@ -153,7 +146,6 @@ CALLS: dict[str, Callable[[Digest], None]] = {
     "crisis": crisis,
     "motor sweep": motor_sweep,
     "local sensitivities": local_sensitivities,
-    "global indices": global_indices,
     "stators": stators,
 }
 

@@ -17,8 +17,8 @@ use bouncing_disk::core::{
 use bouncing_disk::estimate::TransientEnsemble;
 use bouncing_disk::motion::PAPER_CHATTER;
 use bouncing_disk::motor::{
-    DrivenMotor, MotorField, MotorSweep, OperatingSettings, SamplingSettings, SensitivityParameter,
-    SensitivityQuantity, SensitivitySettings, SweepAxis, SweepQuantity, TransientSettings,
+    DrivenMotor, MotorField, MotorSweep, OperatingSettings, SensitivityParameter, SensitivityQuantity,
+    SensitivitySettings, SweepAxis, SweepQuantity, TransientSettings,
 };
 use bouncing_disk::parameters::{StatorKind, StatorParameters, Waveform};
 use bouncing_disk::toss::{InitialSpin, single_toss};
@@ -67,7 +67,6 @@ fn all() -> Result<Vec<(&'static str, Digest)>, Error> {
         ("crisis", crisis()?),
         ("motor sweep", motor_sweep()?),
         ("local sensitivities", local_sensitivities()?),
-        ("global indices", global_indices()?),
         ("stators", stators()?),
     ])
 }
@@ -228,18 +227,6 @@ fn local_sensitivities() -> Result<Digest, Error> {
     let slopes =
         motor.local_sensitivities(quantity, &[SensitivityParameter::Friction], &near, &Unobserved)?;
     Ok(digest_of(slopes.iter().map(|one| one.derivative.value)))
-}
-
-fn global_indices() -> Result<Digest, Error> {
-    let (motor, settings) = small_motor()?;
-    let quantity = SensitivityQuantity::SteadySpeed;
-    let ranges =
-        [(SensitivityParameter::Friction, [0.05, 0.2]), (SensitivityParameter::PhaseLag, [-0.2, 0.2])];
-    let sampling = SamplingSettings { rows: 8, seed: 3 };
-    let indices = motor.sobol_indices(quantity, &ranges, sampling, &settings, &Unobserved)?;
-    let effects = motor.elementary_effects(quantity, &ranges, sampling, &settings, &Unobserved)?;
-    let totals = indices.iter().map(|one| one.total.value);
-    Ok(digest_of(totals.chain(effects.iter().map(|one| one.mean.value))))
 }
 
 /// Operating points on stators that yield: one mode with rigid impacts, and two with contacts that take time.

@@ -13,7 +13,6 @@ from bouncing_disk._system import Drive, System
 
 __all__ = [
     "BestPhaseLag",
-    "ElementaryEffects",
     "InputSpread",
     "LocalSensitivities",
     "LowPeriodTraps",
@@ -22,17 +21,14 @@ __all__ = [
     "MotorReport",
     "NearestTrap",
     "OperatingPoints",
-    "SobolIndices",
     "StallLoad",
     "TorqueSpeedCurve",
     "best_phase_lag",
-    "elementary_effects",
     "input_spreads",
     "local_sensitivities",
     "low_period_traps",
     "motor_map",
     "nearest_trap",
-    "sobol_indices",
     "stall_load",
     "torque_speed_curve",
 ]
@@ -697,99 +693,3 @@ def local_sensitivities(
     True
     """
     return native.local_sensitivities(locals())
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class SobolIndices(Result):
-    """The share of each of n parameters, over its range, in the variance of a quantity.
-
-    Attributes:
-        parameters: the parameters.
-        first, first_error: the share that vanishes if this parameter alone is known, and its standard error. Near
-            zero it may be negative, shape (n,).
-        total, total_error: the share that remains if all others are known, and its standard error, shape
-            (n,).
-        quantity: ``"steady-speed"`` or ``"stall-torque"``.
-    """
-
-    parameters: tuple[str, ...]
-    first: FloatArray
-    first_error: FloatArray
-    total: FloatArray
-    total_error: FloatArray
-    quantity: str
-
-
-def sobol_indices(
-    motor: Motor,
-    *,
-    ranges: Mapping[str, Pair],
-    quantity: Literal["steady-speed", "stall-torque"] = "steady-speed",
-    rows: Int = 256,
-    sampling_seed: Int = 1,
-    relative_error: Float = 0.01,
-    members: Int = 16,
-    most_impacts: Int = 20_000_000,
-    relaunch_perturbation: Float = 0.001,
-    seed: Int = 1,
-    progress: Progress = None,
-) -> SobolIndices:
-    """The share of each parameter, over its range, in the variance of the steady speed or the stall torque (Sobol').
-
-    Args:
-        ranges: the range of each parameter (SI), over which it is spread evenly; names as of
-            :func:`local_sensitivities`.
-        quantity: the quantity whose sensitivity is computed.
-        rows: rows of the sample, in [8, 1000000]; with d parameters each takes d + 2 motors.
-        sampling_seed: seed of the sample.
-        relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`torque_speed_curve`.
-    """
-    return native.sobol_indices(locals())
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class ElementaryEffects(Result):
-    """By how much a quantity (rad/s or N m) changes over the range of each of n parameters.
-
-    Attributes:
-        parameters: the parameters.
-        mean, mean_error: mean effect mu, and its standard error, shape (n,).
-        mean_size, mean_size_error: mean without the signs, mu*, shape (n,).
-        deviation, deviation_error: standard deviation sigma: how much the effect varies, shape (n,).
-        quantity: ``"steady-speed"`` or ``"stall-torque"``.
-    """
-
-    parameters: tuple[str, ...]
-    mean: FloatArray
-    mean_error: FloatArray
-    mean_size: FloatArray
-    mean_size_error: FloatArray
-    deviation: FloatArray
-    deviation_error: FloatArray
-    quantity: str
-
-
-def elementary_effects(
-    motor: Motor,
-    *,
-    ranges: Mapping[str, Pair],
-    quantity: Literal["steady-speed", "stall-torque"] = "steady-speed",
-    rows: Int = 64,
-    sampling_seed: Int = 1,
-    relative_error: Float = 0.01,
-    members: Int = 16,
-    most_impacts: Int = 20_000_000,
-    relaunch_perturbation: Float = 0.001,
-    seed: Int = 1,
-    progress: Progress = None,
-) -> ElementaryEffects:
-    """By how much the steady speed or the stall torque changes with each parameter over its range (Morris): a cheap
-    ranking.
-
-    Args:
-        ranges, quantity: as of :func:`sobol_indices`.
-        rows: trajectories of the sample, in [8, 1000000]; with d parameters each takes d + 1 motors.
-        sampling_seed, relative_error, members, most_impacts, relaunch_perturbation, seed: as of
-            :func:`sobol_indices`.
-    """
-    return native.elementary_effects(locals())
