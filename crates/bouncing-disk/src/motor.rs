@@ -63,4 +63,3 @@ pub use sweep::MotorSweep;
 pub use sweep::axis::{MAX_SWEEP_CELLS, SweepAxis};
 pub use sweep::quantity::SweepQuantity;
 pub use sweep::result::MotorSweepResult;
-pub use sweep::run::MotorSweepRun;

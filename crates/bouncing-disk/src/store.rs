@@ -16,7 +16,6 @@
 //! # Ok::<(), bouncing_disk::store::StorageError>(())
 //! ```
 //!
-//! [`MotorSweep::run_with_journal`](crate::motor::MotorSweep::run_with_journal) is a sweep with a journal.
 //! Which files the command line writes: docs/command-line.md.
 
 pub(crate) mod error;

@@ -1,18 +1,16 @@
 //! Sweeps: a motor in steady operation over one or two of its parameters.
 //!
-//! The axes are in `sweep/axis.rs`, the groups of cells computed together in `sweep/groups.rs`, the run,
-//! which can be stopped and resumed, in `sweep/run.rs`, the results, as numbers and as a table, in
-//! `sweep/result.rs`, `sweep/quantity.rs` and `sweep/csv_table.rs`, and the journal in `sweep/journal.rs`.
+//! The axes are in `sweep/axis.rs`, the groups of cells computed together in `sweep/groups.rs`, the run in
+//! `sweep/run.rs`, the results, as numbers and as a table, in `sweep/result.rs`, `sweep/quantity.rs` and
+//! `sweep/csv_table.rs`.
 
 pub(crate) mod axis;
 #[cfg(feature = "csv")]
 mod csv_table;
 mod groups;
-#[cfg(feature = "storage")]
-mod journal;
 pub(crate) mod quantity;
 pub(crate) mod result;
-pub(crate) mod run;
+mod run;
 
 use bouncing_disk_core::Observer;
 
@@ -38,8 +36,7 @@ use crate::parameters::driven_platform::DriveParameters;
 /// one for each amplitude. Such a group, of 256 cells at most, runs until each of its cells is known well
 /// enough. A number of a cell therefore depends on the rest of its group, within its standard error; the
 /// cells of a group share their perturbations, so that their differences are more precise than their values.
-/// Groups depend on the sweep alone. The results are the same bits for any number of threads and however
-/// often a run was stopped.
+/// Groups depend on the sweep alone. The results are the same bits for any number of threads.
 ///
 /// ```
 /// use bouncing_disk::core::Unobserved;
@@ -187,4 +184,4 @@ impl MotorSweep {
 }
 
 #[cfg(test)]
-pub(crate) mod tests;
+mod tests;

@@ -1,9 +1,7 @@
 //! `bouncing-disk motor sweep`: a motor over one or two fields of its data sheet.
 
-use bouncing_disk::core::sweep::PartialResults;
 use bouncing_disk::motor::{
-    MotorField, MotorSweep, MotorSweepResult, MotorSweepRun, OperatingSettings, Operation, SweepAxis,
-    SweepQuantity,
+    MotorField, MotorSweep, MotorSweepResult, OperatingSettings, Operation, SweepAxis, SweepQuantity,
 };
 use bouncing_disk::{Motor, Observer};
 use bouncing_disk_plot::{Figure, SINGLE_COLUMN};
@@ -140,9 +138,7 @@ impl GridJob for SweepJob {
     }
 
     fn report<'a>(&'a self, sweep: &'a MotorSweep, rows: &'a [Vec<Operation>]) -> Result<Report<'a>> {
-        let mut all = PartialResults::new(rows.len());
-        all.extend(rows.iter().cloned().enumerate());
-        let result = MotorSweepRun::from(all).into_result(sweep)?;
+        let result = sweep.result(rows)?;
         type Row = (Vec<f64>, Operation);
         let of = |row: &Row, quantity: SweepQuantity| quantity.of(&row.1);
         let mut columns = Columns::<Row>::new();

@@ -5,10 +5,10 @@ use bouncing_disk_core::{Progress, Unobserved};
 
 use super::quantity::SweepQuantity;
 use super::*;
-use crate::motor::{MAX_SWEEP_CELLS, MotorSweepResult, MotorSweepRun, Operation, operations};
+use crate::motor::{MAX_SWEEP_CELLS, MotorSweepResult, Operation, operations};
 
 /// Little is asked for, so that much can be tried.
-pub(crate) fn rough() -> OperatingSettings {
+fn rough() -> OperatingSettings {
     OperatingSettings {
         relative_error: 0.2,
         members: 4,
@@ -36,7 +36,7 @@ fn loads(shares: &[f64]) -> SweepAxis {
 }
 
 /// Six groups, one of a motor that never bounces; all states but a drift occur.
-pub(crate) fn mixed() -> MotorSweep {
+fn mixed() -> MotorSweep {
     let amplitudes = [1e-8, 0.0, 1.5e-8, 1e-8, 2e-8, 4e-11, 3e-8];
     sweep(&[axis(MotorField::Amplitude, &amplitudes), loads(&[0.0, 0.5, 1.2])]).expect("legal")
 }
@@ -181,40 +181,29 @@ fn stop_at(calls: &AtomicUsize, call: usize) -> impl Fn(Progress) -> ControlFlow
 }
 
 #[test]
-fn threads_and_stops_change_no_bit() {
+fn threads_change_no_bit_and_a_stop_is_told() {
     let sweep = mixed();
     assert_eq!(sweep.groups().len(), 6);
     let at_once = sweep.run(&Unobserved).expect("no failure");
     for threads in [1, 2, 7] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("pool");
         assert!(pool.install(|| sweep.run(&Unobserved)).expect("no failure") == at_once, "{threads} threads");
-        let mut run = MotorSweepRun::new(&sweep);
         let mut kept = Vec::new();
         for stops in 0.. {
             let calls = AtomicUsize::new(0);
-            let outcome = pool.install(|| run.advance(&sweep, &stop_at(&calls, (1 << stops) - 1)));
-            let cells = run.cells(&sweep).expect("of this sweep");
-            let done = cells.iter().flatten().count() as u64;
-            kept.push(done);
-            match outcome {
-                Ok(()) => break,
-                Err(error) => {
-                    let total = sweep.cells() as u64;
-                    assert_eq!(error, Error::Core(bouncing_disk_core::Error::Stopped { done, total }));
-                    assert_eq!(run.clone().into_result(&sweep), Err(error));
+            match pool.install(|| sweep.run(&stop_at(&calls, (1 << stops) - 1))) {
+                Ok(result) => {
+                    assert!(result == at_once, "{threads} threads, as it was not stopped");
+                    break;
                 }
-            }
-            #[cfg(feature = "json")]
-            {
-                let text = serde_json::to_string(&run).expect("writes");
-                run = serde_json::from_str(&text).expect("reads");
+                Err(Error::Core(bouncing_disk_core::Error::Stopped { done, total: 21 })) => kept.push(done),
+                Err(error) => panic!("{error}"),
             }
         }
         // It was stopped before anything was finished, and in between; of several threads, all others may
         // finish after that.
         let between = kept.iter().any(|&done| 0 < done && done < 21);
         assert!(kept[0] == 0 && (between || threads > 1), "{threads}: {kept:?}");
-        assert!(run.into_result(&sweep).expect("done") == at_once, "{threads} threads, in parts");
     }
 }
 
@@ -240,7 +229,6 @@ fn a_group_that_fails_leaves_the_others() {
     let motor = Motor::paper_70_khz().with(|sheet| sheet.restitution = 0.99).expect("legal");
     let axes = vec![axis(MotorField::Amplitude, &[1e-8, 5e-3, 2e-8, 4.9e-3])];
     let sweep = MotorSweep::new(motor, axes, rough()).expect("legal");
-    let mut run = MotorSweepRun::new(&sweep);
     let alone =
         |cell: usize| sweep.motor_of(cell).expect("legal").operating_point(0.0, &rough(), &Unobserved);
     let failure = alone(1).expect_err("too violent");
@@ -248,28 +236,20 @@ fn a_group_that_fails_leaves_the_others() {
         |error: &Error| matches!(error, Error::Core(bouncing_disk_core::Error::FlightTooLong { .. }));
     assert!(too_long(&failure), "{failure}");
     assert!(alone(3).is_err_and(|error| too_long(&error) && error != failure));
-    for _ in 0..2 {
-        assert_eq!(run.advance(&sweep, &Unobserved), Err(failure));
-        let cells = run.cells(&sweep).expect("of this sweep");
-        assert_eq!(cells, [alone(0).ok(), None, alone(2).ok(), None]);
-    }
+    let groups = [0, 1, 2, 3].map(|group| sweep.operations(group, &Unobserved).ok());
+    assert_eq!(groups, [0, 1, 2, 3].map(|cell| alone(cell).ok().map(|own| vec![own])));
     assert_eq!(sweep.run(&Unobserved), Err(failure));
 }
 
 #[test]
-fn a_run_of_another_sweep_is_refused() {
-    let (one, other) = (mixed(), sweep(&[axis(MotorField::Friction, &[0.1])]).expect("legal"));
+fn the_operations_of_another_sweep_are_refused() {
+    let sweep = sweep(&[axis(MotorField::Friction, &[0.1])]).expect("legal");
+    let groups = vec![sweep.operations(0, &Unobserved).expect("turns")];
+    assert_eq!(sweep.result(&groups), sweep.run(&Unobserved));
     let unfitting =
         |what, found, expected| Error::Core(bouncing_disk_core::Error::Unfitting { what, found, expected });
-    let mut run = MotorSweepRun::new(&one);
-    assert_eq!(run.advance(&other, &Unobserved), Err(unfitting("items of a run", 1, 6)));
-    // As many groups, of another size.
-    let mut finished = bouncing_disk_core::sweep::PartialResults::new(1);
-    finished.extend([(0, Vec::new())]);
-    let mut run = MotorSweepRun::from(finished);
-    let wrong = unfitting("cells of a group of a sweep", 0, 1);
-    assert_eq!(run.advance(&other, &Unobserved), Err(wrong));
-    assert_eq!(run.into_result(&other), Err(wrong));
+    assert_eq!(sweep.result(&[]), Err(unfitting("groups of a sweep", 0, 1)));
+    assert_eq!(sweep.result(&[Vec::new()]), Err(unfitting("cells of a group of a sweep", 0, 1)));
 }
 
 /// Up and down the preload a hard rotor on a heavy stator keeps what it does: tapped once a period, or at rest, where both are
