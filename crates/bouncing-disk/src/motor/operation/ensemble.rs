@@ -6,7 +6,7 @@ use bouncing_disk_core::Observer;
 use bouncing_disk_core::numerics::statistics::{NORMAL_975, mean};
 use bouncing_disk_core::run::Watch;
 
-use crate::error::{Error, positive, within_limit};
+use crate::error::{Error, check, finite, positive, within_limit};
 use crate::motor::batch::shared_orbit::shared_by;
 use crate::motor::operation::carrier::{Carrier, Left};
 use crate::motor::operation::member::{Member, far_above};
@@ -156,6 +156,21 @@ pub(crate) fn operate(
 ) -> Result<Operations, Error> {
     settings.check()?;
     operate_for(None, motors, settings, observer)
+}
+
+/// The operations of a motor under each of these load torques.
+pub(crate) fn curve_of(
+    motor: LoadedMotor<'_>,
+    load_torques: &[f64],
+    settings: &OperatingSettings,
+    observer: &dyn Observer,
+) -> Result<Vec<Operation>, Error> {
+    check(!load_torques.is_empty(), "number of loads", 0.0, "[1, 1000000]")?;
+    let motors = load_torques
+        .iter()
+        .map(|&torque| motor.with_load(finite("load_torque", torque)?))
+        .collect::<Result<Vec<_>, Error>>()?;
+    Ok(operate(&motors, settings, observer)?.operations)
 }
 
 /// Where the two rotors of each member of an ensemble of one motor were left (SI).

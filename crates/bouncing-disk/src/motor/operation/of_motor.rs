@@ -3,12 +3,12 @@
 
 use bouncing_disk_core::{Observer, Progress, Unobserved};
 
-use crate::error::{Error, check, finite};
+use crate::error::{Error, check};
 use crate::motor::batch::shared_orbit::is_shared;
 use crate::motor::data_sheet::Motor;
 use crate::motor::driven_motor::DrivenMotor;
 use crate::motor::operation::best_phase_lag::{BestPhaseLag, best_phase_lag};
-use crate::motor::operation::ensemble::{LoadedMotor, MAX_OPERATED_ROTORS, operate};
+use crate::motor::operation::ensemble::{LoadedMotor, MAX_OPERATED_ROTORS, curve_of, operate};
 use crate::motor::operation::point::{Estimate, Operation};
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::operation::stall_load::{StallLoad, stall_load};
@@ -20,21 +20,6 @@ impl LoadedMotor<'static> {
         let (system, mass, load_torque) = (*motor.system(), motor.mass(), motor.load_torque());
         system.rigid().map(|()| Self { system, stator: None, mass, load_torque })
     }
-}
-
-/// The operations of a motor under each of these load torques.
-pub(crate) fn curve_of(
-    motor: LoadedMotor<'_>,
-    load_torques: &[f64],
-    settings: &OperatingSettings,
-    observer: &dyn Observer,
-) -> Result<Vec<Operation>, Error> {
-    check(!load_torques.is_empty(), "number of loads", 0.0, "[1, 1000000]")?;
-    let motors = load_torques
-        .iter()
-        .map(|&torque| motor.with_load(finite("load_torque", torque)?))
-        .collect::<Result<Vec<_>, Error>>()?;
-    Ok(operate(&motors, settings, observer)?.operations)
 }
 
 impl Motor {
