@@ -1,4 +1,4 @@
-//! Tosses: a single one, the best one, and many in a row.
+//! Tosses: a single one, and many in a row.
 //!
 //! A single toss starts at rest at the lowest point of the hand (Sec. III of Liu, Friend and Yeo). Its
 //! efficiency is the rotary energy over the work of the hand, its speed ratio the spin over the hand's
@@ -18,22 +18,17 @@
 //! # Ok::<(), bouncing_disk::Error>(())
 //! ```
 //!
-//! [`multi_toss`] classifies the orbit of many tosses, [`best_toss`] finds the best hand motion under
-//! constraints. All orbits of the vertical motion are in [`core::orbits`](crate::core::orbits). How a design
-//! is certified: docs/numerics/design.md.
+//! [`multi_toss`] classifies the orbit of many tosses. All orbits of the vertical motion are in
+//! [`core::orbits`](crate::core::orbits).
 
 pub(crate) mod chattering_cycle;
 pub(crate) mod collisions;
-pub(crate) mod design;
 pub(crate) mod multiple;
 pub(crate) mod rotary_response;
 pub(crate) mod single;
 
 pub use chattering_cycle::{ChatteringCycle, EXAMINED_IMPACTS, LONG_FLIGHT};
 pub use collisions::{Collision, CollisionEvent, CollisionState, Collisions};
-pub use design::constraints::{OverFriction, TossCertificate, TossConstraints, TossObjective};
-pub use design::robustness::{Robustness, TossHalfUnits, TossInput, TossRobustness};
-pub use design::{TossDesign, best_toss};
 pub use multiple::{MAX_EXAMINED, MultiTossSettings, OrbitClass, TossOrbit, multi_toss};
 pub use rotary_response::{
     RotaryOutcome, RotaryResponse, RotaryRound, period_one_rotary_speed, rotary_response, rotary_round,
