@@ -13,7 +13,6 @@ use serde_json::Value;
 use crate::claims::catalogue::CatalogueError;
 use crate::claims::{Claim, answers};
 use crate::json::{self, FiniteError};
-use crate::measured::{Layout, MeasuredError, Measurements, Series};
 use crate::progress::Progress;
 use crate::provenance;
 
@@ -101,9 +100,6 @@ pub enum ExperimentError {
         /// The number or statement.
         quantity: String,
     },
-    /// A user's measurements cannot be used.
-    #[error(transparent)]
-    Measured(Box<MeasuredError>),
     /// An input file (a table of the paper) could not be read.
     #[error("cannot read {path}")]
     Input {
@@ -112,12 +108,6 @@ pub enum ExperimentError {
         /// The report of the system or the parser.
         source: Box<dyn std::error::Error + Send + Sync>,
     },
-}
-
-impl From<MeasuredError> for ExperimentError {
-    fn from(error: MeasuredError) -> Self {
-        Self::Measured(Box::new(error))
-    }
 }
 
 impl From<StorageError> for ExperimentError {
@@ -176,12 +166,9 @@ pub trait Experiment: Sync + Send + 'static {
     /// A short title for the gallery and for lists.
     const TITLE: &'static str;
 
-    /// A description of the figure, in a paragraph for `docs/results.md`; nothing for a figure beyond the
-    /// paper. `{section4.merging}` stands for the computed number of the claim that answers this entry of the
+    /// A description of the figure, in a paragraph for `docs/results.md`. `{section4.merging}` stands for the computed number of the claim that answers this entry of the
     /// [catalogue](crate::claims::catalogue).
     const DISCUSSION: &'static str = "";
-    /// The files of a user's measurements that can be drawn over this figure.
-    const MEASUREMENTS: &'static [Layout] = &[];
     /// How a chattering sequence ends in the picture, if it shows one. A figure that compares both policies
     /// says so in its data.
     const CHATTER_POLICY: Option<ChatterPolicy> = None;
@@ -196,12 +183,6 @@ pub trait Experiment: Sync + Send + 'static {
 
     /// Computes the data. Deterministic: the same bits on every machine and with every number of threads.
     fn compute(quality: Quality, progress: &dyn Progress) -> Result<Self::Data, ExperimentError>;
-
-    /// Puts a user's measurements, and what is fitted to them, into a field of the data of its own. The
-    /// computed numbers stay what they are; after an error the data are unchanged.
-    fn overlay(_data: &mut Self::Data, _series: &Series) -> Result<(), ExperimentError> {
-        Ok(())
-    }
 
     /// Draws the data.
     fn draw(data: &Self::Data) -> Result<Figure, ExperimentError>;
@@ -237,8 +218,6 @@ pub struct Made {
     pub claims: Vec<Claim>,
     /// See [`Experiment::draw`].
     pub figure: Figure,
-    /// Faults of the user's measurements that are therefore not shown.
-    pub warnings: Vec<String>,
 }
 
 impl Made {
@@ -254,7 +233,6 @@ impl Made {
             parameters: E::parameters(data),
             claims,
             figure: E::draw(data)?,
-            warnings: Vec::new(),
         })
     }
 }
@@ -268,13 +246,11 @@ pub struct RegisteredExperiment {
     pub title: &'static str,
     /// See [`Experiment::DISCUSSION`].
     pub discussion: &'static str,
-    /// See [`Experiment::MEASUREMENTS`].
-    pub measurements: &'static [Layout],
     /// See [`Experiment::seeds`].
     pub seeds: Vec<(&'static str, u64)>,
     /// See [`Experiment::CHATTER_POLICY`].
     pub chatter_policy: Option<ChatterPolicy>,
-    compute: fn(Quality, &Measurements, &dyn Progress) -> Result<Made, ExperimentError>,
+    compute: fn(Quality, &dyn Progress) -> Result<Made, ExperimentError>,
     read: fn(&[u8]) -> Result<Stored, ExperimentError>,
 }
 
@@ -284,23 +260,12 @@ pub fn entry<E: Experiment>() -> RegisteredExperiment {
         id: E::ID,
         title: E::TITLE,
         discussion: E::DISCUSSION,
-        measurements: E::MEASUREMENTS,
         seeds: E::seeds(),
         chatter_policy: E::CHATTER_POLICY,
-        compute: |quality, measurements, progress| {
-            let mut data = E::compute(quality, progress)?;
-            let mut warnings = Vec::new();
-            for series in E::MEASUREMENTS.iter().filter_map(|layout| measurements.series(layout)) {
-                let added =
-                    series.map_err(ExperimentError::from).and_then(|series| E::overlay(&mut data, &series));
-                warnings.extend(added.err().map(|error| chain(&error)));
-            }
-            Ok(Made { warnings, ..Made::of::<E>(&data)? })
-        },
+        compute: |quality, progress| Made::of::<E>(&E::compute(quality, progress)?),
         read: |bytes| {
             let record: Record<E::Data> = serde_json::from_slice(bytes).map_err(ExperimentError::Stored)?;
-            let made = Made { warnings: record.warnings, ..Made::of::<E>(&record.data)? };
-            Ok((made, record.quality, record.provenance))
+            Ok((Made::of::<E>(&record.data)?, record.quality, record.provenance))
         },
     }
 }
@@ -327,26 +292,13 @@ struct Record<Data> {
     quality: Quality,
     caption: String,
     parameters: Vec<(String, String)>,
-    /// Faults of the user's measurements that are therefore not shown.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    warnings: Vec<String>,
     data: Data,
 }
 
 impl RegisteredExperiment {
-    /// Whether it is a figure beyond the paper, whose identifiers begin alike.
-    pub fn is_extra(&self) -> bool {
-        self.id.starts_with("extra-")
-    }
-
-    /// Runs the experiment. Measurements that cannot be used are left out, with a warning.
-    pub fn compute(
-        &self,
-        quality: Quality,
-        measurements: &Measurements,
-        progress: &dyn Progress,
-    ) -> Result<Made, ExperimentError> {
-        (self.compute)(quality, measurements, progress)
+    /// Runs the experiment.
+    pub fn compute(&self, quality: Quality, progress: &dyn Progress) -> Result<Made, ExperimentError> {
+        (self.compute)(quality, progress)
     }
 
     /// The origin of a file of this format. Where the experiment has several seeds, the first is *the* seed,
@@ -365,22 +317,15 @@ impl RegisteredExperiment {
         Ok(provenance)
     }
 
-    /// Runs the experiment and makes its files, `ID.json`, `ID.svg` and `ID.png`, each of which says where it comes from
-    /// ([`provenance`]).
-    pub fn files(
-        &self,
-        quality: Quality,
-        measurements: &Measurements,
-        progress: &dyn Progress,
-    ) -> Result<Vec<File>, ExperimentError> {
-        let Made { data, caption, parameters, figure, warnings, .. } =
-            self.compute(quality, measurements, progress)?;
+    /// Runs the experiment and makes its files, `ID.json` and `ID.svg`, which say where they come from ([`provenance`]), and
+    /// `ID.png`.
+    pub fn files(&self, quality: Quality, progress: &dyn Progress) -> Result<Vec<File>, ExperimentError> {
+        let Made { data, caption, parameters, figure, .. } = self.compute(quality, progress)?;
         let provenance = self.provenance(provenance::FIGURE, quality)?.with("values", &parameters)?;
-        let id = self.id;
-        let png = provenance::in_png(&provenance, &figure.to_png()?);
+        let png = figure.to_png()?;
         let svg = provenance::in_svg(&provenance, &figure.to_svg()?).into_bytes();
-        let (id, title) = (id.to_owned(), self.title.to_owned());
-        let record = Record { provenance, id, title, quality, caption, parameters, warnings, data };
+        let (id, title) = (self.id.to_owned(), self.title.to_owned());
+        let record = Record { provenance, id, title, quality, caption, parameters, data };
         let json = json::to_text(&json::to_value(&record)?).into_bytes();
         let id = self.id;
         Ok(vec![(format!("{id}.png"), png), (format!("{id}.svg"), svg), (format!("{id}.json"), json)])
@@ -406,13 +351,13 @@ mod tests {
     #[test]
     fn files_are_the_same_bytes_on_every_run_say_their_origin_and_read_back() {
         let demo = &demo_entries()[0];
-        let make = || demo.files(Quality::Draft, &Measurements::none(), &Silent).expect("works");
+        let make = || demo.files(Quality::Draft, &Silent).expect("works");
         let files = make();
         assert_eq!(files, make());
         let names: Vec<_> = files.iter().map(|(name, _)| name.as_str()).collect();
         assert_eq!(names, ["demo.png", "demo.svg", "demo.json"]);
         let (made, quality, origin) = demo.read(&files[2].1).expect("fits");
-        assert_eq!((quality, made.warnings.len(), made.claims.len()), (Quality::Draft, 0, 1));
+        assert_eq!((quality, made.claims.len()), (Quality::Draft, 1));
         let parameters = origin.parameters();
         assert_eq!((&parameters["figure"], &parameters["quality"]), (&"demo".into(), &"draft".into()));
         assert_eq!(parameters["values"], serde_json::json!([["restitution ε", "0.5"]]));
@@ -439,8 +384,7 @@ mod tests {
     #[test]
     fn what_cannot_be_stored_or_read_is_named() {
         let entries = demo_entries();
-        let error =
-            entries[1].files(Quality::Draft, &Measurements::none(), &Silent).expect_err("holds a NaN");
+        let error = entries[1].files(Quality::Draft, &Silent).expect_err("holds a NaN");
         let text = chain(&error);
         assert!(text.starts_with("the data cannot be stored: speed_m_per_s[1] is NaN"), "{text}");
         for (stored, expected) in [
@@ -458,25 +402,5 @@ mod tests {
             let text = chain(&entries[0].read(stored.as_bytes()).expect_err("of another form"));
             assert!(text.starts_with(expected), "{text}");
         }
-    }
-
-    #[test]
-    fn measurements_are_shown_and_malformed_ones_only_reported() {
-        let demo = &demo_entries()[0];
-        let folder = tempfile::tempdir().expect("writable");
-        let make = |content: &str| {
-            std::fs::write(folder.path().join("demo.csv"), content).expect("writable");
-            let measurements = Measurements::read(folder.path(), demo.measurements).expect("readable");
-            let files = demo.files(Quality::Draft, &measurements, &Silent).expect("works");
-            let (made, ..) = demo.read(&files[2].1).expect("fits");
-            (made.warnings, made.caption)
-        };
-        let (warnings, caption) = make("phase_rad\n0.1\n0.3\n");
-        assert!(warnings.is_empty() && caption.ends_with("2 measured."), "{warnings:?} {caption}");
-        let (warnings, caption) = make("phase_rad\n0.1\nx\n");
-        assert!(warnings[0].contains("line 3, column 1 (phase_rad): \"x\"") && !caption.contains("measured"));
-        // Well formed, but the figure cannot use it.
-        let (warnings, _) = make("phase_rad\n9\n");
-        assert_eq!(warnings, ["demo.csv: the points cannot be evaluated: invalid float literal"]);
     }
 }

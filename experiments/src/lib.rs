@@ -11,12 +11,10 @@
 //! [`registry`] lists the experiments; [`output`] writes their files, each with its [`provenance`];
 //! [`report`] makes the gallery and the committed pages from all of them.
 
-pub mod cache_key;
 pub mod claims;
 pub mod experiment;
 pub mod figures;
 pub mod json;
-pub mod measured;
 pub mod output;
 pub mod progress;
 pub mod provenance;
@@ -24,12 +22,10 @@ pub mod registry;
 pub mod report;
 #[cfg(test)]
 mod testing;
-pub mod visible;
 
 pub use claims::Claim;
 pub use experiment::{Experiment, ExperimentError, Quality};
 pub use json::FiniteError;
-pub use measured::Measurements;
 pub use progress::{Progress, Silent};
 
 /// Compiles and runs the examples of the workspace's README, which no packaged crate may read.

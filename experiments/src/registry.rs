@@ -1,16 +1,13 @@
-//! The lists of all experiments: those of the paper, and those beyond it.
+//! The list of all experiments.
 
 use crate::experiment::{RegisteredExperiment, entry};
 use crate::figures::{
-    extra_branches, extra_cascade, extra_contact, extra_crisis, extra_design, extra_drives, extra_efficiency,
-    extra_fit, extra_lyapunov, extra_manifolds, extra_regimes, extra_restitution_law, extra_torque_speed,
-    extra_traps, extra_yielding, fig01, fig02, fig03, fig04, fig05, fig06, fig07, fig08, fig09, fig10, fig11,
-    fig12, fig13, fig14, table1, table2, table3,
+    fig01, fig02, fig03, fig04, fig05, fig06, fig07, fig08, fig09, fig10, fig11, fig12, fig13, fig14, table1,
+    table2, table3,
 };
-use crate::measured::Layout;
 
 /// The figures and tables of the paper, in its order.
-pub fn paper() -> Vec<RegisteredExperiment> {
+pub fn all() -> Vec<RegisteredExperiment> {
     // One line per module of `figures`: `entry::<fig06::Fig06>(),`
     vec![
         entry::<fig01::Fig01>(),
@@ -31,38 +28,6 @@ pub fn paper() -> Vec<RegisteredExperiment> {
         entry::<table2::Table2>(),
         entry::<table3::Table3>(),
     ]
-}
-
-/// The figures beyond the paper, made only when they are asked for.
-pub fn extras() -> Vec<RegisteredExperiment> {
-    // One line per module of `figures`, whose name has underscores where the identifier has hyphens.
-    vec![
-        entry::<extra_torque_speed::ExtraTorqueSpeed>(),
-        entry::<extra_efficiency::ExtraEfficiency>(),
-        entry::<extra_restitution_law::ExtraRestitutionLaw>(),
-        entry::<extra_traps::ExtraTraps>(),
-        entry::<extra_fit::ExtraFit>(),
-        entry::<extra_design::ExtraDesign>(),
-        entry::<extra_lyapunov::ExtraLyapunov>(),
-        entry::<extra_regimes::ExtraRegimes>(),
-        entry::<extra_branches::ExtraBranches>(),
-        entry::<extra_cascade::ExtraCascade>(),
-        entry::<extra_crisis::ExtraCrisis>(),
-        entry::<extra_manifolds::ExtraManifolds>(),
-        entry::<extra_drives::ExtraDrives>(),
-        entry::<extra_contact::ExtraContact>(),
-        entry::<extra_yielding::ExtraYielding>(),
-    ]
-}
-
-/// All experiments: those of the paper, and behind them those beyond it.
-pub fn all() -> Vec<RegisteredExperiment> {
-    paper().into_iter().chain(extras()).collect()
-}
-
-/// The files of measurements that all experiments together can show.
-pub fn measurements(entries: &[RegisteredExperiment]) -> Vec<Layout> {
-    entries.iter().flat_map(|entry| entry.measurements.iter().copied()).collect()
 }
 
 /// An identifier that no experiment has.
@@ -104,39 +69,10 @@ mod tests {
     }
 
     #[test]
-    fn the_paper_is_there_and_what_is_beyond_it_says_so_once() {
+    fn every_figure_and_table_of_the_paper_is_there() {
         let figures = (1..=14).map(|figure| format!("fig{figure:02}"));
         let expected: Vec<_> = figures.chain((1..=3).map(|table| format!("table{table}"))).collect();
-        let ids: Vec<_> = paper().iter().map(|entry| entry.id).collect();
+        let ids: Vec<_> = all().iter().map(|entry| entry.id).collect();
         assert_eq!(ids, expected);
-        assert!(
-            paper().iter().all(|entry| !entry.is_extra()) && extras().iter().all(|entry| entry.is_extra())
-        );
-        let mut ids: Vec<_> = extras().iter().map(|entry| entry.id).collect();
-        for words in &ids {
-            let legal = |word: &str| !word.is_empty() && word.bytes().all(|b| b.is_ascii_lowercase());
-            assert!(words.split('-').all(legal), "{words}");
-        }
-        let count = ids.len();
-        ids.sort_unstable();
-        ids.dedup();
-        assert!(count > 0 && ids.len() == count);
-    }
-
-    #[test]
-    fn the_readme_of_the_measurements_states_every_layout() {
-        const README: &str = include_str!("../../data/measured/README.md");
-        for layout in measurements(&all()) {
-            let (_, section) =
-                README.split_once(&format!("### `{}`", layout.file)).expect("a section of its own");
-            let (_, block) = section.split_once("```csv\n").expect("an example");
-            let (example, _) = block.split_once("```").expect("its end");
-            assert_eq!(example.lines().next(), Some(layout.header().as_str()), "{}", layout.file);
-            let single = Layout { least_rows: 1, ..layout };
-            crate::measured::Series::read(&single, example.as_bytes()).expect("a legal example");
-            for column in layout.columns {
-                assert!(section.contains(&format!("| `{}` |", column.name)), "{}", column.name);
-            }
-        }
     }
 }

@@ -100,7 +100,6 @@ struct Section {
     /// "Fig. 6" for `fig06`, "Table II" for `table2`, the identifier for anything else.
     name: String,
     title: &'static str,
-    is_extra: bool,
     caption: String,
     discussion: String,
     parameters: Vec<(String, String)>,
@@ -122,7 +121,6 @@ impl Section {
             id: entry.id,
             name: name(entry.id),
             title: entry.title,
-            is_extra: entry.is_extra(),
             caption: made.caption.clone(),
             discussion,
             parameters: made.parameters.clone(),
@@ -140,7 +138,6 @@ fn environment() -> Environment<'static> {
     environment.set_keep_trailing_newline(true);
     environment
         .add_filter("cell", |text: &str| text.replace('|', "\\|").replace('\n', " ").replace('*', "\\*"));
-    environment.add_filter("visible", |text: &str| crate::visible::visible(text));
     environment.add_filter("number", number);
     environment.add_filter("near", near);
     environment
@@ -292,7 +289,7 @@ mod tests {
     #[test]
     fn a_discussion_takes_its_numbers_from_the_claims() {
         let mut demo = crate::testing::demo_entries().remove(0);
-        let made = demo.compute(crate::Quality::Draft, &crate::Measurements::none(), &crate::Silent);
+        let made = demo.compute(crate::Quality::Draft, &crate::Silent);
         let made =
             Made { claims: vec![Claim::printed("section4.merging", 0.560_750_7)], ..made.expect("works") };
         let mut section = |discussion| {

@@ -6,7 +6,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::claims::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality, RegisteredExperiment, entry};
-use crate::measured::{Column, Layout, Range, Series};
 use crate::progress::Progress;
 
 /// A small experiment that works.
@@ -17,8 +16,6 @@ pub(crate) struct DemoData {
     axial_forcing: Vec<f64>,
     impact_phase_rad: Vec<f64>,
     missing: Option<f64>,
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    measured_phase_rad: Vec<f64>,
 }
 
 impl Experiment for Demo {
@@ -26,12 +23,6 @@ impl Experiment for Demo {
     const ID: &'static str = "demo";
     const TITLE: &'static str = "A demonstration";
     const DISCUSSION: &'static str = "It shows that | is escaped.";
-    const MEASUREMENTS: &'static [Layout] = &[Layout {
-        file: "demo.csv",
-        columns: &[Column::value("phase_rad", Range::NotNegative)],
-        least_rows: 1,
-    }];
-
     const CHATTER_POLICY: Option<ChatterPolicy> = Some(ChatterPolicy::Complete);
 
     fn seeds() -> Vec<(&'static str, u64)> {
@@ -39,11 +30,7 @@ impl Experiment for Demo {
     }
 
     fn caption(data: &DemoData) -> String {
-        let measured = match data.measured_phase_rad.len() {
-            0 => String::new(),
-            count => format!(" {count} measured."),
-        };
-        format!("{} phases of impact τ_imp & Γ < 1.{measured}", data.impact_phase_rad.len())
+        format!("{} phases of impact τ_imp & Γ < 1.", data.impact_phase_rad.len())
     }
 
     fn compute(quality: Quality, progress: &dyn Progress) -> Result<DemoData, ExperimentError> {
@@ -53,18 +40,7 @@ impl Experiment for Demo {
             (0..count).map(|i| 0.3 + 0.3 * f64::from(i) / f64::from(count - 1)).collect();
         progress.advance(u64::from(count));
         let impact_phase_rad = axial_forcing.iter().map(|forcing| forcing * forcing).collect();
-        let measured_phase_rad = Vec::new();
-        Ok(DemoData { axial_forcing, impact_phase_rad, missing: None, measured_phase_rad })
-    }
-
-    fn overlay(data: &mut DemoData, series: &Series) -> Result<(), ExperimentError> {
-        let phases: Vec<f64> = series.rows().map(|[phase]| phase).collect();
-        if phases.iter().any(|phase| *phase > 7.0) {
-            let no_number = "x".parse::<f64>().expect_err("no number");
-            return Err(series.unusable(None, no_number).into());
-        }
-        data.measured_phase_rad = phases;
-        Ok(())
+        Ok(DemoData { axial_forcing, impact_phase_rad, missing: None })
     }
 
     fn draw(data: &DemoData) -> Result<Figure, ExperimentError> {

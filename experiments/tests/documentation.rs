@@ -7,10 +7,10 @@ use std::path::PathBuf;
 use bouncing_disk::core::numerics::elementary::{acos, asin};
 use bouncing_disk_experiments::registry;
 use bouncing_disk_experiments::report::pages::{
-    DIGESTS_FILE, Digests, LARGEST_PICTURE, LARGEST_VECTOR, Pictures, digest, template,
+    DIGESTS_FILE, Digests, LARGEST_PICTURE, LARGEST_VECTOR, PICTURES_FOLDER, digest, template,
 };
 
-/// All pictures of a folder together may be so large (bytes).
+/// All pictures together may be so large (bytes).
 const ALL_PICTURES: usize = 4_000_000;
 
 fn docs(name: &str) -> PathBuf {
@@ -19,40 +19,34 @@ fn docs(name: &str) -> PathBuf {
 
 #[test]
 fn the_committed_files_are_those_that_were_generated_and_small() {
-    for (pictures, entries, command) in [
-        (Pictures::Paper, registry::paper(), "cargo xtask figures --docs"),
-        (Pictures::Extras, registry::extras(), "cargo xtask figures --extras --docs"),
-    ] {
-        let folder = docs(pictures.folder());
-        let digests = fs::read(folder.join(DIGESTS_FILE)).expect("the digests are committed");
-        let digests: Digests = serde_json::from_slice(&digests).expect("written by this version");
-        let (template, of_template) = template();
-        for (name, expected) in &digests.pages {
-            let own = if name == template {
-                of_template.clone()
-            } else {
-                digest(&fs::read(docs(name)).expect("the page is committed"))
-            };
-            assert_eq!(own, *expected, "{name} was edited; to repair: {command}");
-        }
-        let mut ids: Vec<_> = entries.iter().map(|entry| entry.id).collect();
-        ids.sort_unstable();
-        assert!(digests.figures.keys().eq(&ids), "to repair: {command}");
-        let mut together = 0;
-        for (id, digests) in &digests.figures {
-            let picture = fs::read(folder.join(format!("{id}.png"))).expect("the picture is committed");
-            assert_eq!(digest(&picture), digests.picture, "{id}.png was edited");
-            assert!(picture.len() <= LARGEST_PICTURE, "{id}.png has {} bytes", picture.len());
-            together += picture.len();
-            if let Some(expected) = &digests.vector {
-                let vector =
-                    fs::read(folder.join(format!("{id}.svg"))).expect("the vector file is committed");
-                assert_eq!(digest(&vector), *expected, "{id}.svg was edited");
-                assert!(vector.len() <= LARGEST_VECTOR, "{id}.svg has {} bytes", vector.len());
-            }
-        }
-        assert!(together <= ALL_PICTURES, "the pictures have {together} bytes");
+    const COMMAND: &str = "cargo xtask figures --docs";
+    let folder = docs(PICTURES_FOLDER);
+    let digests = fs::read(folder.join(DIGESTS_FILE)).expect("the digests are committed");
+    let digests: Digests = serde_json::from_slice(&digests).expect("written by this version");
+    let (template, of_template) = template();
+    for (name, expected) in &digests.pages {
+        let own = if name == template {
+            of_template.clone()
+        } else {
+            digest(&fs::read(docs(name)).expect("the page is committed"))
+        };
+        assert_eq!(own, *expected, "{name} was edited; to repair: {COMMAND}");
     }
+    let entries = registry::all();
+    let mut ids: Vec<_> = entries.iter().map(|entry| entry.id).collect();
+    ids.sort_unstable();
+    assert!(digests.figures.keys().eq(&ids), "to repair: {COMMAND}");
+    let mut together = 0;
+    for (id, digests) in &digests.figures {
+        let picture = fs::read(folder.join(format!("{id}.png"))).expect("the picture is committed");
+        assert_eq!(digest(&picture), digests.picture, "{id}.png was edited");
+        assert!(picture.len() <= LARGEST_PICTURE, "{id}.png has {} bytes", picture.len());
+        together += picture.len();
+        let vector = fs::read(folder.join(format!("{id}.svg"))).expect("the vector file is committed");
+        assert_eq!(digest(&vector), digests.vector, "{id}.svg was edited");
+        assert!(vector.len() <= LARGEST_VECTOR, "{id}.svg has {} bytes", vector.len());
+    }
+    assert!(together <= ALL_PICTURES, "the pictures have {together} bytes");
 }
 
 #[test]

@@ -12,9 +12,6 @@ mod forward;
 mod output;
 #[cfg(feature = "figures")]
 mod report;
-#[path = "../../experiments/src/visible.rs"]
-#[allow(dead_code, unreachable_pub, reason = "it is the experiments', without which this program may be")]
-mod visible;
 #[cfg(feature = "figures")]
 mod work;
 mod workspace;
@@ -85,7 +82,7 @@ mod tests {
     #[test]
     fn every_chore_that_the_documentation_names_is_legal() {
         let mut pages = vec![workspace::in_workspace("README.md")];
-        for folder in ["docs", "docs/numerics", "data/measured", "crates/bouncing-disk-web"] {
+        for folder in ["docs", "docs/numerics", "crates/bouncing-disk-web"] {
             let entries = fs::read_dir(workspace::in_workspace(folder)).unwrap();
             pages.extend(entries.map(|entry| entry.unwrap().path()));
         }
@@ -107,10 +104,10 @@ mod tests {
 
     #[test]
     fn chores_are_found() {
-        let page = "Run `cargo xtask figures --extras`, or `cargo test`.\n\n    cargo xtask explorer  # the page\n```sh\n\
+        let page = "Run `cargo xtask figures --check`, or `cargo test`.\n\n    cargo xtask explorer  # the page\n```sh\n\
                     cargo xtask figure # a fault\n```\n";
         let found = commands(page);
-        assert_eq!(found, ["figures --extras", "explorer", "figure"]);
+        assert_eq!(found, ["figures --check", "explorer", "figure"]);
         let legal = found.iter().map(|line| {
             let words = ["cargo xtask"].into_iter().chain(line.split_whitespace());
             Arguments::try_parse_from(words).is_ok()

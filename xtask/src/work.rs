@@ -7,45 +7,41 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, anyhow};
-use bouncing_disk_experiments::experiment::RegisteredExperiment;
-use bouncing_disk_experiments::output::OutputFolder;
-use bouncing_disk_experiments::{Measurements, Quality};
+use bouncing_disk_experiments::Quality;
+use bouncing_disk_experiments::experiment::{File, RegisteredExperiment};
 
 use crate::report::Report;
 
 /// The outcome of one figure.
 #[derive(Debug)]
-pub(crate) struct Finished {
+pub(crate) struct Finished<T> {
     pub(crate) id: &'static str,
     pub(crate) run_time: Duration,
-    pub(crate) result: anyhow::Result<()>,
+    pub(crate) result: anyhow::Result<T>,
 }
 
-/// Makes all entries, at most `threads` at a time. A figure that fails does not stop the others.
+/// Makes all entries, at most `threads` at a time, and gives the files of each to `keep`. A figure that fails does
+/// not stop the others.
 ///
 /// The figures are taken by threads of their own and only their parallel parts run in the pool of computing
 /// threads. A pool thread that waits inside one figure would take up another figure meanwhile, and its run
 /// time would count for both. (It does where a figure runs searches side by side in the pool, as Figs. 6 and
 /// 7 do.)
-pub(crate) fn make_all(
+pub(crate) fn make_all<T: Send>(
     entries: &[&RegisteredExperiment],
     quality: Quality,
-    measurements: &Measurements,
-    folder: &OutputFolder,
     threads: usize,
     report: &Report,
-) -> Vec<Finished> {
+    keep: impl Fn(Vec<File>) -> anyhow::Result<T> + Sync,
+) -> Vec<Finished<T>> {
     let make = |entry: &RegisteredExperiment| {
         let id = entry.id;
         let progress = report.begin(id);
         let start = Instant::now();
-        let made = panic::catch_unwind(AssertUnwindSafe(|| entry.files(quality, measurements, &progress)));
+        let made = panic::catch_unwind(AssertUnwindSafe(|| entry.files(quality, &progress)));
         let run_time = start.elapsed();
         let result = match made {
-            Ok(Ok(files)) => {
-                let measured = measurements.digest(entry.measurements);
-                folder.write_set(id, quality, &measured, run_time.as_secs_f64(), &files).map_err(Into::into)
-            }
+            Ok(Ok(files)) => keep(files),
             Ok(Err(error)) => Err(error).with_context(|| format!("{quality} quality")),
             Err(payload) => Err(anyhow!("panicked: {}", message(&*payload))),
         };
@@ -114,11 +110,9 @@ mod tests {
 
     #[test]
     fn one_failure_does_not_stop_the_others() {
-        let folder = OutputFolder::existing("no such folder");
         let entries = [entry::<Failing<true>>(), entry::<Failing<false>>(), entry::<Failing<true>>()];
         let entries: Vec<&RegisteredExperiment> = entries.iter().collect();
-        let mut finished =
-            make_all(&entries, Quality::Draft, &Measurements::none(), &folder, 2, &Report::Lines);
+        let mut finished = make_all(&entries, Quality::Draft, 2, &Report::Lines, |_| Ok(()));
         finished.sort_by_key(|figure| figure.id);
         let errors: Vec<_> =
             finished.iter().map(|f| format!("{:#}", f.result.as_ref().expect_err("all fail"))).collect();

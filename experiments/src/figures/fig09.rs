@@ -13,7 +13,6 @@ use super::shared::motor::MotorCase;
 use super::shared::numbers::{Noise, StraightLine};
 use crate::claims::paper;
 use crate::experiment::{Experiment, ExperimentError, Quality, named};
-use crate::measured::{Column, Layout, Range, Series};
 use crate::progress::Progress;
 
 /// Fig. 9.
@@ -25,7 +24,6 @@ impl Experiment for Fig09 {
     const ID: &'static str = "fig09";
     const TITLE: &'static str = "Coefficient of friction from the rotor's deceleration";
     const DISCUSSION: &str = include_str!("fig09/discussion.md");
-    const MEASUREMENTS: &'static [Layout] = &[DECELERATIONS, FRICTIONS];
     const CHATTER_POLICY: Option<ChatterPolicy> = Some(ChatterPolicy::Complete);
 
     fn seeds() -> Vec<(&'static str, u64)> {
@@ -33,20 +31,13 @@ impl Experiment for Fig09 {
     }
 
     fn caption(data: &Fig09Data) -> String {
-        let own: Vec<String> = data.measured_decelerations.iter().map(Deceleration::words).collect();
-        let own = [own.join("; "), data.measured_words.clone()].join(" ");
-        let own = if own.trim().is_empty() {
-            String::new()
-        } else {
-            format!(" Crosses: a user's own measurements: {}.", own.trim())
-        };
         format!(
             "Determining the coefficient of friction between rotor and stator. (a) Speed of the model's rotor after the \
              motor is switched off at {} rad/s, at the lowest, the middle and the highest preload of Sec. V B, with the fitted \
              line −α̈_brake (t − t_c) (dashed) from which Eq. (17) gives μ; a residual vibration of the stator is not \
              modelled. (b) μ against preload: circles, recovered from the model's curves; dots, a synthetic record, not \
              measured, drawn from the log-normal distribution with the printed mean {} and standard deviation {} (seed {}); \
-             line, the printed mean. The paper's points are not in its text.{own}",
+             line, the printed mean. The paper's points are not in its text.",
             data.first_speed_rad_per_s, data.printed_mean, data.printed_deviation, SEED
         )
     }
@@ -88,21 +79,7 @@ impl Experiment for Fig09 {
             synthetic_slope_per_n: line.map_or(0.0, |line| line.slope),
             synthetic_slope_error_per_n: line.map_or(0.0, |line| line.slope_error),
             synthetic,
-            measured_decelerations: Vec::new(),
-            measured_frictions: Vec::new(),
-            measured_words: String::new(),
         })
-    }
-
-    fn overlay(data: &mut Fig09Data, series: &Series) -> Result<(), ExperimentError> {
-        if series.layout().file == DECELERATIONS.file {
-            data.measured_decelerations = decelerations(series, &data.case, data.rotor_mass_kg)?;
-        } else {
-            let points: Vec<_> = series.rows::<2>().map(<(f64, f64)>::from).collect();
-            data.measured_words = friction_words(&points)?;
-            data.measured_frictions = points;
-        }
-        Ok(())
     }
 
     fn draw(data: &Fig09Data) -> Result<Figure, ExperimentError> {
@@ -134,7 +111,7 @@ impl Experiment for Fig09 {
     }
 }
 
-/// Braking curves of the model, a synthetic record, and a user's own measurements.
+/// Braking curves of the model, and a synthetic record.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Fig09Data {
     case: MotorCase,
@@ -150,13 +127,6 @@ pub struct Fig09Data {
     /// Slope of the synthetic μ against preload (1/N) and its standard error.
     synthetic_slope_per_n: f64,
     synthetic_slope_error_per_n: f64,
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    measured_decelerations: Vec<Deceleration>,
-    /// Preload (N) and μ.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    measured_frictions: Vec<(f64, f64)>,
-    #[serde(default, skip_serializing_if = "String::is_empty")]
-    measured_words: String,
 }
 
 /// A braking curve and its straight line, α̇ = −α̈_brake (t − t_c).
@@ -170,14 +140,6 @@ struct Curve {
     stop_s: f64,
     /// μ by Eq. (17).
     friction: f64,
-}
-
-/// A trial of a user's.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-struct Deceleration {
-    trial: u32,
-    #[serde(flatten)]
-    curve: Curve,
 }
 
 /// Preloads of the model and of the synthetic record, evenly over the range of Sec. V B; the record is made up.
@@ -202,7 +164,7 @@ fn curve(case: &MotorCase, mass: f64, preload_n: f64, first_speed: f64) -> Resul
         .uniform(SAMPLES)
         .map(|snapshot| (scales.time_seconds(snapshot.time), scales.state(&snapshot.disk).angular_speed))
         .collect();
-    fitted(&rotor(case, mass, preload_n), &points, |_| true).map_err(ExperimentError::model)
+    fitted(&rotor(case, mass, preload_n), &points).map_err(ExperimentError::model)
 }
 
 fn rotor(case: &MotorCase, mass: f64, normal_force: f64) -> BrakingRotor {
@@ -213,7 +175,7 @@ fn rotor(case: &MotorCase, mass: f64, normal_force: f64) -> BrakingRotor {
 /// A curve that no straight line to rest can be fitted to.
 #[derive(Debug, thiserror::Error)]
 enum BrakingError {
-    #[error("{found} speeds above 0; legal is 3 or more")]
+    #[error("{found} speeds; legal is 3 or more")]
     TooFew { found: usize },
     #[error("the slope of the line is {slope:e} rad/s²; legal is a number below 0")]
     NotBraking { slope: f64 },
@@ -221,15 +183,10 @@ enum BrakingError {
     Rotor(#[from] bouncing_disk::Error),
 }
 
-/// A curve with the line through the points in which the rotor slides.
-fn fitted(
-    rotor: &BrakingRotor,
-    points: &[(f64, f64)],
-    slides: fn(&(f64, f64)) -> bool,
-) -> Result<Curve, BrakingError> {
-    let sliding: Vec<(f64, f64)> = points.iter().copied().filter(slides).collect();
-    let too_few = BrakingError::TooFew { found: sliding.len() };
-    let line = StraightLine::through(&sliding).ok_or(too_few)?;
+/// A curve with the line through its points.
+fn fitted(rotor: &BrakingRotor, points: &[(f64, f64)]) -> Result<Curve, BrakingError> {
+    let too_few = BrakingError::TooFew { found: points.len() };
+    let line = StraightLine::through(points).ok_or(too_few)?;
     let stop_s = -line.intercept / line.slope;
     if line.slope >= 0.0 || !stop_s.is_finite() {
         return Err(BrakingError::NotBraking { slope: line.slope });
@@ -244,57 +201,6 @@ fn fitted(
     })
 }
 
-/// Speeds of the rotor after the motor is switched off.
-const DECELERATIONS: Layout = Layout {
-    file: "fig09_deceleration.csv",
-    columns: &[
-        Column::trial(99),
-        Column::constant("preload_n", Range::Positive),
-        Column::time(),
-        Column::value("angular_speed_rad_per_s", Range::NotNegative),
-    ],
-    least_rows: 3,
-};
-
-/// Coefficients of friction against preload.
-const FRICTIONS: Layout = Layout {
-    file: "fig09_friction.csv",
-    columns: &[Column::value("preload_n", Range::Positive), Column::value("friction", Range::NotNegative)],
-    least_rows: 2,
-};
-
-/// Fits every trial of a user's; a speed of 0 is not fitted.
-fn decelerations(series: &Series, case: &MotorCase, mass: f64) -> Result<Vec<Deceleration>, ExperimentError> {
-    let trials = series.trials::<4>().into_iter().map(|(trial, rows)| {
-        let points: Vec<(f64, f64)> = rows.iter().map(|row| (row[2], row[3])).collect();
-        let rotor = rotor(case, mass, rows.first().map_or(f64::NAN, |row| row[1]));
-        let curve = fitted(&rotor, &points, |point| point.1 > 0.0);
-        let curve = curve.map_err(|error| series.unusable(Some(trial), error))?;
-        Ok(Deceleration { trial, curve })
-    });
-    trials.collect()
-}
-
-/// Mean, standard deviation and slope of a user's coefficients of friction.
-fn friction_words(points: &[(f64, f64)]) -> Result<String, ExperimentError> {
-    let frictions: Vec<f64> = points.iter().map(|point| point.1).collect();
-    let spread = Spread::of(&frictions)?;
-    let slope = StraightLine::through(points).map_or_else(String::new, |line| {
-        format!("; slope against preload {:.3} ± {:.3} 1/N", line.slope, line.slope_error)
-    });
-    Ok(format!("μ = {:.3} ± {:.3} of {} points{slope}", spread.mean, spread.deviation, points.len()))
-}
-
-impl Deceleration {
-    fn words(&self) -> String {
-        let Self { trial, curve } = self;
-        format!(
-            "trial {trial} at {} N: α̈_brake = {:.3} rad/s², t_c = {:.4} s, μ = {:.4} by Eq. (17)",
-            curve.preload_n, curve.brake_rad_per_s2, curve.stop_s, curve.friction
-        )
-    }
-}
-
 impl Curve {
     fn points(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
         self.time_s.iter().copied().zip(self.angular_speed_rad_per_s.iter().copied())
@@ -305,10 +211,6 @@ impl Curve {
         let first = self.brake_rad_per_s2 * (start - self.stop_s);
         Line::new([(start, first), (self.stop_s, 0.0)]).dash(Dash::Dashed)
     }
-}
-
-fn measured(points: impl IntoIterator<Item = (f64, f64)>) -> Scatter {
-    Scatter::new(points).marker(Marker::Cross).colour(Colour::GREEN).name("measured")
 }
 
 fn speeds(area: Rect, data: &Fig09Data) -> Panel {
@@ -330,10 +232,6 @@ fn speeds(area: Rect, data: &Fig09Data) -> Panel {
     if let Some(line) = lines.pop() {
         panel = panel.layers(lines).layer(line.name("straight line"));
     }
-    for Deceleration { curve, .. } in &data.measured_decelerations {
-        let start = curve.time_s.first().copied().unwrap_or_default();
-        panel = panel.layer(measured(curve.points())).layer(curve.line(start).colour(Colour::GREEN));
-    }
     panel.legend(Legend::at(Corner::TopRight))
 }
 
@@ -352,46 +250,33 @@ fn frictions(area: Rect, data: &Fig09Data) -> Panel {
                 .name("synthetic, not measured"),
         )
         .layer(Scatter::new(recovered).marker(Marker::Circle).colour(Colour::BLUE).name("model, Eq. (17)"));
-    let own = milli(&data.measured_frictions);
-    let panel = panel.layers((!own.is_empty()).then(|| measured(own)));
     panel.legend(Legend::at(Corner::TopLeft))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::experiment::chain;
 
-    fn read(body: &str) -> Result<Vec<Deceleration>, ExperimentError> {
-        let text = format!("{}\n{body}", DECELERATIONS.header());
-        let series = Series::read(&DECELERATIONS, text.as_bytes()).expect("well formed");
-        let case = MotorCase::table_three().expect("reads");
-        decelerations(&series, &MotorCase { contact_radius_m: 5e-3, gyration_radius_m: 1e-2, ..case }, 1e-2)
+    fn fit(points: &[(f64, f64)]) -> Result<Curve, BrakingError> {
+        let rotor =
+            BrakingRotor { normal_force: 0.2, mass: 1e-2, contact_radius: 5e-3, gyration_radius: 1e-2 };
+        fitted(&rotor, points)
     }
 
     #[test]
     fn the_slope_gives_the_friction() {
-        // Synthetic: 20 − 100 t; the speed at rest is not fitted.
-        let trials = read("4,0.2,0,20\n4,0.2,0.1,10\n4,0.2,0.15,5\n4,0.2,0.3,0\n").expect("brakes");
-        let [trial] = &trials[..] else { panic!("one trial") };
-        let curve = &trial.curve;
+        // Synthetic: 20 − 100 t.
+        let curve = fit(&[(0.0, 20.0), (0.1, 10.0), (0.15, 5.0)]).expect("brakes");
         assert!((curve.brake_rad_per_s2 + 100.0).abs() < 1e-9 && (curve.stop_s - 0.2).abs() < 1e-12);
         // 1e-6 · 100/(5e-3 · 0.2)
         assert!((curve.friction - 0.1).abs() < 1e-12);
-        assert!(trial.words().contains("μ = 0.1000"));
     }
 
     #[test]
     fn a_rotor_that_does_not_brake_is_refused() {
-        let error = chain(&read("1,0.2,0,1\n1,0.2,1,2\n1,0.2,2,3\n").expect_err("speeds up"));
-        assert!(error.contains("trial 1 cannot be evaluated: the slope of the line is 1e0"), "{error}");
-        let error = chain(&read("1,0.2,0,1\n1,0.2,1,0\n1,0.2,2,0\n").expect_err("one speed"));
-        assert!(error.contains("1 speeds above 0; legal is 3 or more"), "{error}");
-    }
-
-    #[test]
-    fn frictions_are_summarised() {
-        let words = friction_words(&[(0.1, 0.1), (0.2, 0.1), (0.3, 0.1)]).expect("finite");
-        assert!(words.starts_with("μ = 0.100 ± 0.000 of 3 points; slope"));
+        let error = fit(&[(0.0, 1.0), (1.0, 2.0), (2.0, 3.0)]).expect_err("speeds up").to_string();
+        assert!(error.contains("the slope of the line is 1e0"), "{error}");
+        let error = fit(&[(0.0, 1.0)]).expect_err("one speed").to_string();
+        assert!(error.contains("1 speeds; legal is 3 or more"), "{error}");
     }
 }

@@ -11,11 +11,9 @@ use bouncing_disk::motor::TransientSettings;
 use bouncing_disk_plot::Figure;
 
 pub use self::data::Fig11Data;
-use self::data::{LAYOUT, read};
 use crate::claims::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality, named};
 use crate::figures::shared::motor::MotorCase;
-use crate::measured::{Layout, Series};
 use crate::progress::Progress;
 
 /// Fig. 11.
@@ -27,7 +25,6 @@ impl Experiment for Fig11 {
     const ID: &'static str = "fig11";
     const TITLE: &'static str = "Effect of preload on steady-state speed and stall torque";
     const DISCUSSION: &str = include_str!("fig11/discussion.md");
-    const MEASUREMENTS: &'static [Layout] = &[LAYOUT];
     const CHATTER_POLICY: Option<ChatterPolicy> = Some(ChatterPolicy::Complete);
 
     fn seeds() -> Vec<(&'static str, u64)> {
@@ -52,7 +49,7 @@ impl Experiment for Fig11 {
              equal parts of the range for each curve (seed {}). Bars, at a few dots of each curve: standard deviation of the members. \
              Open circles: {} motors on a low-period chattering cycle, {} of them of a single flight (see the claims). Squares in (b) and (d): the load torque that \
              really stalls the motor at A = 10⁻⁸ m and the lowest, the middle and the highest preload of the trends, where the dots are the paper's estimate of it. Blue band: 5 to 95 % of the single orbits that nothing perturbs, of all three amplitudes together, by fourteenths of the range of g. Grey: {from} \
-             to {to} mN. The paper's measurements (crosses) are not in its text.{}",
+             to {to} mN. The paper's measurements (crosses) are not in its text.",
             data.motor.frequency_hz / 1e3,
             data.printed.frequencies_hz[1] / 1e3,
             data.members[0],
@@ -63,17 +60,11 @@ impl Experiment for Fig11 {
             data.preload_seed,
             data.holes.low_period,
             data.holes.one_flight,
-            data.measured.caption(data),
         )
     }
 
     fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig11Data, ExperimentError> {
         compute::compute(quality, progress)
-    }
-
-    fn overlay(data: &mut Fig11Data, series: &Series) -> Result<(), ExperimentError> {
-        data.measured = read(data, series)?;
-        Ok(())
     }
 
     fn draw(data: &Fig11Data) -> Result<Figure, ExperimentError> {

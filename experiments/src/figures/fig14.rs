@@ -1,8 +1,8 @@
 //! Fig. 14: growth of the dough over multiple tosses.
 
 use bouncing_disk_plot::{
-    Anchor, Arrow, Axis, Colour, Corner, Dash, Figure, Grid, Legend, Line, Margins, Marker, Panel,
-    SINGLE_COLUMN, Scatter, Text, Ticks,
+    Anchor, Arrow, Axis, Colour, Corner, Dash, Figure, Grid, Legend, Line, Margins, Panel, SINGLE_COLUMN,
+    Scatter, Text, Ticks,
 };
 use serde::{Deserialize, Serialize};
 
@@ -10,7 +10,6 @@ use super::shared::numbers::{Noise, StraightLine};
 use super::shared::toss::TossCase;
 use crate::claims::{Claim, paper};
 use crate::experiment::{Experiment, ExperimentError, Quality, named};
-use crate::measured::{Column, Layout, Range, SMALLEST, Series};
 use crate::progress::Progress;
 
 /// Fig. 14.
@@ -22,23 +21,18 @@ impl Experiment for Fig14 {
     const ID: &'static str = "fig14";
     const TITLE: &'static str = "Growth of the dough over multiple tosses";
     const DISCUSSION: &str = include_str!("fig14/discussion.md");
-    const MEASUREMENTS: &'static [Layout] = &[DIAMETERS];
 
     fn seeds() -> Vec<(&'static str, u64)> {
         vec![("record", SEED)]
     }
 
     fn caption(data: &Fig14Data) -> String {
-        let measured = data
-            .measured
-            .as_ref()
-            .map_or(String::new(), |growth| format!(" Crosses: a user's own diameters, {}.", growth.words()));
         format!(
             "Diameter of the dough against time. Black: the printed least-squares line d/d₀ = 1 + {} (t − {}). Arrows: \
              starts of the tosses n = 3 to 12, evenly spaced so that the printed growth of {} % lies between the first and \
              the last. Dots: a synthetic record, not measured, on that line with a relative scatter of {} at {} frames a \
              second (seed {SEED}); dashed: the line fitted to it, slope {:.4} ± {:.4} 1/s. The paper's points are not in its \
-             text.{measured}",
+             text.",
             data.slope_per_s,
             data.start_s,
             100.0 * data.growth,
@@ -84,13 +78,7 @@ impl Experiment for Fig14 {
             .airborne_speed()?
                 - toss.airborne_speed()?,
             flight_spin_loss_percent: 100.0 * (1.0 - 1.0 / (larger * larger)),
-            measured: None,
         })
-    }
-
-    fn overlay(data: &mut Fig14Data, series: &Series) -> Result<(), ExperimentError> {
-        data.measured = Some(Growth::of(series)?);
-        Ok(())
     }
 
     fn draw(data: &Fig14Data) -> Result<Figure, ExperimentError> {
@@ -120,14 +108,6 @@ impl Experiment for Fig14 {
             panel = panel
                 .layer(Arrow::at_data((*start, at - 0.075), (*start, at - 0.03)).head(4.0))
                 .layer(Text::at_data(*start, at - 0.11, toss.to_string()).anchor(Anchor::Middle));
-        }
-        if let Some(own) = &data.measured {
-            let points = || own.time_s.iter().copied().zip(own.relative_diameter.iter().copied());
-            let ends = [points().next(), points().next_back()].into_iter().flatten();
-            let line = ends.map(|(time, _)| (time, 1.0 + own.slope_per_s * (time - own.time_s[0])));
-            panel = panel
-                .layer(Scatter::new(points()).marker(Marker::Cross).colour(Colour::GREEN).name("measured"))
-                .layer(Line::new(line).colour(Colour::GREEN).dash(Dash::Dashed).name("its fit"));
         }
         Ok(Figure::new(SINGLE_COLUMN, HEIGHT).panel(panel.legend(Legend::at(Corner::TopLeft))))
     }
@@ -176,8 +156,6 @@ pub struct Fig14Data {
     airborne_speed_change_rad_per_s: f64,
     /// Share of its rotation that a dough loses which grows so much while it flies: its angular momentum does not change.
     flight_spin_loss_percent: f64,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    measured: Option<Growth>,
 }
 
 impl Fig14Data {
@@ -206,87 +184,4 @@ fn record((start, slope, duration): (f64, f64, f64), seed: u64) -> Option<Record
     let line = StraightLine::through(&points)?;
     let (slope, error) = line.slope_over_value_at(start);
     Some((points, slope, error))
-}
-
-/// Diameters against time.
-const DIAMETERS: Layout = Layout {
-    file: "fig14.csv",
-    columns: &[Column::time(), Column::value("diameter", Range::Positive)],
-    least_rows: 3,
-};
-
-/// Diameters over that of their straight line at the first time, d/d_0 = 1 + slope (t − t_0).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-struct Growth {
-    time_s: Vec<f64>,
-    relative_diameter: Vec<f64>,
-    slope_per_s: f64,
-    slope_error_per_s: f64,
-}
-
-/// The line has no diameter at the first time that others can be divided by.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("the line gives a first diameter of {diameter:e}; legal is {SMALLEST:e} or more")]
-struct GrowthError {
-    /// In the unit of the file.
-    diameter: f64,
-}
-
-impl Growth {
-    /// Fits the line to all points of a file.
-    fn of(series: &Series) -> Result<Self, ExperimentError> {
-        let points: Vec<(f64, f64)> = series.rows::<2>().map(|[time, diameter]| (time, diameter)).collect();
-        let first = points.first().map_or(f64::NAN, |point| point.0);
-        let line = StraightLine::through(&points);
-        let diameter = line.map_or(f64::NAN, |line| line.intercept + line.slope * first);
-        match line {
-            Some(line) if diameter >= SMALLEST => {
-                let (slope_per_s, slope_error_per_s) = line.slope_over_value_at(first);
-                Ok(Self {
-                    time_s: points.iter().map(|point| point.0).collect(),
-                    relative_diameter: points.iter().map(|point| point.1 / diameter).collect(),
-                    slope_per_s,
-                    slope_error_per_s,
-                })
-            }
-            _ => Err(series.unusable(None, GrowthError { diameter }).into()),
-        }
-    }
-
-    /// The equation of the line.
-    fn words(&self) -> String {
-        format!(
-            "d/d₀ = 1 + ({:.4} ± {:.4}) (t − {}), {} points",
-            self.slope_per_s,
-            self.slope_error_per_s,
-            self.time_s.first().copied().unwrap_or_default(),
-            self.time_s.len()
-        )
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn read(body: &str) -> Result<Growth, ExperimentError> {
-        let text = format!("{}\n{body}", DIAMETERS.header());
-        Growth::of(&Series::read(&DIAMETERS, text.as_bytes()).expect("well formed"))
-    }
-
-    #[test]
-    fn the_line_is_normalised_at_the_first_time() {
-        // Synthetic: 200 + 10 (t − 2).
-        let growth = read("2,200\n3,210\n6,240\n").expect("a line");
-        assert!(
-            (growth.slope_per_s - 0.05).abs() < 1e-12 && (growth.relative_diameter[2] - 1.2).abs() < 1e-12
-        );
-        assert!(growth.words().starts_with("d/d₀ = 1 + (0.0500 ± 0.0000) (t − 2), 3 points"));
-    }
-
-    #[test]
-    fn a_line_without_a_first_diameter_is_refused() {
-        let error = read("0,1\n1,1\n2,1\n2.5,1\n3,100\n").expect_err("starts below 0");
-        assert!(crate::experiment::chain(&error).contains("legal is 1e-12 or more"));
-    }
 }

@@ -1,4 +1,4 @@
-//! The committed pages and pictures: `docs/results.md`, `docs/errata.md`, `docs/figures` and `docs/extras`.
+//! The committed pages and pictures: `docs/results.md`, `docs/errata.md` and `docs/figures`.
 //!
 //! They are made in paper quality. Whether they are out of date must be known without the minutes that takes:
 //! [`Digests`], written with the pictures, holds for each figure a digest of what it was made from in *both*
@@ -15,8 +15,7 @@ use serde::{Deserialize, Serialize};
 
 use super::counts::Counts;
 use super::{Section, TemplateError, digits, environment};
-use crate::cache_key::Stale;
-use crate::claims::{Claim, Computed, Source};
+use crate::claims::{self, Claim, Source};
 use crate::experiment::{ExperimentError, Made, Quality, RegisteredExperiment};
 use crate::output::{OutputError, OutputFolder};
 use crate::{json, provenance};
@@ -48,24 +47,8 @@ pub fn template() -> (&'static str, String) {
     (ERRATA_TEMPLATE, digest(ERRATA.as_bytes()))
 }
 
-/// Which pictures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Pictures {
-    /// Those of the paper's figures, with the pages.
-    Paper,
-    /// Those of the figures beyond the paper.
-    Extras,
-}
-
-impl Pictures {
-    /// Their folder, in that of the documentation.
-    pub fn folder(self) -> &'static str {
-        match self {
-            Self::Paper => "figures",
-            Self::Extras => "extras",
-        }
-    }
-}
+/// The folder of the pictures, in that of the documentation.
+pub const PICTURES_FOLDER: &str = "figures";
 
 /// Why the pages could not be made.
 #[derive(Debug, thiserror::Error)]
@@ -84,11 +67,9 @@ pub enum PagesError {
         /// The figure.
         id: &'static str,
     },
-    /// The files of a figure are not those that were written for the page.
-    #[error(
-        "the files of {id} were changed since they were made, or made again in another quality or with measurements"
-    )]
-    Changed {
+    /// A figure was made again in another quality.
+    #[error("{id} is of another quality")]
+    Quality {
         /// The figure.
         id: &'static str,
     },
@@ -124,9 +105,8 @@ pub struct FigureDigests {
     paper: String,
     /// Digest of the picture's file.
     pub picture: String,
-    /// Digest of the vector file, if there is one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub vector: Option<String>,
+    /// Digest of the vector file.
+    pub vector: String,
 }
 
 /// A digest that does not depend on machine or compiler (FNV-1a, 64 bits).
@@ -137,47 +117,40 @@ pub fn digest(bytes: &[u8]) -> String {
 /// A figure as it lies in an output folder, with its section of the page.
 struct Figure {
     made: Made,
-    origin: Provenance,
     section: String,
-    /// The drawing as a vector file, of the paper's figures.
-    vector: Option<String>,
+    /// The drawing as a vector file.
+    vector: String,
     digest: String,
 }
 
 impl Figure {
-    /// The documentation shows no measurements: a figure made with some, or in another quality by a later
-    /// run, is not accepted.
+    /// The figure of this quality in an output folder.
     fn read(
         entry: &RegisteredExperiment,
         folder: &OutputFolder,
         quality: Quality,
     ) -> Result<Self, PagesError> {
+        let data = folder.read(&format!("{}.json", entry.id))?;
+        Self::of(entry, &data.ok_or(PagesError::Missing { id: entry.id })?, quality)
+    }
+
+    /// The figure of this quality from the content of its `ID.json`.
+    fn of(entry: &RegisteredExperiment, data: &[u8], quality: Quality) -> Result<Self, PagesError> {
         let id = entry.id;
-        let data = folder.read(&format!("{id}.json"))?.ok_or(PagesError::Missing { id })?;
-        let state = folder.cache_key(id).map(|key| {
-            let read = |name: &str| folder.read(name).ok().flatten();
-            let whole = key.names().all(|name| read(name).is_some_and(|bytes| key.holds(name, &bytes)));
-            whole && key.quality == quality && !key.shows_measurements()
-        });
-        match state {
-            Ok(true) => {}
-            Err(Stale::Missing) => return Err(PagesError::Missing { id }),
-            _ => return Err(PagesError::Changed { id }),
-        }
         let failed = |source| PagesError::Figure { id, source: Box::new(source) };
-        let (made, _, origin) = entry.read(&data).map_err(failed)?;
-        let drawing = made.figure.to_svg().map_err(|error| failed(error.into()))?;
-        let vector = (!entry.is_extra()).then(|| provenance::in_svg(&origin, &drawing));
-        let mut section = String::new();
-        if !entry.is_extra() {
-            let values = Value::from_serialize(Section::of(entry, &made)?);
-            section = digits::rounded(&environment().render_named_str("section.md", SECTION, values)?);
+        let (made, found, origin) = entry.read(data).map_err(failed)?;
+        if found != quality {
+            return Err(PagesError::Quality { id });
         }
+        let drawing = made.figure.to_svg().map_err(|error| failed(error.into()))?;
+        let vector = provenance::in_svg(&origin, &drawing);
+        let values = Value::from_serialize(Section::of(entry, &made)?);
+        let section = digits::rounded(&environment().render_named_str("section.md", SECTION, values)?);
         // Another version of the program does not make another figure.
-        let mut record: serde_json::Value = serde_json::from_slice(&data).unwrap_or_default();
+        let mut record: serde_json::Value = serde_json::from_slice(data).unwrap_or_default();
         record.as_object_mut().map(|members| members.remove("provenance"));
         let digest = digest([json::to_text(&record), drawing, section.clone()].concat().as_bytes());
-        Ok(Self { made, origin, section, vector, digest })
+        Ok(Self { made, section, vector, digest })
     }
 
     /// The file of the picture.
@@ -185,8 +158,7 @@ impl Figure {
         let failed = |source: ExperimentError| PagesError::Figure { id, source: Box::new(source) };
         let mut picture = Vec::new();
         for width in PICTURE_WIDTHS {
-            let drawn = self.made.figure.to_png_within(width).map_err(|error| failed(error.into()))?;
-            picture = provenance::in_png(&self.origin, &drawn);
+            picture = self.made.figure.to_png_within(width).map_err(|error| failed(error.into()))?;
             if picture.len() <= LARGEST_PICTURE {
                 break;
             }
@@ -195,32 +167,27 @@ impl Figure {
     }
 }
 
-/// Writes the pictures and their digests into `docs` from the figures in both output folders, and the pages
-/// of those of the paper: nothing before everything is drawn, and the digests, which all is compared with,
-/// last.
+/// Writes the pages, the pictures and their digests into `docs` from the figures in both output folders: nothing
+/// before everything is drawn, and the digests, which all is compared with, last.
 pub fn write(
-    pictures: Pictures,
     entries: &[&RegisteredExperiment],
     paper: &OutputFolder,
     draft: &OutputFolder,
     docs: &OutputFolder,
 ) -> Result<(), PagesError> {
-    write_with(ERRATA, pictures, entries, [paper, draft], docs)
+    write_with(ERRATA, entries, [paper, draft], docs)
 }
 
 fn write_with(
     errata: &str,
-    pictures: Pictures,
     entries: &[&RegisteredExperiment],
     [paper, draft]: [&OutputFolder; 2],
     docs: &OutputFolder,
 ) -> Result<(), PagesError> {
-    let folder = OutputFolder::create(docs.path().join(pictures.folder()))?;
+    let folder = OutputFolder::create(docs.path().join(PICTURES_FOLDER))?;
     let origin = provenance::new(provenance::DIGESTS).with("quality", &Quality::Paper).map_err(Box::new)?;
     let mut digests = Digests { provenance: origin, pages: BTreeMap::new(), figures: BTreeMap::new() };
     let (mut figures, mut files) = (Vec::new(), Vec::new());
-    // No other run may put figures of its own there meanwhile.
-    let _held = (draft.lock()?, paper.lock()?);
     for entry in entries {
         let drafted = Figure::read(entry, draft, Quality::Draft)?.digest;
         let figure = Figure::read(entry, paper, Quality::Paper)?;
@@ -229,85 +196,67 @@ fn write_with(
             draft: drafted,
             paper: figure.digest.clone(),
             picture: digest(&picture),
-            vector: figure.vector.as_ref().map(|vector| digest(vector.as_bytes())),
+            vector: digest(figure.vector.as_bytes()),
         };
-        let vector = figure.vector.clone().map(|vector| (format!("{}.svg", entry.id), vector.into_bytes()));
-        files.extend(vector);
+        files.push((format!("{}.svg", entry.id), figure.vector.clone().into_bytes()));
         digests.figures.insert(entry.id.to_owned(), known);
         files.push((format!("{}.png", entry.id), picture));
         figures.push((entry.id, figure));
     }
-    let mut pages = Vec::new();
-    if pictures == Pictures::Paper {
-        pages.push((RESULTS_FILE, results(&figures)?));
-        pages.push((ERRATA_FILE, filled(errata, &figures)?));
-        digests.pages.insert(ERRATA_TEMPLATE.to_owned(), digest(errata.as_bytes()));
-    }
+    let pages = [(RESULTS_FILE, results(&figures)?), (ERRATA_FILE, filled(errata, &figures)?)];
+    digests.pages.insert(ERRATA_TEMPLATE.to_owned(), digest(errata.as_bytes()));
     for (name, page) in &pages {
         digests.pages.insert((*name).to_owned(), digest(page.as_bytes()));
     }
     let text = serde_json::to_value(&digests).map(|digests| json::to_text(&digests)).unwrap_or_default();
     files.push((DIGESTS_FILE.to_owned(), text.into_bytes()));
-    let pages: Vec<_> = pages.iter().map(|(name, page)| (*name, page.as_bytes())).collect();
-    let files: Vec<_> = files.iter().map(|(name, bytes)| (name.as_str(), bytes.as_slice())).collect();
+    let pages = pages.map(|(name, page)| (name.to_owned(), page.into_bytes()));
     docs.write_all(&pages)?;
     Ok(folder.write_all(&files)?)
 }
 
-/// Names of committed files that are missing, were edited, or were made from other figures than those of
-/// `quality` in `made`. Of figures that have not been made there, the picture's file alone is checked.
+/// A figure of which the content of `ID.json` was computed.
+pub type Computed<'a> = (&'a RegisteredExperiment, Vec<u8>);
+
+/// Names of committed files that are missing, were edited, or were made from other figures than these of `quality`.
 pub fn outdated(
-    pictures: Pictures,
-    entries: &[&RegisteredExperiment],
+    figures: &[Computed<'_>],
     quality: Quality,
-    made: &OutputFolder,
     docs: &OutputFolder,
 ) -> Result<Vec<String>, PagesError> {
-    outdated_with(ERRATA, pictures, entries, (quality, made), docs)
+    outdated_with(ERRATA, figures, quality, docs)
 }
 
 fn outdated_with(
     errata: &str,
-    pictures: Pictures,
-    entries: &[&RegisteredExperiment],
-    (quality, made): (Quality, &OutputFolder),
+    figures: &[Computed<'_>],
+    quality: Quality,
     docs: &OutputFolder,
 ) -> Result<Vec<String>, PagesError> {
-    let folder = OutputFolder::existing(docs.path().join(pictures.folder()));
+    let folder = OutputFolder::existing(docs.path().join(PICTURES_FOLDER));
     let stored = folder.read(DIGESTS_FILE)?.unwrap_or_default();
     let stored: serde_json::Value = serde_json::from_slice(&stored).unwrap_or_default();
     provenance::refuse_newer(provenance::DIGESTS, stored.get("provenance"), DIGESTS_FILE)
         .map_err(Box::new)?;
     let digests = Digests::deserialize(stored).ok();
     let mut outdated = Vec::new();
-    if pictures == Pictures::Paper {
-        let known = |name: &str| digests.as_ref().and_then(|digests| digests.pages.get(name));
-        let other_template = known(ERRATA_TEMPLATE) != Some(&digest(errata.as_bytes()));
-        for (name, other_template) in [(RESULTS_FILE, false), (ERRATA_FILE, other_template)] {
-            let edited = docs.read(name)?.is_none_or(|page| known(name) != Some(&digest(&page)));
-            if edited || other_template {
-                outdated.push(name.to_owned());
-            }
+    let known = |name: &str| digests.as_ref().and_then(|digests| digests.pages.get(name));
+    let other_template = known(ERRATA_TEMPLATE) != Some(&digest(errata.as_bytes()));
+    for (name, other_template) in [(RESULTS_FILE, false), (ERRATA_FILE, other_template)] {
+        let edited = docs.read(name)?.is_none_or(|page| known(name) != Some(&digest(&page)));
+        if edited || other_template {
+            outdated.push(name.to_owned());
         }
     }
-    for entry in entries {
+    for (entry, data) in figures {
         let known = digests.as_ref().and_then(|digests| digests.figures.get(entry.id));
         let known = known.cloned().unwrap_or_default();
         let expected = if quality == Quality::Draft { &known.draft } else { &known.paper };
-        let current = match Figure::read(entry, made, quality) {
-            Ok(figure) => figure.digest == *expected,
-            Err(PagesError::Missing { .. }) => true,
-            Err(PagesError::Output(error)) => return Err(error.into()),
-            Err(_) => false,
-        };
-        let name = format!("{}.png", entry.id);
-        let file = |name: &str| folder.read(name).map(|bytes| bytes.map(|bytes| digest(&bytes)));
-        let vector = match &known.vector {
-            Some(_) => file(&format!("{}.svg", entry.id))?,
-            None => None,
-        };
-        if !current || file(&name)? != Some(known.picture) || vector != known.vector {
-            outdated.push(format!("{}/{name}", pictures.folder()));
+        let current = Figure::of(entry, data, quality)?.digest == *expected;
+        let file = |ending: &str| folder.read(&format!("{}.{ending}", entry.id));
+        let whole = |bytes: Option<Vec<u8>>, known: &str| bytes.is_some_and(|bytes| digest(&bytes) == known);
+        if !current || !whole(file("png")?, &known.picture) || !whole(file("svg")?, &known.vector) {
+            outdated.push(format!("{PICTURES_FOLDER}/{}.png", entry.id));
         }
     }
     Ok(outdated)
@@ -346,7 +295,7 @@ fn claim_numbers<'a>(claims: impl IntoIterator<Item = &'a Claim>) -> BTreeMap<&'
     let number = |claim: &'a Claim| {
         let Source::Entry(key) = &claim.source else { return None };
         let number = match claim.computed {
-            Computed::Number(number) => Some(number),
+            claims::Computed::Number(number) => Some(number),
             _ => claim.share,
         };
         Some((key.as_str(), number?))
@@ -360,7 +309,6 @@ mod tests {
 
     use super::*;
     use crate::claims::{Cases, catalogue};
-    use crate::measured::Measurements;
     use crate::progress::Silent;
     use crate::testing::demo_entries;
 
@@ -380,25 +328,24 @@ mod tests {
             let create = |name: &str| OutputFolder::create(scratch.path().join(name)).expect("writable");
             let (paper, draft, docs) = (create("paper"), create("draft"), create("docs"));
             let folders = Self { _scratch: scratch, demo: demo_entries().remove(0), paper, draft, docs };
-            folders.make(&folders.paper, Quality::Paper, "");
-            folders.make(&folders.draft, Quality::Draft, "");
+            folders.make(&folders.paper, Quality::Paper);
+            folders.make(&folders.draft, Quality::Draft);
             folders
         }
 
-        fn make(&self, folder: &OutputFolder, quality: Quality, measured: &str) {
-            let files = self.demo.files(quality, &Measurements::none(), &Silent).expect("works");
-            folder.write_set("demo", quality, measured, 0.1, &files).expect("writable");
+        fn make(&self, folder: &OutputFolder, quality: Quality) {
+            let files = self.demo.files(quality, &Silent).expect("works");
+            folder.write_all(&files).expect("writable");
         }
 
-        fn write(&self, pictures: Pictures) -> Result<(), PagesError> {
-            let folders = [&self.paper, &self.draft];
-            write_with(PROSE, pictures, &[&self.demo], folders, &self.docs)
+        fn write(&self) -> Result<(), PagesError> {
+            write_with(PROSE, &[&self.demo], [&self.paper, &self.draft], &self.docs)
         }
 
-        fn outdated(&self, pictures: Pictures, quality: Quality) -> Vec<String> {
+        fn outdated(&self, quality: Quality) -> Vec<String> {
             let made = if quality == Quality::Draft { &self.draft } else { &self.paper };
-            let found = outdated_with(PROSE, pictures, &[&self.demo], (quality, made), &self.docs);
-            found.expect("readable")
+            let data = made.read("demo.json").expect("readable").expect("made");
+            outdated_with(PROSE, &[(&self.demo, data)], quality, &self.docs).expect("readable")
         }
     }
 
@@ -435,55 +382,48 @@ mod tests {
     #[test]
     fn every_way_to_be_out_of_date_is_seen() {
         use Quality::{Draft, Paper};
-        for pictures in [Pictures::Extras, Pictures::Paper] {
-            let folders = Folders::new();
-            let name = format!("{}/demo.png", pictures.folder());
-            let picture = std::slice::from_ref(&name);
-            let folder = OutputFolder::existing(folders.docs.path().join(pictures.folder()));
-            let pages = if pictures == Pictures::Paper { &[RESULTS_FILE, ERRATA_FILE][..] } else { &[] };
-            let all: Vec<_> = pages.iter().copied().chain([name.as_str()]).collect();
-            assert_eq!(folders.outdated(pictures, Draft), all);
-            let write = || folders.write(pictures).expect("writable");
+        const PICTURE: &str = "figures/demo.png";
+        let folders = Folders::new();
+        let folder = OutputFolder::existing(folders.docs.path().join(PICTURES_FOLDER));
+        let all = [RESULTS_FILE, ERRATA_FILE, PICTURE];
+        assert_eq!(folders.outdated(Draft), all);
+        let write = || folders.write().expect("writable");
+        write();
+        let current = || [Draft, Paper].iter().all(|quality| folders.outdated(*quality).is_empty());
+        assert!(current());
+        for page in [RESULTS_FILE, ERRATA_FILE] {
+            folders.docs.write(page, b"edited").expect("writable");
+            assert_eq!(folders.outdated(Draft), [page]);
             write();
-            let current =
-                || [Draft, Paper].iter().all(|quality| folders.outdated(pictures, *quality).is_empty());
-            assert!(current());
-            for page in pages {
-                folders.docs.write(page, b"edited").expect("writable");
-                assert_eq!(folders.outdated(pictures, Draft), [*page]);
-                write();
-            }
-            for file in ["demo.png", "demo.svg"] {
-                folder.write(file, b"edited").expect("writable");
-                assert_eq!(folders.outdated(pictures, Draft), picture);
-                write();
-            }
-            // Figures that have not been made are not compared; a changed drawing of the draft alone is
-            // detected.
-            let nothing = OutputFolder::existing(folders.docs.path());
-            let unmade = outdated_with(PROSE, pictures, &[&folders.demo], (Draft, &nothing), &folders.docs);
-            assert!(unmade.expect("readable").is_empty() && current());
-            let other = outdated_with("", pictures, &[&folders.demo], (Draft, &folders.draft), &folders.docs);
-            assert_eq!(other.expect("readable"), pages.get(1..2).unwrap_or_default());
-            folders.draft.write("demo.svg", b"<svg/>").expect("writable");
-            assert_eq!(folders.outdated(pictures, Draft), picture);
-            assert!(folders.outdated(pictures, Paper).is_empty());
-            assert!(matches!(folders.write(pictures), Err(PagesError::Changed { .. })));
-            folder.write(DIGESTS_FILE, b"").expect("writable");
-            assert_eq!(folders.outdated(pictures, Paper), all);
         }
+        for file in ["demo.png", "demo.svg"] {
+            folder.write(file, b"edited").expect("writable");
+            assert_eq!(folders.outdated(Draft), [PICTURE]);
+            write();
+        }
+        // Figures that have not been made are not compared; a changed template and a changed figure of the draft
+        // alone are detected.
+        let unmade = outdated_with(PROSE, &[], Draft, &folders.docs);
+        assert!(unmade.expect("readable").is_empty() && current());
+        let other = outdated_with("", &[], Draft, &folders.docs);
+        assert_eq!(other.expect("readable"), [ERRATA_FILE]);
+        let drafted = folders.draft.read("demo.json").expect("readable").expect("made");
+        let changed = String::from_utf8(drafted).expect("text").replacen("0.3,", "0.31,", 1);
+        folders.draft.write("demo.json", changed.as_bytes()).expect("writable");
+        assert_eq!(folders.outdated(Draft), [PICTURE]);
+        assert!(folders.outdated(Paper).is_empty());
+        folder.write(DIGESTS_FILE, b"").expect("writable");
+        assert_eq!(folders.outdated(Paper), all);
     }
 
     /// Another run may make the figure again between the two steps of `--docs`.
     #[test]
-    fn the_page_is_not_made_of_drafts_or_measurements() {
+    fn the_page_is_not_made_of_drafts() {
         let folders = Folders::new();
-        for (quality, measured) in [(Quality::Draft, ""), (Quality::Paper, "0123")] {
-            folders.make(&folders.paper, quality, measured);
-            assert!(matches!(folders.write(Pictures::Extras), Err(PagesError::Changed { .. })));
-        }
-        folders.make(&folders.paper, Quality::Paper, "");
-        folders.write(Pictures::Extras).expect("made for it");
+        folders.make(&folders.paper, Quality::Draft);
+        assert!(matches!(folders.write(), Err(PagesError::Quality { .. })));
+        folders.make(&folders.paper, Quality::Paper);
+        folders.write().expect("made for it");
     }
 
     #[test]

@@ -93,7 +93,6 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig10
         tsujino_axial_forcing,
         tsujino_peak_acceleration: PI * tsujino_axial_forcing,
         motor: case,
-        measured: Vec::new(),
     })
 }
 

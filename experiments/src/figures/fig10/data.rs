@@ -23,9 +23,6 @@ pub struct Fig10Data {
     pub(super) own_motor_axial_forcing: f64,
     pub(super) tsujino_axial_forcing: f64,
     pub(super) tsujino_peak_acceleration: f64,
-    /// A user's own trials.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub(super) measured: Vec<Trial>,
 }
 
 /// One reading of Table III.
@@ -109,15 +106,6 @@ impl Alike {
         let [small, middle, large] = &self.motors;
         small.iter().zip(middle).zip(large).map(|((small, middle), large)| [small, middle, large])
     }
-}
-
-/// One measured trial with its fit.
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Trial {
-    pub(super) trial: u32,
-    pub(super) time_s: Vec<f64>,
-    pub(super) angular_speed_rad_per_s: Vec<f64>,
-    pub(super) fit: ExponentialFit,
 }
 
 /// Steady speed and stall acceleration for one size of the relaunch perturbation.

@@ -7,7 +7,7 @@ use bouncing_disk_plot::{
     Ticks,
 };
 
-use super::data::{Exception, Fig10Data, Reading, Transient, Trial};
+use super::data::{Exception, Fig10Data, Reading, Transient};
 use crate::figures::shared::alike::SpeedBand;
 use crate::figures::shared::numbers::exponent;
 
@@ -15,11 +15,10 @@ use crate::figures::shared::numbers::exponent;
 const ROW: f64 = 150.0;
 
 pub(super) fn draw(data: &Fig10Data) -> Figure {
-    let rows = if data.measured.is_empty() { 2 } else { 3 };
-    let height = ROW * rows as f64;
-    let grid = Grid::new(DOUBLE_COLUMN, height, rows, 3);
+    let height = ROW * 2.0;
+    let grid = Grid::new(DOUBLE_COLUMN, height, 2, 3);
     let mut figure = Figure::new(DOUBLE_COLUMN, height);
-    // The paper's (d)-(f) are measured curves, which stand in the third row.
+    // The paper's (d)-(f) are measured curves.
     let letters = [["a", "b", "c"], ["a′", "b′", "c′"]];
     for (row, reading) in data.readings.iter().enumerate() {
         let speeds = reading.panels.iter().flat_map(|panel| panel.member_speed_rad_per_s.iter().copied());
@@ -30,17 +29,6 @@ pub(super) fn draw(data: &Fig10Data) -> Figure {
             let alike = (row == 0).then(|| &data.alike.bands[column]);
             figure =
                 figure.panel(drawn(cell, letters[row][column], reading, panel, highest, exception, alike));
-        }
-    }
-    if let Some(panel) = data.readings.first().and_then(|reading| reading.panels.get(1)) {
-        let model = ExponentialFit {
-            steady_speed: panel.steady_speed_rad_per_s.mean,
-            time_constant: panel.time_constant_s.mean,
-            residual: 0.0,
-        };
-        for trial in &data.measured {
-            let cell = grid.cell(2, trial.trial as usize - 1);
-            figure = figure.panel(measured_panel(cell, &data.measured, trial, model));
         }
     }
     figure
@@ -100,36 +88,4 @@ fn drawn(
 /// A fit from the start to a time (s).
 fn curve(fit: ExponentialFit, end: f64) -> FittedCurve {
     FittedCurve::new((fit.steady_speed, fit.time_constant), (0.0, end), |time| fit.speed(time))
-}
-
-/// The panel of a trial; `model` is the fit to the computed curves that it is compared with.
-fn measured_panel(area: Rect, trials: &[Trial], trial: &Trial, model: ExponentialFit) -> Panel {
-    let last = trials.iter().filter_map(|trial| trial.time_s.last().copied()).fold(0.0, f64::max);
-    let speeds = trials.iter().flat_map(|trial| trial.angular_speed_rad_per_s.iter().copied());
-    let (low, high) = speeds
-        .chain(trials.iter().map(|trial| trial.fit.steady_speed))
-        .chain([model.speed(last)])
-        .fold((0.0_f64, 0.0_f64), |(low, high), speed| (low.min(speed), high.max(speed)));
-    let room = 0.1 * (high - low);
-    let fit = trial.fit;
-    let points = trial.time_s.iter().copied().zip(trial.angular_speed_rad_per_s.iter().copied());
-    // The words stand where the curve does not go.
-    let bottom = if fit.steady_speed < 0.0 { 0.74 } else { 0.04 };
-    let name = format!("measured, trial ${}$", trial.trial);
-    let fitted = curve(fit, last);
-    let drawn = Panel::new(area)
-        .letter_in(
-            ["g", "h", "i"].get(trial.trial as usize - 1).copied().unwrap_or_default(),
-            Corner::TopLeft,
-        )
-        .x(Axis::linear(0.0, last).label(r"$t$ (s)"))
-        .y(Axis::linear(if low < 0.0 { low - room } else { 0.0 }, high + 8.0 * room)
-            .label(r"$\dot{\alpha}$ (rad/s)"))
-        .layer(Line::new(points).colour(Colour::BLUE).width(0.6).name("measured"))
-        .layer(curve(model, last).line().colour(Colour::VERMILION).dash(Dash::Dotted).name("model, (b)"))
-        .layer(fitted.line().name("fit"))
-        .layer(Text::at_axes(0.96, bottom + 0.16, name).anchor(Anchor::Right))
-        .layers(fitted.notes(1, bottom, 0.08));
-    let first = trials.first().is_some_and(|first| first.trial == trial.trial);
-    if first { drawn.legend(Legend::at(Corner::TopRight)) } else { drawn }
 }

@@ -11,8 +11,7 @@ use bouncing_disk::core::{ChatterPolicy, ImpactMap, Launch, OrbitEvent, Phase};
 use bouncing_disk::motor::TransientSettings;
 
 use super::data::{
-    Coexisting, Curve, EndOfBouncing, Fig11Data, Holes, MeasuredMotors, Point, ReducedTwist, StallAt, Trend,
-    trend_mn,
+    Coexisting, Curve, EndOfBouncing, Fig11Data, Holes, Point, ReducedTwist, StallAt, Trend, trend_mn,
 };
 use super::trends;
 use crate::claims::{Cases, catalogue, paper};
@@ -125,7 +124,6 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig11
         curves,
         trends,
         stalls,
-        measured: MeasuredMotors::default(),
     })
 }
 

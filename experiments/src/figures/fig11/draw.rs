@@ -5,7 +5,7 @@ use bouncing_disk_plot::{
     Panel, Scatter, Text, Ticks,
 };
 
-use super::data::{Curve, Fig11Data, MeasuredMotor, Point};
+use super::data::{Curve, Fig11Data, Point};
 use crate::figures::shared::numbers::{exponent, extent, middle_range};
 
 /// Colour and dashes of the three amplitudes, as the caption lists them.
@@ -32,11 +32,6 @@ fn extended(ends: (f64, f64), values: impl Iterator<Item = f64>) -> (f64, f64) {
     let (low, high) = values.fold(ends, |(low, high), value| (low.min(value), high.max(value)));
     let room = 0.05 * (high - low);
     (if low < ends.0 { low - room } else { low }, if high > ends.1 { high + room } else { high })
-}
-
-/// Ticks at every multiple of `step`, or automatic ones where the axis was extended.
-fn ticks(ends: (f64, f64), original: (f64, f64), step: f64, parts: u32) -> Ticks {
-    if ends == original { Ticks::every(step).minor(parts) } else { Ticks::default() }
 }
 
 /// The value and half-length of the error bar of a point.
@@ -80,25 +75,20 @@ pub(super) fn draw(data: &Fig11Data) -> Figure {
     let margins = Margins { left: 42.0, right: 48.0, top: 38.0, bottom: 34.0 };
     let grid = Grid::new(DOUBLE_COLUMN, HEIGHT, 2, 2).margins(margins).gaps(54.0, 14.0);
     let mut figure = Figure::new(DOUBLE_COLUMN, HEIGHT);
-    let measured = &data.measured.points;
     let to_mn = 1e3 * data.rotor_mass_kg;
     let [_, last] = data.printed.preload_accelerations_m_per_s2;
     let preloads = (0.0, 1.03 * last * to_mn);
-    let preload_ends = extended(preloads, measured.iter().map(|point| point.preload_mn));
     // Also the longest bars end within the frame.
-    let computed_speeds = extended(SPEEDS, shown(data, steady_speed));
-    let computed_stalls = extended(STALLS, shown(data, stall));
-    let speed_ends = extended(computed_speeds, measured.iter().map(|point| point.steady_speed_rad_per_s));
+    let speed_ends = extended(SPEEDS, shown(data, steady_speed));
+    let stall_ends = extended(STALLS, shown(data, stall));
     let frequencies = data.printed.frequencies_hz;
-    let stall_ends =
-        extended(computed_stalls, measured.iter().map(|point| point.stall_acceleration_rad_per_s2));
     for (row, frequency) in frequencies.into_iter().enumerate() {
         let curves: Vec<&Curve> =
             data.curves.iter().filter(|curve| curve.frequency_hz.total_cmp(&frequency).is_eq()).collect();
         let frame = |column: usize, letter: &str, y: Axis| {
-            let (low, high) = preload_ends;
-            let x = Axis::linear(low, high).ticks(ticks(preload_ends, preloads, 80.0, 4));
-            let top = Axis::linear(low / to_mn, high / to_mn).ticks(ticks(preload_ends, preloads, 2.0, 4));
+            let (low, high) = preloads;
+            let x = Axis::linear(low, high).ticks(Ticks::every(80.0).minor(4));
+            let top = Axis::linear(low / to_mn, high / to_mn).ticks(Ticks::every(2.0).minor(4));
             let (x, top) = if row == 0 {
                 (x.without_numbers(), top.label(r"$g$ (m/s$^2$)"))
             } else {
@@ -114,10 +104,9 @@ pub(super) fn draw(data: &Fig11Data) -> Figure {
             )
         };
         let speeds = Axis::linear(speed_ends.0, speed_ends.1)
-            .ticks(ticks(speed_ends, computed_speeds, 10.0, 2))
+            .ticks(Ticks::every(10.0).minor(2))
             .label(r"steady-state speed $\dot{\alpha}_{ss}$ (rad/s)");
-        let stalls =
-            || Axis::linear(stall_ends.0, stall_ends.1).ticks(ticks(stall_ends, computed_stalls, 10.0, 2));
+        let stalls = || Axis::linear(stall_ends.0, stall_ends.1).ticks(Ticks::every(10.0).minor(2));
         let stalls_really: Vec<(f64, f64)> = data
             .stalls
             .iter()
@@ -144,13 +133,12 @@ pub(super) fn draw(data: &Fig11Data) -> Figure {
                     .flat_map(|(index, curve)| layers(curve, index, steady_speed, names)),
             )
             .layers(keys)
-            .layers(crosses(data, frequency, |point| point.steady_speed_rad_per_s))
             .layers(label.clone());
         let torque = 1e6 * data.moment_of_inertia();
         let right = frame(1, ["b", "d"][row], stalls().label(r"stall $\dot{\alpha}_{ss}/t_c$ (rad/s$^2$)"))
             .right(
                 Axis::linear(torque * stall_ends.0, torque * stall_ends.1)
-                    .ticks(ticks(stall_ends, computed_stalls, 10.0, 2))
+                    .ticks(Ticks::every(10.0).minor(2))
                     .label(r"$m a_g^2 \dot{\alpha}_{ss}/t_c$ (µN m)"),
             )
             .layer(single_orbits(&curves, |point| point.single_stall_rad_per_s2))
@@ -161,8 +149,6 @@ pub(super) fn draw(data: &Fig11Data) -> Figure {
                     .flat_map(|(index, curve)| layers(curve, index, stall, Names::Hidden)),
             )
             .layer(squares(stalls_really))
-            .layers(crosses(data, frequency, |point| point.stall_acceleration_rad_per_s2))
-            .layers(data.measured.label(frequency).map(|words| Text::at_axes(0.12, 0.79, words)))
             .layers(label);
         figure = figure.panel(left.legend(Legend::at(Corner::TopRight))).panel(right);
     }
@@ -191,14 +177,6 @@ fn low_period(points: Vec<(f64, f64)>, colour: Colour) -> Scatter {
 /// The loads that really stall the motor.
 fn squares(points: Vec<(f64, f64)>) -> Scatter {
     Scatter::new(points).marker(Marker::Square).colour(Colour::PURPLE).width(1.4).size(6.0)
-}
-
-/// The measured points of a panel, if there are any, with the crosses of the paper.
-fn crosses(data: &Fig11Data, frequency_hz: f64, quantity: fn(&MeasuredMotor) -> f64) -> Option<Scatter> {
-    let points = data.measured.at(frequency_hz);
-    let read = points.iter().map(|point| (point.preload_mn, quantity(point)));
-    let crosses = Scatter::new(read).marker(Marker::Cross).colour(Colour::GREEN).width(1.2).size(6.0);
-    (!points.is_empty()).then(|| crosses.name("measured"))
 }
 
 /// The line of one amplitude, its points, a few with error bars, and those where the motor repeats a
