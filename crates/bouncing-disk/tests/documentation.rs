@@ -239,6 +239,7 @@ fn printed(name: &str, process: Child) -> String {
 /// They run here, so that they run wherever the tests do.
 #[test]
 fn the_examples_print_what_the_tutorial_says() {
+    assert_eq!(blocks("rust").len(), blocks("text").len());
     // All are begun before the first is awaited, since each keeps one processor busy.
     let begun: Vec<_> = blocks("rust")
         .iter()
