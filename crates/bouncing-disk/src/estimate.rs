@@ -31,7 +31,6 @@ pub(crate) mod parameter_fit;
 #[cfg(feature = "fit")]
 pub(crate) mod rated_fit;
 pub(crate) mod refusal;
-pub(crate) mod statistics;
 pub(crate) mod transient_fit;
 
 pub use braking_fit::{BrakingFit, BrakingRotor};
@@ -59,5 +58,4 @@ pub use rated_fit::point::{RatedCondition, RatedPoint};
 #[cfg(feature = "fit")]
 pub use rated_fit::{FittedPoint, RatedEstimate, RatedFit, RatedFitSettings};
 pub use refusal::{FitError, FitRefusal};
-pub use statistics::{LARGEST_CONSTANT, LARGEST_RESIDUAL, MotorStatistics, RiseForm, unperturbed_orbit};
-pub use transient_fit::{FitSettings, LEAST_MEMBERS, RiseEstimate, TransientFit};
+pub use transient_fit::{FitSettings, LEAST_MEMBERS, RiseEstimate, RiseForm, TransientFit};

@@ -27,7 +27,7 @@ pub(crate) mod multiple;
 pub(crate) mod rotary_response;
 pub(crate) mod single;
 
-pub use chattering_cycle::{ChatteringCycle, EXAMINED_IMPACTS, LONG_FLIGHT};
+pub use chattering_cycle::{ChatteringCycle, EXAMINED_IMPACTS, LOCKED_FLIGHTS, LOCKED_WITHIN, LONG_FLIGHT};
 pub use collisions::{Collision, CollisionEvent, CollisionState, Collisions};
 pub use multiple::{MAX_EXAMINED, MultiTossSettings, OrbitClass, TossOrbit, multi_toss};
 pub use rotary_response::{

@@ -5,6 +5,7 @@ pub(crate) mod cylinder;
 pub(crate) mod motor;
 pub(crate) mod numbers;
 pub(crate) mod stall;
+pub(crate) mod statistics;
 pub(crate) mod toss;
 
 use bouncing_disk::core::run::in_parallel;

@@ -60,8 +60,7 @@ pub struct TransientEnsemble {
     /// The fit of each member.
     pub fits: Vec<ExponentialFit>,
     /// Steady speed alpha_ss (rad/s), by the fits of all members. Near the load that stalls the motor a curve
-    /// hardly rises and its fit is meaningless: there, use [`SpeedCurve::mean_over_last`] or
-    /// [`MotorStatistics`](crate::estimate::MotorStatistics).
+    /// hardly rises and its fit is meaningless: there, use [`SpeedCurve::mean_over_last`].
     pub steady_speed: Spread,
     /// Time constant t_c (s).
     pub time_constant: Spread,

@@ -19,7 +19,6 @@ use crate::error::{check, within_limit};
 use crate::estimate::fit::{ExponentialFit, Saturation, Start};
 use crate::estimate::interval::IntervalEstimate;
 use crate::estimate::refusal::{FitError, FitRefusal, refused};
-use crate::estimate::statistics::RiseForm;
 use crate::estimate::transient_fit::blocks::Blocks;
 use crate::estimate::transient_fit::members::Members;
 use crate::estimate::transient_fit::onset::{LEAST_POINTS, rows_before_rise};
@@ -119,6 +118,17 @@ pub struct RiseEstimate {
     pub start_speed: Option<IntervalEstimate>,
     /// Root mean square of the residuals (rad/s).
     pub residual: f64,
+}
+
+/// Which curve a stall acceleration is read from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum RiseForm {
+    /// alpha_ss (1 - exp(-t/t_c)): stall acceleration alpha_ss/t_c.
+    Exponential,
+    /// alpha_ss min(t/t_r, 1): stall acceleration alpha_ss/t_r.
+    Ramp,
 }
 
 /// A fit of a speed transient with 95 % intervals: of the mean over an ensemble's members, or of one measured

@@ -10,9 +10,9 @@ pub const LONG_FLIGHT: f64 = PI;
 
 /// The mean time between separations agrees with the unperturbed cycle to this share: the cycle survives the
 /// perturbation. Longer cycles than those of [`LOCKED_FLIGHTS`] come near the mean by chance.
-pub(crate) const LOCKED_WITHIN: f64 = 0.05;
+pub const LOCKED_WITHIN: f64 = 0.05;
 /// See [`LOCKED_WITHIN`].
-pub(crate) const LOCKED_FLIGHTS: usize = 8;
+pub const LOCKED_FLIGHTS: usize = 8;
 
 /// Impacts in which to look for an unperturbed cycle; a cycle of up to half of them is found.
 pub const EXAMINED_IMPACTS: usize = 2_048;

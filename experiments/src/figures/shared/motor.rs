@@ -4,8 +4,7 @@ use std::f64::consts::TAU;
 
 use bouncing_disk::core::run::in_parallel;
 use bouncing_disk::core::{ChatterPolicy, Unobserved};
-pub(crate) use bouncing_disk::estimate::{LARGEST_CONSTANT, LARGEST_RESIDUAL};
-use bouncing_disk::estimate::{Spread, TransientEnsemble, unperturbed_orbit};
+use bouncing_disk::estimate::{Spread, TransientEnsemble};
 use bouncing_disk::motor::{TransientMember, TransientSettings, transients};
 use bouncing_disk::parameters::{Contact, ContactStatement, ContactWarning};
 use bouncing_disk::toss::{ChatteringCycle, EXAMINED_IMPACTS, OrbitClass};
@@ -14,6 +13,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::claims::{Cases, paper};
 use crate::experiment::{ExperimentError, named};
+use crate::figures::shared::statistics::{EnsembleStatistics, unperturbed_orbit};
+pub(crate) use crate::figures::shared::statistics::{LARGEST_CONSTANT, LARGEST_RESIDUAL};
 
 /// Low period: a chattering cycle of at most so many flights, from rest to rest, that are longer than half a
 /// period of the platform. The paper draws no line; its example in Fig. 12 shows a few lines that can be told
@@ -191,7 +192,7 @@ pub(crate) fn statistics(
         let own = curves[first[k]..first[k] + members].to_vec();
         let runs = TransientEnsemble::of_results(own, &Unobserved)?;
         let TransientSettings { duration, policy, .. } = settings(motor);
-        Ok(bouncing_disk::estimate::MotorStatistics::of(&motor.system()?, &runs, duration, policy)?.into())
+        Ok(EnsembleStatistics::of(&motor.system()?, &runs, duration, policy)?.into())
     };
     in_parallel(motors.len(), statistics).into_iter().collect()
 }
@@ -296,7 +297,7 @@ impl Cycle {
     }
 }
 
-/// The model's [`MotorStatistics`](bouncing_disk::estimate::MotorStatistics) as data, units in the names.
+/// [`EnsembleStatistics`] as data, units in the names.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct MotorStatistics {
     /// From the fits; where less than half of the members can be fitted, the mean over the last half of each.
@@ -309,8 +310,8 @@ pub(crate) struct MotorStatistics {
     pub(crate) locked: bool,
 }
 
-impl From<bouncing_disk::estimate::MotorStatistics> for MotorStatistics {
-    fn from(statistics: bouncing_disk::estimate::MotorStatistics) -> Self {
+impl From<EnsembleStatistics> for MotorStatistics {
+    fn from(statistics: EnsembleStatistics) -> Self {
         Self {
             steady_speed_rad_per_s: statistics.steady_speed,
             stall_acceleration_rad_per_s2: statistics.stall_acceleration,

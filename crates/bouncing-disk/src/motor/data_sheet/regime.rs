@@ -221,7 +221,7 @@ pub(crate) fn regime(
     Ok((regime, seen.flights()))
 }
 
-/// Whether the perturbed motion repeats a short cycle, judged as `MotorStatistics` does.
+/// Whether the perturbed motion repeats a short cycle, by its mean time between separations.
 fn survives(cycle: ChatteringCycle, seen: &Seen) -> bool {
     let near = |periods: f64| (periods / cycle.platform_periods as f64 - 1.0).abs() <= LOCKED_WITHIN;
     cycle.long_flights <= LOCKED_FLIGHTS && seen.periods_between_rests().is_some_and(near)

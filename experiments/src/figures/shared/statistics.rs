@@ -1,33 +1,26 @@
 //! Statistics of a motor from an ensemble of transients, and the orbit that it would repeat unperturbed.
 
 use std::f64::consts::TAU;
-use std::fmt::{self, Display, Formatter};
 
-use bouncing_disk_core::{ChatterPolicy, Phase, Unobserved};
-
-use crate::error::Error;
-use crate::estimate::ensemble::{Spread, TransientEnsemble};
-use crate::estimate::fit::RampFit;
-use crate::motion::initial_condition::InitialCondition;
-use crate::parameters::system::System;
-use crate::toss::chattering_cycle::{ChatteringCycle, EXAMINED_IMPACTS, LOCKED_FLIGHTS, LOCKED_WITHIN};
-use crate::toss::multiple::{MultiTossSettings, OrbitClass, multi_toss};
-use crate::toss::single::TOSS_START;
+use bouncing_disk::core::{ChatterPolicy, Phase, Unobserved};
+use bouncing_disk::estimate::{RampFit, RiseForm, Spread, TransientEnsemble};
+use bouncing_disk::toss::{
+    ChatteringCycle, EXAMINED_IMPACTS, LOCKED_FLIGHTS, LOCKED_WITHIN, MultiTossSettings, OrbitClass,
+    TOSS_START, multi_toss,
+};
+use bouncing_disk::{Error, InitialCondition, System};
 
 /// A fit whose constant exceeds this share of the duration, or whose residual exceeds [`LARGEST_RESIDUAL`] of
 /// its steady speed, is meaningless: the speed does not settle, or is not significantly above zero.
-pub const LARGEST_CONSTANT: f64 = 0.5;
+pub(crate) const LARGEST_CONSTANT: f64 = 0.5;
 /// See [`LARGEST_CONSTANT`].
-pub const LARGEST_RESIDUAL: f64 = 0.25;
+pub(crate) const LARGEST_RESIDUAL: f64 = 0.25;
 
 /// Impacts that show most chattering cycles.
 const FIRST_EXAMINED: usize = EXAMINED_IMPACTS / 16;
 
 /// The orbit that the unperturbed motor repeats, from a rotor at rest on the stator at its lowest point.
-///
-/// # Errors
-/// Those of [`multi_toss`].
-pub fn unperturbed_orbit(motor: &System, policy: ChatterPolicy) -> Result<OrbitClass, Error> {
+pub(crate) fn unperturbed_orbit(motor: &System, policy: ChatterPolicy) -> Result<OrbitClass, Error> {
     let start = InitialCondition::Contact { phase: Phase::new(TOSS_START)?, angular_speed: 0.0 };
     let examined = |examined_impacts| {
         let settings = MultiTossSettings {
@@ -45,44 +38,28 @@ pub fn unperturbed_orbit(motor: &System, policy: ChatterPolicy) -> Result<OrbitC
     }
 }
 
-/// Which curve a stall acceleration was read from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
-pub enum RiseForm {
-    /// alpha_ss (1 - exp(-t/t_c)): stall acceleration alpha_ss/t_c.
-    Exponential,
-    /// alpha_ss min(t/t_r, 1): stall acceleration alpha_ss/t_r. Only for a chattering cycle that survives the
-    /// perturbation.
-    Ramp,
-}
-
 /// Ensemble statistics of one motor.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct MotorStatistics {
+pub(crate) struct EnsembleStatistics {
     /// Steady speed (rad/s) from the fits; where less than half of the members can be fitted, the mean over
     /// the last half of each.
-    pub steady_speed: Spread,
+    pub(crate) steady_speed: Spread,
     /// Stall acceleration (rad/s^2) over the members that can be fitted; `None` where less than half can.
-    pub stall_acceleration: Option<Spread>,
+    pub(crate) stall_acceleration: Option<Spread>,
     /// The curve that was fitted: the ramp where a cycle survives the perturbation and it fits better.
-    pub form: RiseForm,
+    form: RiseForm,
     /// Members without a meaningful fit ([`LARGEST_CONSTANT`]).
-    pub unfitted: usize,
+    unfitted: usize,
     /// The orbit repeated without perturbation ([`unperturbed_orbit`]).
-    pub orbit: OrbitClass,
+    pub(crate) orbit: OrbitClass,
     /// Whether that orbit is a chattering cycle of at most eight long flights and the perturbed members
     /// repeat it, too, judged by the mean time between their separations.
-    pub locked: bool,
+    pub(crate) locked: bool,
 }
 
-impl MotorStatistics {
+impl EnsembleStatistics {
     /// The statistics of the transients of `motor`, each of `duration` (s).
-    ///
-    /// # Errors
-    /// Those of the fits, of [`Spread::of`] and of [`multi_toss`].
-    pub fn of(
+    pub(crate) fn of(
         motor: &System,
         runs: &TransientEnsemble,
         duration: f64,
@@ -141,36 +118,27 @@ fn repeats(motor: &System, runs: &TransientEnsemble, duration: f64, cycle: Chatt
         && (between / cycle.platform_periods as f64 - 1.0).abs() <= LOCKED_WITHIN
 }
 
-impl Display for MotorStatistics {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        f.write_str("steady speed (rad/s) ")?;
-        self.steady_speed.fmt(f)?;
-        f.write_str(", stall acceleration (rad/s^2) ")?;
-        match self.stall_acceleration {
-            Some(stall) => stall.fmt(f)?,
-            None => f.write_str("without a fit")?,
-        }
-        write!(f, ", undisturbed: {}", self.orbit)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 
-    use super::*;
-    use crate::estimate::ensemble::TransientEnsemble;
-    use crate::motor::rotor::transient::TransientSettings;
-    use crate::testing::golden_spread;
+    use bouncing_disk::motor::TransientSettings;
 
-    fn statistics(motor: &System, members: usize) -> MotorStatistics {
+    use super::*;
+
+    /// Evenly filling.
+    fn golden_spread(k: u64) -> f64 {
+        (k as f64 * 0.618_033_988_749_894_9) % 1.0
+    }
+
+    fn statistics(motor: &System, members: usize) -> EnsembleStatistics {
         let settings = TransientSettings {
             duration: 6.0 * motor.rise_time(),
             intervals: 240,
             ..TransientSettings::default()
         };
         let runs = TransientEnsemble::new(motor, &settings, members, &Unobserved).expect("no failure");
-        MotorStatistics::of(motor, &runs, settings.duration, settings.policy).expect("no failure")
+        EnsembleStatistics::of(motor, &runs, settings.duration, settings.policy).expect("no failure")
     }
 
     #[test]
