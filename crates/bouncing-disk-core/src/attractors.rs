@@ -19,7 +19,7 @@
 //! ```
 //!
 //! [`verdicts`] tells whether single orbits rest, repeat or are chaotic; [`BasinEntropy`] and
-//! [`BoundaryScaling`] measure basins. A [`BasinRun`] can be stopped, stored and resumed. The methods:
+//! [`BoundaryScaling`] measure basins. The methods:
 //! docs/numerics/dynamics.md.
 
 pub(crate) mod attraction;
@@ -31,8 +31,7 @@ pub(crate) mod verdict;
 pub use basin::boundary::{BoundaryFit, BoundaryScaling, UncertainShare};
 pub use basin::entropy::BasinEntropy;
 pub use basin::{
-    ATTACHED, Axis, BasinRun, BasinSettings, Basins, FIRST_ORBIT, Grid, KnownOrbit, Label, MAX_CELLS,
-    UNDECIDED,
+    ATTACHED, Axis, BasinSettings, Basins, FIRST_ORBIT, Grid, KnownOrbit, Label, MAX_CELLS, UNDECIDED,
 };
 pub use driven::driven_diagram;
 pub use search::cells::VisitedCells;

@@ -26,7 +26,6 @@ mod graze_margin;
 pub(crate) mod launch;
 pub(crate) mod platform;
 pub mod reference;
-pub(crate) mod tap;
 
 // The model reads a drop through the same check.
 pub use compliance::{Branch, Compliance, CompliantPlatform, ContactEnd, Pressed, RelativeState, Touch};
@@ -37,4 +36,3 @@ pub use drive::{DriveBounds, DriveState, MAX_HARMONICS, TimeAhead};
 #[doc(hidden)]
 pub use drop::check_drop;
 pub use first_impact::MAX_FLIGHT_DURATION;
-pub use tap::{Tap, TapInstant, TapIntegrals, TapSolver};

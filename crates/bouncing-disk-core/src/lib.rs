@@ -38,12 +38,12 @@
 //! | feature | default | what it does |
 //! | --- | --- | --- |
 //! | `parallel` | yes | grids and sweeps over the threads of rayon's pool, with the same bits |
-//! | `serde` | yes | `Serialize` for results, `Deserialize` for settings and for runs that can be resumed |
+//! | `serde` | yes | `Serialize` for results, `Deserialize` for settings and what is computed on |
 //!
 //! Deserialising runs the same checks as construction: a value outside its range, a missing key of a required
 //! value and an unknown key are errors. An infinite error bound is `null` in JSON, which has no such number.
 //! With `serde_json`, switch on its feature `float_roundtrip`: without it a third of all numbers change in
-//! the last bit when they are read, and a resumed run no longer gives the same results.
+//! the last bit when they are read.
 
 pub mod attractors;
 pub mod chaos;

@@ -1,17 +1,15 @@
-//! Arithmetic that gives the same bits on every processor, roots, minima, statistics of samples and angles,
+//! Arithmetic that gives the same bits on every processor, roots, minima, statistics of samples,
 //! random streams and digests.
 
 pub mod batch_means;
 pub(crate) mod block_cyclic;
 pub(crate) mod bordered_cyclic;
-pub mod circular;
 pub mod digest;
 pub mod double_double;
 pub mod elementary;
 pub(crate) mod error;
 pub mod fraction;
 pub mod lifetime;
-pub mod linear_flow;
 pub mod power_law;
 pub mod quasi_polynomial;
 pub mod random;

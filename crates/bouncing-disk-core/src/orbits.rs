@@ -24,7 +24,6 @@ pub(crate) mod cascade;
 pub(crate) mod closing;
 pub(crate) mod continuation;
 pub(crate) mod follow_attractor;
-pub(crate) mod over_forcing;
 pub(crate) mod periodic;
 
 pub use cascade::feigenbaum::{FeigenbaumEstimate, feigenbaum_estimates};
@@ -32,7 +31,6 @@ pub use cascade::{CascadeDoubling, DoublingCascade, MAX_DOUBLINGS, doubling_casc
 pub use closing::ContinuationParameter;
 pub use continuation::{Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation};
 pub use follow_attractor::{Followed, Following, follow_attractor};
-pub use over_forcing::{BranchInRange, branches_over_forcing};
 pub use periodic::pair::{PeriodOneOrbit, PeriodOnePair};
 pub use periodic::search::{OrbitCoverage, OrbitSearch, OrbitsFound};
 pub use periodic::{MAX_PERIOD, Multipliers, PeriodicOrbit, Stability};

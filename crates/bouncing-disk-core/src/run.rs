@@ -1,9 +1,7 @@
 //! Long calls: their progress, how to stop them, and how a loop of your own counts its work.
 //!
 //! Every call that may take longer than 0.1 s takes an [`Observer`] as its last argument, [`Unobserved`] for
-//! none; every thread calls it at least once in [`FLIGHTS_BETWEEN_CALLS`] flights. A run that can be stored
-//! and resumed is a type of its own: [`SweepRun`](crate::sweep::SweepRun),
-//! [`BasinRun`](crate::attractors::BasinRun).
+//! none; every thread calls it at least once in [`FLIGHTS_BETWEEN_CALLS`] flights.
 
 use core::ops::ControlFlow;
 use core::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -24,7 +22,7 @@ pub const FLIGHTS_BETWEEN_CALLS: u64 = 1 << 13;
 /// Each call that takes an [`Observer`] documents its items: rows of a grid, orbits, impacts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Progress {
-    /// Finished items, including those of earlier calls of a resumed run.
+    /// Finished items.
     pub done: u64,
     /// All items, or their largest possible number where it is known only at the end.
     pub total: u64,
@@ -53,8 +51,8 @@ impl Progress {
 /// use std::ops::ControlFlow;
 /// use std::time::{Duration, Instant};
 ///
-/// use bouncing_disk_core::attractors::{Axis, BasinRun, BasinSettings, Grid};
-/// use bouncing_disk_core::{Error, ImpactMap, Progress, Unobserved, Vibration};
+/// use bouncing_disk_core::attractors::{Axis, BasinSettings, Grid};
+/// use bouncing_disk_core::{Error, ImpactMap, Progress, Vibration};
 ///
 /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.5)?, 0.5)?;
 /// let grid = Grid::new(Axis::new(0.0, 1.0, 60)?, Axis::new(0.0, 2.0, 40)?)?;
@@ -66,10 +64,8 @@ impl Progress {
 ///     let in_time = began.elapsed() < Duration::from_secs(60);
 ///     if in_time { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
 /// };
-/// let mut run = BasinRun::new(map, grid, &[], BasinSettings::default())?;
-/// match run.advance(&observer) {
-///     Ok(()) => assert_eq!(run.into_basins()?, map.basins(grid, &[], BasinSettings::default(), &Unobserved)?),
-///     // The run may be written to a file here, and goes on after it has been read again.
+/// match map.basins(grid, &[], BasinSettings::default(), &observer) {
+///     Ok(basins) => assert_eq!(basins.labels().len(), 2_400),
 ///     Err(Error::Stopped { done, total }) => println!("{done} of {total} rows so far"),
 ///     Err(error) => return Err(error),
 /// }

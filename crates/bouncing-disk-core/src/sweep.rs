@@ -16,8 +16,7 @@
 //! # Ok::<(), bouncing_disk_core::Error>(())
 //! ```
 //!
-//! A [`SweepRun`] can be stopped, stored and resumed. The final motions of orbits are in
-//! [`attractors`](crate::attractors).
+//! The final motions of orbits are in [`attractors`](crate::attractors).
 
 mod events;
 pub(crate) mod lockstep;
@@ -26,7 +25,6 @@ pub(crate) mod orbit_batch;
 mod orbit_diagram;
 mod run;
 pub(crate) mod runner;
-mod settling;
 #[cfg(test)]
 mod tests;
 
@@ -38,5 +36,5 @@ pub use lockstep::flights::{Flights, LaneImpacts, LaneLoop, LaneRunner};
 pub use lockstep::lanes::InstructionSet;
 pub use orbit_batch::OrbitBatch;
 pub use orbit_diagram::{MAX_RECORDED, orbit_diagram, survival_times};
-pub use run::{PartialResults, SweepRun, sweep};
-pub use settling::{is_settling, repeats_every};
+pub(crate) use run::sweep_with;
+pub use run::{PartialResults, sweep};

@@ -9,7 +9,6 @@ use std::fmt::Debug;
 
 use bouncing_disk_core::attractors::*;
 use bouncing_disk_core::chatter::*;
-use bouncing_disk_core::numerics::circular::Concentration;
 use bouncing_disk_core::numerics::elementary;
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::orbits::*;
@@ -152,36 +151,18 @@ fn periodic_orbits() {
 }
 
 #[test]
-fn basins_and_runs() {
+fn basins_and_partial_results() {
     let grid = Grid::new(Axis::new(0.0, 1.0, 3).expect("legal"), Axis::new(0.0, 2.0, 2).expect("legal"));
     let grid = grid.expect("legal");
     check(grid.phase(), &[("/cells", json!(0), "axis cells"), ("/high", json!(0.0), "axis high end")]);
     check(&grid, &[("/speed/low", json!(-1.0), "lowest normalised speed")]);
     let settings = BasinSettings::default();
     check(&settings, &[("/max_impacts", json!(-1), "-1")]);
-    let mut run = BasinRun::new(map(0.45), grid, &[], settings).expect("few cells");
-    check(&run, &[]);
-    run.advance(&Unobserved).expect("no failure");
-    check(&run, &[("/finished_rows", json!([0, 2]), "finished row"), ("/labels/0", json!(7), "label")]);
-    let mut run = SweepRun::new(2);
-    run.advance_orbit_diagram(
-        &[map(0.45), map(0.5)].map(|map| map.orbit(start(), ChatterPolicy::Complete)),
-        5,
-        3,
-        &Unobserved,
-    )
-    .expect("no failure");
+    let mut results = PartialResults::new(2);
+    results.extend([(0, vec![start()]), (1, vec![])]);
     check(
-        &run,
+        &results,
         &[("/total", json!(1), "index of a finished item"), ("/finished/0/0", json!(1), "out of order")],
-    );
-    check(run.results(), &[("/total", json!(1), "index of a finished item")]);
-    check(
-        &Concentration::of([(0.3, 1.0), (0.5, 2.0)]).expect("has weight"),
-        &[
-            ("/mean_direction_rad", json!(4.0), "mean_direction_rad"),
-            ("/resultant_length", json!(1.1), "resultant"),
-        ],
     );
 }
 

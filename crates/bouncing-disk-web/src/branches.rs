@@ -1,10 +1,14 @@
 //! Branches of periodic orbits over the forcing, stable and unstable.
 
-use bouncing_disk::core::orbits::branches_over_forcing;
+mod over_forcing;
+mod within;
+
 use serde_json::json;
 
 use crate::reply::{Refusal, Reply};
 use crate::request::ImpactStart;
+
+pub use over_forcing::{BranchInRange, branches_over_forcing};
 
 /// How many branches there are in a window, and their bifurcations with the first impact of the orbit there. Numbers: rows
 /// of the forcing, the phase (rad) and the normalised speed of one impact of an orbit on a branch, the number of the

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use bouncing_disk::core::attractors::driven_diagram;
-use bouncing_disk::core::sweep::{is_settling, orbit_diagram, repeats_every};
+use bouncing_disk::core::sweep::orbit_diagram;
 use bouncing_disk::core::{ChatterPolicy, Error as CoreError, ImpactState, Observer, Unobserved};
 use bouncing_disk::parameters::DimensionlessSystem;
 use bouncing_disk::toss::{CollisionEvent, CollisionState, Collisions};
@@ -12,6 +12,7 @@ use serde_json::json;
 
 use crate::reply::{Refusal, Reply};
 use crate::request::{DiagramRequest, map};
+use crate::settling::{is_settling, repeats_every};
 
 /// Most forcings of a diagram, and most impacts of an answer.
 const MOST_COLUMNS: usize = 1_000_000;

@@ -1,7 +1,8 @@
 //! The model in a browser's page: requests in JSON, answers as JSON and flat arrays.
 //!
-//! The page (`page/`) runs this crate as WebAssembly in workers. It has no physics and no numerics of its
-//! own: each request is one call of the library, whose results it passes on in SI units. The same request is
+//! The page (`page/`) runs this crate as WebAssembly in workers. Each request is one call of the library, whose
+//! results it passes on in SI units; its own are the branches in a window of a diagram
+//! ([`branches_over_forcing`]) and whether a column has settled. The same request is
 //! answered natively by the same code with the same bits (`examples/respond.rs`): the page's tests compare them.
 //!
 //! ```
@@ -21,7 +22,9 @@ mod motor;
 mod orbit;
 mod reply;
 mod request;
+mod settling;
 mod shared_basins;
 
+pub use branches::{BranchInRange, branches_over_forcing};
 pub use explorer::Explorer;
 pub use reply::Reply;

@@ -4,14 +4,13 @@ use std::f64::consts::TAU;
 
 use bouncing_disk::core::flight::Compliance;
 use bouncing_disk::core::numerics::elementary::ln;
-use bouncing_disk::core::orbits::branches_over_forcing;
 use bouncing_disk::core::{Phase, Unobserved};
 use bouncing_disk::driven;
 use bouncing_disk::motor::{DrivenMotor, OperatingSettings};
 use bouncing_disk::parameters::{ContactLaw, DriveParameters, DrivenPlatform, Stroke};
 use bouncing_disk::toss::{InitialSpin, TOSS_START, single_toss};
 use bouncing_disk::{Motor, System};
-use bouncing_disk_web::{Explorer, Reply};
+use bouncing_disk_web::{Explorer, Reply, branches_over_forcing};
 use serde_json::{Value, json};
 
 fn pizza() -> Value {

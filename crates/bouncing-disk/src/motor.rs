@@ -26,6 +26,7 @@
 //! the speeds: docs/numerics/motors.md.
 
 pub(crate) mod batch;
+pub mod circular;
 pub(crate) mod data_sheet;
 pub(crate) mod driven_motor;
 pub(crate) mod impulse;

@@ -30,6 +30,7 @@ mod energy;
 mod engine;
 mod impact;
 mod ledger;
+mod linear_flow;
 mod regime;
 #[cfg(test)]
 mod tests;

@@ -8,6 +8,7 @@ mod round_trip;
 use bouncing_disk::core::{ChatterPolicy, Phase};
 use bouncing_disk::estimate::TransientEnsemble;
 use bouncing_disk::motion::PAPER_CHATTER;
+use bouncing_disk::motor::circular::Concentration;
 use bouncing_disk::motor::{OperatingSettings, SpeedCurve, TransientSettings};
 use bouncing_disk::parameters::{ForcingParameters, Stroke};
 use bouncing_disk::toss::InitialSpin;
@@ -35,6 +36,13 @@ fn parameters() {
     check(&motor.dimensionless().parameters(), &[]);
     check(&Stroke::pizza_toss(), &[]);
     check(&InitialSpin::RestRelativeToHand, &[]);
+    check(
+        &Concentration::of([(0.3, 1.0), (0.5, 2.0)]).expect("has weight"),
+        &[
+            ("/mean_direction_rad", json!(4.0), "mean_direction_rad"),
+            ("/resultant_length", json!(1.1), "resultant"),
+        ],
+    );
 }
 
 #[test]

@@ -2,12 +2,12 @@
 
 use bouncing_disk::Observer;
 use bouncing_disk::core::attractors::driven_diagram;
-use bouncing_disk::core::numerics::circular::distinct;
 use bouncing_disk::core::numerics::statistics::extent;
 use bouncing_disk::core::{
     ChatterPolicy, DrivenOrbit, ImpactState, Orbit,
     sweep::{MAX_RECORDED, orbit_diagram},
 };
+use bouncing_disk::motor::circular::distinct;
 use bouncing_disk::parameters::Waveform;
 use bouncing_disk_plot::Figure;
 use bouncing_disk_plot::pictures::{OrbitDiagram, OrbitsFrom};

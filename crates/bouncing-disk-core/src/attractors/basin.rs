@@ -17,8 +17,6 @@ use crate::numerics::stored::read_checked;
 use crate::orbits::periodic::PeriodicOrbit;
 use crate::run::Observer;
 
-pub use run::BasinRun;
-
 /// The fate of a start: one byte a cell.
 pub type Label = u8;
 /// Neither at rest nor near a known orbit after the allowed number of impacts: undecided, or on a chaotic
@@ -294,11 +292,6 @@ impl Basins {
         Ok(whole)
     }
 
-    /// The labels themselves.
-    pub(crate) fn into_labels(self) -> Vec<Label> {
-        self.labels
-    }
-
     /// Number of columns: cells along the phase.
     #[must_use]
     pub const fn columns(&self) -> usize {
@@ -412,8 +405,7 @@ impl ImpactMap {
     ///
     /// The labels are the same for any number of threads.
     ///
-    /// The items of `observer` are the rows. A [`BasinRun`] keeps the finished ones of a call that is
-    /// stopped.
+    /// The items of `observer` are the rows.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for more than 250 known orbits; [`Error::NotAnOrbit`] for one of another map;
@@ -426,9 +418,8 @@ impl ImpactMap {
         settings: BasinSettings,
         observer: &dyn Observer,
     ) -> Result<Basins, Error> {
-        let mut run = BasinRun::new(*self, grid, known, settings)?;
-        run.advance(observer)?;
-        run.into_basins()
+        let labels = self.labels_of_rows(grid, 0..grid.speed().cells(), known, settings, observer)?;
+        Ok(Basins { columns: grid.phase().cells(), labels })
     }
 }
 

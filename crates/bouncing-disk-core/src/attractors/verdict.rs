@@ -13,8 +13,8 @@ use crate::numerics::error::{Error, finite, not_negative, within};
 use crate::numerics::stored::read_checked;
 use crate::orbits::periodic::{MAX_PERIOD, Multipliers};
 use crate::run::{Observer, Progress, Unobserved};
-use crate::sweep::SweepRun;
 use crate::sweep::lyapunov::LyapunovEstimate;
+use crate::sweep::sweep_with;
 use witness::Witness;
 
 /// Orbits of [`each_verdict`] that are under way together, at some 2 kB each: so many that the last of them,
@@ -388,19 +388,18 @@ pub fn each_verdict<E: From<Error>>(
             starts.iter().map(|(map, state)| map.orbit(*state, ChatterPolicy::Complete)).collect();
         let done = |done: u64| first as u64 + done;
         let shifted = |progress: Progress| observer.observe(Progress { done: done(progress.done), total });
-        let mut run = SweepRun::new(starts.len());
-        let outcome = run.advance_with(
+        let found = sweep_with(
             &orbits,
             |index| Witness::new(starts[index], settings),
             Witness::see,
             |witness| Ok(witness.verdict()),
             &shifted,
         );
-        outcome.map_err(|error| match error {
+        let found = found.map_err(|error| match error {
             Error::Stopped { done: own, .. } => Error::Stopped { done: done(own), total },
             other => other,
         })?;
-        let mut found = run.into_results()?.into_iter();
+        let mut found = found.into_iter();
         block.iter().for_each(|start| each(start.and_then(|_| found.next())));
     }
     Ok(())

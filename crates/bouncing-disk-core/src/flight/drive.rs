@@ -342,7 +342,8 @@ impl Drive {
     }
 
     /// The sine of the closed forms, where this is one.
-    pub(crate) fn as_vibration(&self) -> Option<Vibration> {
+    #[must_use]
+    pub fn as_vibration(&self) -> Option<Vibration> {
         let Shape::Fourier(fourier) = &self.shape else { return None };
         match fourier.harmonics[..] {
             [Harmonic { number: 1.0, amplitude, rate: 0.0, angle: 0.0 }] => Vibration::new(amplitude).ok(),

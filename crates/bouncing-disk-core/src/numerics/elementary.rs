@@ -147,14 +147,16 @@ pub(crate) fn versine_shortfall(h: f64) -> f64 {
 }
 
 /// (1 - cos h) / h^2 for |h| up to 1/2; relative error below 2e-16.
+#[must_use]
 #[inline(always)]
-pub(crate) fn versine_ratio(h: f64) -> f64 {
+pub fn versine_ratio(h: f64) -> f64 {
     0.5 - h * h * versine_shortfall(h)
 }
 
 /// h - sin h for h in [0, 2 pi], in relative accuracy, given sin h.
+#[must_use]
 #[inline(always)]
-pub(crate) fn sine_deficit(h: f64, sin_h: f64) -> f64 {
+pub fn sine_deficit(h: f64, sin_h: f64) -> f64 {
     // The Taylor series up to h^23/23!, 6e-18 of the sum at 1.7.
     let z = h * h;
     let z2 = z * z;

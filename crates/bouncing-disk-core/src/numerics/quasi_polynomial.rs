@@ -723,7 +723,10 @@ impl Jet {
 }
 
 /// The first root in (`from`, `to`] of a function that is known by its [`Jet`]s.
-pub(crate) fn first_root(at: impl Fn(f64) -> Jet, from: f64, to: f64) -> Result<FirstRoot, Error> {
+///
+/// # Errors
+/// [`Error::NoConvergence`] if the search does not end.
+pub fn first_root(at: impl Fn(f64) -> Jet, from: f64, to: f64) -> Result<FirstRoot, Error> {
     let mut search = Search { at, evaluations: 0 };
     let mut t = from;
     let mut jet = search.jet(t);

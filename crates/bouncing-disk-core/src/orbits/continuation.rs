@@ -10,7 +10,6 @@ use crate::orbits::periodic::{Multipliers, PeriodicOrbit, Stability};
 use crate::run::{Observer, Watch};
 
 mod walker;
-mod within;
 
 use walker::Walker;
 
@@ -350,7 +349,12 @@ impl ImpactMap {
     }
 
     /// [`Self::continued`] from an orbit of this map or of one next to it.
-    pub(crate) fn continued_from(
+    ///
+    /// # Errors
+    /// Those of [`Self::continued`], but for [`Error::NotAnOrbit`].
+    // The explorer draws branches with it.
+    #[doc(hidden)]
+    pub fn continued_from(
         &self,
         orbit: &PeriodicOrbit,
         settings: &Continuation,

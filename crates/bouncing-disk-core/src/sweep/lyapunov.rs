@@ -14,7 +14,7 @@ use crate::numerics::elementary::{hypot, ln};
 use crate::numerics::error::{Error, finite, not_negative, within};
 use crate::numerics::stored::read_checked;
 use crate::run::Observer;
-use crate::sweep::{SweepEvent, SweepImpact, SweepRun};
+use crate::sweep::{SweepEvent, SweepImpact, sweep_with};
 
 /// The growth of a small perturbation along an orbit of the impact map, one derivative after the other.
 ///
@@ -207,13 +207,12 @@ pub fn lyapunov_exponents(
     impacts: usize,
     observer: &dyn Observer,
 ) -> Result<Vec<Option<f64>>, Error> {
-    let mut run = SweepRun::new(starts.len());
     if impacts == 0 {
-        run.finish_with(starts.len(), || None)?;
+        return Ok(vec![None; starts.len()]);
     }
     let orbits: Vec<Orbit> =
         starts.iter().map(|(map, state)| map.orbit(*state, ChatterPolicy::Complete)).collect();
-    run.advance_with(
+    sweep_with(
         &orbits,
         |index| {
             let (map, state) = starts[index];
@@ -238,8 +237,7 @@ pub fn lyapunov_exponents(
         },
         |(_, followed)| Ok(if followed.rested { None } else { followed.growth.exponent() }),
         observer,
-    )?;
-    run.into_results()
+    )
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use core::ops::ControlFlow;
 
 use super::events::SweepEvent;
-use super::run::SweepRun;
+use super::run::{sweep, sweep_with};
 use crate::map::impact_map::{ImpactState, Orbit};
 use crate::numerics::error::Error;
 use crate::run::Observer;
@@ -14,52 +14,33 @@ pub const MAX_RECORDED: u64 = 1 << 31;
 /// How many impacts each orbit has before the disk comes to rest, at most `most`: an orbit that never comes
 /// to rest is followed for `most` impacts. The result `most` therefore means that it did not come to rest.
 ///
-/// The items of `observer` are the orbits. [`SweepRun::advance_survival_times`] keeps the finished ones of
-/// a call that is stopped.
+/// The items of `observer` are the orbits.
 ///
 /// # Errors
 /// Those of [`sweep`](super::sweep).
 pub fn survival_times(orbits: &[Orbit], most: usize, observer: &dyn Observer) -> Result<Vec<usize>, Error> {
-    let mut run = SweepRun::new(orbits.len());
-    run.advance_survival_times(orbits, most, observer)?;
-    run.into_results()
-}
-
-impl SweepRun<usize> {
-    /// Continues the [`survival_times`] of the orbits that are not finished.
-    ///
-    /// # Errors
-    /// Those of [`Self::advance`].
-    pub fn advance_survival_times(
-        &mut self,
-        orbits: &[Orbit],
-        most: usize,
-        observer: &dyn Observer,
-    ) -> Result<(), Error> {
-        if most == 0 {
-            return self.finish_with(orbits.len(), || 0);
-        }
-        self.advance(
-            orbits,
-            |_| 0,
-            |lived, event| match event {
-                SweepEvent::Impact(_) => {
-                    *lived += 1;
-                    if *lived < most { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-                }
-                SweepEvent::Attachment(_) => ControlFlow::Break(()),
-            },
-            observer,
-        )
+    if most == 0 {
+        return Ok(vec![0; orbits.len()]);
     }
+    sweep(
+        orbits,
+        |_| 0,
+        |lived, event| match event {
+            SweepEvent::Impact(_) => {
+                *lived += 1;
+                if *lived < most { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+            }
+            SweepEvent::Attachment(_) => ControlFlow::Break(()),
+        },
+        observer,
+    )
 }
 
 /// The columns of a bifurcation diagram: for each orbit the `recorded` impacts after the first `transient`
 /// ones. A disk that comes to rest continues with its next separation; one that rests for ever has fewer
 /// impacts.
 ///
-/// The items of `observer` are the orbits. [`SweepRun::advance_orbit_diagram`] keeps the finished ones of a
-/// call that is stopped.
+/// The items of `observer` are the orbits.
 ///
 /// # Errors
 /// [`Error::TooLarge`] for more than [`MAX_RECORDED`] impacts of all orbits together or than there is memory
@@ -70,52 +51,34 @@ pub fn orbit_diagram(
     recorded: usize,
     observer: &dyn Observer,
 ) -> Result<Vec<Vec<ImpactState>>, Error> {
-    let mut run = SweepRun::new(orbits.len());
-    run.advance_orbit_diagram(orbits, transient, recorded, observer)?;
-    run.into_results()
-}
-
-impl SweepRun<Vec<ImpactState>> {
-    /// Continues the [`orbit_diagram`] of the orbits that are not finished.
-    ///
-    /// # Errors
-    /// Those of [`Self::advance`], and [`Error::TooLarge`] as for [`orbit_diagram`].
-    pub fn advance_orbit_diagram(
-        &mut self,
-        orbits: &[Orbit],
-        transient: usize,
-        recorded: usize,
-        observer: &dyn Observer,
-    ) -> Result<(), Error> {
-        if recorded == 0 {
-            return self.finish_with(orbits.len(), Vec::new);
-        }
-        let count = (orbits.len() as u64).saturating_mul(recorded as u64);
-        let refusal = Error::TooLarge { what: "recorded impacts", count, limit: MAX_RECORDED };
-        if count > MAX_RECORDED {
-            return Err(refusal);
-        }
-        self.advance_with(
-            orbits,
-            |_| (0, Some(Vec::new())),
-            |(skipped, column), event| {
-                let Some(states) = column else { return ControlFlow::Break(()) };
-                match event {
-                    SweepEvent::Impact(_) if *skipped < transient => *skipped += 1,
-                    SweepEvent::Impact(landing) => {
-                        // Not all at once: a disk that rests for ever needs little.
-                        if states.try_reserve(1).is_err() {
-                            *column = None;
-                            return ControlFlow::Break(());
-                        }
-                        states.push(landing.state);
-                    }
-                    SweepEvent::Attachment(_) => {}
-                }
-                if states.len() < recorded { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-            },
-            |(_, states)| states.ok_or(refusal),
-            observer,
-        )
+    if recorded == 0 {
+        return Ok(vec![Vec::new(); orbits.len()]);
     }
+    let count = (orbits.len() as u64).saturating_mul(recorded as u64);
+    let refusal = Error::TooLarge { what: "recorded impacts", count, limit: MAX_RECORDED };
+    if count > MAX_RECORDED {
+        return Err(refusal);
+    }
+    sweep_with(
+        orbits,
+        |_| (0, Some(Vec::new())),
+        |(skipped, column), event| {
+            let Some(states) = column else { return ControlFlow::Break(()) };
+            match event {
+                SweepEvent::Impact(_) if *skipped < transient => *skipped += 1,
+                SweepEvent::Impact(landing) => {
+                    // Not all at once: a disk that rests for ever needs little.
+                    if states.try_reserve(1).is_err() {
+                        *column = None;
+                        return ControlFlow::Break(());
+                    }
+                    states.push(landing.state);
+                }
+                SweepEvent::Attachment(_) => {}
+            }
+            if states.len() < recorded { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        },
+        |(_, states)| states.ok_or(refusal),
+        observer,
+    )
 }

@@ -1,4 +1,4 @@
-//! Sweeps that can be stopped, stored and resumed.
+//! Sweeps over orbits, and the results of those that are finished.
 
 use core::ops::ControlFlow;
 
@@ -122,127 +122,36 @@ impl<T> PartialResults<T> {
     }
 }
 
-/// A sweep in progress over a list of orbits: the results of those that are finished.
-///
-/// A run that is stopped, written, read and resumed gives the results of one uninterrupted [`sweep`], bit
-/// for bit, for any number of threads. The orbits and the visitor are not stored: whoever resumes supplies
-/// the same ones.
-///
-/// ```
-/// use bouncing_disk_core::sweep::{SweepRun, orbit_diagram};
-/// use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, Unobserved, Vibration};
-///
-/// let start = ImpactState::from_normalised(0.8, 1.3)?;
-/// let orbits = (0..40)
-///     .map(|k| {
-///         let map = ImpactMap::new(Vibration::from_axial_forcing(0.5 + 1e-3 * f64::from(k))?, 0.5)?;
-///         Ok(map.orbit(start, ChatterPolicy::Complete))
-///     })
-///     .collect::<Result<Vec<_>, bouncing_disk_core::Error>>()?;
-/// let mut run = SweepRun::new(orbits.len());
-/// run.advance_orbit_diagram(&orbits, 200, 50, &Unobserved)?;
-/// assert_eq!(run.into_results()?, orbit_diagram(&orbits, 200, 50, &Unobserved)?);
-/// # Ok::<(), bouncing_disk_core::Error>(())
-/// ```
-#[derive(Debug, Clone, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(transparent))]
-#[cfg_attr(feature = "serde", serde(bound(deserialize = "T: serde::Deserialize<'de>")))]
-pub struct SweepRun<T> {
-    results: PartialResults<T>,
-}
-
-/// A run that resumes after the finished orbits.
-impl<T> From<PartialResults<T>> for SweepRun<T> {
-    fn from(results: PartialResults<T>) -> Self {
-        Self { results }
-    }
-}
-
-impl<T> SweepRun<T> {
-    /// A run over `orbits` orbits, none of them finished.
-    #[must_use]
-    pub const fn new(orbits: usize) -> Self {
-        Self { results: PartialResults::new(orbits) }
-    }
-
-    /// The results of the orbits, as far as they are finished.
-    #[must_use]
-    pub const fn results(&self) -> &PartialResults<T> {
-        &self.results
-    }
-
-    /// Whether all orbits are finished.
-    #[must_use]
-    pub const fn is_done(&self) -> bool {
-        self.results.is_done()
-    }
-
-    /// Gives all orbits that are not finished the same result, without following them.
-    pub(crate) fn finish_with(&mut self, orbits: usize, result: impl Fn() -> T) -> Result<(), Error> {
-        let open = self.results.open(orbits)?;
-        self.results.extend(open.into_iter().map(|index| (index, result())));
-        Ok(())
-    }
-
-    /// The results of all orbits, in their order.
-    ///
-    /// # Errors
-    /// [`Error::Stopped`] if one is not finished, which [`Self::is_done`] shows.
-    pub fn into_results(self) -> Result<Vec<T>, Error> {
-        self.results.into_results()
-    }
-}
-
-impl<T: Send> SweepRun<T> {
-    /// Follows the orbits that are not finished, as [`sweep`] does. Finished ones stay, also when this
-    /// call returns an error. The items of the observer are orbits; those under way are restarted by the
-    /// next call, so that a call stopped before any is finished achieves nothing.
-    ///
-    /// # Errors
-    /// [`Error::Stopped`] if the observer breaks; [`Error::Unfitting`] for another number of orbits than the
-    /// run has; the error of the first orbit, in their order, that has no next impact (see
-    /// [`Orbit::advance`]): it is not finished, the others are.
-    pub fn advance(
-        &mut self,
-        orbits: &[Orbit],
-        start: impl Fn(usize) -> T + Sync,
-        visit: impl Fn(&mut T, &SweepEvent) -> ControlFlow<()> + Sync,
-        observer: &dyn Observer,
-    ) -> Result<(), Error> {
-        self.advance_with(orbits, start, visit, Ok, observer)
-    }
-
-    /// [`Self::advance`] with visitors of one kind and results of another, made when an orbit is done.
-    pub(crate) fn advance_with<W: Send>(
-        &mut self,
-        orbits: &[Orbit],
-        start: impl Fn(usize) -> W + Sync,
-        visit: impl Fn(&mut W, &SweepEvent) -> ControlFlow<()> + Sync,
-        result: impl Fn(W) -> Result<T, Error>,
-        observer: &dyn Observer,
-    ) -> Result<(), Error> {
-        let open = self.results.open(orbits.len())?;
-        let watch = Watch::begin(observer, self.results.done(), self.results.total())?;
-        let outcomes = runner::run((orbits, &open), &start, &visit, InstructionSet::best(), &watch);
-        let mut failure = None;
-        self.results.extend(outcomes.into_iter().filter_map(
-            |(index, outcome)| match outcome.and_then(&result) {
-                Ok(result) => Some((index, result)),
-                Err(error) => {
-                    failure.get_or_insert(error);
-                    None
-                }
-            },
-        ));
-        match failure {
-            _ if self.is_done() => {
-                watch.end();
-                Ok(())
+/// [`sweep`] with visitors of one kind and results of another, made when an orbit is done.
+pub(crate) fn sweep_with<W: Send, T>(
+    orbits: &[Orbit],
+    start: impl Fn(usize) -> W + Sync,
+    visit: impl Fn(&mut W, &SweepEvent) -> ControlFlow<()> + Sync,
+    result: impl Fn(W) -> Result<T, Error>,
+    observer: &dyn Observer,
+) -> Result<Vec<T>, Error> {
+    let total = orbits.len();
+    let watch = Watch::begin(observer, 0, total as u64)?;
+    let mut failure = None;
+    let outcomes = runner::run(orbits, &start, &visit, InstructionSet::best(), &watch);
+    let results: Vec<T> = outcomes
+        .into_iter()
+        .filter_map(|(_, outcome)| match outcome.and_then(&result) {
+            Ok(result) => Some(result),
+            Err(error) => {
+                failure.get_or_insert(error);
+                None
             }
-            Some(error) if !watch.is_stopped() => Err(error),
-            _ => Err(self.results.stopped()),
+        })
+        .collect();
+    match failure {
+        // After one thread got the order to stop, others may have finished all.
+        _ if results.len() == total => {
+            watch.end();
+            Ok(results)
         }
+        Some(error) if !watch.is_stopped() => Err(error),
+        _ => Err(Error::Stopped { done: results.len() as u64, total: total as u64 }),
     }
 }
 
@@ -257,8 +166,7 @@ impl<T: Send> SweepRun<T> {
 /// An endless orbit that its visitor never breaks off is followed for ever, or until the observer of
 /// [`sweep`] breaks.
 ///
-/// The items of `observer` are the orbits. A [`SweepRun`] keeps the finished ones of a call that is
-/// stopped.
+/// The items of `observer` are the orbits.
 ///
 /// ```
 /// use core::ops::ControlFlow;
@@ -292,9 +200,7 @@ pub fn sweep<S: Send>(
     visit: impl Fn(&mut S, &SweepEvent) -> ControlFlow<()> + Sync,
     observer: &dyn Observer,
 ) -> Result<Vec<S>, Error> {
-    let mut run = SweepRun::new(orbits.len());
-    run.advance(orbits, start, visit, observer)?;
-    run.into_results()
+    sweep_with(orbits, start, visit, Ok, observer)
 }
 
 #[cfg(test)]

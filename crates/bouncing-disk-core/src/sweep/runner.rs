@@ -20,19 +20,18 @@ const BATCHES: usize = 8;
 /// The outcome of the orbit with an index.
 type Outcome<S> = (usize, Result<S, Error>);
 
-/// Follows the orbits of the indices `open` until they are done or the observer breaks; the outcomes in the
-/// order of the indices.
+/// Follows the orbits until they are done or the observer breaks; the outcomes in the order of the orbits.
 pub(super) fn run<S: Send>(
-    (orbits, open): (&[Orbit], &[usize]),
+    orbits: &[Orbit],
     start: &(impl Fn(usize) -> S + Sync),
     visit: &(impl Fn(&mut S, &SweepEvent) -> ControlFlow<()> + Sync),
     set: InstructionSet,
     watch: &Watch<'_>,
 ) -> Vec<Outcome<S>> {
-    let queue = Queue { orbits, open, next: AtomicUsize::new(0) };
-    let threads = threads().min(open.len());
+    let queue = Queue { orbits, next: AtomicUsize::new(0) };
+    let threads = threads().min(orbits.len());
     // As many lanes as give every thread its share.
-    let share = open.len().div_ceil(threads.max(1));
+    let share = orbits.len().div_ceil(threads.max(1));
     let lanes = share.next_multiple_of(LANES).clamp(LANES, BATCHES * LANES);
     let work = || {
         let (queue, work) = (&queue, watch.work());
@@ -55,14 +54,12 @@ pub(super) fn in_order<T>(total: usize, results: impl IntoIterator<Item = (usize
 /// The orbits that nobody has begun.
 struct Queue<'a> {
     orbits: &'a [Orbit],
-    /// Indices of those that are to be followed.
-    open: &'a [usize],
     next: AtomicUsize,
 }
 
 impl Queue<'_> {
     fn take(&self) -> Option<(usize, Orbit)> {
-        let index = *self.open.get(self.next.fetch_add(1, Ordering::Relaxed))?;
+        let index = self.next.fetch_add(1, Ordering::Relaxed);
         self.orbits.get(index).map(|orbit| (index, orbit.clone()))
     }
 }
@@ -101,7 +98,7 @@ where
     }
 
     fn follow_all(&mut self, set: InstructionSet) -> Result<(), Error> {
-        if self.queue.open.len() >= FEWEST {
+        if self.queue.orbits.len() >= FEWEST {
             self.in_lanes(set)?;
         }
         loop {

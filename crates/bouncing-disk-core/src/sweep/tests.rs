@@ -84,12 +84,9 @@ fn a_sweep_shows_the_events_of_single_orbits() {
         let sticks = expected.iter().flatten().filter(|bits| bits.len() == 5).count();
         assert!(count < 4_000 || sticks > 2_000, "{sticks}");
         for set in InstructionSet::available() {
-            let (open, watch) = (
-                (0..count as usize).collect::<Vec<_>>(),
-                Watch::begin(&Unobserved, 0, count).expect("goes on"),
-            );
+            let watch = Watch::begin(&Unobserved, 0, count).expect("goes on");
             let got = runner::run(
-                (&orbits, &open),
+                &orbits,
                 &|index| (most(index), Vec::new()),
                 &|(most, events), event| {
                     events.push(bits(event));

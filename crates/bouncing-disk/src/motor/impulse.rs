@@ -26,13 +26,13 @@ mod compliant;
 use std::convert::Infallible;
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::numerics::circular::Concentration;
 use bouncing_disk_core::numerics::elementary::cos;
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::numerics::roots::bisection;
 use bouncing_disk_core::{Attachment, ChatterPolicy, ImpactMap, Launch, Orbit, OrbitEvent, Phase};
 
 use crate::error::{Error, moderate_not_negative, positive, within_limit};
+use crate::motor::circular::Concentration;
 use crate::parameters::dimensionless::DimensionlessSystem;
 use crate::toss::chattering_cycle::LONG_FLIGHT;
 use crate::toss::multiple::MAX_EXAMINED;

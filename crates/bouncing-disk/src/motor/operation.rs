@@ -19,6 +19,7 @@ pub(crate) mod settings;
 mod settling;
 pub(crate) mod spread;
 pub(crate) mod stall_load;
+mod tap;
 pub(crate) mod tapped;
 pub(crate) mod trap_ranges;
 mod window;

@@ -1,10 +1,9 @@
 //! The energy balances of a motion between two events.
 
-use bouncing_disk_core::numerics::linear_flow::dot;
-
 use super::LoadLine;
 use super::engine::{Stage, StatorEngine, size};
 use super::ledger::StatorLedger;
+use super::linear_flow::dot;
 use super::regime::{ANGLE, CLOSING, COS, Contact, DISPLACEMENTS, GAP, Grip, SIN, SPEED, State, VELOCITIES};
 use crate::motion::energy::EnergyLedger;
 

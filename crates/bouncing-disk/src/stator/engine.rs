@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use bouncing_disk_core::flight::MAX_FLIGHT_DURATION;
 use bouncing_disk_core::numerics::elementary::{exp, exp_m1, hypot, ln_1p, sin_cos};
-use bouncing_disk_core::numerics::linear_flow::{Functional, LinearFlow, Vector, dot};
 
 use super::impact::impact;
 use super::ledger::StatorLedger;
+use super::linear_flow::{Functional, LinearFlow, Vector, dot};
 use super::regime::{
     ANGLE, CLOSING, COS, Contact, DISPLACEMENTS, GAP, Grip, N, ONE, Regime, SIN, SPEED, State, VELOCITIES,
 };

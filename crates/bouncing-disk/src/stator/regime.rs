@@ -14,8 +14,7 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::numerics::linear_flow::{Functional, LinearFlow, Vector};
-
+use super::linear_flow::{Functional, LinearFlow, Vector};
 use super::{LoadLine, MODES, StatorSystem};
 
 /// Components of a state.

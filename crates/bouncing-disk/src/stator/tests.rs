@@ -392,9 +392,8 @@ impl StatorEngine {
         use engine::{Stage, size};
         let regime = self.regime();
         let tolerance = 1e-10 * (1.0 + span);
-        let holds = |functional: &bouncing_disk_core::numerics::linear_flow::Functional<{ regime::N }>,
-                     what: &str| {
-            let value = bouncing_disk_core::numerics::linear_flow::dot(functional.now(), state);
+        let holds = |functional: &linear_flow::Functional<{ regime::N }>, what: &str| {
+            let value = linear_flow::dot(functional.now(), state);
             let size = size(functional.now(), state).max(1.0);
             assert!(
                 value >= -tolerance * size,
@@ -419,7 +418,7 @@ impl StatorEngine {
                 );
             }
             Stage::Flight(_) => {
-                let value = -bouncing_disk_core::numerics::linear_flow::dot(regime.force.now(), state);
+                let value = -linear_flow::dot(regime.force.now(), state);
                 assert!(
                     value >= -tolerance * size(regime.force.now(), state).max(1.0),
                     "{state:?} {:?} {:?} {:?} {:?}",

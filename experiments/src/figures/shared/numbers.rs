@@ -9,10 +9,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::claims::paper::Uncertain;
 
-pub(crate) use bouncing_disk::core::numerics::{
-    circular::{Concentration, distance, occupied_arc},
-    statistics::{extent, median},
-};
+pub(crate) use bouncing_disk::core::numerics::statistics::{extent, median};
+pub(crate) use bouncing_disk::motor::circular::{Concentration, distance, occupied_arc};
 
 /// The power of ten of a number that is one.
 pub(crate) fn exponent(value: f64) -> String {

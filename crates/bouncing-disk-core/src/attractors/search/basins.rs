@@ -5,9 +5,7 @@ use core::ops::{ControlFlow, Range};
 use super::cells::VisitedCells;
 use super::follow::SHARE_IN_CELLS;
 use super::{Attractors, label_of};
-use crate::attractors::basin::{
-    ATTACHED, BasinRun, BasinSettings, Basins, Grid, KnownOrbit, Label, UNDECIDED,
-};
+use crate::attractors::basin::{ATTACHED, BasinSettings, Basins, Grid, KnownOrbit, Label, UNDECIDED};
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::error::Error;
 use crate::run::{Observer, Progress, Unobserved};
@@ -210,12 +208,12 @@ impl Attractors {
             return self.map.basins(grid, &labelling.known, settings, observer);
         }
         let whole = |progress: Progress| observer.observe(Progress { total: 2 * rows, ..progress });
-        let mut run = BasinRun::new(self.map, grid, &labelling.known, settings)?;
-        run.advance(&whole).map_err(|error| match error {
+        let labels =
+            self.map.labels_of_rows(grid, 0..grid.speed().cells(), &labelling.known, settings, &whole);
+        let mut labels = labels.map_err(|error| match error {
             Error::Stopped { done, .. } => Error::Stopped { done, total: 2 * rows },
             other => other,
         })?;
-        let mut labels = run.into_basins()?.into_labels();
         let open = (0..labels.len()).filter(|index| labels[*index] == UNDECIDED).collect::<Vec<_>>();
         let second = Rows { observer, done: rows, total: 2 * rows };
         labelling.label_cells(&grid, &mut labels, &open, &second)?;
@@ -265,16 +263,12 @@ impl Attractors {
         let recurrent = !labelling.cells.is_empty();
         // Each row counts twice where undecided starts are compared with cells.
         let total = if recurrent { 2 * count } else { count };
-        let elsewhere = (height - rows.len()) as u64;
-        let own = |progress: Progress| {
-            observer.observe(Progress { done: progress.done.saturating_sub(elsewhere), total })
-        };
-        let mut run = BasinRun::new(self.map, grid, &labelling.known, settings)?;
-        run.advance_rows(rows.clone(), &own).map_err(|error| match error {
-            Error::Stopped { done, .. } => Error::Stopped { done: done.saturating_sub(elsewhere), total },
+        let own = |progress: Progress| observer.observe(Progress { total, ..progress });
+        let labels = self.map.labels_of_rows(grid, rows.clone(), &labelling.known, settings, &own);
+        let mut labels = labels.map_err(|error| match error {
+            Error::Stopped { done, .. } => Error::Stopped { done, total },
             other => other,
         })?;
-        let mut labels = run.into_labels();
         let cells = rows.start * width..rows.end * width;
         if recurrent {
             let open: Vec<_> = cells.clone().filter(|index| labels[*index] == UNDECIDED).collect();

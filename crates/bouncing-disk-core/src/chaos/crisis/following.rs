@@ -15,7 +15,7 @@ use crate::orbits::periodic::newton::same_orbit;
 use crate::orbits::periodic::{PeriodicOrbit, phase_difference};
 use crate::run::{Progress, Unobserved, Watch};
 use crate::sweep::lyapunov::lyapunov_exponents;
-use crate::sweep::{SweepEvent, SweepRun};
+use crate::sweep::{SweepEvent, sweep};
 use core::ops::ControlFlow;
 
 /// The least distance beyond its birth (relative to Gamma) from which on the period-1 orbit is followed.
@@ -309,12 +309,11 @@ impl CrisisSearch {
     ) -> Result<Vec<(usize, ImpactState)>, Error> {
         let map = self.map(forcing)?;
         let orbits: Vec<_> = starts.iter().map(|&start| map.orbit(start, ChatterPolicy::Complete)).collect();
-        let mut run = SweepRun::new(orbits.len());
         let observer = |_: Progress| match watch.ask() {
             Ok(()) => ControlFlow::Continue(()),
             Err(_) => ControlFlow::Break(()),
         };
-        let outcome = run.advance(
+        let lives = sweep(
             &orbits,
             |index| (0, starts[index]),
             |(lived, state): &mut (usize, ImpactState), event| match event {
@@ -329,8 +328,7 @@ impl CrisisSearch {
         let Progress { done, total } = watch.progress();
         watch.set_done((done + (most * orbits.len()) as u64).min(total));
         watch.ask()?;
-        outcome?;
-        run.into_results()
+        lives
     }
 
     /// A periodic orbit of any map of this restitution, followed to a forcing; or the forcing it could be

@@ -90,8 +90,11 @@ impl Phase {
     }
 
     /// A phase from its three numbers.
+    // The model turns phases with it.
+    #[doc(hidden)]
+    #[must_use]
     #[inline(always)]
-    pub(crate) const fn from_parts(angle: f64, sin: f64, cos: f64) -> Self {
+    pub const fn from_parts(angle: f64, sin: f64, cos: f64) -> Self {
         Self { angle, sin, cos }
     }
 

@@ -1,5 +1,3 @@
-use glam::DMat2;
-
 use super::*;
 use crate::flight::launch::Launch;
 use crate::map::impact_map::ImpactState;
@@ -492,73 +490,6 @@ fn an_orbit_of_a_map_made_for_an_end_of_the_range_lies_in_it() {
         }
     }
     assert!(rounded > 20, "{rounded}");
-}
-
-/// Parts are curves of the branch, whatever the range: through folds, from a birth, and between two points.
-#[test]
-fn the_parts_of_a_branch_do_not_depend_on_where_its_points_lie() {
-    let (map, orbit) = node(1, 0.5, 1e-3);
-    let back = map.continued(&orbit, &forcing(0.2, 0.6, false), &Unobserved).expect("continued");
-    let on = map.continued(&orbit, &forcing(0.2, 0.6, true), &Unobserved).expect("continued");
-    let doubled = on.switched(0, &forcing(0.2, 0.6, true), &Unobserved).expect("doubles");
-    let stem = doubled.map_at(doubled.points[0].parameter).expect("legal");
-    let stem =
-        stem.continued(&doubled.points[0].orbit, &forcing(0.2, 0.6, false), &Unobserved).expect("continued");
-    assert_eq!(stem.bifurcations.last().map(|last| last.kind), Some(BifurcationKind::Birth));
-    let third = 1.0 / 3.0;
-    let doubling = ImpactMap::first_doubling_forcing(0.5);
-    for (branch, range, ends) in [
-        (&on, (0.45, 0.45 + 1e-12), (0.45, 0.45 + 1e-12)),
-        (&on, (0.4, 0.5), (0.4, 0.5)),
-        (&on, (0.55, 0.7), (0.55, 0.6)),
-        (&back, (0.33, 0.45), (orbit_forcing(&map), 0.45)),
-        (&back, (third - 1e-7, third + 1e-7), (third + 1e-7, third + 1e-7)),
-        (&back, (third - 1e-10, third + 1e-10), (third + 1e-10, third + 1e-10)),
-        (&stem, (doubling - 1e-7, doubling + 1e-7), (doubling + 1e-7, doubling)),
-        (&doubled, (0.5, 0.5 + 1e-9), (0.5, 0.5 + 1e-9)),
-    ] {
-        let parts = branch.within(range, 50).expect("found");
-        assert_eq!(parts.len(), 1, "{range:?}");
-        let (first, last) = (&parts[0][0], &parts[0][parts[0].len() - 1]);
-        let near = |a: f64, b: f64| (a - b).abs() < 1e-14;
-        assert!(
-            near(first.parameter, ends.0) && near(last.parameter, ends.1),
-            "{range:?}: {} {}",
-            first.parameter,
-            last.parameter
-        );
-        let least = if last.orbit.period() == 2 && near(last.parameter, doubling) { 10 } else { 50 };
-        assert!(range.1 - range.0 < 1e-8 || parts[0].len() >= least, "{range:?}: {}", parts[0].len());
-        for point in &parts[0] {
-            assert!((range.0..=range.1).contains(&point.parameter));
-            // Its birth passes an orbit twice.
-            let monodromy = point.orbit.monodromy;
-            let trace = monodromy.x_axis.x + monodromy.y_axis.y;
-            assert!((point.trace - trace).abs() < 1e-9 * (1.0 + trace.abs()), "{range:?}: {point:?}");
-            let known = crate::numerics::elementary::pow(0.25, point.orbit.period() as f64);
-            assert!((point.determinant - known).abs() < 1e-9, "{range:?}: {point:?}");
-            let map = branch.map_at(point.parameter).expect("legal");
-            let states = &point.orbit.states;
-            let mut around = DMat2::IDENTITY;
-            for (state, next) in states.iter().zip(states.iter().cycle().skip(1)) {
-                let (impact, derivative) = map.step_with_derivative(*state).expect("flies");
-                around = derivative * around;
-                let apart = impact.phase.angle() - next.phase().angle();
-                assert!(crate::numerics::elementary::sin(apart).abs() < 1e-9, "{range:?}: {apart}");
-            }
-            // Of a birth, which is an orbit passed twice, too.
-            let trace = around.x_axis.x + around.y_axis.y;
-            let off = [point.trace - trace, point.determinant - around.determinant()];
-            assert!(off[0].abs().max(off[1].abs()) < 1e-9, "{range:?}: {off:?}");
-        }
-    }
-    assert_eq!(on.within((0.1, 0.3), 50), Ok(Vec::new()));
-    assert_eq!(on.within((0.7, 0.8), 50), Ok(Vec::new()));
-    assert!(on.within((0.4, 0.4), 50).is_err() && on.within((0.4, 0.5), 1).is_err());
-}
-
-fn orbit_forcing(map: &ImpactMap) -> f64 {
-    map.vibration().axial_forcing()
 }
 
 #[test]

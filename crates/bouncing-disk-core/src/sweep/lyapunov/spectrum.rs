@@ -13,7 +13,7 @@ use crate::numerics::elementary::ln;
 use crate::numerics::error::{Error, within};
 use crate::run::Observer;
 use crate::sweep::lyapunov::{LyapunovEstimate, TangentGrowth};
-use crate::sweep::{SweepEvent, SweepImpact, SweepRun};
+use crate::sweep::{SweepEvent, SweepImpact, sweep_with};
 
 /// Both Lyapunov exponents per impact of the impact map.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -172,8 +172,7 @@ pub fn lyapunov_spectra(
     within("impacts", impacts as f64, FEWEST_NUMBERS as f64, f64::MAX, "at least 16")?;
     let orbits: Vec<Orbit> =
         starts.iter().map(|(map, state)| map.orbit(*state, ChatterPolicy::Complete)).collect();
-    let mut run = SweepRun::new(starts.len());
-    run.advance_with(
+    sweep_with(
         &orbits,
         |index| {
             let (map, state) = starts[index];
@@ -185,8 +184,7 @@ pub fn lyapunov_spectra(
         // An orbit that ends without an event has been at rest from the start.
         |followed| Ok(followed.outcome.unwrap_or(LyapunovOutcome::Rested { impacts: followed.impacts })),
         observer,
-    )?;
-    run.into_results()
+    )
 }
 
 #[cfg(test)]

@@ -8,13 +8,13 @@
 use std::f64::consts::TAU;
 
 use bouncing_disk_core::Phase;
-use bouncing_disk_core::flight::{Tap, TapIntegrals, TapSolver};
 use bouncing_disk_core::numerics::elementary::{acos, atan2, wrapped_angle};
 use bouncing_disk_core::run::WorkCount;
 
 use crate::driven::DrivenSystem;
 use crate::error::Error;
 use crate::motion::phase_time::PhaseTime;
+use crate::motor::operation::tap::{Tap, TapIntegrals, TapSolver};
 use crate::motor::operation::window::{AxialWindow, RotorWindow, Window};
 
 /// How much earlier than expected (rad) a reversal may come: beyond, the last slip has the wrong sign, and the

@@ -1,8 +1,5 @@
 use std::fs;
-use std::ops::ControlFlow;
 use std::process::id;
-
-use bouncing_disk_core::{Progress, Unobserved};
 
 use super::*;
 
@@ -273,46 +270,6 @@ fn a_process_that_is_killed_goes_on_where_it_was() {
     let (_, finished) = Journal::<Vec<f64>>::open(&scratch.0, &key(0.1), ITEMS).expect("free again");
     let expected = (0..finished.done() as usize).map(|index| (index, result(index)));
     assert!(finished.iter().map(|(index, own)| (index, own.clone())).eq(expected));
-}
-
-#[test]
-fn a_sweep_that_is_stopped_goes_on_from_its_journal() {
-    use bouncing_disk_core::sweep::{SweepRun, orbit_diagram};
-    use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, Vibration};
-
-    let scratch = Scratch::new("sweep");
-    let key = Provenance::new(JOURNAL).with("forcings", &"0.5 to 0.6").expect("storable");
-    let start = ImpactState::from_normalised(0.8, 1.3).expect("legal");
-    let orbits: Vec<_> = (0..100)
-        .map(|k| {
-            let vibration = Vibration::from_axial_forcing(0.5 + 1e-3 * f64::from(k)).expect("legal");
-            ImpactMap::new(vibration, 0.5).expect("legal").orbit(start, ChatterPolicy::Complete)
-        })
-        .collect();
-    let mut stops = 0_u64;
-    let results = loop {
-        let (mut journal, finished) =
-            Journal::<Vec<ImpactState>>::open(&scratch.0, &key, orbits.len()).expect("opens");
-        let before = finished.done();
-        let mut run = SweepRun::from(finished);
-        // Stopped before anything is finished, then later and later: orbits in lockstep may finish all at
-        // once.
-        let calls = std::sync::atomic::AtomicU64::new(2 + 9 * stops);
-        let observer = |_: Progress| match calls.fetch_sub(1, std::sync::atomic::Ordering::Relaxed) {
-            0 | 1 => ControlFlow::Break(()),
-            _ => ControlFlow::Continue(()),
-        };
-        let outcome = run.advance_orbit_diagram(&orbits, 2_000, 20, &observer);
-        journal.record(run.results()).expect("writable");
-        match outcome {
-            Ok(()) => break run.into_results().expect("done"),
-            Err(error) => assert!(matches!(error, bouncing_disk_core::Error::Stopped { .. }), "{error}"),
-        }
-        assert!(run.results().done() >= before);
-        stops += 1;
-    };
-    assert!(stops > 0);
-    assert_eq!(results, orbit_diagram(&orbits, 2_000, 20, &Unobserved).expect("no error"));
 }
 
 /// 0 and -0 are equal numbers and other parameters, and so are none and one that is absent.

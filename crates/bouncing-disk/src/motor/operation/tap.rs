@@ -8,10 +8,11 @@
 use core::f64::consts::TAU;
 use core::ops::RangeInclusive;
 
-use super::compliance::CompliantPlatform;
-use super::platform::phase::Phase;
-use super::platform::vibration::Vibration;
-use crate::numerics::elementary::{exp, exp_m1, sin_cos, sine_deficit, versine_ratio, wrapped_angle};
+use bouncing_disk_core::flight::CompliantPlatform;
+use bouncing_disk_core::numerics::elementary::{
+    exp, exp_m1, sin_cos, sine_deficit, versine_ratio, wrapped_angle,
+};
+use bouncing_disk_core::{Launch, Phase, Vibration};
 
 /// Coefficients of a piece: a polynomial with the function's first derivatives at both ends.
 const COUNT: usize = 10;
@@ -58,7 +59,7 @@ const LAST_STEP: f64 = 5.0e-5;
 
 /// The closed forms and tables of taps of one system.
 #[derive(Debug, Clone)]
-pub struct TapSolver {
+pub(crate) struct TapSolver {
     vibration: Vibration,
     stiffness: f64,
     damping: f64,
@@ -92,13 +93,13 @@ pub struct TapSolver {
 
 /// An instant of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TapInstant {
+pub(crate) struct TapInstant {
     /// Time since the touch (rad).
-    pub after: f64,
+    pub(crate) after: f64,
     /// Sine and cosine of the phase.
-    pub sin: f64,
+    pub(crate) sin: f64,
     /// See [`Self::sin`].
-    pub cos: f64,
+    pub(crate) cos: f64,
     /// The gap less its steady part, and its derivative.
     free: f64,
     free_slope: f64,
@@ -106,59 +107,59 @@ pub struct TapInstant {
 
 /// Integrals of a contact, each up to a constant.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TapIntegrals {
+pub(crate) struct TapIntegrals {
     /// Of the force.
-    pub impulse: f64,
+    pub(crate) impulse: f64,
     /// Of its integral.
-    pub lift: f64,
+    pub(crate) lift: f64,
     /// Of the force times the cosine of the phase.
-    pub force_cos: f64,
+    pub(crate) force_cos: f64,
     /// Of the force times the sine of the phase.
-    pub force_sin: f64,
+    pub(crate) force_sin: f64,
     /// Of the square of the velocity relative to the platform, times the damping.
-    pub loss: f64,
+    pub(crate) loss: f64,
 }
 
 /// The end of a flight.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TapTouch {
+pub(crate) struct TapTouch {
     /// Duration of the flight (rad).
-    pub duration: f64,
+    pub(crate) duration: f64,
     /// Phase of the touch, and how often the phase has passed 0.
-    pub phase: Phase,
+    pub(crate) phase: Phase,
     /// See [`Self::phase`].
-    pub turns: u64,
+    pub(crate) turns: u64,
     /// The gap: zero, or below where the force sets in again before the spring is free.
-    pub gap: f64,
+    pub(crate) gap: f64,
     /// Velocity relative to the platform.
-    pub velocity: f64,
+    pub(crate) velocity: f64,
 }
 
 /// A contact, from the touch to the release.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tap {
+pub(crate) struct Tap {
     /// Phase of the touch.
-    pub angle: f64,
+    pub(crate) angle: f64,
     /// The touch.
-    pub start: TapInstant,
+    pub(crate) start: TapInstant,
     /// The release.
-    pub end: TapInstant,
+    pub(crate) end: TapInstant,
     /// The phase of the release, and how often the phase has passed 0 since the touch.
-    pub phase: Phase,
+    pub(crate) phase: Phase,
     /// See [`Self::phase`].
-    pub turns: u64,
+    pub(crate) turns: u64,
     /// The force is at most that.
-    pub largest_force: f64,
+    pub(crate) largest_force: f64,
     /// Gap at the release.
-    pub gap: f64,
+    pub(crate) gap: f64,
     /// Velocity relative to the platform at the release.
-    pub velocity: f64,
+    pub(crate) velocity: f64,
 }
 
 impl TapSolver {
     /// The solver of this platform, if it is a sine and its spring has a damper.
     #[must_use]
-    pub fn new(platform: &CompliantPlatform) -> Option<Self> {
+    pub(crate) fn new(platform: &CompliantPlatform) -> Option<Self> {
         let vibration = platform.drive().as_vibration()?;
         let (stiffness, damping) = (platform.compliance().stiffness(), platform.compliance().damping());
         if damping == 0.0 {
@@ -295,7 +296,7 @@ impl TapSolver {
 
     /// The instant `after` the touch of a contact that begins with `start`; nothing beyond the table.
     #[must_use]
-    pub fn instant(&self, start: &TapInstant, after: f64) -> Option<TapInstant> {
+    pub(crate) fn instant(&self, start: &TapInstant, after: f64) -> Option<TapInstant> {
         let piece = (after >= 0.0).then_some((after / self.length) as usize)?;
         let begun = piece as f64 * self.length;
         let index = ((after - begun) / self.spacing + 0.5) as usize;
@@ -307,7 +308,7 @@ impl TapSolver {
 
     /// A root near an instant of the function whose value and three derivatives this gives; `None` if the steps do
     /// not converge.
-    pub fn polished(
+    pub(crate) fn polished(
         &self,
         start: &TapInstant,
         from: TapInstant,
@@ -327,39 +328,39 @@ impl TapSolver {
 
     /// The sine.
     #[must_use]
-    pub const fn vibration(&self) -> &Vibration {
+    pub(crate) const fn vibration(&self) -> &Vibration {
         &self.vibration
     }
 
     /// The gap at a release with this relative velocity.
     #[must_use]
-    pub const fn gap_at_release(&self, velocity: f64) -> f64 {
+    pub(crate) const fn gap_at_release(&self, velocity: f64) -> f64 {
         -self.damping * self.inverse_stiffness * velocity
     }
 
     /// The energy of the spring at a `gap` <= 0.
     #[must_use]
-    pub const fn spring_energy(&self, gap: f64) -> f64 {
+    pub(crate) const fn spring_energy(&self, gap: f64) -> f64 {
         0.5 * self.stiffness * gap * gap
     }
 
     /// The integral of the force up to an instant, up to a constant.
     #[must_use]
-    pub fn impulse(&self, at: &TapInstant) -> f64 {
+    pub(crate) fn impulse(&self, at: &TapInstant) -> f64 {
         let [sine, cosine] = self.force;
         at.after - sine * at.cos + cosine * at.sin + at.free_slope
     }
 
     /// The force at an instant.
     #[must_use]
-    pub fn force(&self, at: &TapInstant) -> f64 {
+    pub(crate) fn force(&self, at: &TapInstant) -> f64 {
         let [sine, cosine] = self.force;
         1.0 + sine * at.sin + cosine * at.cos - (self.stiffness * at.free + self.damping * at.free_slope)
     }
 
     /// The first three derivatives of the force.
     #[must_use]
-    pub fn force_slopes(&self, at: &TapInstant) -> [f64; 3] {
+    pub(crate) fn force_slopes(&self, at: &TapInstant) -> [f64; 3] {
         let [sine, cosine] = self.force;
         let (k, c) = (self.stiffness, self.damping);
         let bend = -(k * at.free + c * at.free_slope);
@@ -381,7 +382,7 @@ impl TapSolver {
 
     /// The integrals up to an instant.
     #[must_use]
-    pub fn integrals(&self, at: &TapInstant) -> TapIntegrals {
+    pub(crate) fn integrals(&self, at: &TapInstant) -> TapIntegrals {
         let &TapInstant { after: t, sin: s, cos: c, free: h, free_slope: g } = at;
         let [p, r] = self.force;
         let (sc, ss) = (s * c, s * s);
@@ -405,7 +406,7 @@ impl TapSolver {
 
     /// The contact after a touch, if its release is decided.
     #[must_use]
-    pub fn contact(&self, touch: &TapTouch) -> Option<Tap> {
+    pub(crate) fn contact(&self, touch: &TapTouch) -> Option<Tap> {
         let &TapTouch { phase, gap, velocity, .. } = touch;
         let (sin, cos) = (phase.sin(), phase.cos());
         let [a, b] = self.steady;
@@ -479,7 +480,7 @@ impl TapSolver {
     /// falls where z < 0: so y vanishes once, at most, after z has fallen below zero for good, and at the release
     /// z is zero and rises.
     #[must_use]
-    pub fn flight(&self, phase: Phase, gap: f64, velocity: f64) -> Option<TapTouch> {
+    pub(crate) fn flight(&self, phase: Phase, gap: f64, velocity: f64) -> Option<TapTouch> {
         let (sin, cos) = (phase.sin(), phase.cos());
         let peak = self.vibration.peak_acceleration();
         let (k, c, start) = (self.stiffness, self.damping, velocity + peak * cos);
@@ -571,7 +572,7 @@ impl TapSolver {
             return None;
         }
         let (start, turns) = there.phase(phase, freed);
-        let impact = self.vibration.impact_after(start, there.velocity).ok()?;
+        let impact = self.vibration.first_impact(Launch::new(start, there.velocity).ok()?).ok()?;
         Some(TapTouch {
             duration: freed + impact.duration(),
             phase: impact.phase,

@@ -3,14 +3,13 @@
 //! The branches and their bifurcations do not depend on the range: each is followed from its birth on, and the
 //! range gets its own points of it.
 
-use super::{
+use bouncing_disk::core::orbits::{
     Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation, ContinuationParameter,
     PeriodicOrbit,
 };
-use crate::flight::platform::vibration::Vibration;
-use crate::map::impact_map::ImpactMap;
-use crate::numerics::error::Error;
-use crate::run::Unobserved;
+use bouncing_disk::core::{Error, ImpactMap, Unobserved, Vibration};
+
+use super::within::within;
 
 /// Pairs with one impact every k periods up to this k, and the branches that double from each.
 const MOST_PERIODS: u64 = 3;
@@ -49,12 +48,12 @@ pub struct BranchInRange {
 /// double from them, up to four times, where they lie in a range of the axial forcing.
 ///
 /// ```
-/// use bouncing_disk_core::orbits::branches_over_forcing;
+/// use bouncing_disk_web::branches_over_forcing;
 ///
 /// let branches = branches_over_forcing(0.5, (0.4, 0.45))?;
 /// let stable: Vec<_> = branches.iter().map(|branch| branch.parts[0][0].is_stable()).collect();
 /// assert_eq!(stable, [false, true]); // The saddle and the node of one impact in one period.
-/// # Ok::<(), bouncing_disk_core::Error>(())
+/// # Ok::<(), bouncing_disk::core::Error>(())
 /// ```
 ///
 /// # Errors
@@ -187,7 +186,7 @@ impl Found {
             (low..=high).contains(&one.point.parameter) && one.kind != BifurcationKind::Birth
         };
         let bifurcations: Vec<_> = branch.bifurcations.iter().filter(is_own).cloned().collect();
-        let parts = branch.within(self.range, POINTS)?;
+        let parts = within(branch, self.range, POINTS)?;
         if !parts.is_empty() || !bifurcations.is_empty() {
             self.branches.push(BranchInRange { impacts: first.orbit.period(), parts, bifurcations });
         }

@@ -7,8 +7,8 @@
 
 use core::array;
 
-use crate::numerics::error::Error;
-use crate::numerics::quasi_polynomial::{FirstRoot, Jet, first_root};
+use bouncing_disk_core::Error;
+use bouncing_disk_core::numerics::quasi_polynomial::{FirstRoot, Jet, first_root};
 
 /// Degree of the Taylor polynomials: the next term is below 1/19! = 8e-18 of the state.
 const DEGREE: usize = 18;
@@ -20,11 +20,11 @@ const NEGLIGIBLE: f64 = f64::EPSILON * (1.0 / 256.0);
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// A number for each component of the state: a state, or a linear functional of it.
-pub type Vector<const N: usize> = [f64; N];
+pub(crate) type Vector<const N: usize> = [f64; N];
 
 /// z' = A z.
 #[derive(Debug, Clone, PartialEq)]
-pub struct LinearFlow<const N: usize> {
+pub(crate) struct LinearFlow<const N: usize> {
     /// Row, column and value of the entries of A that are not zero.
     entries: Vec<(usize, usize, f64)>,
     step: f64,
@@ -34,7 +34,7 @@ pub struct LinearFlow<const N: usize> {
 
 /// A functional along a flow: its Taylor coefficients as functionals of the state.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Functional<const N: usize> {
+pub(crate) struct Functional<const N: usize> {
     now: Vector<N>,
     /// For each component of the state its weights in the coefficients, up to the last one that it has.
     columns: Vec<Vec<f64>>,
@@ -43,7 +43,7 @@ pub struct Functional<const N: usize> {
 
 /// The Taylor polynomial of a function on one step, in shares of the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TaylorStep {
+pub(crate) struct TaylorStep {
     coefficients: [f64; DEGREE + 1],
     /// Sum of the sizes of the coefficients' terms.
     size: f64,
@@ -55,14 +55,14 @@ pub struct TaylorStep {
 
 /// The state on one step: its Taylor coefficients.
 #[derive(Debug, Clone, PartialEq)]
-pub struct StateStep<const N: usize> {
+pub(crate) struct StateStep<const N: usize> {
     coefficients: [Vector<N>; DEGREE + 1],
     step: f64,
 }
 
 /// The value of a functional.
 #[must_use]
-pub fn dot<const N: usize>(functional: &Vector<N>, state: &Vector<N>) -> f64 {
+pub(crate) fn dot<const N: usize>(functional: &Vector<N>, state: &Vector<N>) -> f64 {
     let mut sum = 0.0;
     for i in 0..N {
         sum += functional[i] * state[i];
@@ -73,7 +73,7 @@ pub fn dot<const N: usize>(functional: &Vector<N>, state: &Vector<N>) -> f64 {
 impl<const N: usize> LinearFlow<N> {
     /// The flow of a matrix whose eigenvalues are at most `rate` in size. The step is a whole part of `period`.
     #[must_use]
-    pub fn new(matrix: [Vector<N>; N], rate: f64, period: f64) -> Self {
+    pub(crate) fn new(matrix: [Vector<N>; N], rate: f64, period: f64) -> Self {
         let step = period / (period * rate).ceil().max(1.0);
         let all = matrix.iter().enumerate().flat_map(|(row, entries)| {
             entries.iter().enumerate().map(move |(column, &entry)| (row, column, entry))
@@ -92,13 +92,13 @@ impl<const N: usize> LinearFlow<N> {
 
     /// The step.
     #[must_use]
-    pub const fn step(&self) -> f64 {
+    pub(crate) const fn step(&self) -> f64 {
         self.step
     }
 
     /// The derivative of a functional along the flow.
     #[must_use]
-    pub fn derivative(&self, functional: &Vector<N>) -> Vector<N> {
+    pub(crate) fn derivative(&self, functional: &Vector<N>) -> Vector<N> {
         let mut derivative = [0.0; N];
         for &(row, column, entry) in &self.entries {
             derivative[column] += functional[row] * entry;
@@ -108,7 +108,7 @@ impl<const N: usize> LinearFlow<N> {
 
     /// This functional along the flow.
     #[must_use]
-    pub fn functional(&self, of: Vector<N>) -> Functional<N> {
+    pub(crate) fn functional(&self, of: Vector<N>) -> Functional<N> {
         let mut rows = [of; DEGREE + 1];
         for k in 1..=DEGREE {
             rows[k] = self.derivative(&rows[k - 1]).map(|entry| entry * (self.step / k as f64));
@@ -120,7 +120,7 @@ impl<const N: usize> LinearFlow<N> {
 
     /// The state on the next step.
     #[must_use]
-    pub fn expand(&self, state: &Vector<N>) -> StateStep<N> {
+    pub(crate) fn expand(&self, state: &Vector<N>) -> StateStep<N> {
         let mut coefficients = [*state; DEGREE + 1];
         for k in 1..=DEGREE {
             coefficients[k] =
@@ -139,7 +139,7 @@ impl<const N: usize> LinearFlow<N> {
 
     /// The state after a time of at most a step.
     #[must_use]
-    pub fn after(&self, state: &Vector<N>, time: f64) -> Vector<N> {
+    pub(crate) fn after(&self, state: &Vector<N>, time: f64) -> Vector<N> {
         let (mut terms, mut last, mut bound) = ([*state; DEGREE + 1], 0, 1.0);
         // A gap that opens by its third derivative keeps its digits.
         while last < DEGREE && (last < 4 || bound > NEGLIGIBLE) {
@@ -156,7 +156,7 @@ impl<const N: usize> LinearFlow<N> {
 
     /// The state a whole step later.
     #[must_use]
-    pub fn advance(&self, state: &Vector<N>) -> Vector<N> {
+    pub(crate) fn advance(&self, state: &Vector<N>) -> Vector<N> {
         array::from_fn(|i| dot(&self.whole_step[i], state))
     }
 }
@@ -164,7 +164,7 @@ impl<const N: usize> LinearFlow<N> {
 impl<const N: usize> StateStep<N> {
     /// The state after a time of at most a step.
     #[must_use]
-    pub fn at(&self, time: f64) -> Vector<N> {
+    pub(crate) fn at(&self, time: f64) -> Vector<N> {
         let share = time / self.step;
         let mut state = self.coefficients[DEGREE];
         for row in self.coefficients[..DEGREE].iter().rev() {
@@ -179,14 +179,14 @@ impl<const N: usize> StateStep<N> {
 impl<const N: usize> Functional<N> {
     /// The functional itself.
     #[must_use]
-    pub const fn now(&self) -> &Vector<N> {
+    pub(crate) const fn now(&self) -> &Vector<N> {
         &self.now
     }
 
     /// The function on the step from this state on, which is known to rounding of its terms, but for an `error` of
     /// the value.
     #[must_use]
-    pub fn along(&self, state: &Vector<N>, error: f64) -> TaylorStep {
+    pub(crate) fn along(&self, state: &Vector<N>, error: f64) -> TaylorStep {
         let (mut coefficients, mut sizes) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1]);
         for (value, column) in state.iter().zip(&self.columns) {
             let used = column.len();
@@ -216,7 +216,7 @@ impl TaylorStep {
 
     /// The function that starts with exactly these values of itself and of its derivatives.
     #[must_use]
-    pub fn starting_with(mut self, values: &[f64]) -> Self {
+    pub(crate) fn starting_with(mut self, values: &[f64]) -> Self {
         let mut factor = 1.0;
         for (k, value) in values.iter().enumerate() {
             self.coefficients[k] = value * factor;
@@ -229,7 +229,7 @@ impl TaylorStep {
     /// This function, which starts with so many zeros, over that power of the share of the step: near the start it keeps
     /// the digits of its roots, which are the same.
     #[must_use]
-    pub fn deflated(mut self, zeros: usize) -> Self {
+    pub(crate) fn deflated(mut self, zeros: usize) -> Self {
         self.coefficients[..zeros].fill(0.0);
         self.coefficients.rotate_left(zeros);
         self.bounded()
@@ -237,21 +237,14 @@ impl TaylorStep {
 
     /// The function with the opposite sign.
     #[must_use]
-    pub fn negated(mut self) -> Self {
+    pub(crate) fn negated(mut self) -> Self {
         self.coefficients = self.coefficients.map(|coefficient| -coefficient);
         self
     }
 
-    /// Value at the start, slope there, and the bounds on their errors.
-    #[must_use]
-    pub fn start(&self) -> ([f64; 2], [f64; 2]) {
-        let error = ROUNDING * self.size;
-        ([self.coefficients[0], self.coefficients[1] / self.step], [self.error + error, error / self.step])
-    }
-
     /// Value and derivatives after a time of at most a step.
     #[must_use]
-    pub fn jet(&self, time: f64) -> Jet {
+    pub(crate) fn jet(&self, time: f64) -> Jet {
         let x = time / self.step;
         let c = &self.coefficients;
         let (mut value, mut slope, mut bend, mut third) = (c[DEGREE], 0.0, 0.0, 0.0);
@@ -282,7 +275,7 @@ impl TaylorStep {
     ///
     /// # Errors
     /// [`Error::NoConvergence`] after 100,000 evaluations.
-    pub fn first_fall(&self, to: f64) -> Result<Option<[f64; 2]>, Error> {
+    pub(crate) fn first_fall(&self, to: f64) -> Result<Option<[f64; 2]>, Error> {
         self.first_fall_from(0.0, to)
     }
 
@@ -290,7 +283,7 @@ impl TaylorStep {
     ///
     /// # Errors
     /// As [`Self::first_fall`].
-    pub fn first_fall_from(&self, mut from: f64, to: f64) -> Result<Option<[f64; 2]>, Error> {
+    pub(crate) fn first_fall_from(&self, mut from: f64, to: f64) -> Result<Option<[f64; 2]>, Error> {
         let to = to.min(self.step);
         if from > 0.0 {
             let start = self.jet(from);

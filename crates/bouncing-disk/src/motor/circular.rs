@@ -2,9 +2,10 @@
 
 use core::f64::consts::PI;
 
-use crate::numerics::elementary::{atan2, cos, hypot, sin_cos};
-use crate::numerics::error::{Error, within};
-use crate::numerics::stored::read_checked;
+use bouncing_disk_core::numerics::elementary::{atan2, cos, hypot, sin_cos};
+use bouncing_disk_core::read_checked;
+
+use crate::error::{Error, check};
 
 /// The length of the shortest arc that holds all of the `phases`, in periods: one minus the largest gap
 /// between neighbours. Zero for one phase, `None` for none.
@@ -25,7 +26,7 @@ pub fn occupied_arc(phases: impl IntoIterator<Item = f64>) -> Option<f64> {
 /// Phases are in periods; 0 and 1 are the same.
 ///
 /// ```
-/// use bouncing_disk_core::numerics::circular::distinct;
+/// use bouncing_disk::motor::circular::distinct;
 ///
 /// // The last one is the first one again, across the end of the period.
 /// assert_eq!(distinct([0.0, 0.25, 0.25 + 1e-9, 1.0 - 1e-9], 1e-6), 2);
@@ -68,8 +69,9 @@ read_checked!(Concentration as UncheckedConcentration {
 impl Concentration {
     /// Checks a value that was deserialised.
     fn check(&self) -> Result<(), Error> {
-        within("mean_direction_rad", self.mean_direction_rad, -PI, PI, "[-pi, pi] (rad)")?;
-        within("resultant_length", self.resultant_length, 0.0, 1.0 + LENGTH_ROUNDING, "[0, 1]")?;
+        let (direction, length) = (self.mean_direction_rad, self.resultant_length);
+        check((-PI..=PI).contains(&direction), "mean_direction_rad", direction, "[-pi, pi] (rad)")?;
+        check((0.0..=1.0 + LENGTH_ROUNDING).contains(&length), "resultant_length", length, "[0, 1]")?;
         Ok(())
     }
 

@@ -18,16 +18,7 @@ const FEWEST_ROUNDS: usize = 4;
 /// settle, and a record after a fixed number of them is a transient; so is the spin of a disk that slides in
 /// each impact. Values that repeat, those of chaos and those that spiral in are not on their way in this
 /// sense; the latter settle as fast as the impacts lose energy.
-///
-/// ```
-/// use bouncing_disk_core::sweep::is_settling;
-///
-/// let slowly: Vec<f64> = (0..100).map(|impact| 0.3 + 1.0 / f64::from(impact + 50)).collect();
-/// assert!(is_settling(&slowly, 8, 1e-6));
-/// assert!(!is_settling(&[0.3, 0.7].repeat(50), 8, 1e-6));
-/// ```
-#[must_use]
-pub fn is_settling(values: &[f64], longest_period: usize, tolerance: f64) -> bool {
+pub(crate) fn is_settling(values: &[f64], longest_period: usize, tolerance: f64) -> bool {
     let largest = values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
     let slack = ROUNDING * largest;
     let comes_nearer = |period: &usize| {
@@ -51,15 +42,7 @@ pub fn is_settling(values: &[f64], longest_period: usize, tolerance: f64) -> boo
 
 /// The smallest period up to `longest_period` after which all values are the same again, within `tolerance`;
 /// `None` also with fewer than four rounds of it.
-///
-/// ```
-/// use bouncing_disk_core::sweep::repeats_every;
-///
-/// assert_eq!(repeats_every(&[0.3, 0.7].repeat(50), 8, 1e-6), Some(2));
-/// assert_eq!(repeats_every(&[0.3, 0.7], 8, 1e-6), None);
-/// ```
-#[must_use]
-pub fn repeats_every(values: &[f64], longest_period: usize, tolerance: f64) -> Option<usize> {
+pub(crate) fn repeats_every(values: &[f64], longest_period: usize, tolerance: f64) -> Option<usize> {
     (1..=longest_period.min(values.len() / FEWEST_ROUNDS)).find(|period| {
         (*period..values.len()).rev().all(|index| (values[index] - values[index - period]).abs() <= tolerance)
     })
@@ -67,12 +50,10 @@ pub fn repeats_every(values: &[f64], longest_period: usize, tolerance: f64) -> O
 
 #[cfg(test)]
 mod tests {
+    use bouncing_disk::core::sweep::orbit_diagram;
+    use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Unobserved, Vibration};
+
     use super::*;
-    use crate::chatter::policy::ChatterPolicy;
-    use crate::flight::platform::vibration::Vibration;
-    use crate::map::impact_map::{ImpactMap, ImpactState};
-    use crate::run::Unobserved;
-    use crate::sweep::orbit_diagram;
 
     fn speeds(axial_forcing: f64, transient: usize) -> Vec<f64> {
         let vibration = Vibration::from_axial_forcing(axial_forcing).expect("legal");
@@ -97,6 +78,15 @@ mod tests {
             let chaotic = 0.545 + 0.0007 * f64::from(hundred);
             assert!(!settling(chaotic, 1000), "{chaotic}");
         }
+    }
+
+    #[test]
+    fn values_that_repeat_have_a_period_and_do_not_settle() {
+        let slowly: Vec<f64> = (0..100).map(|impact| 0.3 + 1.0 / f64::from(impact + 50)).collect();
+        assert!(is_settling(&slowly, 8, 1e-6));
+        assert!(!is_settling(&[0.3, 0.7].repeat(50), 8, 1e-6));
+        assert_eq!(repeats_every(&[0.3, 0.7].repeat(50), 8, 1e-6), Some(2));
+        assert_eq!(repeats_every(&[0.3, 0.7], 8, 1e-6), None);
     }
 
     #[test]
