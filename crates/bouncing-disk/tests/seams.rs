@@ -242,7 +242,7 @@ fn motions_from_seams_keep_time_and_energy() {
 
 /// The engine's part of the campaign of docs/numerics/solver.md, "The attack on seams".
 ///
-/// `CAMPAIGN=folder cargo test --release -p bouncing-disk --test seams -- --ignored campaign`
+/// `cargo test --release -p bouncing-disk --test seams -- --ignored campaign --nocapture`
 #[test]
 #[ignore = "takes minutes"]
 fn campaign() {

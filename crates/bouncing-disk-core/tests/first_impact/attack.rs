@@ -507,7 +507,7 @@ fn basins_on_seams_have_the_labels_of_single_starts() {
 
 /// The campaign of docs/numerics/solver.md, "The attack on seams".
 ///
-/// `CAMPAIGN=folder cargo test --release -p bouncing-disk-core --test first_impact -- --ignored campaign`
+/// `cargo test --release -p bouncing-disk-core --test first_impact -- --ignored attack::campaign --nocapture`
 #[test]
 #[ignore = "takes an hour"]
 fn campaign() {

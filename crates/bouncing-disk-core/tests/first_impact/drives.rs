@@ -8,6 +8,7 @@ use bouncing_disk_core::{Drive, Launch, Phase, Vibration};
 
 use crate::drive_oracle::Flight;
 use crate::launches::SplitMix;
+use crate::shards;
 use crate::sums::{Dd, Gap, dd, has_root_at, positive};
 
 /// A drive, and what an oracle needs to know of it.
@@ -487,12 +488,13 @@ fn launches_on_seams_of_smooth_pieces() {
     check(Kind::Spline, 78, 5_000);
 }
 
-/// `DRIVE_LAUNCHES` of each kind, 400,000 unless set.
+/// 400,000 launches of each kind.
 #[test]
 #[ignore = "a campaign of some minutes"]
 fn drive_campaign() {
-    let launches = std::env::var("DRIVE_LAUNCHES").map_or(400_000, |text| text.parse().unwrap());
-    let tallies = in_parallel(KINDS.len(), |kind| attack(KINDS[kind], 1_000 + kind as u64, launches));
+    let launches = shards::size(400_000);
+    let tallies =
+        in_parallel(KINDS.len(), |kind| attack(KINDS[kind], shards::seed(1_000 + kind as u64), launches));
     println!("{tallies:#?}");
     assert!(tallies.iter().all(|tally| tally.failures.is_empty()));
 }
