@@ -461,7 +461,6 @@ mod tests {
     use crate::map::impact_map::map;
     use crate::numerics::random::SplitMix64;
     use crate::run::Unobserved;
-    use crate::run::testing::StopAfter;
 
     /// The orbit of one impact every k periods that attracts from its birth to its doubling.
     fn node(map: &ImpactMap, k: u64) -> PeriodicOrbit {
@@ -573,18 +572,5 @@ mod tests {
             };
             assert_eq!(labels(radius), labels(0.003), "Gamma {axial_forcing}");
         }
-    }
-
-    #[test]
-    fn searches_of_a_radius_can_be_stopped_and_end_with_all_starts() {
-        let map = map(0.45, 0.5);
-        let orbit = node(&map, 1);
-        let stopped = orbit.trapping_radius(&map, u32::MAX, &StopAfter::calls(3));
-        assert!(matches!(stopped, Err(Error::Stopped { done: 1..16_400, .. })), "{stopped:?}");
-        let most = StopAfter::calls(u64::MAX);
-        let radius = orbit.trapping_radius(&map, 64, &most);
-        assert_eq!(radius, orbit.trapping_radius(&map, 64, &Unobserved));
-        // Fourteen halvings, and seventeen wider circles with four times as many starts.
-        assert_eq!((most.last().done, most.last().total), (5_248, 5_248));
     }
 }

@@ -329,18 +329,7 @@ mod tests {
     }
 
     #[test]
-    fn points_that_are_none_are_refused() {
-        let good = PowerLawPoint { x: 1.0, y: 1.0, relative_error: 0.1 };
-        for bad in [0.0, -1.0, f64::NAN, f64::INFINITY, 5e-324] {
-            for point in [
-                PowerLawPoint { x: bad, ..good },
-                PowerLawPoint { y: bad, ..good },
-                PowerLawPoint { relative_error: bad, ..good },
-            ] {
-                assert!(matches!(fit_power_law(&[point]), Err(Error::OutOfRange { .. })), "{bad}");
-            }
-        }
-        // From one end of the doubles to the other.
+    fn points_may_go_from_one_end_of_the_doubles_to_the_other() {
         let wide: Vec<_> = (0..20)
             .map(|i| {
                 let x = exp(-700.0 + 70.0 * f64::from(i));

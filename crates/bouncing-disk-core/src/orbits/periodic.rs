@@ -456,23 +456,3 @@ impl PeriodicOrbit {
             .fold(f64::INFINITY, |least, &own| least.min(distance(state, own, peak_acceleration)))
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::flight::platform::vibration::Vibration;
-    use crate::run::Unobserved;
-    use crate::run::testing::StopAfter;
-
-    #[test]
-    fn a_settling_orbit_can_be_stopped() {
-        let map = ImpactMap::new(Vibration::from_axial_forcing(0.5).expect("legal"), 0.5).expect("legal");
-        let start = ImpactState::from_normalised(0.8, 1.3).expect("legal");
-        let stopped = map.settled_orbit(start, usize::MAX, 4, 1e-8, &StopAfter::calls(4));
-        assert_eq!(stopped, Err(Error::Stopped { done: 3 * 8_192, total: u64::MAX }));
-        let all = StopAfter::calls(u64::MAX);
-        let orbit = map.settled_orbit(start, 20_000, 4, 1e-8, &all).expect("nobody stops it");
-        assert_eq!(Ok(orbit), map.settled_orbit(start, 20_000, 4, 1e-8, &Unobserved));
-        assert_eq!((all.last().done, all.asked()), (20_212, 4));
-    }
-}

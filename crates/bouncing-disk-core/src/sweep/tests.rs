@@ -228,14 +228,3 @@ fn a_sweep_does_not_depend_on_the_number_of_threads() {
         assert!(events(threads) == expected, "{threads} threads");
     }
 }
-
-#[test]
-fn more_recorded_impacts_than_there_is_room_for_are_refused() {
-    let orbits = orbits(20);
-    for recorded in [usize::MAX, 1 << 40] {
-        let error = orbit_diagram(&orbits, 0, recorded, &Unobserved).expect_err("too many");
-        let count = 20_u64.saturating_mul(recorded as u64);
-        assert_eq!(error, Error::TooLarge { what: "recorded impacts", count, limit: MAX_RECORDED });
-    }
-    assert_eq!(orbit_diagram(&[], 0, usize::MAX, &Unobserved), Ok(Vec::new()));
-}

@@ -7,7 +7,6 @@ use crate::chatter::policy::PAPER_POLICY;
 use crate::map::impact_map::map;
 use crate::numerics::testing::stored;
 use crate::orbits::periodic::search::OrbitSearch;
-use crate::run::testing::StopAfter;
 
 /// A search that is quick.
 fn quick(starts: u32) -> AttractorSearch {
@@ -367,65 +366,6 @@ fn labels_of_starts_are_those_of_known_orbits() {
     }
 }
 
-/// The bits do not depend on the threads.
-#[cfg(feature = "parallel")]
-#[test]
-fn any_number_of_threads_finds_the_same() {
-    let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("starts");
-    for forcing in [0.486, 0.55] {
-        let grid =
-            Grid::new(Axis::new(0.0, 1.0, 20).expect("legal"), Axis::new(0.0, 3.0, 20).expect("legal"))
-                .expect("legal");
-        let settings = BasinSettings { max_impacts: 400, ..BasinSettings::default() };
-        let all = || {
-            let own = found(forcing, 0.5, 200);
-            let basins = own.basins(grid, settings, &Unobserved).expect("no failure");
-            (own, basins)
-        };
-        assert_eq!(pool(1).install(all), pool(5).install(all), "Gamma {forcing}");
-    }
-}
-
-#[test]
-fn a_search_and_its_basins_can_be_stopped() {
-    let search = quick(400);
-    let map = map(0.55, 0.5);
-    let all = StopAfter::calls(u64::MAX);
-    let own = map.attractors(&search, &all).expect("nobody stops it");
-    assert_eq!(own, map.attractors(&search, &Unobserved).expect("no failure"));
-    assert_eq!((all.last().done, all.last().total), (800, 800));
-    for calls in [1, 2, all.asked() / 2] {
-        let stopped = map.attractors(&search, &StopAfter::calls(calls));
-        assert!(
-            matches!(stopped, Err(Error::Stopped { done, total: 800 }) if done <= 800),
-            "{calls}: {stopped:?}"
-        );
-    }
-    let grid = Grid::new(Axis::new(0.0, 1.0, 60).expect("legal"), Axis::new(0.0, 3.0, 50).expect("legal"))
-        .expect("legal");
-    let settings = BasinSettings { max_impacts: 400, ..BasinSettings::default() };
-    let all = StopAfter::calls(u64::MAX);
-    own.basins(grid, settings, &all).expect("nobody stops it");
-    assert_eq!((all.last().done, all.last().total), (100, 100));
-    // How often an observer is asked depends on the threads; here it stops in the second half.
-    let second_half = |most: u64| {
-        move |now: crate::Progress| {
-            if now.done >= most {
-                core::ops::ControlFlow::Break(())
-            } else {
-                core::ops::ControlFlow::Continue(())
-            }
-        }
-    };
-    let stopped = map.attractors(&search, &second_half(401));
-    assert!(matches!(stopped, Err(Error::Stopped { done: 401.., total: 800 })), "{stopped:?}");
-    let stopped = own.basins(grid, settings, &second_half(50));
-    assert!(matches!(stopped, Err(Error::Stopped { done: 50, total: 100 })), "{stopped:?}");
-    let forcings = [0.5, 0.51, 0.52];
-    let stopped = basin_fractions(&forcings, &StopAfter::calls(5));
-    assert!(matches!(stopped, Err(Error::Stopped { total: 3, .. })), "{stopped:?}");
-}
-
 fn basin_fractions(forcings: &[f64], observer: &dyn Observer) -> Result<over_forcing::BasinFractions, Error> {
     over_forcing::basin_fractions_over(0.5, forcings, &quick(200), 0.3, observer)
 }
@@ -487,24 +427,10 @@ fn an_attractor_goes_on_as_one() {
 }
 
 #[test]
-fn settings_out_of_their_ranges_are_refused() {
+fn searches_are_stored() {
     let search = AttractorSearch::default();
     assert_eq!(stored(&search), search);
     assert_eq!(stored(&search.with_orbits(None)).orbits(), None);
-    let refused = |result: Result<AttractorSearch, Error>, name: &str| {
-        assert!(
-            matches!(result, Err(Error::OutOfRange { field, .. }) if field == name),
-            "{name}: {result:?}"
-        );
-    };
-    refused(search.with_starts(AttractorSearch::MAX_STARTS + 1), "starts");
-    refused(search.with_impacts(0, 100), "transient");
-    refused(search.with_impacts(10, 63), "impacts");
-    refused(search.with_impacts(u64::MAX, 100), "transient");
-    refused(search.with_longest_period(0), "longest period");
-    refused(search.with_longest_period(4_097), "longest period");
-    refused(search.with_cells(7), "cells along an axis");
-    refused(search.with_cells(u32::MAX), "cells along an axis");
 }
 
 #[cfg(feature = "serde")]
@@ -566,8 +492,6 @@ fn rows_are_those_of_the_whole_grid() {
         #[expect(clippy::reversed_empty_ranges, reason = "a user may give one")]
         let reversed = rows(5..3);
         assert!(matches!(reversed, Err(Error::Unfitting { .. })));
-        let stopped = own.basins_of_rows(grid, 2..9, settings, &StopAfter::calls(1));
-        assert!(matches!(stopped, Err(Error::Stopped { total: 7 | 14, .. })), "{stopped:?}");
     }
     let of = |columns: usize| Basins::of_labels(vec![ATTACHED; 2 * columns], columns).expect("legal");
     assert!(matches!(Basins::stacked([of(3), of(4)]), Err(Error::Unfitting { found: 4, expected: 3, .. })));

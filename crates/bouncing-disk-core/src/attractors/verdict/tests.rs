@@ -233,8 +233,6 @@ fn a_call_of_many_blocks_can_be_stopped_and_keeps_no_verdict() {
     assert!(seen % TOGETHER == 0 && seen <= 2 * TOGETHER && total == count as u64, "{seen} {total}");
     assert!((seen as u64..count as u64).contains(&done), "{done}");
     assert_eq!(verdicts(&[], short(), &Unobserved), Ok(Vec::new()));
-    let stopped = verdicts(&[(map(0.5, 0.5), state(1.0, 1.0))], short(), &StopAfter::calls(1));
-    assert!(matches!(stopped, Err(Error::Stopped { done: 0, total: 1 })), "{stopped:?}");
 }
 
 fn long(map: ImpactMap, start: ImpactState) -> Verdict {
@@ -416,18 +414,7 @@ fn without_restitution_every_start_has_a_verdict() {
 }
 
 #[test]
-fn settings_out_of_range_are_refused_by_name() {
-    let refused = |settings: VerdictSettings, name| {
-        let error = map(0.45, 0.5).verdict(state(1.2, 1.3), settings).expect_err(name);
-        assert!(matches!(error, Error::OutOfRange { field, .. } if field == name), "{error}");
-    };
-    refused(VerdictSettings { impacts: 63, ..short() }, "impacts");
-    for longest_period in [0, 4_097, usize::MAX] {
-        refused(VerdictSettings { longest_period, ..short() }, "longest period");
-    }
-    for tolerance in [0.0, -1.0, 0.011, f64::NAN, f64::INFINITY] {
-        refused(VerdictSettings { tolerance, ..short() }, "tolerance");
-    }
+fn the_longest_settings_are_legal() {
     let longest = VerdictSettings { transient: u64::MAX, longest_period: 4_096, tolerance: 0.01, ..short() };
     assert_eq!(longest.check(), Ok(()));
     assert_eq!(stored(&longest), longest);

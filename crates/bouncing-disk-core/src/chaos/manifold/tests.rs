@@ -10,7 +10,6 @@ use crate::map::impact_map::map;
 use crate::numerics::elementary::atan2;
 use crate::numerics::testing::stored;
 use crate::orbits::periodic::phase_difference;
-use crate::run::testing::StopAfter;
 
 fn saddle(map: &ImpactMap) -> PeriodicOrbit {
     map.period_one_pair(1).expect("exists").saddle.orbit(map).expect("flies").expect("admissible")
@@ -254,33 +253,8 @@ fn what_is_no_saddle_has_no_manifold() {
 
 #[test]
 fn settings_and_results_are_what_they_say() {
-    for (arclength, points) in [(0.0, 100), (f64::NAN, 100), (2e6, 100), (1.0, 15), (1.0, 10_000_001)] {
-        assert!(ManifoldSettings::new(arclength, points).is_err(), "{arclength} {points}");
-    }
     let legal = settings(1.0);
-    assert!(legal.with_resolution(0.0, 0.1).is_err() && legal.with_resolution(0.1, f64::NAN).is_err());
-    assert!(legal.with_generations(0).is_err() && legal.with_generations(10_001).is_err());
-    for speed in [f64::NAN, -1.0, f64::INFINITY] {
-        assert!(legal.with_launch_speed(speed).is_err(), "{speed}");
-    }
     stored(&legal.with_launch_speed(3.0).expect("legal"));
-}
-
-#[test]
-fn a_manifold_can_be_stopped() {
-    let map = map(0.561, 0.5);
-    let saddle = saddle(&map);
-    let grow = |observer: &StopAfter| map.manifold(&saddle, ManifoldKind::Stable, &settings(600.0), observer);
-    let patient = StopAfter::calls(u64::MAX);
-    let whole = grow(&patient).expect("grows");
-    assert!(patient.asked() > 3, "{}", patient.asked());
-    assert_eq!(
-        whole,
-        map.manifold(&saddle, ManifoldKind::Stable, &settings(600.0), &Unobserved).expect("grows")
-    );
-    for calls in 1..4 {
-        assert!(matches!(grow(&StopAfter::calls(calls)), Err(Error::Stopped { total: 40_000, .. })));
-    }
 }
 
 /// Next to its birth the saddle lies on the seam of the phase.

@@ -6,7 +6,6 @@ use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::double_double::DoubleDouble;
 use crate::orbits::periodic::Multipliers;
 use crate::run::Unobserved;
-use crate::run::testing::StopAfter;
 
 /// The impacts that were found are an orbit of the impact map, and its multiplier is that of the map's own
 /// derivative.
@@ -94,27 +93,6 @@ fn every_restitution_has_an_answer() {
                 Err(error) => panic!("{restitution:e}: {error}"),
             }
         }
-    }
-    for restitution in [0.0, 1.0, -0.1, f64::NAN, f64::INFINITY] {
-        assert!(
-            matches!(doubling_cascade(restitution, 1, &Unobserved), Err(Error::OutOfRange { .. })),
-            "{restitution}"
-        );
-    }
-    for count in [0, 14] {
-        let refused = doubling_cascade(0.5, count, &Unobserved);
-        assert!(matches!(refused, Err(Error::OutOfRange { field: "count", .. })), "{refused:?}");
-    }
-}
-
-#[test]
-fn a_cascade_can_be_stopped_anywhere() {
-    let all = StopAfter::calls(u64::MAX);
-    assert_eq!(doubling_cascade(0.5, 12, &all), doubling_cascade(0.5, 12, &Unobserved));
-    assert!(all.asked() > 5, "{}", all.asked());
-    for calls in 1..all.asked() {
-        let stopped = doubling_cascade(0.5, 12, &StopAfter::calls(calls));
-        assert!(matches!(stopped, Err(Error::Stopped { total: 12, .. })), "{calls}: {stopped:?}");
     }
 }
 

@@ -255,7 +255,7 @@ impl WithSimd for Rebound<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::flight::launch::launch_that_may_dip;
+    use crate::flight::launch::{Impact, launch_that_may_dip};
     use crate::flight::platform::phase::Phase;
     use crate::numerics::testing::golden_spread;
 
@@ -277,67 +277,51 @@ mod tests {
         (Vibration::new(peak).expect("legal"), Launch::new(phase, speed).expect("legal"))
     }
 
-    #[test]
-    fn rows_hold_what_single_flights_say() {
-        for set in InstructionSet::available() {
-            const ALL: usize = 3 * LANES - 5;
-            let mut flights = Flights::new(set, 3).expect("few");
-            for block in 0..3_000 {
-                let launches: Vec<_> = (0..ALL).map(|lane| launch(200 * block + lane as u64)).collect();
-                for (lane, (vibration, launch)) in launches.iter().enumerate() {
-                    flights.set_platform(lane, *vibration);
-                    flights.set_launch(lane, *launch);
-                }
-                let mut failures = Vec::new();
-                flights.fly(ALL, |lane, error| failures.push((lane, error)));
-                let mut failures = failures.into_iter();
-                for (lane, (vibration, launch)) in launches.into_iter().enumerate() {
-                    let alone = match vibration.first_impact(launch) {
-                        Ok(alone) => alone,
-                        Err(error) => {
-                            assert_eq!(failures.next(), Some((lane, error)));
-                            continue;
-                        }
-                    };
-                    let (impacts, own) = (flights.impacts(lane / LANES).expect("exists"), lane % LANES);
-                    let rows = [
-                        impacts.angle[own],
-                        impacts.sin[own],
-                        impacts.cos[own],
-                        impacts.velocity[own],
-                        impacts.duration(own),
-                    ];
-                    let (phase, velocity) = (alone.phase, alone.velocity);
-                    let expected = [phase.angle(), phase.sin(), phase.cos(), velocity, alone.duration()];
-                    assert_eq!(
-                        rows.map(f64::to_bits),
-                        expected.map(f64::to_bits),
-                        "{set:?} {vibration:?} {launch:?}: {rows:?} {alone:?}"
-                    );
-                    assert_eq!(impacts.turns[own] as u64, alone.turns);
-                    assert_eq!(flights.state(lane), Some(alone.into()));
-                }
-                assert_eq!(failures.next(), None);
-            }
+    /// Flies these launches, and compares all that the rows and the lanes hold, and the errors, with single flights.
+    fn compared(flights: &mut Flights, launches: &[(Vibration, Launch)]) -> Vec<Impact> {
+        for (lane, (vibration, launch)) in launches.iter().enumerate() {
+            flights.set_platform(lane, *vibration);
+            flights.set_launch(lane, *launch);
         }
+        let mut failures = Vec::new();
+        flights.fly(launches.len(), |lane, error| failures.push((lane, error)));
+        let (mut failures, mut landed) = (failures.into_iter(), Vec::new());
+        for (lane, &(vibration, launch)) in launches.iter().enumerate() {
+            let alone = match vibration.first_impact(launch) {
+                Ok(alone) => alone,
+                Err(error) => {
+                    assert_eq!(failures.next(), Some((lane, error)));
+                    continue;
+                }
+            };
+            let (impacts, own) = (flights.impacts(lane / LANES).expect("exists"), lane % LANES);
+            let angles = [impacts.angle[own], impacts.sin[own], impacts.cos[own]];
+            let rows = [angles[0], angles[1], angles[2], impacts.velocity[own], impacts.duration(own)];
+            let (phase, velocity) = (alone.phase, alone.velocity);
+            let expected = [phase.angle(), phase.sin(), phase.cos(), velocity, alone.duration()];
+            let (rows, expected) = (rows.map(f64::to_bits), expected.map(f64::to_bits));
+            assert_eq!(rows, expected, "{lane} of {}: {vibration:?} {launch:?}", launches.len());
+            assert_eq!(impacts.turns[own] as u64, alone.turns);
+            assert_eq!(flights.state(lane), Some(alone.into()));
+            landed.push(alone);
+        }
+        assert_eq!(failures.next(), None);
+        landed
     }
 
-    /// Stages are computed for as many sixteens of lanes as hold their flights.
+    /// Of every number, because stages are computed for as many sixteens of lanes as hold their flights; and many.
     #[test]
-    fn flights_of_any_number_are_those_of_single_ones() {
-        for lanes in 1..=2 * LANES {
-            let mut flights = Flights::new(InstructionSet::best(), 2).expect("few");
-            let launches: Vec<_> = (0..lanes).map(|lane| launch((997 * lanes + lane) as u64)).collect();
-            for (lane, &(vibration, launch)) in launches.iter().enumerate() {
-                flights.set_platform(lane, vibration);
-                flights.set_launch(lane, launch);
+    fn lanes_hold_what_single_flights_say() {
+        const ALL: usize = 3 * LANES - 5;
+        for set in InstructionSet::available() {
+            let mut flights = Flights::new(set, 3).expect("few");
+            for lanes in 1..=2 * LANES {
+                let launches: Vec<_> = (0..lanes).map(|lane| launch((997 * lanes + lane) as u64)).collect();
+                compared(&mut flights, &launches);
             }
-            let mut failed = Vec::new();
-            flights.fly(lanes, |lane, _| failed.push(lane));
-            for (lane, (vibration, launch)) in launches.into_iter().enumerate() {
-                let alone = vibration.first_impact(launch).ok().map(Into::into);
-                let state = flights.state(lane).filter(|_| !failed.contains(&lane));
-                assert_eq!(state, alone, "{lane} of {lanes}: {vibration:?} {launch:?}");
+            for block in 0..3_000 {
+                let launches: Vec<_> = (0..ALL).map(|lane| launch(200 * block + lane as u64)).collect();
+                compared(&mut flights, &launches);
             }
         }
     }
@@ -348,23 +332,18 @@ mod tests {
     fn launches_that_dip_are_those_of_single_flights() {
         let vibration = Vibration::new(2.0).expect("legal");
         let mut flights = Flights::new(InstructionSet::best(), 4).expect("few");
-        let all = 4 * LANES;
-        (0..all).for_each(|lane| flights.set_platform(lane, vibration));
         let mut dips = 0;
         for block in 0..1_500 {
-            let launches: Vec<_> = (0..all as u64)
+            let launches: Vec<_> = (0..4 * LANES as u64)
                 .filter_map(|lane| {
                     let (phase, speed) = launch_that_may_dip(&vibration, 256 * block + lane);
-                    Launch::new(phase, speed).ok()
+                    Some((vibration, Launch::new(phase, speed).ok()?))
                 })
                 .collect();
-            launches.iter().enumerate().for_each(|(lane, launch)| flights.set_launch(lane, *launch));
-            flights.fly(launches.len(), |lane, error| unreachable!("{lane}: {error}"));
-            for (lane, launch) in launches.into_iter().enumerate() {
-                let alone = vibration.first_impact(launch).expect("lands");
-                assert_eq!(flights.state(lane), Some(alone.into()), "{launch:?}");
-                dips += u32::from(alone.velocity > -0.1 && alone.duration() > 0.6);
-            }
+            let landed = compared(&mut flights, &launches);
+            assert_eq!(landed.len(), launches.len());
+            let dipped = landed.iter().filter(|alone| alone.velocity > -0.1 && alone.duration() > 0.6);
+            dips += dipped.count();
         }
         assert!(dips > 1_000, "{dips}");
     }

@@ -5,7 +5,6 @@ use crate::chatter::policy::ChatterPolicy;
 use crate::flight::platform::vibration::Vibration;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::run::Unobserved;
-use crate::run::testing::StopAfter;
 use crate::sweep::survival_times;
 
 /// Orbits from rest to chaos.
@@ -20,16 +19,6 @@ fn starts(count: u32) -> Vec<(ImpactMap, ImpactState)> {
 
 fn orbits(count: u32) -> Vec<Orbit> {
     starts(count).iter().map(|(map, start)| map.orbit(*start, ChatterPolicy::Complete)).collect()
-}
-
-/// Alone and in lockstep.
-#[test]
-fn an_endless_sweep_can_be_stopped() {
-    for count in [1, 20] {
-        let orbits = &orbits(40)[20..20 + count];
-        let endless = sweep(orbits, |_| (), |(), _| ControlFlow::Continue(()), &StopAfter::calls(9));
-        assert!(matches!(endless, Err(Error::Stopped { total, .. }) if total == count as u64), "{endless:?}");
-    }
 }
 
 /// The error is that of the first one, in the order of the orbits.

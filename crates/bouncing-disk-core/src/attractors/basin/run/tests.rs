@@ -5,8 +5,6 @@ use core::sync::atomic::{AtomicU64, Ordering};
 
 use super::*;
 use crate::attractors::basin::{Axis, FIRST_ORBIT};
-use crate::chatter::policy::ChatterPolicy;
-use crate::chatter::policy::PAPER_POLICY;
 use crate::flight::platform::vibration::Vibration;
 use crate::map::impact_map::ImpactState;
 use crate::orbits::periodic::PeriodicOrbit;
@@ -82,19 +80,6 @@ fn many_known_orbits_are_compared_in_parts() {
         let cell = StopAfter::calls(u64::MAX);
         map.basins(grid(1, 1), &known, settings, &cell).expect("no failure");
         assert!(many == 1 || cell.asked() > many as u64, "{}", cell.asked());
-    }
-}
-
-/// A start that is followed for ever.
-#[test]
-fn one_endless_start_can_be_stopped() {
-    let chaos = ImpactMap::new(Vibration::from_axial_forcing(0.55).expect("legal"), 0.5).expect("legal");
-    for policy in [ChatterPolicy::Complete, PAPER_POLICY] {
-        let settings = BasinSettings { max_impacts: u32::MAX, policy };
-        let one =
-            Grid::new(Axis::new(0.12, 0.13, 1).expect("legal"), Axis::new(1.29, 1.31, 1).expect("legal"));
-        let basins = chaos.basins(one.expect("legal"), &[], settings, &StopAfter::calls(5));
-        assert_eq!(basins, Err(Error::Stopped { done: 0, total: 1 }));
     }
 }
 

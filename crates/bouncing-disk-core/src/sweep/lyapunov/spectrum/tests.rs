@@ -3,7 +3,6 @@ use crate::map::impact_map::map;
 use crate::numerics::testing::golden_spread;
 use crate::orbits::periodic::Multipliers;
 use crate::run::Unobserved;
-use crate::run::testing::StopAfter;
 use crate::sweep::lyapunov::lyapunov_exponents;
 
 fn start() -> ImpactState {
@@ -133,15 +132,4 @@ fn without_restitution_there_is_one_exponent() {
         assert_eq!((spectrum.second, spectrum.exact_sum), (None, None));
         assert!(spectrum.largest.is_finite());
     }
-}
-
-#[test]
-fn too_few_impacts_are_refused_and_a_call_can_be_stopped() {
-    for impacts in [0, 15] {
-        let error = lyapunov_spectra(&starts(3), 0, impacts, &Unobserved).expect_err("too few");
-        assert!(matches!(error, Error::OutOfRange { field: "impacts", .. }), "{error}");
-    }
-    assert_eq!(lyapunov_spectra(&[], 0, 16, &Unobserved), Ok(Vec::new()));
-    let stopped = lyapunov_spectra(&starts(200), 100, 2_000, &StopAfter::calls(12));
-    assert!(matches!(stopped, Err(Error::Stopped { done: 1..200, total: 200 })), "{stopped:?}");
 }
