@@ -26,8 +26,6 @@ pub const GALLERY: Format = Format { name: "bouncing-disk gallery", version: 1, 
 /// The format of `digests.json`; version 1 had the digests of pictures with what they say of their origin
 /// taken out.
 pub const DIGESTS: Format = Format { name: "bouncing-disk digests", version: 2, oldest: 2 };
-/// The format of the files in `data/performance`.
-pub const PERFORMANCE: Format = Format { name: "bouncing-disk performance", version: 1, oldest: 1 };
 
 /// Of a file that this version of the experiments writes.
 pub fn new(format: Format) -> Provenance {

@@ -46,8 +46,8 @@ pub(crate) struct Options {
     #[arg(long)]
     list: bool,
     /// Write nothing; compute, and fail when docs/results.md, docs/errata.md or a picture in docs/figures is
-    /// missing, edited or of other figures
-    #[arg(long)]
+    /// missing, edited, or made from other figures
+    #[arg(long, conflicts_with = "out")]
     check: bool,
     /// Make all figures and tables in both qualities, and write docs/results.md, docs/errata.md and docs/figures from
     /// them

@@ -28,7 +28,8 @@ pub(crate) struct Options {
 /// Builds both in one run of cargo, which finds the library for the program.
 pub(crate) fn run(options: &Options) -> Result<ExitCode> {
     let mut build = cargo();
-    build.args(["build", "--release", "--locked"]);
+    // Another target would put them into a folder of its own.
+    build.args(["build", "--release", "--locked"]).env_remove("CARGO_BUILD_TARGET");
     succeed(build.args(PACKAGES.map(|package| ["--package", package]).as_flattened()))?;
     let program = format!("release/bouncing-disk{}", std::env::consts::EXE_SUFFIX);
     let mut pack = Command::new(target_folder()?.join(program));

@@ -38,7 +38,7 @@
 //! | feature | default | what it does |
 //! | --- | --- | --- |
 //! | `parallel` | yes | grids and sweeps over the threads of rayon's pool, with the same bits |
-//! | `serde` | yes | `Serialize` for results, `Deserialize` for settings and what is computed on |
+//! | `serde` | yes | `Serialize` for results, `Deserialize` for settings and inputs of computations |
 //!
 //! Deserialising runs the same checks as construction: a value outside its range, a missing key of a required
 //! value and an unknown key are errors. An infinite error bound is `null` in JSON, which has no such number.

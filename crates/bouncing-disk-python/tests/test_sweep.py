@@ -161,14 +161,20 @@ def test_a_half_written_record_is_dropped(tmp_path: Path) -> None:
         assert log.read_text().count("\n") == computed
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="files are not locked there")
+def test_a_journal_in_use_is_refused(tmp_path: Path) -> None:
+    swept = functools.partial(bd.sweep, product, AXES, chunk=5, journal=tmp_path / "journal")
+    swept(progress=lambda done, total: refusal("in-use", swept, "in use by another sweep"))
+
+
 def test_files_that_are_no_journal_are_refused_and_kept(tmp_path: Path) -> None:
     journal = tmp_path / "journal"
     swept = functools.partial(bd.sweep, product, AXES, chunk=5, journal=journal)
-    swept(progress=lambda done, total: refusal("in-use", swept, "in use by another sweep"))
+    swept()
     whole = journal.read_bytes()
     changed = whole.replace(b"60.0", b"61.0")
     for content, kind, message in [
-        (changed, "damaged", "changed in line 3"),
+        (changed, "damaged", "damaged line 3"),
         (b"Introduction", "not-a-journal", "not the journal of a sweep"),
         (b"Introduction\n", "not-a-journal", "not the journal of a sweep"),
     ]:
@@ -199,6 +205,7 @@ def test_a_full_disk_keeps_what_was_written(tmp_path: Path) -> None:
     [
         ({"function": product}, "function is 'test_sweep.refuses' there, 'test_sweep.product' here"),
         ({"axes": {**AXES, "b": [10.0, 20.0, 30.000001]}}, "axes.b.2 is 30.0 there, 30.000001 here"),
+        ({"axes": {**AXES, "b": np.array(AXES["b"], "f")}}, "types.b is '<f8' there, '<f4' here"),
         ({"axes": {**AXES, "b": [10.0]}}, r"axes.b is \[10.0, 20.0, 30.0\] there, \[10.0\] here"),
         ({"axes": {"b": AXES["b"], "a": AXES["a"]}}, "axes is {'a'.* there, {'a'"),
         ({"arguments": {"flag": "y"}}, "arguments.flag is 'x' there, 'y' here"),
@@ -257,7 +264,7 @@ def test_a_failed_point_is_named_and_the_others_kept(chunk: int | None, tmp_path
 
 def test_results_that_do_not_fit_name_their_point() -> None:
     functions: list[tuple[Any, int | None, str]] = [
-        (lambda a, b: a if a > b else b, 12, "a = 1.0, b = 10.0: for 12 points .* none alone: ValueError: The truth"),
+        (lambda a, b: a if a > b else b, 12, "a = 1.0, b = 10.0: for 12 points .* none of them alone: ValueError: The truth"),
         (lambda a, b: np.zeros(13), 12, r"result has the shape \(13,\)"),
         (lambda a, b: object(), None, "result is object"),
         (lambda a, b: {"a": 1.0}, None, "a is the name of an axis and of a result"),

@@ -23,7 +23,7 @@
 //! | --- | --- |
 //! | [`parameters`] | stroke, units, and the numbers without units that decide the motion |
 //! | [`motion`] | states, segments and energies between events |
-//! | [`toss`] | single tosses, many tosses, the best toss |
+//! | [`toss`] | single tosses, many tosses |
 //! | [`driven`] | platforms that move in any way: waveforms, their tosses |
 //! | [`stator`] | stators that yield: their modes feel the impacts and the friction |
 //! | [`motor`] | motors: run-up, speed under a load, sweeps, sensitivities |
@@ -34,7 +34,7 @@
 //! | feature | default | what it does |
 //! | --- | --- | --- |
 //! | `parallel` | yes | ensembles, grids and sweeps over the threads of rayon's pool, with the same bits |
-//! | `serde` | yes | `Serialize` for results; `Deserialize` for users' input and for runs to resume |
+//! | `serde` | yes | `Serialize` for results; `Deserialize` for users' input |
 //! | `json` | yes | a motor's data sheet as JSON |
 //! | `toml` | no | a motor's data sheet as TOML |
 //! | `storage` | yes | provenance of stored files, and the journal of a long computation |

@@ -104,7 +104,7 @@ fn drives() {
             ("none", "none.toml: sum of the durations of the pieces = 0"),
             (
                 "segments",
-                "drive.segments is no key: a drive is one motion that repeats. Give a start-up or a burst",
+                "drive.segments is not a key: a drive is one motion that repeats. Give a start-up or a burst",
             ),
             ("then", "drive.then is no key: "),
             ("infinite", "infinite.toml: start_phase = inf is outside"),

@@ -175,7 +175,7 @@ pub enum Error {
     /// A chatter has a closed form for a constant restitution only: another law of restitution needs a cut.
     #[error("a chatter has a closed form for a constant restitution only: end it by `ChatterPolicy::Cut`")]
     NoClosedForm,
-    /// The observer of a long call has stopped it. Finished items are kept if a run owns them.
+    /// The observer of a long call has stopped it.
     #[error("stopped after {done} of {total} items")]
     Stopped {
         /// Finished items.
@@ -183,7 +183,7 @@ pub enum Error {
         /// All items.
         total: u64,
     },
-    /// A stored run is inconsistent, or does not fit the input with which it is resumed.
+    /// What was stored is inconsistent, or parts do not fit together.
     #[error("{what}: {found}; legal is {expected}")]
     Unfitting {
         /// The quantity that does not fit.

@@ -1,5 +1,5 @@
 //! Campaigns of hours. Two variables say which part of one is run: `CAMPAIGN_SIZE`, how many of its cases or shards,
-//! and `CAMPAIGN_SEED`, which is added to every seed, for other ones.
+//! and `CAMPAIGN_SEED`, for other ones: each seed is added to a thousand million of it.
 
 use bouncing_disk_core::run::in_parallel;
 use serde_json::{Map, Value};
@@ -13,7 +13,7 @@ pub fn size(usual: u64) -> u64 {
 }
 
 pub fn seed(usual: u64) -> u64 {
-    usual + variable("CAMPAIGN_SEED").unwrap_or(0)
+    usual + 1_000_000_000 * variable("CAMPAIGN_SEED").unwrap_or(0)
 }
 
 /// Shards of one kind of case.

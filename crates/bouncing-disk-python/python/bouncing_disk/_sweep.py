@@ -59,7 +59,8 @@ class SweepFailedError(BouncingDiskError, RuntimeError):
     """The function failed at points of the grid. The finished points are in the journal, if there is one.
 
     Attributes:
-        failures: the points in the order of the grid, one for each call that failed.
+        failures: the points in the order of the grid, one for each call that failed; none where no call can succeed,
+            because a worker has another version of this package.
     """
 
     failures: tuple[FailedPoint, ...]
@@ -100,7 +101,8 @@ def sweep(
         chunk: call the function with arrays of at most this many points instead of the numbers of one point. The first
             axis of its results is that of the points. This is much faster for functions of many orbits.
         journal: a file to which this process appends the results of each call at once. The same sweep, called again,
-            computes only what is missing. Do not use one file in two processes on Windows, where it is not locked.
+            computes only what is missing. It compares the text of the function, not of what this calls. Do not use one
+            file in two processes where files cannot be locked (Windows, some network file systems).
         progress: called with the numbers of points that are done and of all points.
 
     Returns:
@@ -213,14 +215,15 @@ class _Job:
         name = f"{getattr(function, '__module__', None)}.{getattr(function, '__qualname__', None)}"
         if not inspect.isroutine(function) or inspect.ismethod(function) or "<" in name:
             message = f"a journal recognises a function by its name and text, and cannot recognise {function!r}: define a "
-            message += "function at the top of a module or notebook, and hand constants on as `arguments`"
+            message += "function at the top of a module or notebook, and pass constants as `arguments`"
             raise InvalidError(message, "function", {"function": name})
         try:
             source = inspect.getsource(function)
         except (OSError, TypeError):
             source = None
         what = {"format": "bouncing-disk sweep 1", "version": self.version, "function": name, "source": source}
-        where = {"axes": self.axes, "arguments": self.arguments, "chunk": self.chunk}
+        types = {name: axis.dtype.str for name, axis in self.axes.items()}
+        where = {"axes": self.axes, "types": types, "chunk": self.chunk, "arguments": dict(sorted(self.arguments.items()))}
         plain: dict[str, Any] = json.loads(json.dumps({**what, **where}, default=_plain))
         return plain
 
@@ -235,17 +238,21 @@ def _plain(value: Any) -> Any:
     raise TypeError(f"a journal cannot recognise a {kind}: give numbers, texts, arrays, lists, mappings or bd's objects")
 
 
+class _OtherVersion(RuntimeError):
+    """A worker has another version of this package: no call can succeed there."""
+
+
 def _call(job: _Job, first: int) -> Results | FailedPoint:
     """One call, wherever it is made. If it fails, halves of its points are tried, to name the one that fails."""
     if job.version != native.VERSION:
-        raise RuntimeError(f"the worker has bouncing-disk {native.VERSION}, and the caller {job.version}")
+        raise _OtherVersion(f"the worker has bouncing-disk {native.VERSION}, and the caller {job.version}")
     points = job.span(first)
     try:
         return job.results(points)
     except Exception as error:
         if len(points) == 1:
             return job.failed(first, error)
-        together = job.failed(first, error, f"for {len(points)} points from this one on, but for none alone: ")
+        together = job.failed(first, error, f"for {len(points)} points starting here together, but for none of them alone: ")
     while len(points) > 1:
         half = points[: len(points) // 2]
         points = half if _failure(job, half) else points[len(half) :]
@@ -275,6 +282,8 @@ def _distributed(job: _Job, calls: list[int], client: Any) -> Generator[tuple[in
             first = pending.pop(future)
             try:
                 yield first, future.result()
+            except _OtherVersion as error:
+                raise SweepFailedError(str(error), ()) from error
             except Exception as error:
                 yield first, job.failed(first, error)
     finally:
@@ -355,10 +364,12 @@ class _Journal:
     def _read(self, header: dict[str, Any]) -> None:
         try:
             _lock(self._file)
+            self._file.seek(0)
+            content = self._file.readall()
         except BlockingIOError as error:
             raise self._refused("is in use by another sweep", "in-use") from error
-        self._file.seek(0)
-        content = self._file.readall()
+        except OSError as error:
+            raise self._refused(f"cannot be read: {error.strerror}", "cannot-write") from error
         *lines, half = content.split(b"\n")
         known = _record(lines[0]) if lines else None
         if known is None and not _line(header).startswith(content):
@@ -367,7 +378,7 @@ class _Journal:
             raise self._refused(f"is the journal of another sweep: {found}", "another-sweep")
         for number, record in enumerate(map(_record, lines[1:]), 2):
             if record is None:
-                message = f"was changed in line {number}; without this line its points are computed again"
+                message = f"has a damaged line {number}; delete it, and its points are computed again"
                 raise self._refused(message, "damaged")
             self.finished[record[0]] = {name: _decoded(*array) for name, array in record[1].items()}
         self._file.truncate(len(content) - len(half))
@@ -394,7 +405,13 @@ else:
     import fcntl
 
     def _lock(file: io.FileIO) -> None:
-        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise
+        except OSError:
+            # A file system without locks.
+            pass
 
 
 def _line(record: Any) -> bytes:

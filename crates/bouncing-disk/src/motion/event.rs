@@ -63,7 +63,7 @@ pub enum Event {
     Recontact,
     /// In a contact that takes time without a damper: its spring begins to load, to unload, or to hold still.
     Turn,
-    /// A stator that yields gets another load or drive, as a table of a file says.
+    /// The load or the drive of a stator that yields changes, as its table says.
     Joint,
 }
 

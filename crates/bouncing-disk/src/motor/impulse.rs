@@ -168,13 +168,6 @@ impl NormalImpulses {
         Concentration::of(self.landings.iter().map(|phase| (*phase, 1.0)))
     }
 
-    /// Share of the impulse within `reach` (rad, in [0, pi]) of tau = 0.
-    #[must_use]
-    pub fn share_near_zero(&self, reach: f64) -> f64 {
-        let near = self.all().filter(|one| one.phase.min(TAU - one.phase) <= reach);
-        near.map(|one| one.impulse).sum::<f64>() / self.total()
-    }
-
     /// The balance of friction on a stator with this phase lag theta (rad).
     #[must_use]
     pub fn balance(&self, phase_lag: f64) -> ImpulseBalance {

@@ -361,7 +361,7 @@ impl TryFrom<GivenDrive> for DriveParameters {
             return Ok(Self { height, angle, start_phase });
         };
         Err(format!(
-            "drive.{key} is no key: a drive is one motion that repeats. Give a start-up or a burst as a table of samples, \
+            "drive.{key} is not a key: a drive is one motion that repeats. Give a start-up or a burst as a table of samples, \
              {{ sampled = [...] }}, or in Rust go on from one `DrivenEngine` to the next by `DrivenEngine::of_state`"
         ))
     }
@@ -587,7 +587,7 @@ mod tests {
             let refused =
                 toml::from_str::<DriveParameters>(&format!("{text}{entry}\n")).expect_err("refused");
             assert!(
-                refused.to_string().contains(&format!("{key} is no key: a drive is one motion")),
+                refused.to_string().contains(&format!("{key} is not a key: a drive is one motion")),
                 "{refused}"
             );
         }

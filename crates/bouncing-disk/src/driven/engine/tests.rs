@@ -373,3 +373,42 @@ fn a_state_of_flight_at_the_platform_is_one_of_contact() {
         }
     }
 }
+
+/// A platform that changes its velocity under a disk, between two engines, hits it at once or leaves it behind.
+#[test]
+fn a_state_that_moves_against_the_platform_is_hit_or_leaves() {
+    let system = DrivenSystem {
+        height: Drive::fourier(&[(1.5, 0.0)]).expect("legal"),
+        angle: Drive::fourier(&[]).expect("legal"),
+        friction: 0.3,
+        restitution: 0.5,
+        load: 0.0,
+        compliance: None,
+    };
+    let phase = phase_at(1.5 * std::f64::consts::PI);
+    let at = system.height.at(phase.angle());
+    for relative in [-0.25, 0.25] {
+        let axial_velocity = at.velocity + relative;
+        let state = DiskState {
+            mode: Mode::Flight,
+            height: at.height,
+            axial_velocity,
+            angle: 0.0,
+            angular_speed: 0.0,
+        };
+        let time = PhaseTime::in_first_period(phase);
+        let engine = DrivenEngine::of_state(system.clone(), time, state, ChatterPolicy::Complete);
+        let next = engine.expect("legal").advance().expect("no failure").expect("an impact");
+        let Event::Impact { axial_impact_velocity, .. } = next.event else { panic!("{next:?}") };
+        if relative < 0.0 {
+            assert!(
+                (axial_impact_velocity - relative).abs() < 1e-15 && next.span.radians() <= 0.0,
+                "{next:?}"
+            );
+            assert!((next.after.axial_velocity - (at.velocity - 0.5 * relative)).abs() < 1e-15, "{next:?}");
+        } else {
+            // It falls back: 2 v/(1 + s'') later on a platform that goes on at its acceleration.
+            assert!(next.span.radians() > 0.1 && axial_impact_velocity < -0.1, "{next:?}");
+        }
+    }
+}

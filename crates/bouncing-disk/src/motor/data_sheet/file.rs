@@ -429,7 +429,7 @@ mod tests {
         for (drive, told) in [
             ("hight = 'sine'", "\"hight\" is unknown; did you mean \"height\"?"),
             ("height = 'triangel'", "\"triangel\" is not a shape; write \"sine\", \"triangle\""),
-            ("then = 'rest'", "drive.then is no key: a drive is one motion that repeats"),
+            ("then = 'rest'", "drive.then is not a key: a drive is one motion that repeats"),
             ("height = { fourier = [[nan, 0]] }", "height: harmonic number 0"),
             ("angle = { pieces = [[1, [0, 1, 0, 0]]] }", "the angle jumps by -1.0 amplitudes where piece 0"),
             ("height = { pieces = [] }", "sum of the durations of the pieces = 0"),
