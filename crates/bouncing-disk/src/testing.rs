@@ -1,5 +1,7 @@
 //! Systems of tests: the motor of the paper, and random ones for property tests, biased to the legal limits.
 
+pub(crate) mod small_steps;
+
 use std::f64::consts::{PI, TAU};
 
 use bouncing_disk_core::numerics::elementary::exp;

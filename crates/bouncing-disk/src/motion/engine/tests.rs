@@ -1,7 +1,6 @@
 use std::cmp::Ordering;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use bouncing_disk_core::numerics::elementary::sin_cos;
 use bouncing_disk_core::{Phase, Vibration};
 use proptest::prelude::*;
 
@@ -9,7 +8,7 @@ use super::*;
 use crate::motion::friction::MAX_CONTACT_EVENTS;
 use crate::motion::state::PlatformState;
 use crate::parameters::dimensionless::{DimensionlessParameters, ForcingParameters};
-use crate::testing;
+use crate::testing::{self, small_steps::Law};
 
 /// Rounding of a ledger's closure relative to the sizes of its terms.
 const CLOSURE: f64 = 1.0e-13;
@@ -380,77 +379,10 @@ fn chatter_sums_agree_with_explicit_bounces() {
     assert!((totals[0].2 - totals[1].2).abs() < 1e-9, "{totals:?}");
 }
 
-/// Contact motion by brute force: tiny explicit steps of the friction law itself, with no closed form.
-fn brute_force(
-    system: &DimensionlessSystem,
-    phase: Phase,
-    spin: f64,
-    until: f64,
-) -> Vec<(f64, &'static str)> {
-    const STEP: f64 = 1.0e-4;
-    let law = |tau: f64| {
-        let normal = 1.0 - system.peak_acceleration() * sin_cos(tau).0;
-        let twist = system.twist_speed();
-        let (sine, cosine) = sin_cos(tau + system.phase_lag());
-        (normal, twist * cosine, -twist * sine)
-    };
-    let slip_rate = |tau: f64, sign: f64| {
-        let (normal, _, acceleration) = law(tau);
-        -sign * system.friction() * normal - system.load() - acceleration
-    };
-    // Positive where the envelope holds.
-    let margin = |tau: f64| {
-        let (normal, _, acceleration) = law(tau);
-        system.friction() * normal - (system.load() + acceleration).abs()
-    };
-    let mut events = Vec::new();
-    let mut tau = phase.angle();
-    let end = tau + until;
-    let mut slip = spin - law(tau).1;
-    let mut sign = if slip.abs() < 1e-12 { 0.0 } else { slip.signum() };
-    if sign == 0.0 && margin(tau) < 0.0 {
-        sign = if slip_rate(tau, 1.0) > 0.0 { 1.0 } else { -1.0 };
-        slip = 0.0;
-    }
-    while tau < end {
-        if sign == 0.0 {
-            let (now, next) = (margin(tau), margin(tau + STEP));
-            if next < 0.0 {
-                let fraction = now / (now - next);
-                tau += fraction * STEP;
-                events.push((tau, "slips"));
-                sign = if slip_rate(tau + 0.01 * STEP, 1.0) > 0.0 { 1.0 } else { -1.0 };
-                slip = 0.0;
-            } else {
-                tau += STEP;
-            }
-            continue;
-        }
-        let [k1, k2, k4] = [0.0, 0.5, 1.0].map(|part| slip_rate(tau + part * STEP, sign));
-        let next = slip + STEP * (k1 + 4.0 * k2 + k4) / 6.0;
-        if next * sign < 0.0 && slip != 0.0 {
-            tau += STEP * slip / (slip - next);
-            slip = 0.0;
-            if margin(tau) < 0.0 {
-                sign = -sign;
-                events.push((tau, "reverses"));
-            } else {
-                sign = 0.0;
-                events.push((tau, "sticks"));
-            }
-        } else {
-            slip = next;
-            tau += STEP;
-        }
-    }
-    events.retain(|event| event.0 < end);
-    events
-}
-
 proptest! {
     #![proptest_config(ProptestConfig { cases: 200, max_global_rejects: 100_000, ..ProptestConfig::default() })]
 
-    /// The contact solver against the brute force.
+    /// The contact solver against small steps of the friction law itself.
     #[test]
     fn contact_events_are_those_of_a_fine_time_integration(
         peak in prop_oneof![Just(0.0), 0.0..1.0_f64, 1.0..1.5_f64], twist in 0.0..3.0_f64, lag in -3.0..3.0_f64,
@@ -488,10 +420,11 @@ proptest! {
             })
             .take_while(|event| event.0 < angle + until)
             .collect();
-        // Events that crowd together are beyond the brute force's resolution.
+        // Events that crowd together are beyond the resolution of the steps.
         prop_assume!(found.windows(2).all(|pair| pair[1].0 - pair[0].0 > 2e-2));
         prop_assume!(found.first().is_none_or(|first| first.0 - angle > 2e-2));
-        let expected = brute_force(&system, phase, spin, until);
+        let law = Law { peak, twist, lag, friction, load, spring: None };
+        let expected = law.events_on_platform(angle, spin, angle + until);
         let last_certain = angle + until - 1e-2;
         let certain = |events: &[(f64, &'static str)]| -> Vec<(f64, &'static str)> {
             events.iter().copied().filter(|event| event.0 < last_certain).collect()

@@ -1,61 +1,13 @@
-//! Contacts that take time against an integration in small steps that knows only the law of the force.
+//! Contacts that take time against an integration in small steps.
 
 use bouncing_disk_core::numerics::elementary::{cos, sin};
 use proptest::prelude::*;
 
 use super::*;
+use crate::testing::small_steps::{Law, Spring};
 
 /// Steps per radian of the fastest change.
 const STEPS: f64 = 400.0;
-
-/// The law of motion on s = P sin t, beta' = Q cos(t + lag): relative gap and velocity, angular speed.
-struct Law {
-    peak: f64,
-    twist: f64,
-    lag: f64,
-    friction: f64,
-    load: f64,
-    loading: f64,
-    unloading: f64,
-    damping: f64,
-}
-
-impl Law {
-    /// The force, of a spring that moved with the velocity `before` at the start of the step.
-    fn force(&self, t: f64, [y, v, _]: [f64; 3], before: f64) -> f64 {
-        let y = y.min(0.0);
-        let held = 1.0 - self.peak * sin(t);
-        let stiffness = match before {
-            _ if self.damping > 0.0 => self.loading,
-            _ if before < -1e-9 => self.loading,
-            _ if before > 1e-9 => self.unloading,
-            _ => return held.clamp(-self.unloading * y, -self.loading * y),
-        };
-        (-stiffness * y - self.damping * v).max(0.0)
-    }
-
-    fn rate(&self, t: f64, state: [f64; 3], mode: Mode, before: f64) -> [f64; 3] {
-        let force = if mode == Mode::Flight { 0.0 } else { self.force(t, state, before) };
-        let turn = match mode {
-            Mode::Sticking => -self.twist * sin(t + self.lag),
-            Mode::Sliding(direction) => -direction.sign() * self.friction * force - self.load,
-            Mode::Flight => -self.load,
-        };
-        [state[1], force - 1.0 + self.peak * sin(t), turn]
-    }
-
-    /// A step of the classical method of fourth order.
-    fn step(&self, t: f64, state: [f64; 3], h: f64, mode: Mode) -> [f64; 3] {
-        let before = state[1];
-        let along = |k: [f64; 3], by: f64| [0, 1, 2].map(|i| state[i] + by * k[i]);
-        let rate = |t, state| self.rate(t, state, mode, before);
-        let a = rate(t, state);
-        let b = rate(t + 0.5 * h, along(a, 0.5 * h));
-        let c = rate(t + 0.5 * h, along(b, 0.5 * h));
-        let d = rate(t + h, along(c, h));
-        [0, 1, 2].map(|i| state[i] + h / 6.0 * (a[i] + 2.0 * (b[i] + c[i]) + d[i]))
-    }
-}
 
 /// Follows each segment of `events` events, from the state at its start.
 fn follow(law: &Law, system: &DrivenSystem, events: usize) -> Result<[usize; 8], TestCaseError> {
@@ -103,13 +55,13 @@ fn follow(law: &Law, system: &DrivenSystem, events: usize) -> Result<[usize; 8],
             match segment.state.mode {
                 Mode::Flight => prop_assert!(state[0] > -1e-6 * scale || force < slack, "{record:?} {force}"),
                 mode => {
-                    let platform = law.twist * cos(t + h + law.lag);
+                    let platform = law.turn(t + h);
                     prop_assert!(state[0] < 1e-6 * scale, "{record:?} {state:?}");
                     if let Mode::Sliding(direction) = mode {
                         let slip = direction.sign() * (state[2] - platform);
                         prop_assert!(slip > -1e-4 * (1.0 + law.twist), "{record:?} {slip}");
                     } else {
-                        let needed = (law.load - law.twist * sin(t + h + law.lag)).abs();
+                        let needed = law.needed(t + h).abs();
                         let most = law.friction * (force + slack);
                         prop_assert!(needed < most + 1e-6 * (1.0 + law.twist), "{record:?} {needed} {most}");
                     }
@@ -149,17 +101,12 @@ fn law_and_system(
     }
     .expect("legal");
     let compliance = *system.compliance.as_ref().expect("there").compliance();
-    let law = Law {
-        peak,
-        twist,
-        lag,
-        friction,
-        load,
+    let spring = Spring {
         loading: compliance.stiffness(),
         unloading: compliance.unloading_stiffness(),
         damping: compliance.damping(),
     };
-    (law, system)
+    (Law { peak, twist, lag, friction, load, spring: Some(spring) }, system)
 }
 
 proptest! {
