@@ -3,11 +3,16 @@
 pub(crate) mod small_steps;
 
 use std::f64::consts::{PI, TAU};
+use std::fmt::Debug;
+use std::ops::ControlFlow;
+use std::sync::Mutex;
 
 use bouncing_disk_core::numerics::elementary::exp;
-use bouncing_disk_core::{ChatterPolicy, Phase};
+use bouncing_disk_core::{ChatterPolicy, Observer, Phase, Progress, Unobserved};
 use proptest::prelude::*;
 
+use crate::error::Error;
+use crate::estimate::{FitError, FitRefusal};
 use crate::motion::initial_condition::InitialCondition;
 use crate::parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem};
 use crate::parameters::stator::StatorParameters;
@@ -54,13 +59,141 @@ pub(crate) fn tried_motor() -> System {
         .expect("legal")
 }
 
-/// The field of a number that is refused because it is out of range.
-pub(crate) fn refused_field<T: std::fmt::Debug>(
-    result: Result<T, impl Into<crate::estimate::FitError> + std::fmt::Debug>,
-) -> &'static str {
-    match result.map_err(Into::into) {
-        Err(crate::estimate::FitError::Model(crate::Error::OutOfRange { field, .. })) => field,
-        other => panic!("{other:?}"),
+/// What an error has to be.
+pub(crate) trait Told: Debug {
+    fn is_told_by(&self, error: &FitError) -> bool;
+}
+
+/// The field of a number that is out of range, or a part of another text; with its value, a part of any text.
+impl Told for &str {
+    fn is_told_by(&self, error: &FitError) -> bool {
+        match error {
+            FitError::Model(Error::OutOfRange { field, .. }) if !self.contains(" = ") => field == self,
+            other => other.to_string().contains(self),
+        }
+    }
+}
+
+impl Told for Error {
+    fn is_told_by(&self, error: &FitError) -> bool {
+        *error == FitError::Model(*self)
+    }
+}
+
+impl Told for FitRefusal {
+    fn is_told_by(&self, error: &FitError) -> bool {
+        *error == FitError::Refused(*self)
+    }
+}
+
+/// A row of a table of calls that are refused: `told` of each of these arguments.
+pub(crate) fn refused<A, T: Debug, E: Into<FitError>>(
+    told: impl Told,
+    arguments: impl IntoIterator<Item = A>,
+    call: impl Fn(A) -> Result<T, E>,
+) {
+    for (index, argument) in arguments.into_iter().enumerate() {
+        match call(argument).map_err(Into::into) {
+            Err(error) => assert!(told.is_told_by(&error), "{told:?}, number {index}: {error}"),
+            Ok(legal) => panic!("{told:?}, number {index}: {legal:?}"),
+        }
+    }
+}
+
+/// Breaks when it is asked for the nth time and from then on.
+struct StopAfter {
+    calls: u64,
+    /// Of how many items it has to be told, if that is known.
+    items: Option<u64>,
+    /// How often it was asked, and what it saw last.
+    seen: Mutex<(u64, Progress)>,
+}
+
+impl StopAfter {
+    fn calls(calls: u64, items: Option<u64>) -> Self {
+        Self { calls, items, seen: Mutex::default() }
+    }
+
+    fn seen(&self) -> (u64, Progress) {
+        *self.seen.lock().expect("no panic")
+    }
+}
+
+impl Observer for StopAfter {
+    fn observe(&self, progress: Progress) -> ControlFlow<()> {
+        let mut seen = self.seen.lock().expect("no panic");
+        *seen = (seen.0 + 1, progress);
+        assert!(progress.done <= progress.total, "{progress:?}");
+        assert!(self.items.is_none_or(|items| progress.total == items), "{progress:?}");
+        if seen.0 < self.calls { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    }
+}
+
+fn on<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
+    rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("starts").install(work)
+}
+
+/// Where a call was stopped, if that is why it failed.
+fn stopped<T>(result: &Result<T, FitError>) -> Option<Progress> {
+    match result {
+        Err(FitError::Model(Error::Core(bouncing_disk_core::Error::Stopped { done, total }))) => {
+            Some(Progress { done: *done, total: *total })
+        }
+        _ => None,
+    }
+}
+
+/// A call of so many items, if it is not one of several parts, on 1, 2 and 7 threads, stopped at calls of its
+/// observer from the first one to the last: it says where it was, or has the result that it has unwatched. How often
+/// one thread asks, and how much it had done.
+pub(crate) fn check_stops<T: PartialEq + Debug + Send + Sync, E: Into<FitError>>(
+    items: impl Into<Option<u64>>,
+    call: impl Fn(&dyn Observer) -> Result<T, E> + Sync,
+) -> (u64, Vec<u64>) {
+    let items = items.into();
+    let call = |observer: &dyn Observer| call(observer).map_err(Into::into);
+    let whole = call(&Unobserved).expect("no failure");
+    let (mut asked, mut all_done) = (0, Vec::new());
+    for threads in [1, 2, 7] {
+        let patient = StopAfter::calls(u64::MAX, items);
+        assert_eq!(on(threads, || call(&patient)).as_ref(), Ok(&whole), "{threads} threads");
+        let (all, last) = patient.seen();
+        assert!(all > 1 && items.is_none_or(|items| last.done == items), "{all} calls, last {last:?}");
+        let mut stops = 0;
+        for calls in [1, 2, 3, all / 2, all - 1, all] {
+            let observer = StopAfter::calls(calls, items);
+            let result = on(threads, || call(&observer));
+            let at = format!("{threads} threads, stopped at call {calls} of {all}: {:?}", observer.seen());
+            if let Ok(found) = &result {
+                assert!(*found == whole && calls > 1, "{at}");
+                // Of one part only an answer after all items does not matter.
+                assert!(calls + 1 >= all || threads > 1 || items.is_none(), "{at}");
+                continue;
+            }
+            let Some(Progress { done, total }) = stopped(&result) else { panic!("{at}: {result:?}") };
+            assert!(done <= total && items.is_none_or(|items| total == items), "{at}: {done} of {total}");
+            assert!(done == 0 || calls > 1, "{at}: {done}");
+            // Nobody is asked again, but after the end of a part that was done all the same.
+            assert!(threads > 1 || observer.seen().0 <= calls + 1, "{at}");
+            stops += 1;
+            if threads == 1 {
+                asked = all;
+                all_done.push(done);
+            }
+        }
+        assert!(stops >= if all > 3 && threads == 1 { 2 } else { 1 }, "{threads} threads: {stops}");
+    }
+    (asked, all_done)
+}
+
+/// A call of so many items whose first one would go on for a very long time, stopped on its way.
+pub(crate) fn check_endless<T: Debug + Send, E: Into<FitError>>(
+    items: u64,
+    call: impl Fn(&dyn Observer) -> Result<T, E> + Sync,
+) {
+    for threads in [1, 2, 7] {
+        let result = on(threads, || call(&StopAfter::calls(5, Some(items))).map_err(Into::into));
+        assert_eq!(stopped(&result), Some(Progress { done: 0, total: items }), "{result:?}");
     }
 }
 

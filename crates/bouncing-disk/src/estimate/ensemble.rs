@@ -148,9 +148,8 @@ impl Display for Spread {
 #[cfg(test)]
 mod tests {
     use bouncing_disk_core::Unobserved;
-    use std::ops::ControlFlow;
 
-    use bouncing_disk_core::{ChatterPolicy, Progress};
+    use bouncing_disk_core::ChatterPolicy;
 
     use std::f64::consts::TAU;
 
@@ -159,7 +158,7 @@ mod tests {
 
     use super::*;
     use crate::motor::rotor::{Rotor, RotorStep};
-    use crate::testing::motor;
+    use crate::testing::{check_stops, motor, refused};
     use crate::{Engine, InitialCondition};
 
     /// The value is named, not a mean that comes to nothing because of it.
@@ -302,64 +301,33 @@ mod tests {
         let settings = TransientSettings { duration: 0.2, intervals: 50, ..TransientSettings::default() };
         let members = TransientMember::of_ensemble(&system, &settings, 5).expect("legal");
         let results = transients(&members, &Unobserved).expect("unobserved");
-        let stop_at = |done| {
-            move |progress: Progress| {
-                if progress.done < done { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-            }
-        };
-        let in_parts = TransientEnsemble::of_results(results.clone(), &Unobserved).expect("fitted");
-        assert_eq!(Ok(in_parts), TransientEnsemble::new(&system, &settings, 5, &Unobserved));
-        for stopped in [
-            TransientEnsemble::of_results(results, &stop_at(0)),
-            TransientEnsemble::new(&system, &settings, 5, &stop_at(0)),
-        ] {
-            let expected = bouncing_disk_core::Error::Stopped { done: 0, total: 5 };
-            assert_eq!(stopped, Err(Error::Core(expected)));
-        }
+        let all = TransientEnsemble::new(&system, &settings, 5, &Unobserved).expect("no failure");
+        assert!(all.curves.iter().all(|curve| curve.separations > 0));
+        assert_eq!(TransientEnsemble::of_results(results.clone(), &Unobserved), Ok(all));
+        check_stops(5, |observer| TransientEnsemble::of_results(results.clone(), observer));
+        check_stops(5, |observer| TransientEnsemble::new(&system, &settings, 5, observer));
         assert!(TransientEnsemble::of_results(Vec::new(), &Unobserved).is_err());
     }
 
     #[test]
-    fn ensemble_is_the_same_for_any_number_of_threads() {
+    fn illegal_settings_and_too_many_members_are_refused() {
         let system = motor(1e-8, 0.0);
-        let settings = TransientSettings { duration: 0.2, intervals: 50, ..TransientSettings::default() };
-        let run = |threads: usize| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("pool");
-            pool.install(|| TransientEnsemble::new(&system, &settings, 5, &Unobserved)).expect("no failure")
-        };
-        let all = run(1);
-        assert_eq!(all, run(2));
-        assert_eq!(all, run(7));
-        assert!(all.curves.iter().all(|curve| curve.separations > 0));
-    }
-
-    #[test]
-    fn illegal_settings_are_named() {
-        let system = motor(1e-8, 0.0);
-        for settings in [
-            TransientSettings { duration: 0.0, ..TransientSettings::default() },
-            TransientSettings { duration: f64::NAN, ..TransientSettings::default() },
-            TransientSettings { intervals: 2, ..TransientSettings::default() },
-            TransientSettings { relaunch_perturbation: -1.0, ..TransientSettings::default() },
+        let d = TransientSettings::default();
+        let of = |settings, members| TransientEnsemble::new(&system, &settings, members, &Unobserved);
+        refused("duration", [0.0, f64::NAN], |duration| of(TransientSettings { duration, ..d }, 2));
+        refused("intervals", [2], |intervals| of(TransientSettings { intervals, ..d }, 2));
+        refused("relaunch_perturbation", [-1.0], |relaunch_perturbation| {
+            of(TransientSettings { relaunch_perturbation, ..d }, 2)
+        });
+        refused("members", [0], |members| of(d, members));
+        for (members, intervals, count) in [
+            (usize::MAX, 600, usize::MAX),
+            (MAX_MEMBERS + 1, 3, MAX_MEMBERS + 1),
+            (MAX_MEMBERS, 1_000_000, MAX_MEMBERS * 1_000_000),
         ] {
-            assert!(matches!(
-                TransientEnsemble::new(&system, &settings, 2, &Unobserved),
-                Err(Error::OutOfRange { .. })
-            ));
-        }
-        assert!(TransientEnsemble::new(&system, &TransientSettings::default(), 0, &Unobserved).is_err());
-    }
-
-    #[test]
-    fn more_members_than_there_is_room_for_are_refused_with_their_number() {
-        let system = motor(1e-8, 0.0);
-        for (members, intervals) in [(usize::MAX, 600), (MAX_MEMBERS + 1, 3), (MAX_MEMBERS, 1_000_000)] {
-            let settings = TransientSettings { intervals, ..TransientSettings::default() };
-            let error =
-                TransientEnsemble::new(&system, &settings, members, &Unobserved).expect_err("too many");
-            let asked = if intervals > 600 { members * intervals } else { members };
+            let error = of(TransientSettings { intervals, ..d }, members).expect_err("too many");
             assert!(
-                matches!(error, Error::Core(bouncing_disk_core::Error::TooLarge { count, .. }) if count == asked as u64),
+                matches!(error, Error::Core(bouncing_disk_core::Error::TooLarge { count: asked, .. }) if asked == count as u64),
                 "{error}"
             );
         }

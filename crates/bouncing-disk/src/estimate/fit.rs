@@ -270,6 +270,7 @@ impl Display for RampFit {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::testing::{check_stops, refused};
 
     #[test]
     fn exact_curve_is_recovered() {
@@ -351,27 +352,10 @@ mod tests {
     /// it.
     #[test]
     fn a_long_fit_can_be_stopped() {
-        use std::ops::ControlFlow;
-        use std::sync::atomic::{AtomicU64, Ordering};
-
         let times: Vec<f64> = (1..=20_000).map(|i| f64::from(i) * 0.02).collect();
         let speeds = curve(20.0, 0.6, &times);
-        let fits = |calls: u64| {
-            let asked = AtomicU64::new(0);
-            let observer = |progress: bouncing_disk_core::Progress| {
-                assert_eq!(progress.total, 1);
-                let go_on = asked.fetch_add(1, Ordering::Relaxed) + 1 < calls;
-                if go_on { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-            };
-            (ExponentialFit::new(&times, &speeds, &observer), asked.into_inner())
-        };
-        let (whole, asked) = fits(u64::MAX);
-        assert_eq!(whole, ExponentialFit::new(&times, &speeds, &Unobserved));
-        assert!(asked > 100, "{asked}");
-        for calls in [1, 2, 50, asked - 1] {
-            let stopped = Error::Core(bouncing_disk_core::Error::Stopped { done: 0, total: 1 });
-            assert_eq!(fits(calls), (Err(stopped), calls));
-        }
+        let (asked, done) = check_stops(1, |observer| ExponentialFit::new(&times, &speeds, observer));
+        assert!(asked > 100 && done.iter().all(|&done| done == 0), "{asked} {done:?}");
     }
 
     #[test]
@@ -415,14 +399,6 @@ mod tests {
         assert!(fit.residual < 1e-3 * other.residual);
     }
 
-    #[test]
-    fn illegal_curves_are_named() {
-        assert!(ExponentialFit::new(&[0.0, 1.0], &[0.0, 1.0], &Unobserved).is_err());
-        assert!(ExponentialFit::new(&[0.0, 1.0, 1.0], &[0.0, 1.0, 2.0], &Unobserved).is_err());
-        assert!(ExponentialFit::new(&[0.0, 1.0, 2.0], &[0.0, 1.0], &Unobserved).is_err());
-        assert!(ExponentialFit::new(&[0.0, 1.0, 2.0], &[0.0, f64::NAN, 1.0], &Unobserved).is_err());
-    }
-
     fn curve(steady: f64, constant: f64, times: &[f64]) -> Vec<f64> {
         let truth = ExponentialFit { steady_speed: steady, time_constant: constant, residual: 0.0 };
         times.iter().map(|&time| truth.speed(time)).collect()
@@ -463,21 +439,18 @@ mod tests {
     }
 
     #[test]
-    fn a_fit_that_no_double_holds_is_refused() {
+    fn illegal_curves_and_fits_that_no_double_holds_are_refused() {
+        let fit = |(times, speeds): (&[f64], &[f64])| ExponentialFit::new(times, speeds, &Unobserved);
+        let instants = [0.0, 1.0, 2.0];
+        refused("number of points of the speed curve", [(&instants[..2], &instants[..2])], fit);
+        refused("number of speeds", [(&instants[..], &instants[..2])], fit);
+        refused("times of the speed curve", [(&[0.0, 1.0, 1.0][..], &instants[..])], fit);
+        refused("speed", [(&instants[..], &[0.0, f64::NAN, 1.0][..])], fit);
         // Straight lines: the constant ends at a hundred times the longest time.
         let line = |last: f64| [0.25, 0.5, 0.75, 1.0].map(|share| share * last);
-        assert_eq!(
-            crate::testing::refused_field(ExponentialFit::new(&line(1.7e308), &line(1.0), &Unobserved)),
-            "fitted time (s)"
-        );
-        assert_eq!(
-            crate::testing::refused_field(ExponentialFit::new(&line(1.0), &line(1.7e308), &Unobserved)),
-            "fitted steady speed (rad/s)"
-        );
-        for fit in [
-            ExponentialFit::new(&[0.0, 5e-324, 1e-323], &[0.0, 1.0, 1.0], &Unobserved),
-            ExponentialFit::new(&[1.0, 2.0, 3.0], &[0.0; 3], &Unobserved),
-        ] {
+        refused("fitted time (s)", [(&line(1.7e308)[..], &line(1.0)[..])], fit);
+        refused("fitted steady speed (rad/s)", [(&line(1.0)[..], &line(1.7e308)[..])], fit);
+        for fit in [fit((&[0.0, 5e-324, 1e-323], &[0.0, 1.0, 1.0])), fit((&[1.0, 2.0, 3.0], &[0.0; 3]))] {
             assert!(fit.is_err() || fit.is_ok_and(|fit| fit.time_constant > 0.0 && !fit.residual.is_nan()));
         }
     }

@@ -151,7 +151,7 @@ mod tests {
             (LaunchSpeeds { contact_radius: f64::NAN, ..LAUNCH }, "contact_radius"),
             (LaunchSpeeds { axial_speed: 1e300, ..LAUNCH }, "angular_frequency"),
         ] {
-            assert_eq!(crate::testing::refused_field(Stroke::from_launch_speeds(launch)), name);
+            crate::testing::refused(name, [launch], Stroke::from_launch_speeds);
         }
     }
 }

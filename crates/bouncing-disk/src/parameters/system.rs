@@ -244,6 +244,7 @@ mod tests {
     use crate::parameters::disk::DiskParameters;
     use crate::parameters::platform::PlatformParameters;
     use crate::parameters::stroke::Stroke;
+    use crate::testing::refused;
 
     const PLATFORM: PlatformParameters =
         PlatformParameters { amplitude: 0.2, twist_amplitude: 1.1, angular_frequency: 15.0, phase_lag: 0.4 };
@@ -323,52 +324,48 @@ mod tests {
     #[test]
     fn illegal_parameters_are_refused_by_name() {
         let bad = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0];
-        for value in bad {
-            let platforms = [
-                ("amplitude", PlatformParameters { amplitude: value, ..PLATFORM }),
-                ("twist_amplitude", PlatformParameters { twist_amplitude: value, ..PLATFORM }),
-                ("angular_frequency", PlatformParameters { angular_frequency: value, ..PLATFORM }),
-            ];
-            for (name, parameters) in platforms {
-                assert!(matches!(parameters.build(), Err(Error::OutOfRange { field, .. }) if field == name));
+        let and = |more: f64| bad.into_iter().chain([more]);
+        let platform = |change: fn(&mut PlatformParameters, f64)| {
+            move |value| {
+                let mut platform = PLATFORM;
+                change(&mut platform, value);
+                platform.build()
             }
-            let disks = [
-                ("contact_radius", DiskParameters { contact_radius: value, ..DISK }),
-                ("gyration_radius", DiskParameters { gyration_radius: value, ..DISK }),
-                ("friction", DiskParameters { friction: value, ..DISK }),
-                ("restitution", DiskParameters { restitution: value, ..DISK }),
-                ("preload_acceleration", DiskParameters { preload_acceleration: value, ..DISK }),
-            ];
-            for (name, parameters) in disks {
-                assert!(matches!(parameters.build(), Err(Error::OutOfRange { field, .. }) if field == name));
+        };
+        refused("amplitude", bad, platform(|own, value| own.amplitude = value));
+        refused("twist_amplitude", bad, platform(|own, value| own.twist_amplitude = value));
+        refused("angular_frequency", and(0.0), platform(|own, value| own.angular_frequency = value));
+        refused("phase_lag", [f64::NAN], platform(|own, value| own.phase_lag = value));
+        let disk = |change: fn(&mut DiskParameters, f64)| {
+            move |value| {
+                let mut disk = DISK;
+                change(&mut disk, value);
+                disk.build()
             }
-        }
-        for parameters in [
-            DiskParameters { restitution: 1.0, ..DISK },
-            DiskParameters { contact_radius: 0.0, ..DISK },
-            DiskParameters { gyration_radius: 0.0, ..DISK },
-            DiskParameters { preload_acceleration: 0.0, ..DISK },
-        ] {
-            assert!(parameters.build().is_err());
-        }
-        // A moment of inertia that overflows: the load would vanish.
-        let huge = DiskParameters { gyration_radius: 1e10, ..DISK };
-        for (disk, torque, mass, name) in [
-            (DISK, 1.0, 0.0, "mass"),
-            (DISK, 1.0, -0.05, "mass"),
-            (DISK, 0.0, f64::INFINITY, "mass"),
-            (DISK, f64::NAN, 1.0, "torque"),
-            (DISK, 1.0, 5e-324, "moment of inertia"),
-            (huge, 1.0, 1e300, "moment of inertia"),
-            (DiskParameters { gyration_radius: -0.11, ..DISK }, 1.0, 1.0, "gyration_radius"),
-        ] {
-            let error = disk.with_load_torque(torque, mass).unwrap_err();
-            assert!(matches!(error, Error::OutOfRange { field, .. } if field == name), "{error}");
-        }
-        assert!(PlatformParameters { angular_frequency: 0.0, ..PLATFORM }.build().is_err());
-        assert!(PlatformParameters { phase_lag: f64::NAN, ..PLATFORM }.build().is_err());
-        let violent = PlatformParameters { amplitude: 1e9, ..PLATFORM }.build().unwrap();
-        assert!(matches!(System::new(violent, DISK.build().unwrap()), Err(Error::Core(_))));
+        };
+        refused("contact_radius", and(0.0), disk(|own, value| own.contact_radius = value));
+        refused("gyration_radius", and(0.0), disk(|own, value| own.gyration_radius = value));
+        refused("friction", bad, disk(|own, value| own.friction = value));
+        refused("restitution", and(1.0), disk(|own, value| own.restitution = value));
+        refused("preload_acceleration", and(0.0), disk(|own, value| own.preload_acceleration = value));
+        let turning = |radius: f64| DiskParameters { gyration_radius: radius, ..DISK };
+        let loaded = |(torque, mass): (f64, f64)| DISK.with_load_torque(torque, mass);
+        refused("mass", [(1.0, 0.0), (1.0, -0.05), (0.0, f64::INFINITY)], loaded);
+        refused("torque", [(f64::NAN, 1.0)], loaded);
+        refused("moment of inertia", [(1.0, 5e-324)], loaded);
+        // It overflows: the load would vanish.
+        refused("moment of inertia", [1e10], |radius| turning(radius).with_load_torque(1.0, 1e300));
+        refused("gyration_radius", [-0.11], |radius| turning(radius).with_load_torque(1.0, 1.0));
+        let moved = |platform: PlatformParameters| {
+            System::new(platform.build().expect("legal"), DISK.build().expect("legal"))
+        };
+        let violent = moved(PlatformParameters { amplitude: 1e9, ..PLATFORM });
+        assert!(matches!(violent, Err(Error::Core(_))));
+        // A period of more seconds than a double holds: a transient of such a motor never ended.
+        let fast = |angular_frequency| PlatformParameters { angular_frequency, ..PLATFORM };
+        refused("unit of time (s)", [fast(1e-310)], moved);
+        let still = PlatformParameters { amplitude: 0.0, twist_amplitude: 0.0, ..fast(1e155) };
+        refused("unit of length (m)", [fast(1e-160), still], moved);
     }
 
     /// Nothing moves, nothing rubs, nothing rebounds: all legal.
@@ -382,34 +379,15 @@ mod tests {
         assert!((torque - 0.02 / (0.4 * 0.11 * 0.11)).abs() < 1e-14);
     }
 
-    /// A period of more seconds than a double holds: a transient of such a motor never ended.
-    #[test]
-    fn units_that_no_double_holds_are_refused() {
-        for (platform, disk, name) in [
-            (PlatformParameters { angular_frequency: 1e-310, ..PLATFORM }, DISK, "unit of time (s)"),
-            (PlatformParameters { angular_frequency: 1e-160, ..PLATFORM }, DISK, "unit of length (m)"),
-            (
-                PlatformParameters {
-                    amplitude: 0.0,
-                    twist_amplitude: 0.0,
-                    angular_frequency: 1e155,
-                    ..PLATFORM
-                },
-                DISK,
-                "unit of length (m)",
-            ),
-        ] {
-            let error = System::new(platform.build().unwrap(), disk.build().unwrap()).unwrap_err();
-            assert!(matches!(error, Error::OutOfRange { field, .. } if field == name), "{error}");
-        }
-    }
-
     #[cfg(feature = "serde")]
     #[test]
-    fn misspelt_keys_are_refused() {
+    fn parameters_survive_json_and_illegal_json_and_misspelt_keys_are_refused() {
         let refused =
             |error: serde_json::Error, key: &str| assert!(error.to_string().contains(key), "{error}");
         let text = serde_json::to_string(&system()).unwrap();
+        assert_eq!(serde_json::from_str::<System>(&text).unwrap(), system());
+        let illegal = text.replace("\"restitution\":0.5", "\"restitution\":1.5");
+        refused(serde_json::from_str::<System>(&illegal).unwrap_err(), "restitution = 1.5");
         // With its quotes, so that no longer key is hit that contains it: what is left out has to be the load
         // alone, which has a default and was taken for none.
         let quoted = |key: &str| format!("\"{key}\"");
@@ -420,6 +398,7 @@ mod tests {
             refused(serde_json::from_str::<System>(&text).unwrap_err(), misspelt);
         }
         let text = serde_json::to_string(system().dimensionless()).unwrap();
+        assert_eq!(serde_json::from_str::<DimensionlessSystem>(&text).unwrap(), *system().dimensionless());
         refused(
             serde_json::from_str::<DimensionlessSystem>(&text.replace("load", "lode")).unwrap_err(),
             "lode",
@@ -428,21 +407,5 @@ mod tests {
         refused(serde_json::from_str::<Stroke>(stroke).unwrap_err(), "lag");
         let transition = r#"{"from":"Flight","event":"Impact","to":"Flight","via":"Sliding"}"#;
         refused(serde_json::from_str::<crate::motion::Transition>(transition).unwrap_err(), "via");
-    }
-
-    #[cfg(feature = "serde")]
-    #[test]
-    fn parameters_survive_json_and_illegal_json_is_refused() {
-        let text = serde_json::to_string(&system()).unwrap();
-        assert_eq!(serde_json::from_str::<System>(&text).unwrap(), system());
-        let error =
-            serde_json::from_str::<System>(&text.replace("\"restitution\":0.5", "\"restitution\":1.5"));
-        assert!(error.unwrap_err().to_string().contains("restitution = 1.5"));
-        let dimensionless = *system().dimensionless();
-        let text = serde_json::to_string(&dimensionless).unwrap();
-        assert_eq!(
-            serde_json::from_str::<crate::parameters::DimensionlessSystem>(&text).unwrap(),
-            dimensionless
-        );
     }
 }

@@ -399,13 +399,13 @@ impl Display for OrbitClass {
 mod tests {
     use bouncing_disk_core::Unobserved;
     use std::f64::consts::PI;
-    use std::ops::ControlFlow;
 
-    use bouncing_disk_core::{Phase, Progress, Vibration};
+    use bouncing_disk_core::{Phase, Vibration};
     use proptest::prelude::*;
 
     use super::*;
     use crate::parameters::dimensionless::ForcingParameters;
+    use crate::testing::{check_stops, refused};
     use crate::toss::collisions::CollisionState;
     use crate::toss::rotary_response::period_one_rotary_speed;
 
@@ -486,70 +486,39 @@ mod tests {
         let start = period_one(&system, 0.0);
         let settings =
             MultiTossSettings { transient_impacts: 10_000, examined_impacts: 20_000, ..Default::default() };
-        let stopped = |at: usize| {
-            let calls = std::sync::atomic::AtomicUsize::new(0);
-            let observer = |_: Progress| {
-                let early = calls.fetch_add(1, std::sync::atomic::Ordering::Relaxed) < at;
-                if early { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-            };
-            multi_toss(system, start, settings, &observer)
-        };
         let whole = multi_toss(system, start, settings, &Unobserved).unwrap();
         assert!(matches!(whole.class, OrbitClass::Chaotic { .. }));
-        for at in 0..100 {
-            match stopped(at) {
-                Ok(orbit) => {
-                    assert!(orbit == whole && at > 15, "{at}");
-                    return;
-                }
-                Err(error) => {
-                    let Error::Core(bouncing_disk_core::Error::Stopped { done, total: 30_000 }) = error
-                    else {
-                        panic!("{error}")
-                    };
-                    assert!(done <= 30_000, "{done}");
-                }
-            }
-        }
-        panic!("never done");
+        let (asked, _) = check_stops(30_000, |observer| multi_toss(system, start, settings, observer));
+        assert!(asked > 15, "{asked}");
     }
 
     #[test]
     fn bad_settings_and_states_are_refused() {
         let system = system(0.4, 1.0, 0.0);
         let start = period_one(&system, 0.0);
-        for settings in [
-            MultiTossSettings { examined_impacts: 1, ..Default::default() },
-            MultiTossSettings { longest_period: 0, ..Default::default() },
-            MultiTossSettings { tolerance: f64::NAN, ..Default::default() },
-        ] {
-            assert!(matches!(
-                multi_toss(system, start, settings, &Unobserved),
-                Err(Error::OutOfRange { .. })
-            ));
-        }
+        let d = MultiTossSettings::default();
+        let toss = |settings| multi_toss(system, start, settings, &Unobserved);
+        refused("examined_impacts", [1], |impacts| {
+            toss(MultiTossSettings { examined_impacts: impacts, ..d })
+        });
+        refused("longest_period", [0], |period| toss(MultiTossSettings { longest_period: period, ..d }));
+        refused("tolerance", [f64::NAN], |tolerance| toss(MultiTossSettings { tolerance, ..d }));
         for examined_impacts in [MAX_EXAMINED + 1, usize::MAX] {
-            let settings = MultiTossSettings { examined_impacts, ..Default::default() };
-            let error = multi_toss(system, start, settings, &Unobserved).unwrap_err();
-            assert!(error.to_string().contains(&examined_impacts.to_string()), "{error}");
+            refused(&*examined_impacts.to_string(), [()], |()| {
+                toss(MultiTossSettings { examined_impacts, ..d })
+            });
         }
         let endless = MultiTossSettings { longest_period: usize::MAX, ..Default::default() };
         assert_eq!(
             multi_toss(system, start, endless, &Unobserved),
             multi_toss(system, start, Default::default(), &Unobserved)
         );
-        let state = CollisionState {
-            phase: Phase::new(0.0).unwrap(),
-            axial_impact_velocity: 1.0,
-            tangential_impact_velocity: 0.0,
+        let rebound = |(axial_impact_velocity, tangential_impact_velocity)| {
+            let phase = Phase::new(0.0).expect("finite");
+            CollisionState { phase, axial_impact_velocity, tangential_impact_velocity }.rebound(&system)
         };
-        assert!(state.rebound(&system).is_err());
-        let state = CollisionState {
-            axial_impact_velocity: -1.0,
-            tangential_impact_velocity: f64::INFINITY,
-            ..state
-        };
-        assert!(state.rebound(&system).is_err());
+        refused("axial_impact_velocity", [(1.0, 0.0)], rebound);
+        refused("tangential_impact_velocity", [(-1.0, f64::INFINITY)], rebound);
     }
 
     proptest! {

@@ -1,7 +1,7 @@
 //! Friction from synthetic braking curves, made of known parameters and seeded noise.
 
 use super::*;
-use crate::testing::Noise;
+use crate::testing::{Noise, refused};
 
 const ROTOR: BrakingRotor =
     BrakingRotor { normal_force: 0.5, mass: 0.05, contact_radius: 0.002, gyration_radius: 0.01 };
@@ -171,56 +171,43 @@ fn braking_curves_of_any_size_are_fitted() {
 }
 
 #[test]
-fn what_is_illegal_of_a_curve_or_a_rotor_is_named() {
+fn what_is_illegal_of_a_curve_or_a_rotor_is_refused() {
     let times = times(100, 0.01);
     let speeds: Vec<f64> = times.iter().map(|&time| braking(time)).collect();
-    let field =
-        |times: &[f64], speeds: &[f64], rotor: &BrakingRotor| match BrakingFit::new(times, speeds, rotor) {
-            Err(FitError::Model(Error::OutOfRange { field, .. })) => field,
-            other => panic!("{other:?}"),
-        };
-    for (rotor, name) in [
-        (BrakingRotor { normal_force: 0.0, ..ROTOR }, "normal_force"),
-        (BrakingRotor { mass: -1.0, ..ROTOR }, "mass"),
-        (BrakingRotor { contact_radius: f64::NAN, ..ROTOR }, "contact_radius"),
-        (BrakingRotor { gyration_radius: f64::INFINITY, ..ROTOR }, "gyration_radius"),
-        (BrakingRotor { gyration_radius: 1e-170, ..ROTOR }, "moment of inertia"),
+    let of_rotor = |rotor| BrakingFit::new(&times, &speeds, &rotor);
+    let slowed = |rotor: BrakingRotor| rotor.friction(-20.0);
+    // A square that vanishes, and with it the friction did.
+    let tiny = BrakingRotor { gyration_radius: 1e-170, ..ROTOR };
+    for (name, rotor) in [
+        ("normal_force", BrakingRotor { normal_force: 0.0, ..ROTOR }),
+        ("mass", BrakingRotor { mass: -1.0, ..ROTOR }),
+        ("contact_radius", BrakingRotor { contact_radius: f64::NAN, ..ROTOR }),
+        ("contact_radius", BrakingRotor { contact_radius: 0.0, ..ROTOR }),
+        ("gyration_radius", BrakingRotor { gyration_radius: f64::INFINITY, ..ROTOR }),
+        ("moment of inertia", tiny),
     ] {
-        assert_eq!(field(&times, &speeds, &rotor), name);
+        refused(name, [rotor], of_rotor);
+        refused(name, [rotor], slowed);
     }
-    assert_eq!(field(&[], &[], &ROTOR), "number of points of the speed curve");
-    assert_eq!(field(&times, &speeds[..99], &ROTOR), "number of speeds");
-    let mut bad = speeds.clone();
-    bad[50] = f64::NAN;
-    assert_eq!(field(&times, &bad, &ROTOR), "speed");
-    let mut bad = times.clone();
-    bad[50] = bad[49];
-    assert_eq!(field(&bad, &speeds, &ROTOR), "times of the speed curve");
+    let product = "contact radius times normal force";
+    refused(product, [BrakingRotor { contact_radius: 1e-320, ..ROTOR }], slowed);
+    // It overflows, and the friction vanished.
+    refused(product, [BrakingRotor { contact_radius: 1e160, normal_force: 1e160, ..ROTOR }], slowed);
+    refused("angular_acceleration", [20.0, f64::NAN], |acceleration| ROTOR.friction(acceleration));
+    let of_curve = |(times, speeds): (&[f64], &[f64])| BrakingFit::new(times, speeds, &ROTOR);
+    refused("number of points of the speed curve", [(&[][..], &[][..])], of_curve);
+    refused("number of speeds", [(&times[..], &speeds[..99])], of_curve);
+    let with = |values: &[f64], value: f64| {
+        let mut values = values.to_vec();
+        values[50] = value;
+        values
+    };
+    refused("speed", [(&times[..], &with(&speeds, f64::NAN)[..])], of_curve);
+    refused("times of the speed curve", [(&with(&times, times[49])[..], &speeds[..])], of_curve);
 }
 
 #[test]
-fn eq_17_on_round_numbers_and_on_illegal_ones() {
-    // m a_g^2 = 5e-6 kg m^2, times 20 rad/s^2 is a torque of 1e-4 N m; a_e N = 1e-3 N m.
-    let rotor = BrakingRotor { normal_force: 0.5, mass: 0.05, contact_radius: 0.002, gyration_radius: 0.01 };
-    assert!((rotor.friction(-20.0).expect("legal") - 0.1).abs() < 1e-15);
-    assert!(rotor.friction(0.0).expect("legal").abs() <= 0.0);
-    for (rotor, acceleration, name) in [
-        (rotor, 20.0, "angular_acceleration"),
-        (rotor, f64::NAN, "angular_acceleration"),
-        (BrakingRotor { normal_force: 0.0, ..rotor }, -20.0, "normal_force"),
-        (BrakingRotor { mass: -1.0, ..rotor }, -20.0, "mass"),
-        (BrakingRotor { contact_radius: 0.0, ..rotor }, -20.0, "contact_radius"),
-        (BrakingRotor { gyration_radius: f64::INFINITY, ..rotor }, -20.0, "gyration_radius"),
-        (BrakingRotor { contact_radius: 1e-320, ..rotor }, -20.0, "contact radius times normal force"),
-        // Their product overflows, and the friction vanished.
-        (
-            BrakingRotor { contact_radius: 1e160, normal_force: 1e160, ..rotor },
-            -20.0,
-            "contact radius times normal force",
-        ),
-        // Its square vanishes, and with it the friction did.
-        (BrakingRotor { gyration_radius: 1e-170, ..rotor }, -20.0, "moment of inertia"),
-    ] {
-        assert_eq!(crate::testing::refused_field(rotor.friction(acceleration)), name);
-    }
+fn eq_17_on_round_numbers() {
+    assert!((ROTOR.friction(-DECELERATION).expect("legal") - FRICTION).abs() < 1e-15);
+    assert!(ROTOR.friction(0.0).expect("legal").abs() <= 0.0);
 }

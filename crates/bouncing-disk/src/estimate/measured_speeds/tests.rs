@@ -1,6 +1,6 @@
 use super::*;
 use crate::estimate::refusal::FitRefusal;
-use crate::testing::Noise;
+use crate::testing::{Noise, check_stops, refused};
 use bouncing_disk_core::Unobserved;
 
 fn run(member: u32, noise: &mut Noise) -> MeasuredRun {
@@ -12,13 +12,6 @@ fn run(member: u32, noise: &mut Noise) -> MeasuredRun {
         })
         .collect();
     MeasuredRun { member, times, speeds }
-}
-
-fn field<T: std::fmt::Debug>(result: Result<T, Error>) -> &'static str {
-    match result {
-        Err(Error::OutOfRange { field, .. }) => field,
-        other => panic!("{other:?}"),
-    }
 }
 
 #[test]
@@ -69,28 +62,12 @@ fn repeats_with_times_and_lengths_of_their_own_are_fitted_together() {
 /// An observer is heard of one run and of several, and changes no bit.
 #[test]
 fn a_fit_can_be_watched_and_stopped() {
-    use std::ops::ControlFlow;
-    use std::sync::atomic::{AtomicU64, Ordering};
-
-    use bouncing_disk_core::Progress;
-
     let mut noise = Noise::new(6);
     let runs: Vec<MeasuredRun> = (1..=6).map(|member| run(member, &mut noise)).collect();
     let settings = FitSettings::default();
     for count in [1, 6] {
         let measured = MeasuredSpeeds::new(runs[..count].to_vec()).expect("legal");
-        let calls = AtomicU64::new(0);
-        let counted = |_: Progress| {
-            calls.fetch_add(1, Ordering::Relaxed);
-            ControlFlow::Continue(())
-        };
-        assert_eq!(measured.fit(&settings, &counted), measured.fit(&settings, &Unobserved));
-        assert!(calls.into_inner() >= 2);
-        let stopped = measured.fit(&settings, &|_: Progress| ControlFlow::Break(()));
-        assert!(matches!(
-            stopped,
-            Err(FitError::Model(Error::Core(bouncing_disk_core::Error::Stopped { done: 0, .. })))
-        ));
+        check_stops(2 * settings.resamples as u64, |observer| measured.fit(&settings, observer));
     }
 }
 
@@ -112,15 +89,15 @@ fn each_run_brakes_by_its_own_friction() {
 #[test]
 fn runs_that_cannot_be_fitted_do_not_exist() {
     let legal = run(3, &mut Noise::new(1));
-    assert_eq!(field(MeasuredSpeeds::new(Vec::new())), "runs");
-    assert_eq!(field(MeasuredSpeeds::new(vec![legal.clone(), legal.clone()])), "member");
-    let spoilt = |change: &dyn Fn(&mut MeasuredRun)| {
+    refused("runs", [Vec::new()], MeasuredSpeeds::new);
+    refused("member", [vec![legal.clone(), legal.clone()]], MeasuredSpeeds::new);
+    let spoilt = |change: fn(&mut MeasuredRun)| {
         let mut run = legal.clone();
         change(&mut run);
-        field(MeasuredSpeeds::new(vec![run]))
+        MeasuredSpeeds::new(vec![run])
     };
-    assert_eq!(spoilt(&|run| run.times.clear()), "number of points of the speed curve");
-    assert_eq!(spoilt(&|run| run.speeds.truncate(5)), "number of speeds");
-    assert_eq!(spoilt(&|run| run.speeds[9] = f64::NAN), "speed");
-    assert_eq!(spoilt(&|run| run.times[9] = run.times[8]), "times of the speed curve");
+    refused("number of points of the speed curve", [()], |()| spoilt(|run| run.times.clear()));
+    refused("number of speeds", [()], |()| spoilt(|run| run.speeds.truncate(5)));
+    refused("speed", [()], |()| spoilt(|run| run.speeds[9] = f64::NAN));
+    refused("times of the speed curve", [()], |()| spoilt(|run| run.times[9] = run.times[8]));
 }

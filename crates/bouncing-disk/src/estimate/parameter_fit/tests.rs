@@ -1,10 +1,9 @@
 use std::f64::consts::{PI, TAU};
-use std::ops::ControlFlow;
 
 use bouncing_disk_core::numerics::elementary::exp;
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::sweep::InstructionSet;
-use bouncing_disk_core::{Phase, Progress, Unobserved};
+use bouncing_disk_core::{Phase, Unobserved};
 
 use super::measured_transient::RunPreload;
 use super::*;
@@ -14,7 +13,7 @@ use crate::motor::batch::shared_orbit::transients::shared_transients;
 use crate::motor::data_sheet::traps::low_period_traps;
 use crate::motor::rotor::transient::{TransientSettings, transient};
 use crate::parameters::contact::Contact;
-use crate::testing::Noise;
+use crate::testing::{Noise, check_stops, refused};
 
 const FRICTION: FitRange = FitRange { parameter: FitParameter::Friction, low: 0.05, high: 1.0 };
 const TWIST: FitRange = FitRange { parameter: FitParameter::TwistAmplitude, low: 2e-5, high: 2e-4 };
@@ -260,78 +259,55 @@ fn input_that_means_nothing_is_refused_by_name() {
     let times: Vec<f64> = (1..=20).map(|i| 0.01 * f64::from(i)).collect();
     let speeds: Vec<f64> = times.iter().map(|time| 10.0 * time).collect();
     let good = measured(9.8, times.clone(), speeds.clone(), None);
-    let refusal = |transient: MeasuredTransient, range: FitRange| {
-        let error =
-            ParameterFit::new(&sheet, &[transient], &[range], &settings(), &Unobserved).expect_err("illegal");
-        error.to_string()
-    };
-    let still = measured(9.8, times.clone(), vec![0.0; 20], None);
-    assert!(refusal(still, FRICTION).contains("does not change"));
-    let few = measured(9.8, times[..7].to_vec(), speeds[..7].to_vec(), None);
-    assert!(refusal(few, FRICTION).contains("7 points"));
+    let fit_of = |transient| fit(&[transient], &[FRICTION]);
+    refused("does not change", [measured(9.8, times.clone(), vec![0.0; 20], None)], fit_of);
+    refused("7 points", [measured(9.8, times[..7].to_vec(), speeds[..7].to_vec(), None)], fit_of);
     // That the times rise is checked where runs are made.
     let unsorted = MeasuredRun { member: 0, times: vec![0.1, 0.3, 0.2], speeds: vec![1.0; 3] };
-    assert!(MeasuredSpeeds::new(vec![unsorted]).is_err());
+    refused("times of the speed curve", [vec![unsorted]], MeasuredSpeeds::new);
     // 2000 m/s^2 hold the rotor on the stator.
-    assert!(refusal(measured(2e3, times.clone(), speeds.clone(), None), FRICTION).contains("never leaves"));
-    for preload in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(
-            refusal(measured(preload, times.clone(), speeds.clone(), None), FRICTION).contains("preload")
-        );
-        let by_force = MeasuredTransient { preload: RunPreload::Force(preload), ..good.clone() };
-        assert!(refusal(by_force, FRICTION).contains("preload"));
-    }
-    for error in [-1.0, f64::NAN, f64::INFINITY, 1e200] {
-        let text = refusal(measured(9.8, times.clone(), speeds.clone(), Some(error)), FRICTION);
-        assert!(text.contains("speed_error"), "{text}");
-    }
-    let huge = measured(9.8, times.clone(), speeds.iter().map(|speed| 1e200 * speed * speed).collect(), None);
-    assert!(refusal(huge, FRICTION).contains("measured speed"));
-    for (low, high) in [
-        (0.0, 1.0),
-        (-1.0, 1.0),
-        (0.5, 1.0),
-        (0.01, 0.05),
-        (0.1, 0.1),
-        (1.0, 0.05),
-        (f64::NAN, 1.0),
-        (0.05, f64::INFINITY),
-    ] {
-        refusal(good.clone(), FitRange { low, high, ..FRICTION });
-    }
-    for range in [
-        FitRange { high: 1.0, ..RESTITUTION },
-        FitRange { low: -0.1, ..RESTITUTION },
-        FitRange { low: -PI, high: 1.1 * PI, ..LAG },
-        contact_range(0.0, 1.0),
-        contact_range(0.1, 1e9),
-    ] {
-        refusal(good.clone(), range);
+    refused("never leaves", [measured(2e3, times.clone(), speeds.clone(), None)], fit_of);
+    let bad = [0.0, -1.0, f64::NAN, f64::INFINITY];
+    refused("preload", bad, |preload| fit_of(measured(preload, times.clone(), speeds.clone(), None)));
+    refused("preload", bad, |preload| {
+        fit_of(MeasuredTransient { preload: RunPreload::Force(preload), ..good.clone() })
+    });
+    refused("speed_error", [-1.0, f64::NAN, f64::INFINITY, 1e200], |error| {
+        fit_of(measured(9.8, times.clone(), speeds.clone(), Some(error)))
+    });
+    let huge = speeds.iter().map(|speed| 1e200 * speed * speed).collect();
+    refused("square of a measured speed", [measured(9.8, times.clone(), huge, None)], fit_of);
+    let over = |range| fit(std::slice::from_ref(&good), &[range]);
+    let from_to = |(low, high)| over(FitRange { low, high, ..FRICTION });
+    refused("friction", [(0.0, 1.0), (-1.0, 1.0), (0.5, 1.0), (0.01, 0.05)], from_to);
+    refused("friction", [(f64::NAN, 1.0), (0.05, f64::INFINITY)], from_to);
+    refused("upper end of a range", [(0.1, 0.1), (1.0, 0.05)], from_to);
+    let restitutions = [FitRange { high: 1.0, ..RESTITUTION }, FitRange { low: -0.1, ..RESTITUTION }];
+    refused("restitution", restitutions, over);
+    let around = FitRange { low: -PI, high: 1.1 * PI, ..LAG };
+    refused("width of the range of the phase lag", [around], over);
+    for (low, high) in [(0.0, 1.0), (0.1, 1e9)] {
+        over(contact_range(low, high)).expect_err("refused");
     }
     let transients = [good];
-    assert!(ParameterFit::new(&sheet, &transients, &[], &settings(), &Unobserved).is_err());
-    assert!(ParameterFit::new(&sheet, &transients, &[FRICTION, FRICTION], &settings(), &Unobserved).is_err());
-    assert!(ParameterFit::new(&sheet, &[], &[FRICTION], &settings(), &Unobserved).is_err());
+    refused("number of fitted parameters", [[]], |ranges: [FitRange; 0]| fit(&transients, &ranges));
+    refused("friction", [[FRICTION, FRICTION]], |ranges| fit(&transients, &ranges));
+    refused("number of transients", [()], |()| fit(&[], &[FRICTION]));
     // Legal with rigid impacts only.
     let inelastic = [contact_range(0.5, 1.0), FitRange { low: 0.0, ..RESTITUTION }];
-    let error = fit(&transients, &inelastic).expect_err("illegal");
-    assert!(error.to_string().contains("restitution of a contact that takes time = 0"), "{error}");
-    let default = ParameterFitSettings::default();
-    for settings in [
-        ParameterFitSettings { members: 23, ..default },
-        ParameterFitSettings { windows: 0, ..default },
-        ParameterFitSettings { windows: 13, ..default },
-        ParameterFitSettings { relaunch_perturbation: 0.0, ..default },
-        ParameterFitSettings { relaunch_perturbation: f64::NAN, ..default },
-        ParameterFitSettings { most_evaluations: 0, ..default },
-        ParameterFitSettings { resamples: 199, ..default },
-        ParameterFitSettings { largest_misfit: 0.5, ..default },
-        ParameterFitSettings { largest_misfit: f64::INFINITY, ..default },
-    ] {
-        let error =
-            ParameterFit::new(&sheet, &transients, &[FRICTION], &settings, &Unobserved).expect_err("illegal");
-        assert!(matches!(error, FitError::Model(Error::OutOfRange { .. })), "{error}");
-    }
+    refused("restitution of a contact that takes time = 0", [inelastic], |ranges| fit(&transients, &ranges));
+    let d = ParameterFitSettings::default();
+    let with = |settings| ParameterFit::new(&sheet, &transients, &[FRICTION], &settings, &Unobserved);
+    refused("members", [23], |members| with(ParameterFitSettings { members, ..d }));
+    refused("windows", [0, 13], |windows| with(ParameterFitSettings { windows, ..d }));
+    refused("relaunch_perturbation", [0.0, f64::NAN], |relaunch_perturbation| {
+        with(ParameterFitSettings { relaunch_perturbation, ..d })
+    });
+    refused("most_evaluations", [0], |most| with(ParameterFitSettings { most_evaluations: most, ..d }));
+    refused("resamples", [199], |resamples| with(ParameterFitSettings { resamples, ..d }));
+    refused("largest_misfit", [0.5, f64::INFINITY], |largest_misfit| {
+        with(ParameterFitSettings { largest_misfit, ..d })
+    });
 }
 
 #[test]
@@ -363,25 +339,11 @@ fn a_fit_that_describes_nothing_is_refused_with_its_numbers() {
 #[test]
 fn a_fit_can_be_watched_and_stopped_and_has_one_result() {
     let run = [synthetic(&built(), 9.8, 0.2, 0.2, 8)];
-    let stop = |progress: Progress| {
-        if progress.done < 3 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-    };
-    let sheet = Motor::paper_70_khz();
-    let stopped = ParameterFit::new(&sheet, &run, &[FRICTION], &settings(), &stop);
-    assert!(
-        matches!(
-            stopped,
-            Err(FitError::Model(Error::Core(bouncing_disk_core::Error::Stopped { done: 3, .. })))
-        ),
-        "{stopped:?}"
-    );
-    let whole = fit(&run, &[FRICTION, AMPLITUDE]);
-    #[cfg(feature = "parallel")]
-    {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(3).build().expect("threads");
-        assert_eq!(pool.install(|| fit(&run, &[FRICTION, AMPLITUDE])), whole);
-    }
-    assert_eq!(fit(&run, &[FRICTION, AMPLITUDE]), whole);
+    let (sheet, settings) = (Motor::paper_70_khz(), ParameterFitSettings { members: 24, ..settings() });
+    let items = settings.most_evaluations as u64;
+    check_stops(items, |observer| {
+        ParameterFit::new(&sheet, &run, &[FRICTION, AMPLITUDE], &settings, observer)
+    });
 }
 
 /// For an even number of degrees the tail of chi-squared is a finite sum, that of a Poisson distribution.

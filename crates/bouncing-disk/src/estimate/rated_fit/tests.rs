@@ -5,7 +5,7 @@ use super::point::RatedCondition;
 use super::surface::THRESHOLD;
 use super::*;
 use crate::motor::data_sheet::motor_field::MotorField;
-use crate::testing::{Noise, golden_spread, in_volts, refused_field};
+use crate::testing::{Noise, golden_spread, in_volts, refused};
 
 const FRICTION: FitRange = FitRange { parameter: FitParameter::Friction, low: 0.03, high: 0.4 };
 const TWIST: FitRange = FitRange { parameter: FitParameter::TwistAmplitude, low: 2e-5, high: 2e-4 };
@@ -148,17 +148,18 @@ fn illegal_points_are_refused_by_name() {
         let settings = settings(1);
         Model::new(motor, points, ranges, &settings).map(|_| ())
     };
-    let refused = |points: &[RatedPoint], ranges: &[FitRange]| refused_field(model(&motor, points, ranges));
-    assert_eq!(model(&motor, std::slice::from_ref(&good), &[FRICTION]), Ok(()));
-    assert_eq!(refused(&[RatedPoint { speed_error: -0.1, ..good.clone() }], &[FRICTION]), "speed_error");
-    assert_eq!(refused(&[RatedPoint { speed: f64::NAN, ..good.clone() }], &[FRICTION]), "speed");
-    assert_eq!(refused(&[under(1e-6, -1e-8, 0.3)], &[FRICTION]), "error of a condition");
-    assert_eq!(refused(&[good.clone(), good.clone()], &[FRICTION]), "points under the same conditions");
-    assert_eq!(refused(&[], &[FRICTION]), "number of points");
-    assert_eq!(refused(std::slice::from_ref(&good), &[]), "number of fitted parameters");
-    assert_eq!(refused(std::slice::from_ref(&good), &[MASS]), "stator.mass");
-    let volts_alone = model(&motor, &[good.clone().at(MotorField::StatorVolts, 5.0)], &[FRICTION]);
-    assert_eq!(volts_alone, Err(Error::NotGiven { field: "stator.mass" }));
+    let friction = |points: &[RatedPoint]| model(&motor, points, &[FRICTION]);
+    assert_eq!(friction(std::slice::from_ref(&good)), Ok(()));
+    refused("speed_error", [[RatedPoint { speed_error: -0.1, ..good.clone() }]], |own| friction(&own));
+    refused("speed", [[RatedPoint { speed: f64::NAN, ..good.clone() }]], |own| friction(&own));
+    refused("error of a condition", [[under(1e-6, -1e-8, 0.3)]], |own| friction(&own));
+    refused("points under the same conditions", [[good.clone(), good.clone()]], |own| friction(&own));
+    refused("number of points", [()], |()| friction(&[]));
+    let fitted = |ranges: &[FitRange]| model(&motor, std::slice::from_ref(&good), ranges);
+    refused("number of fitted parameters", [()], |()| fitted(&[]));
+    refused("stator.mass", [[MASS]], |ranges| fitted(&ranges));
+    let missing = Error::NotGiven { field: "stator.mass" };
+    refused(missing, [[good.clone().at(MotorField::StatorVolts, 5.0)]], |own| friction(&own));
     let both = |point: RatedPoint, ranges: &[FitRange]| {
         matches!(model(&volts, &[point], ranges), Err(Error::BothGiven { .. }))
     };

@@ -1,11 +1,9 @@
 //! Fits of synthetic curves, made of known parameters and seeded noise.
 
-use std::ops::ControlFlow;
-
 use super::*;
 use crate::error::Error;
 use crate::estimate::fit::RampFit;
-use crate::testing::Noise;
+use crate::testing::{Noise, check_stops, refused};
 
 const STEADY: f64 = 20.0;
 const CONSTANT: f64 = 0.6;
@@ -471,78 +469,47 @@ fn a_fit_can_be_stopped_and_its_observer_changes_nothing() {
     let times = times(120, 4.0);
     let runs = ensemble(&times, 16, 3);
     let runs: Vec<_> = runs.iter().map(|run| (times.as_slice(), run.as_slice())).collect();
-    let settings = FitSettings { resamples: 20_000, ..FitSettings::default() };
-    let calls = std::sync::atomic::AtomicU64::new(0);
-    let count = |progress: bouncing_disk_core::Progress| {
-        assert_eq!(progress.total, 40_000);
-        calls.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
-        ControlFlow::Continue(())
-    };
-    let watched = TransientFit::of_measured(&runs, &settings, &count);
-    assert_eq!(watched, TransientFit::of_measured(&runs, &settings, &Unobserved));
-    let asked = calls.into_inner();
-    assert!(asked > 40, "{asked}");
-    for stop_at in [1, 2, asked / 2] {
-        let calls = std::sync::atomic::AtomicU64::new(0);
-        let observer = |_: bouncing_disk_core::Progress| {
-            let go_on = calls.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1 < stop_at;
-            if go_on { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-        };
-        for runs in [&runs[..], &runs[..1]] {
-            let stopped = TransientFit::of_measured(runs, &settings, &observer).expect_err("stopped");
-            assert!(
-                matches!(stopped, FitError::Model(Error::Core(bouncing_disk_core::Error::Stopped { .. }))),
-                "{stopped}"
-            );
-        }
-    }
+    let settings = FitSettings { resamples: 4_000, ..FitSettings::default() };
+    let (asked, _) = check_stops(8_000, |observer| TransientFit::of_measured(&runs, &settings, observer));
+    assert!(asked > 8, "{asked}");
 }
 
 #[test]
 fn illegal_curves_and_settings_are_named() {
     let times = times(100, 4.0);
     let runs = ensemble(&times, 6, 1);
-    let field = |result: Result<TransientFit, FitError>| match result {
-        Err(FitError::Model(Error::OutOfRange { field, .. })) => field,
-        other => panic!("{other:?}"),
-    };
     let d = FitSettings::default();
-    for (settings, name) in [
-        (FitSettings { resamples: 0, ..d }, "resamples"),
-        (FitSettings { resamples: 199, ..d }, "resamples"),
-        (FitSettings { resamples: 100_001, ..d }, "resamples"),
-        (FitSettings { least_duration: 0.99, ..d }, "least_duration"),
-        (FitSettings { least_duration: f64::NAN, ..d }, "least_duration"),
-        (FitSettings { least_duration: f64::INFINITY, ..d }, "least_duration"),
-        (FitSettings { largest_residual: 0.0, ..d }, "largest_residual"),
-        (FitSettings { largest_residual: -1.0, ..d }, "largest_residual"),
-        (FitSettings { largest_residual: f64::NAN, ..d }, "largest_residual"),
-    ] {
-        assert_eq!(field(fit_runs(&times, &runs, &settings)), name);
-        assert_eq!(field(fit_one(&times, &runs[0], &settings)), name);
-    }
+    let both = |told: &str, settings: &[FitSettings]| {
+        refused(told, settings, |settings| fit_runs(&times, &runs, settings));
+        refused(told, settings, |settings| fit_one(&times, &runs[0], settings));
+    };
+    both("resamples", &[0, 199, 100_001].map(|resamples| FitSettings { resamples, ..d }));
+    let durations = [0.99, f64::NAN, f64::INFINITY];
+    both("least_duration", &durations.map(|least_duration| FitSettings { least_duration, ..d }));
+    let residuals = [0.0, -1.0, f64::NAN];
+    both("largest_residual", &residuals.map(|largest_residual| FitSettings { largest_residual, ..d }));
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let mut runs = runs.clone();
         runs[5][99] = bad;
-        assert_eq!(field(fit_runs(&times, &runs, &d)), "speed");
-        assert_eq!(field(fit_one(&times, &runs[5], &d)), "speed");
+        refused("speed", [()], |()| fit_runs(&times, &runs, &d));
+        refused("speed", [()], |()| fit_one(&times, &runs[5], &d));
         let mut times = times.clone();
         times[99] = bad;
-        assert_eq!(field(fit_runs(&times, &runs[..5], &d)), "times of the speed curve");
+        refused("times of the speed curve", [()], |()| fit_runs(&times, &runs[..5], &d));
     }
-    assert_eq!(field(fit_runs(&times[..99], &runs, &d)), "number of speeds");
-    assert_eq!(field(fit_one(&[], &[], &d)), "number of points of the speed curve");
+    refused("number of speeds", [&times[..99]], |times| fit_runs(times, &runs, &d));
+    refused("number of points of the speed curve", [()], |()| fit_one(&[], &[], &d));
     for members in [0, 2, LEAST_MEMBERS - 1] {
-        let reason = refusal(fit_runs(&times, &runs[..members], &d));
-        assert_eq!(reason, FitRefusal::TooFewMembers { members, least: 5 });
+        let reason = FitRefusal::TooFewMembers { members, least: 5 };
+        refused(reason, [()], |()| fit_runs(&times, &runs[..members], &d));
     }
-    assert!(matches!(refusal(TransientFit::new(&[], &d)), FitRefusal::TooFewMembers { members: 0, .. }));
+    refused(FitRefusal::TooFewMembers { members: 0, least: 5 }, [()], |()| TransientFit::new(&[], &d));
     let curve = SpeedCurve { times: times.clone(), speeds: runs[0].clone(), impacts: 0, separations: 0 };
     let mut members = vec![curve; 5];
     members[3].times[7] *= 1.0 + f64::EPSILON;
-    assert_eq!(field(TransientFit::new(&members, &d)), "time of a member (s)");
+    refused("time of a member (s)", [&members[..]], |members| TransientFit::new(members, &d));
     members[3].times.pop();
-    assert_eq!(field(TransientFit::new(&members, &d)), "number of times");
+    refused("number of times", [&members[..]], |members| TransientFit::new(members, &d));
 }
 
 #[test]

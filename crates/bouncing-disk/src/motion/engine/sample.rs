@@ -106,7 +106,7 @@ mod tests {
     use crate::motion::initial_condition::InitialCondition;
     use crate::motion::trajectory::Trajectory;
     use crate::parameters::system::System;
-    use crate::testing;
+    use crate::testing::{self, refused};
     use crate::toss::single::TOSS_START;
 
     const fn periods(periods: u64) -> PhaseSpan {
@@ -146,21 +146,15 @@ mod tests {
 
     #[test]
     fn what_is_too_much_is_refused_and_what_is_long_can_be_stopped() {
-        let sample = |span, count| toss().sample(span, count, &Unobserved);
-        let field = |result| match result {
-            Err(Error::OutOfRange { field, .. }) => field,
-            other => panic!("{other:?}"),
-        };
-        assert_eq!(field(sample(periods(1), 0)), "instants of a motion");
-        assert_eq!(field(sample(periods(1), 1)), "instants of a motion");
-        assert_eq!(field(sample(periods(MAX_SAMPLED_PERIODS + 1), 2)), "periods");
-        assert_eq!(field(sample(PhaseSpan::LONGEST, 2)), "periods");
+        let sample = |(span, count)| toss().sample(span, count, &Unobserved);
+        refused("instants of a motion", [(periods(1), 0), (periods(1), 1)], sample);
+        refused("periods", [(periods(MAX_SAMPLED_PERIODS + 1), 2), (PhaseSpan::LONGEST, 2)], sample);
         let too_large = bouncing_disk_core::Error::TooLarge {
             what: "instants of a motion",
             count: MAX_SAMPLES as u64 + 1,
             limit: MAX_SAMPLES as u64,
         };
-        assert_eq!(sample(periods(1), MAX_SAMPLES + 1), Err(too_large.into()));
+        refused(Error::from(too_large), [(periods(1), MAX_SAMPLES + 1)], sample);
         let soon = |progress: Progress| {
             if progress.done > 1_000 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };

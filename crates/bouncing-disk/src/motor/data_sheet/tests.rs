@@ -5,7 +5,7 @@ use std::mem::discriminant;
 
 use bouncing_disk_core::chaos::lyapunov_exponents;
 use bouncing_disk_core::numerics::elementary::exp;
-use bouncing_disk_core::{ImpactMap, ImpactState, Launch, Progress, Unobserved, Vibration};
+use bouncing_disk_core::{ImpactMap, ImpactState, Launch, Unobserved, Vibration};
 use proptest::prelude::*;
 
 use super::*;
@@ -16,6 +16,7 @@ use crate::motor::data_sheet::regime::{MotorRegime, regime};
 use crate::motor::data_sheet::warning::MotorWarning;
 use crate::motor::rotor::transient::TransientSettings;
 use crate::parameters::dimensionless::{DimensionlessParameters, ForcingParameters};
+use crate::testing::check_stops;
 
 /// A motor with many traps: 40 kHz, 0.5 um, 20 g, 5 N, 12 rad/s, 30 degrees.
 fn designers() -> MotorParameters {
@@ -416,9 +417,7 @@ fn reports_tell_what_there_is() {
 #[test]
 fn a_report_can_be_stopped() {
     let motor = designers().build().expect("legal");
-    let stop = |_: Progress| std::ops::ControlFlow::Break(());
-    let stopped = motor.report(&stop);
-    assert!(matches!(stopped, Err(Error::Core(bouncing_disk_core::Error::Stopped { .. }))), "{stopped:?}");
+    check_stops(None, |observer| motor.report(observer));
 }
 
 /// The same report each time: it has no state, and its perturbations a fixed seed. It does not see the

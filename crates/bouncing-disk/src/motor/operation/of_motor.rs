@@ -166,6 +166,7 @@ pub fn operations(
 mod tests {
     use super::*;
     use crate::motor::OperatingPoint;
+    use crate::testing::refused;
 
     #[test]
     fn a_curve_is_that_of_its_loads_and_a_map_that_of_its_motors() {
@@ -197,13 +198,10 @@ mod tests {
     #[test]
     fn loads_that_are_none_are_refused_by_name() {
         let (motor, settings) = (Motor::paper_70_khz(), OperatingSettings::default());
-        for load in [f64::NAN, f64::INFINITY] {
-            assert_eq!(
-                crate::testing::refused_field(motor.operating_point(load, &settings, &Unobserved)),
-                "load_torque"
-            );
-        }
-        assert!(motor.torque_speed_curve(&[], &settings, &Unobserved).is_err());
-        assert!(operations(&[], &settings, &Unobserved).is_err());
+        refused("load_torque", [f64::NAN, f64::INFINITY], |load| {
+            motor.operating_point(load, &settings, &Unobserved)
+        });
+        refused("number of loads", [()], |()| motor.torque_speed_curve(&[], &settings, &Unobserved));
+        refused("number of motors", [()], |()| operations(&[], &settings, &Unobserved));
     }
 }

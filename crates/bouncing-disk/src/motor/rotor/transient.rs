@@ -402,7 +402,7 @@ mod tests {
     use bouncing_disk_core::Unobserved;
 
     use super::*;
-    use crate::testing;
+    use crate::testing::{self, refused};
 
     /// A curve is off by at most a period of its platform where the sign is wrong, which nothing else sees.
     #[test]
@@ -478,11 +478,6 @@ mod tests {
         assert!((bins.finished()[9] - 0.5).abs() < 1e-13, "what lies beyond the end is dropped");
     }
 
-    fn refused<T: std::fmt::Debug>(result: Result<T, Error>, name: &str) {
-        let error = result.expect_err(name);
-        assert!(matches!(error, Error::OutOfRange { field, .. } if field == name), "{error}");
-    }
-
     /// A denormal duration gave speeds that were no numbers, a huge one a transient without end.
     #[test]
     fn durations_that_periods_cannot_count_are_refused() {
@@ -495,12 +490,9 @@ mod tests {
                 &Unobserved,
             )
         };
-        for duration in [5e-324, 1e-310, 1e-300, 1e-21] {
-            refused(run(duration, 600), "duration of an interval");
-        }
-        for duration in [1e308, f64::MAX, 1e12] {
-            refused(run(duration, 600), "duration in periods of the platform");
-        }
+        let of = |duration| run(duration, 600);
+        refused("duration of an interval", [5e-324, 1e-310, 1e-300, 1e-21], of);
+        refused("duration in periods of the platform", [1e308, f64::MAX, 1e12], of);
         let short = run(1e-17, 600).expect("legal");
         assert!(short.fit().is_ok_and(|fit| fit.steady_speed.is_finite() && fit.residual.is_finite()));
         assert!(short.speeds.iter().all(|speed| speed.is_finite()));
@@ -533,15 +525,15 @@ mod tests {
     /// It was a panic on an empty curve, the whole curve for 7 and its last point for NaN.
     #[test]
     fn the_mean_of_a_part_that_is_none_is_refused() {
-        refused(curve(&[]).mean_over_last(0.5), "number of speeds");
+        let mean = |(speeds, share): (&[f64], f64)| curve(speeds).mean_over_last(share);
+        refused("number of speeds", [(&[][..], 0.5)], mean);
         let rising = curve(&[1.0, 2.0, 3.0, 4.0]);
-        for fraction in [0.0, -0.5, 7.0, 1.0 + f64::EPSILON, f64::NAN, f64::INFINITY] {
-            refused(rising.mean_over_last(fraction), "fraction of the curve");
-        }
+        let fractions = [0.0, -0.5, 7.0, 1.0 + f64::EPSILON, f64::NAN, f64::INFINITY];
+        refused("fraction of the curve", fractions, |fraction| rising.mean_over_last(fraction));
         for (fraction, mean) in [(1.0, 2.5), (0.5, 3.5), (0.25, 4.0), (1e-300, 4.0)] {
             assert_eq!(rising.mean_over_last(fraction), Ok(mean));
         }
-        refused(curve(&[1.0, f64::NAN]).mean_over_last(1.0), "mean speed");
+        refused("mean speed", [(&[1.0, f64::NAN][..], 1.0)], mean);
         let huge = curve(&[1.7e308; 4]).mean_over_last(1.0);
         assert_eq!(huge, Ok(1.7e308), "its sum is more than a double holds");
     }

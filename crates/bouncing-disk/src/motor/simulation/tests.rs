@@ -5,7 +5,7 @@ use crate::motor::{DrivenMotor, OperatingSettings, TransientSettings};
 use crate::parameters::contact::Contact;
 use crate::parameters::driven_platform::DriveParameters;
 use crate::parameters::stator::{StatorKind, StatorParameters};
-use crate::testing::in_volts;
+use crate::testing::{in_volts, refused};
 
 fn begun(motor: &Motor) -> Result<MotorSimulation, Error> {
     MotorSimulation::new(motor, MotorInputs::of(motor), SimulationSettings::default())
@@ -154,12 +154,11 @@ fn illegal_inputs_are_refused_and_change_nothing() {
     let mut simulation = begun(&motor).expect("legal");
     simulation.advance(0.001, &Unobserved).expect("no failure");
     let good = simulation.inputs();
-    let refused = |inputs| crate::testing::refused_field(simulation.clone().set_inputs(inputs));
-    assert_eq!(refused(MotorInputs { load_torque: f64::NAN, ..good }), "load_torque");
-    assert_eq!(refused(MotorInputs { drive: -1.0, ..good }), "stator.volts");
-    assert_eq!(refused(MotorInputs { drive_frequency: 0.0, ..good }), "drive_frequency");
-    let field = crate::testing::refused_field(simulation.clone().advance(0.0005, &Unobserved).map(|_| ()));
-    assert_eq!(field, "time");
+    let set = |inputs| simulation.clone().set_inputs(inputs);
+    refused("load_torque", [f64::NAN], |load_torque| set(MotorInputs { load_torque, ..good }));
+    refused("stator.volts", [-1.0], |drive| set(MotorInputs { drive, ..good }));
+    refused("drive_frequency", [0.0], |drive_frequency| set(MotorInputs { drive_frequency, ..good }));
+    refused("time", [0.0005], |time| simulation.clone().advance(time, &Unobserved));
     let mut other = simulation.clone();
     assert!(other.set_inputs(MotorInputs { drive: -1.0, ..good }).is_err());
     assert_eq!(other.advance(0.002, &Unobserved), simulation.advance(0.002, &Unobserved));

@@ -1,11 +1,9 @@
-use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicUsize, Ordering};
-
-use bouncing_disk_core::{Progress, Unobserved};
+use bouncing_disk_core::Unobserved;
 
 use super::quantity::SweepQuantity;
 use super::*;
 use crate::motor::{MAX_SWEEP_CELLS, MotorSweepResult, Operation, operations};
+use crate::testing::{check_stops, refused};
 
 /// Little is asked for, so that much can be tried.
 fn rough() -> OperatingSettings {
@@ -83,7 +81,7 @@ fn a_map_of_one_motion_is_one_group() {
         let sheet = motor.parameters();
         assert_eq!(values, [(MotorField::PhaseLag, sheet.phase_lag), (MotorField::Friction, sheet.friction)]);
     }
-    assert_eq!(crate::testing::refused_field(sweep.motor_of(9)), "cell of a sweep");
+    refused("cell of a sweep", [9], |cell| sweep.motor_of(cell));
 }
 
 #[test]
@@ -104,42 +102,39 @@ fn values_may_be_few_alike_unsorted_and_extreme() {
 #[test]
 fn axes_that_are_none_are_refused_with_the_reason() {
     use MotorField::*;
-    let refused = |axes: &[SweepAxis]| sweep(axes).expect_err("refused");
-    for count in [0, 3] {
-        let axes = [Friction, PhaseLag, Restitution].map(|field| axis(field, &[0.1]));
-        let error = refused(&axes[..count]);
-        assert!(matches!(error, Error::OutOfRange { field: "number of axes of a sweep", .. }), "{error}");
-    }
-    assert_eq!(refused(&[axis(Mass, &[])]), Error::EmptyAxis { parameter: "mass" });
-    assert_eq!(
-        refused(&[axis(Mass, &[1.0]), axis(Friction, &[])]),
-        Error::EmptyAxis { parameter: "friction" }
-    );
-    assert_eq!(refused(&[axis(Mass, &[1.0]), axis(Mass, &[2.0])]), Error::RepeatedAxis { parameter: "mass" });
+    let of = |axes: Vec<SweepAxis>| sweep(&axes);
+    let axes = [Friction, PhaseLag, Restitution].map(|field| axis(field, &[0.1]));
+    refused("number of axes of a sweep", [0, 3], |count| sweep(&axes[..count]));
+    refused(Error::EmptyAxis { parameter: "mass" }, [vec![axis(Mass, &[])]], of);
+    let second = vec![axis(Mass, &[1.0]), axis(Friction, &[])];
+    refused(Error::EmptyAxis { parameter: "friction" }, [second], of);
+    let twice = vec![axis(Mass, &[1.0]), axis(Mass, &[2.0])];
+    refused(Error::RepeatedAxis { parameter: "mass" }, [twice], of);
+    let ones = |(one, other)| vec![axis(one, &[1.0]), axis(other, &[1.0])];
     for (one, other) in
         [(PreloadForce, PreloadAcceleration), (TwistAmplitude, PeakAngularSpeed), (Mass, Density)]
     {
         for (one, other) in [(one, other), (other, one)] {
-            let both = Error::BothGiven { one: one.name(), other: other.name() };
-            assert_eq!(refused(&[axis(one, &[1.0]), axis(other, &[1.0])]), both);
+            refused(Error::BothGiven { one: one.name(), other: other.name() }, [ones((one, other))], of);
         }
     }
     let both = Error::BothGiven { one: "rotor_thickness", other: "mass" };
-    assert_eq!(refused(&[axis(RotorThickness, &[0.01]), axis(Mass, &[1.0])]), both);
-    for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-        let error = refused(&[axis(LoadTorque, &[0.0, value])]);
-        assert!(matches!(error, Error::OutOfRange { field: "load_torque", .. }), "{error}");
-    }
-    for (field, value) in [(Friction, -0.1), (Restitution, 1.0), (PreloadForce, 0.0), (Mass, -1e-3)] {
-        let error = refused(&[axis(PhaseLag, &[0.0, 1.0]), axis(field, &[0.2, value])]);
-        let Error::OutOfRange { field: named, value: shown, .. } = error else { panic!("{error}") };
-        assert_eq!((named, shown.to_bits()), (field.name(), value.to_bits()));
+    refused(both, [ones((RotorThickness, Mass))], of);
+    let bad = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+    refused("load_torque", bad, |value| sweep(&[axis(LoadTorque, &[0.0, value])]));
+    for (field, value, told) in [
+        (Friction, -0.1, "friction = -0.1 is"),
+        (Restitution, 1.0, "restitution = 1 is"),
+        (PreloadForce, 0.0, "preload_force = 0 is"),
+        (Mass, -1e-3, "mass = -0.001 is"),
+    ] {
+        refused(told, [vec![axis(PhaseLag, &[0.0, 1.0]), axis(field, &[0.2, value])]], of);
     }
     // What a value needs beside itself is named, too.
-    assert_eq!(refused(&[axis(Density, &[7850.0])]), Error::NotGiven { field: "rotor_radius" });
-    let settings = OperatingSettings { members: 1, ..rough() };
-    let error = MotorSweep::new(Motor::paper_70_khz(), vec![axis(Friction, &[0.1])], settings);
-    assert!(matches!(error, Err(Error::OutOfRange { field: "members", .. })));
+    refused(Error::NotGiven { field: "rotor_radius" }, [vec![axis(Density, &[7850.0])]], of);
+    refused("members", [OperatingSettings { members: 1, ..rough() }], |settings| {
+        MotorSweep::new(Motor::paper_70_khz(), vec![axis(Friction, &[0.1])], settings)
+    });
 }
 
 #[test]
@@ -172,55 +167,12 @@ fn an_alternative_takes_the_place_of_the_other_one() {
     assert_eq!(own.expect("legal").replaced(), []);
 }
 
-/// An observer that breaks at its call of this number.
-fn stop_at(calls: &AtomicUsize, call: usize) -> impl Fn(Progress) -> ControlFlow<()> + Sync {
-    move |_: Progress| {
-        let early = calls.fetch_add(1, Ordering::Relaxed) < call;
-        if early { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-    }
-}
-
 #[test]
 fn threads_change_no_bit_and_a_stop_is_told() {
     let sweep = mixed();
     assert_eq!(sweep.groups().len(), 6);
-    let at_once = sweep.run(&Unobserved).expect("no failure");
-    for threads in [1, 2, 7] {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("pool");
-        assert!(pool.install(|| sweep.run(&Unobserved)).expect("no failure") == at_once, "{threads} threads");
-        let mut kept = Vec::new();
-        for stops in 0.. {
-            let calls = AtomicUsize::new(0);
-            match pool.install(|| sweep.run(&stop_at(&calls, (1 << stops) - 1))) {
-                Ok(result) => {
-                    assert!(result == at_once, "{threads} threads, as it was not stopped");
-                    break;
-                }
-                Err(Error::Core(bouncing_disk_core::Error::Stopped { done, total: 21 })) => kept.push(done),
-                Err(error) => panic!("{error}"),
-            }
-        }
-        // It was stopped before anything was finished, and in between; of several threads, all others may
-        // finish after that.
-        let between = kept.iter().any(|&done| 0 < done && done < 21);
-        assert!(kept[0] == 0 && (between || threads > 1), "{threads}: {kept:?}");
-    }
-}
-
-#[test]
-fn the_observer_counts_cells() {
-    let sweep = mixed();
-    let most = AtomicUsize::new(0);
-    let observer = |progress: Progress| {
-        assert_eq!(progress.total, 21);
-        most.fetch_max(progress.done as usize, Ordering::Relaxed);
-        ControlFlow::Continue(())
-    };
-    sweep.run(&observer).expect("nobody stops it");
-    assert_eq!(most.into_inner(), 21);
-    let stopped = sweep.run(&|_: Progress| ControlFlow::Break(()));
-    let error = bouncing_disk_core::Error::Stopped { done: 0, total: 21 };
-    assert_eq!(stopped, Err(Error::Core(error)));
+    let (_, done) = check_stops(21, |observer| sweep.run(observer));
+    assert!(done.iter().any(|&done| 0 < done && done < 21), "{done:?}");
 }
 
 /// A motor whose flights are too long to be followed takes no other with it.

@@ -1,11 +1,10 @@
 use std::f64::consts::TAU;
 
-use std::ops::ControlFlow;
-
-use bouncing_disk_core::{Phase, Progress, Unobserved};
+use bouncing_disk_core::{Phase, Unobserved};
 
 use super::*;
 use crate::motor::TransientSettings;
+use crate::testing::check_endless;
 use crate::{DiskParameters, PlatformParameters, System};
 
 /// Motors about Table III: chattering ones, plastic ones, loaded ones, some that never bounce, some that
@@ -109,14 +108,8 @@ fn few_or_none_are_legal() {
 fn one_long_transient_can_be_stopped() {
     let mut long = member(0);
     long.settings.duration = 1e6;
-    let calls = AtomicUsize::new(0);
-    let observer = |_: Progress| {
-        let early = calls.fetch_add(1, Ordering::Relaxed) < 4;
-        if early { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-    };
-    let stopped = crate::motor::transient(&long.system, long.phase, &long.settings, &observer);
-    let of_one = |total| Err(Error::Core(bouncing_disk_core::Error::Stopped { done: 0, total }));
-    assert_eq!(stopped, of_one(long.settings.intervals as u64));
-    calls.store(0, Ordering::Relaxed);
-    assert_eq!(transients(&[long; 70], &observer).map(|_| ()), of_one(70).map(|_: SpeedCurve| ()));
+    check_endless(long.settings.intervals as u64, |observer| {
+        crate::motor::transient(&long.system, long.phase, &long.settings, observer)
+    });
+    check_endless(70, |observer| transients(&[long; 70], observer));
 }

@@ -1,5 +1,6 @@
 use super::*;
 use crate::motor::MotorRegime;
+use crate::testing::{check_stops, refused};
 
 fn at_forcing(motor: &Motor, forcing: f64) -> Motor {
     let preload = motor.system().platform().peak_acceleration() / (PI * forcing);
@@ -78,19 +79,15 @@ fn many_preloads_are_judged_one_by_one() {
     // A stator that never throws traps nothing.
     assert!(verdicts[3].axial_forcing < 1.0 / PI && !verdicts[3].is_trap && verdicts[3].cycle.is_none());
     assert_eq!(low_period_traps(&motor, &[], &Unobserved).expect("nothing to do"), []);
-    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(
-            matches!(low_period_traps(&motor, &[9.8, bad], &Unobserved), Err(Error::OutOfRange { .. })),
-            "{bad}"
-        );
-    }
+    refused("preload_acceleration", [0.0, -1.0, f64::NAN, f64::INFINITY], |bad| {
+        low_period_traps(&motor, &[9.8, bad], &Unobserved)
+    });
     // A preload as a force is replaced.
     let sprung = motor
         .with(|sheet| (sheet.preload_acceleration, sheet.preload_force) = (None, Some(5.0)))
         .expect("legal");
     assert_eq!(low_period_traps(&sprung, &preloads, &Unobserved).expect("no failure"), verdicts);
-    let stop = |_: bouncing_disk_core::Progress| std::ops::ControlFlow::Break(());
-    assert!(low_period_traps(&motor, &preloads, &stop).is_err());
+    check_stops(5, |observer| low_period_traps(&motor, &preloads, observer));
 }
 
 #[test]
@@ -147,9 +144,7 @@ fn a_motor_far_from_every_trap_has_none() {
     assert_eq!(motor.nearest_trap(1e-9, &Unobserved).expect("no failure"), None);
     let still = Motor::paper_70_khz().with(|sheet| sheet.amplitude = Some(0.0)).expect("legal");
     assert_eq!(still.nearest_trap(1.0, &Unobserved).expect("no failure"), None);
-    for bad in [0.0, -0.1, 1.1, f64::NAN, f64::INFINITY] {
-        assert_eq!(crate::testing::refused_field(motor.nearest_trap(bad, &Unobserved)), "relative_range");
-    }
-    let stop = |_: bouncing_disk_core::Progress| std::ops::ControlFlow::Break(());
-    assert!(motor.nearest_trap(0.1, &stop).is_err());
+    let bad = [0.0, -0.1, 1.1, f64::NAN, f64::INFINITY];
+    refused("relative_range", bad, |range| motor.nearest_trap(range, &Unobserved));
+    check_stops(None, |observer| motor.nearest_trap(0.1, observer));
 }

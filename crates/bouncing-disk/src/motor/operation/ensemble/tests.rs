@@ -9,7 +9,7 @@ use super::*;
 use crate::estimate::{Spread, TransientEnsemble};
 use crate::motion::EnergyLedger;
 use crate::motor::TransientSettings;
-use crate::testing::{motor, tried_motor};
+use crate::testing::{check_stops, motor, refused, tried_motor};
 use crate::{Engine, InitialCondition, Motor};
 
 /// Mass of the rotor (kg): any will do.
@@ -167,7 +167,7 @@ fn the_cycle_of_the_rounding_is_not_mistaken_for_the_motor() {
     assert!(point.speed.standard_error <= 0.01 * 8.0, "{point:?}");
     assert!(point.perturbation_power < 1e-6 * point.input_power.value, "{point:?}");
     let zero = OperatingSettings { relaunch_perturbation: 0.0, ..settings };
-    assert_eq!(crate::testing::refused_field(operate(&[motor], &zero, &Unobserved)), "relaunch_perturbation");
+    refused("relaunch_perturbation", [zero], |zero| operate(&[motor], &zero, &Unobserved).map(|_| ()));
     // Ten times more or less of it, or other seeds: the same within the errors, and these are those of the
     // mean.
     let mut deviations = Vec::new();
@@ -215,55 +215,32 @@ fn a_spent_budget_is_said() {
 }
 
 #[test]
-fn operations_are_the_same_for_any_number_of_threads() {
+fn operations_are_the_same_for_any_number_of_threads_and_can_be_stopped() {
     let motors: Vec<LoadedMotor<'_>> = (0..9).map(|k| loaded(&tried_motor(), 0.1 * f64::from(k))).collect();
-    let settings = OperatingSettings { members: 5, ..OperatingSettings::default() };
-    let run = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("pool");
-        pool.install(|| operate(&motors, &settings, &Unobserved)).expect("no failure").operations
-    };
-    let all = run(1);
-    assert_eq!(all, run(2));
-    assert_eq!(all, run(7));
-}
-
-#[test]
-fn an_observer_may_stop_it() {
-    use std::ops::ControlFlow;
-
-    let motors = [loaded(&motor(1e-8, 0.0), 0.1)];
-    let stop = |progress: bouncing_disk_core::Progress| {
-        assert_eq!(progress.total, 20_000_000);
-        if progress.done < 10_000 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-    };
-    let stopped = operate(&motors, &OperatingSettings::default(), &stop).expect_err("stopped");
-    assert!(matches!(stopped, Error::Core(bouncing_disk_core::Error::Stopped { .. })), "{stopped}");
+    let settings = OperatingSettings { relative_error: 0.03, members: 5, ..OperatingSettings::default() };
+    check_stops(20_000_000, |observer| operate(&motors, &settings, observer).map(|all| all.operations));
 }
 
 #[test]
 fn illegal_settings_are_named() {
     let motors = [loaded(&tried_motor(), 0.1)];
     let usual = OperatingSettings::default();
-    for (settings, name) in [
-        (OperatingSettings { relative_error: 0.0, ..usual }, "relative_error"),
-        (OperatingSettings { relative_error: f64::NAN, ..usual }, "relative_error"),
-        (OperatingSettings { members: 3, ..usual }, "members"),
-        (OperatingSettings { members: usize::MAX, ..usual }, "members"),
-        (OperatingSettings { most_impacts: 0, ..usual }, "most_impacts"),
-        (OperatingSettings { relaunch_perturbation: -1.0, ..usual }, "relaunch_perturbation"),
-        (OperatingSettings { relaunch_perturbation: f64::NAN, ..usual }, "relaunch_perturbation"),
-    ] {
-        assert_eq!(crate::testing::refused_field(operate(&motors, &settings, &Unobserved)), name);
-    }
-    let error = operate(&[], &usual, &Unobserved).expect_err("none");
-    assert!(matches!(error, Error::OutOfRange { .. }), "{error}");
+    let with = |settings| operate(&motors, &settings, &Unobserved).map(|_| ());
+    refused("relative_error", [0.0, f64::NAN], |relative_error| {
+        with(OperatingSettings { relative_error, ..usual })
+    });
+    refused("members", [3, usize::MAX], |members| with(OperatingSettings { members, ..usual }));
+    refused("most_impacts", [0], |most_impacts| with(OperatingSettings { most_impacts, ..usual }));
+    refused("relaunch_perturbation", [-1.0, f64::NAN], |relaunch_perturbation| {
+        with(OperatingSettings { relaunch_perturbation, ..usual })
+    });
+    let of = |motors: &[LoadedMotor<'_>]| operate(motors, &usual, &Unobserved).map(|_| ());
+    refused("number of rotors", [()], |()| of(&[]));
     let many = vec![motors[0]; MAX_OPERATED_ROTORS / 16 + 1];
-    let error = operate(&many, &usual, &Unobserved).expect_err("too many");
+    let error = of(&many).expect_err("too many");
     assert!(matches!(error, Error::Core(bouncing_disk_core::Error::TooLarge { .. })), "{error}");
-    let massless = LoadedMotor { mass: 0.0, ..motors[0] };
-    assert_eq!(crate::testing::refused_field(operate(&[massless], &usual, &Unobserved)), "mass");
-    let other = loaded(&motor(1e-8, 0.0), 0.1);
-    let error = operate(&[motors[0], other], &usual, &Unobserved).expect_err("not shared");
+    refused("mass", [LoadedMotor { mass: 0.0, ..motors[0] }], |massless| of(&[massless]));
+    let error = of(&[motors[0], loaded(&motor(1e-8, 0.0), 0.1)]).expect_err("not shared");
     assert!(matches!(error, Error::NotShared { .. }), "{error}");
 }
 

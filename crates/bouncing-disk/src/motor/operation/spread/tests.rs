@@ -1,4 +1,5 @@
 use super::*;
+use crate::testing::{check_stops, refused};
 use bouncing_disk_core::Unobserved;
 
 fn quick() -> OperatingSettings {
@@ -99,17 +100,20 @@ fn a_locked_motor_has_a_spread_and_a_stall_at_the_limit_an_error() {
 fn tolerances_that_are_none_are_refused() {
     let motor = Motor::paper_70_khz();
     let usual = InputTolerance::default();
-    for bad in [
-        InputTolerance { preload: -0.1, ..usual },
-        InputTolerance { amplitude: f64::NAN, ..usual },
-        InputTolerance { perturbation_decades: 7.0, ..usual },
-        InputTolerance { draws: 7, ..usual },
-        InputTolerance { draws: usize::MAX, ..usual },
-    ] {
-        assert!(motor.stall_spread(&quick(), &bad, &Unobserved).is_err(), "{bad:?}");
-    }
-    let stop = |_: Progress| std::ops::ControlFlow::Break(());
-    assert!(motor.speed_spreads(&[0.0], &quick(), &usual, &stop).is_err());
+    let of = |tolerance| motor.stall_spread(&quick(), &tolerance, &Unobserved);
+    refused("tolerance of the preload", [-0.1], |preload| of(InputTolerance { preload, ..usual }));
+    refused("tolerance of the amplitude", [f64::NAN], |amplitude| of(InputTolerance { amplitude, ..usual }));
+    refused("perturbation_decades", [7.0], |decades| {
+        of(InputTolerance { perturbation_decades: decades, ..usual })
+    });
+    refused("draws", [7, usize::MAX], |draws| of(InputTolerance { draws, ..usual }));
+}
+
+#[test]
+fn a_spread_can_be_stopped() {
+    let (motor, tolerance) =
+        (Motor::paper_70_khz(), InputTolerance { draws: 8, ..InputTolerance::default() });
+    check_stops(None, |observer| motor.speed_spreads(&[0.0], &quick(), &tolerance, observer));
 }
 
 /// What never leaves the stator has an exact operation at once, which rests on friction and lag: none without

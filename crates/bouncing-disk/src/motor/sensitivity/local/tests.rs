@@ -2,6 +2,7 @@ use SensitivityParameter as P;
 use bouncing_disk_core::Unobserved;
 
 use super::*;
+use crate::testing::{check_stops, refused};
 
 fn quick() -> SensitivitySettings {
     let operating = OperatingSettings { relative_error: 0.05, members: 8, ..OperatingSettings::default() };
@@ -156,23 +157,26 @@ fn what_has_no_sensitivity_is_refused() {
     let loaded = P::LoadTorque.set(&motor, 0.97 * motor.largest_torque()).expect("legal");
     let error = of(&loaded, &[P::LoadTorque], &quick()).expect_err("runs away");
     assert!(matches!(error, Error::Overpowered { .. }), "{error}");
-    for (settings, name) in [
-        (SensitivitySettings { half_range: 0.0, ..quick() }, "half_range"),
-        (SensitivitySettings { half_range: f64::NAN, ..quick() }, "half_range"),
-        (SensitivitySettings { half_range: 2.1, ..quick() }, "half_range"),
-        (SensitivitySettings { points: 4, ..quick() }, "points"),
-        (SensitivitySettings { points: 10_001, ..quick() }, "points"),
-    ] {
-        assert_eq!(crate::testing::refused_field(of(&motor, &[P::Friction], &settings)), name);
-    }
+    let with = |settings| of(&motor, &[P::Friction], &settings);
+    refused("half_range", [0.0, f64::NAN, 2.1], |half_range| {
+        with(SensitivitySettings { half_range, ..quick() })
+    });
+    refused("points", [4, 10_001], |points| with(SensitivitySettings { points, ..quick() }));
     // A plastic rotor repeats a ramp whatever the preload: nothing is left for a line.
     let plastic = P::Restitution.set(&motor, 0.0).expect("legal");
     let error = of(&plastic, &[P::Preload], &quick()).expect_err("traps");
     assert!(matches!(error, Error::TooFewMotors { left, traps, needed: 5 } if left + traps == 8), "{error}");
-    let stop = |_: Progress| std::ops::ControlFlow::Break(());
-    let stopped =
-        motor.local_sensitivities(SensitivityQuantity::SteadySpeed, &[P::Friction], &quick(), &stop);
-    assert!(stopped.is_err());
+}
+
+#[test]
+fn sensitivities_can_be_stopped() {
+    let operating = OperatingSettings { relative_error: 0.2, members: 4, ..OperatingSettings::default() };
+    let (motor, settings) = (Motor::paper_70_khz(), SensitivitySettings { operating, ..quick() });
+    for parameter in [P::Friction, P::Preload] {
+        check_stops(None, |observer| {
+            motor.local_sensitivities(SensitivityQuantity::SteadySpeed, &[parameter], &settings, observer)
+        });
+    }
 }
 
 /// A parameter that is set is the one that is read, and the others are kept.

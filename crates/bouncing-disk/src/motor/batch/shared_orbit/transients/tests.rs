@@ -1,13 +1,12 @@
 use std::f64::consts::TAU;
-use std::ops::ControlFlow;
 
 use bouncing_disk_core::run::Watch;
-use bouncing_disk_core::{ChatterPolicy, Progress, Unobserved};
+use bouncing_disk_core::{ChatterPolicy, Unobserved};
 
 use super::*;
 use crate::motion::PAPER_CHATTER;
 use crate::motor::transient;
-use crate::testing::motor;
+use crate::testing::{check_endless, motor, refused};
 
 fn zero() -> Phase {
     Phase::new(0.0).expect("finite")
@@ -158,42 +157,28 @@ fn curves_on_the_seams_are_those_of_the_motor_alone() {
 }
 
 #[test]
-fn motors_without_a_common_vertical_motion_are_refused_by_name() {
+fn motors_without_a_common_vertical_motion_and_too_many_curves_are_refused() {
     let base = System::motor();
     let settings = TransientSettings { duration: 1e-3, intervals: 3, ..TransientSettings::default() };
-    let refused = |other: System, named: &str| {
-        let error =
-            unobserved(&[base, other], zero(), &settings, InstructionSet::best()).expect_err("not shared");
-        assert!(matches!(error, Error::NotShared { .. }), "{error}");
-        assert!(error.to_string().contains(named), "{error}");
-    };
+    let of = |systems: &[System], settings| unobserved(systems, zero(), settings, InstructionSet::best());
     let next = |value: f64| f64::from_bits(value.to_bits() + 1);
-    refused(base.with_platform(|stator| stator.amplitude *= 2.0).expect("legal"), "peak acceleration P");
-    refused(
-        base.with_disk(|rotor| rotor.restitution = next(rotor.restitution)).expect("legal"),
-        "restitution",
-    );
-    refused(base.with_disk(|rotor| rotor.preload_acceleration *= 0.5).expect("legal"), "peak acceleration P");
+    let lifted = base.with_platform(|stator| stator.amplitude *= 2.0).expect("legal");
+    let pressed = |system: System, by: f64| system.with_disk(|rotor| rotor.preload_acceleration *= by);
     // The same P, at another preload and another frequency: not the same seconds.
-    let scaled = base
-        .with_platform(|stator| stator.angular_frequency *= 2.0)
-        .and_then(|motor| motor.with_disk(|rotor| rotor.preload_acceleration *= 4.0))
-        .expect("legal");
-    refused(scaled, "angular frequency");
-    let lifted = base
-        .with_platform(|stator| stator.amplitude *= 2.0)
-        .and_then(|motor| motor.with_disk(|rotor| rotor.preload_acceleration *= 2.0))
-        .expect("legal");
-    refused(lifted, "preload acceleration");
-    let none = unobserved(&[], zero(), &settings, InstructionSet::best()).expect_err("none");
-    assert!(matches!(none, Error::OutOfRange { .. }), "{none}");
-}
-
-#[test]
-fn more_curves_than_there_is_room_for_are_refused() {
-    let systems = vec![System::motor(); 100];
-    let settings = TransientSettings { intervals: 1_000_000, ..TransientSettings::default() };
-    let error = unobserved(&systems, zero(), &settings, InstructionSet::best()).expect_err("too many");
+    let scaled = base.with_platform(|stator| stator.angular_frequency *= 2.0);
+    for (told, other) in [
+        ("peak acceleration P", Ok(lifted)),
+        ("peak acceleration P", pressed(base, 0.5)),
+        ("restitution", base.with_disk(|rotor| rotor.restitution = next(rotor.restitution))),
+        ("angular frequency", scaled.and_then(|system| pressed(system, 4.0))),
+        ("preload acceleration", pressed(lifted, 2.0)),
+    ] {
+        let told = format!("rotors that share one vertical motion differ in {told}");
+        refused(&*told, [other.expect("legal")], |other| of(&[base, other], &settings));
+    }
+    refused("number of rotors", [()], |()| of(&[], &settings));
+    let long = TransientSettings { intervals: 1_000_000, ..TransientSettings::default() };
+    let error = of(&vec![base; 100], &long).expect_err("too many");
     assert!(matches!(error, Error::Core(bouncing_disk_core::Error::TooLarge { .. })), "{error}");
 }
 
@@ -201,14 +186,8 @@ fn more_curves_than_there_is_room_for_are_refused() {
 fn a_longer_call_may_stop() {
     let systems = varied(&motor(1e-8, 0.0), 16);
     let settings = TransientSettings { duration: 20.0, intervals: 50, ..TransientSettings::default() };
-    let asked = std::sync::atomic::AtomicBool::new(false);
-    // It goes on at first, and is asked again under way.
-    let stop = |_: Progress| {
-        let goes_on = !asked.swap(true, std::sync::atomic::Ordering::Relaxed);
-        if goes_on { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-    };
-    let watch = Watch::begin(&stop, 0, 1).expect("goes on");
-    let set = InstructionSet::best();
-    let stopped = shared_transients(&systems, zero(), &settings, set, &mut watch.work());
-    assert!(matches!(stopped, Err(Error::Core(bouncing_disk_core::Error::Stopped { .. }))));
+    check_endless(1, |observer| {
+        let watch = Watch::begin(observer, 0, 1).expect("goes on");
+        shared_transients(&systems, zero(), &settings, InstructionSet::best(), &mut watch.work())
+    });
 }
