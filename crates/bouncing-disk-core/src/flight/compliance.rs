@@ -21,7 +21,9 @@ use super::first_impact::MAX_FLIGHT_DURATION;
 use super::launch::Launch;
 use super::platform::phase::Phase;
 use super::platform::vibration::Vibration;
-use crate::numerics::elementary::{atan2, exp, exp_m1, hypot, ln, ln_1p, nearest_whole, sin_cos, tan};
+use crate::numerics::elementary::{
+    atan2, exp, exp_m1, hypot, ln, ln_1p, nearest_whole, sin_cos, tan, wrapped_angle,
+};
 use crate::numerics::error::{Error, finite, within};
 use crate::numerics::quasi_polynomial::{DampedSine, QuasiPolynomial};
 use crate::numerics::roots::bisection;
@@ -319,7 +321,7 @@ impl CompliantPlatform {
     /// # Errors
     /// [`Error::NotOfKind`] for a drive that is not a periodic Fourier sum.
     pub fn new(drive: Drive, compliance: Compliance) -> Result<Self, Error> {
-        if !drive.is_periodic() || drive.next_joint(0.0).is_some() {
+        if drive.next_joint(0.0).is_some() {
             let expected = "a periodic Fourier sum: a contact that takes time has no other drive";
             return Err(Error::NotOfKind { what: "drive", index: 0, count: 1, expected });
         }
@@ -415,7 +417,7 @@ impl CompliantPlatform {
     pub fn touch(&self, from: RelativeState, limit: f64) -> Result<Option<Touch>, Error> {
         let at = |duration: f64, gap: f64, velocity: f64| {
             let angle = from.time + duration;
-            let time = self.drive.reduced(angle);
+            let time = wrapped_angle(angle);
             let turns = nearest_whole((angle - time) / TAU) as u64;
             Touch { duration, turns, state: RelativeState { time, gap, velocity } }
         };
@@ -618,7 +620,7 @@ impl Pressed {
             (self.velocity_change().at(span, span).value, self.lift().at(span, span).value);
         let (driven, raised) = self.platform.drive.change(self.from.time, span);
         RelativeState {
-            time: self.platform.drive.reduced(self.from.time + span),
+            time: wrapped_angle(self.from.time + span),
             gap: self.from.gap + span * self.from.velocity + (lifted - raised),
             velocity: self.from.velocity + (gained - driven),
         }

@@ -1,4 +1,4 @@
-//! The motions of a platform: Fourier sums, ramps of them, and pieces of polynomials.
+//! The motions of a platform: Fourier sums and pieces of polynomials.
 
 use core::f64::consts::TAU;
 use std::sync::Arc;
@@ -81,26 +81,23 @@ pub struct DriveBounds {
 pub struct TimeAhead {
     /// How far ahead, in radians.
     pub after: f64,
-    /// When: in [0, 2 pi) unless the drive is a ramp.
+    /// When, in [0, 2 pi).
     pub time: f64,
     /// By how much the velocity of the platform jumps there, in units of g/omega: zero without a kink.
     pub velocity_jump: f64,
 }
 
-/// A harmonic: (amplitude + rate t) sin(number t + angle).
+/// A harmonic: amplitude sin(number t + angle).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Harmonic {
     number: f64,
     amplitude: f64,
-    rate: f64,
     angle: f64,
 }
 
 #[derive(Debug, PartialEq)]
 pub(crate) struct Fourier {
     harmonics: Vec<Harmonic>,
-    /// Until when a ramp holds; infinite for a periodic sum.
-    duration: f64,
     bounds: DriveBounds,
 }
 
@@ -111,68 +108,41 @@ impl Drive {
     /// [`Error::TooLarge`] for too many harmonics; [`Error::NotOfKind`] names one whose numbers are not
     /// finite; [`Error::OutOfRange`] for accelerations beyond [`Vibration::MAX_PEAK_ACCELERATION`].
     pub fn fourier(harmonics: &[(f64, f64)]) -> Result<Self, Error> {
-        let ramps: Vec<_> = harmonics.iter().map(|&(amplitude, angle)| (amplitude, 0.0, angle)).collect();
-        Self::sum(&ramps, f64::INFINITY)
-    }
-
-    /// The sum of (a_j + b_j t) sin(j t + phi_j) of these (a_j, b_j, phi_j), for t in [0, `duration`]: a
-    /// segment of a schedule. Its times count from its start and are not reduced to a period.
-    ///
-    /// # Errors
-    /// As [`Self::fourier`]; [`Error::OutOfRange`] for a duration that is not in (0, 1e6].
-    pub fn ramped_fourier(harmonics: &[(f64, f64, f64)], duration: f64) -> Result<Self, Error> {
-        let legal = "(0, 1e6] (rad)";
-        within("duration of a ramp", duration, f64::MIN_POSITIVE, 1.0e6, legal)?;
-        Self::sum(harmonics, duration)
-    }
-
-    fn sum(harmonics: &[(f64, f64, f64)], duration: f64) -> Result<Self, Error> {
         let (count, limit) = (harmonics.len(), MAX_HARMONICS);
         if count > limit {
             return Err(Error::TooLarge { what: "harmonics", count: count as u64, limit: limit as u64 });
         }
         let mut kept = Vec::new();
-        let end = if duration.is_finite() { duration } else { 0.0 };
-        let (mut acceleration, mut jerk, mut speed, mut ramps) = (0.0, 0.0, 0.0, 0.0);
-        for (index, &(amplitude, rate, angle)) in harmonics.iter().enumerate() {
-            if !(amplitude.is_finite() && rate.is_finite() && angle.is_finite()) {
+        let (mut acceleration, mut jerk, mut speed) = (0.0, 0.0, 0.0);
+        for (index, &(amplitude, angle)) in harmonics.iter().enumerate() {
+            if !(amplitude.is_finite() && angle.is_finite()) {
                 let expected = "finite in amplitude and angle";
                 return Err(Error::NotOfKind { what: "harmonic", index, count, expected });
             }
-            if amplitude == 0.0 && rate == 0.0 {
+            if amplitude == 0.0 {
                 continue;
             }
             let number = (index + 1) as f64;
-            let size = amplitude.abs().max((amplitude + rate * end).abs());
-            speed += size * number + rate.abs();
-            acceleration += (size * number + 2.0 * rate.abs()) * number;
-            jerk += (size * number + 3.0 * rate.abs()) * number * number;
-            ramps += rate.abs();
-            kept.push(Harmonic { number, amplitude, rate, angle: wrapped_angle(angle) });
+            let size = amplitude.abs();
+            speed += size * number;
+            acceleration += size * number * number;
+            jerk += size * number * number * number;
+            kept.push(Harmonic { number, amplitude, angle: wrapped_angle(angle) });
         }
         let most = Vibration::MAX_PEAK_ACCELERATION;
         within("acceleration of a drive", acceleration, 0.0, most, "[0, 1e8] (units of g)")?;
         let none = DriveBounds { lowest: 0.0, highest: 0.0, speed, acceleration, jerk };
-        let mut fourier = Fourier { harmonics: kept, duration, bounds: none };
-        (fourier.bounds.lowest, fourier.bounds.highest) = if ramps > 0.0 {
-            let size: f64 = fourier
-                .harmonics
-                .iter()
-                .map(|h| h.amplitude.abs().max((h.amplitude + h.rate * end).abs()))
-                .sum();
-            (-size, size)
-        } else {
-            fourier.height_bounds()
-        };
+        let mut fourier = Fourier { harmonics: kept, bounds: none };
+        (fourier.bounds.lowest, fourier.bounds.highest) = fourier.height_bounds();
         Ok(Self { shape: Shape::Fourier(Arc::new(fourier)) })
     }
 
     /// The same motion `phase` (rad) earlier.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a phase that is not finite, or beyond the end of a ramp.
+    /// [`Error::OutOfRange`] for a phase that is not finite.
     pub fn earlier(&self, phase: f64) -> Result<Self, Error> {
-        let phase = self.reduced(finite("phase", phase)?);
+        let phase = wrapped_angle(finite("phase", phase)?);
         match &self.shape {
             _ if phase == 0.0 => Ok(self.clone()),
             Shape::Fourier(fourier) => fourier.earlier(phase),
@@ -182,10 +152,10 @@ impl Drive {
 
     /// Height, velocity, acceleration and its derivative at this time, in closed form.
     ///
-    /// Any finite time of a periodic drive is reduced to a period.
+    /// Any finite time is reduced to a period.
     #[must_use]
     pub fn at(&self, time: f64) -> DriveState {
-        let time = self.reduced(time);
+        let time = wrapped_angle(time);
         match &self.shape {
             Shape::Fourier(fourier) => fourier.at(time),
             Shape::Pieces(pieces) => pieces.at(time),
@@ -195,7 +165,7 @@ impl Drive {
     /// [`Self::at`], and `factor` times the derivative of this order (at most 2) from there on, as far as it
     /// is sines.
     pub(crate) fn at_with_terms(&self, time: f64, order: u32, factor: f64) -> (DriveState, Vec<DampedSine>) {
-        let time = self.reduced(time);
+        let time = wrapped_angle(time);
         match &self.shape {
             Shape::Fourier(fourier) => fourier.at_with_terms(time, order, factor),
             Shape::Pieces(pieces) => (pieces.at(time), Vec::new()),
@@ -306,15 +276,6 @@ impl Drive {
         }
     }
 
-    /// Until when the drive is defined, counted from its start: infinite unless it is a ramp.
-    #[must_use]
-    pub fn duration(&self) -> f64 {
-        match &self.shape {
-            Shape::Fourier(fourier) => fourier.duration,
-            Shape::Pieces(_) => f64::INFINITY,
-        }
-    }
-
     /// The highest number of a harmonic; 1 if there is none.
     #[must_use]
     pub fn highest_harmonic(&self) -> f64 {
@@ -346,7 +307,7 @@ impl Drive {
     pub fn as_vibration(&self) -> Option<Vibration> {
         let Shape::Fourier(fourier) = &self.shape else { return None };
         match fourier.harmonics[..] {
-            [Harmonic { number: 1.0, amplitude, rate: 0.0, angle: 0.0 }] => Vibration::new(amplitude).ok(),
+            [Harmonic { number: 1.0, amplitude, angle: 0.0 }] => Vibration::new(amplitude).ok(),
             _ => None,
         }
     }
@@ -355,7 +316,7 @@ impl Drive {
     pub(crate) fn responding(&self, response: impl Fn(f64) -> (f64, f64)) -> Result<Self, Error> {
         let mut sum = [(0.0, 0.0); MAX_HARMONICS];
         if let Shape::Fourier(fourier) = &self.shape {
-            for &Harmonic { number, amplitude, angle, .. } in &fourier.harmonics {
+            for &Harmonic { number, amplitude, angle } in &fourier.harmonics {
                 let (gain, ahead) = response(number);
                 sum[number as usize - 1] = (amplitude * gain, angle + ahead);
             }
@@ -369,21 +330,12 @@ impl Drive {
             Shape::Pieces(pieces) => Some(pieces),
         }
     }
-
-    pub(crate) fn is_periodic(&self) -> bool {
-        self.duration() == f64::INFINITY
-    }
-
-    /// The time in [0, 2 pi), unless the drive is a ramp.
-    pub(crate) fn reduced(&self, time: f64) -> f64 {
-        if self.is_periodic() { wrapped_angle(time) } else { time }
-    }
 }
 
 impl From<Vibration> for Drive {
     /// The sine as a Fourier sum.
     fn from(vibration: Vibration) -> Self {
-        Self::sum(&[(vibration.peak_acceleration(), 0.0, 0.0)], f64::INFINITY).expect("a legal vibration")
+        Self::fourier(&[(vibration.peak_acceleration(), 0.0)]).expect("a legal vibration")
     }
 }
 
@@ -403,52 +355,36 @@ fn turned(number: f64, time: f64, angle: f64) -> (f64, f64) {
 impl Harmonic {
     /// Adds the harmonic at this time; its sine and cosine.
     fn add(&self, time: f64, state: &mut DriveState) -> (f64, f64) {
-        let &Self { number, amplitude, rate, angle } = self;
+        let &Self { number, amplitude, angle } = self;
         let (sin, cos) = turned(number, time, angle);
-        let size = amplitude + rate * time;
-        state.height += size * sin;
-        state.velocity += size * number * cos + rate * sin;
-        state.acceleration += number * (2.0 * rate * cos - size * number * sin);
-        state.jerk -= number * number * (3.0 * rate * sin + size * number * cos);
+        state.height += amplitude * sin;
+        state.velocity += amplitude * number * cos;
+        state.acceleration -= number * (amplitude * number * sin);
+        state.jerk -= number * number * (amplitude * number * cos);
         (sin, cos)
     }
 
     /// Adds `factor` times the derivative of this order, where the harmonic has this sine and cosine.
-    fn add_terms(
-        &self,
-        time: f64,
-        (sin, cos): (f64, f64),
-        (order, factor): (u32, f64),
-        terms: &mut Vec<DampedSine>,
-    ) {
-        let &Self { number, amplitude, rate, .. } = self;
-        // Of the derivative, and of the one below it, as coefficients of cosine and sine.
-        let (mut own, mut below, mut power) = ([sin, cos], [0.0; 2], factor);
+    fn add_terms(&self, (sin, cos): (f64, f64), (order, factor): (u32, f64), terms: &mut Vec<DampedSine>) {
+        let &Self { number, amplitude, .. } = self;
+        // Of the derivative, as coefficients of cosine and sine.
+        let (mut own, mut power) = ([sin, cos], factor);
         for _ in 0..order {
-            (own, below) = ([own[1], -own[0]], own.map(|x| x * power));
+            own = [own[1], -own[0]];
             power *= number;
         }
-        let (size, turns) = (power * (amplitude + rate * time), f64::from(order) * rate);
-        let [cosine, sine] = [0, 1].map(|k| size * own[k] + turns * below[k]);
+        let [cosine, sine] = own.map(|x| power * amplitude * x);
         terms.push(DampedSine::steady(cosine, sine, number));
-        if rate != 0.0 {
-            let [cosine, sine] = own.map(|x| power * rate * x);
-            terms.push(DampedSine { with_time: true, ..DampedSine::steady(cosine, sine, number) });
-        }
     }
 }
 
 impl Fourier {
     fn earlier(&self, phase: f64) -> Result<Drive, Error> {
-        let mut ramps = [(0.0, 0.0, 0.0); MAX_HARMONICS];
-        for &Harmonic { number, amplitude, rate, angle } in &self.harmonics {
-            ramps[number as usize - 1] = (amplitude + rate * phase, rate, angle + number * phase);
+        let mut sum = [(0.0, 0.0); MAX_HARMONICS];
+        for &Harmonic { number, amplitude, angle } in &self.harmonics {
+            sum[number as usize - 1] = (amplitude, angle + number * phase);
         }
-        if self.duration.is_finite() {
-            Drive::ramped_fourier(&ramps, self.duration - phase)
-        } else {
-            Drive::sum(&ramps, self.duration)
-        }
+        Drive::fourier(&sum)
     }
 
     fn at(&self, time: f64) -> DriveState {
@@ -465,7 +401,7 @@ impl Fourier {
         let mut terms = Vec::with_capacity(self.harmonics.len());
         for harmonic in &self.harmonics {
             let turned = harmonic.add(time, &mut state);
-            harmonic.add_terms(time, turned, (order, factor), &mut terms);
+            harmonic.add_terms(turned, (order, factor), &mut terms);
         }
         (state, terms)
     }

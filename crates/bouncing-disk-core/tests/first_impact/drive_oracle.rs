@@ -103,7 +103,7 @@ impl Exact {
         let mut sums = vec![high(0.0); ORDERS];
         let (sin, cos) = sin_cos(&high(cut));
         let (mut s, mut c) = (sin.clone(), cos.clone());
-        for (j, &(a, _, angle)) in (1_u32..).zip(&self.harmonics) {
+        for (j, &(a, angle)) in (1_u32..).zip(&self.harmonics) {
             let (sin_angle, cos_angle) = sin_cos(&high(angle));
             let (value, slope) = (&s * &cos_angle + &c * &sin_angle, &c * &cos_angle - &s * &sin_angle);
             let derivatives = [value.clone(), slope.clone(), -value, -slope];

@@ -14,8 +14,8 @@ use crate::sums::{Dd, Gap, dd, has_root_at, positive};
 /// A drive, and what an oracle needs to know of it.
 pub struct Exact {
     pub drive: Drive,
-    /// The harmonics (amplitude, its rate, angle) of a Fourier drive or a ramp, or else none.
-    pub harmonics: Vec<(f64, f64, f64)>,
+    /// The harmonics (amplitude, angle) of a Fourier drive, or else none.
+    pub harmonics: Vec<(f64, f64)>,
     /// When the pieces begin, and 2 pi.
     pub joints: Vec<f64>,
 }
@@ -23,20 +23,7 @@ pub struct Exact {
 impl Exact {
     fn fourier(harmonics: Vec<(f64, f64)>) -> Self {
         let drive = Drive::fourier(&harmonics).unwrap();
-        let harmonics = harmonics.into_iter().map(|(a, angle)| (a, 0.0, angle)).collect();
         Self { drive, harmonics, joints: Vec::new() }
-    }
-
-    /// Up to three harmonics whose amplitudes grow or fall in time.
-    fn ramp(random: &mut SplitMix) -> Self {
-        let duration = random.uniform(5.0, 60.0);
-        let harmonics: Vec<_> = (0..=random.below(3))
-            .map(|_| {
-                let (a, end) = (random.uniform(-3.0, 3.0), random.uniform(-3.0, 3.0));
-                (a, (end - a) / duration, random.angle())
-            })
-            .collect();
-        Self { drive: Drive::ramped_fourier(&harmonics, duration).unwrap(), harmonics, joints: Vec::new() }
     }
 
     fn pieces(drive: Drive) -> Self {
@@ -50,11 +37,7 @@ impl Exact {
 
     /// Bound on a derivative of a sum of harmonics.
     pub fn sizes(&self, order: i32) -> f64 {
-        let end = if self.drive.duration().is_finite() { self.drive.duration() } else { 0.0 };
-        let size = |(j, (a, b, _)): (i32, &(f64, f64, f64))| {
-            let power = |order: i32| libm::pow(f64::from(j), f64::from(order));
-            (a.abs() + b.abs() * end) * power(order) + b.abs() * f64::from(order) * power(order - 1)
-        };
+        let size = |(j, &(a, _)): (i32, &(f64, f64))| a.abs() * libm::pow(f64::from(j), f64::from(order));
         (1..).zip(&self.harmonics).map(size).sum()
     }
 
@@ -71,12 +54,11 @@ impl Exact {
     fn at(&self, time: Dd) -> (Dd, Dd) {
         if self.joints.is_empty() {
             let (mut height, mut velocity) = (dd(0.0), dd(0.0));
-            for (j, &(a, b, angle)) in (1..).zip(&self.harmonics) {
+            for (j, &(a, angle)) in (1..).zip(&self.harmonics) {
                 let j = dd(f64::from(j));
                 let (sin, cos) = (j * time + dd(angle)).sin_cos();
-                let size = dd(a) + dd(b) * time;
-                height = height + size * sin;
-                velocity = velocity + size * j * cos + dd(b) * sin;
+                height = height + dd(a) * sin;
+                velocity = velocity + dd(a) * j * cos;
             }
             return (height, velocity);
         }
@@ -188,14 +170,13 @@ impl Gap for Sines<'_> {
         let (mut rest, mut slope) = (dd(0.0), dd(0.0));
         if t.high() * (self.of.harmonics.len() as f64) < 1e-2 {
             // The Taylor series from the second order on.
-            for (j, &(a, b, angle)) in (1..).zip(&self.of.harmonics) {
+            for (j, &(a, angle)) in (1..).zip(&self.of.harmonics) {
                 let j = dd(f64::from(j));
                 let (sin, cos) = (j * self.time + dd(angle)).sin_cos();
                 let derivatives = [sin, cos, -sin, -cos];
-                let (size, mut factor) = (dd(a) + dd(b) * self.time, j * t);
+                let mut factor = j * t;
                 for k in 2..14_u32 {
-                    let [own, below] = [k, k - 1].map(|k| derivatives[(k % 4) as usize]);
-                    let derivative = size * own + dd(b) * dd(f64::from(k)) / j * below;
+                    let derivative = dd(a) * derivatives[(k % 4) as usize];
                     factor = factor * j;
                     slope = slope + factor * derivative;
                     factor = factor * t / dd(f64::from(k));
@@ -583,34 +564,38 @@ impl Exact {
     }
 }
 
-/// An amplitude that grows or falls in time, as in a segment of a schedule.
+/// A flight that is not followed to its impact has none up to there.
 #[test]
-fn ramps_are_followed_to_their_end() {
+fn flights_are_followed_to_a_limit() {
     let mut random = SplitMix::new(98);
     let (mut landed, mut flown) = (0, 0);
-    for _ in 0..4_000 {
-        let ramp = Exact::ramp(&mut random);
-        let left = ramp.drive.duration() * random.unit();
-        let (time, speed) = (ramp.drive.duration() - left, random.decades(-6.0, 1.3));
-        if let Some(landing) = ramp.drive.first_impact_within(time, 0.0, speed, f64::INFINITY).unwrap() {
-            landed += 1;
-            ramp.judge(time, speed, &landing).unwrap();
-        } else {
-            flown += 1;
-            positive(&ramp.above(time, speed), 0.0, left, 0.0).unwrap();
-            assert!(ramp.drive.first_impact_from(time, 0.0, speed).is_err());
+    while landed + flown < 4_000 {
+        let exact = KINDS[random.below(KINDS.len())].draw(&mut random);
+        let (time, speed) = (random.angle(), random.decades(-6.0, 1.3));
+        let landing = exact.drive.first_impact_from(time, 0.0, speed).unwrap();
+        if landing.doubt.is_some() {
+            continue;
+        }
+        let limit = landing.impact.duration() * random.uniform(0.3, 1.7);
+        let late = limit - landing.impact.duration();
+        match exact.drive.first_impact_within(time, 0.0, speed, limit).unwrap() {
+            Some(within) => {
+                landed += 1;
+                let apart = (within.impact.duration() - landing.impact.duration()).abs();
+                assert!(apart <= landing.error + within.error && late >= -landing.error, "{late} {within:?}");
+            }
+            None => {
+                flown += 1;
+                assert!(late <= landing.error, "{late} {landing:?}");
+            }
         }
     }
     assert!(landed > 300 && flown > 300, "{landed} {flown}");
 }
 
-/// Drives of all kinds, and ramps.
+/// Drives of all kinds.
 fn draws(random: &mut SplitMix) -> impl Iterator<Item = Drive> {
-    let mut draw = |kind: Option<&Kind>| match kind {
-        Some(kind) => kind.draw(random).drive,
-        None => Exact::ramp(random).drive,
-    };
-    (0..).map(move |k| draw(KINDS.get(k % (KINDS.len() + 1))))
+    KINDS.into_iter().cycle().map(|kind| kind.draw(random).drive)
 }
 
 /// By the derivatives, as far as the next joint, and by the drive.

@@ -30,14 +30,14 @@ impl Drive {
     /// [`Error::OutOfRange`] for a time that is not finite; [`Error::NoConvergence`].
     pub fn contact_end(&self, time: f64, limit: f64) -> Result<Option<TimeAhead>, Error> {
         finite("time", time)?;
-        let time = self.reduced(time);
+        let time = wrapped_angle(time);
         // What does not happen within a period never does.
-        let limit = limit.min(if self.is_periodic() { TAU } else { self.duration() - time });
+        let limit = limit.min(TAU);
         let end = match &self.shape {
             Shape::Fourier(_) => self.separation(time, limit)?,
             Shape::Pieces(pieces) => pieces.contact_end(time, limit),
         };
-        Ok(end.map(|end| TimeAhead { time: self.reduced(end.time), ..end }))
+        Ok(end.map(|end| TimeAhead { time: wrapped_angle(end.time), ..end }))
     }
 
     /// Whether a disk that rests on the platform at `time` stays there: the force presses it on, or does so but
@@ -50,7 +50,7 @@ impl Drive {
     /// Whether the force is below zero by more than a rounding, or will be: the flight from there lasts longer
     /// than a rounding of the time, so that a contact and a flight cannot follow each other at one time.
     fn leaves(&self, time: f64) -> bool {
-        let time = self.reduced(time);
+        let time = wrapped_angle(time);
         match &self.shape {
             Shape::Fourier(fourier) => {
                 let (at, doubt) = (fourier.at(time), fourier.bounds.doubtful_pull(time));

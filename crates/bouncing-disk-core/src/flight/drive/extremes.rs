@@ -18,8 +18,7 @@ impl Drive {
     /// The phase in [0, 2 pi) at which the platform is lowest: 3 pi/2 for a sine. If it is lowest more than once
     /// in a period, the first of these phases, which depends on where the period begins: a recording of two equal
     /// minima that begins between them has the other one. If it stays lowest for a while, the start of that
-    /// interval. Heights that differ by rounding count as equal. 0 for a platform that does not move, and for a
-    /// ramp.
+    /// interval. Heights that differ by rounding count as equal. 0 for a platform that does not move.
     ///
     /// ```
     /// use std::f64::consts::PI;
@@ -43,7 +42,7 @@ impl Drive {
 
     /// The phase in [0, 2 pi) at which the platform rises fastest: 0 for a sine. If several phases share the largest
     /// velocity up to rounding, the first one from [`Self::lowest_phase`] on; where the velocity jumps down from
-    /// its largest value, the last double before the kink. 0 for a ramp.
+    /// its largest value, the last double before the kink.
     #[must_use]
     pub fn fastest_rise_phase(&self) -> f64 {
         let candidates = match &self.shape {
@@ -54,7 +53,7 @@ impl Drive {
         first_least(downwards.collect(), self.bounds().speed, self.lowest_phase())
     }
 
-    /// The largest speed, upwards or downwards, in units of g/omega; of a ramp the bound of [`Self::bounds`].
+    /// The largest speed, upwards or downwards, in units of g/omega.
     ///
     /// ```
     /// use bouncing_disk_core::Drive;
@@ -97,7 +96,7 @@ impl Harmonic {
 impl Fourier {
     fn lowest_phase(&self) -> f64 {
         if let [harmonic] = self.harmonics[..] {
-            return if self.duration.is_finite() { 0.0 } else { harmonic.first_at(1.5 * PI) };
+            return harmonic.first_at(1.5 * PI);
         }
         let size = self.bounds.highest.abs().max(self.bounds.lowest.abs());
         first_least(self.minima(|at| (at.height, at.velocity), self.bounds.acceleration), size, 0.0)
@@ -105,7 +104,7 @@ impl Fourier {
 
     /// Where the velocity has maxima that may be the largest.
     fn rises(&self) -> Vec<Candidate> {
-        if let ([harmonic], true) = (&self.harmonics[..], self.duration == f64::INFINITY) {
+        if let [harmonic] = &self.harmonics[..] {
             let phase = wrapped_angle(self.lowest_phase() + FRAC_PI_2 / harmonic.number);
             return vec![(phase, self.at(phase).velocity)];
         }
@@ -115,7 +114,6 @@ impl Fourier {
 
     fn peak_speed(&self) -> f64 {
         match self.harmonics[..] {
-            _ if self.duration.is_finite() => self.bounds.speed,
             [Harmonic { number, amplitude, .. }] => amplitude.abs() * number,
             _ => {
                 let down = self.minima(|at| (at.velocity, at.acceleration), self.bounds.jerk);
@@ -128,7 +126,7 @@ impl Fourier {
     /// Where this value, given with its slope, has minima that may be the least. With a `bend` as the bound on its second
     /// derivative the value at a minimum is at most bend d^2/8 below that at the nearest of samples d apart.
     fn minima(&self, of: impl Fn(&DriveState) -> (f64, f64), bend: f64) -> Vec<Candidate> {
-        if self.harmonics.is_empty() || self.duration.is_finite() {
+        if self.harmonics.is_empty() {
             return Vec::new();
         }
         let count = 64 * self.highest_harmonic() as usize;

@@ -88,7 +88,7 @@ impl Drive {
     ///
     /// # Errors
     /// [`Error::NoLiftOff`] for a launch from rest where the platform does not fall away;
-    /// [`Error::FlightTooLong`] beyond [`MAX_FLIGHT_DURATION`], or if a ramp ends before the impact;
+    /// [`Error::FlightTooLong`] beyond [`MAX_FLIGHT_DURATION`];
     /// [`Error::NoConvergence`] after 100,000 evaluations.
     pub fn first_impact(&self, launch: Launch) -> Result<DrivenImpact, Error> {
         self.first_impact_from(launch.phase().angle(), 0.0, launch.relative_speed())
@@ -107,8 +107,8 @@ impl Drive {
     ) -> Result<DrivenImpact, Error> {
         self.first_impact_within(time, gap, relative_velocity, f64::INFINITY)?.ok_or(Error::FlightTooLong {
             relative_speed: relative_velocity,
-            duration: self.duration() - time,
-            limit: self.duration() - time,
+            duration: f64::INFINITY,
+            limit: MAX_FLIGHT_DURATION,
         })
     }
 
@@ -141,8 +141,9 @@ impl Drive {
 
     /// The first impact within `limit`, of a start that is known to be legal.
     pub(crate) fn land(&self, mut start: Start, limit: f64) -> Result<Option<DrivenImpact>, Error> {
-        start.time = self.reduced(start.time);
-        let limit = limit.min(self.duration() - start.time);
+        start.time = wrapped_angle(start.time);
+        // What is no number is no limit.
+        let limit = limit.min(f64::INFINITY);
         let (here, terms) = self.at_with_terms(start.time, 0, -1.0);
         let bounds = self.bounds();
         if start.gap == 0.0 && start.velocity == 0.0 && !start.separates && here.acceleration >= -1.0 {
@@ -182,8 +183,7 @@ impl Drive {
         if limit <= down {
             return Ok(None);
         }
-        let periodic = self.is_periodic();
-        let (periods, rest) = if periodic && down > TAU { nearest_periods(down) } else { (0.0, down) };
+        let (periods, rest) = if down > TAU { nearest_periods(down) } else { (0.0, down) };
         let time = start.time + rest;
         let (there, terms) = self.at_with_terms(time, 0, -1.0);
         // Time and speed at which the disk is back are rounded, and so were height and speed before.
