@@ -6,7 +6,6 @@
 //! halving intervals misses no root.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-use std::ops::{Add, Div, Mul, Neg};
 
 use bouncing_disk_core::flight::{
     Branch, Compliance, CompliantPlatform, ContactEnd, Pressed, RelativeState, Touch,
@@ -15,9 +14,10 @@ use bouncing_disk_core::run::in_parallel;
 use bouncing_disk_core::{Drive, Error};
 
 use crate::launches::SplitMix;
-use crate::oracle::{High, U, high, low, sin_cos};
+use crate::numbers::{Dd, Number, dd};
+use crate::oracle::{High, U};
 use crate::shards;
-use crate::sums::{Dd, Gap, dd, positive};
+use crate::sums::{Gap, positive};
 
 /// Terms of a series over half of its radius: the rest is below 1e-30.
 const TERMS: usize = 24;
@@ -27,41 +27,6 @@ const ROUNDING: f64 = 128.0 * U;
 
 /// Pieces after which a motion is not judged any further.
 const PIECES: f64 = 400.0;
-
-trait Number: Clone + Neg<Output = Self> + Add<Output = Self> + Mul<Output = Self> + Div<Output = Self> {
-    fn of(value: f64) -> Self;
-    fn turn(&self) -> (Self, Self);
-    fn dd(&self) -> Dd;
-}
-
-impl Number for Dd {
-    fn of(value: f64) -> Self {
-        dd(value)
-    }
-
-    fn turn(&self) -> (Self, Self) {
-        self.sin_cos()
-    }
-
-    fn dd(&self) -> Dd {
-        *self
-    }
-}
-
-impl Number for High {
-    fn of(value: f64) -> Self {
-        high(value)
-    }
-
-    fn turn(&self) -> (Self, Self) {
-        sin_cos(self)
-    }
-
-    fn dd(&self) -> Dd {
-        let head = low(self);
-        dd(head) + dd(low(&(self.clone() - high(head))))
-    }
-}
 
 /// A polynomial in the time since the start of its piece, and how long that is.
 struct Polynomial([Dd; TERMS], f64);

@@ -1,4 +1,5 @@
-//! Flights above drives in 256 bits: the true first root, by the signs of the gap and its derivatives.
+//! Flights above drives in double-doubles or 256 bits: the true first root, by the signs of the gap and its
+//! derivatives.
 //!
 //! A drive is what it holds: amplitudes, angles, joints and coefficients are doubles, c3 is a sixth of the
 //! third derivative. In the first period of a flight the gap goes on over a joint, whatever the rounding of
@@ -10,240 +11,249 @@ use std::f64::consts::TAU;
 use bouncing_disk_core::flight::DrivenImpact;
 
 use crate::drives::Exact;
-use crate::oracle::{High, PRECISION, high, low, sin_cos, two_pi};
+use crate::numbers::Number;
 
-/// Orders of the Taylor series of a Fourier sum: 2^-36/36! is below 1e-52.
-const ORDERS: usize = 36;
-
-fn abs(x: &High) -> High {
-    if *x < High::ZERO { -x } else { x.clone() }
-}
+/// Steps of a refinement, which halves its bracket down to the briefest flights; more are needed only where
+/// rounding hides the root.
+const MAX_STEPS: u32 = 1_500;
 
 /// A polynomial, and its first two derivatives.
-fn jet(c: &[High], t: &High) -> [High; 3] {
-    let [mut value, mut slope, mut half_bend] = [high(0.0), high(0.0), high(0.0)];
+fn jet<N: Number>(c: &[N], t: &N) -> [N; 3] {
+    let [mut value, mut slope, mut half_bend] = [0.0; 3].map(N::of);
     for c in c.iter().rev() {
-        half_bend = half_bend * t + &slope;
-        slope = slope * t + &value;
-        value = value * t + c;
+        half_bend = half_bend * t.clone() + slope.clone();
+        slope = slope * t.clone() + value.clone();
+        value = value * t.clone() + c.clone();
     }
-    [value, slope, half_bend * high(2.0)]
+    [value, slope, half_bend * N::of(2.0)]
 }
 
 /// Where the polynomial (its slope for `order` 1) changes its sign between two times.
-fn zero(c: &[High], order: usize, mut lo: High, mut hi: High) -> High {
-    let (mut x, above) = (hi.clone(), jet(c, &hi)[order] > High::ZERO);
-    loop {
+fn zero<N: Number>(c: &[N], order: usize, mut lo: N, mut hi: N) -> N {
+    let zero = N::of(0.0);
+    let (mut x, above) = (hi.clone(), jet(c, &hi)[order] > zero);
+    for _ in 0..MAX_STEPS {
         let at = jet(c, &x);
-        let (value, slope) = (&at[order], &at[order + 1]);
-        *(if (*value > High::ZERO) == above { &mut hi } else { &mut lo }) = x.clone();
-        let newton = (*slope != High::ZERO).then(|| &x - value / slope);
+        let (value, slope) = (at[order].clone(), at[order + 1].clone());
+        *(if (value > zero) == above { &mut hi } else { &mut lo }) = x.clone();
+        let newton = (slope != zero).then(|| x.clone() - value / slope);
         let newton = newton.filter(|newton| (&lo..=&hi).contains(&newton));
-        let next = newton.unwrap_or_else(|| (&lo + &hi) * high(0.5));
-        if abs(&(&next - &x)) <= &next * high(1e-50) {
+        let next = newton.unwrap_or_else(|| (lo.clone() + hi.clone()) * N::of(0.5));
+        if (next.clone() - x).abs() <= next.clone() * N::of(N::ROUNDING) {
             return next;
         }
         x = next;
     }
+    x
 }
 
 /// The first root in (0, `to`] of a polynomial that is positive at 0, or leaves zero upwards.
-fn first_root(c: &[High], to: &High) -> Option<High> {
-    let sizes: Vec<_> = c.iter().map(abs).collect();
+fn first_root<N: Number>(c: &[N], to: &N) -> Option<N> {
     let third = (3..c.len())
         .rev()
-        .fold(high(0.0), |sum, k| sum * to + &sizes[k] * high((k * (k - 1) * (k - 2)) as f64));
-    let mut open = vec![(high(0.0), to.clone())];
+        .fold(N::of(0.0), |sum, k| sum * to.clone() + c[k].abs() * N::of((k * (k - 1) * (k - 2)) as f64));
+    let half = || N::of(0.5);
+    let mut open = vec![(N::of(0.0), to.clone())];
     while let Some((a, b)) = open.pop() {
-        let (m, r) = ((&a + &b) * high(0.5), (&b - &a) * high(0.5));
+        let (m, r) = ((a.clone() + b.clone()) * half(), (b.clone() - a.clone()) * half());
         let [gap, slope, bend] = jet(c, &m);
         // By how much slope and bend change at most.
-        let (turn, change) = (&r * (abs(&bend) + &third * &r * high(0.5)), &third * &r);
-        if gap > &r * (abs(&slope) + &turn * high(0.5)) || slope > turn {
+        let change = third.clone() * r.clone();
+        let turn = r.clone() * (bend.abs() + change.clone() * half());
+        if gap > r.clone() * (slope.abs() + turn.clone() * half()) || slope > turn {
             continue;
         }
-        let lowest = if -slope > turn || -&bend > change {
+        let lowest = if -slope > turn || -bend.clone() > change {
             b
         } else if bend <= change {
             open.extend([(m.clone(), b), (a, m)]);
             continue;
-        } else if jet(c, &a)[1] >= High::ZERO {
+        } else if jet(c, &a)[1] >= N::of(0.0) {
             continue;
-        } else if jet(c, &b)[1] <= High::ZERO {
+        } else if jet(c, &b)[1] <= N::of(0.0) {
             b
         } else {
             zero(c, 1, a.clone(), b)
         };
-        if jet(c, &lowest)[0] <= High::ZERO {
+        if jet(c, &lowest)[0] <= N::of(0.0) {
             return Some(zero(c, 0, a, lowest));
         }
     }
     None
 }
 
-impl Exact {
-    /// Where the drive is cut, in one period.
-    fn cuts(&self) -> Vec<f64> {
-        let count = 13 * self.harmonics.len();
+/// The Taylor coefficients of a piece, and what it is nowhere higher than.
+type Piece<N> = (Vec<N>, f64);
+
+/// The heights of a drive over one period, as polynomials in the time since the last cut.
+pub struct Heights<'a, N> {
+    of: &'a Exact,
+    cuts: Vec<f64>,
+    pieces: Vec<OnceCell<Piece<N>>>,
+}
+
+impl<'a, N: Number> Heights<'a, N> {
+    pub fn new(of: &'a Exact) -> Self {
+        let count = 13 * of.harmonics.len();
         let cut = |k: usize| k as f64 / count as f64 * TAU;
-        if count == 0 { self.joints.clone() } else { (0..=count).map(cut).collect() }
+        let cuts = if count == 0 { of.joints.clone() } else { (0..=count).map(cut).collect() };
+        Self { of, pieces: vec![OnceCell::new(); cuts.len() - 1], cuts }
     }
 
-    /// The Taylor coefficients of the height from a cut on.
-    fn taylor(&self, cut: f64) -> Vec<High> {
-        if self.harmonics.is_empty() {
-            let at = self.drive.at(cut);
-            return vec![
-                high(at.height),
-                high(at.velocity),
-                high(0.5 * at.acceleration),
-                high(at.jerk) / high(6.0),
-            ];
+    fn taylor(&self, cut: f64) -> Vec<N> {
+        if self.of.harmonics.is_empty() {
+            let at = self.of.drive.at(cut);
+            let sixth = N::of(at.jerk) / N::of(6.0);
+            return vec![N::of(at.height), N::of(at.velocity), N::of(0.5 * at.acceleration), sixth];
         }
-        let mut sums = vec![high(0.0); ORDERS];
-        let (sin, cos) = sin_cos(&high(cut));
-        let (mut s, mut c) = (sin.clone(), cos.clone());
-        for (j, &(a, angle)) in (1_u32..).zip(&self.harmonics) {
-            let (sin_angle, cos_angle) = sin_cos(&high(angle));
-            let (value, slope) = (&s * &cos_angle + &c * &sin_angle, &c * &cos_angle - &s * &sin_angle);
+        let mut sums = vec![N::of(0.0); N::ORDERS];
+        let (sin, cos) = N::of(cut).turn();
+        let turned = |(s, c): (N, N), (sin, cos): (N, N)| {
+            (s.clone() * cos.clone() + c.clone() * sin.clone(), c * cos - s * sin)
+        };
+        let mut pair = (sin.clone(), cos.clone());
+        for (j, &(a, angle)) in (1_u32..).zip(&self.of.harmonics) {
+            let (value, slope) = turned(pair.clone(), N::of(angle).turn());
             let derivatives = [value.clone(), slope.clone(), -value, -slope];
-            let mut factor = high(a);
+            let mut factor = N::of(a);
             for (k, sum) in sums.iter_mut().enumerate() {
-                *sum += &factor * &derivatives[k % 4];
-                factor *= high(f64::from(j));
+                *sum = sum.clone() + factor.clone() * derivatives[k % 4].clone();
+                factor = factor * N::of(f64::from(j)) / N::of((k + 1) as f64);
             }
-            (s, c) = (&s * &cos + &c * &sin, &c * &cos - &s * &sin);
-        }
-        let mut factorial = high(1.0);
-        for (k, sum) in sums.iter_mut().enumerate().skip(1) {
-            factorial *= high(k as f64);
-            *sum /= &factorial;
+            pair = turned(pair, (sin.clone(), cos.clone()));
         }
         sums
     }
-}
 
-/// A flight from the platform, with this relative speed.
-pub struct Flight<'a> {
-    of: &'a Exact,
-    time: f64,
-    speed: f64,
-    cuts: Vec<f64>,
-    pieces: Vec<OnceCell<(Vec<High>, f64)>>,
-}
-
-impl<'a> Flight<'a> {
-    pub fn new(of: &'a Exact, time: f64, speed: f64) -> Self {
-        let cuts = of.cuts();
-        Self { of, time, speed, pieces: vec![OnceCell::new(); cuts.len() - 1], cuts }
-    }
-
-    /// The Taylor coefficients of a piece, and what it is nowhere higher than.
-    fn piece(&self, piece: usize) -> &(Vec<High>, f64) {
+    fn piece(&self, piece: usize) -> &Piece<N> {
         self.pieces[piece].get_or_init(|| {
-            let c = self.of.taylor(self.cuts[piece]);
-            let mut sizes: Vec<_> = c.iter().map(abs).collect();
+            let c = self.taylor(self.cuts[piece]);
+            let mut sizes: Vec<_> = c.iter().map(N::abs).collect();
             sizes[0] = c[0].clone();
-            let top = low(&jet(&sizes, &high(self.cuts[piece + 1] - self.cuts[piece]))[0]);
+            let top = jet(&sizes, &N::of(self.cuts[piece + 1] - self.cuts[piece]))[0].rounded();
             (c, top + 1e-9 * top.abs())
         })
     }
 
+    /// What no height is above.
+    fn highest(&self) -> f64 {
+        if self.of.joints.is_empty() {
+            return (1.0 + 1e-9) * self.of.harmonics.iter().map(|(a, _)| a.abs()).sum::<f64>();
+        }
+        (0..self.pieces.len()).map(|piece| self.piece(piece).1).fold(f64::NEG_INFINITY, f64::max)
+    }
+}
+
+/// A flight from the platform, with this relative speed.
+pub struct Flight<'a, N> {
+    above: &'a Heights<'a, N>,
+    time: f64,
+    speed: f64,
+}
+
+impl<'a, N: Number> Flight<'a, N> {
+    pub fn new(above: &'a Heights<'a, N>, time: f64, speed: f64) -> Self {
+        Self { above, time, speed }
+    }
+
     /// Calls with the start and the length of each stretch and its gap, until something is found.
-    fn walk(&self, visit: &mut impl FnMut(&High, &High, &[High]) -> Option<High>) -> High {
-        let (of, cuts, count) = (self.of, &self.cuts, self.pieces.len());
+    fn walk(&self, visit: &mut impl FnMut(&N, &N, &[N]) -> Option<N>) -> N {
+        let (above, cuts, has_joints) = (self.above, &self.above.cuts, !self.above.of.joints.is_empty());
+        let count = above.pieces.len();
         let mut piece = cuts.partition_point(|&cut| cut <= self.time).min(count) - 1;
-        let (mut from, mut c) = (high(self.time), self.piece(piece).0.clone());
+        let (mut from, mut c) = (N::of(self.time), above.piece(piece).0.clone());
         // Begun anew at the launch.
+        let behind = from.clone() - N::of(cuts[piece]);
         for k in 0..c.len() {
             for n in (k..c.len() - 1).rev() {
-                c[n] = &c[n] + &c[n + 1] * (&from - high(cuts[piece]));
+                c[n] = c[n].clone() + c[n + 1].clone() * behind.clone();
             }
         }
-        let (height, disk) = (c[0].clone(), &c[1] + high(self.speed));
-        let tops = || (0..count).map(|piece| self.piece(piece).1).fold(f64::NEG_INFINITY, f64::max);
-        let highest = if of.joints.is_empty() { (1.0 + 1e-9) * of.sizes(0) } else { tops() };
+        let (height, disk) = (c[0].clone(), c[1].clone() + N::of(self.speed));
+        let highest = above.highest();
         // When the disk is above all of the platform.
-        let (up, depth) = (low(&disk), highest - low(&height));
+        let (up, depth) = (disk.rounded(), highest - height.rounded());
         let until = if up > 0.0 { up + (up * up - 2.0 * depth).sqrt() } else { f64::NAN };
-        let (mut begin, mut gap, mut speed, mut turns) = (high(0.0), high(0.0), high(self.speed), 0.0);
+        let (mut begin, mut gap, mut speed, mut turns) = (N::of(0.0), N::of(0.0), N::of(self.speed), 0.0);
         loop {
-            let in_first = |begin: &High| low(begin) <= TAU;
-            let at_joint = piece + 1 < count || in_first(&begin) && !of.joints.is_empty();
-            let length = if at_joint { high(cuts[piece + 1]) } else { two_pi().clone() } - &from;
-            let mut own: Vec<_> = c.iter().map(|c| -c).collect();
+            let in_first = |begin: &N| begin.rounded() <= TAU;
+            let at_joint = piece + 1 < count || in_first(&begin) && has_joints;
+            let length = if at_joint { N::of(cuts[piece + 1]) } else { N::two_pi() } - from;
+            let mut own: Vec<_> = c.iter().map(|c| -c.clone()).collect();
             (own[0], own[1]) = (gap, speed);
-            own[2] -= high(0.5);
+            own[2] = own[2].clone() - N::of(0.5);
             // A parabola is nowhere lower than at the lower of two ends.
-            let (t, after) = (low(&begin), low(&(&begin + &length)));
-            let least = low(&height) + (t * (up - 0.5 * t)).min(after * (up - 0.5 * after));
-            let clear = t > TAU && least > self.piece(piece).1 + 1e-9 * (t * t + highest.abs());
+            let (t, after) = (begin.rounded(), (begin.clone() + length.clone()).rounded());
+            let least = height.rounded() + (t * (up - 0.5 * t)).min(after * (up - 0.5 * after));
+            let clear = t > TAU && least > above.piece(piece).1 + 1e-9 * (t * t + highest.abs());
             if !clear && let Some(found) = visit(&begin, &length, &own) {
                 return found;
             }
-            begin += &length;
+            begin = begin + length.clone();
             let carried = in_first(&begin).then(|| (jet(&own, &length), jet(&c, &length)[1].clone()));
             piece = (piece + 1) % count;
             turns += if piece == 0 { 1.0 } else { 0.0 };
             let ahead = ((until - 1e-6 + self.time) / TAU).floor();
-            if carried.is_none() && low(&begin) > 2.0 * depth / until + 1e-6 && ahead > turns {
+            if carried.is_none() && begin.rounded() > 2.0 * depth / until + 1e-6 && ahead > turns {
                 (turns, piece) = (ahead, 0);
             }
-            (from, c) = (high(cuts[piece]), self.piece(piece).0.clone());
+            (from, c) = (N::of(cuts[piece]), above.piece(piece).0.clone());
             if let Some((there, before)) = carried {
                 [gap, speed, _] = there;
-                let kink = &c[1] - before;
+                let kink = c[1].clone() - before;
                 // As the drive defines it.
-                if low(&kink).abs() > 1e-12 * of.drive.bounds().speed {
-                    speed -= kink;
+                if kink.rounded().abs() > 1e-12 * above.of.drive.bounds().speed {
+                    speed = speed - kink;
                 }
             } else {
-                begin = (two_pi() * high(turns) + &from - high(self.time)).with_precision(PRECISION).value();
-                gap = &height - &c[0] + &begin * (&disk - &begin * high(0.5));
-                speed = &disk - &begin - &c[1];
+                begin = N::two_pi() * N::of(turns) + from.clone() - N::of(self.time);
+                let fallen = disk.clone() - begin.clone() * N::of(0.5);
+                gap = height.clone() - c[0].clone() + begin.clone() * fallen;
+                speed = disk.clone() - begin.clone() - c[1].clone();
             }
         }
     }
 
     /// When the gap, raised by this much, is zero for the first time.
-    fn first(&self, raised: f64) -> High {
+    fn first(&self, raised: f64) -> N {
         self.walk(&mut |begin, length, gap| {
             let mut gap = gap.to_vec();
-            gap[0] += high(raised);
+            gap[0] = gap[0].clone() + N::of(raised);
             // Heights may jump by their rounding.
-            if gap[0] < High::ZERO {
+            if gap[0] < N::of(0.0) {
                 Some(begin.clone())
             } else {
-                first_root(&gap, length).map(|t| begin + t)
+                first_root(&gap, length).map(|t| begin.clone() + t)
             }
         })
     }
 
-    fn gap_at(&self, time: &High) -> f64 {
-        low(&self.walk(&mut |begin, length, gap| {
-            let t = time - begin;
+    fn gap_at(&self, time: &N) -> f64 {
+        let gap = self.walk(&mut |begin, length, gap| {
+            let t = time.clone() - begin.clone();
             (t <= *length).then(|| jet(gap, &t)[0].clone())
-        }))
+        });
+        gap.rounded()
     }
 
     /// Whether the disk truly hits where it is doubted, and whether the impact is another than the solver's:
     /// then it must be the doubt that rounding decides. If not, the impact is the first one within its error.
     pub fn judge(&self, landing: &DrivenImpact) -> Result<(bool, bool), String> {
         let DrivenImpact { impact, error, doubt, .. } = landing;
-        let end = two_pi() * high(impact.periods as f64) + high(impact.remainder);
-        let off = low(&(self.first(0.0) - &end));
+        let end = N::two_pi() * N::of(impact.periods as f64) + N::of(impact.remainder);
+        let off = (self.first(0.0) - end.clone()).rounded();
         let otherwise = off.abs() > *error;
         let Some(doubt) = doubt else {
             return if otherwise { Err(format!("the true root is {off:e} off")) } else { Ok((false, false)) };
         };
-        let value = self.gap_at(&high(doubt.at)).abs();
+        let value = self.gap_at(&N::of(doubt.at)).abs();
         if value > doubt.bound {
             return Err(format!("doubt of {value:e}, truly"));
         }
-        let landed = (low(&end) - doubt.at).abs() <= *error;
+        let landed = (end.rounded() - doubt.at).abs() <= *error;
         // No deeper dip, or a gap that is nothing but rounding.
         let genuine = if off < 0.0 {
-            low(&(self.first(doubt.bound) - &end)) >= -error
+            (self.first(doubt.bound) - end).rounded() >= -error
         } else {
             self.gap_at(&end).abs() <= doubt.bound
         };

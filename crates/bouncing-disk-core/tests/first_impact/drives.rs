@@ -6,10 +6,11 @@ use bouncing_disk_core::flight::DrivenImpact;
 use bouncing_disk_core::run::in_parallel;
 use bouncing_disk_core::{Drive, Launch, Phase, Vibration};
 
-use crate::drive_oracle::Flight;
+use crate::drive_oracle::{Flight, Heights};
 use crate::launches::SplitMix;
+use crate::numbers::Dd;
+use crate::oracle::High;
 use crate::shards;
-use crate::sums::{Dd, Gap, dd, has_root_at, positive};
 
 /// A drive, and what an oracle needs to know of it.
 pub struct Exact {
@@ -35,199 +36,17 @@ impl Exact {
         Self { drive, harmonics: Vec::new(), joints }
     }
 
-    /// Bound on a derivative of a sum of harmonics.
-    pub fn sizes(&self, order: i32) -> f64 {
-        let size = |(j, &(a, _)): (i32, &(f64, f64))| a.abs() * libm::pow(f64::from(j), f64::from(order));
-        (1..).zip(&self.harmonics).map(size).sum()
-    }
-
-    /// The piece at a time in [0, 2 pi), its coefficients and when it starts.
-    fn piece(&self, time: f64) -> (usize, [Dd; 4], f64) {
-        let piece = self.joints.partition_point(|&start| start <= time).clamp(1, self.joints.len() - 1) - 1;
-        let start = self.joints[piece];
-        let at = self.drive.at(start);
-        let sixth = dd(at.jerk) / dd(6.0);
-        (piece, [dd(at.height), dd(at.velocity), dd(0.5 * at.acceleration), sixth], start)
-    }
-
-    /// Height and velocity at a time (of pieces: in [0, 2 pi)).
-    fn at(&self, time: Dd) -> (Dd, Dd) {
-        if self.joints.is_empty() {
-            let (mut height, mut velocity) = (dd(0.0), dd(0.0));
-            for (j, &(a, angle)) in (1..).zip(&self.harmonics) {
-                let j = dd(f64::from(j));
-                let (sin, cos) = (j * time + dd(angle)).sin_cos();
-                height = height + dd(a) * sin;
-                velocity = velocity + dd(a) * j * cos;
-            }
-            return (height, velocity);
-        }
-        let (_, c, start) = self.piece(time.high());
-        polynomial(c, time - dd(start))
-    }
-
-    /// The gap above a sum of harmonics after a launch at `time` with relative speed `w`.
-    fn above(&self, time: f64, w: f64) -> Sines<'_> {
-        Sines { of: self, time: dd(time), w: dd(w), start: self.at(dd(time)) }
-    }
-
-    /// What must hold for the impact after a launch at `time` with relative speed `w`.
-    fn judge(&self, time: f64, w: f64, landing: &DrivenImpact) -> Result<(), String> {
-        let impact = &landing.impact;
-        let h = dd(impact.periods as f64) * (Dd::PI + Dd::PI) + dd(impact.remainder);
-        let error = landing.error;
+    /// Whether the impact after a launch at `time` with relative speed `w` is the true one: see
+    /// [`Flight::judge`].
+    fn judge(&self, at: &Heights<'_, Dd>, time: f64, w: f64, landing: &DrivenImpact) -> Result<(), String> {
+        let (impact, h) = (&landing.impact, landing.impact.duration());
         let pull = 1.0 + self.drive.acceleration(time);
-        if h.high() < 1e-140 && pull > 1e-6 {
+        if h < 1e-140 && pull > 1e-6 {
             // The squares of the oracle would underflow: the parabola to all digits.
-            let near =
-                (h.high() * pull - 2.0 * w).abs() <= 1e-9 * w && (impact.velocity + w).abs() <= 1e-14 * w;
+            let near = (h * pull - 2.0 * w).abs() <= 1e-9 * w && (impact.velocity + w).abs() <= 1e-14 * w;
             return if near { Ok(()) } else { Err("not the parabola".to_owned()) };
         }
-        let (height, velocity) = self.at(dd(time));
-        // Nothing is to be hit above all heights.
-        let crude = if self.joints.is_empty() { self.sizes(0) } else { self.drive.max_height() };
-        let (u, depth) = (velocity.high() + w, crude + 1e-6 - height.high());
-        let radicand = u * u - 2.0 * depth;
-        let above = if u > 0.0 && radicand > 0.0 {
-            let fall = radicand.sqrt();
-            (2.0 * depth / (u + fall) * (1.0 + 1e-9), (u + fall) * (1.0 - 1e-12) - 1e-9)
-        } else {
-            (f64::INFINITY, f64::INFINITY)
-        };
-        let raised = landing.doubt.map_or(0.0, |doubt| 2.0 * doubt.bound);
-        let last = (h - dd(4.0 * error)).high();
-        if self.joints.is_empty() {
-            let gap = self.above(time, w);
-            if landing.doubt.is_none_or(|doubt| gap.at(h).0.high().abs() > doubt.bound) {
-                has_root_at(&gap, h, error)?;
-            }
-            if let Some(doubt) = landing.doubt {
-                let value = gap.at(dd(doubt.at)).0.high();
-                if value.abs() > doubt.bound {
-                    return Err(format!("doubt of {value:e}, bound {:e}", doubt.bound));
-                }
-            }
-            positive(&gap, 0.0, last.min(above.0), raised)?;
-            return if above.1 < last { positive(&gap, above.1, last, raised) } else { Ok(()) };
-        }
-        // From joint to joint.
-        let mut elapsed = dd(0.0);
-        let (mut piece, c, start) = self.piece(time);
-        let mut gap = Cubic { c, x: dd(time) - dd(start), gap: dd(0.0), speed: dd(w) };
-        let mut length = dd(self.joints[piece + 1]) - dd(time);
-        let mut passed = false;
-        loop {
-            let left = (h - elapsed - length).high();
-            if left <= 2.0 * error {
-                let value = gap.at(h - elapsed).0.high();
-                let touches = landing.doubt.is_some_and(|doubt| value.abs() <= doubt.bound);
-                let root = if touches { Ok(()) } else { has_root_at(&gap, h - elapsed, 1.01 * error) };
-                // Within its error it may be on the next piece.
-                if root.is_ok() || left < -2.0 * error {
-                    root?;
-                    return positive(&gap, 0.0, (h - elapsed).high() - 4.0 * error, raised);
-                }
-            }
-            if elapsed.high() < above.0 || elapsed.high() + length.high() > above.1 {
-                positive(&gap, 0.0, length.high(), raised)?;
-            }
-            let (mut value, mut speed) = gap.at(length);
-            let before = polynomial(gap.c, gap.x + length).1;
-            elapsed = elapsed + length;
-            piece = (piece + 1) % (self.joints.len() - 1);
-            let (_, c, _) = self.piece(self.joints[piece]);
-            let jump = c[1] - before;
-            if jump.high().abs() > 1e-12 * self.drive.bounds().speed {
-                speed = speed - jump;
-            }
-            let periods = libm::floor((above.1 - elapsed.high()) / TAU);
-            if !passed && above.1 < last && elapsed.high() > above.0 && periods >= 1.0 {
-                passed = true;
-                elapsed = elapsed + dd(periods) * (Dd::PI + Dd::PI);
-                speed = velocity + dd(w) - elapsed - c[1];
-                value = height + elapsed * (velocity + dd(w) - dd(0.5) * elapsed) - c[0];
-            }
-            gap = Cubic { c, x: dd(0.0), gap: value, speed };
-            length = dd(self.joints[piece + 1]) - dd(self.joints[piece]);
-        }
-    }
-}
-
-fn polynomial([c0, c1, c2, c3]: [Dd; 4], x: Dd) -> (Dd, Dd) {
-    (c0 + x * (c1 + x * (c2 + x * c3)), c1 + x * (dd(2.0) * c2 + x * (dd(3.0) * c3)))
-}
-
-/// The gap above a Fourier drive after a launch.
-struct Sines<'a> {
-    of: &'a Exact,
-    time: Dd,
-    w: Dd,
-    start: (Dd, Dd),
-}
-
-impl Gap for Sines<'_> {
-    fn at(&self, t: Dd) -> (Dd, Dd) {
-        let (mut rest, mut slope) = (dd(0.0), dd(0.0));
-        if t.high() * (self.of.harmonics.len() as f64) < 1e-2 {
-            // The Taylor series from the second order on.
-            for (j, &(a, angle)) in (1..).zip(&self.of.harmonics) {
-                let j = dd(f64::from(j));
-                let (sin, cos) = (j * self.time + dd(angle)).sin_cos();
-                let derivatives = [sin, cos, -sin, -cos];
-                let mut factor = j * t;
-                for k in 2..14_u32 {
-                    let derivative = dd(a) * derivatives[(k % 4) as usize];
-                    factor = factor * j;
-                    slope = slope + factor * derivative;
-                    factor = factor * t / dd(f64::from(k));
-                    rest = rest + factor * derivative;
-                }
-            }
-        } else {
-            let (height, velocity) = self.of.at(self.time + t);
-            rest = height - self.start.0 - t * self.start.1;
-            slope = velocity - self.start.1;
-        }
-        (t * (self.w - dd(0.5) * t) - rest, self.w - t - slope)
-    }
-
-    fn bend(&self, _: f64, _: f64) -> f64 {
-        1.0 + self.of.sizes(2)
-    }
-
-    fn start(&self) -> (f64, f64) {
-        (-1.0 - self.of.drive.acceleration(self.time.high()), self.of.sizes(3))
-    }
-}
-
-/// The gap above one piece.
-struct Cubic {
-    c: [Dd; 4],
-    x: Dd,
-    gap: Dd,
-    speed: Dd,
-}
-
-impl Cubic {
-    fn bend_at_start(&self) -> Dd {
-        dd(-1.0) - dd(2.0) * (self.c[2] + dd(3.0) * self.x * self.c[3])
-    }
-}
-
-impl Gap for Cubic {
-    fn at(&self, t: Dd) -> (Dd, Dd) {
-        let (a, j) = (self.bend_at_start(), dd(-6.0) * self.c[3]);
-        let half = dd(0.5) * j * t;
-        (self.gap + t * (self.speed + t * (dd(0.5) * a + half / dd(3.0))), self.speed + t * (a + half))
-    }
-
-    fn bend(&self, from: f64, to: f64) -> f64 {
-        let (a, j) = (self.bend_at_start().high(), 6.0 * self.c[3].high());
-        (a - j * from).abs().max((a - j * to).abs())
-    }
-
-    fn start(&self) -> (f64, f64) {
-        (self.bend_at_start().high(), 6.0 * self.c[3].high().abs())
+        Flight::new(at, time, w).judge(landing).map(drop)
     }
 }
 
@@ -401,6 +220,7 @@ fn attack(kind: Kind, seed: u64, launches: u64) -> Tally {
     let mut tally = Tally::default();
     while tally.launches < launches {
         let exact = kind.draw(&mut random);
+        let (near, wide) = (Heights::<Dd>::new(&exact), Heights::<High>::new(&exact));
         for _ in 0..20 {
             let Some((time, speed)) = launch(&exact, &mut random) else { continue };
             tally.launches += 1;
@@ -413,11 +233,11 @@ fn attack(kind: Kind, seed: u64, launches: u64) -> Tally {
                         tally.evaluations = landing.impact.evaluations;
                         tally.longest = format!("{}: {landing:?}", start());
                     }
-                    let mut verdict = exact.judge(time, speed, &landing);
+                    let mut verdict = exact.judge(&near, time, speed, &landing);
                     let hard = landing.doubt.is_some() && tally.doubts <= most
                         || landing.on_kink && tally.kinks <= most;
                     if verdict.is_ok() && (hard || tally.launches.is_multiple_of(every)) {
-                        verdict = Flight::new(&exact, time, speed).judge(&landing).map(|(hit, otherwise)| {
+                        verdict = Flight::new(&wide, time, speed).judge(&landing).map(|(hit, otherwise)| {
                             tally.judged += 1;
                             tally.judged_doubts += u64::from(landing.doubt.is_some());
                             tally.hits += u64::from(hit);

@@ -13,6 +13,7 @@ mod drops;
 mod elementary;
 mod launches;
 mod march;
+mod numbers;
 mod oracle;
 #[path = "../paper/mod.rs"]
 mod paper;

@@ -3,16 +3,10 @@
 //! It knows a function in double-doubles and a bound on its curvature, halves intervals until each is
 //! positive, and shares nothing with the solver.
 
-use bouncing_disk_core::numerics::double_double::DoubleDouble;
 use bouncing_disk_core::numerics::quasi_polynomial::{DampedSine, FirstRoot, QuasiPolynomial};
 
 use crate::launches::SplitMix;
-
-pub type Dd = DoubleDouble;
-
-pub fn dd(x: f64) -> Dd {
-    Dd::from(x)
-}
+use crate::numbers::{Dd, dd};
 
 /// A function of time: value and slope, and a bound on the second derivative between two times.
 pub trait Gap {
@@ -71,7 +65,7 @@ pub fn positive(gap: &dyn Gap, from: f64, to: f64, doubt: f64) -> Result<(), Str
 }
 
 /// Whether the function has a root within `error` of t.
-pub fn has_root_at(gap: &dyn Gap, t: Dd, error: f64) -> Result<(), String> {
+fn has_root_at(gap: &dyn Gap, t: Dd, error: f64) -> Result<(), String> {
     let (value, slope) = gap.at(t);
     let bend = gap.bend((t.high() - error).max(0.0), t.high() + error);
     let legal = error * (slope.high().abs() + bend * error);
