@@ -155,6 +155,29 @@ fn the_triangle_has_a_neutral_family_of_period_one() {
     }
 }
 
+/// On a slope u, k periods on, the disk meets the platform 2 pi k (sqrt(u/u_k) - 1) later with the speed of the
+/// impact before, where u_k = pi k (1 - r)/(1 + r), with the multipliers 1 and r^2.
+#[test]
+fn impacts_of_one_speed_drift_along_a_slope() {
+    let r = 0.6;
+    let shapes: [fn(f64) -> Result<Drive, Error>; 2] =
+        [Drive::triangle, |amplitude| Drive::sawtooth(amplitude, 0.25)];
+    for (shape, periods, steeper) in [(0, 1.0, 1.0), (0, 2.0, 1.02), (1, 1.0, 1.0), (1, 2.0, 1.01)] {
+        let shape = shapes[shape];
+        let slope = steeper * 0.5 * TAU * periods * (1.0 - r) / (1.0 + r);
+        let map = DrivenMap::new(shape(slope / shape(1.0).unwrap().velocity(0.0)).unwrap(), r).unwrap();
+        let speed = (2.0 * TAU * periods * slope / (1.0 - r * r)).sqrt();
+        let before = ImpactState::new(Phase::new(0.3).unwrap(), -speed).unwrap();
+        let (landing, derivative) = map.step_with_derivative(before).unwrap();
+        let late = landing.impact.phase.angle() - 0.3;
+        assert!((late - TAU * periods * (f64::sqrt(steeper) - 1.0)).abs() < 1e-13, "{landing:?}");
+        assert!((landing.impact.velocity + speed).abs() < 1e-12, "{landing:?}");
+        assert!((derivative.x_axis.x - 1.0).abs() < 1e-12 && derivative.x_axis.y.abs() < 1e-12);
+        assert!((derivative.determinant() - r * r).abs() < 1e-12);
+        assert_eq!(landing.impact.turns, periods as u64);
+    }
+}
+
 /// By hand, as for the sine: one impact per period needs the platform's velocity pi (1 - r)/(1 + r). On the
 /// quadratic approximation that is one phase of each slope; the derivative has the trace of the sine's with
 /// the acceleration there, and the determinant r^2.
