@@ -7,7 +7,7 @@ const GRIDS: [(&str, usize); 6] = [
     ("diagram -G 0.3:0.6:7 --transient 50 --recorded 20", 7),
     ("verdicts -G 0.3:0.6:5 --impacts 500 --transient 100", 5),
     ("verdicts -G 0:1:6 -r 0:0.9:4 --impacts 500 --transient 100 --start period-1", 4),
-    ("basins -G 0.55 --cells 9 --starts 50 --impacts 300", 9),
+    ("basins -G 0.486 --cells 9 --starts 20 --impacts 300", 9),
     (
         "motor sweep --over friction=0.1:0.2:2 --over amplitude=1e-8:3e-8:3 --relative-error 0.3 --members 4",
         3,

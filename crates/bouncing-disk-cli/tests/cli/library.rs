@@ -355,10 +355,11 @@ fn basins_with_a_chaotic_attractor() {
     let settings = BasinSettings { max_impacts: 400, ..BasinSettings::default() };
     let basins =
         map(0.55, 0.5).attractors(&search, &Unobserved).unwrap().basins(grid, settings, &Unobserved).unwrap();
-    let found = written("basins -G 0.55 --cells 21 --starts 100 --impacts 400");
+    let found = written("basins -G 0.55 --cells 21 --starts 100 --impacts 400 --out a.svg --out a.csv");
     let rows: Vec<String> =
         (0..21).map(|row| basins.row(row).iter().map(|label| format!("{label:02x}")).collect()).collect();
     assert_eq!(found["hexadecimal_labels_by_speed"], json!(rows));
+    assert!(found["attractors"].to_string().contains("exponent"), "{}", found["attractors"]);
 }
 
 #[test]
