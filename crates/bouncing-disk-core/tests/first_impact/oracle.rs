@@ -6,7 +6,7 @@
 //! by angle addition from `dashu`'s values for the first, and a Taylor series for the rest; a test compares
 //! them with `dashu`'s own.
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::OnceLock;
 
 use bouncing_disk_core::{Impact, Launch, Phase, Vibration};
@@ -14,6 +14,7 @@ use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
 
 use crate::launches::Case;
+use crate::march::{March, Sample, check_form};
 
 /// A binary floating-point number of [`PRECISION`] bits.
 pub type High = FBig<HalfEven, 2>;
@@ -41,14 +42,11 @@ pub const DIP_FACTOR: f64 = 8.0;
 /// own: some roundoffs of 2 pi.
 const PAIR_TOLERANCE: f64 = 6.0 * U * TAU;
 
-/// Steps of conservative advancement in double precision before the high-precision one takes over.
-const MAX_FAST_STEPS: u32 = 200;
-
 /// Steps of conservative advancement in high precision before the oracle gives up (an error).
 const MAX_HIGH_STEPS: u32 = 20_000;
 
 /// Conservative steps are computed in doubles and shortened by this much.
-const STEP_SHARE: f64 = 1.0 - 1.0e-9;
+pub const STEP_SHARE: f64 = 1.0 - 1.0e-9;
 
 /// `x`, exactly.
 pub fn high(x: f64) -> High {
@@ -597,7 +595,8 @@ impl Exact {
 
     /// Judges an impact that the solver found.
     pub fn judge(&self, impact: &Impact) -> Result<Verdict, String> {
-        check_form(impact, self.own_shift())?;
+        check_form(impact)?;
+        check_pair(impact.phase, self.own_shift())?;
         let claimed = (two_pi() * high(impact.periods as f64) + high(impact.remainder))
             .with_precision(PRECISION + 32)
             .value();
@@ -699,24 +698,8 @@ impl Exact {
         to_root: bool,
         verdict: &mut Verdict,
     ) -> Result<Advance, String> {
-        let (p, w, s0, c0) = (self.peak, self.speed, low(&self.s0), low(&self.c0));
-        let start = self.start_gap;
-        let eval = |t: f64| {
-            let (s, c) = libm::sincos(t);
-            let half = libm::sin(0.5 * t);
-            let versine = 2.0 * half * half;
-            let deficit = sine_deficit(t, s);
-            let size = start + w.abs() * t + 0.5 * t * t + p * (s0.abs() * versine + c0.abs() * deficit);
-            Sample {
-                gap: start + (w * t - 0.5 * t * t) + p * (s0 * versine + c0 * deficit),
-                gap_error: 32.0 * U * size,
-                velocity: (w - t) + p * (s0 * s + c0 * versine),
-                velocity_error: 32.0 * U * (w.abs() + t + p * (s0.abs() * s.abs() + c0.abs() * versine)),
-                pull: 1.0 - p * (s0 * c + c0 * s),
-                pull_error: 16.0 * U * (1.0 + p),
-                third: p * (c0 * c - s0 * s),
-            }
-        };
+        let (start, pair) = ((self.start_gap, self.speed), (low(&self.s0), low(&self.c0)));
+        let eval = |t: f64| Sample::after(self.peak, start, pair, t);
         self.advance(&high(0.0), low(from), end, to_root && !verdict.undecidable, eval, verdict)
     }
 
@@ -762,32 +745,10 @@ impl Exact {
         verdict: &mut Verdict,
     ) -> Result<Advance, String> {
         let goal = low(&(end - reference));
-        let mut t = start;
-        let mut steps = 0;
-        let mut suspicious = false;
-        while t < goal {
-            let at = eval(t);
-            steps += 1;
-            let ahead = (goal - t) * (1.0 + 1.0e-12);
-            if to_root && at.falls_for(self.peak, ahead) {
-                break;
-            }
-            let sure = if t > 0.0 { at.gap - at.gap_error } else { at.gap };
-            if sure <= 0.0 && t > 0.0 || steps > MAX_FAST_STEPS {
-                suspicious = true;
-                break;
-            }
-            let step = at.safe_step(sure, at.velocity - at.velocity_error, self.peak);
-            if step <= 16.0 * U * t {
-                suspicious = true;
-                break;
-            }
-            t += step;
-        }
+        let march = March { peak: self.peak, from: start, to: goal, to_root, clear: None };
+        let (steps, open) = march.run(eval);
         verdict.fast_steps += steps;
-        if !suspicious {
-            return Ok(Advance::Clear);
-        }
+        let Some(t) = open else { return Ok(Advance::Clear) };
         let mut h = reference + high(t);
         // The last step may have been a rounding too long: go back a little.
         h = &h - &h * high(4.0 * U);
@@ -814,89 +775,14 @@ impl Exact {
     }
 }
 
-/// What can be said of an impact without solving anything.
-fn check_form(impact: &Impact, own_shift: f64) -> Result<(), String> {
-    let angle = impact.phase.angle();
-    if !(0.0..TAU).contains(&angle) || !(0.0..TAU).contains(&impact.remainder) {
-        return Err("phase or remainder outside [0, 2 pi)".into());
-    }
-    if impact.periods == 0 && impact.remainder <= 0.0 {
-        return Err("no flight at all".into());
-    }
-    if impact.velocity > 0.0 {
-        return Err("the disk is hit from above".into());
-    }
-    let (s, c) = libm::sincos(angle);
-    let pair_error = (s - impact.phase.sin()).abs().max((c - impact.phase.cos()).abs());
+/// Whether the carried sine and cosine are those of the angle.
+fn check_pair(phase: Phase, own_shift: f64) -> Result<(), String> {
+    let (s, c) = libm::sincos(phase.angle());
+    let pair_error = (s - phase.sin()).abs().max((c - phase.cos()).abs());
     if pair_error > PAIR_TOLERANCE + 4.0 * own_shift {
         return Err(format!("the carried pair is {pair_error:e} off its angle"));
     }
     Ok(())
-}
-
-/// h - sin h, in relative accuracy.
-pub fn sine_deficit(h: f64, sine: f64) -> f64 {
-    if h > 0.5 {
-        return h - sine;
-    }
-    let z = h * h;
-    h * z / 6.0
-        * (1.0
-            - z / 20.0
-                * (1.0
-                    - z / 42.0
-                        * (1.0 - z / 72.0 * (1.0 - z / 110.0 * (1.0 - z / 156.0 * (1.0 - z / 210.0))))))
-}
-
-/// The gap in doubles, with bounds of its error.
-pub struct Sample {
-    pub gap: f64,
-    pub gap_error: f64,
-    pub velocity: f64,
-    pub velocity_error: f64,
-    /// Minus the curvature, 1 - P sin, and P cos of the phase.
-    pub pull: f64,
-    pub pull_error: f64,
-    pub third: f64,
-}
-
-impl Sample {
-    /// Whether the gap falls all the time from here to `ahead`.
-    pub fn falls_for(&self, peak: f64, ahead: f64) -> bool {
-        let bend = (self.pull_error - self.pull + (self.third.abs() + 0.5 * peak * ahead) * ahead)
-            .min(peak - 1.0 + self.pull_error);
-        self.velocity + self.velocity_error + bend.max(0.0) * ahead < 0.0
-    }
-
-    /// A step that cannot reach a root: the curvature is never below -(1 + P), and for a step of at most `s`
-    /// not below P sin - P |cos| s - P s^2/2 - 1.
-    pub fn safe_step(&self, gap: f64, velocity: f64, peak: f64) -> f64 {
-        let mut best = safe_time(gap, velocity, 1.0 + peak);
-        let mut cap = best;
-        // A disk that starts with next to no speed where nothing pulls at it needs many.
-        for _ in 0..400 {
-            cap *= 4.0;
-            if cap > PI {
-                break;
-            }
-            let bend = self.pull + self.pull_error + (self.third.abs() + 0.5 * peak * cap) * cap;
-            let time = safe_time(gap, velocity, bend).min(cap);
-            if time <= best {
-                break;
-            }
-            best = time;
-        }
-        best * STEP_SHARE
-    }
-}
-
-/// The first zero of gap + velocity s - bend s^2/2.
-fn safe_time(gap: f64, velocity: f64, bend: f64) -> f64 {
-    if bend <= 0.0 {
-        return if velocity >= 0.0 { f64::INFINITY } else { gap / -velocity };
-    }
-    let root = (velocity * velocity + 2.0 * bend * gap).sqrt();
-    if velocity >= 0.0 { (velocity + root) / bend } else { 2.0 * gap / (root - velocity) }
 }
 
 /// The solver's input for a case.
