@@ -2,8 +2,8 @@
 //!
 //! The oracle knows the law, y'' + c y' + k y = -1 - s'', and integrates it by its Taylor series in
 //! double-doubles (a share in 77 digits): flights are k = c = 0, and no damping is special. On each piece of
-//! the series the function that ends the motion is a polynomial with a bound on its curvature, so that
-//! halving intervals misses no root.
+//! the series the function that ends the motion is a polynomial, which falls to zero where the oracle of
+//! flights says.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -16,8 +16,8 @@ use bouncing_disk_core::{Drive, Error};
 use crate::launches::SplitMix;
 use crate::numbers::{Dd, Number, dd};
 use crate::oracle::{High, U};
+use crate::polynomials::{derivatives, first_fall, jet};
 use crate::shards;
-use crate::sums::{Gap, positive};
 
 /// Terms of a series over half of its radius: the rest is below 1e-30.
 const TERMS: usize = 24;
@@ -28,24 +28,16 @@ const ROUNDING: f64 = 128.0 * U;
 /// Pieces after which a motion is not judged any further.
 const PIECES: f64 = 400.0;
 
-/// A polynomial in the time since the start of its piece, and how long that is.
-struct Polynomial([Dd; TERMS], f64);
-
-impl Gap for Polynomial {
-    fn at(&self, t: Dd) -> (Dd, Dd) {
-        self.0.iter().rev().fold((dd(0.0), dd(0.0)), |(value, slope), &c| (value * t + c, slope * t + value))
-    }
-
-    fn bend(&self, _: f64, to: f64) -> f64 {
-        self.bound(2, to)
-    }
-
-    fn start(&self) -> (f64, f64) {
-        (2.0 * self.0[2].high(), self.bound(3, self.1))
-    }
-}
+/// A polynomial in the time since the start of its piece.
+struct Polynomial([Dd; TERMS]);
 
 impl Polynomial {
+    /// Value and slope.
+    fn at(&self, t: Dd) -> (Dd, Dd) {
+        let [value, slope, _] = jet(&self.0, &t);
+        (value, slope)
+    }
+
     /// Bound on a derivative in [0, `to`].
     fn bound(&self, order: usize, to: f64) -> f64 {
         let factor = |m: usize| (0..order).map(|i| (m - i) as f64).product::<f64>();
@@ -76,21 +68,8 @@ impl Law {
 
     /// Derivatives of the load.
     fn loads<N: Number>(&self, time: &N) -> Vec<N> {
-        let mut loads = vec![N::of(0.0); TERMS];
-        loads[0] = N::of(self.weight);
-        for (j, &(a, angle)) in (1..).zip(&self.harmonics) {
-            if a == 0.0 {
-                continue;
-            }
-            let j = N::of(f64::from(j));
-            let (sin, cos) = (j.clone() * time.clone() + N::of(angle)).turn();
-            let mut factor = -(N::of(a) * j.clone() * j.clone());
-            let cycle = [sin.clone(), cos.clone(), -sin, -cos];
-            for (m, load) in loads.iter_mut().enumerate() {
-                *load = load.clone() + factor.clone() * cycle[m % 4].clone();
-                factor = factor * j.clone();
-            }
-        }
+        let mut loads = derivatives(&self.harmonics, time, TERMS + 2).split_off(2);
+        loads[0] = loads[0].clone() + N::of(self.weight);
         loads
     }
 }
@@ -150,7 +129,7 @@ impl Motion {
         let mut sum: [Dd; TERMS] =
             std::array::from_fn(|m| form[0] * gap[m] + form[1] * next(m) + form[2] * load[m]);
         sum[0] = sum[0] + form[3];
-        Polynomial(sum, self.step)
+        Polynomial(sum)
     }
 
     fn piece_at(&self, t: f64) -> (usize, f64) {
@@ -217,7 +196,7 @@ impl Fall {
             let (value, slope) = polynomial.at(dd(h));
             let (value, slope) = (value.high(), slope.high());
             let legal = rounding + slope.abs() * 4.0 * U * end;
-            let touch = (2.0 * legal * polynomial.bend(0.0, h)).sqrt();
+            let touch = (2.0 * legal * polynomial.bound(2, h)).sqrt();
             let rises = slope > 2.0 * touch + ROUNDING * (self.raise[1] + self.raise[2] * end);
             let off = if end == 0.0 { value } else { value.abs() };
             if off > legal || rises && value >= -legal {
@@ -233,7 +212,7 @@ impl Fall {
             let sure = (last - at).min(to);
             // A start that is zero but for its rounding is no root.
             let starts = from > 0.0 || piece == 0 && polynomial.0[0].high() <= 2.0 * ROUNDING * self.raise[0];
-            let open = positive(&polynomial, from, sure, 0.0).is_err();
+            let open = first_fall(&polynomial.0, dd(from), dd(sure)).is_some();
             if !open && sure >= to {
                 continue;
             }
@@ -241,8 +220,9 @@ impl Fall {
             for (c, r) in polynomial.0.iter_mut().zip(self.raised(motion.rate, at, at + to)) {
                 *c = *c + dd(2.0 * r);
             }
-            positive(&polynomial, from, to, 0.0)
-                .map_err(|reason| format!("missed from {at:e} on: {reason}"))?;
+            if let Some((after, before)) = first_fall(&polynomial.0, dd(from), dd(to)) {
+                return Err(format!("missed from {at:e} on, between {after:?} and {before:?}"));
+            }
         }
         Ok(doubt)
     }

@@ -12,75 +12,7 @@ use bouncing_disk_core::flight::DrivenImpact;
 
 use crate::drives::Exact;
 use crate::numbers::Number;
-
-/// Steps of a refinement, which halves its bracket down to the briefest flights; more are needed only where
-/// rounding hides the root.
-const MAX_STEPS: u32 = 1_500;
-
-/// A polynomial, and its first two derivatives.
-fn jet<N: Number>(c: &[N], t: &N) -> [N; 3] {
-    let [mut value, mut slope, mut half_bend] = [0.0; 3].map(N::of);
-    for c in c.iter().rev() {
-        half_bend = half_bend * t.clone() + slope.clone();
-        slope = slope * t.clone() + value.clone();
-        value = value * t.clone() + c.clone();
-    }
-    [value, slope, half_bend * N::of(2.0)]
-}
-
-/// Where the polynomial (its slope for `order` 1) changes its sign between two times.
-fn zero<N: Number>(c: &[N], order: usize, mut lo: N, mut hi: N) -> N {
-    let zero = N::of(0.0);
-    let (mut x, above) = (hi.clone(), jet(c, &hi)[order] > zero);
-    for _ in 0..MAX_STEPS {
-        let at = jet(c, &x);
-        let (value, slope) = (at[order].clone(), at[order + 1].clone());
-        *(if (value > zero) == above { &mut hi } else { &mut lo }) = x.clone();
-        let newton = (slope != zero).then(|| x.clone() - value / slope);
-        let newton = newton.filter(|newton| (&lo..=&hi).contains(&newton));
-        let next = newton.unwrap_or_else(|| (lo.clone() + hi.clone()) * N::of(0.5));
-        if (next.clone() - x).abs() <= next.clone() * N::of(N::ROUNDING) {
-            return next;
-        }
-        x = next;
-    }
-    x
-}
-
-/// The first root in (0, `to`] of a polynomial that is positive at 0, or leaves zero upwards.
-fn first_root<N: Number>(c: &[N], to: &N) -> Option<N> {
-    let third = (3..c.len())
-        .rev()
-        .fold(N::of(0.0), |sum, k| sum * to.clone() + c[k].abs() * N::of((k * (k - 1) * (k - 2)) as f64));
-    let half = || N::of(0.5);
-    let mut open = vec![(N::of(0.0), to.clone())];
-    while let Some((a, b)) = open.pop() {
-        let (m, r) = ((a.clone() + b.clone()) * half(), (b.clone() - a.clone()) * half());
-        let [gap, slope, bend] = jet(c, &m);
-        // By how much slope and bend change at most.
-        let change = third.clone() * r.clone();
-        let turn = r.clone() * (bend.abs() + change.clone() * half());
-        if gap > r.clone() * (slope.abs() + turn.clone() * half()) || slope > turn {
-            continue;
-        }
-        let lowest = if -slope > turn || -bend.clone() > change {
-            b
-        } else if bend <= change {
-            open.extend([(m.clone(), b), (a, m)]);
-            continue;
-        } else if jet(c, &a)[1] >= N::of(0.0) {
-            continue;
-        } else if jet(c, &b)[1] <= N::of(0.0) {
-            b
-        } else {
-            zero(c, 1, a.clone(), b)
-        };
-        if jet(c, &lowest)[0] <= N::of(0.0) {
-            return Some(zero(c, 0, a, lowest));
-        }
-    }
-    None
-}
+use crate::polynomials::{derivatives, first_root, jet};
 
 /// The Taylor coefficients of a piece, and what it is nowhere higher than.
 type Piece<N> = (Vec<N>, f64);
@@ -106,21 +38,11 @@ impl<'a, N: Number> Heights<'a, N> {
             let sixth = N::of(at.jerk) / N::of(6.0);
             return vec![N::of(at.height), N::of(at.velocity), N::of(0.5 * at.acceleration), sixth];
         }
-        let mut sums = vec![N::of(0.0); N::ORDERS];
-        let (sin, cos) = N::of(cut).turn();
-        let turned = |(s, c): (N, N), (sin, cos): (N, N)| {
-            (s.clone() * cos.clone() + c.clone() * sin.clone(), c * cos - s * sin)
-        };
-        let mut pair = (sin.clone(), cos.clone());
-        for (j, &(a, angle)) in (1_u32..).zip(&self.of.harmonics) {
-            let (value, slope) = turned(pair.clone(), N::of(angle).turn());
-            let derivatives = [value.clone(), slope.clone(), -value, -slope];
-            let mut factor = N::of(a);
-            for (k, sum) in sums.iter_mut().enumerate() {
-                *sum = sum.clone() + factor.clone() * derivatives[k % 4].clone();
-                factor = factor * N::of(f64::from(j)) / N::of((k + 1) as f64);
-            }
-            pair = turned(pair, (sin.clone(), cos.clone()));
+        let mut sums = derivatives(&self.of.harmonics, &N::of(cut), N::ORDERS);
+        let mut factorial = N::of(1.0);
+        for (k, sum) in sums.iter_mut().enumerate().skip(1) {
+            factorial = factorial * N::of(k as f64);
+            *sum = sum.clone() / factorial.clone();
         }
         sums
     }

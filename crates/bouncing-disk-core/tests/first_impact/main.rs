@@ -17,6 +17,7 @@ mod numbers;
 mod oracle;
 #[path = "../paper/mod.rs"]
 mod paper;
+mod polynomials;
 mod properties;
 mod releases;
 mod seams;

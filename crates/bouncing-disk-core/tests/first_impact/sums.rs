@@ -1,6 +1,6 @@
-//! An oracle for gaps of any form, and sums of a polynomial and damped sines judged by it.
+//! Sums of a polynomial and damped sines, judged by an oracle.
 //!
-//! It knows a function in double-doubles and a bound on its curvature, halves intervals until each is
+//! It knows the sum in double-doubles and a bound on its curvature, halves intervals until each is
 //! positive, and shares nothing with the solver.
 
 use bouncing_disk_core::numerics::quasi_polynomial::{DampedSine, FirstRoot, QuasiPolynomial};
@@ -8,19 +8,8 @@ use bouncing_disk_core::numerics::quasi_polynomial::{DampedSine, FirstRoot, Quas
 use crate::launches::SplitMix;
 use crate::numbers::{Dd, dd};
 
-/// A function of time: value and slope, and a bound on the second derivative between two times.
-pub trait Gap {
-    fn at(&self, t: Dd) -> (Dd, Dd);
-    fn bend(&self, from: f64, to: f64) -> f64;
-    /// Bend and bound on the third derivative from the start on: a gap that is zero at its start is divided
-    /// by the time.
-    fn start(&self) -> (f64, f64) {
-        (0.0, f64::INFINITY)
-    }
-}
-
 /// Whether the function, raised by `doubt`, is positive in (`from`, `to`]; if not, where it is not.
-pub fn positive(gap: &dyn Gap, from: f64, to: f64, doubt: f64) -> Result<(), String> {
+fn positive(gap: &Sum, from: f64, to: f64, doubt: f64) -> Result<(), String> {
     let mut stack = vec![(from, to)];
     let mut steps = 0;
     while let Some((a, b)) = stack.pop() {
@@ -30,22 +19,6 @@ pub fn positive(gap: &dyn Gap, from: f64, to: f64, doubt: f64) -> Result<(), Str
         steps += 1;
         if steps > 200_000 {
             return Err(format!("open at {a:e} of {to:e}"));
-        }
-        if a == 0.0 {
-            let (value, slope) = gap.at(dd(0.0));
-            if value.high() == 0.0 {
-                let (bend, third) = gap.start();
-                let end = slope.high() + 0.5 * bend * b - third * b * b / 6.0;
-                if slope.high() > 0.0 && end > 0.0 {
-                    continue;
-                }
-                let from_rest = slope.high() == 0.0 && bend > 0.0 && 0.5 * bend > third * b / 6.0;
-                if from_rest {
-                    continue;
-                }
-                stack.extend([(0.5 * b, b), (a, 0.5 * b)]);
-                continue;
-            }
         }
         let (m, r) = (0.5 * (a + b), 0.5 * (b - a));
         let (value, slope) = gap.at(dd(m));
@@ -65,7 +38,7 @@ pub fn positive(gap: &dyn Gap, from: f64, to: f64, doubt: f64) -> Result<(), Str
 }
 
 /// Whether the function has a root within `error` of t.
-fn has_root_at(gap: &dyn Gap, t: Dd, error: f64) -> Result<(), String> {
+fn has_root_at(gap: &Sum, t: Dd, error: f64) -> Result<(), String> {
     let (value, slope) = gap.at(t);
     let bend = gap.bend((t.high() - error).max(0.0), t.high() + error);
     let legal = error * (slope.high().abs() + bend * error);
@@ -101,7 +74,8 @@ struct Sum {
     terms: Vec<DampedSine>,
 }
 
-impl Gap for Sum {
+impl Sum {
+    /// Value and slope.
     fn at(&self, t: Dd) -> (Dd, Dd) {
         let [c0, c1, c2, c3] = self.polynomial.map(dd);
         let mut value = c0 + t * (c1 + t * (c2 + t * c3));
@@ -124,6 +98,7 @@ impl Gap for Sum {
         (value, slope)
     }
 
+    /// A bound on the second derivative between two times.
     fn bend(&self, from: f64, to: f64) -> f64 {
         let [_, _, c2, c3] = self.polynomial;
         let terms: f64 = self
