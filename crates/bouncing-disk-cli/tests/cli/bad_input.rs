@@ -106,7 +106,7 @@ fn drives() {
                 "segments",
                 "drive.segments is not a key: a drive is one motion that repeats. Give a start-up or a burst",
             ),
-            ("then", "drive.then is no key: "),
+            ("then", "drive.then is not a key: "),
             ("infinite", "infinite.toml: start_phase = inf is outside"),
             ("few", "few.toml: the height: number of samples = 2"),
         ] {
