@@ -416,7 +416,10 @@ pub(crate) fn held_drive(given: &Bound<'_, PyAny>, name: &str) -> PyResult<Drive
 pub(crate) fn drive(a: Arguments<'_>) -> PyResult<Drive> {
     let mut table = serde_json::Map::new();
     for name in ["height", "angle", "start_phase"] {
-        table.insert(name.to_owned(), plain(&a.get(name)?, &Place::Argument(name))?);
+        let given = a.get(name)?;
+        if !given.is_none() {
+            table.insert(name.to_owned(), plain(&given, &Place::Argument(name))?);
+        }
     }
     let drive: DriveParameters = a.read("drive", table.into())?;
     drive.check().map_err(|error| errors::of(a.py(), error))?;

@@ -506,7 +506,7 @@ RATED: dict[str, Any] = {"ranges": {"friction": (0.1, 0.3)}, "most_evaluations":
 
 
 def rated(ranges: Any) -> bd.RatedFit:
-    return bd.fit_rated_points(MOTOR, points=[POINT], **{**RATED, "ranges": ranges})
+    return bd.fit_rated_points(MOTOR.replace(friction=0.5), points=[POINT], **{**RATED, "ranges": ranges})
 
 
 #: The cosine, which six samples resolve.
