@@ -47,7 +47,7 @@ pub(crate) struct Options {
     list: bool,
     /// Write nothing; compute, and fail when docs/results.md, docs/errata.md or a picture in docs/figures is
     /// missing, edited, or made from other figures
-    #[arg(long, conflicts_with = "out")]
+    #[arg(long)]
     check: bool,
     /// Make all figures and tables in both qualities, and write docs/results.md, docs/errata.md and docs/figures from
     /// them
