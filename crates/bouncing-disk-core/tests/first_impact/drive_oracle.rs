@@ -14,7 +14,7 @@ use crate::drives::Exact;
 use crate::numbers::Number;
 use crate::polynomials::{derivatives, first_root, jet};
 
-/// The Taylor coefficients of a piece, and what it is nowhere higher than.
+/// The Taylor coefficients of a piece, and an upper bound of its height.
 type Piece<N> = (Vec<N>, f64);
 
 /// The heights of a drive over one period, as polynomials in the time since the last cut.

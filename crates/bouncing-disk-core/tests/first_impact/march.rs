@@ -30,7 +30,7 @@ pub struct Flight {
     pub speed: f64,
 }
 
-/// What can be said of an impact without solving anything.
+/// Checks the ranges of an impact, which need no solution.
 pub fn check_form(impact: &Impact) -> Result<(), &'static str> {
     if !(0.0..TAU).contains(&impact.phase.angle()) || !(0.0..TAU).contains(&impact.remainder) {
         return Err("phase or remainder outside [0, 2 pi)");

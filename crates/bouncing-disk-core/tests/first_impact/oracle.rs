@@ -775,7 +775,7 @@ impl Exact {
     }
 }
 
-/// Whether the carried sine and cosine are those of the angle.
+/// Checks the sine and cosine that the phase carries against its angle.
 fn check_pair(phase: Phase, own_shift: f64) -> Result<(), String> {
     let (s, c) = libm::sincos(phase.angle());
     let pair_error = (s - phase.sin()).abs().max((c - phase.cos()).abs());

@@ -24,7 +24,7 @@ pub struct Kind {
     pub run: fn(u64) -> Value,
 }
 
-/// Runs the shards of each kind on all processors, and prints the sums of what they say.
+/// Runs the shards of each kind on all processors, and prints the sums of their numbers.
 ///
 /// # Panics
 /// If any shard has failures.

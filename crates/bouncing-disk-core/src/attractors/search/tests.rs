@@ -262,8 +262,8 @@ fn extreme_settings_are_honest() {
     assert!(aperiodic(&unknown).is_empty() && unknown.undecided().count() == 40, "{unknown:?}");
 }
 
-/// At restitution 0.99 dissipation ends a transient within some 500 impacts: that no orbit leaves within 401
-/// shows nothing, that none leaves within 2,001 does.
+/// At restitution 0.99 dissipation ends a transient within some 500 impacts. Orbits that stay for 401 impacts prove
+/// nothing; orbits that stay for 2,001 do.
 #[test]
 fn a_motion_that_dissipation_has_not_acted_on_is_no_attractor() {
     let search = AttractorSearch::default().with_orbits(None).with_starts(40).expect("legal");

@@ -21,7 +21,7 @@ fn orbits(count: u32) -> Vec<Orbit> {
     starts(count).iter().map(|(map, start)| map.orbit(*start, ChatterPolicy::Complete)).collect()
 }
 
-/// The error is that of the first one, in the order of the orbits.
+/// The sweep returns the error of the first orbit that fails, in the order of the orbits.
 #[test]
 fn an_orbit_that_fails_ends_the_sweep() {
     let map = ImpactMap::new(Vibration::new(2.0).expect("legal"), 0.5).expect("legal");
