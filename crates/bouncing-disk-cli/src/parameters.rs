@@ -23,20 +23,14 @@ pub(crate) trait Described: Clone + Debug + Send + Sync + 'static {
     const PRESETS: Words<fn() -> Self>;
 
     /// Reads a file; the settings take the place of what it says before anything is checked, so that they can
-    /// put a wrong file right. The second is the table `[drive]`.
-    fn read(text: &str, format: Format, settings: &[Setting]) -> Result<(Self, DriveParameters), String>;
+    /// put a wrong file right.
+    fn read(text: &str, format: Format, settings: &[Setting]) -> Result<Self, String>;
+
+    /// The table `[drive]`.
+    fn drive(&self) -> &DriveParameters;
 
     /// The tables that a template does not write, but for the drive, and whether the file has them.
     fn tables(&self) -> [(&'static str, bool); 2];
-
-    /// That motion and load are prescribed.
-    fn prescribed(&self) -> Result<(), bouncing_disk::Error>;
-
-    /// That there is a command that computes it.
-    fn computed(&self) -> Result<(), bouncing_disk::Error>;
-
-    /// That contacts take no time.
-    fn rigid(&self) -> Result<(), bouncing_disk::Error>;
 
     /// A file that is read to the same parameters, with comments, but for the tables.
     fn template(&self) -> String;
@@ -71,14 +65,8 @@ impl<D: Described> SourceArgs<D> {
         self.file.is_some() || self.preset.is_some() || !self.set.is_empty()
     }
 
-    /// The parameters of what is computed for a sine only, also with contacts that take time.
+    /// The parameters.
     pub(crate) fn get(&self) -> Result<D> {
-        let given = self.driven()?;
-        given.0.prescribed()?;
-        sine(given)
-    }
-
-    fn driven(&self) -> Result<(D, DriveParameters)> {
         let (text, format) = match &self.file {
             Some(path) => read_text(path)?,
             // A template is read to the same parameters, to the last bit.
@@ -94,25 +82,11 @@ impl<D: Described> SourceArgs<D> {
         })
     }
 
-    /// [`Self::soft_unless_template`] of what is computed for rigid impacts only.
-    pub(crate) fn driven_unless_template(
-        &self,
-        output: &OutputArgs,
-        context: Context,
-    ) -> Result<Option<(D, DriveParameters)>> {
-        self.soft_unless_template(output, context)?.map(rigid).transpose()
-    }
-
-    /// The parameters, also with contacts that take time, and of a motor whose stator yields; `None` if the template
-    /// was asked for, which is then written.
-    pub(crate) fn soft_unless_template(
-        &self,
-        output: &OutputArgs,
-        context: Context,
-    ) -> Result<Option<(D, DriveParameters)>> {
-        let (parameters, drive) = self.driven()?;
+    /// The parameters; `None` if the template was asked for, which is then written.
+    pub(crate) fn unless_template(&self, output: &OutputArgs, context: Context) -> Result<Option<D>> {
+        let parameters = self.get()?;
         if self.template {
-            let drive = [("[drive]", !drive.is_sine())];
+            let drive = [("[drive]", !parameters.drive().is_sine())];
             let mut tables = drive.into_iter().chain(parameters.tables());
             if let Some((table, _)) = tables.find(|(_, given)| *given) {
                 let copy = format!("--template writes no table {table}: copy that of the file");
@@ -121,61 +95,23 @@ impl<D: Described> SourceArgs<D> {
             output.write_template(&format!("{}\n{DRIVE}", parameters.template()), context.quiet)?;
             return Ok(None);
         }
-        parameters.computed()?;
-        drive.warnings().for_each(|warning| context.note(&format!("warning: {warning}")));
-        Ok(Some((parameters, drive)))
+        parameters.drive().warnings().for_each(|warning| context.note(&format!("warning: {warning}")));
+        Ok(Some(parameters))
     }
 
-    /// [`Self::begin_soft`] of what is computed for rigid impacts only.
-    pub(crate) fn begin_driven(
-        &self,
-        output: &OutputArgs,
-        picture: bool,
-        context: Context,
-    ) -> Result<Option<(D, DriveParameters)>> {
-        self.begin_soft(output, picture, context)?.map(rigid).transpose()
-    }
-
-    /// [`Self::soft_unless_template`], if the result can be written.
-    pub(crate) fn begin_soft(
-        &self,
-        output: &OutputArgs,
-        picture: bool,
-        context: Context,
-    ) -> Result<Option<(D, DriveParameters)>> {
+    /// [`Self::unless_template`], if the result can be written.
+    pub(crate) fn begin(&self, output: &OutputArgs, picture: bool, context: Context) -> Result<Option<D>> {
         if !self.template {
             output.check(picture, &self.inputs(), None)?;
         }
-        self.soft_unless_template(output, context)
+        self.unless_template(output, context)
     }
-
-    /// [`Self::driven_unless_template`] of what is computed for a sine only.
-    pub(crate) fn unless_template(&self, output: &OutputArgs, context: Context) -> Result<Option<D>> {
-        self.driven_unless_template(output, context)?.map(sine).transpose()
-    }
-
-    /// [`Self::begin_driven`] of what is computed for a sine only.
-    pub(crate) fn begin(&self, output: &OutputArgs, picture: bool, context: Context) -> Result<Option<D>> {
-        self.begin_driven(output, picture, context)?.map(sine).transpose()
-    }
-}
-
-/// What is given, if impacts are rigid.
-pub(crate) fn rigid<D: Described>(given: (D, DriveParameters)) -> Result<(D, DriveParameters)> {
-    given.0.rigid()?;
-    Ok(given)
-}
-
-/// The parameters, if the platform moves as a sine.
-pub(crate) fn sine<D>((parameters, drive): (D, DriveParameters)) -> Result<D> {
-    drive.sine()?;
-    Ok(parameters)
 }
 
 /// The end of a template.
 const DRIVE: &str = "\
-# How the platform moves in place of the sine, for toss, diagram, orbits, basins, and motor transient, curve, stall and
-# phase-lag.
+# How the platform moves in place of the sine, for toss, diagram, orbits, basins, and motor transient, curve, stall,
+# phase-lag and sweep.
 # Shapes: sine, triangle, parabolas, cubics, { sawtooth = 0.3 }, { fourier = [[1.0, 0.0], [0.1, 1.5]] }, { sampled = [...] }
 # [drive]
 # height = \"triangle\"

@@ -37,7 +37,7 @@ impl Instance {
     pub(crate) fn new(motor: &Motor) -> Self {
         let variables = variables(motor);
         let values = variables.iter().map(|variable| variable.start).collect();
-        Self { motor: *motor, variables, values, mode: Mode::Instantiated, start: 0.0, running: None }
+        Self { motor: motor.clone(), variables, values, mode: Mode::Instantiated, start: 0.0, running: None }
     }
 
     pub(crate) fn reset(&mut self) -> Result<(), String> {

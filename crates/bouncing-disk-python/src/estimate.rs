@@ -40,24 +40,20 @@ pub(crate) fn ensemble(a: Arguments<'_>) -> Made<'_> {
         policy: a.policy()?,
     };
     // The mass does not matter to a transient on a prescribed stator.
-    let of_system = |system: SystemModel| {
-        system.prescribed().and_then(|()| MotorParameters::of_system(&system, 1.0).build())
+    let of_system = |system: SystemModel| match system.stator() {
+        Some(_) => Err(Error::YieldingStator),
+        None => MotorParameters::of_system(&system, 1.0).build(),
     };
     let motor = match a.held::<Motor>("system") {
-        Ok(motor) => motor.get().0,
+        Ok(motor) => motor.get().0.clone(),
         Err(_) => of_system(a.system()?).map_err(|error| a.refused(error))?,
     };
     let system = *motor.system();
-    let driven = a.driven_motor(motor, &a.drive("drive")?)?;
+    let motor = a.moved(&motor, a.drive("drive")?)?;
     let (runs, times, speeds) = a.run(|observer| {
-        let runs = match &driven {
-            None => TransientEnsemble::new(&system, &settings, members, observer)?,
-            Some(driven) => {
-                let members = TransientMember::of_ensemble(&system, &settings, members)?;
-                let curves = driven.transients(&members, observer)?;
-                TransientEnsemble::of_results(curves.into_iter().map(Ok).collect(), &Unobserved)?
-            }
-        };
+        let members_of_it = TransientMember::of_ensemble(&system, &settings, members)?;
+        let curves = motor.transients(&members_of_it, observer)?;
+        let runs = TransientEnsemble::of_results(curves.into_iter().map(Ok).collect(), &Unobserved)?;
         // A number of each member at each time, time by member.
         let table = |of: fn(&SpeedCurve) -> &[f64]| {
             let mut numbers = room_for(settings.intervals * members)?;

@@ -126,11 +126,8 @@ fn settings(a: &Arguments<'_>) -> PyResult<OperatingSettings> {
 #[pyfunction]
 pub(crate) fn torque_speed_curve(a: Arguments<'_>) -> Made<'_> {
     let (motor, settings, loads) = (a.motor()?, settings(&a)?, a.row("load_torques")?);
-    let driven = a.driven_motor(motor, &a.drive("drive")?)?;
-    let operations = a.run(|observer| match &driven {
-        None => motor.torque_speed_curve(&loads, &settings, observer),
-        Some(driven) => driven.torque_speed_curve(&loads, &settings, observer),
-    })?;
+    let motor = a.moved(&motor, a.drive("drive")?)?;
+    let operations = a.run(|observer| motor.torque_speed_curve(&loads, &settings, observer))?;
     made(a.py(), "TorqueSpeedCurve", columns(a.py(), &operations))
 }
 
@@ -138,11 +135,8 @@ pub(crate) fn torque_speed_curve(a: Arguments<'_>) -> Made<'_> {
 #[pyfunction]
 pub(crate) fn stall_load(a: Arguments<'_>) -> Made<'_> {
     let (motor, settings) = (a.motor()?, settings(&a)?);
-    let driven = a.driven_motor(motor, &DriveParameters::default())?;
-    let stall = a.run(|observer| match &driven {
-        None => motor.stall_load(&settings, observer),
-        Some(driven) => driven.stall_load(&settings, observer),
-    })?;
+    let motor = a.moved(&motor, DriveParameters::default())?;
+    let stall = a.run(|observer| motor.stall_load(&settings, observer))?;
     make!(
         a.py(),
         "StallLoad",
@@ -196,11 +190,8 @@ pub(crate) fn input_spreads(a: Arguments<'_>) -> PyResult<Vec<Option<Bound<'_, P
 #[pyfunction]
 pub(crate) fn best_phase_lag(a: Arguments<'_>) -> Made<'_> {
     let (motor, settings) = (a.motor()?, settings(&a)?);
-    let driven = a.driven_motor(motor, &DriveParameters::default())?;
-    let best = a.run(|observer| match &driven {
-        None => motor.best_phase_lag(&settings, observer),
-        Some(driven) => driven.best_phase_lag(&settings, observer),
-    })?;
+    let motor = a.moved(&motor, DriveParameters::default())?;
+    let best = a.run(|observer| motor.best_phase_lag(&settings, observer))?;
     make!(
         a.py(),
         "BestPhaseLag",

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use bouncing_disk::core::{ChatterCut as Cut, ChatterPolicy, ImpactMap, ImpactState, Phase, Vibration};
 use bouncing_disk::motion::PAPER_CUT;
-use bouncing_disk::motor::{DrivenMotor, MotorField, MotorParameters};
+use bouncing_disk::motor::{MotorField, MotorParameters};
 use bouncing_disk::parameters::{Contact, DriveParameters, StatorParameters, Waveform};
 use bouncing_disk::{DiskParameters, Error, Motor as MotorModel, PlatformParameters, System as SystemModel};
 use numpy::PyArray2;
@@ -457,25 +457,24 @@ impl<'py> Arguments<'py> {
     /// The system of what is computed for rigid impacts on a prescribed platform only.
     pub(crate) fn rigid_system(&self) -> PyResult<SystemModel> {
         let system = self.system()?;
-        system.rigid().map(|()| system).map_err(|error| self.refused(error))
+        let rigid = DimensionlessSystem::try_from(&system);
+        rigid.map(|_| system).map_err(|error| self.refused(error))
     }
 
     pub(crate) fn motor(&self) -> PyResult<MotorModel> {
-        Ok(self.held::<Motor>("motor")?.get().0)
+        Ok(self.held::<Motor>("motor")?.get().0.clone())
     }
 
-    /// A motor with the drive and the `contact_time` of a call; `None` for a sine and rigid impacts.
-    pub(crate) fn driven_motor(
-        &self,
-        motor: MotorModel,
-        drive: &DriveParameters,
-    ) -> PyResult<Option<DrivenMotor>> {
+    /// A motor with the drive and the `contact_time` of a call, where it has them.
+    pub(crate) fn moved(&self, motor: &MotorModel, drive: DriveParameters) -> PyResult<MotorModel> {
         let time = self.optional("contact_time")?;
         let change = |sheet: &mut MotorParameters| {
             time.into_iter().for_each(|time| MotorField::ContactTime.set(sheet, time));
+            if !drive.is_sine() {
+                sheet.drive = drive;
+            }
         };
-        let driven = motor.with(change).and_then(|motor| DrivenMotor::where_needed(motor, drive));
-        driven.map_err(|error| self.refused(error))
+        motor.with(change).map_err(|error| self.refused(error))
     }
 
     pub(crate) fn map(&self) -> PyResult<ImpactMap> {

@@ -85,12 +85,13 @@ pub(crate) fn single_toss<'py>(
     let done = long_call::caught(|| {
         let contact = time.map(|Real(time)| Contact { time: Some(time), ..Contact::default() });
         let system = if contact.is_some() { system.with_contact(contact)? } else { system };
-        system.prescribed()?;
-        let contact = system.soft_contact();
-        if drive.is_sine() && contact.is_none() {
+        if drive.is_sine() && system.soft_contact().is_none() {
             return toss(&system, initial);
         }
-        let hand = DrivenPlatform::of_drive(*system.platform(), &drive)?.with_contact(contact);
+        if drive.start_phase.is_some() {
+            return Err(Error::StartPhase);
+        }
+        let hand = DrivenPlatform::of_system(&system, &drive)?;
         driven::single_toss(&hand, system.disk(), None, initial)
     })?;
     shown_toss(py, &done.map_err(|error| errors::of(py, error))?)

@@ -57,7 +57,7 @@ pub(crate) fn answer(request: &DiagramRequest) -> Result<Reply, Refusal> {
     let maps = || forcings.iter().map(|forcing| map(*forcing, system.disk().restitution()));
     let columns = if request.rotation {
         drive.sine()?;
-        system.rigid()?;
+        DimensionlessSystem::try_from(&system)?;
         let columns = forcings.iter().map(|forcing| rotating(&system, *forcing, start, request));
         columns.collect::<Result<Vec<_>, _>>()?
     } else if drive.sine().is_ok() && contact.is_none() {

@@ -3,10 +3,9 @@
 use bouncing_disk::core::Unobserved;
 use bouncing_disk::estimate::{FitError, FitSettings, RiseForm, Spread, TransientFit};
 use bouncing_disk::motor::{
-    DrivenMotor, Estimate, MotorParameters, OperatingSettings, SpeedCurve, TransientMember,
-    TransientSettings, transients,
+    Estimate, MotorParameters, OperatingSettings, TransientMember, TransientSettings,
 };
-use bouncing_disk::parameters::{ContactLaw, ContactStatement, DriveParameters};
+use bouncing_disk::parameters::{ContactLaw, ContactStatement, DimensionlessSystem};
 use bouncing_disk::{Error, Motor, System};
 use serde_json::{Value, json};
 
@@ -32,13 +31,12 @@ pub(crate) fn report(sheet: MotorParameters) -> Result<Reply, Refusal> {
     let motor = sheet.build()?;
     let unloaded = match motor.stator() {
         Some(_) => MotorParameters::of_system(&motor.system().with_stator(None)?, motor.mass()).build()?,
-        None => motor,
+        None => motor.clone(),
     };
     let report = unloaded.report(&Unobserved)?;
     let own = motor.stator_report();
     let warnings = if own.is_some() { motor.warnings() } else { report.warnings.clone() };
-    let rigid = soft(motor)?.is_none();
-    let trap = if rigid { motor.nearest_trap(TRAP_RANGE, &Unobserved)? } else { None };
+    let trap = if is_rigid(&motor) { motor.nearest_trap(TRAP_RANGE, &Unobserved)? } else { None };
     Reply::short(&json!({
         "axial_forcing": report.axial_forcing,
         "angular_forcing": report.angular_forcing,
@@ -53,25 +51,22 @@ pub(crate) fn report(sheet: MotorParameters) -> Result<Reply, Refusal> {
     }))
 }
 
-/// The motor whose contacts take time or whose stator yields, if they do.
-fn soft(motor: Motor) -> Result<Option<DrivenMotor>, Error> {
-    DrivenMotor::where_needed(motor, &DriveParameters::default())
+/// Whether contacts take no time and the stator does not yield.
+fn is_rigid(motor: &Motor) -> bool {
+    DimensionlessSystem::try_from(motor.system()).is_ok()
 }
 
 /// The form that fits a run-up best, an exponential or a ramp: its time constant, or the time at which the straight rise
 /// ends (s), and the root mean square of what it misses (rad/s); or why there is none. Numbers: rows of the time (s), the
 /// mean angular speed over the members and its standard error (rad/s).
 pub(crate) fn transient(request: &TransientRequest) -> Result<Reply, Refusal> {
-    let TransientRequest { sheet, members, rise_times, points: intervals, seed } = *request;
+    let TransientRequest { ref sheet, members, rise_times, points: intervals, seed } = *request;
     let motor = sheet.build()?;
     let system = *motor.system();
     let duration = rise_times * system.rise_time();
     let settings = TransientSettings { duration, intervals, seed, ..TransientSettings::default() };
     let runs = TransientMember::of_ensemble(&system, &settings, members)?;
-    let curves = match soft(motor)? {
-        Some(soft) => soft.transients(&runs, &Unobserved)?,
-        None => transients(&runs, &Unobserved)?.into_iter().collect::<Result<Vec<SpeedCurve>, Error>>()?,
-    };
+    let curves = motor.transients(&runs, &Unobserved)?;
     let times = curves.first().map_or(&[][..], |curve| &curve.times);
     let mut numbers = Vec::new();
     for (place, time) in times.iter().enumerate() {
@@ -99,15 +94,11 @@ pub(crate) fn loads(request: &LoadsRequest) -> Result<Reply, Refusal> {
     let LoadsRequest { sheet, load_torques, relative_error, most_impacts, seed } = request;
     let mut settings = settings(*relative_error, *most_impacts, *seed)?;
     let motor = sheet.build()?;
-    let operations = match soft(motor)? {
-        Some(soft) => {
-            settings.members /= FEWER;
-            settings.most_impacts /= FEWER as u64;
-            soft.torque_speed_curve(load_torques, &settings, &Unobserved)?
-        }
-        None => motor.torque_speed_curve(load_torques, &settings, &Unobserved)?,
-    };
-    Reply::short(&operations)
+    if !is_rigid(&motor) {
+        settings.members /= FEWER;
+        settings.most_impacts /= FEWER as u64;
+    }
+    Reply::short(&motor.torque_speed_curve(load_torques, &settings, &Unobserved)?)
 }
 
 fn settings(relative_error: f64, most_impacts: u64, seed: u64) -> Result<OperatingSettings, Refusal> {
@@ -120,7 +111,7 @@ fn settings(relative_error: f64, most_impacts: u64, seed: u64) -> Result<Operati
 /// A motor that does not turn without a load has no stall load, which is an answer and no failure.
 pub(crate) fn stall(sheet: MotorParameters, relative_error: f64, seed: u64) -> Result<Reply, Refusal> {
     let motor = sheet.build()?;
-    if soft(motor)?.is_some() {
+    if !is_rigid(&motor) {
         let message = "with a contact time or a stator that yields the search takes minutes: use bouncing-disk motor stall";
         return Err(Refusal::new("computation", message.to_owned()));
     }
@@ -142,6 +133,7 @@ pub(crate) fn stall(sheet: MotorParameters, relative_error: f64, seed: u64) -> R
 /// The page has one law of contacts that take time, and constant loads.
 pub(crate) fn read(text: &str) -> Result<Reply, Refusal> {
     let motor = Motor::from_json(text).map_err(|error| Refusal::new("text", error.to_string()))?;
+    motor.parameters().drive.sine().map_err(|error| Refusal::new("text", error.to_string()))?;
     if motor.load().is_some() {
         let message = "a load that varies is for the command line and Python";
         return Err(Refusal::new("text", message.to_owned()));

@@ -4,10 +4,8 @@ use std::f64::consts::TAU;
 use std::hint::black_box;
 
 use bouncing_disk::core::{Phase, Unobserved};
-use bouncing_disk::motor::{
-    DrivenMotor, OperatingSettings, TransientMember, TransientSettings, transient, transients,
-};
-use bouncing_disk::parameters::{StatorParameters, Waveform};
+use bouncing_disk::motor::{OperatingSettings, TransientMember, TransientSettings, transient, transients};
+use bouncing_disk::parameters::{Contact, StatorParameters};
 use bouncing_disk::{Motor, System};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
@@ -88,20 +86,14 @@ fn torque_speed_curve(c: &mut Criterion) {
 fn contact(c: &mut Criterion) {
     let settings =
         OperatingSettings { members: 4, relative_error: 1e-6, most_impacts: 100_000, ..Default::default() };
-    let rigid = Motor::paper_70_khz();
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread starts");
     let mut group = c.benchmark_group("contact");
     group.sample_size(10);
     for periods in [0.0, 0.05, 0.5, 1.0, 2.0] {
-        let soft = DrivenMotor::new(rigid, Waveform::Sine, Waveform::Sine).expect("a sine");
-        let soft = soft.with_contact_time(f64::max(periods, 0.01) / 70e3).expect("legal");
-        let operate = || {
-            let curve = |observer| match periods {
-                0.0 => rigid.torque_speed_curve(&[0.0], &settings, observer),
-                _ => soft.torque_speed_curve(&[0.0], &settings, observer),
-            };
-            pool.install(|| curve(&Unobserved)).expect("no failure")
-        };
+        let contact = (periods > 0.0).then(|| Contact::lasting(periods / 70e3));
+        let motor = Motor::paper_70_khz().with(|sheet| sheet.contact = contact).expect("legal");
+        let operate =
+            || pool.install(|| motor.torque_speed_curve(&[0.0], &settings, &Unobserved)).expect("no failure");
         let point = *operate()[0].point().expect("it does not run away");
         let followed = point.averaged_time + 4.0 * point.start_up;
         // In microseconds of the motor: the throughput in millions a second is motor seconds a second.
@@ -118,7 +110,6 @@ fn stator(c: &mut Criterion) {
     let (mass, quality) = (Some(0.05), Some(300.0));
     let modes = StatorParameters { mass, quality, ..StatorParameters::default() };
     let yielding = prescribed.with(|sheet| sheet.stator = Some(modes)).expect("legal");
-    let yielding = DrivenMotor::new(yielding, Waveform::Sine, Waveform::Sine).expect("legal");
     let mut group = c.benchmark_group("stator");
     group.sample_size(20);
     group.throughput(Throughput::Elements(3_000_000));

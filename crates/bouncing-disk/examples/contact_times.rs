@@ -13,8 +13,8 @@ use bouncing_disk::core::numerics::statistics::{mean, standard_deviation};
 use bouncing_disk::core::{
     Drive, DrivenMap, Error as CoreError, ImpactMap, ImpactState, Phase, Unobserved, Vibration,
 };
-use bouncing_disk::motor::{DrivenMotor, Estimate, NormalImpulses, OperatingSettings, Operation};
-use bouncing_disk::parameters::{Contact, Geometry, Waveform};
+use bouncing_disk::motor::{Estimate, NormalImpulses, OperatingSettings, Operation};
+use bouncing_disk::parameters::{Contact, Geometry};
 use bouncing_disk::{Error, Motor, System};
 
 /// Preloads over the mass (m/s²): 33, 82, 164, 200, 280 and 329 mN.
@@ -101,9 +101,8 @@ fn speeds(motor: &Motor, time: f64) -> Result<(), Error> {
         ..OperatingSettings::default()
     };
     let speed = |lag: f64| {
-        let motor = motor.with(|sheet| sheet.phase_lag = lag)?;
-        let soft = DrivenMotor::new(motor, Waveform::Sine, Waveform::Sine)?;
-        let soft = soft.with_contact_time(time * period)?;
+        let contact = Contact::lasting(time * period);
+        let soft = motor.with(|sheet| (sheet.phase_lag, sheet.contact) = (lag, Some(contact)))?;
         match &soft.torque_speed_curve(&[0.0], &settings, &Unobserved)?[0] {
             Operation::Steady(point) => Ok(cell(point.speed)),
             other => Ok::<_, Error>(format!("{other:?}")),

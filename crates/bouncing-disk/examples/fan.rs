@@ -4,8 +4,8 @@
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
 
 use bouncing_disk::core::Unobserved;
-use bouncing_disk::motor::{DrivenMotor, OperatingPoint, OperatingSettings};
-use bouncing_disk::parameters::{DriveParameters, LoadLaw};
+use bouncing_disk::motor::{OperatingPoint, OperatingSettings};
+use bouncing_disk::parameters::LoadLaw;
 use bouncing_disk::{Error, Motor};
 
 /// The paper's motor at this amplitude (m) with this load, under each of these torques (N m) on top of it.
@@ -13,11 +13,7 @@ fn points(amplitude: f64, load: LoadLaw, torques: &[f64]) -> Result<Vec<Operatin
     let motor =
         Motor::paper_70_khz().with(|sheet| (sheet.amplitude, sheet.load) = (Some(amplitude), Some(load)))?;
     let settings = OperatingSettings { relative_error: 0.005, ..OperatingSettings::default() };
-    let found = DrivenMotor::of_drive(motor, &DriveParameters::default())?.torque_speed_curve(
-        torques,
-        &settings,
-        &Unobserved,
-    )?;
+    let found = motor.torque_speed_curve(torques, &settings, &Unobserved)?;
     Ok(found.iter().filter_map(|operation| operation.steady().copied()).collect())
 }
 

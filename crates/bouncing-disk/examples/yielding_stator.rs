@@ -8,8 +8,8 @@ use std::f64::consts::{FRAC_1_PI, TAU};
 use bouncing_disk::core::numerics::elementary::pow;
 use bouncing_disk::core::numerics::statistics::mean;
 use bouncing_disk::core::{Phase, Unobserved};
-use bouncing_disk::motor::{DrivenMotor, SpeedCurve, TransientSettings};
-use bouncing_disk::parameters::{Contact, LoadLaw, StatorKind, StatorParameters, Waveform};
+use bouncing_disk::motor::{SpeedCurve, TransientSettings};
+use bouncing_disk::parameters::{Contact, LoadLaw, StatorKind, StatorParameters};
 use bouncing_disk::{Error, Motor};
 
 /// Of all stators: quality factor, and amplitude (m) without a rotor.
@@ -76,9 +76,8 @@ impl Case {
             sheet.gyration_radius = Some(gyration);
             (sheet.preload_force, sheet.preload_acceleration) = (None, Some(preload));
             (sheet.stator, sheet.load) = (Some(stator), Some(load));
-            sheet.contact = time.map(|time| Contact { time: Some(time), ..Contact::default() });
+            sheet.contact = time.map(Contact::lasting);
         })?;
-        let motor = DrivenMotor::new(motor, Waveform::Sine, Waveform::Sine)?;
         let settings =
             TransientSettings { duration, intervals: INTERVALS, seed: 1, ..TransientSettings::default() };
         let (curve, amplitudes) = motor.run_up(Phase::new(0.5 * TAU)?, &settings, &Unobserved)?;

@@ -24,8 +24,8 @@
 //! # Ok::<(), bouncing_disk::Error>(())
 //! ```
 //!
-//! [`single_toss`] and [`multi_toss`] compute the tosses of such a hand, and
-//! [`DrivenMotor`](crate::motor::DrivenMotor) a motor with such a stator. Where one motion
+//! [`single_toss`] and [`multi_toss`] compute the tosses of such a hand, and a
+//! [`Motor`](crate::Motor) whose sheet has a [drive](crate::motor::MotorParameters::drive) has such a stator. Where one motion
 //! follows another, as in a start-up, [`DrivenEngine::of_state`] goes on from the state of the one before. The core's [`DrivenMap`](crate::core::DrivenMap) has the vertical motion alone.
 
 use bouncing_disk_core::Drive;

@@ -173,7 +173,7 @@ pub enum Error {
     #[error(
         "this analysis holds for the sine of Eq. (1) only, and the table [drive] gives another motion: remove the table, or use \
          one of the analyses that accept any drive: tosses, orbit diagrams, periodic orbits, basins, motor transients, \
-         torque-speed curves, stall and best phase lag"
+         torque-speed curves, stall, best phase lag and sweeps"
     )]
     DriveNotSine,
     /// A contact that takes time where only rigid impacts can be computed.
@@ -205,6 +205,12 @@ pub enum Error {
     /// An error of the math core.
     #[error(transparent)]
     Core(#[from] bouncing_disk_core::Error),
+}
+
+impl From<std::convert::Infallible> for Error {
+    fn from(never: std::convert::Infallible) -> Self {
+        match never {}
+    }
 }
 
 /// Largest size of a dimensionless rotary number: its square is far from overflow.

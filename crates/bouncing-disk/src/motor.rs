@@ -21,20 +21,22 @@
 //! # Ok::<(), bouncing_disk::Error>(())
 //! ```
 //!
-//! [`transient`] computes the run-up of one rotor and [`transients`] those of many; [`MotorSweep`] varies the
-//! data sheet. [`DrivenMotor`] has a stator that moves in any way. Fits of run-ups, computed or measured, are in [`estimate`](crate::estimate). How far to trust
+//! [`Motor::transient`] computes the run-up of one rotor and [`Motor::transients`] those of many; [`MotorSweep`] varies the
+//! data sheet. All of them take any sheet: stators that move by waveforms or yield, contacts that take time. Fits of run-ups, computed or measured, are in [`estimate`](crate::estimate). How far to trust
 //! the speeds: docs/numerics/motors.md.
 
 pub(crate) mod batch;
+mod carried;
 pub mod circular;
 pub(crate) mod data_sheet;
-pub(crate) mod driven_motor;
 pub(crate) mod impulse;
 pub(crate) mod operation;
+pub(crate) mod parameter_sweep;
 pub(crate) mod rotor;
+mod run_up;
 pub(crate) mod sensitivity;
 pub(crate) mod simulation;
-pub(crate) mod sweep;
+mod stator;
 
 pub use batch::members::{MAX_MEMBERS, MAX_SPEEDS, TransientMember};
 pub use batch::transients::transients;
@@ -46,21 +48,20 @@ pub use data_sheet::regime::MotorRegime;
 pub use data_sheet::report::{MotorReport, StatorReport};
 pub use data_sheet::traps::{TrapVerdict, low_period_traps};
 pub use data_sheet::warning::MotorWarning;
-pub use driven_motor::DrivenMotor;
 pub use impulse::{ImpulseBalance, ImpulseTrain, MAX_IMPULSES, NormalImpulses, PhasedImpulse};
 pub use operation::best_phase_lag::BestPhaseLag;
-pub use operation::ensemble::MAX_OPERATED_ROTORS;
 pub use operation::of_motor::operations;
 pub use operation::point::{Estimate, OperatingPoint, Operation, Shortfall, StatorPoint};
 pub use operation::settings::OperatingSettings;
 pub use operation::spread::{InputSpread, InputTolerance};
 pub use operation::stall_load::StallLoad;
+pub use operation::steady_run::MAX_OPERATED_ROTORS;
 pub use operation::trap_ranges::{LEAST_TRAP_WIDTH, NearestTrap, TrapRange};
+pub use parameter_sweep::MotorSweep;
+pub use parameter_sweep::axis::{MAX_SWEEP_CELLS, SweepAxis};
+pub use parameter_sweep::quantity::SweepQuantity;
+pub use parameter_sweep::result::MotorSweepResult;
 pub use rotor::transient::{SpeedCurve, TransientSettings, transient};
 pub use sensitivity::local::{LocalSensitivity, SensitivityMethod, SensitivitySettings};
 pub use sensitivity::parameter::{SensitivityParameter, SensitivityQuantity};
 pub use simulation::{MotorInputs, MotorOutputs, MotorSimulation, SimulationSettings};
-pub use sweep::MotorSweep;
-pub use sweep::axis::{MAX_SWEEP_CELLS, SweepAxis};
-pub use sweep::quantity::SweepQuantity;
-pub use sweep::result::MotorSweepResult;

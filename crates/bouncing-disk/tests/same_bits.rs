@@ -17,10 +17,10 @@ use bouncing_disk::core::{
 use bouncing_disk::estimate::TransientEnsemble;
 use bouncing_disk::motion::PAPER_CHATTER;
 use bouncing_disk::motor::{
-    DrivenMotor, MotorField, MotorSweep, OperatingSettings, SensitivityParameter, SensitivityQuantity,
+    MotorField, MotorSweep, OperatingSettings, SensitivityParameter, SensitivityQuantity,
     SensitivitySettings, SweepAxis, SweepQuantity, TransientSettings,
 };
-use bouncing_disk::parameters::{StatorKind, StatorParameters, Waveform};
+use bouncing_disk::parameters::{Contact, StatorKind, StatorParameters};
 use bouncing_disk::toss::{InitialSpin, single_toss};
 use bouncing_disk::{Error, Motor, System};
 
@@ -250,9 +250,8 @@ fn stators() -> Result<Digest, Error> {
     for (stator, speed, contact_time) in [(twisting, None, None), (two, Some(30.0), Some(1e-5))] {
         let motor = Motor::paper_70_khz().with(|sheet| {
             (sheet.stator, sheet.amplitude, sheet.peak_angular_speed) = (Some(stator), Some(1e-7), speed);
+            sheet.contact = contact_time.map(Contact::lasting);
         })?;
-        let motor = DrivenMotor::new(motor, Waveform::Sine, Waveform::Sine)?;
-        let motor = if let Some(time) = contact_time { motor.with_contact_time(time)? } else { motor };
         let curve = motor.torque_speed_curve(&[0.0, 1e-5], &settings, &Unobserved)?;
         for of in [SweepQuantity::Speed, SweepQuantity::StatorAmplitude, SweepQuantity::ElectricalEfficiency]
         {

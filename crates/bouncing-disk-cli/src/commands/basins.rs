@@ -62,8 +62,8 @@ pub(crate) struct BasinsArgs {
 }
 
 pub(super) fn run(args: &BasinsArgs, context: Context) -> Result<()> {
-    let given = args.map.system.driven_unless_template(&args.output, context)?;
-    let Some((system, drive)) = given else { return Ok(()) };
+    let given = args.map.system.unless_template(&args.output, context)?;
+    let Some((system, drive)) = given.map(DrivenDisk::rigid).transpose()? else { return Ok(()) };
     let (axial_forcing, restitution) = args.map.pair(&system, args.axial_forcing, FORCING)?;
     let job = BasinsJob {
         axial_forcing,

@@ -59,8 +59,8 @@ pub(crate) struct DiagramArgs {
 }
 
 pub(super) fn run(args: &DiagramArgs, context: Context) -> Result<()> {
-    let given = args.map.system.driven_unless_template(&args.output, context)?;
-    let Some((system, drive)) = given else { return Ok(()) };
+    let given = args.map.system.unless_template(&args.output, context)?;
+    let Some((system, drive)) = given.map(DrivenDisk::rigid).transpose()? else { return Ok(()) };
     let (drive, contact_time) = (shape(&system, &drive)?, args.contact.contact_time);
     let otherwise = FORCINGS.parse().map_err(Failure::Usage)?;
     let (axial_forcings, restitutions) = args.map.values(&system, args.axial_forcing, otherwise);

@@ -30,7 +30,8 @@ pub(crate) struct DoublingsArgs {
 }
 
 pub(super) fn run(args: &DoublingsArgs, context: Context) -> Result<()> {
-    let Some(system) = args.map.system.begin(&args.output, true, context)? else { return Ok(()) };
+    let given = args.map.system.begin(&args.output, true, context)?;
+    let Some(system) = given.map(DrivenDisk::sine).transpose()? else { return Ok(()) };
     let (_, restitution) = args.map.pair(&system, None, 0.0)?;
     let cascade = doubling_cascade(restitution, args.count, &context.watch("doublings"))?;
     let (found, ended_by) = (cascade.doublings, cascade.ended_by.map(|error| error.to_string()));

@@ -8,12 +8,11 @@ pub(super) mod sweep;
 pub(super) mod transient;
 
 use bouncing_disk::Motor;
-use bouncing_disk::motor::{DrivenMotor, StatorReport};
-use bouncing_disk::parameters::{ContactStatement, DriveParameters};
+use bouncing_disk::motor::StatorReport;
+use bouncing_disk::parameters::ContactStatement;
 use clap::Subcommand;
 
 use super::prelude::*;
-use crate::parameters::sine;
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum MotorCommand {
@@ -58,11 +57,8 @@ pub(crate) struct ReportArgs {
 }
 
 fn report(args: &ReportArgs, context: Context) -> Result<()> {
-    let given = args.motor.begin_soft(&args.output, false, context)?.map(sine).transpose()?;
-    let Some(motor) = given else { return Ok(()) };
+    let Some(motor) = args.motor.begin(&args.output, false, context)? else { return Ok(()) };
     if let Some(report) = motor.stator_report() {
-        // What a run would refuse, the report does, too.
-        DrivenMotor::where_needed(motor, &DriveParameters::default())?;
         return of_stator(&motor, &report)?.deliver(&args.output, context);
     }
     let report = motor.report(&context.watch("motor report"))?;

@@ -43,8 +43,8 @@ pub(crate) struct OrbitsArgs {
 }
 
 pub(super) fn run(args: &OrbitsArgs, context: Context) -> Result<()> {
-    let given = args.map.system.begin_driven(&args.output, true, context)?;
-    let Some((system, drive)) = given else { return Ok(()) };
+    let given = args.map.system.begin(&args.output, true, context)?;
+    let Some((system, drive)) = given.map(DrivenDisk::rigid).transpose()? else { return Ok(()) };
     let (drive, contact_time) = (shape(&system, &drive)?, args.contact.contact_time);
     let (axial_forcing, restitution) = args.map.pair(&system, args.axial_forcing, FORCING)?;
     let search =

@@ -11,7 +11,7 @@ pub(super) use crate::failure::{Failure, Result};
 pub(super) use crate::grid::{self, GridArgs, GridJob, Rows};
 pub(super) use crate::output::{Columns, OutputArgs, Quantities, Report, json, provenance, stored};
 pub(super) use crate::parameters::motor::MotorArgs;
-pub(super) use crate::parameters::system::SystemArgs;
+pub(super) use crate::parameters::system::{DrivenDisk, SystemArgs};
 pub(super) use crate::range::{Range, Words, interval, one_of};
 
 /// The heading of what is a command's own.

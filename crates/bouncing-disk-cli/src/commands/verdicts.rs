@@ -64,7 +64,8 @@ pub(crate) struct VerdictsArgs {
 }
 
 pub(super) fn run(args: &VerdictsArgs, context: Context) -> Result<()> {
-    let Some(system) = args.map.system.unless_template(&args.output, context)? else { return Ok(()) };
+    let given = args.map.system.unless_template(&args.output, context)?;
+    let Some(system) = given.map(DrivenDisk::sine).transpose()? else { return Ok(()) };
     let otherwise = FORCINGS.parse().map_err(Failure::Usage)?;
     let (axial_forcings, restitutions) = args.map.values(&system, args.axial_forcing, otherwise);
     let job = VerdictsJob {

@@ -23,13 +23,17 @@ impl Described for Motor {
         ("paper-184-khz", "The same at its second operating frequency, 184 kHz", Self::paper_184_khz),
     ];
 
-    fn read(text: &str, format: Format, settings: &[Setting]) -> Result<(Self, DriveParameters), String> {
+    fn read(text: &str, format: Format, settings: &[Setting]) -> Result<Self, String> {
         let changes = changes(settings)?;
         let read = match format {
-            Format::Json => Self::driven_from_json(text, &changes),
-            Format::Toml => Self::driven_from_toml(text, &changes),
+            Format::Json => Self::from_json_with(text, &changes),
+            Format::Toml => Self::from_toml_with(text, &changes),
         };
         read.map_err(|error| error.to_string())
+    }
+
+    fn drive(&self) -> &DriveParameters {
+        &self.parameters().drive
     }
 
     fn tables(&self) -> [(&'static str, bool); 2] {
@@ -37,28 +41,16 @@ impl Described for Motor {
         [("[contact]", sheet.contact.is_some()), ("[load]", sheet.load.is_some())]
     }
 
-    fn prescribed(&self) -> Result<(), bouncing_disk::Error> {
-        self.system().prescribed()
-    }
-
-    fn computed(&self) -> Result<(), bouncing_disk::Error> {
-        Ok(())
-    }
-
-    fn rigid(&self) -> Result<(), bouncing_disk::Error> {
-        self.system().rigid()
-    }
-
     fn template(&self) -> String {
         let sheet = self.parameters();
         let mut text = "# The data sheet of a motor. SI units.\n\n".to_owned();
         for field in MotorField::ALL.into_iter().filter(|field| !field.in_table()) {
-            if let Some(value) = field.value(&sheet) {
+            if let Some(value) = field.value(sheet) {
                 text += &format!("{field} = {value:?} # {}\n", described(field));
             }
         }
         text += "\n# What else there may be; of fields that say the same, only one.\n";
-        let outside = |field: &MotorField| !field.in_table() && field.value(&sheet).is_none();
+        let outside = |field: &MotorField| !field.in_table() && field.value(sheet).is_none();
         for field in MotorField::ALL.into_iter().filter(outside) {
             let excluded: Vec<&str> = field.excluded().iter().map(|other| other.name()).collect();
             let instead = if excluded.is_empty() {

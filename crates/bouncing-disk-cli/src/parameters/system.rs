@@ -1,14 +1,44 @@
 //! A disk on a platform: what a file and `--set` have for the commands of tosses and orbits.
 
 use bouncing_disk::System;
-use bouncing_disk::parameters::{Contact, DriveParameters, StatorParameters};
+use bouncing_disk::parameters::{Contact, DimensionlessSystem, DriveParameters, StatorParameters};
 use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
 use super::{Described, Format, Setting, SourceArgs, parse, unknown};
 use crate::range::Words;
 
-pub(crate) type SystemArgs = SourceArgs<System>;
+pub(crate) type SystemArgs = SourceArgs<DrivenDisk>;
+
+/// A disk on a platform, and how that moves in place of the sine.
+#[derive(Debug, Clone)]
+pub(crate) struct DrivenDisk {
+    pub(crate) system: System,
+    pub(crate) drive: DriveParameters,
+}
+
+impl DrivenDisk {
+    /// The system and the drive of what is computed for rigid impacts only.
+    pub(crate) fn rigid(self) -> Result<(System, DriveParameters), bouncing_disk::Error> {
+        DimensionlessSystem::try_from(self.system)?;
+        Ok((self.system, self.drive))
+    }
+
+    /// The system of what is computed for rigid impacts on a sine only.
+    pub(crate) fn sine(self) -> Result<System, bouncing_disk::Error> {
+        self.drive.sine()?;
+        Ok(self.rigid()?.0)
+    }
+}
+
+const PIZZA_TOSS: fn() -> DrivenDisk = || DrivenDisk::from(System::pizza_toss());
+const MOTOR: fn() -> DrivenDisk = || DrivenDisk::from(System::motor());
+
+impl From<System> for DrivenDisk {
+    fn from(system: System) -> Self {
+        Self { system, drive: DriveParameters::default() }
+    }
+}
 
 /// The parameters: table and key, unit, meaning.
 const FIELDS: [(&str, &str, &str); 11] = [
@@ -87,39 +117,32 @@ fn build(mut tables: Table, settings: &[Setting]) -> Result<System, String> {
     tables.try_into().map_err(|error| error.message().to_owned())
 }
 
-impl Described for System {
+impl Described for DrivenDisk {
     const PRESETS: Words<fn() -> Self> = &[
-        ("pizza-toss", "The pizza toss of Table I: a stroke of 0.25 m at 15 rad/s", Self::pizza_toss),
-        ("motor", "The motor of Table III at 70 kHz", Self::motor),
+        ("pizza-toss", "The pizza toss of Table I: a stroke of 0.25 m at 15 rad/s", PIZZA_TOSS),
+        ("motor", "The motor of Table III at 70 kHz", MOTOR),
     ];
 
-    fn read(text: &str, format: Format, settings: &[Setting]) -> Result<(Self, DriveParameters), String> {
+    fn read(text: &str, format: Format, settings: &[Setting]) -> Result<Self, String> {
         let mut file: File = parse(text, format)?;
         // A file may leave it out.
         file.disk.load_acceleration.get_or_insert(0.0);
         file.drive.check().map_err(|error| error.to_string())?;
         let system = build(tables(&file)?, settings)?;
-        Ok((system, file.drive))
+        Ok(Self { system, drive: file.drive })
     }
 
     fn tables(&self) -> [(&'static str, bool); 2] {
-        [("[contact]", self.contact().is_some()), ("[stator]", self.stator().is_some())]
+        let system = &self.system;
+        [("[contact]", system.contact().is_some()), ("[stator]", system.stator().is_some())]
     }
 
-    fn prescribed(&self) -> Result<(), bouncing_disk::Error> {
-        Self::prescribed(self)
-    }
-
-    fn computed(&self) -> Result<(), bouncing_disk::Error> {
-        Self::prescribed(self)
-    }
-
-    fn rigid(&self) -> Result<(), bouncing_disk::Error> {
-        Self::rigid(self)
+    fn drive(&self) -> &DriveParameters {
+        &self.drive
     }
 
     fn template(&self) -> String {
-        let tables = tables(self).unwrap_or_default();
+        let tables = tables(&self.system).unwrap_or_default();
         let mut text = "# A disk on a platform that vibrates and twists. SI units.\n".to_owned();
         let mut last = "";
         for (path, unit, meaning) in FIELDS.into_iter().filter(|(path, ..)| *path != "contact.time") {
@@ -142,22 +165,21 @@ mod tests {
     use bouncing_disk::parameters::ContactLaw;
 
     fn read(text: &str, format: Format) -> Result<System, String> {
-        System::read(text, format, &[]).map(|(system, _)| system)
+        DrivenDisk::read(text, format, &[]).map(|own| own.system)
     }
 
     #[test]
     fn both_formats_give_the_same_system() {
         for system in [System::pizza_toss(), System::motor()] {
-            assert_eq!(read(&system.template(), Format::Toml), Ok(system));
+            assert_eq!(read(&DrivenDisk::from(system).template(), Format::Toml), Ok(system));
             assert_eq!(read(&serde_json::to_string(&system).unwrap(), Format::Json), Ok(system));
         }
     }
 
     #[test]
     fn a_contact_is_read_with_its_system() {
-        let with = |entry: &str| {
-            read(&format!("{}[contact]\n{entry}\n", System::pizza_toss().template()), Format::Toml)
-        };
+        let with =
+            |entry: &str| read(&format!("{}[contact]\n{entry}\n", PIZZA_TOSS().template()), Format::Toml);
         assert_eq!(
             with("time = 0.02").map(|system| system.soft_contact()),
             Ok(Some((ContactLaw::Damper, 0.02)))
@@ -169,7 +191,7 @@ mod tests {
 
     #[test]
     fn faults_are_reported_with_line_and_key() {
-        let template = System::pizza_toss().template();
+        let template = PIZZA_TOSS().template();
         let changed = |from: &str, to: &str| template.replace(from, to);
         let line = 1 + template.lines().position(|line| line.starts_with("friction")).unwrap();
         let toml = |to: &str| (changed("friction = 0.6", to), Format::Toml);

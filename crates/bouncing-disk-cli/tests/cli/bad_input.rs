@@ -84,7 +84,7 @@ fn drives() {
         let lines = if command == "toss" {
             &["verdicts", "doublings", "toss --template"][..]
         } else {
-            &["motor report", "motor traps", "motor sweep --over friction=0.1:0.2:2", ""]
+            &["motor report", "motor traps", ""]
         };
         let (template, sine) = lines.split_last().unwrap();
         for line in sine {

@@ -12,9 +12,9 @@ use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Phase, Unobserv
 use bouncing_disk::driven::{self, DrivenStart, DrivenSystem};
 use bouncing_disk::estimate::TransientEnsemble;
 use bouncing_disk::motor::{
-    DrivenMotor, MotorField, MotorSweep, OperatingSettings, SweepAxis, TransientMember, TransientSettings,
+    MotorField, MotorSweep, OperatingSettings, SweepAxis, TransientMember, TransientSettings,
 };
-use bouncing_disk::parameters::{Contact, DriveParameters, DrivenPlatform, Waveform};
+use bouncing_disk::parameters::{Contact, ContactLaw, DriveParameters, DrivenPlatform, Waveform};
 use bouncing_disk::toss::{InitialSpin, MultiTossSettings, TOSS_START, single_toss};
 use bouncing_disk::{Motor, System};
 use serde::Serialize;
@@ -33,7 +33,6 @@ fn stators_that_yield() {
     let sheet = folder.done("motor report --set amplitude=1e-7 --template");
     folder.write("motor.toml", &(sheet.clone() + YIELDING));
     let motor = Motor::from_toml(&(sheet + YIELDING)).unwrap();
-    let driven = DrivenMotor::where_needed(motor, &DriveParameters::default()).unwrap().unwrap();
     // Far from settled, for the sake of time.
     let settings = OperatingSettings {
         relative_error: 0.3,
@@ -42,11 +41,11 @@ fn stators_that_yield() {
         ..OperatingSettings::default()
     };
     let accuracy = "--relative-error 0.3 --members 4 --most-impacts 5000";
-    let curve = driven.torque_speed_curve(&[0.0, 1e-5], &settings, &Unobserved).unwrap();
+    let curve = motor.torque_speed_curve(&[0.0, 1e-5], &settings, &Unobserved).unwrap();
     let line = format!("motor curve motor.toml --loads 0:1e-5:2 {accuracy}");
     assert_eq!(written(&line)["operations"], stored(&curve));
     let axis = SweepAxis::new(MotorField::LoadTorque, vec![0.0, 1e-5]);
-    let swept = MotorSweep::new(motor, vec![axis], settings).unwrap().run(&Unobserved).unwrap();
+    let swept = MotorSweep::new(motor.clone(), vec![axis], settings).unwrap().run(&Unobserved).unwrap();
     let sweep = format!("motor sweep motor.toml --over load_torque=0:1e-5:2 {accuracy}");
     assert_eq!(written(&sweep)["cells"], stored(swept.cells()));
     // Both files have the quantities of the stator in columns of the same names.
@@ -68,7 +67,7 @@ fn stators_that_yield() {
     }
     let settings = TransientSettings { duration: 0.02, intervals: 4, ..TransientSettings::default() };
     let members = TransientMember::of_ensemble(motor.system(), &settings, 5).unwrap();
-    let curves = driven.transients(&members, &Unobserved).unwrap();
+    let curves = motor.transients(&members, &Unobserved).unwrap();
     let line = "motor transient motor.toml --members 5 --duration 0.02 --intervals 4";
     assert_eq!(written(line)["curves"], stored(&curves));
     let report = written("motor report motor.toml");
@@ -249,14 +248,15 @@ fn tosses_and_motors_on_drives() {
     }
 
     folder.write("motor.toml", &(folder.done("motor report --template") + drive));
-    let motor = DrivenMotor::new(Motor::paper_70_khz(), Waveform::Triangle, angle).unwrap();
+    let moved = DriveParameters { height: Waveform::Triangle, angle, start_phase: None };
+    let motor = Motor::paper_70_khz().with(|sheet| sheet.drive = moved).unwrap();
     let settings = OperatingSettings { relative_error: 0.3, members: 4, ..OperatingSettings::default() };
     let curve = motor.torque_speed_curve(&[0.0, 1e-5], &settings, &Unobserved).unwrap();
     let found = written("motor curve motor.toml --loads 0:1e-5:2 --relative-error 0.3 --members 4");
     assert_eq!(found["operations"], stored(&curve));
     let line = "motor transient motor.toml --members 5 --duration 0.02 --intervals 4";
     let settings = TransientSettings { duration: 0.02, intervals: 4, ..TransientSettings::default() };
-    let members = TransientMember::of_ensemble(motor.motor().system(), &settings, 5).unwrap();
+    let members = TransientMember::of_ensemble(motor.system(), &settings, 5).unwrap();
     let curves = motor.transients(&members, &Unobserved).unwrap();
     assert_eq!(written(line)["curves"], stored(&curves));
     for part in ["1", "2"] {
@@ -272,8 +272,7 @@ fn contacts_that_take_time() {
         folder.done(&format!("{line} --out a.json --force"));
         serde_json::from_slice(&folder.read("a.json")).unwrap()
     };
-    let soft = |time: f64| Contact { time: Some(time), ..Contact::default() };
-    let toss = System::pizza_toss().with_contact(Some(soft(0.05))).unwrap();
+    let toss = System::pizza_toss().with_contact(Some(Contact::lasting(0.05))).unwrap();
     let hand = DrivenPlatform::from(*toss.platform()).with_contact(toss.soft_contact());
     let phase = Phase::new(TOSS_START).unwrap();
     let own = driven::single_toss(&hand, toss.disk(), Some(phase), InitialSpin::AbsoluteRest).unwrap();
@@ -300,18 +299,17 @@ fn contacts_that_take_time() {
             .unwrap()
             .contains("warning: impacts are rigid: contact.time is below")
     );
-    let motor = rigid.with(|sheet| sheet.contact = Some(soft(1e-5))).unwrap();
-    let driven = DrivenMotor::new(motor, Waveform::Sine, Waveform::Sine).unwrap();
+    let motor = rigid.with(|sheet| sheet.contact = Some(Contact::lasting(1e-5))).unwrap();
     // Far from settled, for the sake of time.
     let settings = OperatingSettings { most_impacts: 5_000, ..settings };
     let time = "--most-impacts 5000 --set contact.time=1e-5";
-    let curve = driven.torque_speed_curve(&[0.0, 1e-5], &settings, &Unobserved).unwrap();
+    let curve = motor.torque_speed_curve(&[0.0, 1e-5], &settings, &Unobserved).unwrap();
     assert_eq!(written(&format!("{line} {time}"))["operations"], stored(&curve));
     let swept =
         written(&format!("motor sweep {accuracy} --most-impacts 5000 --over contact.time=1e-5:2e-5:2"));
-    let alone = driven.torque_speed_curve(&[0.0], &settings, &Unobserved).unwrap();
+    let alone = motor.torque_speed_curve(&[0.0], &settings, &Unobserved).unwrap();
     assert_eq!(swept["cells"][0], stored(&alone)[0]);
-    let stall = driven.stall_load(&settings, &Unobserved).unwrap_err().to_string();
+    let stall = motor.stall_load(&settings, &Unobserved).unwrap_err().to_string();
     assert!(folder.refused(&format!("motor stall {accuracy} {time}"), 1).contains(&stall), "{stall}");
     folder.write(
         "soft.toml",
@@ -319,7 +317,10 @@ fn contacts_that_take_time() {
     );
     let settings = TransientSettings { duration: 0.02, intervals: 4, ..TransientSettings::default() };
     let members = TransientMember::of_ensemble(motor.system(), &settings, 5).unwrap();
-    let curves = driven.with_hysteretic_contact(1e-5).unwrap().transients(&members, &Unobserved).unwrap();
+    let law = Some(ContactLaw::Hysteresis);
+    let hysteretic = Contact { law, ..Contact::lasting(1e-5) };
+    let motor = motor.with(|sheet| sheet.contact = Some(hysteretic)).unwrap();
+    let curves = motor.transients(&members, &Unobserved).unwrap();
     let line = "motor transient soft.toml --members 5 --duration 0.02 --intervals 4";
     assert_eq!(written(line)["curves"], stored(&curves));
     for part in ["1", "2"] {
@@ -383,7 +384,7 @@ fn motors() {
     let settings = OperatingSettings { relative_error: 0.3, members: 4, ..OperatingSettings::default() };
     // Two vertical motions.
     let axes = vec![axis(MotorField::Amplitude, [1e-8, 2e-8]), axis(MotorField::LoadTorque, [0.0, 1e-5])];
-    let sweep = MotorSweep::new(motor, axes, settings).unwrap().run(&Unobserved).unwrap();
+    let sweep = MotorSweep::new(motor.clone(), axes, settings).unwrap().run(&Unobserved).unwrap();
     let line = "motor sweep --over amplitude=1e-8:2e-8:2 --over load_torque=0:1e-5:2 --relative-error 0.3 --members 4";
     assert_eq!(written(line)["cells"], stored(sweep.cells()));
     let transient = TransientSettings { duration: 3.0, intervals: 30, ..TransientSettings::default() };

@@ -142,7 +142,7 @@ impl BrakingFit {
         if points < LEAST_POINTS {
             return refused(FitRefusal::TooFewPoints { points, least: LEAST_POINTS });
         }
-        let line = Line::through(times, speeds);
+        let line = BrakingLine::through(times, speeds);
         let residuals = line.residuals(times, speeds);
         let largest = speeds.iter().fold(0.0_f64, |most, speed| most.max(speed.abs()));
         if let Some((first, last)) = bent(times, speeds, &line, largest) {
@@ -180,7 +180,7 @@ impl BrakingFit {
 
 /// A straight line of the least squares.
 #[derive(Debug, Clone, Copy)]
-struct Line {
+struct BrakingLine {
     slope: f64,
     /// Its middle, through which it passes.
     time: f64,
@@ -189,7 +189,7 @@ struct Line {
     spread: f64,
 }
 
-impl Line {
+impl BrakingLine {
     fn through(times: &[f64], speeds: &[f64]) -> Self {
         let n = times.len() as f64;
         let (time, speed) = (times.iter().sum::<f64>() / n, speeds.iter().sum::<f64>() / n);
@@ -244,7 +244,7 @@ impl Scatter {
 
     /// The standard error of a line's slope, the larger of two: for noise of constant size, and for noise
     /// that is at each point as large as its residual, corrected for the part that the line absorbs.
-    fn error_of(&self, line: &Line, times: &[f64], residuals: &[f64]) -> f64 {
+    fn error_of(&self, line: &BrakingLine, times: &[f64], residuals: &[f64]) -> f64 {
         let squares = times.iter().zip(residuals).map(|(own, residual)| {
             let from_middle = own - line.time;
             let leverage = 1.0 / times.len() as f64 + from_middle * from_middle / line.spread;
@@ -259,11 +259,12 @@ impl Scatter {
 /// The slopes of the first and the last half, if they differ by more than a fifth of the slope of the whole,
 /// and by more than chance. A bend looks like a long correlation: the residuals of the halves have less of
 /// it.
-fn bent(times: &[f64], speeds: &[f64], line: &Line, largest: f64) -> Option<(f64, f64)> {
+fn bent(times: &[f64], speeds: &[f64], line: &BrakingLine, largest: f64) -> Option<(f64, f64)> {
     let half = times.len() / 2;
     let ((first_times, last_times), (first_speeds, last_speeds)) =
         (times.split_at(half), speeds.split_at(half));
-    let (first, last) = (Line::through(first_times, first_speeds), Line::through(last_times, last_speeds));
+    let (first, last) =
+        (BrakingLine::through(first_times, first_speeds), BrakingLine::through(last_times, last_speeds));
     let change = (first.slope - last.slope).abs();
     if line.slope >= 0.0 || change <= LARGEST_CHANGE * line.slope.abs() {
         return None;
@@ -287,7 +288,7 @@ fn sliding_points(times: &[f64], speeds: &[f64]) -> usize {
         if points < LEAST_POINTS {
             break;
         }
-        let line = Line::through(&times[..points], &speeds[..points]);
+        let line = BrakingLine::through(&times[..points], &speeds[..points]);
         if line.slope >= 0.0 {
             break;
         }

@@ -219,6 +219,7 @@ fn checked<'a>(
     settings: &'a ParameterFitSettings,
 ) -> Result<Model<'a>, FitError> {
     settings.check()?;
+    nominal.system().prescribed()?;
     check(!transients.is_empty(), "number of transients", 0.0, "[1, 1000]")?;
     within_limit("transients", transients.len(), MOST_TRANSIENTS)?;
     check_ranges(nominal, ranges)?;
@@ -238,7 +239,7 @@ fn checked<'a>(
         }
         windows.push(Windows::of(transient, settings.windows, transient.error_variance()?, 0.0));
     }
-    Ok(Model { nominal: *nominal, transients, ranges: ranges.to_vec(), settings, windows })
+    Ok(Model { nominal: nominal.clone(), transients, ranges: ranges.to_vec(), settings, windows })
 }
 
 /// Refuses transients whose times do not count from the switch-on. To first order an offset of the clock

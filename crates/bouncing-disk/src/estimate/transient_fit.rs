@@ -23,7 +23,7 @@ use crate::estimate::transient_fit::blocks::Blocks;
 use crate::estimate::transient_fit::members::Members;
 use crate::estimate::transient_fit::onset::{LEAST_POINTS, rows_before_rise};
 use crate::estimate::transient_fit::resamples::{Resampled, Resamples};
-use crate::estimate::transient_fit::shape_grid::{Rise, Run, ShapeGrid, exponential, ramp};
+use crate::estimate::transient_fit::shape_grid::{Rise, RunSpeeds, ShapeGrid, exponential, ramp};
 use crate::motor::batch::members::{MAX_MEMBERS, MAX_SPEEDS};
 use crate::motor::rotor::transient::SpeedCurve;
 use crate::motor::rotor::transient::{check_curve, check_rows};
@@ -311,7 +311,7 @@ fn better_form(exponential: &RiseEstimate, ramp: Option<&RiseEstimate>) -> RiseF
 
 /// The runs that are fitted, and their mean; speeds are multiplied by `scale`.
 struct Rows {
-    runs: Vec<Run>,
+    runs: Vec<RunSpeeds>,
     /// The mean over the runs: of as many neighbouring rows as there are runs, which have the same time if
     /// the runs do.
     times: Vec<f64>,
@@ -343,7 +343,7 @@ impl Rows {
         let scale = summing_scale(&curves.iter().map(largest).collect::<Vec<_>>());
         let have_same_times = curves.iter().all(|(times, _)| *times == curves[0].0);
         let groups = if have_same_times { members.min(MOST_GROUPS) } else { members };
-        let mut runs: Vec<Run> = Vec::with_capacity(groups);
+        let mut runs: Vec<RunSpeeds> = Vec::with_capacity(groups);
         for (member, (times, speeds)) in curves.iter().enumerate() {
             let group = times.len().div_ceil(MOST_POINTS);
             let own = group_means(speeds, group, scale);
@@ -354,7 +354,7 @@ impl Rows {
             } else {
                 let unit = summing_scale(times);
                 let times = group_means(times, group, unit).iter().map(|time| time / unit).collect();
-                runs.push(Run { times, speeds: own, weight: 1.0 });
+                runs.push(RunSpeeds { times, speeds: own, weight: 1.0 });
             }
             work.spend(1 + speeds.len() as u64 / 64)?;
         }
@@ -375,7 +375,7 @@ impl Rows {
 
     /// The weight, time and speed of every row of all runs, by their times.
     fn sorted(&self) -> Vec<[f64; 3]> {
-        let of = |run: &Run| {
+        let of = |run: &RunSpeeds| {
             let rows = run.times.iter().zip(&run.speeds).map(|(&time, &speed)| [run.weight, time, speed]);
             rows.collect::<Vec<_>>()
         };
@@ -428,7 +428,7 @@ impl Rows {
         };
         let start_time = if start == Start::AnySpeed { self.times[before] } else { 0.0 };
         let times: Vec<f64> = self.times[before..].iter().map(|time| time - start_time).collect();
-        let part = Part { rows: self, start, start_time, times, speeds: &self.speeds[before..] };
+        let part = FittedRows { rows: self, start, start_time, times, speeds: &self.speeds[before..] };
         let curve = Saturation::of(&part.times, part.speeds, exponential, start, work)?;
         if let Err(reason) = part.judge(&curve, settings) {
             return refused(reason);
@@ -457,7 +457,7 @@ impl Rows {
 }
 
 /// The part of the rows that is fitted: from the start of the rise on, from which its times count.
-struct Part<'r> {
+struct FittedRows<'r> {
     rows: &'r Rows,
     start: Start,
     start_time: f64,
@@ -465,7 +465,7 @@ struct Part<'r> {
     speeds: &'r [f64],
 }
 
-impl Part<'_> {
+impl FittedRows<'_> {
     /// Whether the mean curve lets its fit mean anything.
     fn judge(&self, fit: &Saturation, settings: &FitSettings) -> Result<(), FitRefusal> {
         let times = &self.times;
@@ -505,10 +505,10 @@ impl Part<'_> {
     }
 
     /// The rows of a run from the start on.
-    fn of_run(&self, run: &Run) -> Run {
+    fn of_run(&self, run: &RunSpeeds) -> RunSpeeds {
         let before = run.times.iter().take_while(|&&time| time < self.start_time).count();
         let (times, speeds) = (run.times[before..].to_vec(), run.speeds[before..].to_vec());
-        Run { times, speeds, weight: run.weight }
+        RunSpeeds { times, speeds, weight: run.weight }
     }
 
     /// The fit of a form with its intervals.
@@ -522,8 +522,8 @@ impl Part<'_> {
         let grid = ShapeGrid::new(fit.constant, shape, self.start);
         let at = |time: f64, constant: f64| fit.steady - fit.rise * (1.0 - shape(time / constant));
         let parameters = if self.start == Start::AnySpeed { 3 } else { 2 };
-        let runs: Vec<Run> = self.rows.runs.iter().map(|run| self.of_run(run)).collect();
-        let runs: Vec<Run> = runs.into_iter().filter(|run| !run.times.is_empty()).collect();
+        let runs: Vec<RunSpeeds> = self.rows.runs.iter().map(|run| self.of_run(run)).collect();
+        let runs: Vec<RunSpeeds> = runs.into_iter().filter(|run| !run.times.is_empty()).collect();
         let sample: Box<dyn Resampled> = if let [run] = runs.as_slice() {
             let row =
                 |of: &dyn Fn(f64) -> f64| run.times.iter().map(|time| of(time - self.start_time)).collect();

@@ -64,11 +64,11 @@ impl Engine {
     /// [`Error::OutOfRange`] or an error of the core for an illegal start; the first event's own errors come
     /// with that event, except that a start in the air computes its first impact at once.
     pub fn new(
-        system: impl Into<DimensionlessSystem>,
+        system: impl TryInto<DimensionlessSystem, Error: Into<Error>>,
         start: InitialCondition,
         policy: ChatterPolicy,
     ) -> Result<Self, Error> {
-        let system = system.into();
+        let system = system.try_into().map_err(Into::into)?;
         Self::with_map(system, system.map(), start, policy)
     }
 }
@@ -100,12 +100,12 @@ impl<L: RestitutionLaw> Engine<L> {
     /// # Errors
     /// Those of [`Engine::new`].
     pub fn with_law(
-        system: impl Into<DimensionlessSystem>,
+        system: impl TryInto<DimensionlessSystem, Error: Into<Error>>,
         law: L,
         start: InitialCondition,
         cut: ChatterCut,
     ) -> Result<Self, Error> {
-        let system = system.into();
+        let system = system.try_into().map_err(Into::into)?;
         let map = ImpactMap::with_law(*system.vibration(), law);
         Self::with_map(system, &map, start, ChatterPolicy::Cut(cut))
     }

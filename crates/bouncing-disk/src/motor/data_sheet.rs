@@ -21,12 +21,14 @@ use std::f64::consts::{PI, SQRT_2, TAU};
 use crate::error::{Error, check, finite, not_negative, positive, restitution};
 use crate::motor::data_sheet::parameters::MotorParameters;
 use crate::motor::data_sheet::rise_bound::highest_rise;
+use crate::motor::stator::Stator;
 use crate::parameters::contact::Contact;
+use crate::parameters::dimensionless::DimensionlessSystem;
 use crate::parameters::disk::DiskParameters;
 use crate::parameters::load::LoadLaw;
 use crate::parameters::platform::PlatformParameters;
-use crate::parameters::stator::{GivenMotion, Stator};
-use crate::parameters::system::System;
+use crate::parameters::stator::{GivenMotion, Stator as YieldingStator};
+use crate::parameters::system::{Beyond, System};
 
 /// A motor with a legal data sheet: a [`System`] together with its mass and its preload as a force.
 ///
@@ -44,17 +46,18 @@ use crate::parameters::system::System;
 /// assert_eq!(motor.preload_acceleration().round(), 152.0);
 /// # Ok::<(), bouncing_disk::Error>(())
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "MotorParameters", into = "MotorParameters"))]
 pub struct Motor {
     parameters: MotorParameters,
     system: System,
     mass: f64,
+    carrier: Stator,
 }
 
 impl Motor {
-    /// The platform and the disk.
+    /// The platform and the disk. It knows neither the motion of a table `[drive]` nor the law of a table `[load]`.
     #[must_use]
     pub const fn system(&self) -> &System {
         &self.system
@@ -62,8 +65,22 @@ impl Motor {
 
     /// The data sheet, to be changed and built again.
     #[must_use]
-    pub const fn parameters(&self) -> MotorParameters {
-        self.parameters
+    pub const fn parameters(&self) -> &MotorParameters {
+        &self.parameters
+    }
+
+    /// How its stator moves.
+    pub(crate) const fn carrier(&self) -> &Stator {
+        &self.carrier
+    }
+
+    /// The system of a motor whose stator moves as a sine, with rigid impacts and a constant load.
+    ///
+    /// # Errors
+    /// [`Error::YieldingStator`], [`Error::LoadLaw`], [`Error::DriveNotSine`] and [`Error::SoftContact`] say what it has
+    /// instead.
+    pub(crate) fn sine(&self) -> Result<&System, Error> {
+        DimensionlessSystem::try_from(&self.system).map(|_| &self.system)
     }
 
     /// The same motor with another data sheet. To change from one alternative to the other, say from a
@@ -72,7 +89,7 @@ impl Motor {
     /// # Errors
     /// Those of [`MotorParameters::build`].
     pub fn with(&self, change: impl FnOnce(&mut MotorParameters)) -> Result<Self, Error> {
-        let mut parameters = self.parameters;
+        let mut parameters = self.parameters.clone();
         change(&mut parameters);
         parameters.build()
     }
@@ -104,7 +121,7 @@ impl Motor {
 
     /// The stator, if the rotor changes its motion; without a rotor it moves as the platform of [`Self::system`].
     #[must_use]
-    pub fn stator(&self) -> Option<Stator> {
+    pub fn stator(&self) -> Option<YieldingStator> {
         self.system.stator()
     }
 
@@ -176,8 +193,9 @@ impl MotorParameters {
     /// [`Error::OutOfRange`] names the field, its value and its legal range; [`Error::NeitherGiven`] and
     /// [`Error::BothGiven`] name two fields of which exactly one is needed, [`Error::NotGiven`] the radius or
     /// thickness that a density needs. Those of [`System::new`] if the combination is out of range.
-    pub fn build(self) -> Result<Motor, Error> {
+    pub fn build(&self) -> Result<Motor, Error> {
         self.check_ranges()?;
+        self.drive.check()?;
         let angular_frequency = TAU * self.drive_frequency;
         check(
             angular_frequency.is_normal(),
@@ -226,8 +244,13 @@ impl MotorParameters {
         if self.load.is_some() && self.load_torque != 0.0 {
             return Err(Error::BothGiven { one: "load_torque", other: "load" });
         }
-        system.has_load_law = self.load.is_some();
-        Ok(Motor { parameters: self, system, mass })
+        if self.load.is_some() {
+            system.beyond = Beyond::Load;
+        } else if !self.drive.is_sine() {
+            system.beyond = Beyond::Drive;
+        }
+        let carrier = Stator::of(self, &system, mass)?;
+        Ok(Motor { parameters: self.clone(), system, mass, carrier })
     }
 
     /// The motion without a rotor: what the sheet gives, and what its stator computes.

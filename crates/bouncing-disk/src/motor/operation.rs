@@ -7,10 +7,8 @@
 //! docs/numerics/motors.md.
 
 pub(crate) mod best_phase_lag;
-pub(crate) mod carrier;
-pub(crate) mod driven_member;
 mod energy_rows;
-pub(crate) mod ensemble;
+pub(crate) mod followed;
 mod member;
 mod no_lift_off;
 pub(crate) mod of_motor;
@@ -19,6 +17,7 @@ pub(crate) mod settings;
 mod settling;
 pub(crate) mod spread;
 pub(crate) mod stall_load;
+pub(crate) mod steady_run;
 mod tap;
 pub(crate) mod tapped;
 pub(crate) mod trap_ranges;

@@ -14,8 +14,8 @@ use crate::motion::event::Event;
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
 use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::motor_field::MotorField;
-use crate::motor::driven_motor::{lines, still, with_shaft};
 use crate::motor::rotor::transient::FLIGHTS_OF_EVENT;
+use crate::motor::stator::{lines, on_shaft, still};
 use crate::parameters::load::LoadLaw;
 use crate::parameters::scales::Scales;
 use crate::parameters::stator::StatorKind;
@@ -177,6 +177,7 @@ impl MotorSimulation {
     /// inputs do that; [`Error::BothGiven`] for a contact that unloads at less stiffness.
     pub fn new(motor: &Motor, inputs: MotorInputs, settings: SimulationSettings) -> Result<Self, Error> {
         let perturbation = moderate_not_negative("relaunch_perturbation", settings.relaunch_perturbation)?;
+        motor.parameters().drive.sine()?;
         if motor.load().is_some_and(|load| load.next_change_after(f64::NEG_INFINITY).is_some()) {
             return Err(Error::LoadInTime);
         }
@@ -389,18 +390,15 @@ fn built(sheet: &Motor, inputs: &MotorInputs) -> Result<Built, Error> {
         field.set(sheet, inputs.drive);
         sheet.drive_frequency = inputs.drive_frequency;
     })?;
-    let (system, bound) = with_shaft(&motor)?;
+    let shafted = on_shaft(motor.system(), motor.load(), motor.mass())?;
+    let system = StatorSystem::of_system(&shafted, motor.mass())?;
     let law = motor.load().map_or_else(|| LoadLaw::constant(0.0), Ok)?;
-    let mut lines = lines(&law, 0.0, &bound, motor.mass());
-    let torque = load_torque / (motor.preload_force() * bound.disk().contact_radius());
+    let mut lines = lines(&law, 0.0, &shafted, motor.mass());
+    let torque = load_torque / (motor.preload_force() * shafted.disk().contact_radius());
     lines.iter_mut().for_each(|line| line.torque += torque);
     let system = if inputs.on { system } else { still(&system)? };
-    Ok(Built {
-        motor,
-        system: system.with_load(&lines)?,
-        unit: bound.scales(),
-        inertia: motor.inertia() + law.inertia(),
-    })
+    let inertia = motor.inertia() + law.inertia();
+    Ok(Built { motor, system: system.with_load(&lines)?, unit: shafted.scales(), inertia })
 }
 
 #[cfg(test)]

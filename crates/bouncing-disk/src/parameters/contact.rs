@@ -93,7 +93,7 @@ pub enum ContactLaw {
 }
 
 /// The table `[contact]` of a file. A time makes contacts take it in all that accepts such contacts (tosses,
-/// [`DrivenMotor`](crate::motor::DrivenMotor)); the rest refuses it. Materials, geometry and sizes give a range, not
+/// motors); the rest refuses it. Materials, geometry and sizes give a range, not
 /// a time: impacts stay rigid, and a report compares the range with the period. A system and a data sheet check
 /// it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -153,7 +153,8 @@ impl Contact {
     };
 
     /// An impact that lasts for this time (s).
-    pub(crate) fn lasting(time: f64) -> Self {
+    #[must_use]
+    pub fn lasting(time: f64) -> Self {
         Self { time: Some(time), ..Self::default() }
     }
 

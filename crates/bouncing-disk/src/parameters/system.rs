@@ -27,9 +27,19 @@ pub struct System {
     contact: Option<Contact>,
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     stator: Option<StatorParameters>,
-    /// The load is that of a table `[load]`, which a data sheet has.
     #[cfg_attr(feature = "serde", serde(skip))]
-    pub(crate) has_load_law: bool,
+    pub(crate) beyond: Beyond,
+}
+
+/// What the data sheet of a motor has that its system does not know.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) enum Beyond {
+    #[default]
+    Nothing,
+    /// The motion of a table `[drive]`.
+    Drive,
+    /// The law of a table `[load]`.
+    Load,
 }
 
 impl System {
@@ -53,7 +63,7 @@ impl System {
         }
         .build()?;
         Scales::new(&platform, &disk).check()?;
-        Ok(Self { platform, disk, dimensionless, contact: None, stator: None, has_load_law: false })
+        Ok(Self { platform, disk, dimensionless, contact: None, stator: None, beyond: Beyond::Nothing })
     }
 
     /// The system of a file, whose platform must be that of Eq. (1).
@@ -72,7 +82,12 @@ impl System {
     /// The same system with another platform and disk.
     pub(crate) fn with_parts(&self, platform: Platform, disk: Disk) -> Result<Self, Error> {
         let system = Self::new(platform, disk)?.with_contact(self.contact)?.with_stator(self.stator)?;
-        Ok(Self { has_load_law: self.has_load_law, ..system })
+        Ok(Self { beyond: self.beyond, ..system })
+    }
+
+    /// The same system with rigid impacts on a prescribed platform, under a constant load.
+    pub(crate) const fn bare(&self) -> Self {
+        Self { contact: None, stator: None, beyond: Beyond::Nothing, ..*self }
     }
 
     /// The platform.
@@ -122,25 +137,17 @@ impl System {
         self.stator.and_then(|stator| stator.of_platform(&self.platform).ok())
     }
 
-    /// That nothing changes the motion of the platform, and that the load is constant.
+    /// The same system, if the disk does not change the motion of the platform, which is a sine, and the load is constant.
     ///
     /// # Errors
-    /// [`Error::YieldingStator`], [`Error::LoadLaw`].
-    pub const fn prescribed(&self) -> Result<(), Error> {
-        match (self.stator, self.has_load_law) {
+    /// [`Error::YieldingStator`], [`Error::LoadLaw`], [`Error::DriveNotSine`].
+    pub(crate) const fn prescribed(&self) -> Result<&Self, Error> {
+        match (self.stator, self.beyond) {
             (Some(_), _) => Err(Error::YieldingStator),
-            (None, true) => Err(Error::LoadLaw),
-            (None, false) => Ok(()),
+            (None, Beyond::Load) => Err(Error::LoadLaw),
+            (None, Beyond::Drive) => Err(Error::DriveNotSine),
+            (None, Beyond::Nothing) => Ok(self),
         }
-    }
-
-    /// That impacts are rigid, and platform and load are [prescribed](Self::prescribed).
-    ///
-    /// # Errors
-    /// [`Error::SoftContact`]; those of [`Self::prescribed`].
-    pub fn rigid(&self) -> Result<(), Error> {
-        self.prescribed()?;
-        self.soft_contact().map_or(Ok(()), |_| Err(Error::SoftContact))
     }
 
     /// The same system with another table `[contact]`.
@@ -200,15 +207,26 @@ impl System {
     }
 }
 
-impl From<System> for DimensionlessSystem {
-    fn from(system: System) -> Self {
-        system.dimensionless
+impl TryFrom<System> for DimensionlessSystem {
+    type Error = Error;
+
+    /// As of a reference.
+    fn try_from(system: System) -> Result<Self, Error> {
+        Self::try_from(&system)
     }
 }
 
-impl From<&System> for DimensionlessSystem {
-    fn from(system: &System) -> Self {
-        system.dimensionless
+impl TryFrom<&System> for DimensionlessSystem {
+    type Error = Error;
+
+    /// The system whose impacts are rigid, on a platform that moves as a sine.
+    ///
+    /// # Errors
+    /// [`Error::SoftContact`], [`Error::YieldingStator`]; of the system of a [`Motor`](crate::Motor) also
+    /// [`Error::LoadLaw`] and [`Error::DriveNotSine`].
+    fn try_from(system: &System) -> Result<Self, Error> {
+        system.prescribed()?;
+        system.soft_contact().map_or(Ok(system.dimensionless), |_| Err(Error::SoftContact))
     }
 }
 

@@ -103,7 +103,7 @@ struct Body<'a, T> {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 #[serde(bound(deserialize = "T: DeserializeOwned"))]
-struct Line<T> {
+struct Entry<T> {
     #[serde(rename = "digest")]
     _digest: String,
     index: usize,
@@ -215,7 +215,7 @@ impl<T: Serialize + DeserializeOwned> Journal<T> {
             let failed =
                 |source| StorageError::NotStorable { what: format!("the result of item {index}"), source };
             let line = line(&serde_json::to_vec(&Body { index, result }).map_err(failed)?);
-            serde_json::from_slice::<Line<T>>(&line).map_err(failed)?;
+            serde_json::from_slice::<Entry<T>>(&line).map_err(failed)?;
             lines.extend(line);
             indices.push(index);
         }
@@ -341,7 +341,7 @@ fn read<T: DeserializeOwned>(
                 return Err(StorageError::Damaged { path: path.to_owned(), line: number });
             }
             let unfit = |source| StorageError::Result { path: path.to_owned(), line: number, source };
-            let Line { index, result, .. } = serde_json::from_slice(text).map_err(unfit)?;
+            let Entry { index, result, .. } = serde_json::from_slice(text).map_err(unfit)?;
             if index >= items {
                 return Err(StorageError::NoSuchItem { index, items });
             }

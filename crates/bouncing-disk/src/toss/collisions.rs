@@ -116,7 +116,7 @@ impl Collisions {
     /// # Errors
     /// Those of [`Engine::new`].
     pub fn new(
-        system: impl Into<DimensionlessSystem>,
+        system: impl TryInto<DimensionlessSystem, Error: Into<Error>>,
         start: InitialCondition,
         policy: ChatterPolicy,
     ) -> Result<Self, Error> {
@@ -128,11 +128,11 @@ impl Collisions {
     /// # Errors
     /// Those of [`CollisionState::rebound`] and [`Engine::new`].
     pub fn after(
-        system: impl Into<DimensionlessSystem>,
+        system: impl TryInto<DimensionlessSystem, Error: Into<Error>>,
         state: CollisionState,
         policy: ChatterPolicy,
     ) -> Result<Self, Error> {
-        let system = system.into();
+        let system = system.try_into().map_err(Into::into)?;
         Self::new(system, state.rebound(&system)?, policy)
     }
 

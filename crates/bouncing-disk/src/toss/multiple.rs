@@ -126,12 +126,12 @@ pub struct TossOrbit {
 /// [`Error::OutOfRange`] for the settings; an error of the core for more than [`MAX_EXAMINED`] impacts
 /// examined or more than memory can hold; those of [`Collisions`].
 pub fn multi_toss(
-    system: impl Into<DimensionlessSystem>,
+    system: impl TryInto<DimensionlessSystem, Error: Into<Error>>,
     start: InitialCondition,
     settings: MultiTossSettings,
     observer: &dyn Observer,
 ) -> Result<TossOrbit, Error> {
-    let system = system.into();
+    let system = system.try_into().map_err(Into::into)?;
     let collisions = Collisions::new(system, start, settings.policy)?;
     settle(collisions, system.map(), system.twist_speed(), &settings, observer)
 }
@@ -173,7 +173,7 @@ pub(crate) fn settle<M: Motion>(
     settings.check()?;
     let mut skipped = 0;
     let collided = room_for("examined impacts", settings.examined_impacts, MAX_EXAMINED)?;
-    let mut window = Window { collisions: collided, ..Window::default() };
+    let mut window = Examined { collisions: collided, ..Examined::default() };
     let impacts = settings.transient_impacts.saturating_add(settings.examined_impacts);
     let watch = Watch::begin(observer, 0, impacts as u64)?;
     let mut work = watch.work();
@@ -211,13 +211,13 @@ struct Leaving {
 }
 
 #[derive(Debug, Default)]
-struct Window {
+struct Examined {
     collisions: Vec<Collision>,
     leavings: Vec<Leaving>,
     attached: bool,
 }
 
-impl Window {
+impl Examined {
     fn push(&mut self, event: &CollisionEvent) {
         match *event {
             CollisionEvent::Collision(collision) => self.collisions.push(collision),

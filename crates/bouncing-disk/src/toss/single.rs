@@ -102,7 +102,6 @@ pub fn toss_trajectory(system: &System, initial: InitialSpin) -> Result<Trajecto
 }
 
 fn toss_engine(system: &System, initial: InitialSpin) -> Result<Engine, Error> {
-    system.rigid()?;
     if system.dimensionless().vibration().separation_phase().is_none() {
         return Err(never_leaves(system));
     }

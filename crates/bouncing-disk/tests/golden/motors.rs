@@ -5,18 +5,14 @@ use bouncing_disk::core::numerics::elementary::exp;
 use bouncing_disk::core::numerics::random::SplitMix64;
 use bouncing_disk::core::{Phase, Unobserved};
 use bouncing_disk::estimate::{FitSettings, RiseEstimate, TransientFit};
-use bouncing_disk::motor::{DrivenMotor, OperatingSettings, SweepQuantity, TransientSettings};
-use bouncing_disk::parameters::{LoadLaw, StatorKind, StatorParameters, Waveform};
+use bouncing_disk::motor::{OperatingSettings, SweepQuantity, TransientSettings};
+use bouncing_disk::parameters::{Contact, LoadLaw, StatorKind, StatorParameters};
 use bouncing_disk::{Error, Motor};
 
 fn one(name: &str, numbers: impl IntoIterator<Item = f64>, recorded: u64) -> Vec<String> {
     let mut digest = Digest::new();
     numbers.into_iter().for_each(|number| digest.number(number));
     if digest.value() == recorded { Vec::new() } else { vec![format!("{name}: {:#018x}", digest.value())] }
-}
-
-fn sines(motor: Motor) -> Result<DrivenMotor, Error> {
-    DrivenMotor::new(motor, Waveform::Sine, Waveform::Sine)
 }
 
 fn starting(duration: f64) -> TransientSettings {
@@ -31,7 +27,7 @@ pub(crate) fn taps() -> Result<Vec<String>, Error> {
     {
         let motor =
             Motor::paper_70_khz().with(|sheet| (sheet.phase_lag, sheet.restitution) = (lag, restitution))?;
-        let motor = sines(motor)?.with_contact_time(periods / 70e3)?;
+        let motor = motor.with(|sheet| sheet.contact = Some(Contact::lasting(periods / 70e3)))?;
         let curve = motor.transient(Phase::new(0.3)?, &starting(0.01), &Unobserved)?;
         numbers.extend(curve.times.iter().chain(&curve.speeds));
         let settings = OperatingSettings {
@@ -71,8 +67,7 @@ pub(crate) fn run_ups_on_stators() -> Result<Vec<String>, Error> {
             (sheet.stator, sheet.amplitude, sheet.peak_angular_speed) = (Some(stator), Some(1e-7), speed);
             sheet.load = load;
         })?;
-        let motor = sines(motor)?;
-        let motor = if let Some(time) = contact_time { motor.with_contact_time(time)? } else { motor };
+        let motor = motor.with(|sheet| sheet.contact = contact_time.map(Contact::lasting))?;
         let (curve, amplitudes) = motor.run_up(Phase::new(1.0)?, &starting(0.03), &Unobserved)?;
         numbers.extend(curve.times.iter().chain(&curve.speeds).chain(&amplitudes));
         numbers.extend([curve.impacts as f64, curve.separations as f64]);

@@ -10,8 +10,8 @@ use bouncing_disk::System;
 use bouncing_disk::core::Unobserved;
 use bouncing_disk::core::numerics::elementary::{atan2, cos, exp, hypot, ln, sin};
 use bouncing_disk::core::numerics::random::SplitMix64;
-use bouncing_disk::motor::{DrivenMotor, Estimate, MotorParameters, OperatingSettings};
-use bouncing_disk::parameters::{Contact, DriveParameters, StatorKind, StatorParameters};
+use bouncing_disk::motor::{Estimate, MotorParameters, OperatingSettings};
+use bouncing_disk::parameters::{Contact, StatorKind, StatorParameters};
 
 use small_steps::{Mode, Steps};
 
@@ -152,7 +152,7 @@ fn draw(index: usize) -> Both {
 
 /// Of the event engine: angular speed, amplitude, powers of the drive and lost in modes, impacts and friction.
 fn of_events(sheet: &MotorParameters, most_impacts: u64) -> [Estimate; 6] {
-    let motor = DrivenMotor::of_drive(sheet.build().expect("legal"), &DriveParameters::default());
+    let motor = sheet.build();
     let settings = OperatingSettings {
         relative_error: 1e-3,
         members: MEMBERS,

@@ -185,7 +185,7 @@ fn changed(case: MotorCase, index: usize, relative: f64) -> MotorCase {
 
 /// The impacts that follow [`IMPACTS`], in the same units.
 fn next_collisions(case: MotorCase) -> Result<Vec<f64>, ExperimentError> {
-    let system: DimensionlessSystem = case.system()?.into();
+    let system: DimensionlessSystem = case.system()?.try_into()?;
     let (peak, twist) = (system.peak_acceleration(), system.twist_speed());
     let mut outcomes = Vec::with_capacity(3 * IMPACTS.len());
     for (angle, axial, tangential) in IMPACTS {

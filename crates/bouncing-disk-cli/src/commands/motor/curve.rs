@@ -1,6 +1,6 @@
 //! `bouncing-disk motor curve`: speed, power and efficiency over the load.
 
-use bouncing_disk::motor::{DrivenMotor, InputSpread, MotorField, Operation, SweepQuantity};
+use bouncing_disk::motor::{InputSpread, MotorField, Operation, SweepQuantity};
 
 use bouncing_disk_plot::Figure;
 
@@ -36,8 +36,7 @@ pub(crate) struct CurveArgs {
 }
 
 pub(super) fn run(args: &CurveArgs, context: Context) -> Result<()> {
-    let given = args.motor.begin_soft(&args.output, true, context)?;
-    let Some((motor, drive)) = given else { return Ok(()) };
+    let Some(motor) = args.motor.begin(&args.output, true, context)? else { return Ok(()) };
     warn(&motor, context);
     let load_torques = match args.loads {
         Some(loads) => loads,
@@ -47,12 +46,8 @@ pub(super) fn run(args: &CurveArgs, context: Context) -> Result<()> {
     let loads: Vec<f64> = load_torques.values().collect();
     let settings = args.settings.settings();
     let watch = context.watch("motor curve");
-    let driven = DrivenMotor::where_needed(motor, &drive)?;
-    let found = match &driven {
-        None => motor.torque_speed_curve(&loads, &settings, &watch)?,
-        Some(driven) => driven.torque_speed_curve(&loads, &settings, &watch)?,
-    };
-    let tolerance = args.spread.of(driven.as_ref(), context);
+    let found = motor.torque_speed_curve(&loads, &settings, &watch)?;
+    let tolerance = args.spread.of(&motor, context);
     let spreads = match &tolerance {
         Some(tolerance) => {
             let watch = context.watch("motor curve: spread");
@@ -61,12 +56,9 @@ pub(super) fn run(args: &CurveArgs, context: Context) -> Result<()> {
         None => vec![None; loads.len()],
     };
     let rows: Vec<Row> = found.iter().copied().zip(spreads.iter().copied()).collect();
-    let mut job =
+    let job =
         json!({ "motor": motor, "load_torques": load_torques, "settings": settings, "tolerance": tolerance });
-    if !drive.is_sine() {
-        job["drive"] = json!(drive);
-    }
-    let note = if driven.is_none() { lock_note(&motor)? } else { String::new() };
+    let note = lock_note(&motor)?;
     let report = Report {
         provenance: provenance("bouncing-disk motor curve", &job)?,
         text: with_stator(shown(), &found, |row| &row.0).to_text(&rows) + &note,

@@ -7,7 +7,6 @@ use bouncing_disk_fmu::{library_name, packed};
 use crate::commands::prelude::*;
 use crate::failure::unreadable;
 use crate::output::files::Kind;
-use crate::parameters::sine;
 
 /// The motor as a functional mock-up unit (FMI 3.0, co-simulation) for this machine
 #[derive(Debug, Args)]
@@ -30,8 +29,7 @@ pub(crate) struct FmuArgs {
 }
 
 pub(super) fn run(args: &FmuArgs, context: Context) -> Result<()> {
-    let given = args.motor.soft_unless_template(&args.output, context)?.map(sine).transpose()?;
-    let Some(motor) = given else { return Ok(()) };
+    let Some(motor) = args.motor.unless_template(&args.output, context)? else { return Ok(()) };
     let [target] = &args.output.out[..] else {
         return Err(Failure::Usage("motor fmu writes one file: give --out FILE.fmu".to_owned()));
     };

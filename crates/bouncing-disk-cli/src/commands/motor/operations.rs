@@ -2,13 +2,11 @@
 //! phase lag at which it turns fastest, and the preloads at which it is locked on a short cycle.
 
 use bouncing_disk::Motor;
-use bouncing_disk::motor::{DrivenMotor, LEAST_TRAP_WIDTH, OperatingSettings, TrapRange};
-use bouncing_disk::parameters::DriveParameters;
+use bouncing_disk::motor::{LEAST_TRAP_WIDTH, OperatingSettings, TrapRange};
 use serde_json::Value;
 
 use super::settings::{SettingsArgs, SpreadArgs, lock_note, state, warn};
 use crate::commands::prelude::*;
-use crate::parameters::{rigid, sine};
 
 /// The arguments of a command that looks for one operation of a motor.
 #[derive(Debug, Clone, Args)]
@@ -22,21 +20,16 @@ pub(super) struct OperationArgs {
 }
 
 impl OperationArgs {
-    /// The motor and its drive, if the result can be written; `None` where the template was asked for, and has
-    /// been written.
-    fn begin(&self, context: Context) -> Result<Option<(Motor, DriveParameters)>> {
-        let given = self.motor.begin_soft(&self.output, false, context)?;
-        given.iter().for_each(|(motor, _)| warn(motor, context));
+    /// The motor, if the result can be written; `None` where the template was asked for, and has been written.
+    fn begin(&self, context: Context) -> Result<Option<Motor>> {
+        let given = self.motor.begin(&self.output, false, context)?;
+        given.iter().for_each(|motor| warn(motor, context));
         Ok(given)
     }
 
     /// What the answer depends on.
-    fn job((motor, drive): &(Motor, DriveParameters), settings: &OperatingSettings) -> Value {
-        let mut job = json!({ "motor": motor, "settings": settings });
-        if !drive.is_sine() {
-            job["drive"] = json!(drive);
-        }
-        job
+    fn job(motor: &Motor, settings: &OperatingSettings) -> Value {
+        json!({ "motor": motor, "settings": settings })
     }
 }
 
@@ -58,16 +51,11 @@ pub(crate) struct StallArgs {
 }
 
 pub(super) fn stall(args: &StallArgs, context: Context) -> Result<()> {
-    let Some(given) = args.operation.begin(context)? else { return Ok(()) };
-    let (motor, settings) = (given.0, args.operation.settings.settings());
+    let Some(motor) = args.operation.begin(context)? else { return Ok(()) };
+    let settings = args.operation.settings.settings();
     needs_friction(&motor, "stall torque")?;
-    let driven = DrivenMotor::where_needed(motor, &given.1)?;
-    let watch = context.watch("motor stall");
-    let stall = match &driven {
-        None => motor.stall_load(&settings, &watch)?,
-        Some(driven) => driven.stall_load(&settings, &watch)?,
-    };
-    let tolerance = args.spread.of(driven.as_ref(), context);
+    let stall = motor.stall_load(&settings, &context.watch("motor stall"))?;
+    let tolerance = args.spread.of(&motor, context);
     let watch = context.watch("motor stall: spread");
     let spread = tolerance.map(|tolerance| motor.stall_spread(&settings, &tolerance, &watch));
     let spread = spread.transpose()?.flatten();
@@ -86,9 +74,9 @@ pub(super) fn stall(args: &StallArgs, context: Context) -> Result<()> {
     list.push("surely_driven_back_at", stall.bracket[1], "N m");
     list.push("no_load_speed", stall.no_load_speed.value, "rad/s");
     list.push("no_load_speed_error", stall.no_load_speed.standard_error, "rad/s");
-    let mut job = OperationArgs::job(&given, &settings);
+    let mut job = OperationArgs::job(&motor, &settings);
     job["tolerance"] = json!(tolerance);
-    let note = if driven.is_none() { lock_note(&motor)? } else { String::new() };
+    let note = lock_note(&motor)?;
     let report = Report {
         provenance: provenance("bouncing-disk motor stall", &job)?,
         text: list.to_text() + &note,
@@ -122,14 +110,10 @@ pub(crate) struct LagArgs {
 }
 
 pub(super) fn phase_lag(args: &LagArgs, context: Context) -> Result<()> {
-    let Some(given) = args.operation.begin(context)? else { return Ok(()) };
+    let Some(motor) = args.operation.begin(context)? else { return Ok(()) };
     let settings = args.operation.settings.settings();
-    needs_friction(&given.0, "best phase lag")?;
-    let watch = context.watch("motor phase-lag");
-    let best = match DrivenMotor::where_needed(given.0, &given.1)? {
-        None => given.0.best_phase_lag(&settings, &watch)?,
-        Some(driven) => driven.best_phase_lag(&settings, &watch)?,
-    };
+    needs_friction(&motor, "best phase lag")?;
+    let best = motor.best_phase_lag(&settings, &context.watch("motor phase-lag"))?;
     let mut list = Quantities::default();
     list.push("best_phase_lag", best.phase_lag.value, "rad");
     list.push("best_phase_lag_error", best.phase_lag.standard_error, "rad");
@@ -138,7 +122,7 @@ pub(super) fn phase_lag(args: &LagArgs, context: Context) -> Result<()> {
     list.push("within_1_percent_from", best.good_from_to[0], "rad");
     list.push("within_1_percent_to", best.good_from_to[1], "rad");
     let report = Report {
-        provenance: provenance("bouncing-disk motor phase-lag", &OperationArgs::job(&given, &settings))?,
+        provenance: provenance("bouncing-disk motor phase-lag", &OperationArgs::job(&motor, &settings))?,
         text: list.to_text(),
         table: list.into_csv(),
         data: vec![("best_phase_lag", stored(&best)?)],
@@ -172,8 +156,8 @@ pub(crate) struct TrapsArgs {
 }
 
 pub(super) fn traps(args: &TrapsArgs, context: Context) -> Result<()> {
-    let Some(given) = args.operation.begin(context)? else { return Ok(()) };
-    let (motor, settings) = (rigid(given).and_then(sine)?, args.operation.settings.settings());
+    let Some(motor) = args.operation.begin(context)? else { return Ok(()) };
+    let settings = args.operation.settings.settings();
     let (own, mass) = (motor.preload_force(), motor.mass());
     let preload_from_to = [args.from.unwrap_or(0.9 * own), args.to.unwrap_or(1.1 * own)];
     let [from, to] = preload_from_to.map(|force| force / mass);

@@ -5,8 +5,9 @@ use bouncing_disk::Motor;
 use bouncing_disk::core::Unobserved;
 use bouncing_disk::core::numerics::statistics::NORMAL_975;
 use bouncing_disk::motor::{
-    DrivenMotor, Estimate, InputTolerance, OperatingSettings, Operation, Shortfall, SweepQuantity,
+    Estimate, InputTolerance, OperatingSettings, Operation, Shortfall, SweepQuantity,
 };
+use bouncing_disk::parameters::DimensionlessSystem;
 
 /// The settings of the library, with its defaults.
 #[derive(Debug, Clone, Args)]
@@ -58,14 +59,14 @@ pub(super) struct SpreadArgs {
 
 impl SpreadArgs {
     /// The tolerance over which a spread is computed: that of the sine's rigid impacts only, as is the regime.
-    pub(super) fn of(&self, driven: Option<&DrivenMotor>, context: Context) -> Option<InputTolerance> {
+    pub(super) fn of(&self, motor: &Motor, context: Context) -> Option<InputTolerance> {
         let tolerance = self.tolerance();
-        if driven.is_some() && tolerance.is_some() {
+        if !is_rigid_sine(motor) && tolerance.is_some() {
             context.note(
                 "no spread over the tolerances: it is computed for a prescribed sine with rigid impacts only",
             );
         }
-        tolerance.filter(|_| driven.is_none())
+        tolerance.filter(|_| is_rigid_sine(motor))
     }
 
     fn tolerance(&self) -> Option<InputTolerance> {
@@ -76,6 +77,11 @@ impl SpreadArgs {
     }
 }
 
+/// Whether the stator moves as a sine whatever lies on it, with rigid impacts and a constant load.
+fn is_rigid_sine(motor: &Motor) -> bool {
+    DimensionlessSystem::try_from(motor.system()).is_ok()
+}
+
 /// Prints warnings of values in a data sheet that are legal and yet unlikely to be meant.
 pub(super) fn warn(motor: &Motor, context: Context) {
     motor.warnings().iter().for_each(|warning| context.note(&format!("warning: {warning}")));
@@ -83,6 +89,9 @@ pub(super) fn warn(motor: &Motor, context: Context) {
 
 /// A line on a motor that is locked: its errors are tiny, and hold at exactly its inputs.
 pub(super) fn lock_note(motor: &Motor) -> Result<String> {
+    if !is_rigid_sine(motor) {
+        return Ok(String::new());
+    }
     let regime = motor.report(&Unobserved)?.regime;
     let note = "the errors hold at exactly these inputs; `motor traps` lists such preloads";
     Ok(if regime.is_locked() { format!("\nlocked ({regime}): {note}") } else { String::new() })

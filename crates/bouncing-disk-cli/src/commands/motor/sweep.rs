@@ -10,7 +10,6 @@ use serde::{Deserialize, Serialize};
 
 use super::settings::{SettingsArgs, interval, shown_unit, state, warn, with_stator};
 use crate::commands::prelude::*;
-use crate::parameters::sine;
 
 /// A motor over one or two fields of its data sheet
 #[derive(Debug, Args)]
@@ -70,8 +69,7 @@ const PICTURES: Words<SweepQuantity> = &[
 ];
 
 pub(super) fn run(args: &SweepArgs, context: Context) -> Result<()> {
-    let given = args.motor.soft_unless_template(&args.output, context)?.map(sine).transpose()?;
-    let Some(motor) = given else { return Ok(()) };
+    let Some(motor) = args.motor.unless_template(&args.output, context)? else { return Ok(()) };
     warn(&motor, context);
     let job = SweepJob {
         motor,
@@ -111,7 +109,7 @@ impl SweepJob {
             }
             SweepAxis::new(over.field, values)
         };
-        let sweep = MotorSweep::new(self.motor, self.axes.iter().map(axis).collect(), self.settings)?;
+        let sweep = MotorSweep::new(self.motor.clone(), self.axes.iter().map(axis).collect(), self.settings)?;
         Ok(if self.up_and_down { sweep.continued()? } else { sweep })
     }
 }

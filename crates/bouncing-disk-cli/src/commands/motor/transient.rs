@@ -2,8 +2,7 @@
 
 use bouncing_disk::core::Unobserved;
 use bouncing_disk::estimate::{FitSettings, LEAST_MEMBERS, TransientEnsemble, TransientFit};
-use bouncing_disk::motor::{DrivenMotor, SpeedCurve, TransientMember, TransientSettings, transients};
-use bouncing_disk::parameters::DriveParameters;
+use bouncing_disk::motor::{SpeedCurve, TransientMember, TransientSettings};
 use bouncing_disk::{Motor, Observer};
 use bouncing_disk_plot::Figure;
 use serde::{Deserialize, Serialize};
@@ -47,8 +46,7 @@ pub(crate) struct TransientArgs {
 }
 
 pub(super) fn run(args: &TransientArgs, context: Context) -> Result<()> {
-    let given = args.motor.soft_unless_template(&args.output, context)?;
-    let Some((motor, drive)) = given else { return Ok(()) };
+    let Some(motor) = args.motor.unless_template(&args.output, context)? else { return Ok(()) };
     warn(&motor, context);
     let job = TransientJob {
         motor,
@@ -60,7 +58,6 @@ pub(super) fn run(args: &TransientArgs, context: Context) -> Result<()> {
             seed: args.seed,
             ..TransientSettings::default()
         },
-        drive,
     };
     grid::run(job, &args.motor.inputs(), &args.grid, &args.output, context)
 }
@@ -71,8 +68,6 @@ pub(crate) struct TransientJob {
     motor: Motor,
     members: usize,
     settings: TransientSettings,
-    #[serde(default, skip_serializing_if = "DriveParameters::is_sine")]
-    drive: DriveParameters,
 }
 
 impl GridJob for TransientJob {
@@ -91,11 +86,7 @@ impl GridJob for TransientJob {
     }
 
     fn compute(&self, all: &Self::Prepared, rows: Rows, observer: &dyn Observer) -> Result<Vec<Self::Row>> {
-        if let Some(driven) = DrivenMotor::where_needed(self.motor, &self.drive)? {
-            return Ok(driven.transients(&all[rows], observer)?);
-        }
-        let curves = transients(&all[rows], observer)?;
-        Ok(curves.into_iter().collect::<Result<_, _>>()?)
+        Ok(self.motor.transients(&all[rows], observer)?)
     }
 
     fn report<'a>(&'a self, _: &'a Vec<TransientMember>, rows: &'a [SpeedCurve]) -> Result<Report<'a>> {

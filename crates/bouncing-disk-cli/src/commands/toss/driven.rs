@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use bouncing_disk::core::{ChatterPolicy, Phase};
 use bouncing_disk::driven::{DrivenEngine, DrivenStart, DrivenSystem, multi_toss, single_toss};
-use bouncing_disk::parameters::{DriveParameters, DrivenPlatform, Scales};
+use bouncing_disk::parameters::{DimensionlessSystem, DriveParameters, DrivenPlatform, Scales};
 use bouncing_disk::toss::InitialSpin;
 use bouncing_disk::{Event, System};
 
@@ -17,13 +17,11 @@ const MOST_EVENTS: usize = 10_000;
 pub(super) fn run(system: &System, drive: &DriveParameters, args: &TossArgs, context: Context) -> Result<()> {
     if args.many {
         // Cycles and exponents are those of rigid impacts.
-        system.rigid()?;
+        DimensionlessSystem::try_from(system)?;
     }
-    system.prescribed()?;
     let own = (system, Some(drive));
     let period = TAU / system.platform().angular_frequency();
-    let platform = DrivenPlatform::new(*system.platform(), drive.height.clone(), drive.angle.clone())?;
-    let platform = platform.with_contact(system.soft_contact());
+    let platform = DrivenPlatform::of_system(system, drive)?;
     let of_disk = DrivenSystem::new(&platform, system.disk())?;
     let phase = Phase::new(drive.start_phase.unwrap_or_else(|| of_disk.height().lowest_phase()))?;
     let angular_speed = match args.spin {

@@ -87,7 +87,7 @@ impl RatedPoint {
 
     /// The motor at this point, with its conditions off by so much.
     pub(crate) fn motor(&self, nominal: &Motor, off: &[f64]) -> Result<Motor, Error> {
-        let mut sheet = nominal.parameters();
+        let mut sheet = nominal.parameters().clone();
         for (index, condition) in self.conditions.iter().enumerate() {
             let off = off.get(index).copied().unwrap_or(0.0);
             condition.field.set(&mut sheet, condition.value + off);

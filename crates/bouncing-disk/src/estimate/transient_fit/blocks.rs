@@ -9,7 +9,7 @@ use bouncing_disk_core::run::WorkCount;
 use crate::error::Error;
 use crate::estimate::refusal::FitRefusal;
 use crate::estimate::transient_fit::resamples::Resampled;
-use crate::estimate::transient_fit::shape_grid::{MOMENTS, OF_SPEEDS, Run, SPEEDS, ShapeGrid};
+use crate::estimate::transient_fit::shape_grid::{MOMENTS, OF_SPEEDS, RunSpeeds, SPEEDS, ShapeGrid};
 use crate::statistics::correlation_time;
 use crate::statistics::small_sample_widening;
 
@@ -49,7 +49,7 @@ pub(crate) struct Blocks {
 impl Blocks {
     /// Of the fit of a curve that has these values, and these derivatives by its parameters.
     pub(crate) fn new(
-        run: &Run,
+        run: &RunSpeeds,
         start: f64,
         fitted: &[f64],
         derivatives: &[Vec<f64>],

@@ -5,7 +5,7 @@ use bouncing_disk_core::run::WorkCount;
 
 use crate::error::Error;
 use crate::estimate::transient_fit::resamples::Resampled;
-use crate::estimate::transient_fit::shape_grid::{MOMENTS, Run, ShapeGrid};
+use crate::estimate::transient_fit::shape_grid::{MOMENTS, RunSpeeds, ShapeGrid};
 use crate::statistics::drawn_index;
 use crate::statistics::small_sample_widening;
 
@@ -20,7 +20,7 @@ impl Members {
     /// Of runs whose time counts from `start`; `misfit` is what the intervals are multiplied by because of
     /// the form.
     pub(crate) fn new(
-        runs: &[Run],
+        runs: &[RunSpeeds],
         start: f64,
         misfit: f64,
         grid: &ShapeGrid,

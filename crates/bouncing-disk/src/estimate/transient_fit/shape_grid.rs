@@ -38,7 +38,7 @@ pub(crate) fn ramp(x: f64) -> f64 {
 }
 
 /// A run, or the mean of a group of runs with the same times.
-pub(crate) struct Run {
+pub(crate) struct RunSpeeds {
     pub(crate) times: Vec<f64>,
     pub(crate) speeds: Vec<f64>,
     /// How many runs it stands for.

@@ -1,10 +1,10 @@
 //! The rotary motion of many rotors from impact to impact, in lockstep: as
-//! [`Run::step`](crate::motor::rotor::transient::Run::step).
+//! [`TransientRun::step`](crate::motor::rotor::transient::TransientRun::step).
 
 use bouncing_disk_core::sweep::{Flights, LaneImpacts, LaneLoop};
 
 use crate::motor::rotor::Bounce;
-use crate::motor::rotor::transient::{Interval, Run, seconds};
+use crate::motor::rotor::transient::{Interval, TransientRun, seconds};
 use crate::parameters::dimensionless::DimensionlessSystem;
 
 const LANES: usize = Flights::LANES;
@@ -73,7 +73,7 @@ impl Rotors {
     }
 
     /// Begins to carry a transient.
-    pub(crate) fn begin(&mut self, lane: usize, run: &mut Run, curve: &mut Vec<f64>) {
+    pub(crate) fn begin(&mut self, lane: usize, run: &mut TransientRun, curve: &mut Vec<f64>) {
         let system: &DimensionlessSystem = run.rotor.system();
         self.restitution[lane] = system.restitution();
         self.friction[lane] = system.friction();
@@ -87,7 +87,7 @@ impl Rotors {
     }
 
     /// Takes over motion and curve from a transient that is about to fly.
-    pub(crate) fn take(&mut self, lane: usize, run: &mut Run, curve: &mut Vec<f64>) {
+    pub(crate) fn take(&mut self, lane: usize, run: &mut TransientRun, curve: &mut Vec<f64>) {
         self.speed[lane] = run.rotor.speed();
         self.periods[lane] = run.rotor.time().periods as f64;
         self.impacts[lane] = run.impacts;
@@ -170,7 +170,7 @@ impl Rotors {
     }
 
     /// Gives the curve back to its transient, up to the last impact.
-    pub(crate) fn give_back(&self, lane: usize, run: &mut Run, curve: &mut Vec<f64>) {
+    pub(crate) fn give_back(&self, lane: usize, run: &mut TransientRun, curve: &mut Vec<f64>) {
         run.bins.present = self.interval(lane, self.reached[lane]);
         run.impacts = self.impacts[lane];
         run.bins.turned = std::mem::take(curve);

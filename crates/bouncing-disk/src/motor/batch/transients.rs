@@ -9,7 +9,7 @@ use bouncing_disk_core::{ChatterPolicy, Launch, Observer};
 use crate::error::Error;
 use crate::motor::batch::members::TransientMember;
 use crate::motor::batch::rotors::{Carry, Rotors};
-use crate::motor::rotor::transient::{FLIGHTS_OF_EVENT, Run, SpeedCurve};
+use crate::motor::rotor::transient::{FLIGHTS_OF_EVENT, SpeedCurve, TransientRun};
 
 /// With fewer transients under way they advance one by one: a step of the lanes costs as much as about this
 /// many single flights, however few lanes are in use (docs/numerics/lockstep.md, "Motors in lockstep").
@@ -89,7 +89,7 @@ struct Worker<'a> {
     lanes: usize,
     set: InstructionSet,
     /// The transients of the first lanes, with the indices of their members.
-    runs: Vec<(usize, Run)>,
+    runs: Vec<(usize, TransientRun)>,
     /// Their curves, kept close together: a run is large, and most of it is seldom needed.
     curves: Vec<Vec<f64>>,
     outcomes: Vec<Outcome>,
@@ -142,12 +142,12 @@ impl<'a> Worker<'a> {
     }
 
     /// The next member that waits and is not done before its first flight, about to fly.
-    fn begun(&mut self) -> Result<Option<(usize, Run, Launch)>, Error> {
+    fn begun(&mut self) -> Result<Option<(usize, TransientRun, Launch)>, Error> {
         loop {
             self.work.spend(FLIGHTS_OF_EVENT)?;
             let Some((index, member)) = self.take() else { return Ok(None) };
             let outcome = if member.settings.policy == ChatterPolicy::Complete {
-                match Run::new(&member.system, member.phase, &member.settings) {
+                match TransientRun::new(&member.system, member.phase, &member.settings) {
                     Ok(mut run) => match fly_next(&mut run, &mut self.work) {
                         Ok(Some(launch)) => return Ok(Some((index, run, launch))),
                         Ok(None) => run.finished(),
@@ -244,7 +244,7 @@ impl<'a> Worker<'a> {
 }
 
 /// Takes a transient to its next flight; `None` if it is done before.
-fn fly_next(run: &mut Run, work: &mut WorkCount<'_>) -> Result<Option<Launch>, Error> {
+fn fly_next(run: &mut TransientRun, work: &mut WorkCount<'_>) -> Result<Option<Launch>, Error> {
     while !run.is_done() {
         if let Some(launch) = run.rotor.launch() {
             return Ok(Some(launch));
@@ -258,7 +258,7 @@ fn fly_next(run: &mut Run, work: &mut WorkCount<'_>) -> Result<Option<Launch>, E
 /// The work after an impact that differs from lane to lane; true if the transient is done.
 fn attend(
     lane: usize,
-    run: &mut Run,
+    run: &mut TransientRun,
     curve: &mut Vec<f64>,
     (flights, rotors, work): (&mut Flights, &mut Rotors, &mut WorkCount<'_>),
     may_rest: bool,
@@ -289,7 +289,7 @@ fn attend(
 
 /// The curve of a transient that leaves its lane at a launch.
 fn finished_alone(
-    mut run: Run,
+    mut run: TransientRun,
     launch: Launch,
     (periods, speed): (u64, f64),
     work: &mut WorkCount<'_>,

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use serde::de::{Deserializer, Error as _, MapAccess, Visitor};
+use serde_json::Value;
 
 use crate::error::Error;
 use crate::motor::data_sheet::Motor;
@@ -77,18 +78,6 @@ impl Motor {
     /// As [`Self::from_json`].
     #[cfg(feature = "json")]
     pub fn from_json_with(text: &str, changes: &[(MotorField, f64)]) -> Result<Self, MotorFileError> {
-        sine(Self::driven_from_json(text, changes)?)
-    }
-
-    /// [`Self::from_json_with`] of a data sheet that may have a table `drive`.
-    ///
-    /// # Errors
-    /// As [`Self::from_json`]; those of [`DriveParameters::check`].
-    #[cfg(feature = "json")]
-    pub fn driven_from_json(
-        text: &str,
-        changes: &[(MotorField, f64)],
-    ) -> Result<(Self, DriveParameters), MotorFileError> {
         let mut reader = serde_json::Deserializer::from_str(without_mark(text));
         let given = reader.deserialize_map(Entries).and_then(|given| reader.end().map(|()| given));
         let given = given.map_err(|error| {
@@ -108,8 +97,8 @@ impl Motor {
     pub fn to_json(&self) -> String {
         let sheet = self.parameters();
         let mut lines: Vec<_> =
-            given(&sheet).map(|(field, value)| format!("  \"{field}\": {value:?}")).collect();
-        for (table, entries) in tables(&sheet) {
+            given(sheet).map(|(field, value)| format!("  \"{field}\": {value:?}")).collect();
+        for (table, entries) in tables(sheet) {
             let entries: Vec<_> = entries.iter().map(|(key, value)| format!("\"{key}\": {value}")).collect();
             lines.push(format!("  \"{table}\": {{{}}}", entries.join(", ")));
         }
@@ -144,28 +133,6 @@ impl Motor {
     /// As [`Self::from_toml`].
     #[cfg(feature = "toml")]
     pub fn from_toml_with(text: &str, changes: &[(MotorField, f64)]) -> Result<Self, MotorFileError> {
-        sine(Self::driven_from_toml(text, changes)?)
-    }
-
-    /// [`Self::from_toml_with`] of a data sheet that may have a table `[drive]`.
-    ///
-    /// ```
-    /// use bouncing_disk::Motor;
-    /// use bouncing_disk::parameters::Waveform;
-    ///
-    /// let text = Motor::paper_70_khz().to_toml() + "[drive]\nheight = 'triangle'\n";
-    /// let (motor, drive) = Motor::driven_from_toml(&text, &[])?;
-    /// assert_eq!((motor, drive.height), (Motor::paper_70_khz(), Waveform::Triangle));
-    /// # Ok::<(), bouncing_disk::motor::MotorFileError>(())
-    /// ```
-    ///
-    /// # Errors
-    /// As [`Self::from_toml`]; those of [`DriveParameters::check`].
-    #[cfg(feature = "toml")]
-    pub fn driven_from_toml(
-        text: &str,
-        changes: &[(MotorField, f64)],
-    ) -> Result<(Self, DriveParameters), MotorFileError> {
         let text = without_mark(text);
         let given = toml::Deserializer::parse(text).and_then(|reader| reader.deserialize_map(Entries));
         let given = given.map_err(|error| {
@@ -183,9 +150,9 @@ impl Motor {
     #[must_use]
     pub fn to_toml(&self) -> String {
         let sheet = self.parameters();
-        let lines = given(&sheet).map(|(field, value)| format!("{field} = {value:?} # {}\n", field.unit()));
-        let tables = tables(&sheet).map(|(table, entries)| {
-            let entries = entries.iter().map(|(key, value)| format!("{key} = {value}\n"));
+        let lines = given(sheet).map(|(field, value)| format!("{field} = {value:?} # {}\n", field.unit()));
+        let tables = tables(sheet).map(|(table, entries)| {
+            let entries = entries.iter().map(|(key, value)| format!("{key} = {}\n", inline(value)));
             format!("[{table}]\n{}", entries.collect::<String>())
         });
         lines.chain(tables).collect()
@@ -261,8 +228,9 @@ impl<'de> Visitor<'de> for Entries {
 fn motor_of(
     Given { mut fields, drive, contact, stator, load }: Given,
     changes: &[(MotorField, f64)],
-) -> Result<(Motor, DriveParameters), Error> {
-    let mut sheet = MotorParameters { contact, stator, load, ..MotorParameters::EMPTY };
+) -> Result<Motor, Error> {
+    let drive = drive.unwrap_or_default();
+    let mut sheet = MotorParameters { contact, stator, load, drive, ..MotorParameters::EMPTY };
     for (field, value) in &fields {
         (field.field().set)(&mut sheet, *value);
     }
@@ -275,15 +243,7 @@ fn motor_of(
             return Err(Error::NotGiven { field: field.name() });
         }
     }
-    let drive = drive.unwrap_or_default();
-    drive.check()?;
-    Ok((sheet.build()?, drive))
-}
-
-/// The motor, if its stator moves as in Eq. (1).
-fn sine((motor, drive): (Motor, DriveParameters)) -> Result<Motor, MotorFileError> {
-    drive.sine()?;
-    Ok(motor)
+    sheet.build()
 }
 
 /// The words on an unknown key or name of the drive, of which a reader lists all that are known.
@@ -309,21 +269,28 @@ fn given(sheet: &MotorParameters) -> impl Iterator<Item = (MotorField, f64)> {
     fields.filter_map(|field| Some((field, field.value(sheet)?)))
 }
 
-/// The tables that it has, with the keys and values as a file has them, alike in JSON and TOML.
-fn tables(sheet: &MotorParameters) -> impl Iterator<Item = (&'static str, Vec<(String, String)>)> {
+/// A value as TOML has it on one line: as JSON, but for the keys of tables.
+#[cfg(feature = "toml")]
+fn inline(value: &Value) -> String {
+    let Value::Object(keys) = value else { return value.to_string() };
+    let keys: Vec<_> = keys.iter().map(|(key, value)| format!("{key} = {}", inline(value))).collect();
+    format!("{{ {} }}", keys.join(", "))
+}
+
+/// The tables that it has, with the keys and values as a file has them.
+fn tables(sheet: &MotorParameters) -> impl Iterator<Item = (&'static str, Vec<(String, Value)>)> {
     // `Debug` writes `Some(1.0)` and names of variants; serde writes what is read.
-    fn entries(table: &impl serde::Serialize) -> Vec<(String, String)> {
+    fn entries(table: &impl serde::Serialize) -> Vec<(String, Value)> {
         match serde_json::to_value(table) {
-            Ok(serde_json::Value::Object(keys)) => {
-                keys.into_iter().map(|(key, value)| (key, value.to_string())).collect()
-            }
+            Ok(Value::Object(keys)) => keys.into_iter().filter(|(_, value)| !value.is_null()).collect(),
             _ => Vec::new(),
         }
     }
+    let drive = (!sheet.drive.is_sine()).then(|| ("drive", entries(&sheet.drive)));
     let contact = sheet.contact.as_ref().map(|table| ("contact", entries(table)));
     let stator = sheet.stator.as_ref().map(|table| ("stator", entries(table)));
     let load = sheet.load.as_ref().map(|table| ("load", entries(table)));
-    contact.into_iter().chain(stator).chain(load)
+    drive.into_iter().chain(contact).chain(stator).chain(load)
 }
 
 #[cfg(test)]
@@ -331,6 +298,7 @@ mod tests {
     //! Texts that people and programs write, right and wrong.
 
     use super::*;
+    use crate::parameters::driven_platform::Waveform;
 
     type Read = fn(&str, &[(MotorField, f64)]) -> Result<Motor, MotorFileError>;
     type Write = fn(&[(&str, &str)]) -> String;
@@ -374,7 +342,7 @@ mod tests {
                 write(&LINES).replace('\n', "\r\n"),
                 format!("\n\n{}\n", write(&LINES)),
             ] {
-                assert_eq!(read(&text, &[]), Ok(motor), "{text:?}");
+                assert_eq!(read(&text, &[]), Ok(motor.clone()), "{text:?}");
             }
             let replaced = |key: &str, with: (&'static str, &'static str)| {
                 let changed = LINES.map(|line| if line.0 == key { with } else { line });
@@ -420,10 +388,10 @@ mod tests {
 
     #[cfg(feature = "toml")]
     #[test]
-    fn a_drive_is_read_and_refused_where_only_the_sine_is_computed() {
+    fn a_drive_is_read_and_written() {
         let sheet = Motor::paper_70_khz().to_toml();
         let refused = |drive: &str| {
-            let found = Motor::driven_from_toml(&format!("{sheet}[drive]\n{drive}\n"), &[]);
+            let found = Motor::from_toml(&format!("{sheet}[drive]\n{drive}\n"));
             found.expect_err(drive).to_string()
         };
         for (drive, told) in [
@@ -442,7 +410,17 @@ mod tests {
             assert!(error.to_string().contains(told), "{error}");
         }
         let legal = |drive| format!("{sheet}[drive]\nheight = \"{drive}\"\n");
-        assert_eq!(Motor::from_toml(&legal("triangle")), Err(Error::DriveNotSine.into()));
+        let shapes = [
+            Waveform::Triangle,
+            Waveform::Sawtooth(0.3),
+            Waveform::Fourier(vec![(1.0, 0.0), (0.1, 1e-3)]),
+            Waveform::Pieces(vec![(0.5, [0.0, 1.0, 0.0, 0.0]), (0.5, [0.5, -1.0, 0.0, 0.0])]),
+        ];
+        for shape in shapes {
+            let motor = Motor::paper_70_khz().with(|sheet| sheet.drive.height = shape).expect("legal");
+            assert_eq!(Motor::from_toml(&motor.to_toml()).as_ref(), Ok(&motor), "{}", motor.to_toml());
+            assert_eq!(Motor::from_json(&motor.to_json()).as_ref(), Ok(&motor), "{}", motor.to_json());
+        }
         assert_eq!(Motor::from_toml(&legal("sine")), Ok(Motor::paper_70_khz()));
     }
 
@@ -450,8 +428,8 @@ mod tests {
     #[test]
     fn a_contact_is_read_as_it_is_written() {
         let motor = Motor::paper_70_khz().with(|sheet| sheet.contact = Some(Contact::PAPER)).expect("legal");
-        assert_eq!(Motor::from_toml(&motor.to_toml()), Ok(motor));
-        assert_eq!(Motor::from_json(&motor.to_json()), Ok(motor));
+        assert_eq!(Motor::from_toml(&motor.to_toml()), Ok(motor.clone()));
+        assert_eq!(Motor::from_json(&motor.to_json()), Ok(motor.clone()));
         for (from, to, told) in [
             ("\"steel\"", "\"stel\"", "\"stel\" is unknown; did you mean \"steel\"?"),
             ("\"steel\"", "\"cheese\"", "\"cheese\" is unknown; the known ones are steel, aluminium, "),
@@ -474,11 +452,14 @@ mod tests {
                 LINES.map(|line| if line.0 == "friction" { ("friction", friction) } else { line })
             };
             let change = (MotorField::Friction, 0.1);
-            assert_eq!(read(&write(&with("-1")), &[change]), Ok(motor));
+            assert_eq!(read(&write(&with("-1")), &[change]), Ok(motor.clone()));
             let missing: Vec<_> = LINES.into_iter().filter(|(name, _)| *name != "friction").collect();
-            assert_eq!(read(&write(&missing), &[change]), Ok(motor));
+            assert_eq!(read(&write(&missing), &[change]), Ok(motor.clone()));
             // Of the several changes of a field the last one counts.
-            assert_eq!(read(&write(&with("0.5")), &[(MotorField::Friction, -7.0), change]), Ok(motor));
+            assert_eq!(
+                read(&write(&with("0.5")), &[(MotorField::Friction, -7.0), change]),
+                Ok(motor.clone())
+            );
             // Two alternatives, of which one is set again.
             let both = [&with("0.3")[..], &[("preload_acceleration", "250")]].concat();
             assert!(read(&write(&both), &[]).is_err());
@@ -530,7 +511,7 @@ mod tests {
         let error = with("\"load_torque\": 0.0", "\"load_torque\": 1e999").expect_err("infinite").to_string();
         assert!(error.starts_with("line 12: "), "{error}");
         for value in ["\"load_torque\": 1e-999", "\"load_torque\": null", "\"rotor_radius\": null"] {
-            assert_eq!(with("\"load_torque\": 0.0", value), Ok(motor));
+            assert_eq!(with("\"load_torque\": 0.0", value), Ok(motor.clone()));
         }
         let error = with("\"friction\": 0.1", "\"friction\": null");
         assert_eq!(error, Err(Error::NotGiven { field: "friction" }.into()));
@@ -546,7 +527,7 @@ mod tests {
         let (motor, text) = (Motor::paper_70_khz(), Motor::paper_70_khz().to_toml());
         assert!(text.contains("drive_frequency = 70000.0 # Hz\n"), "{text}");
         for form in ["70_000", "70_000.0", "7e4", "+70000", "0x11170", "70e3"] {
-            assert_eq!(Motor::from_toml(&text.replace("70000.0", form)), Ok(motor), "{form}");
+            assert_eq!(Motor::from_toml(&text.replace("70000.0", form)), Ok(motor.clone()), "{form}");
         }
         for form in [
             "nan",

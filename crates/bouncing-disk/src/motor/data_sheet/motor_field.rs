@@ -398,13 +398,13 @@ mod tests {
             let plain = field.name().replace(['_', '.'], "");
             assert_eq!(format!("{field:?}").to_lowercase(), plain);
             assert_eq!(field.to_string().parse(), Ok(field));
-            let mut sheet = Motor::paper_70_khz().parameters();
+            let mut sheet = Motor::paper_70_khz().parameters().clone();
             field.set(&mut sheet, 0.123);
             assert_eq!(field.value(&sheet), Some(0.123));
             for other in field.excluded() {
                 assert_eq!(other.value(&sheet), None, "{field} {other}");
                 // What is excluded is what a sheet refuses together.
-                let mut sheet = Motor::paper_70_khz().parameters();
+                let mut sheet = Motor::paper_70_khz().parameters().clone();
                 sheet.rotor_radius = Some(0.01);
                 if [field, *other].contains(&MotorField::Density) {
                     sheet.mass = None;

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::parameters::contact::Contact;
+use crate::parameters::driven_platform::{DriveParameters, Waveform};
 use crate::parameters::load::LoadLaw;
 use crate::parameters::stator::StatorParameters;
 use crate::parameters::system::System;
@@ -11,7 +12,7 @@ use crate::parameters::system::System;
 /// [`Self::peak_angular_speed`] or [`Self::twist_amplitude`], [`Self::mass`] or [`Self::density`],
 /// [`Self::preload_force`] or [`Self::preload_acceleration`]. In a file `null` is the same as a missing
 /// field.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct MotorParameters {
@@ -77,6 +78,10 @@ pub struct MotorParameters {
     /// A torque over speed and time, and an inertia on the shaft; in place of [`Self::load_torque`].
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub load: Option<LoadLaw>,
+    /// How the stator moves in place of the sines of Eq. (1). Its waveforms multiply the amplitudes. Not with a
+    /// [`Self::stator`] or a [`Self::load`].
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "DriveParameters::is_sine"))]
+    pub drive: DriveParameters,
 }
 
 impl MotorParameters {
@@ -102,6 +107,7 @@ impl MotorParameters {
         contact: None,
         stator: None,
         load: None,
+        drive: DriveParameters { height: Waveform::Sine, angle: Waveform::Sine, start_phase: None },
     };
 
     /// The data sheet of a system whose disk has this mass (kg): frequency, amplitudes and preload

@@ -50,12 +50,13 @@ impl Motor {
     /// The items of `observer` are the impacts of up to three motions, each counted from 0.
     ///
     /// # Errors
-    /// [`Error::YieldingStator`], of which [`Self::stator_report`] says what is known; those of the core, for a flight
-    /// longer than it can count.
+    /// [`Error::YieldingStator`], of which [`Self::stator_report`] says what is known; [`Error::DriveNotSine`]; those of
+    /// the core, for a flight longer than it can count.
     pub fn report(&self, observer: &dyn Observer) -> Result<MotorReport, Error> {
         if self.stator().is_some() {
             return Err(Error::YieldingStator);
         }
+        self.parameters().drive.sine()?;
         let (regime, flight) = regime(self.system().dimensionless(), observer)?;
         let system = self.system();
         let impact_speed = flight.map(|mean| mean.impact_speed * system.scales().velocity);
@@ -85,7 +86,7 @@ impl Motor {
 
 /// What follows from the table `[stator]` of a data sheet without computing a motion ([`Motor::stator_report`]). It
 /// prints as several lines, the last ones being those of the motor.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct StatorReport {
     motor: Motor,
@@ -130,7 +131,7 @@ impl Motor {
         let electrical = stator.electrical_input_at(stator.motion().angular_frequency);
         let rigid = self.system().soft_contact().is_none();
         Some(StatorReport {
-            motor: *self,
+            motor: self.clone(),
             mass_ratio: stator.modes()[0].mass / self.mass(),
             amplitude: stator.motion().amplitude,
             force: stator.modes()[0].force,

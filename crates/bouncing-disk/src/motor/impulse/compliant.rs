@@ -85,8 +85,8 @@ mod tests {
 
     use super::*;
     use crate::Motor;
-    use crate::motor::{DrivenMotor, MotorParameters, TransientSettings};
-    use crate::parameters::Waveform;
+    use crate::motor::{MotorParameters, TransientSettings};
+    use crate::parameters::contact::Contact;
 
     fn impulses(contact_time: f64, peak: f64, settling: usize, periods: usize) -> NormalImpulses {
         let contact = Compliance::new(contact_time * TAU, 0.5).expect("legal");
@@ -117,9 +117,8 @@ mod tests {
             let motor = Motor::paper_70_khz().with(quick).expect("legal");
             let peak = motor.system().dimensionless().peak_acceleration();
             let predicted = impulses(2.0, peak, 2_000, 50).balance(lag).steady_speed();
-            let soft = DrivenMotor::new(motor, Waveform::Sine, Waveform::Sine)
-                .and_then(|motor| motor.with_contact_time(2.0 / frequency))
-                .expect("legal");
+            let contact = Contact::lasting(2.0 / frequency);
+            let soft = motor.with(|sheet| sheet.contact = Some(contact)).expect("legal");
             let settings = TransientSettings { duration: 0.5, intervals: 5, ..TransientSettings::default() };
             let phase = Phase::new(0.3).expect("finite");
             let curve = soft.transient(phase, &settings, &Unobserved).expect("no failure");

@@ -6,9 +6,9 @@ use bouncing_disk_core::Observer;
 use bouncing_disk_core::numerics::elementary::wrapped_angle;
 
 use crate::error::Error;
-use crate::motor::operation::ensemble::{LoadedMotor, Operations, operate};
 use crate::motor::operation::point::Estimate;
 use crate::motor::operation::settings::OperatingSettings;
+use crate::motor::operation::steady_run::{LoadedMotor, Operations, operate};
 
 /// Lags around the whole circle.
 const COARSE: usize = 32;

@@ -8,6 +8,7 @@ use bouncing_disk_core::run::WorkCount;
 use bouncing_disk_core::sweep::{InstructionSet, LaneRunner};
 use bouncing_disk_core::{Attachment, ChatterPolicy, Impact, OrbitEvent};
 
+use crate::driven::DrivenEngine;
 use crate::error::Error;
 use crate::motion::chatter::Chatter;
 use crate::motion::energy::EnergyLedger;
@@ -20,14 +21,15 @@ use crate::motion::state::{DiskState, Mode};
 use crate::motor::batch::members::starting_phase;
 use crate::motor::batch::rotor_rows::{RotorRows, SharedImpact, WIDTH};
 use crate::motor::batch::shared_orbit::vertical::VerticalMotion;
-use crate::motor::operation::carrier::Carrier;
-use crate::motor::operation::driven_member::Driven;
 use crate::motor::operation::energy_rows::{CarryAll, Energies};
+use crate::motor::operation::followed::Followed;
 use crate::motor::operation::no_lift_off::Lying;
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::operation::window::{AxialWindow, RotorWindow, Window};
 use crate::motor::rotor::transient::FLIGHTS_OF_EVENT;
+use crate::motor::stator::Stator;
 use crate::parameters::dimensionless::DimensionlessSystem;
+use crate::stator::StatorEngine;
 
 /// An angular speed above which no rotor under a braking load stays, nor comes to: that of the platform, and
 /// what friction brakes in a period. Without friction a rotor keeps its speed, and starts at rest.
@@ -43,17 +45,19 @@ pub(crate) enum Member {
     Bouncing(Box<Bouncing>),
     /// It never does: each rotor moves by itself.
     Lying(Lying),
-    /// The stator moves in another way than by Eq. (1).
-    Driven(Box<Driven>),
+    /// The stator moves by waveforms, or contacts take time.
+    Driven(Box<Followed<DrivenEngine>>),
+    /// The stator yields, or the load follows a law.
+    Yielding(Box<Followed<StatorEngine>>),
 }
 
 impl Member {
     /// The member of this `index` among so many as `settings` says. The first `bracketed` of the systems have
     /// two rotors, one from far below all steady speeds and one, behind those of all systems, from as far
-    /// above; the others start at rest. On a stator that moves in another way, or yields, `carriers` has its systems.
+    /// above; the others start at rest. Each system has its stator, all of one kind.
     pub(crate) fn new(
         systems: &[DimensionlessSystem],
-        carriers: &[Carrier],
+        stators: &[Stator],
         bracketed: usize,
         index: usize,
         settings: &OperatingSettings,
@@ -67,19 +71,21 @@ impl Member {
         let starts: Vec<(usize, f64)> =
             (0..systems.len()).map(from_below).chain((0..bracketed).map(from_above)).collect();
         let lying = || {
-            starts
-                .iter()
-                .map(|&(motor, _)| (systems[motor], carriers.get(motor).and_then(Carrier::driven).cloned()))
-                .collect()
+            let own = |&(motor, _): &(usize, f64)| (systems[motor], stators[motor].driven().cloned());
+            Self::Lying(Lying::new(starts.iter().map(own).collect(), phase))
         };
-        if !carriers.is_empty() {
-            let starts = starts.iter().map(|&(motor, speed)| (&carriers[motor], speed));
-            let member = Driven::new(starts.clone(), phase, perturbation)?;
-            let lies = member.lies_for_ever() && carriers.iter().all(|carrier| carrier.driven().is_some());
-            return Ok(match lies {
-                false => Self::Driven(Box::new(member)),
-                true => Self::Lying(Lying::new(lying(), phase)),
-            });
+        let on = |&(motor, speed): &(usize, f64)| (&stators[motor], speed);
+        match stators[0] {
+            Stator::Driven(_) => {
+                let starts = starts.iter().map(on).filter_map(|(own, speed)| Some((own.driven()?, speed)));
+                let member = Followed::on_driven(starts, phase, perturbation)?;
+                return Ok(if member.lies_for_ever() { lying() } else { Self::Driven(Box::new(member)) });
+            }
+            Stator::Yielding(_) => {
+                let starts = starts.iter().map(on).filter_map(|(own, speed)| Some((own.yielded()?, speed)));
+                return Ok(Self::Yielding(Box::new(Followed::on_yielding(starts, phase, perturbation)?)));
+            }
+            Stator::Sine => {}
         }
         let mut rows = RotorRows::of(starts.iter().map(|&(motor, _)| systems[motor]));
         let mut engines = Vec::with_capacity(starts.len());
@@ -100,7 +106,7 @@ impl Member {
                 begun: false,
                 energy: 0.0,
             })),
-            None => Self::Lying(Lying::new(lying(), phase)),
+            None => lying(),
         })
     }
 
@@ -116,6 +122,7 @@ impl Member {
             Self::Bouncing(member) => member.next_window(duration, impacts, work),
             Self::Lying(member) => member.next_window(duration, *impacts.end(), work),
             Self::Driven(member) => member.next_window(duration, impacts, work),
+            Self::Yielding(member) => member.next_window(duration, impacts, work),
         }
     }
 }

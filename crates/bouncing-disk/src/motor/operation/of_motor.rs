@@ -6,19 +6,21 @@ use bouncing_disk_core::{Observer, Progress, Unobserved};
 use crate::error::{Error, check};
 use crate::motor::batch::shared_orbit::is_shared;
 use crate::motor::data_sheet::Motor;
-use crate::motor::driven_motor::DrivenMotor;
 use crate::motor::operation::best_phase_lag::{BestPhaseLag, best_phase_lag};
-use crate::motor::operation::ensemble::{LoadedMotor, MAX_OPERATED_ROTORS, curve_of, operate};
 use crate::motor::operation::point::{Estimate, Operation};
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::operation::stall_load::{StallLoad, stall_load};
-use crate::parameters::driven_platform::DriveParameters;
+use crate::motor::operation::steady_run::{
+    Ends, LoadedMotor, MAX_OPERATED_ROTORS, continued, curve_of, operate,
+};
+use crate::motor::stator::{Stator, on_shaft};
+use crate::parameters::system::System;
 
 impl LoadedMotor<'static> {
-    /// A motor with rigid impacts.
-    pub(crate) fn of(motor: &Motor) -> Result<Self, Error> {
-        let (system, mass, load_torque) = (*motor.system(), motor.mass(), motor.load_torque());
-        system.rigid().map(|()| Self { system, stator: None, mass, load_torque })
+    /// A motor whose stator moves as a sine, with rigid impacts and a constant load.
+    pub(crate) fn of_sine(motor: &Motor) -> Result<Self, Error> {
+        let (mass, load_torque) = (motor.mass(), motor.load_torque());
+        Ok(Self { system: *motor.sine()?, stator: &Stator::Sine, mass, load_torque })
     }
 }
 
@@ -75,7 +77,7 @@ impl Motor {
         settings: &OperatingSettings,
         observer: &dyn Observer,
     ) -> Result<Vec<Operation>, Error> {
-        curve_of(LoadedMotor::of(self)?, load_torques, settings, observer)
+        curve_of(self.loaded()?, load_torques, settings, observer)
     }
 
     /// The mean speed without load (rad/s).
@@ -107,7 +109,8 @@ impl Motor {
         settings: &OperatingSettings,
         observer: &dyn Observer,
     ) -> Result<StallLoad, Error> {
-        stall_load(&LoadedMotor::of(self)?, settings, observer)
+        let bare = self.carrier().without_law()?;
+        stall_load(&LoadedMotor { stator: &bare, ..self.loaded()? }, settings, observer)
     }
 
     /// The phase lag at which the motor turns fastest under the load of its data sheet, and its tolerance.
@@ -122,7 +125,48 @@ impl Motor {
         settings: &OperatingSettings,
         observer: &dyn Observer,
     ) -> Result<BestPhaseLag, Error> {
-        best_phase_lag(&LoadedMotor::of(self)?, settings, observer)
+        if self.stator().is_some_and(|stator| stator.modes()[0].angle != 0.0) {
+            let one = "a stator of the kind axial_twist";
+            return Err(Error::BothGiven { one, other: "a phase lag to be found" });
+        }
+        best_phase_lag(&self.loaded()?, settings, observer)
+    }
+
+    /// Under the load of its sheet, from where another motor was left, and where it is left.
+    pub(crate) fn continued(
+        &self,
+        from: Option<&Ends>,
+        settings: &OperatingSettings,
+        observer: &dyn Observer,
+    ) -> Result<(Operation, Option<Ends>), Error> {
+        let (mut found, ends) = continued(self.loaded()?, from, settings, observer)?;
+        // As many as motors.
+        Ok((found.operations.swap_remove(0), ends))
+    }
+
+    /// For a steady operation, which knows no time.
+    pub(crate) fn loaded(&self) -> Result<LoadedMotor<'_>, Error> {
+        if self.load().is_some_and(|load| load.next_change_after(f64::NEG_INFINITY).is_some()) {
+            return Err(Error::LoadInTime);
+        }
+        let (mass, load_torque) = (self.mass(), self.load_torque());
+        Ok(LoadedMotor { system: self.fastest_sine()?, stator: self.carrier(), mass, load_torque })
+    }
+
+    /// The sine with the same largest speeds as its stator, and the inertia of its shaft: by it starts and errors are
+    /// scaled.
+    pub(crate) fn fastest_sine(&self) -> Result<System, Error> {
+        Ok(match self.carrier() {
+            Stator::Sine => *self.system(),
+            Stator::Driven(own) => {
+                let scales = self.system().scales();
+                self.system().bare().with_platform(|platform| {
+                    platform.amplitude = own.system.height().bounds().speed * scales.length;
+                    platform.twist_amplitude = own.system.angle().bounds().speed * scales.angle;
+                })?
+            }
+            Stator::Yielding(_) => on_shaft(self.system(), self.load(), self.mass())?.bare(),
+        })
     }
 }
 
@@ -143,18 +187,19 @@ pub fn operations(
     check(!motors.is_empty(), "number of motors", 0.0, "[1, 1000000]")?;
     let (total, mut all) = (motors.len() as u64, Vec::with_capacity(motors.len()));
     let most = (MAX_OPERATED_ROTORS / settings.members.max(1)).max(1);
-    let groups = motors.chunk_by(|one, other| is_shared(one.system(), other.system()));
+    let is_sine = |motor: &Motor| matches!(motor.carrier(), Stator::Sine);
+    let groups = motors
+        .chunk_by(|one, other| is_sine(one) && is_sine(other) && is_shared(one.system(), other.system()));
     for group in groups.flat_map(|group| group.chunks(most)) {
         let done = all.len() as u64;
         let observer = |_: Progress| observer.observe(Progress { done, total });
-        if DrivenMotor::where_needed(group[0], &DriveParameters::default())?.is_some() {
+        if !is_sine(&group[0]) {
             for motor in group {
-                let own = DrivenMotor::of_drive(*motor, &DriveParameters::default())?;
-                all.extend(own.torque_speed_curve(&[motor.load_torque()], settings, &observer)?);
+                all.extend(motor.torque_speed_curve(&[motor.load_torque()], settings, &observer)?);
             }
             continue;
         }
-        let loaded: Vec<_> = group.iter().map(LoadedMotor::of).collect::<Result<_, _>>()?;
+        let loaded: Vec<_> = group.iter().map(Motor::loaded).collect::<Result<_, _>>()?;
         all.extend(operate(&loaded, settings, &observer)?.operations);
     }
     // Whatever it says, there is nothing left to stop.
@@ -185,8 +230,12 @@ mod tests {
         assert!((largest_torque / largest - 1.0).abs() < 1e-12);
         // Motors that share nothing, between such that do.
         let other = motor.with(|sheet| sheet.amplitude = Some(1.1e-8)).expect("legal");
-        let mixed = operations(&[motors[0], other, motors[1], motors[2]], &settings, &Unobserved)
-            .expect("no failure");
+        let mixed = operations(
+            &[motors[0].clone(), other.clone(), motors[1].clone(), motors[2].clone()],
+            &settings,
+            &Unobserved,
+        )
+        .expect("no failure");
         let alone = other.operating_point(0.0, &settings, &Unobserved).expect("no failure");
         assert_eq!(mixed[1], alone);
         let speed = |operation: &Operation| operation.point().map(|point: &OperatingPoint| point.speed.value);

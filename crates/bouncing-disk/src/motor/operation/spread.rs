@@ -13,10 +13,10 @@ use bouncing_disk_core::{Observer, Progress};
 
 use crate::error::{Error, check, finite, within_limit};
 use crate::motor::data_sheet::Motor;
-use crate::motor::operation::ensemble::{LoadedMotor, Operations, operate, operate_for};
 use crate::motor::operation::point::Estimate;
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::operation::stall_load::stall_share;
+use crate::motor::operation::steady_run::{LoadedMotor, Operations, operate, operate_for};
 
 /// Members of a drawn motor: the fewest that have a scatter, which is then pooled over all draws. Each member
 /// runs as long as one of the motor itself. No run ends because its own error looks small, so the errors are
@@ -225,7 +225,7 @@ impl Motor {
             finite("load_torque", torque)?;
         }
         let loaded = |motor: &Self| {
-            let own = LoadedMotor::of(motor)?;
+            let own = LoadedMotor::of_sine(motor)?;
             load_torques.iter().map(|&torque| own.with_load(torque)).collect::<Result<Vec<_>, Error>>()
         };
         let mut draws = vec![Vec::new(); load_torques.len()];
@@ -254,7 +254,7 @@ impl Motor {
     ) -> Result<Option<InputSpread>, Error> {
         let shares: Vec<f64> = (1..2 * STALL_STEPS).map(|k| k as f64 / STALL_STEPS as f64 - 1.0).collect();
         let loaded = |motor: &Self, shares: &[f64]| {
-            let (own, largest) = (LoadedMotor::of(motor)?, motor.largest_torque());
+            let (own, largest) = (LoadedMotor::of_sine(motor)?, motor.largest_torque());
             shares.iter().map(|share| own.with_load(share * largest)).collect::<Result<Vec<_>, Error>>()
         };
         let (first, each) = (loaded(self, &STEADY_UNDER)?, |motor: &Self| loaded(motor, &shares));

@@ -4,9 +4,9 @@ use bouncing_disk_core::Observer;
 use bouncing_disk_core::numerics::elementary::hypot;
 
 use crate::error::Error;
-use crate::motor::operation::ensemble::{LoadedMotor, operate};
 use crate::motor::operation::point::{Estimate, Operation, Shortfall};
 use crate::motor::operation::settings::OperatingSettings;
+use crate::motor::operation::steady_run::{LoadedMotor, operate};
 
 /// Steps of the load from zero to the largest mean torque of friction, and between the two loads that the
 /// first search leaves.

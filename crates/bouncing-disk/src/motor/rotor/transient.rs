@@ -10,6 +10,7 @@ use bouncing_disk_core::{ChatterPolicy, Observer, Phase, read_checked};
 use crate::error::{Error, check, finite, moderate_not_negative, positive, room_for};
 use crate::motion::phase_time::PhaseSpan;
 use crate::motor::rotor::{Rotor, RotorStep};
+use crate::parameters::dimensionless::DimensionlessSystem;
 use crate::parameters::scales::Scales;
 use crate::parameters::system::System;
 
@@ -128,7 +129,7 @@ impl SpeedCurve {
         settings: &TransientSettings,
         work: &mut WorkCount<'_>,
     ) -> Result<Self, Error> {
-        let mut run = Run::new(system, phase, settings)?;
+        let mut run = TransientRun::new(system, phase, settings)?;
         while run.advance(work)? {}
         run.finished()
     }
@@ -194,7 +195,7 @@ pub fn transient(
     settings: &TransientSettings,
     observer: &dyn Observer,
 ) -> Result<SpeedCurve, Error> {
-    let mut run = Run::new(system, phase, settings)?;
+    let mut run = TransientRun::new(system, phase, settings)?;
     let watch = Watch::begin(observer, 0, settings.intervals as u64)?;
     let mut work = watch.work();
     while run.advance(&mut work)? {
@@ -206,7 +207,7 @@ pub fn transient(
 
 /// A transient under way.
 #[derive(Debug)]
-pub(crate) struct Run {
+pub(crate) struct TransientRun {
     pub(crate) rotor: Rotor,
     pub(crate) bins: Bins,
     pub(crate) impacts: u64,
@@ -220,13 +221,13 @@ pub(crate) struct Run {
     pub(crate) unit: Scales,
 }
 
-impl Run {
+impl TransientRun {
     pub(crate) fn new(system: &System, phase: Phase, settings: &TransientSettings) -> Result<Self, Error> {
         let unit = system.scales();
-        system.rigid()?;
+        let own = DimensionlessSystem::try_from(system)?;
         settings.check_for(&unit)?;
         Ok(Self {
-            rotor: Rotor::at_rest(system.dimensionless(), phase, 0.0, settings.policy)?,
+            rotor: Rotor::at_rest(&own, phase, 0.0, settings.policy)?,
             bins: Bins::new(settings.duration, settings.intervals)?,
             impacts: 0,
             separations: 0,

@@ -8,10 +8,10 @@ use bouncing_disk_core::{Observer, Progress};
 
 use crate::error::{Error, check, positive};
 use crate::motor::data_sheet::Motor;
-use crate::motor::operation::ensemble::{LoadedMotor, operate};
 use crate::motor::operation::point::Estimate;
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::operation::stall_load::crossing;
+use crate::motor::operation::steady_run::{LoadedMotor, operate};
 use crate::motor::sensitivity::parameter::{SensitivityParameter, SensitivityQuantity};
 use crate::statistics::student_quantile;
 
@@ -172,7 +172,7 @@ pub(crate) fn quantity_of(
     match quantity {
         SensitivityQuantity::SteadySpeed => {
             let operation = motor.operating_point(motor.load_torque(), settings, observer)?;
-            let loaded = LoadedMotor::of(motor)?;
+            let loaded = LoadedMotor::of_sine(motor)?;
             operation.point().map(|point| point.speed).ok_or(Error::Overpowered { load: loaded.load() })
         }
         SensitivityQuantity::StallTorque => Ok(motor.stall_load(settings, observer)?.torque),
@@ -199,7 +199,7 @@ fn by_differences(
     settings: &SensitivitySettings,
     observer: &dyn Observer,
 ) -> Result<Vec<LocalSensitivity>, Error> {
-    let mut motors = vec![*motor];
+    let mut motors = vec![motor.clone()];
     for &parameter in parameters {
         for step in STEPS {
             motors.push(moved(motor, parameter, step)?);
@@ -282,7 +282,7 @@ fn member_values(
     };
     match quantity {
         SensitivityQuantity::SteadySpeed => {
-            speeds(&motors.iter().map(LoadedMotor::of).collect::<Result<Vec<_>, _>>()?)
+            speeds(&motors.iter().map(LoadedMotor::of_sine).collect::<Result<Vec<_>, _>>()?)
         }
         SensitivityQuantity::StallTorque => {
             let stall = nominal.stall_load(settings, observer)?.share;
@@ -290,7 +290,7 @@ fn member_values(
             let mut loaded = Vec::with_capacity(motors.len() * shares.len());
             for motor in motors {
                 for share in shares {
-                    loaded.push(LoadedMotor::of(motor)?.with_load(share * motor.largest_torque())?);
+                    loaded.push(LoadedMotor::of_sine(motor)?.with_load(share * motor.largest_torque())?);
                 }
             }
             let torques = |speeds: Vec<Vec<f64>>| {
@@ -333,7 +333,7 @@ fn by_regression(
     if values.len() < LEAST_POINTS {
         return Err(Error::TooFewMotors { left: values.len(), traps, needed: LEAST_POINTS });
     }
-    let line = Line::through(&offsets, &values);
+    let line = RegressionLine::through(&offsets, &values);
     if line.centre.abs() <= 4.0 * line.scatter / (values.len() as f64).sqrt() {
         let standard_error = line.scatter / (values.len() as f64).sqrt();
         return Err(Error::DoesNotTurn { speed: line.centre, standard_error });
@@ -353,7 +353,7 @@ fn by_regression(
 }
 
 /// A least-squares line.
-struct Line {
+struct RegressionLine {
     /// Its value at offset zero.
     centre: f64,
     slope: f64,
@@ -362,7 +362,7 @@ struct Line {
     scatter: f64,
 }
 
-impl Line {
+impl RegressionLine {
     fn through(offsets: &[f64], values: &[f64]) -> Self {
         let (x, y) = (mean(offsets), mean(values));
         let (mut square, mut product) = (0.0, 0.0);

@@ -1,9 +1,8 @@
 use bouncing_disk_core::Unobserved;
 
 use super::*;
-use crate::motor::{DrivenMotor, OperatingSettings, TransientSettings};
+use crate::motor::{OperatingSettings, TransientSettings};
 use crate::parameters::contact::Contact;
-use crate::parameters::driven_platform::DriveParameters;
 use crate::parameters::stator::{StatorKind, StatorParameters};
 use crate::testing::{in_volts, refused};
 
@@ -32,7 +31,7 @@ fn motors() -> Vec<Motor> {
     let [one, two] = twisting();
     let law = LoadLaw::fan(0.2, 5e-6, 3).expect("legal").with_inertia(1e-8).expect("legal");
     let fan = one.with(|sheet| sheet.load = Some(law)).expect("legal");
-    vec![paper, soft(&paper), volts, soft(&volts), fan, two]
+    vec![paper.clone(), soft(&paper), volts.clone(), soft(&volts), fan, two]
 }
 
 /// The time of each change, and the inputs from it on.
@@ -83,7 +82,7 @@ fn long_runs_have_the_means_of_operating_points() {
     for motor in [Motor::paper_70_khz(), in_volts()] {
         let loaded = motor.with(|sheet| sheet.load_torque = 3e-6).expect("legal");
         let settings = OperatingSettings { relative_error: 0.05, ..OperatingSettings::default() };
-        let known = crate::motor::operations(&[loaded], &settings, &Unobserved).expect("no failure");
+        let known = crate::motor::operations(&[loaded.clone()], &settings, &Unobserved).expect("no failure");
         let known = known[0].steady().expect("steady");
         let mut simulation = begun(&loaded).expect("legal");
         let start = simulation.advance(5.0, &Unobserved).expect("no failure");
@@ -104,10 +103,8 @@ fn inputs_act_as_the_table_of_a_load() {
     let law = law.with_factors(&[0.004], &[2.0]).expect("legal").with_drive(0.0, 0.008).expect("legal");
     let scheduled = in_volts().with(|sheet| sheet.load = Some(law)).expect("legal");
     let settings = TransientSettings { duration: 0.012, intervals: 3, ..TransientSettings::default() };
-    let driven =
-        DrivenMotor::where_needed(scheduled, &DriveParameters::default()).expect("legal").expect("needed");
     let phase = Phase::new(0.0).expect("finite");
-    let (curve, amplitudes) = driven.run_up(phase, &settings, &Unobserved).expect("no failure");
+    let (curve, amplitudes) = scheduled.run_up(phase, &settings, &Unobserved).expect("no failure");
     let inertia = LoadLaw::constant(0.0).expect("legal").with_inertia(1e-8).expect("legal");
     let motor = in_volts().with(|sheet| sheet.load = Some(inertia)).expect("legal");
     let mut simulation = begun(&motor).expect("legal");
@@ -169,7 +166,7 @@ fn illegal_inputs_are_refused_and_change_nothing() {
 fn a_rest_of_an_hour_costs_little() {
     // A load with a slope is followed.
     let motors = motors().into_iter().filter(|motor| motor.load().is_none());
-    for (motor, load_torque) in motors.flat_map(|motor| [(motor, 0.0), (motor, 1e-3)]) {
+    for (motor, load_torque) in motors.flat_map(|motor| [(motor.clone(), 0.0), (motor, 1e-3)]) {
         let mut simulation = begun(&motor).expect("legal");
         let inputs = MotorInputs { on: false, load_torque, ..MotorInputs::of(&motor) };
         simulation.set_inputs(inputs).expect("legal");
@@ -200,7 +197,7 @@ fn a_rotor_that_creeps_has_the_power_of_its_operating_point() {
         (sheet.amplitude, sheet.load_torque, sheet.contact_radius) = (Some(4e-11), 4e-5, 5e-3);
     });
     let creeping = creeping.expect("legal");
-    let known = crate::motor::operations(&[creeping], &OperatingSettings::default(), &Unobserved);
+    let known = crate::motor::operations(&[creeping.clone()], &OperatingSettings::default(), &Unobserved);
     let known = *known.expect("no failure")[0].steady().expect("steady");
     let mut simulation = begun(&creeping).expect("legal");
     let start = simulation.advance(2.5, &Unobserved).expect("no failure");
@@ -339,8 +336,12 @@ fn amplitude_and_current_are_those_of_a_fit_to_the_motion() {
     };
     let lies = changed(|table| table.volts = Some(0.4), 0.3);
     let sags = changed(|table| (table.quality, table.volts) = (Some(20.0), Some(150.0)), 20.0);
-    let motors =
-        [(lies, 1e-9), (soft(&lies, 3e-6), 1e-9), (soft(&in_volts(), 1e-5), 1e-3), (soft(&sags, 1e-5), 1e-3)];
+    let motors = [
+        (lies.clone(), 1e-9),
+        (soft(&lies, 3e-6), 1e-9),
+        (soft(&in_volts(), 1e-5), 1e-3),
+        (soft(&sags, 1e-5), 1e-3),
+    ];
     for (motor, share) in motors {
         for drive_frequency in [70e3, 71e3] {
             let inputs = MotorInputs { drive_frequency, ..MotorInputs::of(&motor) };

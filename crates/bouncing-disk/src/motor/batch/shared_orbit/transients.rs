@@ -11,8 +11,7 @@ use crate::motor::batch::members::{MAX_MEMBERS, MAX_SPEEDS};
 use crate::motor::batch::rotor_rows::{RotorRows, Row, SharedImpact, WIDTH};
 use crate::motor::batch::shared_orbit::shared_by;
 use crate::motor::batch::shared_orbit::vertical::VerticalMotion;
-use crate::motor::operation::carrier::Carrier;
-use crate::motor::operation::driven_member::Driven;
+use crate::motor::operation::followed::Followed;
 use crate::motor::rotor::transient::{
     Bins, FLIGHTS_OF_EVENT, Interval, SpeedCurve, TransientSettings, curve, seconds,
 };
@@ -68,10 +67,10 @@ fn soft_transients(
 ) -> Result<Vec<SpeedCurve>, Error> {
     let driven = systems.iter().map(|system| {
         let stator = DrivenPlatform::new(*system.platform(), Waveform::Sine, Waveform::Sine)?;
-        DrivenSystem::new(&stator.with_contact(system.soft_contact()), system.disk()).map(Carrier::Driven)
+        DrivenSystem::new(&stator.with_contact(system.soft_contact()), system.disk())
     });
     let driven = driven.collect::<Result<Vec<_>, Error>>()?;
-    let mut member = Driven::new(driven.iter().map(|carrier| (carrier, 0.0)), phase, perturbation)?;
+    let mut member = Followed::on_driven(driven.iter().map(|system| (system, 0.0)), phase, perturbation)?;
     let bins = systems.iter().map(|_| Bins::new(settings.duration, settings.intervals));
     let mut bins = bins.collect::<Result<Vec<_>, Error>>()?;
     let (mut passed, mut impacts, unit) = (0.0, 0, systems[0].scales().time);

@@ -21,7 +21,9 @@ fn a_member_is_the_engine_of_each_rotor() {
             systems.iter().map(|system| *system.dimensionless()).collect();
         for index in [0, 3] {
             let watch = Watch::begin(&Unobserved, 0, 1).expect("goes on");
-            let mut member = Member::new(&dimensionless, &[], 0, index, &settings).expect("legal");
+            let mut member =
+                Member::new(&dimensionless, &vec![Stator::Sine; dimensionless.len()], 0, index, &settings)
+                    .expect("legal");
             let windows: Vec<Window> = (0..3)
                 .map(|_| member.next_window(300.0, 40..=1_000_000, &mut watch.work()).expect("no failure"))
                 .collect();

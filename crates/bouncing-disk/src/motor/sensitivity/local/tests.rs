@@ -114,7 +114,7 @@ fn the_stall_is_fitted_over_a_range_of_preloads() {
 
 #[test]
 fn lines_have_the_errors_of_textbooks() {
-    let line = Line::through(&[-1.0, 0.0, 1.0, 2.0], &[1.0, 3.0, 4.0, 8.0]);
+    let line = RegressionLine::through(&[-1.0, 0.0, 1.0, 2.0], &[1.0, 3.0, 4.0, 8.0]);
     // By hand: rests 0.3, 0.1, -1.1, 0.7 about 2.9 + 2.2 x, their variance 1.8/2; squares of the offsets 5.
     // The interval is Student's with two degrees of freedom.
     assert!((line.slope - 2.2).abs() < 1e-14 && (line.centre - 2.9).abs() < 1e-14);

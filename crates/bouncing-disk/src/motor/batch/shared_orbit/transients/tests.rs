@@ -77,7 +77,7 @@ fn contacts_that_take_time_carry_rotors_as_the_engine_does() {
         for (own, motor) in own.iter().zip([one, other]) {
             // A second harmonic, be it ever so small, makes it follow each event.
             let angle = Waveform::Fourier(vec![(1.0, 0.0), (1e-300, 0.0)]);
-            let engine = crate::motor::DrivenMotor::new(motor, Waveform::Sine, angle).expect("legal");
+            let engine = motor.with(|sheet| sheet.drive.angle = angle).expect("legal");
             let engine = engine.transient(zero(), &settings, &Unobserved).expect("no failure");
             // The first intervals are as long as the first flights.
             for (own, engine) in own.speeds.iter().zip(&engine.speeds).skip(3) {

@@ -4,8 +4,8 @@ use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::motor_field::MotorField;
 use crate::motor::operation::point::Operation;
 use crate::motor::operation::settings::OperatingSettings;
-use crate::motor::sweep::axis::{SweepAxis, values_of_cell};
-use crate::motor::sweep::quantity::SweepQuantity;
+use crate::motor::parameter_sweep::axis::{SweepAxis, values_of_cell};
+use crate::motor::parameter_sweep::quantity::SweepQuantity;
 
 /// The operation of each cell of a [`MotorSweep`](crate::motor::MotorSweep), with the input of the
 /// computation.

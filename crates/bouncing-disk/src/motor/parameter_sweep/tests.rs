@@ -209,8 +209,7 @@ fn the_operations_of_another_sweep_are_refused() {
 #[test]
 fn a_continued_sweep_keeps_what_the_rotor_does() {
     use crate::driven::DrivenStart;
-    use crate::motor::DrivenMotor;
-    use crate::parameters::{DriveParameters, StatorParameters};
+    use crate::parameters::StatorParameters;
     use crate::stator::{StatorEngine, StatorSystem};
     use bouncing_disk_core::Phase;
 
@@ -231,7 +230,7 @@ fn a_continued_sweep_keeps_what_the_rotor_does() {
         ..OperatingSettings::default()
     };
     let field = MotorField::PreloadAcceleration;
-    let sweep = MotorSweep::new(motor, vec![SweepAxis::new(field, preloads.to_vec())], settings);
+    let sweep = MotorSweep::new(motor.clone(), vec![SweepAxis::new(field, preloads.to_vec())], settings);
     let sweep = sweep.and_then(MotorSweep::continued).expect("legal");
     assert_eq!(sweep.groups(), [[0, 1, 2, 3, 4, 5, 6, 7, 8]]);
     let found = sweep.run(&Unobserved).expect("no failure");
@@ -246,8 +245,7 @@ fn a_continued_sweep_keeps_what_the_rotor_does() {
     }
     // From rest.
     let pressed = sweep.motor_of(5).expect("legal");
-    let alone = DrivenMotor::of_drive(pressed, &DriveParameters::default()).expect("legal");
-    let alone = alone.torque_speed_curve(&[0.0], &settings, &Unobserved).expect("no failure")[0];
+    let alone = pressed.torque_speed_curve(&[0.0], &settings, &Unobserved).expect("no failure")[0];
     let (alone, down) = (alone.point().expect("no runaway").speed, point(7).speed);
     assert!((alone.value - down.value).abs() < 0.02 * down.value, "{alone:?} {down:?}");
     // From a launch at the speed with which a rotor comes back after a period.

@@ -8,8 +8,8 @@ use bouncing_disk_core::{Observer, Progress};
 
 use crate::error::Error;
 use crate::motor::operation::point::Operation;
-use crate::motor::sweep::MotorSweep;
-use crate::motor::sweep::result::MotorSweepResult;
+use crate::motor::parameter_sweep::MotorSweep;
+use crate::motor::parameter_sweep::result::MotorSweepResult;
 
 impl MotorSweep {
     /// Computes all cells, over the threads of rayon's pool with the feature `parallel`.
@@ -69,7 +69,7 @@ impl MotorSweep {
         }
         all.sort_by_key(|(cell, _)| *cell);
         let cells = all.into_iter().map(|(_, operation)| operation).collect();
-        Ok(MotorSweepResult::new(*self.motor(), *self.settings(), self.axes().to_vec(), cells))
+        Ok(MotorSweepResult::new(self.motor().clone(), *self.settings(), self.axes().to_vec(), cells))
     }
 }
 

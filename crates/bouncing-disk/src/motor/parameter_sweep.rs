@@ -1,8 +1,8 @@
 //! Sweeps: a motor in steady operation over one or two of its parameters.
 //!
-//! The axes are in `sweep/axis.rs`, the groups of cells computed together in `sweep/groups.rs`, the run in
-//! `sweep/run.rs`, the results, as numbers and as a table, in `sweep/result.rs`, `sweep/quantity.rs` and
-//! `sweep/csv_table.rs`.
+//! The axes are in `parameter_sweep/axis.rs`, the groups of cells computed together in `parameter_sweep/groups.rs`, the run in
+//! `parameter_sweep/run.rs`, the results, as numbers and as a table, in `parameter_sweep/result.rs`, `parameter_sweep/quantity.rs` and
+//! `parameter_sweep/csv_table.rs`.
 
 pub(crate) mod axis;
 #[cfg(feature = "csv")]
@@ -17,12 +17,10 @@ use bouncing_disk_core::Observer;
 use crate::error::{Error, check};
 use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::motor_field::MotorField;
-use crate::motor::driven_motor::DrivenMotor;
 use crate::motor::operation::of_motor::operations;
 use crate::motor::operation::point::Operation;
 use crate::motor::operation::settings::OperatingSettings;
-use crate::motor::sweep::axis::{SweepAxis, cells, check_axes, sheet_of_cell};
-use crate::parameters::driven_platform::DriveParameters;
+use crate::motor::parameter_sweep::axis::{SweepAxis, cells, check_axes, sheet_of_cell};
 
 /// A motor in steady operation over one or two parameters: curves and maps of speed, power and efficiency.
 ///
@@ -87,8 +85,8 @@ impl MotorSweep {
     pub fn new(motor: Motor, axes: Vec<SweepAxis>, settings: OperatingSettings) -> Result<Self, Error> {
         settings.check()?;
         check_axes(&axes)?;
-        let sheet = motor.parameters();
-        let motors = (0..cells(&axes)).map(|cell| sheet_of_cell(sheet, &axes, cell).build());
+        let motors =
+            (0..cells(&axes)).map(|cell| sheet_of_cell(motor.parameters().clone(), &axes, cell).build());
         let groups = groups::of(motors, groups::most_cells(&settings))?;
         Ok(Self { motor, axes, settings, continued: false, groups })
     }
@@ -122,7 +120,6 @@ impl MotorSweep {
         }
         let mut ends = None;
         let each = motors.into_iter().map(|motor| {
-            let motor = DrivenMotor::of_drive(motor, &DriveParameters::default())?;
             let (operation, left) = motor.continued(ends.as_ref(), &self.settings, observer)?;
             ends = left.or(ends.take());
             Ok(operation)
@@ -179,7 +176,7 @@ impl MotorSweep {
             let legal = "below the number of cells";
             return Err(Error::OutOfRange { field: "cell of a sweep", value: cell as f64, legal });
         }
-        sheet_of_cell(self.motor.parameters(), &self.axes, cell).build()
+        sheet_of_cell(self.motor.parameters().clone(), &self.axes, cell).build()
     }
 }
 

@@ -8,7 +8,7 @@ use bouncing_disk_core::run::Watch;
 
 use crate::error::{Error, check, finite, positive, within_limit};
 use crate::motor::batch::shared_orbit::shared_by;
-use crate::motor::operation::carrier::{Carrier, Left};
+use crate::motor::operation::followed::Left;
 use crate::motor::operation::member::{Member, far_above};
 use crate::motor::operation::point::{
     Estimate, OperatingPoint, Operation, Shortfall, StatorPoint, error_of_mean,
@@ -16,7 +16,7 @@ use crate::motor::operation::point::{
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::operation::settling::{decided_by_start, left_out, shortfall};
 use crate::motor::operation::window::{AxialWindow, RotorWindow, Window};
-use crate::parameters::driven_platform::DrivenPlatform;
+use crate::motor::stator::Stator;
 use crate::parameters::scales::Scales;
 use crate::parameters::system::System;
 use crate::stator::{StatorLedger, StatorSystem};
@@ -55,9 +55,8 @@ const STORED_SHARE: f64 = 0.05;
 pub(crate) struct LoadedMotor<'a> {
     /// On a stator that moves in another way, the sine with the same largest speeds.
     pub(crate) system: System,
-    /// How the stator moves, if not by Eq. (1), and its system without a load: the phase lag is that of
-    /// `system`.
-    pub(crate) stator: Option<(&'a DrivenPlatform, &'a Carrier)>,
+    /// The stator; load, friction and phase lag are those of `system`.
+    pub(crate) stator: &'a Stator,
     /// Mass m (kg).
     pub(crate) mass: f64,
     /// Load torque T_L (N m) as given, from which the system's load is computed.
@@ -97,7 +96,7 @@ impl LoadedMotor<'_> {
 
     /// Its stator, if it yields or the load has a law.
     fn yielding(&self) -> Option<&StatorSystem> {
-        self.stator.and_then(|(_, carrier)| carrier.yielding())
+        self.stator.yielded()
     }
 
     /// What the law of the load adds to the load torque; infinite where it depends on the speed.
@@ -216,11 +215,10 @@ fn operate_from(
     let mut carried: Vec<LoadedMotor<'_>> =
         motors.iter().copied().filter(|motor| !motor.runs_away()).collect();
     let asked = carried.len();
-    let bare = motors[0].stator.map(|(_, own)| own.without_law()).transpose()?;
+    let bare = motors[0].stator.without_law()?;
     if !carried.iter().any(LoadedMotor::is_unloaded) {
         let system = first.with_disk(|disk| disk.load_acceleration = 0.0)?;
-        let stator = motors[0].stator.zip(bare.as_ref()).map(|((stator, _), own)| (stator, own));
-        carried.push(LoadedMotor { system, stator, load_torque: 0.0, ..motors[0] });
+        carried.push(LoadedMotor { system, stator: &bare, load_torque: 0.0, ..motors[0] });
     }
 
     let mut results = Operations {
@@ -232,7 +230,7 @@ fn operate_from(
     let mut ends = None;
     let mut known = if asked > 0 {
         let watch = Watch::begin(observer, 0, settings.most_impacts)?;
-        let mut run = Run::new(length.unwrap_or(1.0), carried, asked, from, settings)?;
+        let mut run = SteadyRun::new(length.unwrap_or(1.0), carried, asked, from, settings)?;
         let first = run.duration;
         match length {
             Some(_) => run.extend(FIRST_WINDOWS, &watch)?,
@@ -261,7 +259,7 @@ fn operate_from(
 type MotorResult = (Operation, Vec<f64>, Vec<f64>);
 
 /// An ensemble under way.
-struct Run<'a> {
+struct SteadyRun<'a> {
     motors: Vec<LoadedMotor<'a>>,
     /// How many of them the caller requested: each of these is carried twice, from far below and from far
     /// above all steady speeds.
@@ -277,7 +275,7 @@ struct Run<'a> {
     wanted: f64,
 }
 
-impl<'a> Run<'a> {
+impl<'a> SteadyRun<'a> {
     fn new(
         length: f64,
         motors: Vec<LoadedMotor<'a>>,
@@ -286,21 +284,19 @@ impl<'a> Run<'a> {
         settings: &OperatingSettings,
     ) -> Result<Self, Error> {
         let systems: Vec<_> = motors.iter().map(|motor| *motor.system.dimensionless()).collect();
-        let driven = motors
-            .iter()
-            .filter_map(|motor| motor.stator.map(|(stator, own)| own.for_motor(stator, &motor.system)))
-            .collect::<Result<Vec<_>, Error>>()?;
+        let stators = motors.iter().map(|motor| motor.stator.for_motor(&motor.system));
+        let stators = stators.collect::<Result<Vec<_>, Error>>()?;
         let mut members = (0..settings.members)
-            .map(|index| Ok((Member::new(&systems, &driven, asked, index, settings)?, Vec::new())))
+            .map(|index| Ok((Member::new(&systems, &stators, asked, index, settings)?, Vec::new())))
             .collect::<Result<Vec<_>, Error>>()?;
         for ((member, _), ends) in members.iter_mut().zip(from.into_iter().flatten()) {
-            if let (Member::Driven(member), [carrier, ..]) = (member, &driven[..]) {
+            if let (Member::Yielding(member), Some(system)) = (member, stators[0].yielded()) {
                 let (scales, speed) = (motors[0].system.scales(), far_above(&systems[0]));
                 for ((place, speed), left) in [(0, -speed), (motors.len(), speed)].into_iter().zip(ends) {
                     let mut left = left.scaled(&scales, f64::recip);
                     // That they meet bounds what depends on the start, as of rotors that lie.
                     left.state.disk.angular_speed = speed;
-                    member.resume(place, carrier, &left)?;
+                    member.resume(place, system, &left)?;
                 }
             }
         }
@@ -320,7 +316,7 @@ impl<'a> Run<'a> {
     fn ends(&self) -> Option<Ends> {
         let scales = self.motors[0].system.scales();
         let left = |member: &Member, place: usize| match member {
-            Member::Driven(member) => Some(member.left(place)?.scaled(&scales, |unit| unit)),
+            Member::Yielding(member) => Some(member.left(place).scaled(&scales, |unit| unit)),
             _ => None,
         };
         let places = [0, self.rotor_from_above(0)];
@@ -464,8 +460,8 @@ impl<'a> Run<'a> {
     /// By how much (rad/s) the speed depends on the start, of a motor whose stator has kinks. Between two kinks such a
     /// stator may carry a whole family of motions, each of which keeps a speed of its own.
     fn apart(&self, motor: usize, speeds: &[Vec<f64>]) -> f64 {
-        let carrier = self.motors[motor].stator.and_then(|(_, carrier)| carrier.driven());
-        let has_kinks = carrier.is_some_and(|system| system.height().kinks().next().is_some());
+        let driven = self.motors[motor].stator.driven();
+        let has_kinks = driven.is_some_and(|system| system.height().kinks().next().is_some());
         if has_kinks { decided_by_start(speeds).unwrap_or(0.0) } else { 0.0 }
     }
 

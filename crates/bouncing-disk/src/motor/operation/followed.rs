@@ -1,6 +1,5 @@
-//! Rotors on one vertical motion of a stator that moves in any way, each with an engine of its own: the first
-//! one decides when a window ends. Where a sine and a contact that takes time allow it, they go from release
-//! to release [together](Tapped).
+//! Rotors that are each followed by an engine of its own: the first one decides when a window ends. Where a sine
+//! and a contact that takes time allow it, they go from release to release [together](Tapped).
 
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
@@ -9,20 +8,46 @@ use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::run::WorkCount;
 use bouncing_disk_core::{ChatterPolicy, Phase};
 
+use crate::driven::{DrivenEngine, DrivenStart, DrivenSystem};
 use crate::error::Error;
 use crate::motion::energy::EnergyLedger;
 use crate::motion::event::Event;
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
-use crate::motor::operation::carrier::{CarriedEngine, Carrier, Left};
+use crate::motor::carried::{Carried, CarriedEvent};
 use crate::motor::operation::tapped::Tapped;
 use crate::motor::operation::window::{AxialWindow, RotorWindow, Window};
 use crate::motor::rotor::transient::FLIGHTS_OF_EVENT;
-use crate::stator::StatorLedger;
+use crate::parameters::scales::Scales;
+use crate::stator::{MODES, StatorEngine, StatorLedger, StatorState, StatorSystem};
+
+/// Where a rotor on a stator that yields was left.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Left {
+    pub(crate) time: PhaseTime,
+    pub(crate) state: StatorState,
+    /// Whether the coordinate of a mode is a height.
+    rises: [bool; MODES],
+}
+
+impl Left {
+    /// In SI units, or from them by `f64::recip` of each unit; time, angle and angular speed begin anew.
+    pub(crate) fn scaled(self, unit: &Scales, of: fn(f64) -> f64) -> Self {
+        let (mut state, time) = (self.state, PhaseTime::in_first_period(self.time.phase));
+        state.disk.height *= of(unit.length);
+        state.disk.axial_velocity *= of(unit.velocity);
+        (state.disk.angle, state.disk.angular_speed) = (0.0, 0.0);
+        for ([place, speed], rises) in state.modes.iter_mut().zip(self.rises) {
+            *place *= of(if rises { unit.length } else { unit.angle });
+            *speed *= of(if rises { unit.velocity } else { unit.angular_speed });
+        }
+        Self { time, state, ..self }
+    }
+}
 
 /// All rotors of a member.
 #[derive(Debug)]
-pub(crate) struct Driven {
-    rotors: Vec<Rotor>,
+pub(crate) struct Followed<E> {
+    rotors: Vec<Rotor<E>>,
     /// The end of the last window.
     reached: PhaseTime,
     tapped: Option<Tapped>,
@@ -30,8 +55,8 @@ pub(crate) struct Driven {
 
 /// A rotor, and what it has done since its start.
 #[derive(Debug)]
-struct Rotor {
-    engine: CarriedEngine,
+struct Rotor<E> {
+    engine: E,
     takes_time: bool,
     generator: SplitMix64,
     perturbation: f64,
@@ -58,52 +83,58 @@ struct Totals {
     angular_speed: f64,
 }
 
-impl Driven {
-    /// Rotors that lie on the stator at `phase` with these angular speeds, perturbed by numbers of one `seed`.
-    pub(crate) fn new<'a>(
-        starts: impl Iterator<Item = (&'a Carrier, f64)>,
+impl Followed<DrivenEngine> {
+    /// Rotors that lie on a prescribed stator at `phase` with these angular speeds, perturbed by numbers of one `seed`.
+    pub(crate) fn on_driven<'a>(
+        starts: impl Iterator<Item = (&'a DrivenSystem, f64)>,
         phase: Phase,
         (perturbation, seed): (f64, u64),
     ) -> Result<Self, Error> {
-        let reached = PhaseTime::in_first_period(phase);
         let starts: Vec<_> = starts.collect();
-        let driven: Option<Vec<_>> = starts.iter().map(|&(carrier, _)| carrier.driven()).collect();
-        let tapped = driven.and_then(|systems| Tapped::new(systems.into_iter()));
-        let rotors = starts.into_iter().map(|(carrier, angular_speed)| {
-            let mut rotor = Rotor {
-                engine: carrier.start(phase, angular_speed, ChatterPolicy::Complete)?,
-                takes_time: carrier.takes_time(),
-                generator: SplitMix64::new(seed),
-                perturbation,
-                ledger: EnergyLedger::default(),
-                stator: StatorLedger::default(),
-                given: 0.0,
-                impacts: 0,
-                recurrences: 0,
-                before: Totals::default(),
-            };
-            rotor.before = rotor.totals(&reached);
-            Ok(rotor)
+        let tapped = Tapped::new(starts.iter().map(|(system, _)| *system));
+        let rotors = starts.into_iter().map(|(system, angular_speed)| {
+            let start = DrivenStart::Contact { phase, angular_speed };
+            let engine = DrivenEngine::new(system.clone(), start, ChatterPolicy::Complete)?;
+            Ok(Rotor::new(engine, system.compliance.is_some(), phase, (perturbation, seed)))
         });
+        let reached = PhaseTime::in_first_period(phase);
         Ok(Self { rotors: rotors.collect::<Result<_, Error>>()?, reached, tapped })
+    }
+}
+
+impl Followed<StatorEngine> {
+    /// As [`Followed::on_driven`], on a stator that yields.
+    pub(crate) fn on_yielding<'a>(
+        starts: impl Iterator<Item = (&'a StatorSystem, f64)>,
+        phase: Phase,
+        perturbation: (f64, u64),
+    ) -> Result<Self, Error> {
+        let rotors = starts.map(|(system, angular_speed)| {
+            let engine = StatorEngine::new(system.clone(), DrivenStart::Contact { phase, angular_speed })?;
+            Ok(Rotor::new(engine, system.takes_time(), phase, perturbation))
+        });
+        let reached = PhaseTime::in_first_period(phase);
+        Ok(Self { rotors: rotors.collect::<Result<_, Error>>()?, reached, tapped: None })
     }
 
     /// A rotor goes on from where another one was left, as all that do at the same time.
-    pub(crate) fn resume(&mut self, place: usize, carrier: &Carrier, left: &Left) -> Result<(), Error> {
-        if let Some(engine) = carrier.resume(left)? {
-            self.reached = left.time;
-            let rotor = &mut self.rotors[place];
-            rotor.engine = engine;
-            rotor.before = rotor.totals(&self.reached);
-        }
+    pub(crate) fn resume(&mut self, place: usize, system: &StatorSystem, left: &Left) -> Result<(), Error> {
+        self.reached = left.time;
+        let rotor = &mut self.rotors[place];
+        rotor.engine = StatorEngine::of_state(system.clone(), left.time, left.state)?;
+        rotor.before = rotor.totals(&self.reached);
         Ok(())
     }
 
-    /// Where a rotor is at the end of the last window, on a stator that yields.
-    pub(crate) fn left(&self, place: usize) -> Option<Left> {
-        self.rotors[place].engine.left_at(self.reached)
+    /// Where a rotor is at the end of the last window.
+    pub(crate) fn left(&self, place: usize) -> Left {
+        let (time, engine) = (self.reached, &self.rotors[place].engine);
+        let state = engine.state_after(time.since(&engine.time()).radians()).1;
+        Left { time, state, rises: engine.system().modes.map(|mode| mode.height != 0.0) }
     }
+}
 
+impl<E: Carried> Followed<E> {
     /// Whether the stator never throws the rotors up.
     pub(crate) fn lies_for_ever(&self) -> bool {
         self.rotors.iter().all(|rotor| rotor.engine.lies_for_ever())
@@ -130,7 +161,7 @@ impl Driven {
         loop {
             if !tapped.begun {
                 // From where the engines are.
-                let Some(launch) = self.rotors[0].engine.driven().and_then(|engine| engine.flight()) else {
+                let Some(launch) = self.rotors[0].engine.flight() else {
                     let done = window.axial.impacts;
                     let left =
                         impacts.start().saturating_sub(done)..=impacts.end().saturating_sub(done).max(1);
@@ -158,9 +189,7 @@ impl Driven {
             }
             // One tap by the engines.
             for (rotor, speed) in self.rotors.iter_mut().zip(tapped.speeds()) {
-                if let Some(engine) = rotor.engine.driven() {
-                    engine.fly_from(tapped.time, tapped.launch, speed);
-                }
+                rotor.engine.fly_from(tapped.time, tapped.launch, speed);
                 rotor.before = rotor.totals(&self.reached);
             }
             tapped.begun = false;
@@ -204,7 +233,6 @@ impl Driven {
             if index == 0 {
                 window.axial = axial();
             }
-            let yields = rotor.engine.driven().is_none();
             window.rotors.push(RotorWindow {
                 angle: change(|totals| totals.angle),
                 friction_work: change(|totals| totals.ledger.friction_work),
@@ -213,7 +241,7 @@ impl Driven {
                 kinetic_change: 0.5
                     * change(|totals| totals.angular_speed)
                     * (now.angular_speed + before.angular_speed),
-                stator: yields.then(|| (now.stator - before.stator, axial())),
+                stator: E::YIELDS.then(|| (now.stator - before.stator, axial())),
             });
             rotor.before = now;
         }
@@ -221,7 +249,24 @@ impl Driven {
     }
 }
 
-impl Rotor {
+impl<E: Carried> Rotor<E> {
+    fn new(engine: E, takes_time: bool, phase: Phase, (perturbation, seed): (f64, u64)) -> Self {
+        let mut rotor = Self {
+            engine,
+            takes_time,
+            generator: SplitMix64::new(seed),
+            perturbation,
+            ledger: EnergyLedger::default(),
+            stator: StatorLedger::default(),
+            given: 0.0,
+            impacts: 0,
+            recurrences: 0,
+            before: Totals::default(),
+        };
+        rotor.before = rotor.totals(&PhaseTime::in_first_period(phase));
+        rotor
+    }
+
     /// Goes on until a flight begins and the window is long enough; when that is, and whether the disk lies on
     /// the stator for ever.
     fn lead(
@@ -233,13 +278,12 @@ impl Rotor {
     ) -> Result<(PhaseTime, bool), Error> {
         let end = from.after(PhaseSpan::from_radians(duration));
         let before = self.recurrences;
-        let yields = self.engine.driven().is_none();
-        let anywhere = anywhere && (self.takes_time || yields);
+        let anywhere = anywhere && (self.takes_time || E::YIELDS);
         let impacts_before = self.impacts;
         loop {
             let (now, done) = (self.engine.time(), self.recurrences - before);
             // A rotor that lies on a stator that yields has events of friction only, or none.
-            let lies = yields && self.impacts == impacts_before;
+            let lies = E::YIELDS && self.impacts == impacts_before;
             let lasts = now.order(&end).is_ge() && (lies || done >= *impacts.start());
             if (lasts || done >= *impacts.end()) && (anywhere || self.engine.launches()) {
                 return Ok((now, false));
@@ -257,7 +301,8 @@ impl Rotor {
     /// Goes on to this time.
     fn follow(&mut self, to: &PhaseTime, work: &mut WorkCount<'_>) -> Result<(), Error> {
         while self.advance(to.since(&self.engine.time()).radians(), work)? {}
-        if self.engine.lies() {
+        // Of a rotor that lies on a stator that yields, what follows need not be followed from its last event.
+        if E::YIELDS && !self.engine.launches() {
             let (ledger, stator) = self.engine.pause(to.since(&self.engine.time()).radians());
             self.ledger += ledger;
             self.stator += stator;
@@ -268,7 +313,8 @@ impl Rotor {
     /// The next event within `limit`, if there is one.
     fn advance(&mut self, limit: f64, work: &mut WorkCount<'_>) -> Result<bool, Error> {
         work.spend(FLIGHTS_OF_EVENT)?;
-        let Some((event, ledger, stator)) = self.engine.advance_within(limit)? else { return Ok(false) };
+        let Some(next) = self.engine.advance_within(limit)? else { return Ok(false) };
+        let CarriedEvent { event, ledger, stator } = next;
         self.ledger += ledger;
         self.stator += stator;
         match event {
@@ -277,9 +323,7 @@ impl Rotor {
                 self.recurrences += 1;
             }
             Event::Turn => self.recurrences += 1,
-            Event::SlipToStick | Event::SlipReversal(_) if self.engine.driven().is_none() => {
-                self.recurrences += 1
-            }
+            Event::SlipToStick | Event::SlipReversal(_) if E::YIELDS => self.recurrences += 1,
             _ => {}
         }
         if event.is_relaunch() {
@@ -332,11 +376,11 @@ mod tests {
             let (height, angle) = (drive(peak, 0.0), drive(twist, -1.0));
             let rigid =
                 DrivenSystem { height, angle, friction: 1.0, restitution: 0.5, load, compliance: None };
-            Carrier::Driven(rigid.with_contact_time(TAU).expect("legal"))
+            rigid.with_contact_time(TAU).expect("legal")
         });
         let speeds = [twist + 20.0, -twist - 20.0, twist + 5.0, 0.3 * twist];
         let starts = || systems.iter().flat_map(|system| [(system, 0.0); 2]);
-        let member = || Driven::new(starts(), phase_at(0.3), (1e-3, 5)).expect("legal");
+        let member = || Followed::on_driven(starts(), phase_at(0.3), (1e-3, 5)).expect("legal");
         let (mut fast, mut slow) = (member(), member());
         let watch = Watch::begin(&Unobserved, 0, u64::MAX).expect("not stopped");
         fast.next_window(0.0, 2000..=2000, &mut watch.work()).expect("no failure");
@@ -344,8 +388,7 @@ mod tests {
         tapped.begin(tapped.time, tapped.launch, speeds.into_iter());
         slow.reached = fast.reached;
         for (rotor, speed) in slow.rotors.iter_mut().zip(speeds) {
-            let engine = rotor.engine.driven().expect("no stator that yields");
-            engine.fly_from(tapped.time, tapped.launch, speed);
+            rotor.engine.fly_from(tapped.time, tapped.launch, speed);
             (rotor.generator, rotor.before) = (fast.rotors[0].generator, rotor.totals(&slow.reached));
         }
         for _ in 0..3 {

@@ -2,8 +2,8 @@
 
 use crate::motor::data_sheet::motor_field::MotorField;
 use crate::motor::operation::point::{OperatingPoint, Operation, Shortfall};
-use crate::motor::sweep::quantity::SweepQuantity;
-use crate::motor::sweep::result::MotorSweepResult;
+use crate::motor::parameter_sweep::quantity::SweepQuantity;
+use crate::motor::parameter_sweep::result::MotorSweepResult;
 
 impl MotorSweepResult {
     /// The cells as comma-separated text: a header, then one line for each cell, row by row. The header has
@@ -203,7 +203,7 @@ mod tests {
             ..OperatingSettings::default()
         };
         for field in MotorField::ALL {
-            let mut motor = Motor::paper_70_khz().parameters();
+            let mut motor = Motor::paper_70_khz().parameters().clone();
             (motor.rotor_radius, motor.load_torque) = (Some(0.01), 1e-6);
             if matches!(field, MotorField::RotorThickness | MotorField::Density) {
                 (motor.mass, motor.density, motor.rotor_thickness) = (None, Some(7850.0), Some(0.01));

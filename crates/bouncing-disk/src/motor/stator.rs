@@ -1,0 +1,141 @@
+//! How the stator of a motor moves, which decides on what computes its rotor.
+
+use std::sync::Arc;
+
+use crate::driven::DrivenSystem;
+use crate::error::Error;
+use crate::motor::data_sheet::parameters::MotorParameters;
+use crate::parameters::dimensionless::DimensionlessParameters;
+use crate::parameters::disk::Disk;
+use crate::parameters::driven_platform::{DrivenPlatform, Waveform};
+use crate::parameters::load::LoadLaw;
+use crate::parameters::system::System;
+use crate::stator::{LoadLine, StatorSystem};
+
+/// How the stator of a motor moves, and its system: chosen once, when the sheet is built.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Stator {
+    /// As in Eq. (1), with rigid impacts and a constant load.
+    Sine,
+    /// By its waveforms whatever lies on it, or with contacts that take time.
+    Driven(Arc<Prescribed>),
+    /// It yields, or the load follows a law.
+    Yielding(Arc<StatorSystem>),
+}
+
+/// A prescribed motion, and its system under the load, friction and phase lag of the sheet.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Prescribed {
+    pub(crate) platform: DrivenPlatform,
+    pub(crate) system: DrivenSystem,
+}
+
+impl Stator {
+    /// The stator of a data sheet, which has this system and this mass of the rotor (kg).
+    pub(crate) fn of(sheet: &MotorParameters, system: &System, mass: f64) -> Result<Self, Error> {
+        let platform = DrivenPlatform::of_drive(*system.platform(), &sheet.drive)?;
+        if sheet.stator.is_some() || sheet.load.is_some() {
+            let is_sine = platform.height() == &Waveform::Sine && platform.angle() == &Waveform::Sine;
+            if !is_sine {
+                let other = if sheet.stator.is_some() { "stator" } else { "load" };
+                return Err(Error::BothGiven { one: "drive", other });
+            }
+            return Self::yielding(sheet.load, sheet.stator.is_some(), system, mass);
+        }
+        if sheet.drive.is_sine() && system.soft_contact().is_none() {
+            return Ok(Self::Sine);
+        }
+        Self::prescribed(platform.with_contact(system.soft_contact()), system.disk())
+    }
+
+    /// A rotor on a platform that moves by waveforms, or whose contacts take time.
+    pub(crate) fn prescribed(platform: DrivenPlatform, disk: &Disk) -> Result<Self, Error> {
+        let system = DrivenSystem::new(&platform, disk)?;
+        Ok(Self::Driven(Arc::new(Prescribed { platform, system })))
+    }
+
+    fn yielding(load: Option<LoadLaw>, yields: bool, system: &System, mass: f64) -> Result<Self, Error> {
+        let system = on_shaft(system, load, mass)?;
+        let mut own = StatorSystem::of_system(&system, mass)?;
+        if let Some(load) = load {
+            let stops = !load.drives_at(f64::NEG_INFINITY) || !load.drives_at(f64::MAX);
+            if stops && !yields {
+                return Err(Error::SwitchedMotion);
+            }
+            own = own.with_load(&lines(&load, 0.0, &system, mass))?;
+        }
+        Ok(Self::Yielding(Arc::new(own)))
+    }
+
+    /// This stator with the load, friction and phase lag of another motor.
+    pub(crate) fn for_motor(&self, motor: &System) -> Result<Self, Error> {
+        Ok(match self {
+            Self::Sine => Self::Sine,
+            Self::Driven(own) => {
+                let (platform, system) = (own.platform.clone(), own.system.for_motor(&own.platform, motor)?);
+                Self::Driven(Arc::new(Prescribed { platform, system }))
+            }
+            Self::Yielding(system) => Self::Yielding(Arc::new(system.with_base(motor.dimensionless())?)),
+        })
+    }
+
+    /// This stator without the law of the load.
+    pub(crate) fn without_law(&self) -> Result<Self, Error> {
+        let Self::Yielding(system) = self else { return Ok(self.clone()) };
+        let line = LoadLine { from: f64::NEG_INFINITY, to: f64::INFINITY, torque: 0.0, slope: 0.0 };
+        Ok(Self::Yielding(Arc::new((**system).clone().with_load(&[line])?)))
+    }
+
+    /// The system of a stator that moves by waveforms, or whose contacts take time.
+    pub(crate) fn driven(&self) -> Option<&DrivenSystem> {
+        match self {
+            Self::Driven(own) => Some(&own.system),
+            Self::Sine | Self::Yielding(_) => None,
+        }
+    }
+
+    /// The system of a stator that yields, or of a load that follows a law.
+    pub(crate) fn yielded(&self) -> Option<&StatorSystem> {
+        match self {
+            Self::Yielding(system) => Some(system),
+            Self::Sine | Self::Driven(_) => None,
+        }
+    }
+}
+
+/// A system whose disk has the inertia of the load on its shaft, too.
+pub(crate) fn on_shaft(system: &System, load: Option<LoadLaw>, mass: f64) -> Result<System, Error> {
+    let shaft = load.map_or(0.0, |load| load.inertia()) / mass;
+    system.with_disk(|disk| {
+        disk.gyration_radius = (disk.gyration_radius * disk.gyration_radius + shaft).sqrt();
+    })
+}
+
+/// A stator without its drive.
+pub(crate) fn still(system: &StatorSystem) -> Result<StatorSystem, Error> {
+    let base = system.base().parameters();
+    system.with_base(&DimensionlessParameters { peak_acceleration: 0.0, twist_speed: 0.0, ..base }.build()?)
+}
+
+/// The lines of a load at a time (s), on a disk of this mass.
+pub(crate) fn lines(load: &LoadLaw, time: f64, system: &System, mass: f64) -> Vec<LoadLine> {
+    let disk = system.disk();
+    let torque = load.factor_at(time) / (mass * disk.preload_acceleration() * disk.contact_radius());
+    let speed = system.scales().angular_speed;
+    let mut lines = Vec::new();
+    let mut reached = f64::NEG_INFINITY;
+    while reached < f64::INFINITY {
+        let segment = load.segment_at(reached);
+        reached = segment.to;
+        lines.push(LoadLine {
+            from: segment.from / speed,
+            to: segment.to / speed,
+            torque: segment.torque * torque,
+            slope: segment.slope * torque * speed,
+        });
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests;
