@@ -39,12 +39,13 @@ pub(crate) mod rotary_change;
 pub(crate) mod segment;
 pub(crate) mod si;
 pub(crate) mod state;
+pub(crate) mod stator_ledger;
 pub(crate) mod trajectory;
 pub(crate) mod transition;
 
 pub use energy::EnergyLedger;
 pub use engine::sample::{MAX_SAMPLED_PERIODS, MAX_SAMPLES};
-pub use event::Motion;
+pub use event::{Energies, Motion, MotionRecord};
 pub use friction::MAX_CONTACT_EVENTS;
 pub use paper_chatter::{PAPER_CHATTER, PAPER_CUT};
 pub use phase_time::{PhaseSpan, PhaseTime};

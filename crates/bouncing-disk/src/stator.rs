@@ -29,7 +29,6 @@
 mod energy;
 mod engine;
 mod impact;
-mod ledger;
 mod linear_flow;
 mod regime;
 #[cfg(test)]
@@ -46,12 +45,9 @@ use crate::parameters::dimensionless::DimensionlessSystem;
 use crate::parameters::stator::{QUALITIES, QUALITIES_IN_WORDS};
 use crate::parameters::system::System;
 
+pub use crate::motion::stator_ledger::{MODES, StatorLedger};
 pub use engine::{StatorEngine, StatorRecord, StatorState};
-pub use ledger::StatorLedger;
 use regime::{COS, Contact, DISPLACEMENTS, Grip, Regime, SIN, State, VELOCITIES};
-
-/// Most modes of a stator.
-pub const MODES: usize = 2;
 
 /// Least and largest contact time (rad) on a stator that yields.
 pub const CONTACT_TIMES: [f64; 2] = [1.0e-2, 1.0e4];

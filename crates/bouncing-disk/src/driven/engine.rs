@@ -15,12 +15,13 @@ use crate::error::{Error, moderate};
 use crate::motion::contact_motion::SAME_SPEED;
 use crate::motion::energy::EnergyLedger;
 use crate::motion::engine::record_jump;
-use crate::motion::event::{Event, EventRecord, Motion};
+use crate::motion::event::{Energies, Event, EventRecord, Motion, SteeredMotion};
 use crate::motion::impact::rebound_velocity;
 use crate::motion::phase_time::{PhaseSpan, PhaseTime, phase_at};
 use crate::motion::rotary_change::{RotaryChange, change_in_flight};
 use crate::motion::segment::Segment;
 use crate::motion::state::{DiskState, LongSum, Mode, SlipDirection};
+use crate::motion::stator_ledger::StatorLedger;
 
 /// Events of friction that come this much before the end of a contact, relative to its time, are the end
 /// itself: both times are roots, each with an error of some roundings of the time.
@@ -930,12 +931,60 @@ const fn mode_of(slip: Option<SlipDirection>) -> Mode {
 }
 
 impl Motion for DrivenEngine {
+    type Record = EventRecord;
+
+    fn time(&self) -> PhaseTime {
+        self.time()
+    }
+
+    fn disk(&self) -> DiskState {
+        self.state
+    }
+
     fn advance(&mut self) -> Result<Option<EventRecord>, Error> {
         self.advance()
     }
 
     fn lies_for_ever(&self) -> bool {
         matches!(self.stage, Stage::Contact(Contact { end: None, .. }) | Stage::Ended)
+    }
+}
+
+impl SteeredMotion for DrivenEngine {
+    fn advance_within(&mut self, limit: f64) -> Result<Option<EventRecord>, Error> {
+        self.advance_within(limit)
+    }
+
+    fn disk_after(&self, span: f64) -> DiskState {
+        self.state_after(span).1
+    }
+
+    fn energies_after(&self, span: f64) -> Energies {
+        Energies { disk: self.ledger_after(span), stator: StatorLedger::default() }
+    }
+
+    fn spring_energy(&self, span: f64, state: &DiskState) -> f64 {
+        self.spring_energy(span, state)
+    }
+
+    fn launches(&self) -> bool {
+        self.launches()
+    }
+
+    fn perturb_launch(&mut self, speed: f64) {
+        self.perturb_launch(speed);
+    }
+
+    fn pause_contact(&mut self, _: f64) -> Option<Energies> {
+        None
+    }
+
+    fn amplitude_after(&self, _: f64) -> Option<f64> {
+        None
+    }
+
+    fn skip_energies(&mut self) {
+        self.with_energy = false;
     }
 }
 

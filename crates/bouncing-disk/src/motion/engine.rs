@@ -551,6 +551,16 @@ pub(crate) fn record_jump(ledger: &mut EnergyLedger, before: &DiskState, after: 
 }
 
 impl<L: RestitutionLaw> Motion for Engine<L> {
+    type Record = EventRecord;
+
+    fn time(&self) -> PhaseTime {
+        self.now
+    }
+
+    fn disk(&self) -> DiskState {
+        self.state
+    }
+
     fn advance(&mut self) -> Result<Option<EventRecord>, Error> {
         self.advance()
     }

@@ -6,8 +6,10 @@ use crate::motion::energy::EnergyLedger;
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
 use crate::motion::segment::Segment;
 use crate::motion::state::{DiskState, SlipDirection, Snapshot};
+use crate::motion::stator_ledger::StatorLedger;
 use crate::parameters::dimensionless::DimensionlessSystem;
 use std::fmt::{self, Display, Formatter};
+use std::ops::AddAssign;
 
 /// An event.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -94,17 +96,102 @@ pub struct EventRecord {
     pub span: PhaseSpan,
 }
 
-/// A motion as a sequence of events: of an [`Engine`](crate::Engine), or of a
-/// [`DrivenEngine`](crate::driven::DrivenEngine).
+/// The energy balances of a disk and of the stator under it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Energies {
+    /// Energy balance of the disk.
+    pub disk: EnergyLedger,
+    /// Energy balance of the modes of the stator: zero unless the stator yields.
+    pub stator: StatorLedger,
+}
+
+impl AddAssign for Energies {
+    fn add_assign(&mut self, other: Self) {
+        self.disk += other.disk;
+        self.stator += other.stator;
+    }
+}
+
+/// What the records of all motions state.
+pub trait MotionRecord {
+    /// When the event happened.
+    fn time(&self) -> PhaseTime;
+
+    /// The event.
+    fn event(&self) -> Event;
+
+    /// The energy balances since the event before, this one included.
+    fn energies(&self) -> Energies;
+}
+
+impl MotionRecord for EventRecord {
+    fn time(&self) -> PhaseTime {
+        self.time
+    }
+
+    fn event(&self) -> Event {
+        self.event
+    }
+
+    fn energies(&self) -> Energies {
+        Energies { disk: self.ledger, stator: StatorLedger::default() }
+    }
+}
+
+/// A motion as a sequence of events: of an [`Engine`](crate::Engine), of a
+/// [`DrivenEngine`](crate::driven::DrivenEngine), or of a [`StatorEngine`](crate::stator::StatorEngine).
 pub trait Motion {
+    /// The record of an event.
+    type Record: MotionRecord;
+
+    /// The instant of the last event, or of the start.
+    fn time(&self) -> PhaseTime;
+
+    /// The disk just after the last event, or at the start.
+    fn disk(&self) -> DiskState;
+
     /// The next event, or `None` after the last one.
     ///
     /// # Errors
     /// Those of the flights. An error ends the motion.
-    fn advance(&mut self) -> Result<Option<EventRecord>, Error>;
+    fn advance(&mut self) -> Result<Option<Self::Record>, Error>;
 
     /// Whether the disk lies on the platform and never leaves it again, or the motion has ended.
     fn lies_for_ever(&self) -> bool;
+}
+
+/// A motion that can be followed to any time and disturbed, as a motor needs it. All spans are in radians since the
+/// last event, and hold if no event comes before their end.
+#[allow(dead_code, reason = "the motors call the engines by name until they are generic over their motion")]
+pub(crate) trait SteeredMotion: Motion {
+    /// The next event if it comes within `limit`. Without one the motion stays at its last event.
+    fn advance_within(&mut self, limit: f64) -> Result<Option<Self::Record>, Error>;
+
+    /// The disk `span` later.
+    fn disk_after(&self, span: f64) -> DiskState;
+
+    /// The energy balances of this `span`.
+    fn energies_after(&self, span: f64) -> Energies;
+
+    /// The energy of the spring of a contact that takes time, `span` later, when the disk is in this `state`.
+    fn spring_energy(&self, span: f64, state: &DiskState) -> f64;
+
+    /// Whether a flight begins now.
+    fn launches(&self) -> bool;
+
+    /// Adds a relative speed >= 0 (g/omega) to a flight that starts now; does nothing at any other time.
+    fn perturb_launch(&mut self, speed: f64);
+
+    /// Goes on from `span` later, with the energy balances up to then, if the disk lies on a stator that yields: its
+    /// contact need not be followed from the last event again. `None` for every other motion, which stays at its last
+    /// event.
+    fn pause_contact(&mut self, span: f64) -> Option<Energies>;
+
+    /// The amplitude of the axial mode of a stator that yields, `span` later.
+    fn amplitude_after(&self, span: f64) -> Option<f64>;
+
+    /// Computes no energies from now on, of which a run-up needs none.
+    fn skip_energies(&mut self);
 }
 
 impl EventRecord {

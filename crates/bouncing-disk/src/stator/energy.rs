@@ -2,10 +2,10 @@
 
 use super::LoadLine;
 use super::engine::{Stage, StatorEngine, size};
-use super::ledger::StatorLedger;
 use super::linear_flow::dot;
 use super::regime::{ANGLE, CLOSING, COS, Contact, DISPLACEMENTS, GAP, Grip, SIN, SPEED, State, VELOCITIES};
 use crate::motion::energy::EnergyLedger;
+use crate::motion::stator_ledger::StatorLedger;
 
 /// Nodes and weights of the Gauss-Legendre rule of eight points on [-1, 1].
 const GAUSS: [(f64, f64); 4] = [

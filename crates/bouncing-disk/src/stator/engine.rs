@@ -7,7 +7,6 @@ use bouncing_disk_core::flight::MAX_FLIGHT_DURATION;
 use bouncing_disk_core::numerics::elementary::{exp, exp_m1, hypot, ln_1p, sin_cos};
 
 use super::impact::impact;
-use super::ledger::StatorLedger;
 use super::linear_flow::{Functional, LinearFlow, Vector, dot};
 use super::regime::{
     ANGLE, CLOSING, COS, Contact, DISPLACEMENTS, GAP, Grip, N, ONE, Regime, SIN, SPEED, State, VELOCITIES,
@@ -16,9 +15,10 @@ use super::{LoadLine, MODES, StatorSystem};
 use crate::driven::DrivenStart;
 use crate::error::{Error, moderate};
 use crate::motion::energy::EnergyLedger;
-use crate::motion::event::Event;
+use crate::motion::event::{Energies, Event, Motion, MotionRecord, SteeredMotion};
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
 use crate::motion::state::{DiskState, LongSum, Mode, SlipDirection};
+use crate::motion::stator_ledger::StatorLedger;
 
 /// A rebound after which the chatter would last for less than this (rad) ends at once: what the disk and the stator
 /// do until then differs by the square of it.
@@ -1226,6 +1226,79 @@ fn exponential_integrals(rate: f64, time: f64) -> (f64, f64) {
     }
     let once = -exp_m1(-x) / rate;
     (once, (time - once) / rate)
+}
+
+impl MotionRecord for StatorRecord {
+    fn time(&self) -> PhaseTime {
+        self.time
+    }
+
+    fn event(&self) -> Event {
+        self.event
+    }
+
+    fn energies(&self) -> Energies {
+        Energies { disk: self.ledger, stator: self.stator }
+    }
+}
+
+impl Motion for StatorEngine {
+    type Record = StatorRecord;
+
+    fn time(&self) -> PhaseTime {
+        self.now
+    }
+
+    fn disk(&self) -> DiskState {
+        self.state().disk
+    }
+
+    fn advance(&mut self) -> Result<Option<StatorRecord>, Error> {
+        self.advance()
+    }
+
+    fn lies_for_ever(&self) -> bool {
+        self.lies_for_ever()
+    }
+}
+
+impl SteeredMotion for StatorEngine {
+    fn advance_within(&mut self, limit: f64) -> Result<Option<StatorRecord>, Error> {
+        self.advance_within(limit)
+    }
+
+    fn disk_after(&self, span: f64) -> DiskState {
+        self.state_after(span).1.disk
+    }
+
+    fn energies_after(&self, span: f64) -> Energies {
+        let (disk, stator) = self.ledgers_after(span);
+        Energies { disk, stator }
+    }
+
+    fn spring_energy(&self, span: f64, _: &DiskState) -> f64 {
+        self.spring_energy(span)
+    }
+
+    fn launches(&self) -> bool {
+        self.launches()
+    }
+
+    fn perturb_launch(&mut self, speed: f64) {
+        self.perturb_launch(speed);
+    }
+
+    fn pause_contact(&mut self, span: f64) -> Option<Energies> {
+        (!self.launches()).then(|| self.pause(span).energies())
+    }
+
+    fn amplitude_after(&self, span: f64) -> Option<f64> {
+        self.amplitude_after(span)
+    }
+
+    fn skip_energies(&mut self) {
+        self.with_energy = false;
+    }
 }
 
 impl Iterator for StatorEngine {

@@ -143,7 +143,7 @@ impl Collisions {
     }
 }
 
-impl<M: Motion> Collisions<M> {
+impl<M: Motion<Record = EventRecord>> Collisions<M> {
     /// The collisions of this motion from here on.
     #[must_use]
     pub const fn of(motion: M) -> Self {
@@ -165,7 +165,7 @@ impl<M: Motion> Collisions<M> {
     }
 }
 
-impl<M: Motion> Iterator for Collisions<M> {
+impl<M: Motion<Record = EventRecord>> Iterator for Collisions<M> {
     type Item = Result<CollisionEvent, Error>;
 
     fn next(&mut self) -> Option<Self::Item> {

@@ -10,7 +10,7 @@ use bouncing_disk_core::run::{Watch, WorkCount};
 use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, Observer};
 
 use crate::error::{Error, check, not_negative, room_for};
-use crate::motion::event::Motion;
+use crate::motion::event::{EventRecord, Motion};
 use crate::motion::initial_condition::InitialCondition;
 use crate::motion::phase_time::PhaseTime;
 use crate::parameters::dimensionless::DimensionlessSystem;
@@ -163,7 +163,7 @@ impl VerticalMap for ImpactMap {
 }
 
 /// [`multi_toss`] on a platform with this impact map and largest angular speed.
-pub(crate) fn settle<M: Motion>(
+pub(crate) fn settle<M: Motion<Record = EventRecord>>(
     mut collisions: Collisions<M>,
     map: &impl VerticalMap,
     twist_speed: f64,

@@ -2,7 +2,8 @@
 
 use std::ops::{AddAssign, Sub};
 
-use super::MODES;
+/// Most modes of a stator.
+pub const MODES: usize = 2;
 
 /// The energy balance of the modes of a stator in an interval, in units of m (g/omega)^2. Every entry is computed by
 /// itself.
@@ -30,7 +31,7 @@ impl StatorLedger {
         self.energy_change - (self.drive_work - self.damping_loss.iter().sum::<f64>() - self.disk_work)
     }
 
-    pub(super) fn record(&mut self, mode: usize, drive: f64, loss: f64, disk: f64) {
+    pub(crate) fn record(&mut self, mode: usize, drive: f64, loss: f64, disk: f64) {
         self.drive_work += drive;
         self.damping_loss[mode] += loss;
         self.disk_work += disk;
