@@ -41,10 +41,12 @@ use crate::parameters::system::System;
 mod chatter;
 mod contact;
 pub(crate) mod engine;
+mod ground;
 pub(crate) mod toss;
 
 pub use crate::motion::initial_condition::InitialCondition as DrivenStart;
 pub use engine::DrivenEngine;
+pub use ground::DrivenGround;
 pub use toss::{multi_toss, single_toss};
 
 /// A disk on a platform with any drives of height and angle, without units, as [`DimensionlessSystem`] for

@@ -32,6 +32,7 @@ pub(crate) mod engine;
 pub(crate) mod event;
 pub(crate) mod friction;
 pub(crate) mod impact;
+pub(crate) mod impact_energy;
 pub(crate) mod initial_condition;
 pub(crate) mod paper_chatter;
 pub(crate) mod phase_time;
@@ -44,6 +45,7 @@ pub(crate) mod trajectory;
 pub(crate) mod transition;
 
 pub use energy::EnergyLedger;
+pub use engine::SineGround;
 pub use engine::sample::{MAX_SAMPLED_PERIODS, MAX_SAMPLES};
 pub use event::{Energies, Motion, MotionRecord};
 pub use friction::MAX_CONTACT_EVENTS;

@@ -5,7 +5,8 @@ use bouncing_disk_core::chatter::{ChatterImpact, ChatterSeries};
 use bouncing_disk_core::{Launch, Phase};
 
 use crate::motion::energy::EnergyLedger;
-use crate::motion::impact::{axial_impulse, friction_impact, rebound_velocity};
+use crate::motion::impact::rebound_velocity;
+use crate::motion::impact_energy::impact;
 use crate::motion::rotary_change::{change_in_flight, record_flight_load};
 use crate::parameters::dimensionless::DimensionlessSystem;
 
@@ -16,7 +17,7 @@ mod summed;
 pub(crate) struct Chatter {
     /// Time of the last impact since the start (rad).
     pub(crate) time: f64,
-    /// Phase pair at the last impact.
+    /// Phase pair at the last impact, on the sine.
     pub(crate) pair: (f64, f64),
     /// Relative launch speed after it.
     pub(crate) launch_speed: f64,
@@ -86,7 +87,7 @@ impl Chatter {
     }
 
     /// The launch that a sequence starts with.
-    fn before(phase: Phase, speed: f64, angular_speed: f64) -> Self {
+    pub(crate) fn before(phase: Phase, speed: f64, angular_speed: f64) -> Self {
         Self {
             time: 0.0,
             pair: (phase.sin(), phase.cos()),
@@ -101,80 +102,42 @@ impl Chatter {
         }
     }
 
-    fn advance(&mut self, system: &DimensionlessSystem, impact: &ChatterImpact) {
-        let change = change_in_flight(system.load(), self.angular_speed, impact.time - self.time);
-        record_flight_load(&mut self.ledger, system, self.angular_speed, &change);
-        let platform_speed = system.angular_speed_at(impact.pair);
-        let axial = axial_impulse(system.restitution(), -impact.speed);
-        let slip = change.speed - platform_speed;
-        let rotary = friction_impact(system.friction(), axial, slip);
-        let after = rotary.speed_after(change.speed, platform_speed);
-        record_impact(
-            &mut self.ledger,
-            ImpactEnergy {
-                axial,
-                relative_velocity: -impact.speed,
-                restitution: system.restitution(),
-                platform_velocity: system.peak_acceleration() * impact.pair.1,
-                rotary: rotary.impulse,
-                slip,
-                platform_speed,
-            },
-        );
-        self.ledger.record_rotary_change(change.speed, after);
-        self.time = impact.time;
-        self.pair = impact.pair;
-        self.launch_speed = rebound_velocity(system.restitution(), -impact.speed);
-        self.angular_speed = after;
+    fn advance(&mut self, system: &DimensionlessSystem, next: &ChatterImpact) {
+        let law = [system.friction(), system.load(), system.restitution()];
+        let velocities = [-next.speed, system.peak_acceleration() * next.pair.1];
+        let flight = next.time - self.time;
+        self.strike(law, (next.time, flight), velocities, system.angular_speed_at(next.pair));
+        self.pair = next.pair;
+    }
+
+    /// An impact so long after the start, which ends a flight of this duration, with this relative velocity, velocity
+    /// of the platform, and angular speed of the platform.
+    pub(crate) fn strike(
+        &mut self,
+        [friction, load, restitution]: [f64; 3],
+        (time, flight): (f64, f64),
+        velocities: [f64; 2],
+        platform_speed: f64,
+    ) {
+        let change = change_in_flight(load, self.angular_speed, flight);
+        record_flight_load(&mut self.ledger, load, self.angular_speed, &change);
+        let speeds = [change.speed, platform_speed];
+        let done = impact(&mut self.ledger, (friction, restitution), velocities, speeds);
+        self.ledger.record_rotary_change(change.speed, done.speed);
+        self.time = time;
+        self.launch_speed = rebound_velocity(restitution, velocities[0]);
+        self.angular_speed = done.speed;
         self.angle += change.angle;
-        self.capped = rotary.capped;
+        self.capped = done.capped;
         self.impacts += 1;
-        self.axial_impulse += axial;
-        self.angular_impulse += rotary.impulse;
+        self.axial_impulse += done.axial;
+        self.angular_impulse += done.rotary;
     }
 
     /// Axial velocity of the disk just after the last impact.
     pub(crate) fn launch_velocity(&self, system: &DimensionlessSystem) -> f64 {
         self.launch_speed + system.peak_acceleration() * self.pair.1
     }
-}
-
-/// The numbers from which the energy of an impact is computed.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct ImpactEnergy {
-    /// Axial impulse per mass.
-    pub(crate) axial: f64,
-    /// Relative axial velocity before.
-    pub(crate) relative_velocity: f64,
-    pub(crate) restitution: f64,
-    /// Axial velocity of the platform.
-    pub(crate) platform_velocity: f64,
-    /// Angular impulse.
-    pub(crate) rotary: f64,
-    /// Angular speed relative to the platform before.
-    pub(crate) slip: f64,
-    /// Angular speed of the platform.
-    pub(crate) platform_speed: f64,
-}
-
-/// Records the platform's work and the losses of one impact.
-pub(crate) fn record_impact(ledger: &mut EnergyLedger, energy: ImpactEnergy) {
-    let ImpactEnergy {
-        axial,
-        relative_velocity,
-        restitution,
-        platform_velocity,
-        rotary,
-        slip,
-        platform_speed,
-    } = energy;
-    let restitution_loss =
-        0.5 * ((1.0 - restitution) * (1.0 + restitution)) * (relative_velocity * relative_velocity);
-    ledger.record_normal(axial * platform_velocity, restitution_loss);
-    // The friction impulse acts at the mean of the slip speeds before and after.
-    let friction_loss = -rotary * (slip + 0.5 * rotary);
-    let work = rotary * platform_speed;
-    ledger.record_friction(work, friction_loss, work.abs() + (rotary * slip).abs());
 }
 
 #[cfg(test)]

@@ -21,26 +21,24 @@ use crate::parameters::dimensionless::DimensionlessSystem;
 /// platform's largest one, is the platform's: four units in the last place.
 pub(crate) const SAME_SPEED: f64 = 4.0 * f64::EPSILON;
 
-/// A disk on the platform.
+/// A disk that lies on the platform.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Contact {
+pub struct Lying<End = PhaseTime> {
     /// The direction in which it slips; `None` while it sticks.
     pub(crate) slip: Option<SlipDirection>,
-    /// When the platform falls away, if ever.
-    pub(crate) separation: Option<PhaseTime>,
+    /// The end of the contact, if ever: on the sine when the platform falls away.
+    pub(crate) end: Option<End>,
 }
 
-/// The end of a segment of contact.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum ContactEvent {
-    /// The platform falls away.
-    Separation,
-    /// Friction no longer holds the disk.
-    StickToSlip(SlipDirection),
-    /// The slip ends and friction holds the disk.
-    SlipToStick,
-    /// The slip ends and another one begins, in this direction.
-    SlipReversal(SlipDirection),
+impl<End> Lying<End> {
+    /// Sticking or sliding.
+    #[inline]
+    pub(crate) const fn mode(&self) -> Mode {
+        match self.slip {
+            Some(direction) => Mode::Sliding(direction),
+            None => Mode::Sticking,
+        }
+    }
 }
 
 /// The cause of the next event.
@@ -55,14 +53,15 @@ enum Due {
     },
 }
 
-/// A segment of contact and the event that ends it.
+/// A segment of contact, up to the event that ends it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ContactStep {
     /// When the event happens.
     pub(crate) time: PhaseTime,
     /// Duration of the segment.
     pub(crate) span: PhaseSpan,
-    pub(crate) event: ContactEvent,
+    /// The disk that lies on; `None` if the platform falls away.
+    pub(crate) next: Option<Lying>,
     /// The change over the segment by the closed forms. Where a slip ends, its speed differs from
     /// [`Self::speed`] by rounding.
     pub(crate) change: RotaryChange,
@@ -70,20 +69,20 @@ pub(crate) struct ContactStep {
     pub(crate) speed: f64,
 }
 
-impl Contact {
+impl Lying {
     /// A disk that comes to rest on the platform at `time` with angular `speed` and lies there until
-    /// `separation`.
+    /// `end`.
     #[inline]
     pub(crate) fn new(
         system: &DimensionlessSystem,
         friction: &Friction,
         time: PhaseTime,
         speed: f64,
-        separation: Option<PhaseTime>,
+        end: Option<PhaseTime>,
     ) -> Self {
         let slip = SlipDirection::of(speed - system.platform_angular_speed(time.phase))
             .or_else(|| friction.onset(time.phase, Spent::None));
-        Self { slip, separation }
+        Self { slip, end }
     }
 
     /// The contact after an attachment at `time`.
@@ -95,29 +94,8 @@ impl Contact {
         speed: f64,
         rest: &Attachment,
     ) -> Self {
-        let separation =
-            rest.separation.map(|(phase, turns)| PhaseTime { periods: time.periods + turns, phase });
-        Self::new(system, friction, time, speed, separation)
-    }
-
-    /// Sticking or sliding.
-    #[inline]
-    pub(crate) const fn mode(&self) -> Mode {
-        match self.slip {
-            Some(direction) => Mode::Sliding(direction),
-            None => Mode::Sticking,
-        }
-    }
-
-    /// The contact that follows an event; `None` after the separation.
-    #[inline]
-    pub(crate) const fn after(self, event: ContactEvent) -> Option<Self> {
-        let slip = match event {
-            ContactEvent::Separation => return None,
-            ContactEvent::StickToSlip(direction) | ContactEvent::SlipReversal(direction) => Some(direction),
-            ContactEvent::SlipToStick => None,
-        };
-        Some(Self { slip, ..self })
+        let end = rest.separation.map(|(phase, turns)| PhaseTime { periods: time.periods + turns, phase });
+        Self::new(system, friction, time, speed, end)
     }
 
     /// The next event of a disk with angular `speed` at `now`; `None` if it sticks, or slides, for ever.
@@ -133,7 +111,7 @@ impl Contact {
         speed: f64,
     ) -> Result<Option<ContactStep>, Error> {
         let from = now.phase;
-        let limit = self.separation.map(|at| at.since(&now).radians());
+        let limit = self.end.map(|at| at.since(&now).radians());
         let due = match self.slip {
             Some(direction) => {
                 let slip = speed - system.platform_angular_speed(from);
@@ -146,7 +124,7 @@ impl Contact {
                 .filter(|(time, _)| limit.is_none_or(|limit| *time < limit))
                 .map(|(time, direction)| (PhaseSpan::from_radians(time), Due::SlipStart(direction))),
         };
-        let (time, due) = match (due, self.separation) {
+        let (time, due) = match (due, self.end) {
             (Some((span, due)), separation) => {
                 // Rounding must not carry an event past the separation.
                 let time = now.after(span);
@@ -158,23 +136,22 @@ impl Contact {
         };
         let span = time.since(&now);
         let change = change_in_contact(system, self.mode(), speed, (from, time.phase), span);
-        let (event, speed) = match due {
-            Due::Separation => (ContactEvent::Separation, change.speed),
-            Due::SlipStart(direction) => (ContactEvent::StickToSlip(direction), change.speed),
+        let sliding = |slip| Some(Self { slip, ..*self });
+        let (next, speed) = match due {
+            Due::Separation => (None, change.speed),
+            Due::SlipStart(direction) => (sliding(Some(direction)), change.speed),
             Due::SlipEnd { direction, began_here } => {
                 // A slip that begins and ends at the same instant comes from rounding: the disk must not slip
                 // again here.
                 let idle = began_here && span == PhaseSpan::ZERO;
                 let spent = if idle { Spent::Both } else { Spent::One(direction) };
-                let event = friction
-                    .onset(time.phase, spent)
-                    .map_or(ContactEvent::SlipToStick, ContactEvent::SlipReversal);
+                let next = sliding(friction.onset(time.phase, spent));
                 // Without friction the disk only passes through the platform's speed.
                 let grips = system.friction() > 0.0;
-                (event, if grips { system.platform_angular_speed(time.phase) } else { change.speed })
+                (next, if grips { system.platform_angular_speed(time.phase) } else { change.speed })
             }
         };
-        Ok(Some(ContactStep { time, span, event, change, speed }))
+        Ok(Some(ContactStep { time, span, next, change, speed }))
     }
 }
 
@@ -183,8 +160,8 @@ impl Contact {
 pub(crate) struct Placed<L = Constant> {
     /// The vertical motion from the separation on; `None` if the platform never falls away.
     pub(crate) orbit: Option<Orbit<L>>,
-    /// `None` where the platform falls away at once and the disk flies.
-    pub(crate) contact: Option<Contact>,
+    /// `None` if the platform falls away at once and the disk flies.
+    pub(crate) lying: Option<Lying>,
     /// Angular speed: one within rounding of the platform's is the platform's.
     pub(crate) speed: f64,
 }
@@ -219,22 +196,21 @@ impl<L: RestitutionLaw> Placed<L> {
         policy: ChatterPolicy,
     ) -> Result<Self, Error> {
         let vibration = system.vibration();
-        let mut separation = None;
+        let mut end = None;
         let mut orbit = None;
         if let Some(leaves) = vibration.separation_phase() {
             let falls_away = vibration.falls_away_at(phase.angle());
             let from = if falls_away { phase } else { leaves };
             orbit = Some(map.orbit_from_launch(Launch::new(from, 0.0)?, policy));
             if falls_away {
-                return Ok(Self { orbit, contact: None, speed });
+                return Ok(Self { orbit, lying: None, speed });
             }
-            separation =
-                Some(PhaseTime { periods: u64::from(leaves.angle() <= phase.angle()), phase: leaves });
+            end = Some(PhaseTime { periods: u64::from(leaves.angle() <= phase.angle()), phase: leaves });
         }
         let platform_speed = system.platform_angular_speed(phase);
         let is_same = (speed - platform_speed).abs() <= SAME_SPEED * (speed.abs() + system.twist_speed());
         let speed = if is_same { platform_speed } else { speed };
-        let contact = Contact::new(system, friction, PhaseTime::in_first_period(phase), speed, separation);
-        Ok(Self { orbit, contact: Some(contact), speed })
+        let lying = Lying::new(system, friction, PhaseTime::in_first_period(phase), speed, end);
+        Ok(Self { orbit, lying: Some(lying), speed })
     }
 }

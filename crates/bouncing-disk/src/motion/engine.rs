@@ -1,41 +1,132 @@
-//! The event engine: flight, impact, attachment, sticking, sliding, separation. It integrates the equations
-//! of motion, Eq. (2), from event to event in closed form.
+//! The event engine: the motion of a disk from event to event, on a platform that moves as a sine or in any other way.
 //!
-//! The vertical half of Eq. (2) comes entirely from the core's [`Orbit`] (its `flight/gap.rs` has the
-//! parabola of a flight); the engine adds the rotary half (`rotary_change.rs`) and the changes between
-//! sticking and sliding while the disk is on the platform (`contact_motion.rs`).
+//! A [`Ground`] finds the next event, in closed form or as a first root. What an event does to the disk, and the record
+//! of it with its energy, are the same on every ground and written here.
 
 pub(crate) mod sample;
+pub(crate) mod sine;
 
-use bouncing_disk_core::map::{Constant, RestitutionLaw};
-use bouncing_disk_core::{
-    Attachment, ChatterCut, ChatterPolicy, Impact, ImpactMap, Launch, Orbit, OrbitEvent,
-};
+use std::fmt::Debug;
+
+use bouncing_disk_core::{ChatterPolicy, Phase};
 
 use crate::error::{Error, moderate};
-use crate::motion::chatter::{Chatter, ImpactEnergy, record_impact};
-use crate::motion::contact_motion::{Contact, ContactEvent, ContactStep, Placed};
+use crate::motion::contact_motion::Lying;
 use crate::motion::energy::EnergyLedger;
 use crate::motion::event::{Event, EventRecord, Motion};
-use crate::motion::friction::Friction;
-use crate::motion::impact::{axial_impulse, friction_impact, rebound_velocity};
+use crate::motion::impact::rebound_velocity;
+use crate::motion::impact_energy::impact;
 use crate::motion::initial_condition::InitialCondition;
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
-use crate::motion::rotary_change::RotaryChange;
-use crate::motion::rotary_change::{change_in_flight, contact_ledger, record_flight_load};
+use crate::motion::rotary_change::{RotaryChange, change_in_flight, record_flight_load};
 use crate::motion::segment::Segment;
-use crate::motion::state::{DiskState, LongSum, Mode, Snapshot};
-use crate::parameters::dimensionless::DimensionlessSystem;
+use crate::motion::state::{DiskState, LongSum, Mode, PlatformState};
 
-/// Where the motion goes next.
+pub use sine::SineGround;
+pub(crate) use sine::chatter_speed;
+
+/// What the disk bounces on: how a platform of one kind moves, and which event it causes next.
+///
+/// Sealed: [`SineGround`], and [`DrivenGround`](crate::driven::DrivenGround) for platforms that move in any way.
+pub trait Ground: Debug + Clone {
+    /// Disk and platform.
+    type System: Debug + Clone;
+    /// What is known of a flight besides the state of the disk.
+    type Flight: Debug + Clone + Copy + PartialEq;
+    /// The end of a contact, if it has one.
+    type ContactEnd: Debug + Clone + Copy + PartialEq;
+
+    /// The platform at a phase.
+    fn platform(system: &Self::System, phase: Phase) -> PlatformState;
+
+    /// Friction and load.
+    fn torques(system: &Self::System) -> [f64; 2];
+
+    /// The event that ends a flight, if it comes within `limit` radians of the last event.
+    ///
+    /// # Errors
+    /// Those of the core's flights.
+    fn end_flight(
+        engine: &mut Engine<Self>,
+        flight: Self::Flight,
+        limit: f64,
+    ) -> Result<Option<EventRecord>, Error>;
+
+    /// The next event of a disk that lies on the platform, if it comes within `limit` radians of the last event.
+    ///
+    /// # Errors
+    /// [`Error::SlipTooLong`], and those of the core's roots.
+    fn end_contact(
+        engine: &mut Engine<Self>,
+        lying: Lying<Self::ContactEnd>,
+        limit: f64,
+    ) -> Result<Option<EventRecord>, Error>;
+}
+
+/// A system that an engine can start on: a [`System`](crate::System) or a
+/// [`DimensionlessSystem`](crate::parameters::DimensionlessSystem), or a [`DrivenSystem`](crate::driven::DrivenSystem).
+pub trait OnGround {
+    /// What moves below the disk.
+    type Ground: Ground;
+
+    /// The engine of [`Engine::new`].
+    ///
+    /// # Errors
+    /// Those of [`Engine::new`].
+    fn start(self, start: InitialCondition, policy: ChatterPolicy) -> Result<Engine<Self::Ground>, Error>;
+}
+
+/// What the disk does until the next event.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Stage {
-    /// The orbit knows the next event.
-    Flight,
-    /// On the platform until it falls away, if ever.
-    Contact(Contact),
+pub(crate) enum Stage<Flight, End> {
+    /// It flies.
+    Flight(Flight),
+    /// It lies on the platform.
+    Lying(Lying<End>),
     /// Nothing more happens.
     Ended,
+}
+
+impl<Flight, End> Stage<Flight, End> {
+    const fn mode(&self) -> Mode {
+        match self {
+            Self::Flight(_) | Self::Ended => Mode::Flight,
+            Self::Lying(lying) => lying.mode(),
+        }
+    }
+}
+
+/// The [`Stage`] on a ground.
+pub(crate) type StageOn<G> = Stage<<G as Ground>::Flight, <G as Ground>::ContactEnd>;
+
+/// The way from the last event to the next one.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Step {
+    pub(crate) time: PhaseTime,
+    pub(crate) span: PhaseSpan,
+    /// The span in radians, not rounded by its whole periods.
+    pub(crate) duration: f64,
+}
+
+/// What has happened to the disk up to an event.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Passed {
+    pub(crate) change: RotaryChange,
+    pub(crate) ledger: EnergyLedger,
+    /// The disk just before the event; its angle is counted by the engine.
+    pub(crate) before: DiskState,
+}
+
+/// An impact, as the ground finds it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Hit<S> {
+    /// Relative velocity before.
+    pub(crate) velocity: f64,
+    pub(crate) restitution: f64,
+    /// The stage that follows.
+    pub(crate) next: S,
+    /// Whether a cut takes the rebound and lets the disk go at once, as the platform falls away.
+    pub(crate) lets_go: bool,
 }
 
 /// The motion of a disk as a lazy sequence of [`EventRecord`]s.
@@ -44,136 +135,63 @@ enum Stage {
 /// error. A disk that rests for ever may alternate between sticking and sliding for ever. Two engines with
 /// the same arguments give the same bits.
 ///
-/// The restitution is the system's, a constant, or follows a law ([`Self::with_law`]).
+/// On the sine the restitution is the system's, a constant, or follows a law ([`Self::with_law`]).
+/// [`DrivenEngine`](crate::driven::DrivenEngine) is the engine on a platform that moves in any way.
 #[derive(Debug, Clone)]
-pub struct Engine<L = Constant> {
-    system: DimensionlessSystem,
-    friction: Friction,
-    /// `None` for a disk that has lain on the platform from the start and never separates.
-    orbit: Option<Orbit<L>>,
-    stage: Stage,
-    now: PhaseTime,
-    state: DiskState,
-    angle: LongSum,
+pub struct Engine<G: Ground = SineGround> {
+    pub(crate) system: G::System,
+    /// What the ground knows of the motion besides the stage.
+    pub(crate) ground: G,
+    pub(crate) stage: StageOn<G>,
+    pub(crate) now: PhaseTime,
+    pub(crate) state: DiskState,
+    pub(crate) angle: LongSum,
+    /// Without it the ledgers of slides on a drive stay empty: a motor does not need them.
+    pub(crate) with_energy: bool,
 }
 
-impl Engine {
-    /// An engine for a [`crate::System`] or a [`DimensionlessSystem`] one.
+impl<G: Ground> Engine<G> {
+    /// An engine for a [`crate::System`], a [`DimensionlessSystem`](crate::parameters::DimensionlessSystem) one or a
+    /// [`DrivenSystem`](crate::driven::DrivenSystem), and a disk that starts in contact, by a launch or in the air.
+    /// If the platform falls away, a disk that starts in contact flies at once; its angular speed counts as
+    /// the platform's within rounding. The angle starts at the platform's.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] or an error of the core for an illegal start; the first event's own errors come
     /// with that event, except that a start in the air computes its first impact at once.
-    pub fn new(
-        system: impl TryInto<DimensionlessSystem, Error: Into<Error>>,
+    pub fn new<S: OnGround<Ground = G>>(
+        system: S,
         start: InitialCondition,
         policy: ChatterPolicy,
     ) -> Result<Self, Error> {
-        let system = system.try_into().map_err(Into::into)?;
-        Self::with_map(system, system.map(), start, policy)
-    }
-}
-
-impl<L: RestitutionLaw> Engine<L> {
-    /// An engine for a system whose restitution follows a `law`; the constant one of the system is ignored. A
-    /// chatter ends by a `cut`, whose error (rad) is that of the [`Event::Attachment`]: infinite where no
-    /// bound is known.
-    ///
-    /// The law takes dimensionless speeds, in g/omega: divide a speed in m/s by
-    /// [`Scales::velocity`](crate::parameters::Scales::velocity).
-    ///
-    /// ```
-    /// use bouncing_disk::core::map::KuwabaraKono;
-    /// use bouncing_disk::{Engine, InitialCondition, System};
-    /// use bouncing_disk::motion::PAPER_CUT;
-    ///
-    /// // The dough keeps its restitution at 1 m/s, and has a higher one in slower impacts.
-    /// let system = System::pizza_toss();
-    /// let law = KuwabaraKono::new(system.disk().restitution(), 1.0 / system.scales().velocity)?;
-    /// let start = InitialCondition::Contact { phase: bouncing_disk::core::Phase::new(0.0)?, angular_speed: 0.0 };
-    /// let engine = Engine::with_law(system, law, start, PAPER_CUT)?;
-    /// for record in engine.take(100) {
-    ///     assert!(record?.ledger.relative_closure() < 1e-12);
-    /// }
-    /// # Ok::<(), bouncing_disk::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// Those of [`Engine::new`].
-    pub fn with_law(
-        system: impl TryInto<DimensionlessSystem, Error: Into<Error>>,
-        law: L,
-        start: InitialCondition,
-        cut: ChatterCut,
-    ) -> Result<Self, Error> {
-        let system = system.try_into().map_err(Into::into)?;
-        let map = ImpactMap::with_law(*system.vibration(), law);
-        Self::with_map(system, &map, start, ChatterPolicy::Cut(cut))
+        system.start(start, policy)
     }
 
-    fn with_map(
-        system: DimensionlessSystem,
-        map: &ImpactMap<L>,
-        start: InitialCondition,
-        policy: ChatterPolicy,
-    ) -> Result<Self, Error> {
-        let (phase, speed) = match start {
-            InitialCondition::Contact { phase, angular_speed }
-            | InitialCondition::Launch { phase, angular_speed, .. }
-            | InitialCondition::Flight { phase, angular_speed, .. } => (phase, angular_speed),
+    /// A disk that moves with the platform, before it is put down or takes off.
+    pub(crate) fn begin(system: G::System, ground: G, now: PhaseTime) -> Self {
+        let platform = G::platform(&system, now.phase);
+        let state = DiskState {
+            mode: Mode::Flight,
+            height: platform.height,
+            axial_velocity: platform.axial_velocity,
+            angle: platform.angle,
+            angular_speed: platform.angular_speed,
         };
-        moderate("angular_speed", speed)?;
-        let angle = system.platform_angle(phase);
-        let mut engine = Self {
-            system,
-            friction: Friction::new(&system),
-            orbit: None,
-            stage: Stage::Flight,
-            now: PhaseTime::in_first_period(phase),
-            state: DiskState {
-                mode: Mode::Flight,
-                height: system.vibration().height(phase),
-                axial_velocity: system.vibration().velocity(phase),
-                angle,
-                angular_speed: speed,
-            },
-            angle: LongSum::new(angle),
-        };
-        match start {
-            InitialCondition::Contact { .. } => engine.start_in_contact(map, policy)?,
-            InitialCondition::Launch { relative_speed, .. } => {
-                engine.orbit = Some(map.orbit_from_launch(Launch::new(phase, relative_speed)?, policy));
-                engine.state.axial_velocity += relative_speed;
-            }
-            InitialCondition::Flight { gap, relative_velocity, .. } => {
-                engine.orbit = Some(map.orbit_from_drop(phase, gap, relative_velocity, policy)?);
-                engine.state.height += gap;
-                engine.state.axial_velocity += relative_velocity;
-            }
-        }
+        let angle = LongSum::new(platform.angle);
+        Self { system, ground, stage: Stage::Ended, now, state, angle, with_energy: true }
+    }
+
+    /// [`Self::begin`] with the angular speed of a start.
+    pub(crate) fn begin_at(system: G::System, ground: G, phase: Phase, speed: f64) -> Result<Self, Error> {
+        let speed = moderate("angular_speed", speed)?;
+        let mut engine = Self::begin(system, ground, PhaseTime::in_first_period(phase));
+        engine.state.angular_speed = speed;
         Ok(engine)
-    }
-
-    fn start_in_contact(&mut self, map: &ImpactMap<L>, policy: ChatterPolicy) -> Result<(), Error> {
-        let placed = Placed::with_map(
-            &self.system,
-            map,
-            &self.friction,
-            self.now.phase,
-            self.state.angular_speed,
-            policy,
-        )?;
-        self.orbit = placed.orbit;
-        self.state.angular_speed = placed.speed;
-        if let Some(contact) = placed.contact {
-            self.state.mode = contact.mode();
-            self.stage = Stage::Contact(contact);
-        }
-        Ok(())
     }
 
     /// The system.
     #[must_use]
-    pub const fn system(&self) -> &DimensionlessSystem {
+    pub const fn system(&self) -> &G::System {
         &self.system
     }
 
@@ -189,297 +207,110 @@ impl<L: RestitutionLaw> Engine<L> {
         &self.state
     }
 
-    /// Disk and platform `span` after the last event, on the assumption that the next event does not come
-    /// before.
-    #[must_use]
-    pub fn state_after(&self, span: PhaseSpan) -> Snapshot {
-        self.segment(None).state_after(&self.system, span)
-    }
-
-    /// The energy balance from the last event, or the start, to `span` later, on the assumption that the next
-    /// event does not come before: that of an unfinished or endless segment. Added to the ledgers of the
-    /// events before, it gives the balance up to any instant.
-    ///
-    /// ```
-    /// use bouncing_disk::core::{ChatterPolicy, Phase};
-    /// use bouncing_disk::{Engine, InitialCondition, System};
-    /// use bouncing_disk::motion::PhaseSpan;
-    ///
-    /// // A disk that turns on a platform at rest brakes, and nothing happens before it stops.
-    /// let still = System::pizza_toss().with_platform(|hand| (hand.amplitude, hand.twist_amplitude) = (0.0, 0.0))?;
-    /// let start = InitialCondition::Contact { phase: Phase::new(0.0)?, angular_speed: 20.0 };
-    /// let engine = Engine::new(still, start, ChatterPolicy::Complete)?;
-    /// let ledger = engine.ledger_after(PhaseSpan { periods: 1, remainder: 0.0 });
-    /// assert!(ledger.friction_loss > 0.0 && ledger.relative_closure() < 1e-12);
-    /// # Ok::<(), bouncing_disk::Error>(())
-    /// ```
-    #[must_use]
-    pub fn ledger_after(&self, span: PhaseSpan) -> EnergyLedger {
-        self.segment(None).ledger_after(&self.system, span)
-    }
-
-    /// Whether the next event is the impact of a flight that starts now: just after a separation or an impact
-    /// that does not end in an attachment, or at a start by launch.
-    #[must_use]
-    pub fn launches(&self) -> bool {
-        self.stage == Stage::Flight && self.orbit.as_ref().is_some_and(|orbit| orbit.launch().is_some())
-    }
-
-    /// Gives a flight that starts now ([`Self::launches`]) another relative speed >= 0, in units of g/omega;
-    /// does nothing at any other time. No ledger counts the energy of this kick.
-    ///
-    /// # Errors
-    /// An error of the core for a negative or non-finite speed.
-    pub fn perturb_launch(&mut self, relative_speed: f64) -> Result<(), Error> {
-        if self.launches()
-            && let Some(orbit) = &mut self.orbit
-        {
-            orbit.perturb_launch(relative_speed)?;
-            self.state.axial_velocity = self.system.vibration().velocity(self.now.phase) + relative_speed;
-        }
-        Ok(())
-    }
-
-    /// Comes to rest after an impact at `now` which left the disk in `state`, with the chatter and the
-    /// attachment that ends it: for those who compute the vertical motion elsewhere. The angle is counted from
-    /// that of `state`.
-    pub(crate) fn rest_after(
-        &mut self,
-        now: PhaseTime,
-        state: DiskState,
-        rest: &Attachment,
-        chatter: &Chatter,
-    ) -> EventRecord {
-        self.now = now;
-        self.state = state;
-        self.angle = LongSum::new(state.angle);
-        self.attach_after(rest, chatter)
-    }
-
-    /// Lets a contact without end end at `time`, with an event [`Event::Separation`].
-    pub(crate) fn pause_at(&mut self, time: PhaseTime) {
-        if let Stage::Contact(contact) = &mut self.stage {
-            contact.separation = Some(time);
-        }
-    }
-
     /// The next event, or `None` after the last one.
     ///
     /// # Errors
     /// Those of the core's flights and of a law of restitution; [`Error::SlipTooLong`]. An error ends the
     /// motion.
     pub fn advance(&mut self) -> Result<Option<EventRecord>, Error> {
+        self.next_within(f64::INFINITY)
+    }
+
+    /// The next event if it comes within `limit` radians of the last one.
+    pub(crate) fn next_within(&mut self, limit: f64) -> Result<Option<EventRecord>, Error> {
         let result = match self.stage {
-            Stage::Flight => self.advance_flight(),
-            Stage::Contact(contact) => self.advance_contact(contact),
+            Stage::Flight(flight) => G::end_flight(self, flight, limit),
+            Stage::Lying(lying) => G::end_contact(self, lying, limit),
             Stage::Ended => Ok(None),
         };
-        if !matches!(result, Ok(Some(_))) {
+        if result.is_err() {
             self.stage = Stage::Ended;
         }
         result
     }
 
-    fn advance_flight(&mut self) -> Result<Option<EventRecord>, Error> {
-        let Some(orbit) = &mut self.orbit else { return Ok(None) };
-        Ok(match orbit.advance()? {
-            Some(OrbitEvent::Impact(impact)) => {
-                let restitution = Orbit::map(orbit).restitution_at(0.0 - impact.velocity)?;
-                Some(self.hit(&impact, restitution))
-            }
-            Some(OrbitEvent::Attachment(rest)) => Some(self.attach(&rest)),
-            Some(_) | None => None,
-        })
-    }
-
-    fn hit(&mut self, impact: &Impact, restitution: f64) -> EventRecord {
-        let system = &self.system;
-        let span = PhaseSpan { periods: impact.periods, remainder: impact.remainder };
-        let change = change_in_flight(system.load(), self.state.angular_speed, span.radians());
-        let platform_velocity = system.vibration().velocity(impact.phase);
-        let platform_speed = system.platform_angular_speed(impact.phase);
-        let slip = change.speed - platform_speed;
-        let mut axial = axial_impulse(restitution, impact.velocity);
-        let rotary = friction_impact(system.friction(), axial, slip);
-        let rebound = rebound_velocity(restitution, impact.velocity);
-        // Where the platform falls away, the paper's cut takes the rebound and lets the disk go at once.
-        let launch = self.orbit.as_ref().and_then(Orbit::launch);
-        let cut = launch.is_some_and(|launch| launch.relative_speed() <= 0.0 && rebound > 0.0);
-        let rebound_left = if cut { 0.0 } else { rebound };
-
-        let segment = self.segment(None);
-        self.angle.add(change.angle);
-        let before = DiskState {
-            mode: Mode::Flight,
-            height: system.vibration().height(impact.phase),
-            axial_velocity: impact.velocity + platform_velocity,
-            angle: self.angle.value(),
-            angular_speed: change.speed,
-        };
+    /// An impact at the end of a flight, or a kick at the end of a contact, of which it is given what has `passed`.
+    pub(crate) fn hit(&mut self, to: &Step, hit: Hit<StageOn<G>>, passed: Option<Passed>) -> EventRecord {
+        let Hit { velocity, restitution, next, lets_go } = hit;
+        let platform = G::platform(&self.system, to.time.phase);
+        let kicked = passed.is_some();
+        let mut passed = passed.unwrap_or_else(|| {
+            let change = self.flown(to.duration);
+            let before = DiskState {
+                mode: Mode::Flight,
+                height: platform.height,
+                axial_velocity: velocity + platform.axial_velocity,
+                angle: 0.0,
+                angular_speed: change.speed,
+            };
+            let mut ledger = EnergyLedger::default();
+            self.record_flight(&mut ledger, &before, &change);
+            Passed { change, ledger, before }
+        });
+        let Passed { change, before, .. } = passed;
+        let ledger = &mut passed.ledger;
+        let rebound = rebound_velocity(restitution, velocity);
+        let cut = lets_go && rebound > 0.0;
+        let [friction, _] = G::torques(&self.system);
+        let done = impact(
+            ledger,
+            (friction, restitution),
+            [velocity, platform.axial_velocity],
+            [change.speed, platform.angular_speed],
+        );
+        let mut axial_impulse = done.axial;
+        if cut {
+            axial_impulse -= rebound;
+            ledger.record_normal(-rebound * platform.axial_velocity, 0.5 * rebound * rebound);
+        }
         let after = DiskState {
-            axial_velocity: rebound_left + platform_velocity,
-            angular_speed: rotary.speed_after(change.speed, platform_speed),
+            axial_velocity: if cut { 0.0 } else { rebound } + platform.axial_velocity,
+            angular_speed: done.speed,
             ..before
         };
-
-        let mut ledger = EnergyLedger::default();
-        let start = segment.state;
-        ledger.record_axial_change(
-            [start.axial_velocity, before.axial_velocity],
-            [start.height, before.height],
-        );
-        record_flight_load(&mut ledger, system, start.angular_speed, &change);
-        record_impact(
-            &mut ledger,
-            ImpactEnergy {
-                axial,
-                relative_velocity: impact.velocity,
-                restitution,
-                platform_velocity,
-                rotary: rotary.impulse,
-                slip,
-                platform_speed,
-            },
-        );
-        if cut {
-            axial -= rebound;
-            ledger.record_normal(-rebound * platform_velocity, 0.5 * rebound * rebound);
-        }
-        record_jump(&mut ledger, &before, &after);
-
-        let time = PhaseTime { periods: self.now.periods + impact.turns, phase: impact.phase };
-        let event = Event::Impact {
-            axial_impact_velocity: impact.velocity,
-            tangential_impact_velocity: slip,
-            capped: rotary.capped,
+        record_jump(ledger, &before, &after);
+        let (axial_impact_velocity, tangential_impact_velocity, capped) = (velocity, done.slip, done.capped);
+        let event = if kicked {
+            Event::Kick { axial_impact_velocity, tangential_impact_velocity, capped }
+        } else {
+            Event::Impact { axial_impact_velocity, tangential_impact_velocity, capped }
         };
-        self.moved_to(time, &after);
-        EventRecord {
-            time,
-            event,
-            before,
-            after,
-            axial_impulse: axial,
-            angular_impulse: rotary.impulse,
-            ledger,
-            segment,
-            span,
-        }
+        let record = self.moved(to, event, passed, after, next);
+        EventRecord { axial_impulse, angular_impulse: done.rotary, ..record }
     }
 
-    fn attach(&mut self, rest: &Attachment) -> EventRecord {
-        let (speed, spin) = (chatter_speed(rest), self.state.angular_speed);
-        let duration = rest.accumulation.duration;
-        let chatter = Chatter::new(&self.system, self.now.phase, speed, spin, duration);
-        self.attach_after(rest, &chatter)
+    /// The rotary motion of a flight.
+    pub(crate) fn flown(&self, span: f64) -> RotaryChange {
+        let [_, load] = G::torques(&self.system);
+        change_in_flight(load, self.state.angular_speed, span)
     }
 
-    fn attach_after(&mut self, rest: &Attachment, chatter: &Chatter) -> EventRecord {
-        let system = &self.system;
-        let accumulation = rest.accumulation;
-        let cut = is_cut(rest);
-        let segment = self.segment((!cut).then_some(rest.last_speed));
-        let duration = accumulation.duration;
-        let change = change_in_flight(system.load(), chatter.angular_speed, duration - chatter.time);
-        let platform_speed = system.platform_angular_speed(accumulation.phase);
-        let platform_velocity = system.vibration().velocity(accumulation.phase);
-        let mut ledger = chatter.ledger;
-        record_flight_load(&mut ledger, system, chatter.angular_speed, &change);
-
-        self.angle.add(chatter.angle + change.angle);
-        let start = segment.state;
-        let before = DiskState {
-            mode: Mode::Flight,
-            height: system.vibration().height(accumulation.phase),
-            axial_velocity: if cut { start.axial_velocity } else { platform_velocity },
-            angle: self.angle.value(),
-            angular_speed: change.speed,
-        };
-        ledger.record_axial_change(
-            [start.axial_velocity, before.axial_velocity],
-            [start.height, before.height],
-        );
-        let mut axial = chatter.axial_impulse;
-        let mut rotary = chatter.angular_impulse;
-        let mut angular_speed = change.speed;
-        if cut {
-            let speed = rest.last_speed;
-            axial -= speed;
-            ledger.record_normal(-speed * platform_velocity, 0.5 * speed * speed);
-        }
-        if chatter.capped {
-            // The sequence is infinite: after the last counted impact the disk follows the platform.
-            let slip = angular_speed - platform_speed;
-            angular_speed = platform_speed;
-            rotary -= slip;
-            let rest = ImpactEnergy {
-                axial: 0.0,
-                relative_velocity: 0.0,
-                restitution: system.restitution(),
-                platform_velocity,
-                rotary: -slip,
-                slip,
-                platform_speed,
-            };
-            record_impact(&mut ledger, rest);
-        }
-        let time = PhaseTime { periods: self.now.periods + accumulation.turns, phase: accumulation.phase };
-        let contact = Contact::after_attachment(system, &self.friction, time, angular_speed, rest);
-        let after =
-            DiskState { mode: contact.mode(), axial_velocity: platform_velocity, angular_speed, ..before };
-        record_jump(&mut ledger, &before, &after);
-        ledger.record_rounding(system.peak_acceleration(), platform_velocity);
-
-        self.moved_to(time, &after);
-        self.stage = Stage::Contact(contact);
-        EventRecord {
-            time,
-            event: Event::Attachment { impacts: chatter.impacts, error_bound: accumulation.error_bound },
-            before,
-            after,
-            axial_impulse: axial,
-            angular_impulse: rotary,
-            ledger,
-            segment,
-            span: PhaseSpan { periods: 0, remainder: duration },
-        }
+    /// Energy balance from the last event to `end`, as far as neither forces nor friction of the platform act.
+    pub(crate) fn record_flight(&self, ledger: &mut EnergyLedger, end: &DiskState, change: &RotaryChange) {
+        let (start, [_, load]) = (&self.state, G::torques(&self.system));
+        ledger.record_axial_change([start.axial_velocity, end.axial_velocity], [start.height, end.height]);
+        record_flight_load(ledger, load, start.angular_speed, change);
     }
 
-    fn advance_contact(&mut self, contact: Contact) -> Result<Option<EventRecord>, Error> {
-        let step = contact.next(&self.system, &self.friction, self.now, self.state.angular_speed)?;
-        Ok(step.map(|step| self.record_contact(contact, &step)))
-    }
-
-    /// The record of a step of contact, and the energy of it.
-    fn record_contact(&mut self, contact: Contact, step: &ContactStep) -> EventRecord {
-        let system = &self.system;
-        let ContactStep { time, span, change, .. } = *step;
-        let segment = self.segment(None);
-        let phases = (self.now.phase, time.phase);
-        let mut ledger = contact_ledger(system, &self.friction, &segment.state, phases, span, &change);
+    /// The record of an event, after which the engine is there, with the disk in the state `after` up to its angle and
+    /// its mode, which is that of the `next` stage.
+    pub(crate) fn moved(
+        &mut self,
+        to: &Step,
+        event: Event,
+        passed: Passed,
+        mut after: DiskState,
+        next: StageOn<G>,
+    ) -> EventRecord {
+        let Passed { change, ledger, mut before } = passed;
         self.angle.add(change.angle);
-        let before = DiskState {
-            mode: segment.state.mode,
-            height: system.vibration().height(time.phase),
-            axial_velocity: system.vibration().velocity(time.phase),
-            angle: self.angle.value(),
-            angular_speed: step.speed,
-        };
-        let event = match step.event {
-            ContactEvent::Separation => Event::Separation,
-            ContactEvent::StickToSlip(direction) => Event::StickToSlip(direction),
-            ContactEvent::SlipToStick => Event::SlipToStick,
-            ContactEvent::SlipReversal(direction) => Event::SlipReversal(direction),
-        };
-        if matches!(event, Event::SlipToStick | Event::SlipReversal(_)) {
-            self.settle(&mut ledger, change, step.speed);
-        }
-        let next = contact.after(step.event);
-        let after = DiskState { mode: next.map_or(Mode::Flight, |next| next.mode()), ..before };
-        self.moved_to(time, &after);
-        self.stage = next.map_or(Stage::Flight, Stage::Contact);
+        before.angle = self.angle.value();
+        after.angle = before.angle;
+        after.mode = next.mode();
+        let segment = self.segment(None);
+        (self.now, self.state, self.stage) = (to.time, after, next);
         EventRecord {
-            time,
+            time: to.time,
             event,
             before,
             after,
@@ -487,61 +318,13 @@ impl<L: RestitutionLaw> Engine<L> {
             angular_impulse: 0.0,
             ledger,
             segment,
-            span,
+            span: to.span,
         }
     }
 
-    /// Records what rounding has left between the disk's speed at the end of a slip and the platform's.
-    fn settle(&self, ledger: &mut EnergyLedger, change: RotaryChange, platform_speed: f64) {
-        let slip = change.speed - platform_speed;
-        let rest = ImpactEnergy {
-            axial: 0.0,
-            relative_velocity: 0.0,
-            restitution: self.system.restitution(),
-            platform_velocity: 0.0,
-            rotary: -slip,
-            slip,
-            platform_speed,
-        };
-        record_impact(ledger, rest);
-        ledger.record_rotary_change(change.speed, platform_speed);
-    }
-
-    /// The next event with the segment that it ends; without one, the segment that lasts until `end`: for
-    /// ever, or by a slip whose own end is further off than its phase can be resolved.
-    pub(crate) fn advance_towards(
-        &mut self,
-        end: &PhaseTime,
-    ) -> Result<(Segment, Option<EventRecord>), Error> {
-        let lasting = self.segment(None);
-        match self.advance() {
-            Ok(record) => Ok((record.map_or(lasting, |record| record.segment), record)),
-            Err(Error::SlipTooLong { limit, .. }) if end.since(&lasting.start).radians() <= limit => {
-                Ok((lasting, None))
-            }
-            Err(error) => Err(error),
-        }
-    }
-
-    const fn segment(&self, chatter_speed: Option<f64>) -> Segment {
+    pub(crate) const fn segment(&self, chatter_speed: Option<f64>) -> Segment {
         Segment { start: self.now, state: self.state, chatter_speed }
     }
-
-    fn moved_to(&mut self, time: PhaseTime, state: &DiskState) {
-        self.now = time;
-        self.state = *state;
-    }
-}
-
-/// A chatter that is summed lasts; one that is cut leaves a speed.
-fn is_cut(rest: &Attachment) -> bool {
-    rest.accumulation.duration <= 0.0 && rest.last_speed > 0.0
-}
-
-/// The launch speed of the chatter that is summed: the paper's cut takes the last one away by an impulse of
-/// its own.
-pub(crate) fn chatter_speed(rest: &Attachment) -> f64 {
-    if is_cut(rest) { 0.0 } else { rest.last_speed }
 }
 
 /// Records a jump of the velocities at one height.
@@ -550,7 +333,7 @@ pub(crate) fn record_jump(ledger: &mut EnergyLedger, before: &DiskState, after: 
     ledger.record_rotary_change(before.angular_speed, after.angular_speed);
 }
 
-impl<L: RestitutionLaw> Motion for Engine<L> {
+impl<G: Ground> Motion for Engine<G> {
     type Record = EventRecord;
 
     fn time(&self) -> PhaseTime {
@@ -566,21 +349,14 @@ impl<L: RestitutionLaw> Motion for Engine<L> {
     }
 
     fn lies_for_ever(&self) -> bool {
-        matches!(self.stage, Stage::Contact(Contact { separation: None, .. }) | Stage::Ended)
+        matches!(self.stage, Stage::Lying(Lying { end: None, .. }) | Stage::Ended)
     }
 }
 
-impl<L: RestitutionLaw> Iterator for Engine<L> {
+impl<G: Ground> Iterator for Engine<G> {
     type Item = Result<EventRecord, Error>;
 
     fn next(&mut self) -> Option<Self::Item> {
         self.advance().transpose()
     }
 }
-
-#[cfg(test)]
-mod chatter_tests;
-#[cfg(test)]
-mod law_tests;
-#[cfg(test)]
-mod tests;

@@ -41,3 +41,18 @@ pub enum InitialCondition {
         angular_speed: f64,
     },
 }
+
+impl InitialCondition {
+    /// Phase and angular speed; of a disk that does not lie on the platform also its distance and its relative velocity.
+    pub(crate) const fn parts(&self) -> (Phase, f64, Option<[f64; 2]>) {
+        match *self {
+            Self::Contact { phase, angular_speed } => (phase, angular_speed, None),
+            Self::Launch { phase, relative_speed, angular_speed } => {
+                (phase, angular_speed, Some([0.0, relative_speed]))
+            }
+            Self::Flight { phase, gap, relative_velocity, angular_speed } => {
+                (phase, angular_speed, Some([gap, relative_velocity]))
+            }
+        }
+    }
+}

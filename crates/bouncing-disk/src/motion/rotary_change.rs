@@ -65,13 +65,8 @@ pub(crate) fn change_in_contact(
 }
 
 /// Energy balance of a flight, or of the flights of a chatter, as far as the load goes.
-pub(crate) fn record_flight_load(
-    ledger: &mut EnergyLedger,
-    system: &DimensionlessSystem,
-    speed: f64,
-    change: &RotaryChange,
-) {
-    let work = system.load() * change.angle;
+pub(crate) fn record_flight_load(ledger: &mut EnergyLedger, load: f64, speed: f64, change: &RotaryChange) {
+    let work = load * change.angle;
     ledger.record_rotary_change(speed, change.speed);
     ledger.record_load(work, work.abs());
 }

@@ -80,7 +80,7 @@ impl Segment {
             }
             (Mode::Flight, None) => {
                 let change = change_in_flight(system.load(), self.state.angular_speed, span.radians());
-                record_flight_load(&mut ledger, system, self.state.angular_speed, &change);
+                record_flight_load(&mut ledger, system.load(), self.state.angular_speed, &change);
             }
             (Mode::Flight, Some(speed)) => {
                 let duration = span.radians();
@@ -88,7 +88,7 @@ impl Segment {
                     Chatter::new(system, self.start.phase, speed, self.state.angular_speed, duration);
                 let change = change_in_flight(system.load(), chatter.angular_speed, duration - chatter.time);
                 ledger = chatter.ledger;
-                record_flight_load(&mut ledger, system, chatter.angular_speed, &change);
+                record_flight_load(&mut ledger, system.load(), chatter.angular_speed, &change);
                 // The platform's velocity at the last impact is that of a rounded phase.
                 ledger.record_rounding(system.peak_acceleration(), chatter.launch_velocity(system));
             }

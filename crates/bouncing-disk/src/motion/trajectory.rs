@@ -7,7 +7,7 @@ use bouncing_disk_core::read_checked;
 
 use crate::error::{Error, check};
 use crate::motion::energy::EnergyLedger;
-use crate::motion::engine::Engine;
+use crate::motion::engine::{Engine, SineGround};
 use crate::motion::event::EventRecord;
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
 use crate::motion::segment::Segment;
@@ -57,7 +57,7 @@ impl Trajectory {
     /// # Errors
     /// Those of [`Engine::advance`].
     pub fn record<L: RestitutionLaw>(
-        engine: &mut Engine<L>,
+        engine: &mut Engine<SineGround<L>>,
         last: impl FnMut(&EventRecord) -> bool,
     ) -> Result<Self, Error> {
         let now = engine.time();
@@ -70,7 +70,7 @@ impl Trajectory {
     /// # Errors
     /// Those of [`Self::record`].
     pub fn record_until<L: RestitutionLaw>(
-        engine: &mut Engine<L>,
+        engine: &mut Engine<SineGround<L>>,
         end: PhaseTime,
         mut last: impl FnMut(&EventRecord) -> bool,
     ) -> Result<Self, Error> {

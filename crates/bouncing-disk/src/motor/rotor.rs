@@ -10,7 +10,7 @@ use bouncing_disk_core::{Attachment, ChatterPolicy, Launch, Orbit, OrbitEvent, P
 
 use crate::error::Error;
 use crate::motion::chatter::Chatter;
-use crate::motion::contact_motion::{Contact, Placed};
+use crate::motion::contact_motion::{Lying, Placed};
 use crate::motion::friction::Friction;
 use crate::motion::impact::{FrictionImpact, axial_impulse, friction_impact};
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
@@ -75,7 +75,7 @@ pub(crate) struct Rotor {
     friction: Friction,
     orbit: Option<Orbit>,
     /// `None` in flight.
-    contact: Option<Contact>,
+    contact: Option<Lying>,
     now: PhaseTime,
     speed: f64,
     /// Angle turned in the last step.
@@ -92,7 +92,7 @@ impl Rotor {
         policy: ChatterPolicy,
     ) -> Result<Self, Error> {
         let friction = Friction::new(system);
-        let Placed { orbit, contact, speed } = Placed::new(system, &friction, phase, speed, policy)?;
+        let Placed { orbit, lying: contact, speed } = Placed::new(system, &friction, phase, speed, policy)?;
         let now = PhaseTime::in_first_period(phase);
         Ok(Self { system: *system, friction, orbit, contact, now, speed, turned: 0.0 })
     }
@@ -205,7 +205,7 @@ impl Rotor {
         }
         self.turned = 0.5 * (start + self.speed) * at.duration;
         self.now = PhaseTime { periods: self.now.periods + at.turns, phase: at.phase };
-        let contact = Contact::after_attachment(&self.system, &self.friction, self.now, self.speed, rest);
+        let contact = Lying::after_attachment(&self.system, &self.friction, self.now, self.speed, rest);
         self.contact = Some(contact);
     }
 
@@ -255,7 +255,7 @@ impl Rotor {
         change_in_contact(&self.system, contact.mode(), self.speed, phases, span).angle
     }
 
-    fn advance_contact(&mut self, contact: Contact) -> Result<RotorStep, Error> {
+    fn advance_contact(&mut self, contact: Lying) -> Result<RotorStep, Error> {
         let Some(step) = contact.next(&self.system, &self.friction, self.now, self.speed)? else {
             self.turned = 0.0;
             return Ok(RotorStep::Ended);
@@ -263,7 +263,7 @@ impl Rotor {
         self.turned = step.change.angle;
         self.speed = step.speed;
         self.now = step.time;
-        self.contact = contact.after(step.event);
+        self.contact = step.next;
         Ok(if self.contact.is_some() { RotorStep::Contact } else { RotorStep::Separation })
     }
 }

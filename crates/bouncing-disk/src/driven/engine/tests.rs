@@ -4,7 +4,7 @@ use bouncing_disk_core::Drive;
 use proptest::prelude::*;
 
 use super::*;
-use crate::motion::engine::Engine;
+use crate::motion::event::Event;
 use crate::parameters::driven_platform::Waveform;
 use crate::testing::{self, refused};
 
@@ -109,14 +109,17 @@ fn compare(
         };
         match record.event {
             Event::Impact { .. } => {
-                own.now = Clock { at: record.time.phase.angle(), periods: record.time.periods };
+                own.now = PhaseTime { phase: phase_at(record.time.phase.angle()), ..record.time };
                 (own.state, own.angle) = (record.after, LongSum::new(record.after.angle));
+                let launched = DrivenFlight::Free { gap: 0.0, velocity: speed };
                 own.stage = match own.stage {
-                    Stage::Cut { error, .. } => Stage::Cut { speed, error },
-                    Stage::Flight { velocity, .. } if velocity > 0.0 => {
-                        Stage::Flight { gap: 0.0, velocity: speed }
+                    Stage::Flight(DrivenFlight::Cut { error, .. }) => {
+                        Stage::Flight(DrivenFlight::Cut { speed, error })
                     }
-                    Stage::Chatter { .. } if speed > 0.0 => Stage::Flight { gap: 0.0, velocity: speed },
+                    Stage::Flight(DrivenFlight::Free { velocity, .. }) if velocity > 0.0 => {
+                        Stage::Flight(launched)
+                    }
+                    Stage::Flight(DrivenFlight::Chatter { .. }) if speed > 0.0 => Stage::Flight(launched),
                     other => other,
                 };
             }
@@ -166,7 +169,7 @@ proptest! {
             let span = share * record.span.radians();
             let rest = twin.ledger_after(span);
             prop_assert!(rest.relative_closure() < ROUNDING, "{:e} {span} {before:?}", rest.relative_closure());
-            if span > 1e-3 && !matches!(before.stage, Stage::Chatter { .. }) {
+            if span > 1e-3 && !matches!(before.stage, Stage::Flight(DrivenFlight::Chatter { .. })) {
                 let (time, state) = twin.state_after(span);
                 twin = DrivenEngine::of_state(system.clone(), time, state, policy).expect("legal");
                 let next = twin.advance().expect("no failure").expect("an event");

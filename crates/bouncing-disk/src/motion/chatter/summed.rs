@@ -6,6 +6,7 @@ use bouncing_disk_core::{Launch, Phase};
 
 use crate::motion::chatter::Chatter;
 use crate::motion::impact::friction_impact;
+use crate::motion::impact_energy::{record_friction_impulse, record_slip_end};
 use crate::motion::rotary_change::RotaryChange;
 use crate::motion::rotary_change::{change_in_flight, record_flight_load};
 use crate::parameters::dimensionless::DimensionlessSystem;
@@ -148,10 +149,7 @@ impl<'a> Rotation<'a> {
     fn stop(&mut self) {
         let before = self.chatter.angular_speed;
         let platform_speed = before - self.slip;
-        let work = -self.slip * platform_speed;
-        let loss = 0.5 * self.slip * self.slip;
-        self.chatter.ledger.record_friction(work, loss, work.abs() + loss);
-        self.chatter.ledger.record_rotary_change(before, platform_speed);
+        record_slip_end(&mut self.chatter.ledger, before, self.slip, platform_speed);
         self.chatter.angular_impulse -= self.slip;
         self.chatter.angular_speed = platform_speed;
         self.slip = 0.0;
@@ -196,13 +194,11 @@ impl<'a> Rotation<'a> {
         let axial = range.change(&self.impulses);
         let rotary = friction_impact(self.system.friction(), axial, slip);
         let change = change_in_flight(self.system.load(), self.chatter.angular_speed, duration);
-        record_flight_load(&mut self.chatter.ledger, self.system, self.chatter.angular_speed, &change);
+        record_flight_load(&mut self.chatter.ledger, self.system.load(), self.chatter.angular_speed, &change);
         let platform_speed = self.platform_speed(Some(self.impacts + 1));
         let after = rotary.speed_after(change.speed, platform_speed);
-        let work = rotary.impulse * platform_speed;
-        let loss = -rotary.impulse * (slip + 0.5 * rotary.impulse);
         let ledger = &mut self.chatter.ledger;
-        ledger.record_friction(work, loss, work.abs() + (rotary.impulse * slip).abs());
+        record_friction_impulse(ledger, rotary.impulse, slip, platform_speed);
         ledger.record_rotary_change(change.speed, after);
         self.slip = if rotary.capped { 0.0 } else { slip + rotary.impulse };
         self.chatter.angle += change.angle;
@@ -232,7 +228,7 @@ impl<'a> Rotation<'a> {
         let loss = [grip * self.slip * impulse, -grip * load * delay, grip * slowed, -0.5 * rotary * rotary];
         let size = work.iter().chain(&loss).map(|term| term.abs()).sum();
         let ledger = &mut self.chatter.ledger;
-        record_flight_load(ledger, self.system, speed, &change);
+        record_flight_load(ledger, load, speed, &change);
         ledger.record_friction(work.iter().sum(), loss.iter().sum(), size);
         self.chatter.angle += change.angle;
         self.chatter.angular_impulse += rotary;
@@ -263,7 +259,7 @@ impl<'a> Rotation<'a> {
             angle: (before * duration - lag) - 0.5 * load * range.product(&self.flight, &self.flight),
         };
         let ledger = &mut self.chatter.ledger;
-        record_flight_load(ledger, self.system, before, &change);
+        record_flight_load(ledger, load, before, &change);
         ledger.record_friction(
             work.iter().sum(),
             loss,

@@ -51,16 +51,9 @@ impl Case {
 #[test]
 fn an_impact_adds_its_work_and_its_slip_to_the_terms_that_balance() {
     let mut ledger = EnergyLedger::default();
-    let energy = ImpactEnergy {
-        axial: 1.5,
-        relative_velocity: -1.0,
-        restitution: 0.5,
-        platform_velocity: 0.25,
-        rotary: 0.5,
-        slip: -3.0,
-        platform_speed: -0.75,
-    };
-    record_impact(&mut ledger, energy);
+    // An axial impulse of 1.5, a slip of -3 and an angular impulse of 0.5.
+    let done = impact(&mut ledger, (1.0 / 3.0, 0.5), [-1.0, 0.25], [-3.75, -0.75]);
+    assert!((done.axial - 1.5).abs() < 1e-15 && (done.rotary - 0.5).abs() < 1e-15, "{done:?}");
     assert!((ledger.rotary_magnitude - (0.375 + 1.5)).abs() < 1e-15, "{ledger:?}");
     assert!((ledger.friction_loss - 0.5 * 2.75).abs() < 1e-15, "{ledger:?}");
 }

@@ -7,7 +7,7 @@ use bouncing_disk_core::map::RestitutionLaw;
 use bouncing_disk_core::run::Watch;
 
 use crate::error::{Error, check, room_for};
-use crate::motion::engine::Engine;
+use crate::motion::engine::{Engine, SineGround};
 use crate::motion::phase_time::PhaseSpan;
 use crate::motion::state::Snapshot;
 
@@ -21,7 +21,7 @@ pub const MAX_SAMPLED_PERIODS: u64 = 1 << 30;
 /// The work of an event, in flights: one that ends a chatter takes longer than a flight.
 const FLIGHTS_OF_EVENT: u64 = 4;
 
-impl<L: RestitutionLaw> Engine<L> {
+impl<L: RestitutionLaw> Engine<SineGround<L>> {
     /// Disk and platform at `count` instants at equal distances, from now to `span` later, both included.
     /// Events are not kept, so that a long motion takes no more memory than a short one. Afterwards the
     /// engine stands just after the first event at or after the last instant.

@@ -17,7 +17,7 @@ const LAST: f64 = 1.0 - f64::EPSILON / 2.0;
 impl Engine {
     /// The attachment that the orbit is about to report, of a disk in the engine's state.
     pub(crate) fn attached_after(mut self, orbit: Orbit) -> EventRecord {
-        self.orbit = Some(orbit);
+        self.ground.orbit = Some(orbit);
         self.advance().unwrap().unwrap()
     }
 }
@@ -28,8 +28,8 @@ fn about_to_attach(system: DimensionlessSystem, phase: Phase, speed: f64, spin: 
     let mut engine = Engine::new(system, start, ChatterPolicy::Complete).unwrap();
     let impact = ImpactState::new(phase, -speed / system.restitution()).unwrap();
     let orbit = system.map().orbit(impact, ChatterPolicy::Complete);
-    engine.orbit = orbit.launch().is_none().then_some(orbit);
-    engine.orbit.is_some().then_some(engine)
+    engine.ground.orbit = orbit.launch().is_none().then_some(orbit);
+    engine.ground.orbit.is_some().then_some(engine)
 }
 
 fn attachments(

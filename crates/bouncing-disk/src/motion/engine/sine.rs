@@ -1,0 +1,354 @@
+//! The ground of Eq. (1), a platform that moves as a sine.
+//!
+//! The vertical half of Eq. (2) comes entirely from the core's [`Orbit`] (its `flight/gap.rs` has the parabola of a
+//! flight). The rotary half (`rotary_change.rs`) and the changes between sticking and sliding (`contact_motion.rs`)
+//! are closed forms.
+
+use bouncing_disk_core::map::{Constant, RestitutionLaw};
+use bouncing_disk_core::{
+    Attachment, ChatterCut, ChatterPolicy, ImpactMap, Launch, Orbit, OrbitEvent, Phase,
+};
+
+use super::{Engine, Ground, Hit, OnGround, Passed, Stage, Step, record_jump};
+use crate::error::Error;
+use crate::motion::chatter::Chatter;
+use crate::motion::contact_motion::{ContactStep, Lying, Placed};
+use crate::motion::energy::EnergyLedger;
+use crate::motion::event::{Event, EventRecord};
+use crate::motion::friction::Friction;
+use crate::motion::impact_energy::record_friction_impulse;
+use crate::motion::initial_condition::InitialCondition;
+use crate::motion::phase_time::{PhaseSpan, PhaseTime};
+use crate::motion::rotary_change::{RotaryChange, change_in_flight, contact_ledger, record_flight_load};
+use crate::motion::segment::Segment;
+use crate::motion::state::{DiskState, LongSum, Mode, PlatformState, SlipDirection, Snapshot};
+use crate::parameters::dimensionless::DimensionlessSystem;
+
+/// A platform that moves as a sine, with a law of restitution.
+#[derive(Debug, Clone)]
+pub struct SineGround<L = Constant> {
+    friction: Friction,
+    /// `None` for a disk that has lain on the platform from the start and never separates.
+    pub(super) orbit: Option<Orbit<L>>,
+}
+
+impl<S: Into<DimensionlessSystem>> OnGround for S {
+    type Ground = SineGround;
+
+    fn start(self, start: InitialCondition, policy: ChatterPolicy) -> Result<Engine, Error> {
+        let system = self.into();
+        Engine::with_map(system, system.map(), start, policy)
+    }
+}
+
+impl<L: RestitutionLaw> Engine<SineGround<L>> {
+    /// An engine for a system whose restitution follows a `law`; the constant one of the system is ignored. A
+    /// chatter ends by a `cut`, whose error (rad) is that of the [`Event::Attachment`]: infinite where no
+    /// bound is known.
+    ///
+    /// The law takes dimensionless speeds, in g/omega: divide a speed in m/s by
+    /// [`Scales::velocity`](crate::parameters::Scales::velocity).
+    ///
+    /// ```
+    /// use bouncing_disk::core::map::KuwabaraKono;
+    /// use bouncing_disk::{Engine, InitialCondition, System};
+    /// use bouncing_disk::motion::PAPER_CUT;
+    ///
+    /// // The dough keeps its restitution at 1 m/s, and has a higher one in slower impacts.
+    /// let system = System::pizza_toss();
+    /// let law = KuwabaraKono::new(system.disk().restitution(), 1.0 / system.scales().velocity)?;
+    /// let start = InitialCondition::Contact { phase: bouncing_disk::core::Phase::new(0.0)?, angular_speed: 0.0 };
+    /// let engine = Engine::with_law(system, law, start, PAPER_CUT)?;
+    /// for record in engine.take(100) {
+    ///     assert!(record?.ledger.relative_closure() < 1e-12);
+    /// }
+    /// # Ok::<(), bouncing_disk::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`Engine::new`].
+    pub fn with_law(
+        system: impl Into<DimensionlessSystem>,
+        law: L,
+        start: InitialCondition,
+        cut: ChatterCut,
+    ) -> Result<Self, Error> {
+        let system = system.into();
+        let map = ImpactMap::with_law(*system.vibration(), law);
+        Self::with_map(system, &map, start, ChatterPolicy::Cut(cut))
+    }
+
+    fn with_map(
+        system: DimensionlessSystem,
+        map: &ImpactMap<L>,
+        start: InitialCondition,
+        policy: ChatterPolicy,
+    ) -> Result<Self, Error> {
+        let (phase, speed, _) = start.parts();
+        let ground = SineGround { friction: Friction::new(&system), orbit: None };
+        let mut engine = Self::begin_at(system, ground, phase, speed)?;
+        engine.stage = Stage::Flight(());
+        match start {
+            InitialCondition::Contact { .. } => {
+                let friction = &engine.ground.friction;
+                let placed = Placed::with_map(&system, map, friction, phase, speed, policy)?;
+                engine.ground.orbit = placed.orbit;
+                engine.state.angular_speed = placed.speed;
+                if let Some(lying) = placed.lying {
+                    engine.state.mode = lying.mode();
+                    engine.stage = Stage::Lying(lying);
+                }
+            }
+            InitialCondition::Launch { relative_speed, .. } => {
+                let launch = Launch::new(phase, relative_speed)?;
+                engine.ground.orbit = Some(map.orbit_from_launch(launch, policy));
+                engine.state.axial_velocity += relative_speed;
+            }
+            InitialCondition::Flight { gap, relative_velocity, .. } => {
+                engine.ground.orbit = Some(map.orbit_from_drop(phase, gap, relative_velocity, policy)?);
+                engine.state.height += gap;
+                engine.state.axial_velocity += relative_velocity;
+            }
+        }
+        Ok(engine)
+    }
+
+    /// Disk and platform `span` after the last event, on the assumption that the next event does not come
+    /// before.
+    #[must_use]
+    pub fn state_after(&self, span: PhaseSpan) -> Snapshot {
+        self.segment(None).state_after(&self.system, span)
+    }
+
+    /// The energy balance from the last event, or the start, to `span` later, on the assumption that the next
+    /// event does not come before: that of an unfinished or endless segment. Added to the ledgers of the
+    /// events before, it gives the balance up to any instant.
+    ///
+    /// ```
+    /// use bouncing_disk::core::{ChatterPolicy, Phase};
+    /// use bouncing_disk::{Engine, InitialCondition, System};
+    /// use bouncing_disk::motion::PhaseSpan;
+    ///
+    /// // A disk that turns on a platform at rest brakes, and nothing happens before it stops.
+    /// let still = System::pizza_toss().with_platform(|hand| (hand.amplitude, hand.twist_amplitude) = (0.0, 0.0))?;
+    /// let start = InitialCondition::Contact { phase: Phase::new(0.0)?, angular_speed: 20.0 };
+    /// let engine = Engine::new(still, start, ChatterPolicy::Complete)?;
+    /// let ledger = engine.ledger_after(PhaseSpan { periods: 1, remainder: 0.0 });
+    /// assert!(ledger.friction_loss > 0.0 && ledger.relative_closure() < 1e-12);
+    /// # Ok::<(), bouncing_disk::Error>(())
+    /// ```
+    #[must_use]
+    pub fn ledger_after(&self, span: PhaseSpan) -> EnergyLedger {
+        self.segment(None).ledger_after(&self.system, span)
+    }
+
+    /// Whether the next event is the impact of a flight that starts now: just after a separation or an impact
+    /// that does not end in an attachment, or at a start by launch.
+    #[must_use]
+    pub fn launches(&self) -> bool {
+        let orbit = self.ground.orbit.as_ref();
+        matches!(self.stage, Stage::Flight(())) && orbit.is_some_and(|orbit| orbit.launch().is_some())
+    }
+
+    /// Gives a flight that starts now ([`Self::launches`]) another relative speed >= 0, in units of g/omega;
+    /// does nothing at any other time. No ledger counts the energy of this kick.
+    ///
+    /// # Errors
+    /// An error of the core for a negative or non-finite speed.
+    pub fn perturb_launch(&mut self, relative_speed: f64) -> Result<(), Error> {
+        if self.launches()
+            && let Some(orbit) = &mut self.ground.orbit
+        {
+            orbit.perturb_launch(relative_speed)?;
+            self.state.axial_velocity = self.system.vibration().velocity(self.now.phase) + relative_speed;
+        }
+        Ok(())
+    }
+
+    /// Comes to rest after an impact at `now` which left the disk in `state`, with the chatter and the
+    /// attachment that ends it: for those who compute the vertical motion elsewhere. The angle is counted from
+    /// that of `state`.
+    pub(crate) fn rest_after(
+        &mut self,
+        now: PhaseTime,
+        state: DiskState,
+        rest: &Attachment,
+        chatter: &Chatter,
+    ) -> EventRecord {
+        self.now = now;
+        self.state = state;
+        self.angle = LongSum::new(state.angle);
+        self.attach(rest, chatter)
+    }
+
+    /// Lets a contact without end end at `time`, with an event [`Event::Separation`].
+    pub(crate) fn pause_at(&mut self, time: PhaseTime) {
+        if let Stage::Lying(lying) = &mut self.stage {
+            lying.end = Some(time);
+        }
+    }
+
+    /// The next event with the segment that it ends; without one, the segment that lasts until `end`: for
+    /// ever, or by a slip whose own end is further off than its phase can be resolved.
+    pub(crate) fn advance_towards(
+        &mut self,
+        end: &PhaseTime,
+    ) -> Result<(Segment, Option<EventRecord>), Error> {
+        let lasting = self.segment(None);
+        match self.advance() {
+            Ok(record) => Ok((record.map_or(lasting, |record| record.segment), record)),
+            Err(Error::SlipTooLong { limit, .. }) if end.since(&lasting.start).radians() <= limit => {
+                Ok((lasting, None))
+            }
+            Err(error) => Err(error),
+        }
+    }
+
+    fn attach(&mut self, rest: &Attachment, chatter: &Chatter) -> EventRecord {
+        let (system, accumulation, cut) = (&self.system, rest.accumulation, is_cut(rest));
+        let (start, duration) = (self.state, accumulation.duration);
+        let change = change_in_flight(system.load(), chatter.angular_speed, duration - chatter.time);
+        let platform = PlatformState::at(system, accumulation.phase);
+        let mut ledger = chatter.ledger;
+        record_flight_load(&mut ledger, system.load(), chatter.angular_speed, &change);
+        let before = DiskState {
+            mode: Mode::Flight,
+            height: platform.height,
+            axial_velocity: if cut { start.axial_velocity } else { platform.axial_velocity },
+            angle: 0.0,
+            angular_speed: change.speed,
+        };
+        ledger.record_axial_change(
+            [start.axial_velocity, before.axial_velocity],
+            [start.height, before.height],
+        );
+        let mut axial_impulse = chatter.axial_impulse;
+        let mut angular_impulse = chatter.angular_impulse;
+        let mut angular_speed = change.speed;
+        if cut {
+            let speed = rest.last_speed;
+            axial_impulse -= speed;
+            ledger.record_normal(-speed * platform.axial_velocity, 0.5 * speed * speed);
+        }
+        if chatter.capped {
+            // The sequence is infinite: after the last counted impact the disk follows the platform.
+            let slip = angular_speed - platform.angular_speed;
+            angular_speed = platform.angular_speed;
+            angular_impulse -= slip;
+            record_friction_impulse(&mut ledger, -slip, slip, platform.angular_speed);
+        }
+        let time = PhaseTime { periods: self.now.periods + accumulation.turns, phase: accumulation.phase };
+        let lying = Lying::after_attachment(system, &self.ground.friction, time, angular_speed, rest);
+        let after = DiskState { axial_velocity: platform.axial_velocity, angular_speed, ..before };
+        record_jump(&mut ledger, &before, &after);
+        ledger.record_rounding(system.peak_acceleration(), platform.axial_velocity);
+
+        let step = Step { time, span: PhaseSpan { periods: 0, remainder: duration }, duration };
+        let event = Event::Attachment { impacts: chatter.impacts, error_bound: accumulation.error_bound };
+        let change = RotaryChange { angle: chatter.angle + change.angle, ..change };
+        let mut record =
+            self.moved(&step, event, Passed { change, ledger, before }, after, Stage::Lying(lying));
+        record.segment.chatter_speed = (!cut).then_some(rest.last_speed);
+        EventRecord { axial_impulse, angular_impulse, ..record }
+    }
+
+    /// The record of a step of contact, and the energy of it.
+    fn record_contact(&mut self, slip: Option<SlipDirection>, step: &ContactStep) -> EventRecord {
+        let ContactStep { time, span, change, .. } = *step;
+        let (system, phases) = (&self.system, (self.now.phase, time.phase));
+        let mut ledger = contact_ledger(system, &self.ground.friction, &self.state, phases, span, &change);
+        let before = DiskState {
+            mode: self.state.mode,
+            height: system.vibration().height(time.phase),
+            axial_velocity: system.vibration().velocity(time.phase),
+            angle: 0.0,
+            angular_speed: step.speed,
+        };
+        let event = match (slip, step.next.map(|next| next.slip)) {
+            (_, None) => Event::Separation,
+            (None, Some(Some(direction))) => Event::StickToSlip(direction),
+            (_, Some(None)) => Event::SlipToStick,
+            (Some(_), Some(Some(direction))) => Event::SlipReversal(direction),
+        };
+        if matches!(event, Event::SlipToStick | Event::SlipReversal(_)) {
+            // What rounding has left between the disk's speed at the end of a slip and the platform's.
+            let slip = change.speed - step.speed;
+            record_friction_impulse(&mut ledger, -slip, slip, step.speed);
+            ledger.record_rotary_change(change.speed, step.speed);
+        }
+        let next = step.next.map_or(Stage::Flight(()), Stage::Lying);
+        let to = Step { time, span, duration: span.radians() };
+        self.moved(&to, event, Passed { change, ledger, before }, before, next)
+    }
+}
+
+impl<L: RestitutionLaw> Ground for SineGround<L> {
+    type System = DimensionlessSystem;
+    type Flight = ();
+    type ContactEnd = PhaseTime;
+
+    fn platform(system: &DimensionlessSystem, phase: Phase) -> PlatformState {
+        PlatformState::at(system, phase)
+    }
+
+    fn torques(system: &DimensionlessSystem) -> [f64; 2] {
+        [system.friction(), system.load()]
+    }
+
+    fn end_flight(engine: &mut Engine<Self>, (): (), _: f64) -> Result<Option<EventRecord>, Error> {
+        let (now, spin) = (engine.now, engine.state.angular_speed);
+        let event = match &mut engine.ground.orbit {
+            Some(orbit) => orbit.advance()?.map(|event| (event, orbit)),
+            None => None,
+        };
+        match event {
+            Some((OrbitEvent::Impact(impact), orbit)) => {
+                let span = PhaseSpan { periods: impact.periods, remainder: impact.remainder };
+                let time = PhaseTime { periods: now.periods + impact.turns, phase: impact.phase };
+                let hit = Hit {
+                    velocity: impact.velocity,
+                    restitution: Orbit::map(orbit).restitution_at(0.0 - impact.velocity)?,
+                    next: Stage::Flight(()),
+                    lets_go: orbit.launch().is_some_and(|launch| launch.relative_speed() <= 0.0),
+                };
+                Ok(Some(engine.hit(&Step { time, span, duration: span.radians() }, hit, None)))
+            }
+            Some((OrbitEvent::Attachment(rest), _)) => {
+                let duration = rest.accumulation.duration;
+                let chatter = Chatter::new(&engine.system, now.phase, chatter_speed(&rest), spin, duration);
+                Ok(Some(engine.attach(&rest, &chatter)))
+            }
+            Some(_) | None => {
+                engine.stage = Stage::Ended;
+                Ok(None)
+            }
+        }
+    }
+
+    fn end_contact(engine: &mut Engine<Self>, lying: Lying, _: f64) -> Result<Option<EventRecord>, Error> {
+        let speed = engine.state.angular_speed;
+        let step = lying.next(&engine.system, &engine.ground.friction, engine.now, speed)?;
+        if step.is_none() {
+            engine.stage = Stage::Ended;
+        }
+        Ok(step.map(|step| engine.record_contact(lying.slip, &step)))
+    }
+}
+
+/// A chatter that is summed lasts; one that is cut leaves a speed.
+fn is_cut(rest: &Attachment) -> bool {
+    rest.accumulation.duration <= 0.0 && rest.last_speed > 0.0
+}
+
+/// The launch speed of the chatter that is summed: the paper's cut takes the last one away by an impulse of
+/// its own.
+pub(crate) fn chatter_speed(rest: &Attachment) -> f64 {
+    if is_cut(rest) { 0.0 } else { rest.last_speed }
+}
+
+#[cfg(test)]
+mod chatter_tests;
+#[cfg(test)]
+mod law_tests;
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,58 @@
+//! The effects of an impact on the disk, and the energy that they cost: of single impacts, of those in a chatter, and of
+//! what rounding leaves of a slip that ends.
+
+use crate::motion::energy::EnergyLedger;
+use crate::motion::impact::{axial_impulse, friction_impact};
+
+/// The effects of an impact.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Impulses {
+    /// Axial impulse per mass.
+    pub(crate) axial: f64,
+    /// Angular impulse per moment of inertia.
+    pub(crate) rotary: f64,
+    /// Whether friction ends the slip within the impact.
+    pub(crate) capped: bool,
+    /// The slip before.
+    pub(crate) slip: f64,
+    /// The angular speed after.
+    pub(crate) speed: f64,
+}
+
+/// An impact with this relative velocity and angular speed, each with that of the platform: its impulses, and in the
+/// ledger the platform's work and the losses.
+pub(crate) fn impact(
+    ledger: &mut EnergyLedger,
+    (friction, restitution): (f64, f64),
+    [relative_velocity, platform_velocity]: [f64; 2],
+    [speed, platform_speed]: [f64; 2],
+) -> Impulses {
+    let slip = speed - platform_speed;
+    let axial = axial_impulse(restitution, relative_velocity);
+    let rotary = friction_impact(friction, axial, slip);
+    let loss = 0.5 * ((1.0 - restitution) * (1.0 + restitution)) * (relative_velocity * relative_velocity);
+    ledger.record_normal(axial * platform_velocity, loss);
+    record_friction_impulse(ledger, rotary.impulse, slip, platform_speed);
+    let after = rotary.speed_after(speed, platform_speed);
+    Impulses { axial, rotary: rotary.impulse, capped: rotary.capped, slip, speed: after }
+}
+
+/// Records the platform's work and the loss by an impulse of friction, which acts at the mean of the slip speeds before
+/// and after.
+pub(crate) fn record_friction_impulse(
+    ledger: &mut EnergyLedger,
+    impulse: f64,
+    slip: f64,
+    platform_speed: f64,
+) {
+    let (work, loss) = (impulse * platform_speed, -impulse * (slip + 0.5 * impulse));
+    ledger.record_friction(work, loss, work.abs() + (impulse * slip).abs());
+}
+
+/// Records that a disk with angular `speed`, and with what rounding has left of a `slip` that has ended, gets the
+/// platform's speed.
+pub(crate) fn record_slip_end(ledger: &mut EnergyLedger, speed: f64, slip: f64, platform_speed: f64) {
+    let (work, loss) = (-slip * platform_speed, 0.5 * slip * slip);
+    ledger.record_friction(work, loss, work.abs() + loss);
+    ledger.record_rotary_change(speed, platform_speed);
+}
