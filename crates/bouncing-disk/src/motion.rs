@@ -31,6 +31,7 @@ pub(crate) mod energy;
 pub(crate) mod engine;
 pub(crate) mod event;
 pub(crate) mod friction;
+pub(crate) mod gauss;
 pub(crate) mod impact;
 pub(crate) mod impact_energy;
 pub(crate) mod initial_condition;

@@ -26,13 +26,17 @@
 //! # Ok::<(), bouncing_disk::Error>(())
 //! ```
 
+mod contact;
+mod crossing;
 mod energy;
 mod engine;
+mod flight;
 mod impact;
 mod linear_flow;
 mod regime;
 #[cfg(test)]
 mod tests;
+mod vibration;
 
 use std::sync::Arc;
 
@@ -40,6 +44,7 @@ use bouncing_disk_core::flight::Compliance;
 use bouncing_disk_core::numerics::elementary::sin_cos;
 
 use crate::error::{Error, check, finite};
+use crate::motion::state::{Mode, SlipDirection};
 use crate::parameters::contact::ContactLaw;
 use crate::parameters::dimensionless::DimensionlessSystem;
 use crate::parameters::stator::{QUALITIES, QUALITIES_IN_WORDS};
@@ -47,13 +52,21 @@ use crate::parameters::system::System;
 
 pub use crate::motion::stator_ledger::{MODES, StatorLedger};
 pub use engine::{StatorEngine, StatorRecord, StatorState};
-use regime::{COS, Contact, DISPLACEMENTS, Grip, Regime, SIN, State, VELOCITIES};
+use regime::{COS, ContactStiffness, DISPLACEMENTS, Regime, SIN, State, VELOCITIES};
 
 /// Least and largest contact time (rad) on a stator that yields.
 pub const CONTACT_TIMES: [f64; 2] = [1.0e-2, 1.0e4];
 
 /// Nearer to a jam than this share of the friction that jams, a disk moves too fast for steps.
 const NEAREST_JAM: f64 = 0.99;
+
+/// The modes of the disk, in the order in which the ways to move are kept.
+const REGIMES: [Mode; 4] = [
+    Mode::Flight,
+    Mode::Sticking,
+    Mode::Sliding(SlipDirection::Forward),
+    Mode::Sliding(SlipDirection::Backward),
+];
 
 /// Frequencies of modes, in units of that of the drive.
 const FREQUENCIES: [f64; 2] = [1.0e-3, 1.0e3];
@@ -130,7 +143,7 @@ pub struct StatorSystem {
     pub(crate) angle: [f64; 2],
     /// (a_e/a_g)^2: rotary energy in units of axial energy.
     pub(crate) arm: f64,
-    pub(crate) contact: Contact,
+    pub(crate) contact: ContactStiffness,
     /// The load over the speed, by rising speeds, and how everything moves on each of its lines.
     pub(crate) lines: Vec<LoadLine>,
     pub(crate) regimes: Arc<Vec<[Regime; 4]>>,
@@ -213,7 +226,7 @@ impl StatorSystem {
             .find(|law| law.height != 0.0 && law.angle != 0.0)
             .map_or(angle, |law| [law.angle * height[0], law.angle * height[1]]);
         let contact = match contact_time {
-            None => Contact::Rigid,
+            None => ContactStiffness::Rigid,
             Some(time) => {
                 let [least, most] = CONTACT_TIMES;
                 check(
@@ -225,7 +238,7 @@ impl StatorSystem {
                 let compliance = Compliance::new(time, system.restitution())?;
                 // The mass that an isolated impact on the free modes feels.
                 let share = 1.0 / laws.iter().fold(1.0, |sum, law| sum + law.height * law.by_force);
-                Contact::Soft {
+                ContactStiffness::Soft {
                     stiffness: share * compliance.stiffness(),
                     damping: share * compliance.damping(),
                 }
@@ -254,8 +267,8 @@ impl StatorSystem {
     }
 
     fn moving(&self) -> Arc<Vec<[Regime; 4]>> {
-        let grips = [None, Some(Grip::Stick), Some(Grip::Forward), Some(Grip::Backward)];
-        Arc::new(self.lines.iter().map(|line| grips.map(|grip| Regime::new(self, line, grip))).collect())
+        let regimes = |line| REGIMES.map(|mode| Regime::new(self, line, mode));
+        Arc::new(self.lines.iter().map(regimes).collect())
     }
 
     /// This system with a load whose torque is a continuous line between speeds, besides the constant one. Torques and

@@ -17,6 +17,7 @@ use bouncing_disk_core::numerics::quasi_polynomial::{FirstRoot, QuasiPolynomial}
 
 use super::DrivenSystem;
 use crate::error::Error;
+use crate::motion::gauss::EIGHT_POINTS;
 use crate::motion::rotary_change::RotaryChange;
 use crate::motion::state::{DiskState, SlipDirection};
 
@@ -26,14 +27,6 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// Radians of the fastest change after which integrals are taken in closed form: before, the sines of which
 /// force and slip are the sum are much larger than these, and so is their rounding.
 const LONG: f64 = 4.0;
-
-/// Nodes and weights of the Gauss-Legendre rule of eight points on [-1, 1].
-const GAUSS: [(f64, f64); 4] = [
-    (0.183_434_642_495_649_8, 0.362_683_783_378_362),
-    (0.525_532_409_916_329, 0.313_706_645_877_887_3),
-    (0.796_666_477_413_626_7, 0.222_381_034_453_374_48),
-    (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
-];
 
 /// The integrals of a slide that its energy needs: of N beta' and of N U, and the sizes of what was added.
 #[derive(Debug, Clone, Copy, Default)]
@@ -461,7 +454,7 @@ fn at_nodes(span: f64, panels: f64, mut add: impl FnMut(f64, f64)) {
     let mut panel = 0.0;
     while panel < panels {
         let middle = (2.0 * panel + 1.0) * half;
-        for (node, weight) in GAUSS {
+        for (node, weight) in EIGHT_POINTS {
             for x in [middle - half * node, middle + half * node] {
                 add(x, half * weight);
             }

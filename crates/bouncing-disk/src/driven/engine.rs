@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::flight::{ContactEnd, MAX_FLIGHT_DURATION, Pressed, RelativeState, TimeAhead};
+use bouncing_disk_core::flight::{ContactEnd, Pressed, RelativeState, TimeAhead};
 use bouncing_disk_core::numerics::elementary::wrapped_angle;
 use bouncing_disk_core::{ChatterPolicy, Drive};
 
@@ -14,7 +14,7 @@ use crate::motion::contact_motion::{Lying, SAME_SPEED};
 use crate::motion::energy::EnergyLedger;
 use crate::motion::engine::{Engine, OnGround, Passed, Stage, Step};
 use crate::motion::event::{Energies, EventRecord, SteeredMotion};
-use crate::motion::phase_time::{PhaseSpan, PhaseTime, phase_at};
+use crate::motion::phase_time::{PhaseSpan, PhaseTime, legal_span, phase_at};
 use crate::motion::rotary_change::RotaryChange;
 use crate::motion::state::{DiskState, LongSum, Mode, SlipDirection};
 use crate::motion::stator_ledger::StatorLedger;
@@ -222,7 +222,7 @@ impl DrivenEngine {
 
     /// When, and the disk, `span` radians after the last event, if no event comes before. A chatter that is
     /// being summed counts as rest. A negative span and NaN count as zero, a longer one than
-    /// [`MAX_FLIGHT_DURATION`] as that.
+    /// [`MAX_FLIGHT_DURATION`](bouncing_disk_core::flight::MAX_FLIGHT_DURATION) as that.
     #[must_use]
     pub fn state_after(&self, span: f64) -> (PhaseTime, DiskState) {
         let span = legal_span(span);
@@ -432,10 +432,6 @@ pub(super) fn lying_pressed(
         TimeAhead { after, time, velocity_jump: 0.0 }
     };
     Ok(Lying { slip, end: after.is_finite().then(|| DrivenEnd { ahead: ahead(), then }) })
-}
-
-const fn legal_span(span: f64) -> f64 {
-    if span > 0.0 { span.min(MAX_FLIGHT_DURATION) } else { 0.0 }
 }
 
 impl SteeredMotion for DrivenEngine {

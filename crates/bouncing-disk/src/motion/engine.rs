@@ -88,7 +88,8 @@ pub(crate) enum Stage<Flight, End> {
 }
 
 impl<Flight, End> Stage<Flight, End> {
-    const fn mode(&self) -> Mode {
+    /// How the disk moves.
+    pub(crate) const fn mode(&self) -> Mode {
         match self {
             Self::Flight(_) | Self::Ended => Mode::Flight,
             Self::Lying(lying) => lying.mode(),

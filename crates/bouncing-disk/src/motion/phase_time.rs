@@ -6,6 +6,7 @@ use std::f64::consts::TAU;
 use std::fmt::{self, Display, Formatter};
 
 use bouncing_disk_core::Phase;
+use bouncing_disk_core::flight::MAX_FLIGHT_DURATION;
 use bouncing_disk_core::numerics::elementary::wrapped_angle;
 
 /// An instant: `periods` whole periods of the platform after phase 0 of its first period, and a phase.
@@ -123,6 +124,11 @@ impl PhaseSpan {
         let Self { periods, remainder } = self.normalised();
         periods as f64 * TAU + remainder
     }
+}
+
+/// A time ahead (rad): a negative one and NaN count as zero, a longer one than a flight can last as that.
+pub(crate) const fn legal_span(span: f64) -> f64 {
+    if span > 0.0 { span.min(MAX_FLIGHT_DURATION) } else { 0.0 }
 }
 
 /// The phase at a finite angle.

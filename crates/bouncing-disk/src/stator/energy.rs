@@ -1,19 +1,16 @@
 //! The energy balances of a motion between two events.
 
 use super::LoadLine;
-use super::engine::{Stage, StatorEngine, size};
-use super::linear_flow::dot;
-use super::regime::{ANGLE, CLOSING, COS, Contact, DISPLACEMENTS, GAP, Grip, SIN, SPEED, State, VELOCITIES};
+use super::engine::StatorEngine;
+use super::linear_flow::{dot, size};
+use super::regime::{
+    ANGLE, CLOSING, COS, ContactStiffness, DISPLACEMENTS, GAP, SIN, SPEED, State, VELOCITIES,
+};
 use crate::motion::energy::EnergyLedger;
+use crate::motion::engine::Stage;
+use crate::motion::gauss::EIGHT_POINTS;
+use crate::motion::state::Mode;
 use crate::motion::stator_ledger::StatorLedger;
-
-/// Nodes and weights of the Gauss-Legendre rule of eight points on [-1, 1].
-const GAUSS: [(f64, f64); 4] = [
-    (0.183_434_642_495_649_8, 0.362_683_783_378_362),
-    (0.525_532_409_916_329, 0.313_706_645_877_887_3),
-    (0.796_666_477_413_626_7, 0.222_381_034_453_374_48),
-    (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
-];
 
 impl StatorEngine {
     pub(super) fn record_modes(&self, stator: &mut StatorLedger, from: &State, to: &State) {
@@ -47,7 +44,7 @@ impl StatorEngine {
         }
         self.record_modes(&mut stator, &self.state, state);
         match self.stage {
-            Stage::Contact { .. } => self.record_contact(span, &mut ledger, &mut stator),
+            Stage::Lying(_) => self.record_contact(span, &mut ledger, &mut stator),
             // In a short flight the closed forms are differences of two works of almost a whole period.
             _ if span < self.regime().flow.step() => {
                 let expanded = self.regime().flow.expand(&self.state);
@@ -59,11 +56,11 @@ impl StatorEngine {
             }
             _ => self.record_flight(span, state, &mut stator),
         }
-        if let Contact::Soft { stiffness, .. } = self.system.contact {
+        if let ContactStiffness::Soft { stiffness, .. } = self.system.contact {
             let energy = |gap: f64| 0.5 * stiffness * gap.min(0.0) * gap.min(0.0);
             let (from, to) = (energy(self.state[GAP]), energy(state[GAP]));
             ledger.record_spring([from, to]);
-            if !matches!(self.stage, Stage::Contact { .. }) {
+            if !matches!(self.stage, Stage::Lying(_)) {
                 // Where no force acts the damper takes it.
                 ledger.record_normal(0.0, from - to);
             }
@@ -127,16 +124,16 @@ impl StatorEngine {
                 let (force, torque) = (dot(regime.force.now(), &at), dot(&regime.torque, &at));
                 let ([_, tip], [_, turn]) = (self.system.tip(&at), self.system.twist(&at));
                 let damper = match self.system.contact {
-                    Contact::Soft { damping, .. } => damping * at[CLOSING] * at[CLOSING],
-                    Contact::Rigid => 0.0,
+                    ContactStiffness::Soft { damping, .. } => damping * at[CLOSING] * at[CLOSING],
+                    ContactStiffness::Rigid => 0.0,
                 };
                 ledger.record_normal(part * force * tip, part * damper);
                 if line.slope != 0.0 {
                     let load = part * (line.torque + line.slope * at[SPEED]) * at[SPEED];
                     ledger.record_load(load, load.abs());
                 }
-                let lost = match self.stage {
-                    Stage::Contact { grip: Grip::Stick, .. } => 0.0,
+                let lost = match self.mode() {
+                    Mode::Sticking => 0.0,
                     _ => friction * force * (at[SPEED] - turn).abs(),
                 };
                 // The speed of the tip is a small sum of its steady motion and the ringing where the disk is heavy.
@@ -152,7 +149,7 @@ impl StatorEngine {
 
 /// Times and weights of the rule on an interval of this length.
 fn nodes(length: f64) -> impl Iterator<Item = (f64, f64)> {
-    let all = GAUSS.into_iter().flat_map(|(node, weight)| [(node, weight), (-node, weight)]);
+    let all = EIGHT_POINTS.into_iter().flat_map(|(node, weight)| [(node, weight), (-node, weight)]);
     all.map(move |(node, weight)| (0.5 * length * (1.0 + node), 0.5 * length * weight))
 }
 

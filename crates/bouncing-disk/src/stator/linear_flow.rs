@@ -60,6 +60,11 @@ pub(crate) struct StateStep<const N: usize> {
     step: f64,
 }
 
+/// The sum of the sizes of the terms of a functional.
+pub(crate) fn size<const N: usize>(functional: &Vector<N>, state: &Vector<N>) -> f64 {
+    functional.iter().zip(state).map(|(a, b)| (a * b).abs()).sum()
+}
+
 /// The value of a functional.
 #[must_use]
 pub(crate) fn dot<const N: usize>(functional: &Vector<N>, state: &Vector<N>) -> f64 {

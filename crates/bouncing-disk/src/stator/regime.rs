@@ -16,6 +16,7 @@ use std::f64::consts::TAU;
 
 use super::linear_flow::{Functional, LinearFlow, Vector};
 use super::{LoadLine, MODES, StatorSystem};
+use crate::motion::state::{Mode, SlipDirection};
 
 /// Components of a state.
 pub(crate) const N: usize = 11;
@@ -37,28 +38,9 @@ pub(crate) type State = Vector<N>;
 
 /// How disk and stator touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Contact {
+pub(crate) enum ContactStiffness {
     Rigid,
     Soft { stiffness: f64, damping: f64 },
-}
-
-/// How friction acts in a contact; in which direction the disk slides.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Grip {
-    Stick,
-    Forward,
-    Backward,
-}
-
-impl Grip {
-    /// The direction of a slide, zero where friction holds.
-    pub(crate) const fn sign(self) -> f64 {
-        match self {
-            Self::Stick => 0.0,
-            Self::Forward => 1.0,
-            Self::Backward => -1.0,
-        }
-    }
 }
 
 /// A flow, and the functionals whose first falls end it.
@@ -97,13 +79,13 @@ fn steady_acceleration([a, b]: [f64; 2]) -> State {
 }
 
 impl Regime {
-    /// On a line of the load, in a contact with this grip, or in flight.
-    pub(crate) fn new(system: &StatorSystem, line: &LoadLine, grip: Option<Grip>) -> Self {
+    /// On a line of the load, in this mode.
+    pub(crate) fn new(system: &StatorSystem, line: &LoadLine, mode: Mode) -> Self {
         let friction = system.base.friction();
         let load = sum(&unit(ONE).map(|one| line.torque * one), &unit(SPEED), line.slope);
         let pull = match system.contact {
-            Contact::Rigid => [0.0; N],
-            Contact::Soft { stiffness, damping } => {
+            ContactStiffness::Rigid => [0.0; N],
+            ContactStiffness::Soft { stiffness, damping } => {
                 sum(&unit(GAP).map(|one| -stiffness * one), &unit(CLOSING), -damping)
             }
         };
@@ -117,25 +99,25 @@ impl Regime {
             (right[j][VELOCITIES[j]], right[j][DISPLACEMENTS[j]]) = (-mode.damping, -mode.stiffness);
         }
         (left[FORCE][FORCE], left[TORQUE][TORQUE]) = (1.0, 1.0);
-        match (grip, system.contact) {
-            (None, _) => {}
-            (Some(_), Contact::Soft { .. }) => right[FORCE] = pull,
-            (Some(_), Contact::Rigid) => {
+        match (mode, system.contact) {
+            (Mode::Flight, _) => {}
+            (_, ContactStiffness::Soft { .. }) => right[FORCE] = pull,
+            (_, ContactStiffness::Rigid) => {
                 for (j, mode) in system.modes.iter().enumerate() {
                     left[FORCE][j] = -mode.height;
                 }
                 right[FORCE] = sum(&unit(ONE), &steady_acceleration(system.height), 1.0);
             }
         }
-        match grip {
-            None => {}
-            Some(Grip::Stick) => {
+        match mode {
+            Mode::Flight => {}
+            Mode::Sticking => {
                 for (j, mode) in system.modes.iter().enumerate() {
                     left[TORQUE][j] = -mode.angle;
                 }
                 right[TORQUE] = sum(&load, &steady_acceleration(system.angle), 1.0);
             }
-            Some(slide) => left[TORQUE][FORCE] = slide.sign() * friction,
+            Mode::Sliding(direction) => left[TORQUE][FORCE] = direction.sign() * friction,
         }
         let solution = solved(left, right);
         let (force, torque) = (solution[FORCE], solution[TORQUE]);
@@ -146,14 +128,14 @@ impl Regime {
         }
         (matrix[SIN][COS], matrix[COS][SIN]) = (1.0, -1.0);
         (matrix[ANGLE], matrix[SPEED]) = (unit(SPEED), sum(&torque, &load, -1.0));
-        if grip == Some(Grip::Stick) {
+        if mode == Mode::Sticking {
             // The same without the load, whose rounding would let the disk drift from a stator that hardly turns.
             let modes = system.modes.iter().zip(&solution);
             matrix[SPEED] = modes.fold(steady_acceleration(system.angle), |turns, (mode, acceleration)| {
                 sum(&turns, acceleration, mode.angle)
             });
         }
-        if grip.is_none() || system.contact != Contact::Rigid {
+        if mode == Mode::Flight || system.contact != ContactStiffness::Rigid {
             // w' = N - 1 - s''.
             let fall = sum(&force, &unit(ONE), -1.0);
             let mut relative = sum(&fall, &steady_acceleration(system.height), -1.0);
@@ -162,16 +144,16 @@ impl Regime {
             }
             (matrix[GAP], matrix[CLOSING]) = (unit(CLOSING), relative);
         }
-        let flow = LinearFlow::new(matrix, rate(system, line, grip), TAU);
+        let flow = LinearFlow::new(matrix, rate(system, line, mode), TAU);
 
         let mut slip = unit(SPEED);
         (slip[SIN], slip[COS]) = (system.angle[1], -system.angle[0]);
         for (j, mode) in system.modes.iter().enumerate() {
             slip[VELOCITIES[j]] = -mode.angle;
         }
-        let direction = grip.map_or(1.0, |grip| if grip == Grip::Backward { -1.0 } else { 1.0 });
+        let direction = if mode == Mode::Sliding(SlipDirection::Backward) { -1.0 } else { 1.0 };
         let grips = force.map(|entry| friction * entry);
-        let force = if grip.is_none() { pull } else { force };
+        let force = if mode == Mode::Flight { pull } else { force };
         Self {
             gap: flow.functional(unit(GAP)),
             force: flow.functional(force),
@@ -188,17 +170,19 @@ impl Regime {
 }
 
 /// A bound on the eigenvalues: the modes, the drive, and the spring and damper with all that moves along.
-fn rate(system: &StatorSystem, line: &LoadLine, grip: Option<Grip>) -> f64 {
+fn rate(system: &StatorSystem, line: &LoadLine, mode: Mode) -> f64 {
     let mobility = system.mobility();
     let mut rate = line.slope.abs().max(1.0);
     for mode in &system.modes {
         rate = rate.max(mode.stiffness.sqrt() + mode.damping);
     }
-    if grip.is_some() {
+    if mode != Mode::Flight {
         // In a slide the disk may take inertia away.
         rate /= (mobility[0][0] - system.base.friction() * mobility[0][1].abs()).min(1.0);
     }
-    if let (Some(_), Contact::Soft { stiffness, damping }) = (grip, system.contact) {
+    if mode != Mode::Flight
+        && let ContactStiffness::Soft { stiffness, damping } = system.contact
+    {
         let share = mobility[0][0] + system.base.friction() * mobility[0][1].abs();
         rate += (stiffness * share).sqrt() + damping * share;
     }

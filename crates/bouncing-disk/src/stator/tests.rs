@@ -389,7 +389,8 @@ fn no_event_is_missed_in_a_million() {
 impl StatorEngine {
     /// That nothing has happened yet in this state of the present motion.
     fn check_within(&self, state: &State, span: f64) {
-        use engine::{Stage, size};
+        use crate::motion::engine::Stage;
+        use linear_flow::size;
         let regime = self.regime();
         let tolerance = 1e-10 * (1.0 + span);
         let holds = |functional: &linear_flow::Functional<{ regime::N }>, what: &str| {
@@ -405,7 +406,9 @@ impl StatorEngine {
             );
         };
         match self.stage {
-            Stage::Flight(_) if self.system.contact == Contact::Rigid || state[regime::GAP] > 0.0 => {
+            Stage::Flight(_)
+                if self.system.contact == ContactStiffness::Rigid || state[regime::GAP] > 0.0 =>
+            {
                 let [tip, _] = self.system.tip(state);
                 let size = self.bounds(&self.state).height + tip.abs() + span * span;
                 assert!(
@@ -428,10 +431,10 @@ impl StatorEngine {
                     self.system.given
                 );
             }
-            Stage::Contact { grip, .. } => {
+            Stage::Lying(lying) => {
                 holds(&regime.force, "force");
                 if self.system.base.friction() > 0.0 {
-                    if grip == Grip::Stick {
+                    if lying.slip.is_none() {
                         holds(&regime.hold[0], "hold");
                         holds(&regime.hold[1], "hold");
                     } else {

@@ -1,0 +1,243 @@
+//! A disk that lies on a stator that yields: how a contact begins, what friction does in it, and how it ends.
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use bouncing_disk_core::flight::MAX_FLIGHT_DURATION;
+use bouncing_disk_core::numerics::elementary::sin_cos;
+
+use super::crossing::{Crossing, Next};
+use super::engine::{CHATTER, Launch, ROUNDING, SAME, StatorEngine, StatorStage};
+use super::linear_flow::{Functional, LinearFlow, dot, size};
+use super::regime::{ANGLE, CLOSING, COS, ContactStiffness, GAP, N, SIN, SPEED, State};
+use crate::error::Error;
+use crate::motion::contact_motion::Lying;
+use crate::motion::engine::Stage;
+use crate::motion::state::SlipDirection;
+
+/// Where rounding calls what slips a stick and what sticks a slip, the present motion goes on for so long (rad).
+const TIE: f64 = 1.0e-6;
+
+/// The end of a contact that is not known to last for ever.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Sometime;
+
+/// A disk that lies on the stator, and slides in this direction or sticks.
+pub(super) const fn lying(slip: Option<SlipDirection>) -> StatorStage {
+    Stage::Lying(Lying { slip, end: Some(Sometime) })
+}
+
+impl StatorEngine {
+    /// The end of a contact, or of a slide or a stick in it.
+    pub(super) fn contact_end(&mut self, slip: Option<SlipDirection>, limit: f64) -> Result<Next, Error> {
+        if self.lies_for_ever() {
+            return Ok(None);
+        }
+        let regimes = Arc::clone(&self.system.regimes);
+        let regime = &regimes[self.line][self.regime_index()];
+        let step = regime.flow.step();
+        let mut watched: Vec<(&Functional<N>, Crossing)> = vec![(&regime.force, Crossing::Release)];
+        for (node, line) in regime.nodes.iter().zip([self.line.wrapping_sub(1), self.line + 1]) {
+            watched.extend(node.iter().map(|node| (node, Crossing::LoadNode(line))));
+        }
+        if self.system.base.friction() > 0.0 {
+            if slip.is_some() {
+                watched.push((&regime.slip, Crossing::SlipEnd));
+            } else {
+                watched.push((&regime.hold[0], Crossing::Slips(SlipDirection::Backward)));
+                watched.push((&regime.hold[1], Crossing::Slips(SlipDirection::Forward)));
+            }
+        }
+        let mut resting = vec![false; watched.len()];
+        let (mut passed, mut state, mut begun) = (0.0, self.state, self.state);
+        let mut steps: u64 = 0;
+        let whole = (TAU / step + 0.5) as u64;
+        loop {
+            let left = limit - passed;
+            if left <= 0.0 {
+                return Ok(None);
+            }
+            let mut first: Next = None;
+            for (index, (functional, crossing)) in watched.iter().enumerate() {
+                if resting[index] {
+                    continue;
+                }
+                let error = ROUNDING * (steps as f64).sqrt() * size(functional.now(), &state);
+                let (mut along, mut from) = (functional.along(&state, error), 0.0);
+                if passed == 0.0 {
+                    match first_sign(&regime.flow, functional.now(), &self.state) {
+                        Some((order, false))
+                            if order > 0 && *crossing == Crossing::Release && self.touches(&self.state) =>
+                        {
+                            from = TIE;
+                        }
+                        Some((_, false)) if self.ties < 2 || !crossing.is_of_friction() => {
+                            return Ok(Some((0.0, *crossing)));
+                        }
+                        Some((_, false)) => from = TIE,
+                        Some((0, true)) => {}
+                        Some((order, true)) if order < 4 => along = along.starting_with(&[0.0; 3][..order]),
+                        // It rests at zero, or leaves it too slowly to be told from that yet.
+                        _ => {
+                            resting[index] = true;
+                            continue;
+                        }
+                    }
+                }
+                let until = first.map_or(left, |(at, _)| at);
+                let mut fall = along.first_fall_from(from, until)?;
+                if *crossing == Crossing::Release
+                    && let Some([at, _]) = fall
+                    && self.touches(&regime.flow.after(&state, at))
+                {
+                    fall = along.first_fall_from(at + TIE, until)?;
+                }
+                if let Some([at, _]) = fall
+                    && at < until
+                {
+                    first = Some((at, *crossing));
+                }
+            }
+            if let Some((at, crossing)) = first {
+                return Ok(Some((passed + at, crossing)));
+            }
+            if left < step {
+                // What comes later in this step has not been looked for.
+                return Ok(None);
+            }
+            steps += 1;
+            passed = steps as f64 * step;
+            state = regime.flow.advance(&state);
+            // A whole number of steps is a period.
+            (state[SIN], state[COS]) = sin_cos(self.now.phase.angle() + (steps % whole) as f64 * step);
+            if steps.is_multiple_of(whole) {
+                if repeats(&begun, &state) {
+                    // Whether the speed drifts to the end of the slide, or to another line of the load.
+                    let gained = state[SPEED] - begun[SPEED];
+                    let drifts = gained.abs() > SAME * (1.0 + state[SPEED].abs());
+                    let direction = slip.map_or(0.0, SlipDirection::sign);
+                    let slides_on = direction * gained >= 0.0 || self.system.base.friction() == 0.0;
+                    let node = usize::from(gained > 0.0);
+                    if !drifts || slides_on && regime.nodes[node].is_none() {
+                        self.stage = Stage::Lying(Lying { slip, end: None });
+                        return Ok(None);
+                    }
+                }
+                begun = state;
+            }
+            if passed > MAX_FLIGHT_DURATION {
+                return Err(Error::SlipTooLong { duration: passed, limit: MAX_FLIGHT_DURATION });
+            }
+        }
+    }
+
+    /// Whether the force of a rigid contact falls below zero for less than a chatter that is cut: a flight that is no
+    /// higher than its rounding.
+    fn touches(&self, state: &State) -> bool {
+        let flow = &self.regime().flow;
+        let slope = flow.derivative(self.regime().force.now());
+        let bend = dot(&flow.derivative(&slope), state);
+        self.system.contact == ContactStiffness::Rigid
+            && bend > 0.0
+            && dot(&slope, state) > -0.5 * CHATTER * bend
+    }
+
+    /// Disk minus stator, angular speeds.
+    pub(super) fn slip(&self) -> f64 {
+        self.state[SPEED] - self.system.twist(&self.state)[1]
+    }
+
+    /// Whether friction holds, or in which direction the disk slides; `spent`: the slide that has just ended.
+    pub(super) fn onset(&self, spent: Option<SlipDirection>) -> Option<SlipDirection> {
+        if self.system.base.friction() == 0.0 {
+            // Nothing holds it.
+            return Some(SlipDirection::Forward);
+        }
+        if spent.is_none()
+            && let Some(direction) = SlipDirection::of(self.slip())
+        {
+            return Some(direction);
+        }
+        let stick = &self.system.regimes[self.line][1];
+        let gives = |hold: &Functional<N>| {
+            let (value, doubt) = (dot(hold.now(), &self.state), ROUNDING * size(hold.now(), &self.state));
+            let first = stick.flow.derivative(hold.now());
+            value < -doubt || value <= doubt && dot(&first, &self.state) < 0.0
+        };
+        [(&stick.hold[0], SlipDirection::Backward), (&stick.hold[1], SlipDirection::Forward)]
+            .into_iter()
+            .find(|&(hold, direction)| Some(direction) != spent && gives(hold))
+            .map(|(_, direction)| direction)
+    }
+
+    /// A disk on a rigid stator without relative velocity: it stays, or flies at once where the stator falls away.
+    pub(super) fn lie_down(&mut self) {
+        (self.state[GAP], self.state[CLOSING]) = (0.0, 0.0);
+        self.settle_slip();
+        self.stage = lying(self.onset(None));
+        if first_sign(&self.regime().flow, self.regime().force.now(), &self.state) == Some((0, false)) {
+            self.stage = Stage::Flight(Launch::Rebound);
+        }
+    }
+
+    /// A disk in flight that touches a rigid stator: with a relative velocity of no more than rounding it flies if the
+    /// stator falls away.
+    pub(super) fn leave(&mut self) {
+        let [_, tip] = self.system.tip(&self.state);
+        if self.state[CLOSING].abs() > ROUNDING * tip.abs() {
+            return;
+        }
+        self.state[CLOSING] = 0.0;
+        let flow = &self.system.regimes[self.line][0].flow;
+        match first_sign(flow, &flow.derivative(&closing()), &self.state) {
+            Some((0, true)) => self.stage = Stage::Flight(Launch::Rebound),
+            Some((1, true)) => {
+                let third = dot(&flow.derivative(&flow.derivative(&closing())), &self.state);
+                self.stage = Stage::Flight(Launch::Release(third));
+            }
+            _ => self.lie_down(),
+        }
+    }
+
+    /// A disk in a soft contact, with whatever grip.
+    pub(super) fn press(&mut self) {
+        self.settle_slip();
+        self.stage = lying(self.onset(None));
+        if first_sign(&self.regime().flow, self.regime().force.now(), &self.state) == Some((0, false)) {
+            self.stage = Stage::Flight(if self.state[GAP] < 0.0 { Launch::Below } else { Launch::Rebound });
+        }
+    }
+
+    /// A slip of no more than rounding is none.
+    fn settle_slip(&mut self) {
+        let slip = self.system.regimes[self.line][0].slip.now();
+        if dot(slip, &self.state).abs() <= 0.125 * ROUNDING * size(slip, &self.state) {
+            self.state[SPEED] = self.system.twist(&self.state)[1];
+        }
+    }
+}
+
+/// Whether a contact is where it was a period before, but for the angle and the speed of the disk.
+fn repeats(before: &State, after: &State) -> bool {
+    let size = after[..ANGLE].iter().fold(1.0, |size: f64, value| size.max(value.abs()));
+    (0..ANGLE).all(|index| (after[index] - before[index]).abs() <= SAME * size)
+}
+
+/// Which derivative of a functional is the first one beyond rounding, and whether it is positive; `None` if none is.
+pub(super) fn first_sign(flow: &LinearFlow<N>, functional: &State, state: &State) -> Option<(usize, bool)> {
+    let mut of = *functional;
+    for order in 0..6 {
+        let value = dot(&of, state);
+        if value.abs() > ROUNDING * size(&of, state) {
+            return Some((order, value > 0.0));
+        }
+        of = flow.derivative(&of);
+    }
+    None
+}
+
+pub(super) fn closing() -> State {
+    let mut of = [0.0; N];
+    of[CLOSING] = 1.0;
+    of
+}

@@ -1,0 +1,276 @@
+//! A flight over a stator that yields, in closed form, and its end.
+
+use bouncing_disk_core::flight::MAX_FLIGHT_DURATION;
+use bouncing_disk_core::numerics::elementary::{exp, exp_m1, ln_1p, sin_cos};
+
+use super::LoadLine;
+use super::crossing::{Crossing, Next};
+use super::engine::{Launch, ROUNDING, StatorEngine};
+use super::regime::{
+    ANGLE, CLOSING, COS, ContactStiffness, DISPLACEMENTS, GAP, SIN, SPEED, State, VELOCITIES,
+};
+use crate::error::Error;
+use crate::motion::engine::Stage;
+
+/// Bounds of the stator's height and of its acceleration.
+pub(super) struct Bounds {
+    pub(super) height: f64,
+    acceleration: f64,
+}
+
+impl StatorEngine {
+    /// The first impact of a flight, or the return of the force of a soft contact, when there is none in what is
+    /// `searched` of the flight.
+    pub(super) fn flight_end(&self, launch: Launch, limit: f64, searched: &mut f64) -> Result<Next, Error> {
+        let regime = self.regime();
+        let step = regime.flow.step();
+        let soft = self.system.contact != ContactStiffness::Rigid;
+        let [height, velocity] = self.system.tip(&self.state);
+        let (x, v) = (self.state[GAP] + height, self.state[CLOSING] + velocity);
+        if self.state[GAP] <= 0.0
+            && self.state[CLOSING] < 0.0
+            && matches!(launch, Launch::Air | Launch::Rebound)
+        {
+            return Ok(Some((0.0, Crossing::Touch(self.state[CLOSING]))));
+        }
+        let highest = self.bounds(&self.state).height;
+        let (mut passed, mut state) = (*searched, self.state);
+        if passed > 0.0 {
+            state = self.flown(passed);
+        }
+        // A soft contact ends before its spring is free: below the stator the force may set in again.
+        let mut inside = soft && passed == 0.0 && self.state[GAP] < 0.0;
+        loop {
+            if !inside && passed < limit {
+                (passed, state) = self.cleared(passed, state);
+                *searched = passed;
+            }
+            let left = limit - passed;
+            if left <= 0.0 {
+                return Ok(None);
+            }
+            if passed > MAX_FLIGHT_DURATION {
+                let error = bouncing_disk_core::Error::NoConvergence {
+                    evaluations: 0,
+                    time: passed,
+                    gap: state[GAP],
+                };
+                return Err(error.into());
+            }
+            // The parabola is rounded in units of its terms.
+            let error = if passed > 0.0 {
+                0.125 * ROUNDING * (x.abs() + passed * (v.abs() + passed) + highest)
+            } else {
+                0.0
+            };
+            let mut gap = regime.gap.along(&state, error);
+            if passed == 0.0 && !inside {
+                gap = match launch {
+                    Launch::Air | Launch::Below => gap,
+                    Launch::Rebound => gap.starting_with(&[0.0, self.state[CLOSING]]),
+                    Launch::Release(_) if soft => gap.starting_with(&[0.0, self.state[CLOSING]]),
+                    Launch::Release(third) => {
+                        gap.starting_with(&[0.0, 0.0, 0.0, third.max(f64::MIN_POSITIVE)])
+                    }
+                };
+            }
+            if inside {
+                let rises = regime.gap.along(&state, error).negated();
+                let mut pull = regime.force.along(&state, error).negated();
+                if passed == 0.0 && matches!(launch, Launch::Release(_)) {
+                    pull = pull.starting_with(&[0.0]);
+                }
+                let free = rises.first_fall(left)?.map(|[at, _]| at);
+                if let Some([at, _]) = pull.first_fall(free.unwrap_or(left))? {
+                    return Ok(Some((passed + at, Crossing::Recontact)));
+                }
+                if let Some(at) = free {
+                    inside = false;
+                    // On from where the gap is zero.
+                    state = self.flown(passed + at);
+                    passed += at;
+                    state[GAP] = 0.0;
+                    if state[CLOSING] > 0.0 {
+                        let gap = regime.gap.along(&state, 0.0).starting_with(&[0.0, state[CLOSING]]);
+                        if let Some([at, slope]) = gap.first_fall(limit - passed)? {
+                            return Ok(Some((passed + at, Crossing::Touch(slope))));
+                        }
+                        passed += step;
+                        state = self.flown(passed);
+                    }
+                    continue;
+                }
+            } else if let Some([at, slope]) = match launch {
+                Launch::Release(_) if passed == 0.0 && !soft => {
+                    let cubed =
+                        |[at, slope]: [f64; 2]| [at, slope * ((at / step) * (at / step) * (at / step))];
+                    gap.deflated(3).first_fall(left)?.map(cubed)
+                }
+                _ => gap.first_fall(left)?,
+            } && (slope < 0.0 || passed + at > 0.0)
+            {
+                return Ok(Some((passed + at, Crossing::Touch(slope.min(0.0)))));
+            }
+            passed += step;
+            state = self.flown(passed);
+        }
+    }
+
+    /// Bounds on what the stator does from a state on, while its modes ring down.
+    pub(super) fn bounds(&self, state: &State) -> Bounds {
+        let [a, b] = self.system.height;
+        let steady = (a * a + b * b).sqrt();
+        let mut bounds = Bounds { height: steady, acceleration: steady };
+        for (index, mode) in self.system.modes.iter().enumerate() {
+            if mode.height != 0.0 {
+                let (r, speed) = (state[DISPLACEMENTS[index]], state[VELOCITIES[index]]);
+                let ringing = mode.height.abs() * (r * r + speed * speed / mode.stiffness).sqrt();
+                bounds.height += ringing;
+                bounds.acceleration += ringing * (mode.stiffness + mode.damping * mode.stiffness.sqrt());
+            }
+        }
+        bounds
+    }
+
+    /// The time from which on a disk that flies `passed` after the last event may touch the stator again, and the state
+    /// then: it is higher than the stator comes, or the gap cannot close yet with the largest acceleration.
+    fn cleared(&self, mut passed: f64, mut state: State) -> (f64, State) {
+        let step = self.regime().flow.step();
+        loop {
+            let Bounds { height: highest, acceleration } = self.bounds(&state);
+            let [height, velocity] = self.system.tip(&state);
+            // When a fall from this height with this velocity ends.
+            let lands = |above: f64, velocity: f64, pull: f64| {
+                (velocity + (velocity * velocity + 2.0 * pull * above.max(0.0)).sqrt()) / pull
+            };
+            let (above, v) = (state[GAP] + height - highest, state[CLOSING] + velocity);
+            let free = if above > 0.0 { lands(above, v, 1.0) } else { 0.0 };
+            let clear = free.max(lands(state[GAP], state[CLOSING], 1.0 + acceleration)) - 0.25 * step;
+            if clear < step {
+                return (passed, state);
+            }
+            passed += clear;
+            state = self.flown(passed);
+        }
+    }
+
+    /// Disk and modes so long after the last event, if no event comes before.
+    pub(super) fn carried(&self, time: f64) -> State {
+        let flow = &self.regime().flow;
+        // In a shorter flight a low gap would be the difference of two heights.
+        if !matches!(self.stage, Stage::Lying(_)) && time > flow.step() {
+            return self.flown(time);
+        }
+        let mut state = self.state;
+        let whole = (time / flow.step()) as u64;
+        for _ in 0..whole {
+            state = flow.advance(&state);
+        }
+        let rest = time - whole as f64 * flow.step();
+        if rest > 0.0 {
+            state = flow.after(&state, rest);
+        }
+        (state[SIN], state[COS]) = self.phase_after(time);
+        state
+    }
+
+    /// Disk and modes in flight, so long after the last event, in closed form.
+    pub(super) fn flown(&self, time: f64) -> State {
+        let from = &self.state;
+        let mut state = *from;
+        let [height, velocity] = self.system.tip(from);
+        (state[SIN], state[COS]) = self.phase_after(time);
+        for (index, mode) in self.system.modes.iter().enumerate() {
+            let ringing = [from[DISPLACEMENTS[index]], from[VELOCITIES[index]]];
+            let ringing = if mode.stiffness > 0.0 {
+                rung(mode.stiffness, mode.damping, ringing, time)
+            } else {
+                ringing
+            };
+            [state[DISPLACEMENTS[index]], state[VELOCITIES[index]]] = ringing;
+        }
+        let [tip, speed] = self.system.tip(&state);
+        let start = from[CLOSING] + velocity;
+        state[GAP] = from[GAP] + (time * (start - 0.5 * time) - (tip - height));
+        state[CLOSING] = (start - time) - speed;
+        let LoadLine { torque, slope, .. } = self.system.lines[self.line];
+        let load = torque + slope * from[SPEED];
+        let (once, twice) = exponential_integrals(slope, time);
+        state[ANGLE] = from[ANGLE] + (time * from[SPEED] - load * twice);
+        state[SPEED] = from[SPEED] - load * once;
+        state
+    }
+
+    /// Sine and cosine of the phase so long after the last event. The sum of the phase and a short time is rounded by more
+    /// than an energy ledger allows where a mode turns back: so the phase is turned by the time.
+    pub(super) fn phase_after(&self, time: f64) -> (f64, f64) {
+        if time > 1.0 {
+            return sin_cos(self.now.phase.angle() + time);
+        }
+        let ([from_sin, from_cos], (sin, cos)) = ([self.state[SIN], self.state[COS]], sin_cos(time));
+        (from_sin * cos + from_cos * sin, from_cos * cos - from_sin * sin)
+    }
+
+    /// When a disk in flight reaches another line of the load.
+    pub(super) fn next_line(&self) -> Option<(f64, usize)> {
+        let LoadLine { from, to, torque, slope } = self.system.lines[self.line];
+        let speed = self.state[SPEED];
+        let load = torque + slope * speed;
+        let (node, next) = if load > 0.0 { (from, self.line.checked_sub(1)?) } else { (to, self.line + 1) };
+        let rounding = ROUNDING * (torque.abs() + (slope * speed).abs());
+        if load.abs() <= rounding || !node.is_finite() {
+            return None;
+        }
+        // (speed - node)/load is the integral of exp(-slope t).
+        let share = ((speed - node) / load).max(0.0);
+        let after = if slope == 0.0 {
+            share
+        } else if slope * share < 1.0 {
+            -ln_1p(-slope * share) / slope
+        } else {
+            return None;
+        };
+        Some((after, next))
+    }
+
+    /// The line of the load at a speed; at a node that to which the load drives the disk.
+    pub(super) fn line_at(&self, speed: f64) -> usize {
+        let lines = &self.system.lines;
+        let index = lines.iter().rposition(|line| speed >= line.from).unwrap_or(0);
+        let line = &lines[index];
+        let falls = line.torque + line.slope * speed > 0.0;
+        if speed <= line.from && falls { index.saturating_sub(1) } else { index }
+    }
+}
+
+/// A free oscillation of unit mass with this stiffness and damping, so long after the start.
+fn rung(stiffness: f64, damping: f64, [r, v]: [f64; 2], time: f64) -> [f64; 2] {
+    if r == 0.0 && v == 0.0 {
+        return [0.0; 2];
+    }
+    let decay = 0.5 * damping;
+    let square = (stiffness - decay * decay).max(0.0);
+    let frequency = square.sqrt();
+    let (sin, cos) = sin_cos(frequency * time);
+    // sin(w t)/w, which is t where the damping is critical.
+    let share = if frequency * time < 1.0e-9 { time } else { sin / frequency };
+    let e = exp(-decay * time);
+    [e * (cos * r + share * (v + decay * r)), e * (cos * v - share * (stiffness * r + decay * v))]
+}
+
+/// The integral of exp(-rate s) from 0 to `time`, and the integral of that.
+fn exponential_integrals(rate: f64, time: f64) -> (f64, f64) {
+    let x = rate * time;
+    if x == 0.0 {
+        return (time, 0.5 * time * time);
+    }
+    if x.abs() < 0.5 {
+        let series = |first: f64| {
+            // 1/first! - x/(first + 1)! + ...
+            (1..=14).rev().fold(1.0, |sum, k| 1.0 - x / (first + f64::from(k)) * sum)
+        };
+        return (time * series(1.0), 0.5 * time * time * series(2.0));
+    }
+    let once = -exp_m1(-x) / rate;
+    (once, (time - once) / rate)
+}

@@ -1,0 +1,93 @@
+//! How the modes of a stator vibrate under a disk.
+
+use std::f64::consts::TAU;
+
+use bouncing_disk_core::numerics::elementary::hypot;
+
+use super::engine::StatorEngine;
+use super::regime::{COS, DISPLACEMENTS, SIN, SPEED, State, VELOCITIES};
+use super::{LoadLine, MODES};
+use crate::motion::contact_motion::Lying;
+use crate::motion::engine::Stage;
+
+/// The motion of a mode at an instant, as a sine about its mean place.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Vibration {
+    /// Of the coordinate from its mean place.
+    pub(crate) distance: f64,
+    pub(crate) speed: f64,
+    /// Of the sine, in units of that of the drive.
+    pub(crate) frequency: f64,
+}
+
+impl Vibration {
+    fn amplitude(self) -> f64 {
+        hypot(self.distance, self.speed / self.frequency)
+    }
+}
+
+impl StatorEngine {
+    /// The amplitude of the first mode, if it moves in height, so long after the last event.
+    pub(crate) fn amplitude_after(&self, span: f64) -> Option<f64> {
+        (self.system.modes[0].height != 0.0).then(|| self.vibration_after(span)[0].amplitude())
+    }
+
+    /// How each mode vibrates so long after the last event: at the frequency of the drive, or at its own resonance if
+    /// nothing drives the modes.
+    pub(crate) fn vibration_after(&self, span: f64) -> [Vibration; MODES] {
+        let state = if span > 0.0 { self.carried(span) } else { self.state };
+        let means = self.bent(self.mean_forces(&state, self.aloft + span));
+        let still = self.system.modes.iter().all(|mode| mode.steady.iter().all(|part| *part == 0.0));
+        std::array::from_fn(|index| {
+            let [place, speed] = self.mode_state(index, &state);
+            let frequency = if still { self.system.modes[index].stiffness.sqrt() } else { 1.0 };
+            Vibration { distance: place - means[index], speed, frequency }
+        })
+    }
+
+    /// The mean normal force and the mean torque of friction on a disk in this state that is `aloft` for so long: its
+    /// weight, and what holds against the load or slips; nothing in a flight that is longer than a period.
+    fn mean_forces(&self, state: &State, aloft: f64) -> [f64; 2] {
+        match self.stage {
+            Stage::Flight(_) if aloft > TAU => [0.0; 2],
+            Stage::Lying(Lying { slip: Some(direction), .. }) => {
+                [1.0, -direction.sign() * self.system.base.friction()]
+            }
+            _ => [1.0, self.held_load(state)],
+        }
+    }
+
+    /// The load on a disk, as far as friction holds it.
+    fn held_load(&self, state: &State) -> f64 {
+        let LoadLine { torque, slope, .. } = self.system.lines[self.line];
+        let friction = self.system.base.friction();
+        (torque + slope * state[SPEED]).clamp(-friction, friction)
+    }
+
+    /// Where a constant normal force and torque bend each mode to.
+    fn bent(&self, [force, torque]: [f64; 2]) -> [f64; MODES] {
+        self.system.modes.map(|mode| {
+            if mode.stiffness == 0.0 {
+                return 0.0;
+            }
+            -(mode.by_force * force + mode.by_torque * torque) / mode.stiffness
+        })
+    }
+
+    /// Stills the modes under a disk that lies at rest, where its weight and its load bend them to.
+    pub(crate) fn calm(&mut self) {
+        let means = self.bent([1.0, self.held_load(&self.state)]);
+        for (index, mean) in means.into_iter().enumerate() {
+            let [place, speed] = self.system.steady(index, (self.state[SIN], self.state[COS]));
+            (self.state[DISPLACEMENTS[index]], self.state[VELOCITIES[index]]) = (mean - place, -speed);
+        }
+        self.searched = 0.0;
+        self.go_on();
+    }
+
+    /// Coordinate and speed of a mode.
+    pub(super) fn mode_state(&self, index: usize, state: &State) -> [f64; 2] {
+        let [place, speed] = self.system.steady(index, (state[SIN], state[COS]));
+        [place + state[DISPLACEMENTS[index]], speed + state[VELOCITIES[index]]]
+    }
+}
