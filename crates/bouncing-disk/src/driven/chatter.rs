@@ -20,6 +20,8 @@ impl DrivenSystem {
     pub(super) fn chatter(&self, phase: Phase, launch: f64, speed: f64, duration: f64) -> Chatter {
         let at = phase.angle();
         let start = self.height.at(at);
+        let law = |restitution| [self.friction, self.load, restitution];
+        let turn = |time: f64| self.angle.at(at + time).velocity;
         let mut chatter = Chatter::before(phase, launch, speed);
         while chatter.impacts < MOST_IMPACTS && chatter.launch_speed > LEAST_SHARE * launch {
             let (time, launch_speed) = (chatter.time, chatter.launch_speed);
@@ -32,7 +34,7 @@ impl DrivenSystem {
             let velocity = launch_speed - flight * (pull + 0.5 * start.jerk * flight);
             let time = time + flight;
             let platform = start.velocity + time * (start.acceleration + 0.5 * time * start.jerk);
-            self.strike(&mut chatter, at, (time, flight), [velocity, platform], self.restitution);
+            chatter.strike(law(self.restitution), (time, flight), [velocity, platform], turn(time));
         }
         if launch <= 0.0 {
             return chatter;
@@ -42,20 +44,7 @@ impl DrivenSystem {
         let left = duration - time;
         let lifted = (end.velocity - start.velocity) - time * (start.acceleration + 0.5 * time * start.jerk);
         let velocity = (chatter.launch_speed - (left + lifted)).min(0.0);
-        self.strike(&mut chatter, at, (duration, left), [velocity, end.velocity], 0.0);
+        chatter.strike(law(0.0), (duration, left), [velocity, end.velocity], turn(duration));
         chatter
-    }
-
-    /// An impact of a chatter that began at `at`, so long after the start, at the end of a flight.
-    fn strike(
-        &self,
-        chatter: &mut Chatter,
-        at: f64,
-        (time, flight): (f64, f64),
-        velocities: [f64; 2],
-        restitution: f64,
-    ) {
-        let turn = self.angle.at(at + time).velocity;
-        chatter.strike([self.friction, self.load, restitution], (time, flight), velocities, turn);
     }
 }

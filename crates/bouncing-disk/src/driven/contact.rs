@@ -259,10 +259,18 @@ impl Touching<'_> {
                 + d * turned)
     }
 
-    /// The next joint of height or angle.
-    fn next_joint(&self, here: f64) -> Option<TimeAhead> {
-        let joints = [self.ride.next_joint(here), self.system.angle.next_joint(here)];
-        joints.into_iter().flatten().min_by(|a, b| a.after.total_cmp(&b.after))
+    /// The way from `at` over `span` from joint to joint of height or angle: the start of each stretch, the time passed
+    /// until then, and its length.
+    fn stretches(&self, at: f64, span: f64) -> impl Iterator<Item = (f64, f64, f64)> {
+        let mut next = Some((at, 0.0));
+        std::iter::from_fn(move || {
+            let (here, passed) = next.take()?;
+            let joints = [self.ride.next_joint(here), self.system.angle.next_joint(here)];
+            let joint = joints.into_iter().flatten().min_by(|a, b| a.after.total_cmp(&b.after));
+            let left = span - passed;
+            next = joint.filter(|joint| joint.after < left).map(|joint| (joint.time, passed + joint.after));
+            Some((here, passed, joint.map_or(left, |joint| joint.after.min(left))))
+        })
     }
 
     /// The first time at which a function falls through zero, joint by joint; `of` gives it from a time on
@@ -273,11 +281,7 @@ impl Touching<'_> {
         limit: f64,
         mut of: impl FnMut(f64, f64) -> Option<QuasiPolynomial>,
     ) -> Result<Option<f64>, Error> {
-        let (mut here, mut passed) = (at, 0.0);
-        loop {
-            let joint = self.next_joint(here);
-            let left = limit - passed;
-            let step = joint.map_or(left, |joint| joint.after.min(left));
+        for (here, passed, step) in self.stretches(at, limit) {
             let Some(function) = of(here, passed) else { return Ok(Some(passed)) };
             let mut from = 0.0;
             while from < step {
@@ -289,11 +293,8 @@ impl Touching<'_> {
                     FirstRoot::Undecided { until, .. } => from = until,
                 }
             }
-            match joint {
-                Some(joint) if joint.after < left => (here, passed) = (joint.time, passed + joint.after),
-                _ => return Ok(None),
-            }
         }
+        Ok(None)
     }
 
     /// A slide from `at` on for `span` in `direction`, of a disk with angular `speed`.
@@ -331,12 +332,9 @@ impl Touching<'_> {
             return work;
         }
         let number = self.ride.rate().max(self.system.angle.highest_harmonic());
-        let (mut here, mut passed, mut work) = (at, 0.0, SlideWork::default());
-        let mut last = (at, 0.0, speed);
-        while passed < span {
-            let joint = self.next_joint(here);
-            let left = span - passed;
-            let stretch = joint.map_or(left, |joint| joint.after.min(left));
+        let (mut last, mut work) = ((at, 0.0, speed), SlideWork::default());
+        let stretches = self.stretches(at, span).take_while(|&(_, passed, _)| passed < span);
+        for (here, passed, stretch) in stretches {
             // A rule of eight points is exact to rounding over one radian of the highest harmonic.
             let panels = whole(stretch * number) + 1.0;
             let value = self.carried(direction, last, passed);
@@ -353,10 +351,6 @@ impl Touching<'_> {
                 work.slipped += force * slip;
                 work.size += force.abs() * (carrier.abs() + slip.abs());
             });
-            match joint {
-                Some(joint) if joint.after < left => (here, passed) = (joint.time, passed + joint.after),
-                _ => break,
-            }
         }
         work
     }

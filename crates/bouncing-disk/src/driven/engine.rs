@@ -215,11 +215,6 @@ impl DrivenEngine {
         self.ground.settled.as_ref().unwrap_or(&self.system.height)
     }
 
-    /// Whether a flight begins now.
-    pub(crate) const fn launches(&self) -> bool {
-        matches!(self.stage, Stage::Flight(DrivenFlight::Free { .. } | DrivenFlight::Separated))
-    }
-
     /// When, and the disk, `span` radians after the last event, if no event comes before. A chatter that is
     /// being summed counts as rest. A negative span and NaN count as zero, a longer one than
     /// [`MAX_FLIGHT_DURATION`](bouncing_disk_core::flight::MAX_FLIGHT_DURATION) as that.
@@ -233,24 +228,11 @@ impl DrivenEngine {
         (time, state)
     }
 
-    /// The energy of the spring of a contact that takes time, in the `state` so long after the last event.
-    pub(crate) fn spring_energy(&self, span: f64, state: &DiskState) -> f64 {
-        let Some(compliant) = &self.system.compliance else { return 0.0 };
-        let at = wrapped_angle(self.at() + span);
-        compliant.spring_energy(state.height - self.system.height.at(at).height)
-    }
-
     /// The energy balance from the last event to `span` radians later, as for [`Self::state_after`].
     #[must_use]
     pub fn ledger_after(&self, span: f64) -> EnergyLedger {
         let span = legal_span(span);
         self.passed(span, wrapped_angle(self.at() + span)).ledger
-    }
-
-    /// The next event if it comes within `limit` radians of the last one. Without one the engine stays where
-    /// it is.
-    pub(crate) fn advance_within(&mut self, limit: f64) -> Result<Option<EventRecord>, Error> {
-        self.next_within(limit)
     }
 
     /// The gap and the relative velocity at the start of a flight, if one begins now.
@@ -275,20 +257,6 @@ impl DrivenEngine {
             angular_speed,
         };
         (self.ground.pressed, self.ground.settled) = (None, None);
-        self.stage = Stage::Flight(DrivenFlight::Free { gap, velocity });
-    }
-
-    /// Adds a relative speed >= 0 (g/omega) to a flight that starts now; does nothing at any other time.
-    pub(crate) fn perturb_launch(&mut self, speed: f64) {
-        let (gap, velocity) = match self.stage {
-            Stage::Flight(DrivenFlight::Separated) => (0.0, speed),
-            // A contact that takes time ends before its spring is free.
-            Stage::Flight(DrivenFlight::Free { gap, velocity }) if gap <= 0.0 && velocity >= 0.0 => {
-                (gap, velocity + speed)
-            }
-            _ => return,
-        };
-        self.state.axial_velocity += speed;
         self.stage = Stage::Flight(DrivenFlight::Free { gap, velocity });
     }
 
@@ -436,7 +404,7 @@ pub(super) fn lying_pressed(
 
 impl SteeredMotion for DrivenEngine {
     fn advance_within(&mut self, limit: f64) -> Result<Option<EventRecord>, Error> {
-        self.advance_within(limit)
+        self.next_within(limit)
     }
 
     fn disk_after(&self, span: f64) -> DiskState {
@@ -448,23 +416,26 @@ impl SteeredMotion for DrivenEngine {
     }
 
     fn spring_energy(&self, span: f64, state: &DiskState) -> f64 {
-        self.spring_energy(span, state)
+        let Some(compliant) = &self.system.compliance else { return 0.0 };
+        let at = wrapped_angle(self.at() + span);
+        compliant.spring_energy(state.height - self.system.height.at(at).height)
     }
 
     fn launches(&self) -> bool {
-        self.launches()
+        matches!(self.stage, Stage::Flight(DrivenFlight::Free { .. } | DrivenFlight::Separated))
     }
 
     fn perturb_launch(&mut self, speed: f64) {
-        self.perturb_launch(speed);
-    }
-
-    fn pause_contact(&mut self, _: f64) -> Option<Energies> {
-        None
-    }
-
-    fn amplitude_after(&self, _: f64) -> Option<f64> {
-        None
+        let (gap, velocity) = match self.stage {
+            Stage::Flight(DrivenFlight::Separated) => (0.0, speed),
+            // A contact that takes time ends before its spring is free.
+            Stage::Flight(DrivenFlight::Free { gap, velocity }) if gap <= 0.0 && velocity >= 0.0 => {
+                (gap, velocity + speed)
+            }
+            _ => return,
+        };
+        self.state.axial_velocity += speed;
+        self.stage = Stage::Flight(DrivenFlight::Free { gap, velocity });
     }
 
     fn skip_energies(&mut self) {

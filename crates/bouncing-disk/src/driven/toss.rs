@@ -8,7 +8,7 @@ use super::engine::DrivenEngine;
 use super::{DrivenStart, DrivenSystem};
 use crate::error::{Error, check};
 use crate::motion::energy::EnergyLedger;
-use crate::motion::event::Event;
+use crate::motion::event::{Event, SteeredMotion};
 use crate::parameters::disk::Disk;
 use crate::parameters::driven_platform::DrivenPlatform;
 use crate::toss::collisions::Collisions;

@@ -166,28 +166,13 @@ pub(crate) struct Placed<L = Constant> {
     pub(crate) speed: f64,
 }
 
-impl Placed {
-    /// A disk with angular `speed` that is put on the platform at `phase`.
+impl<L: RestitutionLaw> Placed<L> {
+    /// A disk with angular `speed` that is put on the platform at `phase`; the `map` may have another law of restitution
+    /// than the system.
     ///
     /// # Errors
     /// Those of the core's launches.
     pub(crate) fn new(
-        system: &DimensionlessSystem,
-        friction: &Friction,
-        phase: Phase,
-        speed: f64,
-        policy: ChatterPolicy,
-    ) -> Result<Self, Error> {
-        Self::with_map(system, system.map(), friction, phase, speed, policy)
-    }
-}
-
-impl<L: RestitutionLaw> Placed<L> {
-    /// [`Placed::new`] for a `map` that may have another law of restitution than the system.
-    ///
-    /// # Errors
-    /// Those of the core's launches.
-    pub(crate) fn with_map(
         system: &DimensionlessSystem,
         map: &ImpactMap<L>,
         friction: &Friction,

@@ -162,7 +162,7 @@ pub trait Motion {
 
 /// A motion that can be followed to any time and disturbed, as a motor needs it. All spans are in radians since the
 /// last event, and hold if no event comes before their end.
-#[allow(dead_code, reason = "the motors call the engines by name until they are generic over their motion")]
+#[allow(dead_code, reason = "the motors name their engines until they are generic over the motion")]
 pub(crate) trait SteeredMotion: Motion {
     /// The next event if it comes within `limit`. Without one the motion stays at its last event.
     fn advance_within(&mut self, limit: f64) -> Result<Option<Self::Record>, Error>;
@@ -185,10 +185,14 @@ pub(crate) trait SteeredMotion: Motion {
     /// Goes on from `span` later, with the energy balances up to then, if the disk lies on a stator that yields: its
     /// contact need not be followed from the last event again. `None` for every other motion, which stays at its last
     /// event.
-    fn pause_contact(&mut self, span: f64) -> Option<Energies>;
+    fn pause_contact(&mut self, _span: f64) -> Option<Energies> {
+        None
+    }
 
     /// The amplitude of the axial mode of a stator that yields, `span` later.
-    fn amplitude_after(&self, span: f64) -> Option<f64>;
+    fn amplitude_after(&self, _span: f64) -> Option<f64> {
+        None
+    }
 
     /// Computes no energies from now on, of which a run-up needs none.
     fn skip_energies(&mut self);

@@ -92,7 +92,8 @@ impl Rotor {
         policy: ChatterPolicy,
     ) -> Result<Self, Error> {
         let friction = Friction::new(system);
-        let Placed { orbit, lying: contact, speed } = Placed::new(system, &friction, phase, speed, policy)?;
+        let Placed { orbit, lying: contact, speed } =
+            Placed::new(system, system.map(), &friction, phase, speed, policy)?;
         let now = PhaseTime::in_first_period(phase);
         Ok(Self { system: *system, friction, orbit, contact, now, speed, turned: 0.0 })
     }

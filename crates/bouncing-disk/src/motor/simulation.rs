@@ -10,7 +10,7 @@ use bouncing_disk_core::{Observer, Phase};
 use crate::driven::DrivenStart;
 use crate::error::{Error, check, finite, moderate_not_negative};
 use crate::motion::energy::EnergyLedger;
-use crate::motion::event::Event;
+use crate::motion::event::{Event, SteeredMotion};
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
 use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::motor_field::MotorField;

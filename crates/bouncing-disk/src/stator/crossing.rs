@@ -7,7 +7,7 @@ use super::linear_flow::dot;
 use super::regime::{ANGLE, CLOSING, COS, ContactStiffness, GAP, SIN, SPEED, VELOCITIES};
 use crate::motion::energy::EnergyLedger;
 use crate::motion::engine::Stage;
-use crate::motion::event::Event;
+use crate::motion::event::{Event, SteeredMotion};
 use crate::motion::impact_energy::record_slip_end;
 use crate::motion::phase_time::PhaseSpan;
 use crate::motion::state::{Mode, SlipDirection};

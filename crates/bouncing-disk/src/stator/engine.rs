@@ -228,37 +228,10 @@ impl StatorEngine {
         self.ledgers(span, &self.carried(span))
     }
 
-    /// The energy of the spring of a contact that takes time, so long after the last event.
-    pub(crate) fn spring_energy(&self, span: f64) -> f64 {
-        match self.system.contact {
-            ContactStiffness::Soft { stiffness, .. } => {
-                let gap = self.carried(span.max(0.0))[GAP].min(0.0);
-                0.5 * stiffness * gap * gap
-            }
-            ContactStiffness::Rigid => 0.0,
-        }
-    }
-
-    /// Whether a flight begins now.
-    pub(crate) const fn launches(&self) -> bool {
-        matches!(self.stage, Stage::Flight(_))
-    }
-
     /// Whether the disk never leaves the stator again, as far as is known, or the motion has ended.
     #[must_use]
     pub const fn lies_for_ever(&self) -> bool {
         matches!(self.stage, Stage::Lying(Lying { end: None, .. }) | Stage::Ended)
-    }
-
-    /// Adds a relative speed >= 0 to a flight that starts now from the stator; does nothing at any other time.
-    pub(crate) fn perturb_launch(&mut self, speed: f64) {
-        if let Stage::Flight(launch @ (Launch::Rebound | Launch::Release(_))) = &mut self.stage {
-            self.state[CLOSING] += speed;
-            self.searched = 0.0;
-            if speed > 0.0 {
-                *launch = if self.state[GAP] < 0.0 { Launch::Below } else { Launch::Rebound };
-            }
-        }
     }
 
     /// Moves the origin of the present motion to `span` later, in which time no event comes.
@@ -370,29 +343,6 @@ impl StatorEngine {
         self.advance_within(f64::INFINITY)
     }
 
-    /// The next event if it comes within `limit` radians of the last one. Without one the engine stays where it is.
-    pub(crate) fn advance_within(&mut self, limit: f64) -> Result<Option<StatorRecord>, Error> {
-        let next = match self.stage {
-            Stage::Flight(launch) => {
-                let line = self.next_line().filter(|(after, _)| *after < limit);
-                let mut searched = self.searched;
-                let next = self.flight_end(launch, line.map_or(limit, |(after, _)| after), &mut searched);
-                self.searched = searched;
-                next.map(|next| next.or_else(|| line.map(|(after, line)| (after, Crossing::LoadNode(line)))))
-            }
-            Stage::Lying(Lying { slip, .. }) => self.contact_end(slip, limit),
-            Stage::Ended => Ok(None),
-        };
-        match next {
-            Ok(Some((span, crossing))) => Ok(Some(self.cross(span, crossing))),
-            Ok(None) => Ok(None),
-            Err(error) => {
-                self.stage = Stage::Ended;
-                Err(error)
-            }
-        }
-    }
-
     pub(super) const fn mode(&self) -> Mode {
         self.stage.mode()
     }
@@ -465,7 +415,25 @@ impl Motion for StatorEngine {
 
 impl SteeredMotion for StatorEngine {
     fn advance_within(&mut self, limit: f64) -> Result<Option<StatorRecord>, Error> {
-        self.advance_within(limit)
+        let next = match self.stage {
+            Stage::Flight(launch) => {
+                let line = self.next_line().filter(|(after, _)| *after < limit);
+                let mut searched = self.searched;
+                let next = self.flight_end(launch, line.map_or(limit, |(after, _)| after), &mut searched);
+                self.searched = searched;
+                next.map(|next| next.or_else(|| line.map(|(after, line)| (after, Crossing::LoadNode(line)))))
+            }
+            Stage::Lying(Lying { slip, .. }) => self.contact_end(slip, limit),
+            Stage::Ended => Ok(None),
+        };
+        match next {
+            Ok(Some((span, crossing))) => Ok(Some(self.cross(span, crossing))),
+            Ok(None) => Ok(None),
+            Err(error) => {
+                self.stage = Stage::Ended;
+                Err(error)
+            }
+        }
     }
 
     fn disk_after(&self, span: f64) -> DiskState {
@@ -478,15 +446,27 @@ impl SteeredMotion for StatorEngine {
     }
 
     fn spring_energy(&self, span: f64, _: &DiskState) -> f64 {
-        self.spring_energy(span)
+        match self.system.contact {
+            ContactStiffness::Soft { stiffness, .. } => {
+                let gap = self.carried(span.max(0.0))[GAP].min(0.0);
+                0.5 * stiffness * gap * gap
+            }
+            ContactStiffness::Rigid => 0.0,
+        }
     }
 
     fn launches(&self) -> bool {
-        self.launches()
+        matches!(self.stage, Stage::Flight(_))
     }
 
     fn perturb_launch(&mut self, speed: f64) {
-        self.perturb_launch(speed);
+        if let Stage::Flight(launch @ (Launch::Rebound | Launch::Release(_))) = &mut self.stage {
+            self.state[CLOSING] += speed;
+            self.searched = 0.0;
+            if speed > 0.0 {
+                *launch = if self.state[GAP] < 0.0 { Launch::Below } else { Launch::Rebound };
+            }
+        }
     }
 
     fn pause_contact(&mut self, span: f64) -> Option<Energies> {
@@ -494,7 +474,7 @@ impl SteeredMotion for StatorEngine {
     }
 
     fn amplitude_after(&self, span: f64) -> Option<f64> {
-        self.amplitude_after(span)
+        (self.system.modes[0].height != 0.0).then(|| self.vibration_after(span)[0].amplitude())
     }
 
     fn skip_energies(&mut self) {

@@ -8,7 +8,7 @@ use bouncing_disk_core::numerics::random::SplitMix64;
 use super::*;
 use crate::Engine;
 use crate::driven::DrivenStart;
-use crate::motion::event::Event;
+use crate::motion::event::{Event, SteeredMotion};
 use crate::parameters::dimensionless::DimensionlessParameters;
 
 fn base(peak: f64, twist: f64, lag: f64, friction: f64, restitution: f64, load: f64) -> DimensionlessSystem {

@@ -21,17 +21,12 @@ pub(crate) struct Vibration {
 }
 
 impl Vibration {
-    fn amplitude(self) -> f64 {
+    pub(super) fn amplitude(self) -> f64 {
         hypot(self.distance, self.speed / self.frequency)
     }
 }
 
 impl StatorEngine {
-    /// The amplitude of the first mode, if it moves in height, so long after the last event.
-    pub(crate) fn amplitude_after(&self, span: f64) -> Option<f64> {
-        (self.system.modes[0].height != 0.0).then(|| self.vibration_after(span)[0].amplitude())
-    }
-
     /// How each mode vibrates so long after the last event: at the frequency of the drive, or at its own resonance if
     /// nothing drives the modes.
     pub(crate) fn vibration_after(&self, span: f64) -> [Vibration; MODES] {

@@ -91,7 +91,7 @@ impl<L: RestitutionLaw> Engine<SineGround<L>> {
         match start {
             InitialCondition::Contact { .. } => {
                 let friction = &engine.ground.friction;
-                let placed = Placed::with_map(&system, map, friction, phase, speed, policy)?;
+                let placed = Placed::new(&system, map, friction, phase, speed, policy)?;
                 engine.ground.orbit = placed.orbit;
                 engine.state.angular_speed = placed.speed;
                 if let Some(lying) = placed.lying {

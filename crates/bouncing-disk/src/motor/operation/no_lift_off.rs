@@ -13,7 +13,7 @@ use crate::driven::{DrivenEngine, DrivenSystem};
 use crate::error::Error;
 use crate::motion::energy::EnergyLedger;
 use crate::motion::engine::Engine;
-use crate::motion::event::Event;
+use crate::motion::event::{Event, SteeredMotion};
 use crate::motion::initial_condition::InitialCondition;
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
 use crate::motor::operation::window::{AxialWindow, RotorWindow, Window};

@@ -209,6 +209,7 @@ fn the_operations_of_another_sweep_are_refused() {
 #[test]
 fn a_continued_sweep_keeps_what_the_rotor_does() {
     use crate::driven::DrivenStart;
+    use crate::motion::event::SteeredMotion;
     use crate::parameters::StatorParameters;
     use crate::stator::{StatorEngine, StatorSystem};
     use bouncing_disk_core::Phase;

@@ -7,7 +7,7 @@ use bouncing_disk_core::{ChatterPolicy, Drive};
 use super::*;
 use crate::driven::{DrivenEngine, DrivenStart};
 use crate::motion::energy::EnergyLedger;
-use crate::motion::event::{Event, Motion};
+use crate::motion::event::{Event, Motion, SteeredMotion};
 use crate::motion::phase_time::phase_at;
 
 /// Times, speeds and energies of a tap agree to this share of their sizes, which for the energies are those of
