@@ -46,8 +46,8 @@ pub(crate) mod trajectory;
 pub(crate) mod transition;
 
 pub use energy::EnergyLedger;
-pub use engine::SineGround;
 pub use engine::sample::{MAX_SAMPLED_PERIODS, MAX_SAMPLES};
+pub use engine::{Ground, OnGround, SineGround};
 pub use event::{Energies, Motion, MotionRecord};
 pub use friction::MAX_CONTACT_EVENTS;
 pub use paper_chatter::{PAPER_CHATTER, PAPER_CUT};

@@ -243,10 +243,11 @@ impl DrivenEngine {
         let next = Stage::Lying(self.landed(to.time.phase.angle(), after.angular_speed)?);
         let event = Event::Attachment { impacts: rest.impacts, error_bound: error };
         let change = RotaryChange { speed: rest.angular_speed, angle: rest.angle };
-        let mut record = self.moved(&to, event, Passed { change, ledger, before }, after, next);
+        let (passed, impulses) =
+            (Passed { change, ledger, before }, [rest.axial_impulse, rest.angular_impulse]);
+        let mut record = self.moved(&to, event, passed, after, next, impulses);
         record.segment.chatter_speed = Some(launch);
-        let (axial_impulse, angular_impulse) = (rest.axial_impulse, rest.angular_impulse);
-        Ok(EventRecord { axial_impulse, angular_impulse, ..record })
+        Ok(record)
     }
 
     /// A cut takes the rebound `speed` away.
@@ -261,8 +262,7 @@ impl DrivenEngine {
         let event = Event::Attachment { impacts: 0, error_bound: error };
         let change = RotaryChange { speed: before.angular_speed, angle: 0.0 };
         let here = Step { time: self.now, span: PhaseSpan::ZERO, duration: 0.0 };
-        let record = self.moved(&here, event, Passed { change, ledger, before }, after, next);
-        Ok(EventRecord { axial_impulse: -speed, ..record })
+        Ok(self.moved(&here, event, Passed { change, ledger, before }, after, next, [-speed, 0.0]))
     }
 
     /// The start of a contact that takes time.
@@ -292,7 +292,7 @@ impl DrivenEngine {
         };
         let (pressed, next) = self.pressed_from(state, change.speed)?.unzip();
         let next = next.map_or(Stage::Ended, Stage::Lying);
-        let record = self.moved(&to, event, Passed { change, ledger, before }, before, next);
+        let record = self.moved(&to, event, Passed { change, ledger, before }, before, next, [0.0; 2]);
         self.ground.pressed = pressed;
         Ok(record)
     }
@@ -312,18 +312,19 @@ impl DrivenEngine {
                     let touching = Touching { system: &self.system, ride: Ride::Pressed(&next, 0.0) };
                     let lying = lying_pressed(&next, slip.or_else(|| touching.onset(at, None)))?;
                     self.ground.pressed = Some(next);
-                    Ok(self.moved(&to, Event::Turn, passed, after, Stage::Lying(lying)))
+                    Ok(self.moved(&to, Event::Turn, passed, after, Stage::Lying(lying), [0.0; 2]))
                 }
                 Then::Settles => {
                     self.ground.settled = Some(pressed.platform().steady()?);
                     let event = Event::Attachment { impacts: 0, error_bound: 0.0 };
-                    Ok(self.moved(&to, event, passed, before, Stage::Lying(Lying { slip, end: None })))
+                    let next = Stage::Lying(Lying { slip, end: None });
+                    Ok(self.moved(&to, event, passed, before, next, [0.0; 2]))
                 }
                 Then::Leaves => {
                     let RelativeState { gap, velocity, .. } = pressed.released(span);
                     record_jump(&mut passed.ledger, &before, &before);
                     let next = Stage::Flight(DrivenFlight::Free { gap, velocity });
-                    Ok(self.moved(&to, Event::Separation, passed, before, next))
+                    Ok(self.moved(&to, Event::Separation, passed, before, next, [0.0; 2]))
                 }
             };
         }
@@ -335,7 +336,7 @@ impl DrivenEngine {
         } else {
             DrivenFlight::Separated
         };
-        Ok(self.moved(&to, Event::Separation, passed, before, Stage::Flight(next)))
+        Ok(self.moved(&to, Event::Separation, passed, before, Stage::Flight(next), [0.0; 2]))
     }
 
     /// `state` with the height and velocity at which a contact begins: what the roundings of long contacts
@@ -385,6 +386,6 @@ impl DrivenEngine {
             let ahead = TimeAhead { after: (end.ahead.after - span).max(0.0), ..end.ahead };
             DrivenEnd { ahead, ..end }
         });
-        self.moved(to, event, passed, after, Stage::Lying(Lying { slip, end }))
+        self.moved(to, event, passed, after, Stage::Lying(Lying { slip, end }), [0.0; 2])
     }
 }

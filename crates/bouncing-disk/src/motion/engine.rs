@@ -276,8 +276,7 @@ impl<G: Ground> Engine<G> {
         } else {
             Event::Impact { axial_impact_velocity, tangential_impact_velocity, capped }
         };
-        let record = self.moved(to, event, passed, after, next);
-        EventRecord { axial_impulse, angular_impulse: done.rotary, ..record }
+        self.moved(to, event, passed, after, next, [axial_impulse, done.rotary])
     }
 
     /// The rotary motion of a flight.
@@ -293,8 +292,8 @@ impl<G: Ground> Engine<G> {
         record_flight_load(ledger, load, start.angular_speed, change);
     }
 
-    /// The record of an event, after which the engine is there, with the disk in the state `after` up to its angle and
-    /// its mode, which is that of the `next` stage.
+    /// The record of an event with these impulses, after which the engine is there, with the disk in the state `after` up
+    /// to its angle and its mode, which is that of the `next` stage.
     pub(crate) fn moved(
         &mut self,
         to: &Step,
@@ -302,6 +301,7 @@ impl<G: Ground> Engine<G> {
         passed: Passed,
         mut after: DiskState,
         next: StageOn<G>,
+        [axial_impulse, angular_impulse]: [f64; 2],
     ) -> EventRecord {
         let Passed { change, ledger, mut before } = passed;
         self.angle.add(change.angle);
@@ -315,8 +315,8 @@ impl<G: Ground> Engine<G> {
             event,
             before,
             after,
-            axial_impulse: 0.0,
-            angular_impulse: 0.0,
+            axial_impulse,
+            angular_impulse,
             ledger,
             segment,
             span: to.span,

@@ -246,10 +246,11 @@ impl<L: RestitutionLaw> Engine<SineGround<L>> {
         let step = Step { time, span: PhaseSpan { periods: 0, remainder: duration }, duration };
         let event = Event::Attachment { impacts: chatter.impacts, error_bound: accumulation.error_bound };
         let change = RotaryChange { angle: chatter.angle + change.angle, ..change };
+        let passed = Passed { change, ledger, before };
         let mut record =
-            self.moved(&step, event, Passed { change, ledger, before }, after, Stage::Lying(lying));
+            self.moved(&step, event, passed, after, Stage::Lying(lying), [axial_impulse, angular_impulse]);
         record.segment.chatter_speed = (!cut).then_some(rest.last_speed);
-        EventRecord { axial_impulse, angular_impulse, ..record }
+        record
     }
 
     /// The record of a step of contact, and the energy of it.
@@ -278,7 +279,7 @@ impl<L: RestitutionLaw> Engine<SineGround<L>> {
         }
         let next = step.next.map_or(Stage::Flight(()), Stage::Lying);
         let to = Step { time, span, duration: span.radians() };
-        self.moved(&to, event, Passed { change, ledger, before }, before, next)
+        self.moved(&to, event, Passed { change, ledger, before }, before, next, [0.0; 2])
     }
 }
 
