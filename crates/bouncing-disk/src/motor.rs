@@ -26,7 +26,6 @@
 //! the speeds: docs/numerics/motors.md.
 
 pub(crate) mod batch;
-mod carried;
 pub mod circular;
 pub(crate) mod data_sheet;
 pub(crate) mod impulse;

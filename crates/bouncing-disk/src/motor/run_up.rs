@@ -8,11 +8,10 @@ use bouncing_disk_core::{Observer, Phase, Progress};
 
 use crate::driven::{DrivenEngine, DrivenStart, DrivenSystem};
 use crate::error::Error;
-use crate::motion::event::Event;
+use crate::motion::event::{Event, Motion, SteeredMotion};
 use crate::motion::phase_time::PhaseTime;
 use crate::motor::batch::members::TransientMember;
 use crate::motor::batch::transients::transients;
-use crate::motor::carried::Carried;
 use crate::motor::data_sheet::Motor;
 use crate::motor::operation::tapped::Tapped;
 use crate::motor::rotor::transient::{
@@ -131,7 +130,7 @@ impl Motor {
         if load.is_some_and(|load| !load.drives_at(0.0)) {
             engine.calm();
         }
-        engine.with_energy = false;
+        engine.skip_energies();
         let mut run = RunUp::new(settings, &unit, engine.time())?;
         while run.goes_on() {
             work.spend(FLIGHTS_OF_EVENT)?;
@@ -150,8 +149,7 @@ impl Motor {
                 watch.set_done(run.bins.present.index as u64);
             } else if samples {
                 amplitudes.extend(engine.amplitude_after(until).map(|amplitude| amplitude * unit.length));
-                if !engine.launches() {
-                    engine.pause(until);
+                if engine.pause_contact(until).is_some() {
                     run.bins.add((now + until) * unit.time, engine.disk().angle - angle);
                 }
             } else if let Some((load, change)) = change {
@@ -185,7 +183,7 @@ fn driven_run_up(
     let mut work = watch.work();
     let start = DrivenStart::Contact { phase, angular_speed: 0.0 };
     let mut engine = DrivenEngine::new(system.clone(), start, settings.policy)?;
-    engine.with_energy = false;
+    engine.skip_energies();
     let mut tapped = Tapped::new(std::iter::once(system));
     let mut run = RunUp::new(settings, unit, engine.time())?;
     while run.goes_on() {
@@ -258,7 +256,7 @@ impl<'a> RunUp<'a> {
     }
 
     /// Counts an event, after which the rotor has turned from this `angle`.
-    fn count(&mut self, engine: &mut impl Carried, event: &Event, angle: f64) {
+    fn count(&mut self, engine: &mut impl SteeredMotion, event: &Event, angle: f64) {
         match event {
             Event::Impact { .. } | Event::Kick { .. } | Event::Recontact => self.impacts += 1,
             Event::Separation => self.separations += 1,
@@ -273,7 +271,7 @@ impl<'a> RunUp<'a> {
     }
 
     /// No event is left: the motion continues through the rest of the intervals.
-    fn coast(&mut self, engine: &impl Carried) {
+    fn coast(&mut self, engine: &impl SteeredMotion) {
         let (angle, now) = (engine.disk().angle, self.passed(&engine.time()));
         let mut turned = 0.0;
         for index in self.bins.present.index..self.settings.intervals {

@@ -414,6 +414,8 @@ impl Motion for StatorEngine {
 }
 
 impl SteeredMotion for StatorEngine {
+    const YIELDS: bool = true;
+
     fn advance_within(&mut self, limit: f64) -> Result<Option<StatorRecord>, Error> {
         let next = match self.stage {
             Stage::Flight(launch) => {

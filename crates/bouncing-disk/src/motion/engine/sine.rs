@@ -32,11 +32,11 @@ pub struct SineGround<L = Constant> {
     pub(super) orbit: Option<Orbit<L>>,
 }
 
-impl<S: Into<DimensionlessSystem>> OnGround for S {
+impl<S: TryInto<DimensionlessSystem, Error: Into<Error>>> OnGround for S {
     type Ground = SineGround;
 
     fn start(self, start: InitialCondition, policy: ChatterPolicy) -> Result<Engine, Error> {
-        let system = self.into();
+        let system = self.try_into().map_err(Into::into)?;
         Engine::with_map(system, system.map(), start, policy)
     }
 }
@@ -68,12 +68,12 @@ impl<L: RestitutionLaw> Engine<SineGround<L>> {
     /// # Errors
     /// Those of [`Engine::new`].
     pub fn with_law(
-        system: impl Into<DimensionlessSystem>,
+        system: impl TryInto<DimensionlessSystem, Error: Into<Error>>,
         law: L,
         start: InitialCondition,
         cut: ChatterCut,
     ) -> Result<Self, Error> {
-        let system = system.into();
+        let system = system.try_into().map_err(Into::into)?;
         let map = ImpactMap::with_law(*system.vibration(), law);
         Self::with_map(system, &map, start, ChatterPolicy::Cut(cut))
     }

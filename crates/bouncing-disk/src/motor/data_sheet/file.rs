@@ -298,7 +298,6 @@ mod tests {
     //! Texts that people and programs write, right and wrong.
 
     use super::*;
-    use crate::parameters::driven_platform::Waveform;
 
     type Read = fn(&str, &[(MotorField, f64)]) -> Result<Motor, MotorFileError>;
     type Write = fn(&[(&str, &str)]) -> String;
@@ -389,6 +388,8 @@ mod tests {
     #[cfg(feature = "toml")]
     #[test]
     fn a_drive_is_read_and_written() {
+        use crate::parameters::driven_platform::Waveform;
+
         let sheet = Motor::paper_70_khz().to_toml();
         let refused = |drive: &str| {
             let found = Motor::from_toml(&format!("{sheet}[drive]\n{drive}\n"));

@@ -10,15 +10,13 @@ use bouncing_disk_core::{ChatterPolicy, Phase};
 
 use crate::driven::{DrivenEngine, DrivenStart, DrivenSystem};
 use crate::error::Error;
-use crate::motion::energy::EnergyLedger;
-use crate::motion::event::Event;
+use crate::motion::event::{Energies, Event, Motion, MotionRecord, SteeredMotion};
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
-use crate::motor::carried::{Carried, CarriedEvent};
 use crate::motor::operation::tapped::Tapped;
 use crate::motor::operation::window::{AxialWindow, RotorWindow, Window};
 use crate::motor::rotor::transient::FLIGHTS_OF_EVENT;
 use crate::parameters::scales::Scales;
-use crate::stator::{MODES, StatorEngine, StatorLedger, StatorState, StatorSystem};
+use crate::stator::{MODES, StatorEngine, StatorState, StatorSystem};
 
 /// Where a rotor on a stator that yields was left.
 #[derive(Debug, Clone, Copy)]
@@ -60,8 +58,7 @@ struct Rotor<E> {
     takes_time: bool,
     generator: SplitMix64,
     perturbation: f64,
-    ledger: EnergyLedger,
-    stator: StatorLedger,
+    energies: Energies,
     /// Energy given by the perturbations.
     given: f64,
     impacts: u64,
@@ -74,8 +71,7 @@ struct Rotor<E> {
 /// What a rotor has done up to a time.
 #[derive(Debug, Clone, Copy, Default)]
 struct Totals {
-    ledger: EnergyLedger,
-    stator: StatorLedger,
+    energies: Energies,
     given: f64,
     impacts: u64,
     axial_energy: f64,
@@ -100,41 +96,7 @@ impl Followed<DrivenEngine> {
         let reached = PhaseTime::in_first_period(phase);
         Ok(Self { rotors: rotors.collect::<Result<_, Error>>()?, reached, tapped })
     }
-}
 
-impl Followed<StatorEngine> {
-    /// As [`Followed::on_driven`], on a stator that yields.
-    pub(crate) fn on_yielding<'a>(
-        starts: impl Iterator<Item = (&'a StatorSystem, f64)>,
-        phase: Phase,
-        perturbation: (f64, u64),
-    ) -> Result<Self, Error> {
-        let rotors = starts.map(|(system, angular_speed)| {
-            let engine = StatorEngine::new(system.clone(), DrivenStart::Contact { phase, angular_speed })?;
-            Ok(Rotor::new(engine, system.takes_time(), phase, perturbation))
-        });
-        let reached = PhaseTime::in_first_period(phase);
-        Ok(Self { rotors: rotors.collect::<Result<_, Error>>()?, reached, tapped: None })
-    }
-
-    /// A rotor goes on from where another one was left, as all that do at the same time.
-    pub(crate) fn resume(&mut self, place: usize, system: &StatorSystem, left: &Left) -> Result<(), Error> {
-        self.reached = left.time;
-        let rotor = &mut self.rotors[place];
-        rotor.engine = StatorEngine::of_state(system.clone(), left.time, left.state)?;
-        rotor.before = rotor.totals(&self.reached);
-        Ok(())
-    }
-
-    /// Where a rotor is at the end of the last window.
-    pub(crate) fn left(&self, place: usize) -> Left {
-        let (time, engine) = (self.reached, &self.rotors[place].engine);
-        let state = engine.state_after(time.since(&engine.time()).radians()).1;
-        Left { time, state, rises: engine.system().modes.map(|mode| mode.height != 0.0) }
-    }
-}
-
-impl<E: Carried> Followed<E> {
     /// Whether the stator never throws the rotors up.
     pub(crate) fn lies_for_ever(&self) -> bool {
         self.rotors.iter().all(|rotor| rotor.engine.lies_for_ever())
@@ -196,9 +158,43 @@ impl<E: Carried> Followed<E> {
             window.add(&self.general_window(0.0, &(1..=1), false, work)?);
         }
     }
+}
 
+impl Followed<StatorEngine> {
+    /// As [`Followed::on_driven`], on a stator that yields.
+    pub(crate) fn on_yielding<'a>(
+        starts: impl Iterator<Item = (&'a StatorSystem, f64)>,
+        phase: Phase,
+        perturbation: (f64, u64),
+    ) -> Result<Self, Error> {
+        let rotors = starts.map(|(system, angular_speed)| {
+            let engine = StatorEngine::new(system.clone(), DrivenStart::Contact { phase, angular_speed })?;
+            Ok(Rotor::new(engine, system.takes_time(), phase, perturbation))
+        });
+        let reached = PhaseTime::in_first_period(phase);
+        Ok(Self { rotors: rotors.collect::<Result<_, Error>>()?, reached, tapped: None })
+    }
+
+    /// A rotor goes on from where another one was left, as all that do at the same time.
+    pub(crate) fn resume(&mut self, place: usize, system: &StatorSystem, left: &Left) -> Result<(), Error> {
+        self.reached = left.time;
+        let rotor = &mut self.rotors[place];
+        rotor.engine = StatorEngine::of_state(system.clone(), left.time, left.state)?;
+        rotor.before = rotor.totals(&self.reached);
+        Ok(())
+    }
+
+    /// Where a rotor is at the end of the last window.
+    pub(crate) fn left(&self, place: usize) -> Left {
+        let (time, engine) = (self.reached, &self.rotors[place].engine);
+        let state = engine.state_after(time.since(&engine.time()).radians()).1;
+        Left { time, state, rises: engine.system().modes.map(|mode| mode.height != 0.0) }
+    }
+}
+
+impl<E: SteeredMotion> Followed<E> {
     /// The next window by the engines; `anywhere`: a contact that takes time may be its end.
-    fn general_window(
+    pub(crate) fn general_window(
         &mut self,
         duration: f64,
         impacts: &RangeInclusive<u64>,
@@ -219,9 +215,9 @@ impl<E: Carried> Followed<E> {
                 let duration = self.reached.since(&from).radians();
                 AxialWindow {
                     duration,
-                    normal_work: change(|totals| totals.ledger.normal_work),
+                    normal_work: change(|totals| totals.energies.disk.normal_work),
                     perturbation_work: change(|totals| totals.given),
-                    restitution_loss: change(|totals| totals.ledger.restitution_loss),
+                    restitution_loss: change(|totals| totals.energies.disk.restitution_loss),
                     energy_change: change(|totals| totals.axial_energy),
                     impacts: if lies || now.impacts == before.impacts {
                         (duration / TAU + 0.5) as u64
@@ -235,13 +231,13 @@ impl<E: Carried> Followed<E> {
             }
             window.rotors.push(RotorWindow {
                 angle: change(|totals| totals.angle),
-                friction_work: change(|totals| totals.ledger.friction_work),
-                friction_loss: change(|totals| totals.ledger.friction_loss),
-                load_work: change(|totals| totals.ledger.load_work),
+                friction_work: change(|totals| totals.energies.disk.friction_work),
+                friction_loss: change(|totals| totals.energies.disk.friction_loss),
+                load_work: change(|totals| totals.energies.disk.load_work),
                 kinetic_change: 0.5
                     * change(|totals| totals.angular_speed)
                     * (now.angular_speed + before.angular_speed),
-                stator: E::YIELDS.then(|| (now.stator - before.stator, axial())),
+                stator: E::YIELDS.then(|| (now.energies.stator - before.energies.stator, axial())),
             });
             rotor.before = now;
         }
@@ -249,15 +245,14 @@ impl<E: Carried> Followed<E> {
     }
 }
 
-impl<E: Carried> Rotor<E> {
+impl<E: SteeredMotion> Rotor<E> {
     fn new(engine: E, takes_time: bool, phase: Phase, (perturbation, seed): (f64, u64)) -> Self {
         let mut rotor = Self {
             engine,
             takes_time,
             generator: SplitMix64::new(seed),
             perturbation,
-            ledger: EnergyLedger::default(),
-            stator: StatorLedger::default(),
+            energies: Energies::default(),
             given: 0.0,
             impacts: 0,
             recurrences: 0,
@@ -301,11 +296,8 @@ impl<E: Carried> Rotor<E> {
     /// Goes on to this time.
     fn follow(&mut self, to: &PhaseTime, work: &mut WorkCount<'_>) -> Result<(), Error> {
         while self.advance(to.since(&self.engine.time()).radians(), work)? {}
-        // Of a rotor that lies on a stator that yields, what follows need not be followed from its last event.
-        if E::YIELDS && !self.engine.launches() {
-            let (ledger, stator) = self.engine.pause(to.since(&self.engine.time()).radians());
-            self.ledger += ledger;
-            self.stator += stator;
+        if let Some(energies) = self.engine.pause_contact(to.since(&self.engine.time()).radians()) {
+            self.energies += energies;
         }
         Ok(())
     }
@@ -313,10 +305,9 @@ impl<E: Carried> Rotor<E> {
     /// The next event within `limit`, if there is one.
     fn advance(&mut self, limit: f64, work: &mut WorkCount<'_>) -> Result<bool, Error> {
         work.spend(FLIGHTS_OF_EVENT)?;
-        let Some(next) = self.engine.advance_within(limit)? else { return Ok(false) };
-        let CarriedEvent { event, ledger, stator } = next;
-        self.ledger += ledger;
-        self.stator += stator;
+        let Some(record) = self.engine.advance_within(limit)? else { return Ok(false) };
+        let event = record.event();
+        self.energies += record.energies();
         match event {
             Event::Impact { .. } | Event::Kick { .. } | Event::Recontact => {
                 self.impacts += 1;
@@ -340,12 +331,10 @@ impl<E: Carried> Rotor<E> {
     fn totals(&self, at: &PhaseTime) -> Totals {
         let span = at.since(&self.engine.time()).radians();
         let state = self.engine.disk_after(span);
-        let (mut ledger, mut stator) = self.engine.ledgers_after(span);
-        ledger += self.ledger;
-        stator += self.stator;
+        let mut energies = self.engine.energies_after(span);
+        energies += self.energies;
         Totals {
-            ledger,
-            stator,
+            energies,
             given: self.given,
             impacts: self.impacts,
             axial_energy: 0.5 * state.axial_velocity * state.axial_velocity

@@ -122,7 +122,7 @@ impl Member {
             Self::Bouncing(member) => member.next_window(duration, impacts, work),
             Self::Lying(member) => member.next_window(duration, *impacts.end(), work),
             Self::Driven(member) => member.next_window(duration, impacts, work),
-            Self::Yielding(member) => member.next_window(duration, impacts, work),
+            Self::Yielding(member) => member.general_window(duration, &impacts, true, work),
         }
     }
 }
