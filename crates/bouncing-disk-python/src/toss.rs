@@ -91,7 +91,7 @@ pub(crate) fn single_toss<'py>(
         if drive.start_phase.is_some() {
             return Err(Error::StartPhase);
         }
-        let hand = DrivenPlatform::of_system(&system, &drive)?;
+        let hand = system.driven_platform(&drive)?;
         driven::single_toss(&hand, system.disk(), None, initial)
     })?;
     shown_toss(py, &done.map_err(|error| errors::of(py, error))?)

@@ -11,7 +11,6 @@ use crate::parameters::contact::ContactLaw;
 use crate::parameters::disk::Disk;
 use crate::parameters::platform::Platform;
 use crate::parameters::scales::Scales;
-use crate::parameters::system::System;
 
 /// Most of [`Waveform::acceleration_change`]: 6 samples of a sine have 0.25, a corner 0.5, noise alone 0.8.
 const LARGEST_CHANGE: f64 = 0.3;
@@ -276,16 +275,6 @@ impl DrivenPlatform {
             return Err(Error::StartPhase);
         }
         Self::new(platform, drive.height.clone(), drive.angle.clone())
-    }
-
-    /// The platform of a system with its contacts, and with the motion that the table `[drive]` of a file gives.
-    ///
-    /// # Errors
-    /// Those of [`Self::new`]; [`Error::YieldingStator`].
-    pub fn of_system(system: &System, drive: &DriveParameters) -> Result<Self, Error> {
-        let platform = *system.prescribed()?.platform();
-        let platform = Self::new(platform, drive.height.clone(), drive.angle.clone())?;
-        Ok(platform.with_contact(system.soft_contact()))
     }
 
     /// This platform with contacts of this law and time (s), such as [`System::soft_contact`] has; `None` for

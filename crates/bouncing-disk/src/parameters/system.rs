@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::parameters::contact::{Contact, ContactLaw};
 use crate::parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem};
 use crate::parameters::disk::Disk;
-use crate::parameters::driven_platform::DriveParameters;
+use crate::parameters::driven_platform::{DriveParameters, DrivenPlatform};
 use crate::parameters::platform::Platform;
 use crate::parameters::scales::Scales;
 use crate::parameters::stator::{Stator, StatorParameters};
@@ -148,6 +148,16 @@ impl System {
             (None, Beyond::Drive) => Err(Error::DriveNotSine),
             (None, Beyond::Nothing) => Ok(self),
         }
+    }
+
+    /// The platform with the contacts of this system, and with the motion that the table `[drive]` of a file gives.
+    ///
+    /// # Errors
+    /// Those of [`DrivenPlatform::new`]; [`Error::YieldingStator`].
+    pub fn driven_platform(&self, drive: &DriveParameters) -> Result<DrivenPlatform, Error> {
+        let platform = *self.prescribed()?.platform();
+        let platform = DrivenPlatform::new(platform, drive.height.clone(), drive.angle.clone())?;
+        Ok(platform.with_contact(self.soft_contact()))
     }
 
     /// The same system with another table `[contact]`.

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use bouncing_disk::core::{ChatterPolicy, Phase};
 use bouncing_disk::driven::{DrivenEngine, DrivenStart, DrivenSystem, multi_toss, single_toss};
-use bouncing_disk::parameters::{DimensionlessSystem, DriveParameters, DrivenPlatform, Scales};
+use bouncing_disk::parameters::{DimensionlessSystem, DriveParameters, Scales};
 use bouncing_disk::toss::InitialSpin;
 use bouncing_disk::{Event, System};
 
@@ -21,7 +21,7 @@ pub(super) fn run(system: &System, drive: &DriveParameters, args: &TossArgs, con
     }
     let own = (system, Some(drive));
     let period = TAU / system.platform().angular_frequency();
-    let platform = DrivenPlatform::of_system(system, drive)?;
+    let platform = system.driven_platform(drive)?;
     let of_disk = DrivenSystem::new(&platform, system.disk())?;
     let phase = Phase::new(drive.start_phase.unwrap_or_else(|| of_disk.height().lowest_phase()))?;
     let angular_speed = match args.spin {
