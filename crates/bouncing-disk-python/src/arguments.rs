@@ -232,7 +232,7 @@ const LISTS: [&str; 8] =
 const NESTED: [&str; 2] = ["fourier", "pieces"];
 
 /// What is a table, or a list of tables.
-const TABLES: [&str; 5] = ["angle", "contact", "height", "load", "stator"];
+const TABLES: [&str; 6] = ["angle", "contact", "drive", "height", "load", "stator"];
 
 /// Where a value stands among the arguments of a call, such as `stator.mass` or `height.sampled[3]`.
 #[derive(Debug, Clone, Copy)]

@@ -2,7 +2,6 @@
 
 use std::str::FromStr;
 
-use bouncing_disk::core::Unobserved;
 use bouncing_disk::estimate::{
     CsvColumns, FitParameter, FitRange, FitSettings, IntervalEstimate, MeasuredRun, MeasuredSpeeds,
     RatedCondition, RatedFit, RatedFitSettings, RatedPoint, RiseEstimate, RiseForm, Spread,
@@ -11,6 +10,7 @@ use bouncing_disk::estimate::{
 use bouncing_disk::motor::{
     MotorField, MotorParameters, OperatingSettings, SpeedCurve, TransientMember, TransientSettings,
 };
+use bouncing_disk::parameters::DriveParameters;
 use bouncing_disk::{Error, System as SystemModel};
 use numpy::PyArray1;
 use pyo3::exceptions::PyValueError;
@@ -40,20 +40,20 @@ pub(crate) fn ensemble(a: Arguments<'_>) -> Made<'_> {
         policy: a.policy()?,
     };
     // The mass does not matter to a transient on a prescribed stator.
-    let of_system = |system: SystemModel| match system.stator() {
-        Some(_) => Err(Error::YieldingStator),
-        None => MotorParameters::of_system(&system, 1.0).build(),
+    let of_system = |system: SystemModel| {
+        system.driven_platform(&DriveParameters::default())?;
+        MotorParameters::of_system(&system, 1.0).build()
     };
     let motor = match a.held::<Motor>("system") {
         Ok(motor) => motor.get().0.clone(),
         Err(_) => of_system(a.system()?).map_err(|error| a.refused(error))?,
     };
     let system = *motor.system();
-    let motor = a.moved(&motor, a.drive("drive")?)?;
+    let motor = a.moved(&motor)?;
     let (runs, times, speeds) = a.run(|observer| {
         let members_of_it = TransientMember::of_ensemble(&system, &settings, members)?;
         let curves = motor.transients(&members_of_it, observer)?;
-        let runs = TransientEnsemble::of_results(curves.into_iter().map(Ok).collect(), &Unobserved)?;
+        let runs = TransientEnsemble::of_results(curves.into_iter().map(Ok).collect(), observer)?;
         // A number of each member at each time, time by member.
         let table = |of: fn(&SpeedCurve) -> &[f64]| {
             let mut numbers = room_for(settings.intervals * members)?;

@@ -5,7 +5,6 @@ use bouncing_disk::motor::{
     OperatingSettings, Operation, SensitivityMethod, SensitivityParameter, SensitivityQuantity,
     SensitivitySettings, Shortfall, SweepAxis, SweepQuantity, TrapVerdict,
 };
-use bouncing_disk::parameters::DriveParameters;
 use numpy::PyArray1;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -18,7 +17,7 @@ use crate::results::{column, made, make, signed};
 /// The report of a data sheet before anything turns.
 #[pyfunction]
 pub(crate) fn report(a: Arguments<'_>) -> Made<'_> {
-    let (motor, none) = (a.held::<Motor>("self")?.get().0, f64::NAN);
+    let (motor, none) = (a.held::<Motor>("self")?.get().0.clone(), f64::NAN);
     let report = a.run(|observer| motor.report(observer))?;
     let (name, impacts, platform_periods, rests, exponent) = match &report.regime {
         MotorRegime::NoLiftOff => ("no-lift-off", 0, none, 0, none),
@@ -126,7 +125,7 @@ fn settings(a: &Arguments<'_>) -> PyResult<OperatingSettings> {
 #[pyfunction]
 pub(crate) fn torque_speed_curve(a: Arguments<'_>) -> Made<'_> {
     let (motor, settings, loads) = (a.motor()?, settings(&a)?, a.row("load_torques")?);
-    let motor = a.moved(&motor, a.drive("drive")?)?;
+    let motor = a.moved(&motor)?;
     let operations = a.run(|observer| motor.torque_speed_curve(&loads, &settings, observer))?;
     made(a.py(), "TorqueSpeedCurve", columns(a.py(), &operations))
 }
@@ -135,7 +134,7 @@ pub(crate) fn torque_speed_curve(a: Arguments<'_>) -> Made<'_> {
 #[pyfunction]
 pub(crate) fn stall_load(a: Arguments<'_>) -> Made<'_> {
     let (motor, settings) = (a.motor()?, settings(&a)?);
-    let motor = a.moved(&motor, DriveParameters::default())?;
+    let motor = a.moved(&motor)?;
     let stall = a.run(|observer| motor.stall_load(&settings, observer))?;
     make!(
         a.py(),
@@ -190,7 +189,7 @@ pub(crate) fn input_spreads(a: Arguments<'_>) -> PyResult<Vec<Option<Bound<'_, P
 #[pyfunction]
 pub(crate) fn best_phase_lag(a: Arguments<'_>) -> Made<'_> {
     let (motor, settings) = (a.motor()?, settings(&a)?);
-    let motor = a.moved(&motor, DriveParameters::default())?;
+    let motor = a.moved(&motor)?;
     let best = a.run(|observer| motor.best_phase_lag(&settings, observer))?;
     make!(
         a.py(),

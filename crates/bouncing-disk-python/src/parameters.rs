@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use bouncing_disk::core::{ChatterCut as Cut, ChatterPolicy, ImpactMap, ImpactState, Phase, Vibration};
 use bouncing_disk::motion::PAPER_CUT;
 use bouncing_disk::motor::{MotorField, MotorParameters};
-use bouncing_disk::parameters::{Contact, DriveParameters, StatorParameters, Waveform};
+use bouncing_disk::parameters::{Contact, DimensionlessSystem, DriveParameters, StatorParameters, Waveform};
 use bouncing_disk::{DiskParameters, Error, Motor as MotorModel, PlatformParameters, System as SystemModel};
 use numpy::PyArray2;
 use pyo3::exceptions::PyTypeError;
@@ -334,6 +334,7 @@ pub(crate) fn motor(a: Arguments<'_>) -> PyResult<Motor> {
         contact: a.table("contact")?,
         stator: a.table("stator")?,
         load: a.table("load")?,
+        drive: a.sheet_drive()?,
     };
     sheet.build().map(Motor).map_err(|error| a.refused(error))
 }
@@ -433,6 +434,14 @@ impl<'py> Arguments<'py> {
         held_drive(&self.get(name)?, name)
     }
 
+    /// The drive of a data sheet: an object, or its dictionary.
+    fn sheet_drive(&self) -> PyResult<DriveParameters> {
+        match held::<Drive>(&self.get("drive")?, "drive") {
+            Ok(drive) => Ok(drive.get().0.clone()),
+            Err(_) => Ok(self.table("drive")?.unwrap_or_default()),
+        }
+    }
+
     /// The shape of the height of `drive` and `contact_time`, which decide the vertical motion; `None` for rigid
     /// impacts on the sine.
     pub(crate) fn shape(&self) -> PyResult<Option<(Waveform, Option<f64>)>> {
@@ -465,12 +474,14 @@ impl<'py> Arguments<'py> {
         Ok(self.held::<Motor>("motor")?.get().0.clone())
     }
 
-    /// A motor with the drive and the `contact_time` of a call, where it has them.
-    pub(crate) fn moved(&self, motor: &MotorModel, drive: DriveParameters) -> PyResult<MotorModel> {
+    /// A motor with the drive and the `contact_time` of a call in place of those of its sheet, where it has them.
+    pub(crate) fn moved(&self, motor: &MotorModel) -> PyResult<MotorModel> {
         let time = self.optional("contact_time")?;
+        let drive = if self.0.contains("drive")? { self.given("drive")? } else { None };
+        let drive = drive.map(|given| held_drive(&given, "drive")).transpose()?;
         let change = |sheet: &mut MotorParameters| {
             time.into_iter().for_each(|time| MotorField::ContactTime.set(sheet, time));
-            if !drive.is_sine() {
+            if let Some(drive) = drive {
                 sheet.drive = drive;
             }
         };

@@ -5,7 +5,7 @@ use bouncing_disk::driven;
 use bouncing_disk::motion::{
     DiskState, EventKind, Mode, PhaseSpan, PlatformState, SiEnergy, SiState, SlipDirection, Snapshot,
 };
-use bouncing_disk::parameters::{Contact, DrivenPlatform, Scales};
+use bouncing_disk::parameters::{Contact, Scales};
 use bouncing_disk::toss::{
     InitialSpin, RotaryOutcome, TossPerformance, rotary_response as response, single_toss as toss,
     toss_trajectory as toss_motion,

@@ -5,7 +5,7 @@ use bouncing_disk::estimate::{FitError, FitSettings, RiseForm, Spread, Transient
 use bouncing_disk::motor::{
     Estimate, MotorParameters, OperatingSettings, TransientMember, TransientSettings,
 };
-use bouncing_disk::parameters::{ContactLaw, ContactStatement, DimensionlessSystem};
+use bouncing_disk::parameters::{ContactLaw, ContactStatement};
 use bouncing_disk::{Error, Motor, System};
 use serde_json::{Value, json};
 
@@ -28,7 +28,7 @@ const TRAP_RANGE: f64 = 0.02;
 /// the motor may be caught in a motion of few impacts; none is looked for where contacts take time. Of a stator
 /// that yields regime and forcing are those of its motion without a rotor.
 pub(crate) fn report(sheet: MotorParameters) -> Result<Reply, Refusal> {
-    let motor = sheet.build()?;
+    let motor = motor_of(&sheet)?;
     let unloaded = match motor.stator() {
         Some(_) => MotorParameters::of_system(&motor.system().with_stator(None)?, motor.mass()).build()?,
         None => motor.clone(),
@@ -36,7 +36,7 @@ pub(crate) fn report(sheet: MotorParameters) -> Result<Reply, Refusal> {
     let report = unloaded.report(&Unobserved)?;
     let own = motor.stator_report();
     let warnings = if own.is_some() { motor.warnings() } else { report.warnings.clone() };
-    let trap = if is_rigid(&motor) { motor.nearest_trap(TRAP_RANGE, &Unobserved)? } else { None };
+    let trap = if motor.rigid_sine().is_ok() { motor.nearest_trap(TRAP_RANGE, &Unobserved)? } else { None };
     Reply::short(&json!({
         "axial_forcing": report.axial_forcing,
         "angular_forcing": report.angular_forcing,
@@ -51,9 +51,13 @@ pub(crate) fn report(sheet: MotorParameters) -> Result<Reply, Refusal> {
     }))
 }
 
-/// Whether contacts take no time and the stator does not yield.
-fn is_rigid(motor: &Motor) -> bool {
-    DimensionlessSystem::try_from(motor.system()).is_ok()
+/// The motor of a sheet. The page has no drives and constant loads.
+fn motor_of(sheet: &MotorParameters) -> Result<Motor, Refusal> {
+    let beyond = [("[drive]", !sheet.drive.is_sine()), ("[load]", sheet.load.is_some())];
+    if let Some((table, _)) = beyond.into_iter().find(|(_, is_given)| *is_given) {
+        return Err(Refusal::new("text", format!("a table {table} is for the command line and Python")));
+    }
+    Ok(sheet.build()?)
 }
 
 /// The form that fits a run-up best, an exponential or a ramp: its time constant, or the time at which the straight rise
@@ -61,7 +65,7 @@ fn is_rigid(motor: &Motor) -> bool {
 /// mean angular speed over the members and its standard error (rad/s).
 pub(crate) fn transient(request: &TransientRequest) -> Result<Reply, Refusal> {
     let TransientRequest { ref sheet, members, rise_times, points: intervals, seed } = *request;
-    let motor = sheet.build()?;
+    let motor = motor_of(&sheet)?;
     let system = *motor.system();
     let duration = rise_times * system.rise_time();
     let settings = TransientSettings { duration, intervals, seed, ..TransientSettings::default() };
@@ -93,8 +97,8 @@ fn rise_of(fit: &TransientFit) -> Value {
 pub(crate) fn loads(request: &LoadsRequest) -> Result<Reply, Refusal> {
     let LoadsRequest { sheet, load_torques, relative_error, most_impacts, seed } = request;
     let mut settings = settings(*relative_error, *most_impacts, *seed)?;
-    let motor = sheet.build()?;
-    if !is_rigid(&motor) {
+    let motor = motor_of(&sheet)?;
+    if motor.rigid_sine().is_err() {
         settings.members /= FEWER;
         settings.most_impacts /= FEWER as u64;
     }
@@ -110,8 +114,8 @@ fn settings(relative_error: f64, most_impacts: u64, seed: u64) -> Result<Operati
 
 /// A motor that does not turn without a load has no stall load, which is an answer and no failure.
 pub(crate) fn stall(sheet: MotorParameters, relative_error: f64, seed: u64) -> Result<Reply, Refusal> {
-    let motor = sheet.build()?;
-    if !is_rigid(&motor) {
+    let motor = motor_of(&sheet)?;
+    if motor.rigid_sine().is_err() {
         let message = "with a contact time or a stator that yields the search takes minutes: use bouncing-disk motor stall";
         return Err(Refusal::new("computation", message.to_owned()));
     }
@@ -133,11 +137,7 @@ pub(crate) fn stall(sheet: MotorParameters, relative_error: f64, seed: u64) -> R
 /// The page has one law of contacts that take time, and constant loads.
 pub(crate) fn read(text: &str) -> Result<Reply, Refusal> {
     let motor = Motor::from_json(text).map_err(|error| Refusal::new("text", error.to_string()))?;
-    motor.parameters().drive.sine().map_err(|error| Refusal::new("text", error.to_string()))?;
-    if motor.load().is_some() {
-        let message = "a load that varies is for the command line and Python";
-        return Err(Refusal::new("text", message.to_owned()));
-    }
+    let motor = motor_of(motor.parameters())?;
     if let Some((ContactLaw::Hysteresis, _)) = motor.system().soft_contact() {
         let message =
             "contact.law = \"hysteresis\" is for the command line and Python: contacts have a damper here";

@@ -222,7 +222,7 @@ fn what_does_not_belong_together_is_refused() {
         ("sheet_read", json!({ "text": "[]" }), "text"),
         ("sheet_read", json!({ "text": "{\"friction\": 1}" }), "text"),
         ("sheet_read", text(hysteretic), "hysteresis"),
-        ("sheet_read", text(varies), "a load that varies"),
+        ("sheet_read", text(varies), "a table [load]"),
     ] {
         let refusal = refused(call, changes).to_string();
         assert!(refusal.contains(said), "{call}: {refusal}");

@@ -191,7 +191,10 @@ pub enum Error {
     )]
     YieldingStator,
     /// A load that varies where only a constant torque can be computed.
-    #[error("this analysis holds for a constant load only: replace the table [load] by load_torque")]
+    #[error(
+        "this analysis holds for a constant load only: replace the table [load] by load_torque, or use one of the analyses \
+         that accept it: motor transients, torque-speed curves, stall, best phase lag, sweeps and fits of rated points"
+    )]
     LoadLaw,
     /// A load that varies in time where only a steady operation is computed.
     #[error(

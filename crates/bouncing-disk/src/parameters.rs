@@ -39,5 +39,5 @@ pub use dimensionless::{DimensionlessParameters, DimensionlessSystem, ForcingPar
 pub use driven_platform::{DriveParameters, DrivenPlatform, Waveform};
 pub use load::{LoadLaw, LoadSegment, MAX_LOAD_NODES};
 pub use scales::Scales;
-pub use stator::{Circuit, ElectricalInput, Stator, StatorKind, StatorParameters, VibrationMode};
+pub use stator::{Circuit, ElectricalInput, StatorKind, StatorModes, StatorParameters, VibrationMode};
 pub use stroke::{LaunchSpeeds, Stroke};

@@ -85,7 +85,7 @@ def ensemble(
         intervals: intervals of equal length over which speeds are averaged, in [3, 1000000].
         relaunch_perturbation: size of the relaunch perturbation in units of g/omega, in [0, 1e100].
         seed: seed of the perturbations.
-        drive: how the stator moves; ``None`` for the sine.
+        drive: how the stator moves, in place of the drive of the data sheet.
         contact_time: how long an impact lasts (s), positive; ``None`` for rigid impacts.
         chatter: how a chatter ends; ``None`` sums it.
 

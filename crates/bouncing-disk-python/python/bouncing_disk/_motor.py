@@ -109,6 +109,8 @@ class Motor(Parameters):
             ``anti_resonance`` and ``capacitance``; docs/designing-a-motor.md has them all.
         load: the table ``[load]`` of a file, of a load that varies: ``torques`` (N m) at ``speeds`` (rad/s), lists, and
             ``inertia`` (kg m^2).
+        drive: how the stator moves in place of the sine: a :class:`Drive`, or the table ``[drive]`` of a file. Not with
+            ``stator`` or ``load``.
 
     Attributes:
         inertia: moment of inertia m a_g^2 of the rotor (kg m^2).
@@ -166,6 +168,7 @@ class Motor(Parameters):
         contact: Table | None = None,
         stator: Table | None = None,
         load: Table | None = None,
+        drive: Drive | Table | None = None,
     ) -> None:
         self.__dict__["_native"] = native.motor(locals())
 
@@ -341,7 +344,8 @@ def torque_speed_curve(
         most_impacts: most impacts of all members together, in [1, 1e15].
         relaunch_perturbation: size of the relaunch perturbation in units of g/omega, in (0, 1].
         seed: seed of the perturbations.
-        drive: how the stator moves; ``None`` for the sine, the only one of a stator that yields.
+        drive: how the stator moves, in place of the drive of the data sheet; the sine is the only one of a stator that
+            yields.
         contact_time: how long an impact lasts (s), positive; ``None`` for rigid impacts.
     """
     return native.torque_speed_curve(locals())

@@ -27,7 +27,7 @@ use crate::parameters::dimensionless::DimensionlessSystem;
 use crate::parameters::disk::DiskParameters;
 use crate::parameters::load::LoadLaw;
 use crate::parameters::platform::PlatformParameters;
-use crate::parameters::stator::{GivenMotion, Stator as YieldingStator};
+use crate::parameters::stator::{GivenMotion, StatorModes};
 use crate::parameters::system::{Beyond, System};
 
 /// A motor with a legal data sheet: a [`System`] together with its mass and its preload as a force.
@@ -53,7 +53,7 @@ pub struct Motor {
     parameters: MotorParameters,
     system: System,
     mass: f64,
-    carrier: Stator,
+    stator_motion: Stator,
 }
 
 impl Motor {
@@ -70,8 +70,8 @@ impl Motor {
     }
 
     /// How its stator moves.
-    pub(crate) const fn carrier(&self) -> &Stator {
-        &self.carrier
+    pub(crate) const fn stator_motion(&self) -> &Stator {
+        &self.stator_motion
     }
 
     /// The system of a motor whose stator moves as a sine, with rigid impacts and a constant load.
@@ -79,7 +79,7 @@ impl Motor {
     /// # Errors
     /// [`Error::YieldingStator`], [`Error::LoadLaw`], [`Error::DriveNotSine`] and [`Error::SoftContact`] say what it has
     /// instead.
-    pub(crate) fn sine(&self) -> Result<&System, Error> {
+    pub fn rigid_sine(&self) -> Result<&System, Error> {
         DimensionlessSystem::try_from(&self.system).map(|_| &self.system)
     }
 
@@ -121,7 +121,7 @@ impl Motor {
 
     /// The stator, if the rotor changes its motion; without a rotor it moves as the platform of [`Self::system`].
     #[must_use]
-    pub fn stator(&self) -> Option<YieldingStator> {
+    pub fn stator(&self) -> Option<StatorModes> {
         self.system.stator()
     }
 
@@ -152,7 +152,7 @@ impl Motor {
     }
 
     /// A bound on the height of the rotor above its place on the stator at mid-height (m), for all flights of
-    /// a motor that starts from rest and of every attractor (docs/numerics/motors.md, "How high a rotor
+    /// a motor that starts from rest and of every attractor, as its stator moves as a sine (docs/numerics/motors.md, "How high a rotor
     /// flies").
     #[must_use]
     pub fn highest_rise(&self) -> f64 {
@@ -161,10 +161,11 @@ impl Motor {
     }
 
     /// A bound on the relative change of the spring's force during a flight: k [`Self::highest_rise`]/F;
-    /// `None` without a spring. The engine keeps the preload constant; above 1 % there is a warning.
+    /// `None` without a spring, and if the stator has a [drive](MotorParameters::drive). The engine keeps the preload constant; above 1 % there is a warning.
     #[must_use]
     pub fn preload_change_bound(&self) -> Option<f64> {
-        self.static_deflection().map(|deflection| self.highest_rise() / deflection)
+        let is_sine = self.parameters.drive.is_sine();
+        self.static_deflection().filter(|_| is_sine).map(|deflection| self.highest_rise() / deflection)
     }
 }
 
@@ -249,8 +250,8 @@ impl MotorParameters {
         } else if !self.drive.is_sine() {
             system.beyond = Beyond::Drive;
         }
-        let carrier = Stator::of(self, &system, mass)?;
-        Ok(Motor { parameters: self.clone(), system, mass, carrier })
+        let stator_motion = Stator::of(self, &system, mass)?;
+        Ok(Motor { parameters: self.clone(), system, mass, stator_motion })
     }
 
     /// The motion without a rotor: what the sheet gives, and what its stator computes.

@@ -31,7 +31,8 @@ use crate::motor::parameter_sweep::axis::{SweepAxis, cells, check_axes, sheet_of
 ///
 /// Cells of one vertical motion (they differ only in load, friction, phase lag, twist, radii or mass) are
 /// computed on one orbit, wherever they lie: a map of load and phase lag has one, a map of amplitude and load
-/// one for each amplitude. Such a group, of 256 cells at most, runs until each of its cells is known well
+/// one for each amplitude. (With a drive, a contact time, a stator that yields or a table `[load]` they are computed
+/// one by one.) Such a group, of 256 cells at most, runs until each of its cells is known well
 /// enough. A number of a cell therefore depends on the rest of its group, within its standard error; the
 /// cells of a group share their perturbations, so that their differences are more precise than their values.
 /// Groups depend on the sweep alone. The results are the same bits for any number of threads.

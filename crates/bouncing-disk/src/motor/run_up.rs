@@ -66,7 +66,7 @@ impl Motor {
         settings: &TransientSettings,
         observer: &dyn Observer,
     ) -> Result<(SpeedCurve, Vec<f64>), Error> {
-        match self.carrier() {
+        match self.stator_motion() {
             Stator::Sine => Ok((transient(self.system(), phase, settings, observer)?, Vec::new())),
             Stator::Driven(own) => {
                 let unit = self.system().scales();
@@ -88,7 +88,7 @@ impl Motor {
         members: &[TransientMember],
         observer: &dyn Observer,
     ) -> Result<Vec<SpeedCurve>, Error> {
-        if let Stator::Sine = self.carrier() {
+        if let Stator::Sine = self.stator_motion() {
             let own = |member: &TransientMember| TransientMember { system: *self.system(), ..*member };
             let members: Vec<_> = members.iter().map(own).collect();
             return transients(&members, observer)?.into_iter().collect();

@@ -15,7 +15,7 @@ use crate::motion::phase_time::{PhaseSpan, PhaseTime};
 use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::motor_field::MotorField;
 use crate::motor::rotor::transient::FLIGHTS_OF_EVENT;
-use crate::motor::stator::{lines, on_shaft, still};
+use crate::motor::stator::{Stator, lines, on_shaft, still};
 use crate::parameters::load::LoadLaw;
 use crate::parameters::scales::Scales;
 use crate::parameters::stator::StatorKind;
@@ -391,7 +391,10 @@ fn built(sheet: &Motor, inputs: &MotorInputs) -> Result<Built, Error> {
         sheet.drive_frequency = inputs.drive_frequency;
     })?;
     let shafted = on_shaft(motor.system(), motor.load(), motor.mass())?;
-    let system = StatorSystem::of_system(&shafted, motor.mass())?;
+    let system = match motor.stator_motion() {
+        Stator::Yielding(own) => (**own).clone(),
+        Stator::Sine | Stator::Driven(_) => StatorSystem::of_system(&shafted, motor.mass())?,
+    };
     let law = motor.load().map_or_else(|| LoadLaw::constant(0.0), Ok)?;
     let mut lines = lines(&law, 0.0, &shafted, motor.mass());
     let torque = load_torque / (motor.preload_force() * shafted.disk().contact_radius());

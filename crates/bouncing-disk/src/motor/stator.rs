@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::motor::data_sheet::parameters::MotorParameters;
 use crate::parameters::dimensionless::DimensionlessParameters;
 use crate::parameters::disk::Disk;
-use crate::parameters::driven_platform::{DrivenPlatform, Waveform};
+use crate::parameters::driven_platform::DrivenPlatform;
 use crate::parameters::load::LoadLaw;
 use crate::parameters::system::System;
 use crate::stator::{LoadLine, StatorSystem};
@@ -35,8 +35,7 @@ impl Stator {
     pub(crate) fn of(sheet: &MotorParameters, system: &System, mass: f64) -> Result<Self, Error> {
         let platform = DrivenPlatform::of_drive(*system.platform(), &sheet.drive)?;
         if sheet.stator.is_some() || sheet.load.is_some() {
-            let is_sine = platform.height() == &Waveform::Sine && platform.angle() == &Waveform::Sine;
-            if !is_sine {
+            if !sheet.drive.is_sine() {
                 let other = if sheet.stator.is_some() { "stator" } else { "load" };
                 return Err(Error::BothGiven { one: "drive", other });
             }

@@ -156,14 +156,14 @@ pub struct ElectricalInput {
 
 /// A stator that yields, checked. Its steady motion without a rotor is that of the platform.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stator {
+pub struct StatorModes {
     parameters: StatorParameters,
     motion: PlatformParameters,
     modes: [VibrationMode; 2],
     circuit: Option<Circuit>,
 }
 
-impl Stator {
+impl StatorModes {
     /// The table `[stator]`.
     #[must_use]
     pub const fn parameters(&self) -> StatorParameters {
@@ -323,7 +323,7 @@ impl StatorParameters {
     }
 
     /// The stator whose steady motion without a rotor is this.
-    pub(crate) fn build(self, given: GivenMotion) -> Result<Stator, Error> {
+    pub(crate) fn build(self, given: GivenMotion) -> Result<StatorModes, Error> {
         let GivenMotion { angular_frequency, amplitude, twist_amplitude, phase_lag } = given;
         let exclude = |one: Option<&'static str>, other: Option<&'static str>| match (one, other) {
             (Some(one), Some(other)) => Err(Error::BothGiven { one, other }),
@@ -392,7 +392,7 @@ impl StatorParameters {
             StatorKind::AxialAndTorsional => torsional.moving(&motion, twist_amplitude, phase_lag),
             _ => axial,
         };
-        let stator = Stator { parameters: self, motion, modes: [axial, torsional], circuit };
+        let stator = StatorModes { parameters: self, motion, modes: [axial, torsional], circuit };
         for (mode, moved) in stator.modes().iter().zip([amplitude, twist_amplitude]) {
             finite("angular frequency of the stator (rad/s)", mode.angular_frequency)?;
             let legal = mode.force.is_normal() && moved.is_normal() || mode.force == 0.0 && moved == 0.0;
@@ -402,7 +402,7 @@ impl StatorParameters {
     }
 
     /// The stator of a platform, whose numbers must be those that this table gives.
-    pub(crate) fn of_platform(self, platform: &Platform) -> Result<Stator, Error> {
+    pub(crate) fn of_platform(self, platform: &Platform) -> Result<StatorModes, Error> {
         let (own, [lifts, twists]) = (platform.parameters(), self.computes());
         let twist_amplitude = ("twist_amplitude", own.twist_amplitude);
         let given = GivenMotion {

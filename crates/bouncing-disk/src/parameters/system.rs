@@ -12,7 +12,7 @@ use crate::parameters::disk::Disk;
 use crate::parameters::driven_platform::{DriveParameters, DrivenPlatform};
 use crate::parameters::platform::Platform;
 use crate::parameters::scales::Scales;
-use crate::parameters::stator::{Stator, StatorParameters};
+use crate::parameters::stator::{StatorModes, StatorParameters};
 
 /// A disk on a platform.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -132,7 +132,7 @@ impl System {
 
     /// The stator that the platform is, if the rotor changes its motion.
     #[must_use]
-    pub fn stator(&self) -> Option<Stator> {
+    pub fn stator(&self) -> Option<StatorModes> {
         // It was built before, when the table was checked.
         self.stator.and_then(|stator| stator.of_platform(&self.platform).ok())
     }

@@ -15,6 +15,7 @@ use crate::motion::initial_condition::InitialCondition;
 use crate::motion::si::SiEnergy;
 use crate::motion::state::Mode;
 use crate::motion::trajectory::Trajectory;
+use crate::parameters::dimensionless::DimensionlessSystem;
 use crate::parameters::scales::Scales;
 use crate::parameters::system::System;
 
@@ -102,6 +103,7 @@ pub fn toss_trajectory(system: &System, initial: InitialSpin) -> Result<Trajecto
 }
 
 fn toss_engine(system: &System, initial: InitialSpin) -> Result<Engine, Error> {
+    DimensionlessSystem::try_from(system)?;
     if system.dimensionless().vibration().separation_phase().is_none() {
         return Err(never_leaves(system));
     }

@@ -7,7 +7,6 @@ use bouncing_disk::core::numerics::statistics::NORMAL_975;
 use bouncing_disk::motor::{
     Estimate, InputTolerance, OperatingSettings, Operation, Shortfall, SweepQuantity,
 };
-use bouncing_disk::parameters::DimensionlessSystem;
 
 /// The settings of the library, with its defaults.
 #[derive(Debug, Clone, Args)]
@@ -61,12 +60,12 @@ impl SpreadArgs {
     /// The tolerance over which a spread is computed: that of the sine's rigid impacts only, as is the regime.
     pub(super) fn of(&self, motor: &Motor, context: Context) -> Option<InputTolerance> {
         let tolerance = self.tolerance();
-        if !is_rigid_sine(motor) && tolerance.is_some() {
+        if motor.rigid_sine().is_err() && tolerance.is_some() {
             context.note(
                 "no spread over the tolerances: it is computed for a prescribed sine with rigid impacts only",
             );
         }
-        tolerance.filter(|_| is_rigid_sine(motor))
+        tolerance.filter(|_| motor.rigid_sine().is_ok())
     }
 
     fn tolerance(&self) -> Option<InputTolerance> {
@@ -77,11 +76,6 @@ impl SpreadArgs {
     }
 }
 
-/// Whether the stator moves as a sine whatever lies on it, with rigid impacts and a constant load.
-fn is_rigid_sine(motor: &Motor) -> bool {
-    DimensionlessSystem::try_from(motor.system()).is_ok()
-}
-
 /// Prints warnings of values in a data sheet that are legal and yet unlikely to be meant.
 pub(super) fn warn(motor: &Motor, context: Context) {
     motor.warnings().iter().for_each(|warning| context.note(&format!("warning: {warning}")));
@@ -89,7 +83,7 @@ pub(super) fn warn(motor: &Motor, context: Context) {
 
 /// A line on a motor that is locked: its errors are tiny, and hold at exactly its inputs.
 pub(super) fn lock_note(motor: &Motor) -> Result<String> {
-    if !is_rigid_sine(motor) {
+    if motor.rigid_sine().is_err() {
         return Ok(String::new());
     }
     let regime = motor.report(&Unobserved)?.regime;

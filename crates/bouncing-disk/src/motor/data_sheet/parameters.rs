@@ -78,8 +78,8 @@ pub struct MotorParameters {
     /// A torque over speed and time, and an inertia on the shaft; in place of [`Self::load_torque`].
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub load: Option<LoadLaw>,
-    /// How the stator moves in place of the sines of Eq. (1). Its waveforms multiply the amplitudes. Not with a
-    /// [`Self::stator`] or a [`Self::load`].
+    /// How the stator moves in place of the sines of Eq. (1). Its waveforms multiply the amplitudes, and there is no
+    /// `start_phase`. Not with a [`Self::stator`] or a [`Self::load`].
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "DriveParameters::is_sine"))]
     pub drive: DriveParameters,
 }
@@ -113,7 +113,7 @@ impl MotorParameters {
     /// The data sheet of a system whose disk has this mass (kg): frequency, amplitudes and preload
     /// acceleration of the system, and the torque m a_g^2 d alpha/dt of its load. It is not yet checked. The
     /// frequency omega/(2 pi) is rounded, so that the angular frequency of the motor may differ in the last
-    /// bit.
+    /// bit. The system of a motor knows neither the drive nor the load of its sheet.
     ///
     /// ```
     /// use bouncing_disk::System;

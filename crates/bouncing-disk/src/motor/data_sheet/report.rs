@@ -103,7 +103,7 @@ pub struct StatorReport {
     /// Power that the circuit takes without a rotor (W).
     pub power: Option<f64>,
     /// The preload (N) from which on a rotor at rest is no longer lifted
-    /// ([`Stator::lift_off_preload`](crate::parameters::Stator::lift_off_preload)); `None` also where contacts take time.
+    /// ([`StatorModes::lift_off_preload`](crate::parameters::StatorModes::lift_off_preload)); `None` also where contacts take time.
     pub lift_off_preload: Option<f64>,
 }
 

@@ -212,8 +212,7 @@ pub fn low_period_traps(
 
 impl TrapVerdict {
     fn of_motor(motor: &Motor, work: &mut WorkCount<'_>) -> Result<Self, Error> {
-        motor.system().prescribed()?;
-        Self::of(motor.system().dimensionless().map(), motor.preload_acceleration(), work)
+        Self::of(motor.rigid_sine()?.dimensionless().map(), motor.preload_acceleration(), work)
     }
 }
 
@@ -221,7 +220,7 @@ impl Motor {
     /// Whether the motor, as it is, is in a low-period trap.
     ///
     /// # Errors
-    /// Those of the flights.
+    /// Those of [`Motor::rigid_sine`] and of the flights.
     pub fn trap_verdict(&self) -> Result<TrapVerdict, Error> {
         let watch = Watch::begin(&Unobserved, 0, 1)?;
         TrapVerdict::of_motor(self, &mut watch.work())

@@ -83,7 +83,7 @@ pub enum MotorWarning {
     NotLifted {
         /// The preload (N).
         preload_force: f64,
-        /// The preload below which it does ([`crate::parameters::Stator::lift_off_preload`]).
+        /// The preload below which it does ([`crate::parameters::StatorModes::lift_off_preload`]).
         lift_off_preload: f64,
     },
     /// The contacts of the motor take time, and the regime of a report is that of rigid impacts.

@@ -20,12 +20,13 @@ impl LoadedMotor<'static> {
     /// A motor whose stator moves as a sine, with rigid impacts and a constant load.
     pub(crate) fn of_sine(motor: &Motor) -> Result<Self, Error> {
         let (mass, load_torque) = (motor.mass(), motor.load_torque());
-        Ok(Self { system: *motor.sine()?, stator: &Stator::Sine, mass, load_torque })
+        Ok(Self { system: *motor.rigid_sine()?, stator: &Stator::Sine, mass, load_torque })
     }
 }
 
 impl Motor {
-    /// The motor in steady operation under a load torque (N m), in place of the load of its data sheet.
+    /// The motor in steady operation under a load torque (N m): in place of that of its data sheet, or on top of the law
+    /// of its table `[load]`.
     ///
     /// The items of `observer` are the impacts that may be spent.
     ///
@@ -51,6 +52,7 @@ impl Motor {
     /// [`Error::OutOfRange`] for illegal settings and a load that is not finite; an error of the core for
     /// more than [`MAX_OPERATED_ROTORS`] rotors of all members together; the errors of the flights. A motor
     /// that is not known well enough when all impacts are spent is not an error but [`Operation::Unsettled`].
+    /// [`Error::LoadInTime`] for a load that varies in time.
     pub fn operating_point(
         &self,
         load_torque: f64,
@@ -63,8 +65,9 @@ impl Motor {
     }
 
     /// The motor in steady operation under each of these load torques (N m), in their order, on one vertical
-    /// motion, so that a curve costs little more than a point unless loads settle slowly. The points share
-    /// their perturbations: the curve is smooth, and the difference of two points is more precise than
+    /// motion, so that a curve costs little more than a point unless loads settle slowly. (On a stator that yields or
+    /// moves by waveforms each load has a motion of its own, unless the shape is a sine.) The points share their
+    /// perturbations: the curve is smooth, and the difference of two points is more precise than
     /// either.
     ///
     /// The items of `observer` are the impacts that may be spent.
@@ -86,7 +89,10 @@ impl Motor {
     /// Those of [`Self::operating_point`]; [`Error::NotSettled`] if it is not known to the requested
     /// accuracy.
     pub fn no_load_speed(&self, settings: &OperatingSettings) -> Result<Estimate, Error> {
-        match self.operating_point(0.0, settings, &Unobserved)? {
+        let bare = self.stator_motion().without_law()?;
+        let unloaded = LoadedMotor { stator: &bare, ..self.loaded()? };
+        // As many as loads.
+        match curve_of(unloaded, &[0.0], settings, &Unobserved)?.swap_remove(0) {
             Operation::Steady(point) => Ok(point.speed),
             Operation::Unsettled(point, _) => Err(Error::NotSettled {
                 speed: point.speed.value,
@@ -97,7 +103,7 @@ impl Motor {
         }
     }
 
-    /// The load torque that stops the motor, bracketed: the true stall.
+    /// The load torque that stops the motor, bracketed: the true stall, without the law of a table `[load]`.
     ///
     /// The items of `observer` are the impacts that its two searches may spend.
     ///
@@ -109,7 +115,7 @@ impl Motor {
         settings: &OperatingSettings,
         observer: &dyn Observer,
     ) -> Result<StallLoad, Error> {
-        let bare = self.carrier().without_law()?;
+        let bare = self.stator_motion().without_law()?;
         stall_load(&LoadedMotor { stator: &bare, ..self.loaded()? }, settings, observer)
     }
 
@@ -119,7 +125,8 @@ impl Motor {
     ///
     /// # Errors
     /// Those of [`Self::operating_point`]; [`Error::DoesNotTurn`] for a motor that does not turn at any lag,
-    /// [`Error::Overpowered`] where the load is more than friction can hold.
+    /// [`Error::Overpowered`] where the load is more than friction can hold, [`Error::BothGiven`] where the one mode of a
+    /// stator moves both height and angle.
     pub fn best_phase_lag(
         &self,
         settings: &OperatingSettings,
@@ -150,13 +157,13 @@ impl Motor {
             return Err(Error::LoadInTime);
         }
         let (mass, load_torque) = (self.mass(), self.load_torque());
-        Ok(LoadedMotor { system: self.fastest_sine()?, stator: self.carrier(), mass, load_torque })
+        Ok(LoadedMotor { system: self.fastest_sine()?, stator: self.stator_motion(), mass, load_torque })
     }
 
     /// The sine with the same largest speeds as its stator, and the inertia of its shaft: by it starts and errors are
     /// scaled.
     pub(crate) fn fastest_sine(&self) -> Result<System, Error> {
-        Ok(match self.carrier() {
+        Ok(match self.stator_motion() {
             Stator::Sine => *self.system(),
             Stator::Driven(own) => {
                 let scales = self.system().scales();
@@ -173,7 +180,7 @@ impl Motor {
 /// The steady operation of many motors, each under the load of its data sheet, in their order: maps of
 /// efficiency over lag and load, preload and amplitude, or anything else. Consecutive motors with the same
 /// vertical motion (they differ only in load, friction, lag, twist, radii or mass) share one orbit: list them
-/// together. Contacts take the time that a sheet has in its table `[contact]`, and stators yield by `[stator]`; such motors are computed one by one.
+/// together. Motors with a drive, a contact time, a stator that yields or a table `[load]` are computed one by one.
 ///
 /// The items of `observer` are the motors.
 ///
@@ -187,7 +194,7 @@ pub fn operations(
     check(!motors.is_empty(), "number of motors", 0.0, "[1, 1000000]")?;
     let (total, mut all) = (motors.len() as u64, Vec::with_capacity(motors.len()));
     let most = (MAX_OPERATED_ROTORS / settings.members.max(1)).max(1);
-    let is_sine = |motor: &Motor| matches!(motor.carrier(), Stator::Sine);
+    let is_sine = |motor: &Motor| matches!(motor.stator_motion(), Stator::Sine);
     let groups = motors
         .chunk_by(|one, other| is_sine(one) && is_sine(other) && is_shared(one.system(), other.system()));
     for group in groups.flat_map(|group| group.chunks(most)) {

@@ -104,7 +104,7 @@ impl Motor {
         observer: &dyn Observer,
     ) -> Result<Vec<TrapRange>, Error> {
         settings.check()?;
-        self.sine()?;
+        self.rigid_sine()?;
         check(low > 0.0 && low.is_finite(), "lowest preload", low, "(0, highest preload) (m/s^2)")?;
         check(high > low && high.is_finite(), "highest preload", high, "(lowest preload, inf) (m/s^2)")?;
         let legal = least_relative_width > 0.0 && least_relative_width <= 0.1;
@@ -161,7 +161,7 @@ impl Motor {
     ) -> Result<Option<NearestTrap>, Error> {
         let legal = relative_range > 0.0 && relative_range <= 1.0;
         check(legal, "relative_range", relative_range, "(0, 1]")?;
-        self.sine()?;
+        self.rigid_sine()?;
         let reach = ln_1p(relative_range);
         let scan = Scan { motor: self, step: 0.5 * LEAST_TRAP_WIDTH };
         let near = |[from, to]: &[f64; 2]| if *from > 0.0 { *from } else { to.min(0.0) };

@@ -120,7 +120,7 @@ impl Motor {
     /// [`Error::OutOfRange`] for illegal settings, for a parameter of zero, which has no logarithm, and for
     /// one that leaves its range; [`Error::DoesNotTurn`] for a motor that does not turn,
     /// [`Error::Overpowered`] for a load larger than friction can hold, [`Error::TooFewMotors`] if too few
-    /// motors are outside of traps; those of [`Motor::operating_point`].
+    /// motors are outside of traps; those of [`Motor::rigid_sine`] and [`Motor::operating_point`].
     pub fn local_sensitivities(
         &self,
         quantity: SensitivityQuantity,
@@ -129,6 +129,7 @@ impl Motor {
         observer: &dyn Observer,
     ) -> Result<Vec<LocalSensitivity>, Error> {
         settings.check()?;
+        self.rigid_sine()?;
         let shared: Vec<_> =
             parameters.iter().copied().filter(|parameter| parameter.shares_vertical_motion()).collect();
         let others = parameters.len() - shared.len();

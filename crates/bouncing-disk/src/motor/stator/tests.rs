@@ -4,8 +4,12 @@ use bouncing_disk_core::{Phase, Unobserved};
 
 use super::*;
 use crate::Motor;
-use crate::motor::{Estimate, MotorParameters, OperatingSettings, Operation, Shortfall, TransientSettings};
+use crate::motor::{
+    Estimate, MotorParameters, OperatingSettings, Operation, SensitivityParameter, SensitivityQuantity,
+    SensitivitySettings, Shortfall, TransientSettings,
+};
 use crate::parameters::contact::Contact;
+use crate::parameters::driven_platform::Waveform;
 use crate::parameters::stator::StatorParameters;
 
 fn settings() -> OperatingSettings {
@@ -180,11 +184,32 @@ fn run_ups_by_taps_are_those_of_the_engine() {
     }
 }
 
+/// The speed without load is that of the bare motor, as the stall is.
+#[test]
+fn a_speed_without_load_is_without_the_law_of_the_load() {
+    let paper = Motor::paper_70_khz();
+    let speed = |load: Option<LoadLaw>| {
+        let motor = paper.with(|sheet| sheet.load = load).expect("legal");
+        motor.no_load_speed(&settings()).expect("known")
+    };
+    let fan = LoadLaw::fan(10.0, 2e-5, 4).expect("legal");
+    let (own, known) = (speed(Some(fan)), speed(LoadLaw::constant(0.0).ok()));
+    assert_eq!(own, known);
+}
+
 #[test]
 fn calls_of_the_sine_say_what_a_sheet_has_instead() {
     let paper = Motor::paper_70_khz();
     let (soft, stiff) = (touching(&paper, 1e-5), touching(&paper, 1e-12));
     assert_eq!(soft.nearest_trap(0.1, &Unobserved), Err(Error::SoftContact));
+    assert_eq!(soft.trap_verdict().map(|_| ()), Err(Error::SoftContact));
+    let all = SensitivitySettings::default();
+    let sensitivities = |motor: &Motor, quantity| {
+        motor.local_sensitivities(quantity, &[SensitivityParameter::Amplitude], &all, &Unobserved).map(|_| ())
+    };
+    for quantity in [SensitivityQuantity::SteadySpeed, SensitivityQuantity::StallTorque] {
+        assert_eq!(sensitivities(&soft, quantity), Err(Error::SoftContact));
+    }
     let driven = moved(&paper, Waveform::Triangle, Waveform::Sine);
     assert_eq!(driven.nearest_trap(0.1, &Unobserved), Err(Error::DriveNotSine));
     assert_eq!(driven.report(&Unobserved), Err(Error::DriveNotSine));
@@ -193,7 +218,7 @@ fn calls_of_the_sine_say_what_a_sheet_has_instead() {
     let run = |motor: &Motor| crate::motor::transient(motor.system(), phase, &settings, &Unobserved);
     assert_eq!(run(&soft), Err(Error::SoftContact));
     assert_eq!(run(&stiff), run(&paper));
-    assert_eq!((stiff.carrier(), paper.carrier()), (&Stator::Sine, &Stator::Sine));
+    assert_eq!((stiff.stator_motion(), paper.stator_motion()), (&Stator::Sine, &Stator::Sine));
     assert!(stiff.warnings().iter().any(|warning| warning.to_string().starts_with("impacts are rigid")));
 }
 
