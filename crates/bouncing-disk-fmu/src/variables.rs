@@ -84,7 +84,7 @@ pub(crate) fn variables(motor: &Motor) -> Vec<Variable> {
         all.push(of("current", "A", text, 0.0, Role::Output(current)));
     }
     let given =
-        MotorField::ALL.into_iter().filter_map(|field| Some((field, field.value(&motor.parameters())?)));
+        MotorField::ALL.into_iter().filter_map(|field| Some((field, field.value(motor.parameters())?)));
     let inputs: Vec<_> = all.iter().map(|known| known.name).collect();
     for (field, value) in given.filter(|(field, _)| !inputs.contains(&field.name())) {
         all.push(of(field.name(), field.unit(), "Of the data sheet", value, Role::Sheet(field)));

@@ -65,7 +65,7 @@ fn motor_of(sheet: &MotorParameters) -> Result<Motor, Refusal> {
 /// mean angular speed over the members and its standard error (rad/s).
 pub(crate) fn transient(request: &TransientRequest) -> Result<Reply, Refusal> {
     let TransientRequest { ref sheet, members, rise_times, points: intervals, seed } = *request;
-    let motor = motor_of(&sheet)?;
+    let motor = motor_of(sheet)?;
     let system = *motor.system();
     let duration = rise_times * system.rise_time();
     let settings = TransientSettings { duration, intervals, seed, ..TransientSettings::default() };
@@ -97,7 +97,7 @@ fn rise_of(fit: &TransientFit) -> Value {
 pub(crate) fn loads(request: &LoadsRequest) -> Result<Reply, Refusal> {
     let LoadsRequest { sheet, load_torques, relative_error, most_impacts, seed } = request;
     let mut settings = settings(*relative_error, *most_impacts, *seed)?;
-    let motor = motor_of(&sheet)?;
+    let motor = motor_of(sheet)?;
     if motor.rigid_sine().is_err() {
         settings.members /= FEWER;
         settings.most_impacts /= FEWER as u64;

@@ -165,7 +165,7 @@ impl MotorSweep {
     pub fn replaced(&self) -> Vec<MotorField> {
         let sheet = self.motor.parameters();
         let excluded = self.axes.iter().flat_map(|axis| axis.parameter.excluded());
-        excluded.copied().filter(|field| field.value(&sheet).is_some()).collect()
+        excluded.copied().filter(|field| field.value(sheet).is_some()).collect()
     }
 
     /// The motor of a cell.

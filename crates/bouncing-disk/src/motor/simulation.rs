@@ -45,7 +45,7 @@ impl MotorInputs {
         let sheet = motor.parameters();
         Self {
             load_torque: motor.load_torque(),
-            drive: Self::drive_field(motor).value(&sheet).unwrap_or_default(),
+            drive: Self::drive_field(motor).value(sheet).unwrap_or_default(),
             drive_frequency: sheet.drive_frequency,
             on: true,
         }
@@ -54,7 +54,7 @@ impl MotorInputs {
     /// What drives a motor: the volts or the force of its stator, or the amplitude.
     #[must_use]
     pub fn drive_field(motor: &Motor) -> MotorField {
-        let given = |field: &MotorField| field.value(&motor.parameters()).is_some();
+        let given = |field: &MotorField| field.value(motor.parameters()).is_some();
         [MotorField::StatorVolts, MotorField::StatorForce]
             .into_iter()
             .find(given)

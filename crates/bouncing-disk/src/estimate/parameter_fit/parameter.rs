@@ -90,7 +90,7 @@ impl FitParameter {
             Self::Amplitude => stator.amplitude(),
             Self::TwistAmplitude => stator.twist_amplitude(),
             Self::ContactTime => motor.system().soft_contact().map_or(0.0, |(_, time)| time),
-            _ => self.field().value(&motor.parameters()).unwrap_or(f64::NAN),
+            _ => self.field().value(motor.parameters()).unwrap_or(f64::NAN),
         }
     }
 

@@ -615,7 +615,7 @@ fn a_stator_is_read_as_it_is_written() {
         // Twice the force, and other changes of the system that cannot hold.
         let sheet = motor.parameters();
         for field in [MotorField::StatorVolts, MotorField::StatorForce] {
-            let Some(value) = field.value(&sheet) else { continue };
+            let Some(value) = field.value(sheet) else { continue };
             let double = motor.with(|sheet| field.set(sheet, 2.0 * value)).expect("legal");
             assert!((double.system().platform().amplitude() / platform.amplitude() - 2.0).abs() < 1e-15);
             let other = motor.system().with_platform(|platform| platform.amplitude *= 2.0);

@@ -169,7 +169,7 @@ impl Motor {
         let sheet = self.parameters();
         let mut warnings: Vec<_> = MotorField::ALL
             .into_iter()
-            .filter_map(|field| of_field(field.field(), field.value(&sheet)?))
+            .filter_map(|field| of_field(field.field(), field.value(sheet)?))
             .collect();
         if let Some(rotor_radius) = sheet.rotor_radius {
             let disk = self.system().disk();

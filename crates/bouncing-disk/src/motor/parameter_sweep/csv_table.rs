@@ -228,7 +228,7 @@ mod tests {
                 motor.stator = Some(table);
             }
             let motor = motor.build().expect("legal");
-            let value = field.value(&motor.parameters()).unwrap_or(1e-3);
+            let value = field.value(motor.parameters()).unwrap_or(1e-3);
             let sweep = MotorSweep::new(motor, vec![SweepAxis::new(field, vec![value])], settings);
             let result = sweep.and_then(|sweep| sweep.run(&Unobserved)).expect("legal");
             let table = result.to_csv();
