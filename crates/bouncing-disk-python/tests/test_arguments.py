@@ -515,7 +515,7 @@ HEXAGON = [1.0, 0.5, -0.5, -1.0, -0.5, 0.5]
 #: Calls of one number within a table or a list, and how an error names its place.
 PLACES: list[tuple[str, Callable[[Any], object]]] = [
     ("stator.quality", lambda value: MOTOR.replace(stator={**STATOR, "quality": value})),
-    ("load.inertia", lambda value: MOTOR.replace(load={**LOAD, "inertia": value})),
+    ("load.inertia", lambda value: MOTOR.replace(mass=1e5, load={**LOAD, "inertia": value})),
     ("load.torques[1]", lambda value: MOTOR.replace(load={**LOAD, "torques": [0.0, value]})),
     ("contact.time", lambda value: MOTOR.replace(drive_frequency=1.0, contact={"time": value})),
     ("stator.quality", lambda value: TOSS.replace(stator={**STATOR, "quality": value})),

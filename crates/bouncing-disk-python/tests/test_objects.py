@@ -75,7 +75,9 @@ WITH_TABLES: dict[str, Any] = {
     "contact of materials": MOTOR.replace(contact=LAYER),
     "stator": MOTOR.replace(stator=STATOR),
     "stator in volts": MOTOR.replace(amplitude=None, stator=VOLTS),
-    "load": MOTOR.replace(load=LOAD),
+    # Only a stator that yields is switched on and off.
+    "load": MOTOR.replace(load={name: value for name, value in LOAD.items() if name not in ("on", "off")}),
+    "drive": MOTOR.replace(drive=bd.Drive(height="triangle", angle={"fourier": [[1.0, 0.0], [0.1, 0.3]]})),
     "all": MOTOR.replace(contact={"time": 1e-6}, stator=STATOR, load=LOAD),
     "system with contact": MOTOR.replace(contact=LAYER).system,
     "system with stator": MOTOR.replace(stator=STATOR).system,
@@ -113,7 +115,7 @@ def test_parameters_are_the_call_that_makes_them(one: Any) -> None:
 @pytest.mark.parametrize("one", WITH_TABLES.values(), ids=list(WITH_TABLES))
 def test_tables_are_kept_when_another_value_changes(one: Any) -> None:
     other = one.replace(**({"start_phase": 0.25} if isinstance(one, bd.Drive) else {"restitution": 0.375}))
-    tables = {"contact", "stator", "load", "height", "angle"}
+    tables = {"contact", "stator", "load", "drive", "height", "angle"}
     own, changed = ({key: value for key, value in each.to_dict().items() if key in tables} for each in (one, other))
     assert own == changed and own
     # What a user does with the dictionary changes no object.
