@@ -1,5 +1,5 @@
-//! Digests of every number in the records of events: of the sine, of drives with rigid contacts and with contacts that
-//! take time, and of stators that yield. An engine that is written in another way must give the same bits.
+//! Digests of every number in the records of events: on the sine, on drives with rigid and with compliant
+//! contacts, and on compliant stators. A rewritten engine must give the same bits.
 
 use bouncing_disk::core::map::KuwabaraKono;
 use bouncing_disk::core::numerics::digest::Digest;

@@ -259,8 +259,8 @@ impl Touching<'_> {
                 + d * turned)
     }
 
-    /// The way from `at` over `span` from joint to joint of height or angle: the start of each stretch, the time passed
-    /// until then, and its length.
+    /// The way from `at` over `span` from joint to joint of height or angle: the start of each stretch, the
+    /// time passed until then, and its length.
     fn stretches(&self, at: f64, span: f64) -> impl Iterator<Item = (f64, f64, f64)> {
         let mut next = Some((at, 0.0));
         std::iter::from_fn(move || {
@@ -383,8 +383,8 @@ impl Touching<'_> {
         })
     }
 
-    /// In a contact that takes time: the work of the platform over the next `span`, what the damper takes, and
-    /// the gap at the start and at the end.
+    /// In a contact that takes time: the work of the platform over the next `span`, what the damper takes,
+    /// and the gap at the start and at the end.
     pub(super) fn normal_work(&self, start: &DiskState, at: f64, span: f64) -> (f64, f64, [f64; 2]) {
         let Some(compliant) = &self.system.compliance else { return (0.0, 0.0, [0.0; 2]) };
         let drive = compliant.drive();

@@ -1,4 +1,5 @@
-//! Engines on a driven platform: how they start, how they go on from a state, and the motion between two events.
+//! Engines on a driven platform: how they start, how they go on from a state, and the motion between two
+//! events.
 
 use std::f64::consts::TAU;
 
@@ -169,7 +170,7 @@ impl DrivenEngine {
         self.stage = Stage::Lying(lying);
     }
 
-    /// A disk that presses on a contact that takes time.
+    /// A disk that presses on a compliant contact.
     fn press(&mut self, from: RelativeState) -> Result<(), Error> {
         if let Some((pressed, lying)) = self.pressed_from(from, self.state.angular_speed)? {
             self.lie(lying);
@@ -178,7 +179,7 @@ impl DrivenEngine {
         Ok(())
     }
 
-    /// A contact that takes time, of a disk with this angular speed.
+    /// A compliant contact from this state on, of a disk with this angular speed.
     pub(super) fn pressed_from(
         &self,
         from: RelativeState,
@@ -265,7 +266,8 @@ impl DrivenEngine {
         self.now.phase.angle()
     }
 
-    /// The way to an event `duration` later, at which the drive is at `at` for the next time or after whole periods.
+    /// The way to an event `duration` later, at which the drive is at `at` for the next time or after whole
+    /// periods.
     pub(super) fn step(&self, duration: f64, at: f64) -> Step {
         self.step_over(duration, at, ((self.at() + duration - at) / TAU + 0.5) as u64)
     }
@@ -384,7 +386,7 @@ impl DrivenEngine {
     }
 }
 
-/// A disk that presses on a contact that takes time, and slides there in this direction or sticks.
+/// A disk that presses on a compliant contact, and slides there in this direction or sticks.
 pub(super) fn lying_pressed(
     pressed: &Pressed,
     slip: Option<SlipDirection>,

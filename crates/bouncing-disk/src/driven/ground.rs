@@ -1,5 +1,4 @@
-//! The ground of a platform that moves in any way: which event comes next, in rigid contacts and in those that take
-//! time.
+//! The ground of a platform that moves in any way, with rigid or compliant contacts: its next event.
 
 use bouncing_disk_core::chatter::{AfterImpact, ShortFlightCount};
 use bouncing_disk_core::flight::{Branch, ChatterDuration, Pressed, RelativeState, TimeAhead, Touch};
@@ -24,9 +23,9 @@ use crate::motion::state::{DiskState, Mode, PlatformState, SlipDirection};
 pub struct DrivenGround {
     policy: ChatterPolicy,
     short_flights: ShortFlightCount,
-    /// The contact that takes time, of a disk that lies on it.
+    /// The compliant contact of a disk that lies on the platform.
     pub(super) pressed: Option<Pressed>,
-    /// How a disk moves that never leaves such a contact.
+    /// The motion of a disk that never leaves a compliant contact.
     pub(super) settled: Option<Drive>,
 }
 
@@ -49,7 +48,7 @@ pub enum DrivenFlight {
         /// Their duration.
         chatter: ChatterDuration,
     },
-    /// None: a cut puts the disk on the platform.
+    /// Ended before it begins: a cut puts the disk on the platform.
     Cut {
         /// The relative launch speed that the cut takes.
         speed: f64,
@@ -58,21 +57,21 @@ pub enum DrivenFlight {
     },
 }
 
-/// The end of a contact with a drive, and what follows it.
+/// The end of a contact with a drive, and the continuation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DrivenEnd {
     pub(super) ahead: TimeAhead,
     pub(super) then: Then,
 }
 
-/// What follows the end of a contact.
+/// The continuation after the end of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Then {
     /// The disk leaves, or is hit.
     Leaves,
-    /// The transient of a contact that takes time is over: the disk never leaves.
+    /// The transient of a compliant contact is over: the disk never leaves.
     Settles,
-    /// The spring of such a contact does this.
+    /// The spring of a compliant contact does this.
     Turns(Branch),
 }
 
@@ -265,7 +264,7 @@ impl DrivenEngine {
         Ok(self.moved(&here, event, Passed { change, ledger, before }, after, next, [-speed, 0.0]))
     }
 
-    /// The start of a contact that takes time.
+    /// The start of a compliant contact.
     fn begin_contact(&mut self, from: RelativeState, touch: &Touch) -> Result<EventRecord, Error> {
         let Touch { duration, state, turns } = *touch;
         let to = self.step_over(duration, state.time, turns);
@@ -297,7 +296,7 @@ impl DrivenEngine {
         Ok(record)
     }
 
-    /// The end of a contact, or a turn of the spring of one that takes time.
+    /// The end of a contact, or a turn of the spring of a compliant one.
     fn leave(&mut self, slip: Option<SlipDirection>, end: DrivenEnd) -> Result<EventRecord, Error> {
         let DrivenEnd { ahead: TimeAhead { after: span, time: at, velocity_jump: jump }, then } = end;
         let (to, mut passed) = (self.step(span, at), self.passed(span, at));

@@ -110,8 +110,8 @@ impl Chatter {
         self.pair = next.pair;
     }
 
-    /// An impact so long after the start, which ends a flight of this duration, with this relative velocity, velocity
-    /// of the platform, and angular speed of the platform.
+    /// An impact so long after the start, which ends a flight of this duration, with this relative velocity,
+    /// velocity of the platform, and angular speed of the platform.
     pub(crate) fn strike(
         &mut self,
         [friction, load, restitution]: [f64; 3],

@@ -167,8 +167,8 @@ pub(crate) struct Placed<L = Constant> {
 }
 
 impl<L: RestitutionLaw> Placed<L> {
-    /// A disk with angular `speed` that is put on the platform at `phase`; the `map` may have another law of restitution
-    /// than the system.
+    /// A disk with angular `speed` that is put on the platform at `phase`; the `map` may have another law of
+    /// restitution than the system.
     ///
     /// # Errors
     /// Those of the core's launches.

@@ -1,7 +1,8 @@
-//! The event engine: the motion of a disk from event to event, on a platform that moves as a sine or in any other way.
+//! The event engine: the motion of a disk from event to event, on a platform that moves as a sine or in any
+//! other way.
 //!
-//! A [`Ground`] finds the next event, in closed form or as a first root. What an event does to the disk, and the record
-//! of it with its energy, are the same on every ground and written here.
+//! A [`Ground`] finds the next event, in closed form or as a first root. The effect of an event on the disk,
+//! and its record with the energy, are the same on every ground and are written here.
 
 pub(crate) mod sample;
 pub(crate) mod sine;
@@ -25,15 +26,16 @@ use crate::motion::state::{DiskState, LongSum, Mode, PlatformState};
 pub use sine::SineGround;
 pub(crate) use sine::chatter_speed;
 
-/// What the disk bounces on: how a platform of one kind moves, and which event it causes next.
+/// The platform under the disk: how one kind of platform moves, and which event it causes next.
 ///
-/// Sealed: [`SineGround`], and [`DrivenGround`](crate::driven::DrivenGround) for platforms that move in any way.
+/// Sealed: [`SineGround`], and [`DrivenGround`](crate::driven::DrivenGround) for platforms that move in any
+/// way.
 pub trait Ground: Debug + Clone {
     /// Disk and platform.
     type System: Debug + Clone;
-    /// What is known of a flight besides the state of the disk.
+    /// The data of a flight beyond the state of the disk.
     type Flight: Debug + Clone + Copy + PartialEq;
-    /// The end of a contact, if it has one.
+    /// The end of a contact that ends.
     type ContactEnd: Debug + Clone + Copy + PartialEq;
 
     /// The platform at a phase.
@@ -52,7 +54,8 @@ pub trait Ground: Debug + Clone {
         limit: f64,
     ) -> Result<Option<EventRecord>, Error>;
 
-    /// The next event of a disk that lies on the platform, if it comes within `limit` radians of the last event.
+    /// The next event of a disk that lies on the platform, if it comes within `limit` radians of the last
+    /// event.
     ///
     /// # Errors
     /// [`Error::SlipTooLong`], and those of the core's roots.
@@ -64,9 +67,10 @@ pub trait Ground: Debug + Clone {
 }
 
 /// A system that an engine can start on: a [`System`](crate::System) or a
-/// [`DimensionlessSystem`](crate::parameters::DimensionlessSystem), or a [`DrivenSystem`](crate::driven::DrivenSystem).
+/// [`DimensionlessSystem`](crate::parameters::DimensionlessSystem), or a
+/// [`DrivenSystem`](crate::driven::DrivenSystem).
 pub trait OnGround {
-    /// What moves below the disk.
+    /// The kind of platform.
     type Ground: Ground;
 
     /// The engine of [`Engine::new`].
@@ -76,7 +80,7 @@ pub trait OnGround {
     fn start(self, start: InitialCondition, policy: ChatterPolicy) -> Result<Engine<Self::Ground>, Error>;
 }
 
-/// What the disk does until the next event.
+/// The disk's motion until the next event.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Stage<Flight, End> {
     /// It flies.
@@ -109,7 +113,7 @@ pub(crate) struct Step {
     pub(crate) duration: f64,
 }
 
-/// What has happened to the disk up to an event.
+/// The disk's motion from the last event up to the next one.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Passed {
     pub(crate) change: RotaryChange,
@@ -141,7 +145,7 @@ pub(crate) struct Hit<S> {
 #[derive(Debug, Clone)]
 pub struct Engine<G: Ground = SineGround> {
     pub(crate) system: G::System,
-    /// What the ground knows of the motion besides the stage.
+    /// The ground's own part of the state of the motion.
     pub(crate) ground: G,
     pub(crate) stage: StageOn<G>,
     pub(crate) now: PhaseTime,
@@ -152,10 +156,10 @@ pub struct Engine<G: Ground = SineGround> {
 }
 
 impl<G: Ground> Engine<G> {
-    /// An engine for a [`crate::System`], a [`DimensionlessSystem`](crate::parameters::DimensionlessSystem) one or a
-    /// [`DrivenSystem`](crate::driven::DrivenSystem), and a disk that starts in contact, by a launch or in the air.
-    /// If the platform falls away, a disk that starts in contact flies at once; its angular speed counts as
-    /// the platform's within rounding. The angle starts at the platform's.
+    /// An engine for a [`crate::System`], a [`DimensionlessSystem`](crate::parameters::DimensionlessSystem)
+    /// one or a [`DrivenSystem`](crate::driven::DrivenSystem), and a disk that starts in contact, by a launch
+    /// or in the air. If the platform falls away, a disk that starts in contact flies at once; its angular
+    /// speed counts as the platform's within rounding. The angle starts at the platform's.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] or an error of the core for an illegal start; the first event's own errors come
@@ -230,7 +234,8 @@ impl<G: Ground> Engine<G> {
         result
     }
 
-    /// An impact at the end of a flight, or a kick at the end of a contact, of which it is given what has `passed`.
+    /// An impact at the end of a flight, or a kick at the end of a contact, whose motion is then given by
+    /// `passed`.
     pub(crate) fn hit(&mut self, to: &Step, hit: Hit<StageOn<G>>, passed: Option<Passed>) -> EventRecord {
         let Hit { velocity, restitution, next, lets_go } = hit;
         let platform = G::platform(&self.system, to.time.phase);
@@ -285,15 +290,15 @@ impl<G: Ground> Engine<G> {
         change_in_flight(load, self.state.angular_speed, span)
     }
 
-    /// Energy balance from the last event to `end`, as far as neither forces nor friction of the platform act.
+    /// Records the changes of energy from the last event to `end`, and the work of the load.
     pub(crate) fn record_flight(&self, ledger: &mut EnergyLedger, end: &DiskState, change: &RotaryChange) {
         let (start, [_, load]) = (&self.state, G::torques(&self.system));
         ledger.record_axial_change([start.axial_velocity, end.axial_velocity], [start.height, end.height]);
         record_flight_load(ledger, load, start.angular_speed, change);
     }
 
-    /// The record of an event with these impulses, after which the engine is there, with the disk in the state `after` up
-    /// to its angle and its mode, which is that of the `next` stage.
+    /// The record of an event with these impulses. Afterwards the engine stands at the event, with the disk
+    /// in the state `after`; its angle is counted here, and its mode follows from the `next` stage.
     pub(crate) fn moved(
         &mut self,
         to: &Step,

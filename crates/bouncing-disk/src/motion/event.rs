@@ -49,8 +49,8 @@ pub enum Event {
     SlipToStick,
     /// The slip ends, friction does not hold the disk, and it slips the other way, in this direction.
     SlipReversal(SlipDirection),
-    /// At a kink the velocity of the platform rises under the disk and hits it, at zero distance, by the law of
-    /// impact. The numbers are those of [`Self::Impact`].
+    /// At a kink the velocity of the platform rises under the disk and hits it, at zero distance, by the law
+    /// of impact. The numbers are those of [`Self::Impact`].
     Kick {
         /// Relative axial velocity just before, < 0.
         axial_impact_velocity: f64,
@@ -101,7 +101,7 @@ pub struct EventRecord {
 pub struct Energies {
     /// Energy balance of the disk.
     pub disk: EnergyLedger,
-    /// Energy balance of the modes of the stator: zero unless the stator yields.
+    /// Energy balance of the stator's modes; zero for a prescribed motion.
     pub stator: StatorLedger,
 }
 
@@ -112,7 +112,7 @@ impl AddAssign for Energies {
     }
 }
 
-/// What the records of all motions state.
+/// The record of an event in any motion.
 pub trait MotionRecord {
     /// When the event happened.
     fn time(&self) -> PhaseTime;
@@ -175,7 +175,7 @@ pub(crate) trait SteeredMotion: Motion + Send {
     /// The energy balances of this `span`.
     fn energies_after(&self, span: f64) -> Energies;
 
-    /// The energy of the spring of a contact that takes time, `span` later, when the disk is in this `state`.
+    /// The energy of the spring of a compliant contact `span` later, when the disk is in this `state`.
     fn spring_energy(&self, span: f64, state: &DiskState) -> f64;
 
     /// Whether a flight begins now.
@@ -184,14 +184,14 @@ pub(crate) trait SteeredMotion: Motion + Send {
     /// Adds a relative speed >= 0 (g/omega) to a flight that starts now; does nothing at any other time.
     fn perturb_launch(&mut self, speed: f64);
 
-    /// Goes on from `span` later, with the energy balances up to then, if the disk lies on a stator that yields: its
-    /// contact need not be followed from the last event again. `None` for every other motion, which stays at its last
-    /// event.
+    /// Goes on from `span` later if the disk lies on a compliant stator, whose contact would else be followed
+    /// from the last event again, and returns the energy balances up to then. Every other motion stays at its
+    /// last event and returns `None`.
     fn pause_contact(&mut self, _span: f64) -> Option<Energies> {
         None
     }
 
-    /// The amplitude of the axial mode of a stator that yields, `span` later.
+    /// The amplitude of the axial mode of a compliant stator `span` later.
     fn amplitude_after(&self, _span: f64) -> Option<f64> {
         None
     }

@@ -1,5 +1,5 @@
-//! The effects of an impact on the disk, and the energy that they cost: of single impacts, of those in a chatter, and of
-//! what rounding leaves of a slip that ends.
+//! The effects of an impact on the disk, and their energy: for single impacts, for the impacts of a chatter,
+//! and for the rest of a slip that rounding leaves at its end.
 
 use crate::motion::energy::EnergyLedger;
 use crate::motion::impact::{axial_impulse, friction_impact};
@@ -19,8 +19,8 @@ pub(crate) struct Impulses {
     pub(crate) speed: f64,
 }
 
-/// An impact with this relative velocity and angular speed, each with that of the platform: its impulses, and in the
-/// ledger the platform's work and the losses.
+/// The impulses of an impact; the ledger records the platform's work and the losses. The relative velocity
+/// and the disk's angular speed are each followed by the platform's own.
 pub(crate) fn impact(
     ledger: &mut EnergyLedger,
     (friction, restitution): (f64, f64),
@@ -37,8 +37,8 @@ pub(crate) fn impact(
     Impulses { axial, rotary: rotary.impulse, capped: rotary.capped, slip, speed: after }
 }
 
-/// Records the platform's work and the loss by an impulse of friction, which acts at the mean of the slip speeds before
-/// and after.
+/// Records the platform's work and the loss by an impulse of friction, which acts at the mean of the slip
+/// speeds before and after.
 pub(crate) fn record_friction_impulse(
     ledger: &mut EnergyLedger,
     impulse: f64,
@@ -49,8 +49,8 @@ pub(crate) fn record_friction_impulse(
     ledger.record_friction(work, loss, work.abs() + (impulse * slip).abs());
 }
 
-/// Records that a disk with angular `speed`, and with what rounding has left of a `slip` that has ended, gets the
-/// platform's speed.
+/// Records that a disk with angular `speed` gets the platform's speed at the end of a slip, of which rounding
+/// has left this `slip`.
 pub(crate) fn record_slip_end(ledger: &mut EnergyLedger, speed: f64, slip: f64, platform_speed: f64) {
     let (work, loss) = (-slip * platform_speed, 0.5 * slip * slip);
     ledger.record_friction(work, loss, work.abs() + loss);

@@ -43,7 +43,8 @@ pub enum InitialCondition {
 }
 
 impl InitialCondition {
-    /// Phase and angular speed; of a disk that does not lie on the platform also its distance and its relative velocity.
+    /// Phase and angular speed; of a disk that does not lie on the platform also its distance and its
+    /// relative velocity.
     pub(crate) const fn parts(&self) -> (Phase, f64, Option<[f64; 2]>) {
         match *self {
             Self::Contact { phase, angular_speed } => (phase, angular_speed, None),

@@ -1,4 +1,4 @@
-//! A disk that lies on a stator that yields: how a contact begins, what friction does in it, and how it ends.
+//! Contact with a compliant stator: its start, its friction and its end.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;

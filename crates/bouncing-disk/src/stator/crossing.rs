@@ -1,4 +1,4 @@
-//! The events of a disk on a stator that yields, and the rigid impact.
+//! The events of a disk on a compliant stator, and the rigid impact.
 
 use super::contact::{closing, first_sign, lying};
 use super::engine::{CHATTER, Launch, StatorEngine, StatorRecord};

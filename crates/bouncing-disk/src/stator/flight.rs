@@ -1,4 +1,4 @@
-//! A flight over a stator that yields, in closed form, and its end.
+//! A flight over a compliant stator, in closed form, and its end.
 
 use bouncing_disk_core::flight::MAX_FLIGHT_DURATION;
 use bouncing_disk_core::numerics::elementary::{exp, exp_m1, ln_1p, sin_cos};

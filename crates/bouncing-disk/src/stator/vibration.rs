@@ -1,4 +1,4 @@
-//! How the modes of a stator vibrate under a disk.
+//! The vibration of a stator's modes under a disk.
 
 use std::f64::consts::TAU;
 

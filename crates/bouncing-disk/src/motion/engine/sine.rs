@@ -1,8 +1,8 @@
 //! The ground of Eq. (1), a platform that moves as a sine.
 //!
-//! The vertical half of Eq. (2) comes entirely from the core's [`Orbit`] (its `flight/gap.rs` has the parabola of a
-//! flight). The rotary half (`rotary_change.rs`) and the changes between sticking and sliding (`contact_motion.rs`)
-//! are closed forms.
+//! The vertical half of Eq. (2) comes entirely from the core's [`Orbit`] (its `flight/gap.rs` has the
+//! parabola of a flight). The rotary half (`rotary_change.rs`) and the changes between sticking and sliding
+//! (`contact_motion.rs`) are closed forms.
 
 use bouncing_disk_core::map::{Constant, RestitutionLaw};
 use bouncing_disk_core::{
