@@ -250,13 +250,7 @@ impl DrivenEngine {
         self.now = PhaseTime { phase: phase_at(time.phase.angle()), ..time };
         let platform = self.system.height.at(self.at());
         self.angle = LongSum::new(0.0);
-        self.state = DiskState {
-            mode: Mode::Flight,
-            height: platform.height + gap,
-            axial_velocity: platform.velocity + velocity,
-            angle: 0.0,
-            angular_speed,
-        };
+        self.state = DiskState::flying(platform.height + gap, platform.velocity + velocity, angular_speed);
         (self.ground.pressed, self.ground.settled) = (None, None);
         self.stage = Stage::Flight(DrivenFlight::Free { gap, velocity });
     }

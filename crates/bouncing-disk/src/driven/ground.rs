@@ -33,28 +33,13 @@ pub struct DrivenGround {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum DrivenFlight {
     /// From this far above the platform, with this velocity relative to it.
-    Free {
-        /// Distance.
-        gap: f64,
-        /// Relative velocity.
-        velocity: f64,
-    },
+    Free { gap: f64, velocity: f64 },
     /// From a contact that ends by a force that falls to zero.
     Separated,
     /// Many short flights, from this launch speed to the rest.
-    Chatter {
-        /// Relative launch speed.
-        speed: f64,
-        /// Their duration.
-        chatter: ChatterDuration,
-    },
-    /// Ended before it begins: a cut puts the disk on the platform.
-    Cut {
-        /// The relative launch speed that the cut takes.
-        speed: f64,
-        /// Bound on the error of the phase.
-        error: f64,
-    },
+    Chatter { speed: f64, chatter: ChatterDuration },
+    /// Ended before it begins: a cut takes this launch speed, with this bound on the error of the phase.
+    Cut { speed: f64, error: f64 },
 }
 
 /// The end of a contact with a drive, and the continuation.
@@ -224,13 +209,7 @@ impl DrivenEngine {
         let to = self.later(duration);
         let (start, platform) = (self.state, DrivenGround::platform(&self.system, to.time.phase));
         let rest = self.system.chatter(self.now.phase, launch, start.angular_speed, duration);
-        let before = DiskState {
-            mode: Mode::Flight,
-            height: platform.height,
-            axial_velocity: platform.axial_velocity,
-            angle: 0.0,
-            angular_speed: rest.angular_speed,
-        };
+        let before = DiskState::flying(platform.height, platform.axial_velocity, rest.angular_speed);
         let angular_speed = if rest.capped { platform.angular_speed } else { rest.angular_speed };
         let after = DiskState { angular_speed, ..before };
         let mut ledger = rest.ledger;
@@ -270,13 +249,11 @@ impl DrivenEngine {
         let to = self.step_over(duration, state.time, turns);
         let platform = DrivenGround::platform(&self.system, to.time.phase);
         let change = self.flown(duration);
-        let before = DiskState {
-            mode: Mode::Flight,
-            height: platform.height + state.gap,
-            axial_velocity: platform.axial_velocity + state.velocity,
-            angle: 0.0,
-            angular_speed: change.speed,
-        };
+        let before = DiskState::flying(
+            platform.height + state.gap,
+            platform.axial_velocity + state.velocity,
+            change.speed,
+        );
         let mut ledger = EnergyLedger::default();
         self.record_flight(&mut ledger, &before, &change);
         self.record_spring(&mut ledger, from.gap, state.gap, true);

@@ -242,13 +242,7 @@ impl<G: Ground> Engine<G> {
         let kicked = passed.is_some();
         let mut passed = passed.unwrap_or_else(|| {
             let change = self.flown(to.duration);
-            let before = DiskState {
-                mode: Mode::Flight,
-                height: platform.height,
-                axial_velocity: velocity + platform.axial_velocity,
-                angle: 0.0,
-                angular_speed: change.speed,
-            };
+            let before = DiskState::flying(platform.height, velocity + platform.axial_velocity, change.speed);
             let mut ledger = EnergyLedger::default();
             self.record_flight(&mut ledger, &before, &change);
             Passed { change, ledger, before }

@@ -78,6 +78,13 @@ pub struct DiskState {
     pub angular_speed: f64,
 }
 
+impl DiskState {
+    /// In flight, with the angle zero.
+    pub(crate) const fn flying(height: f64, axial_velocity: f64, angular_speed: f64) -> Self {
+        Self { mode: Mode::Flight, height, axial_velocity, angle: 0.0, angular_speed }
+    }
+}
+
 /// The platform's state, dimensionless.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]

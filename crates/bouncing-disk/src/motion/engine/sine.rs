@@ -21,7 +21,7 @@ use crate::motion::initial_condition::InitialCondition;
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
 use crate::motion::rotary_change::{RotaryChange, change_in_flight, contact_ledger, record_flight_load};
 use crate::motion::segment::Segment;
-use crate::motion::state::{DiskState, LongSum, Mode, PlatformState, SlipDirection, Snapshot};
+use crate::motion::state::{DiskState, LongSum, PlatformState, SlipDirection, Snapshot};
 use crate::parameters::dimensionless::DimensionlessSystem;
 
 /// A platform that moves as a sine, with a law of restitution.
@@ -211,13 +211,11 @@ impl<L: RestitutionLaw> Engine<SineGround<L>> {
         let platform = PlatformState::at(system, accumulation.phase);
         let mut ledger = chatter.ledger;
         record_flight_load(&mut ledger, system.load(), chatter.angular_speed, &change);
-        let before = DiskState {
-            mode: Mode::Flight,
-            height: platform.height,
-            axial_velocity: if cut { start.axial_velocity } else { platform.axial_velocity },
-            angle: 0.0,
-            angular_speed: change.speed,
-        };
+        let before = DiskState::flying(
+            platform.height,
+            if cut { start.axial_velocity } else { platform.axial_velocity },
+            change.speed,
+        );
         ledger.record_axial_change(
             [start.axial_velocity, before.axial_velocity],
             [start.height, before.height],

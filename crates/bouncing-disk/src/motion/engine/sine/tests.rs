@@ -6,7 +6,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::motion::friction::MAX_CONTACT_EVENTS;
-use crate::motion::state::PlatformState;
+use crate::motion::state::Mode;
 use crate::parameters::dimensionless::{DimensionlessParameters, ForcingParameters};
 use crate::testing::{self, small_steps::Law};
 
