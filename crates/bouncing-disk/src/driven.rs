@@ -45,8 +45,7 @@ mod ground;
 pub(crate) mod toss;
 
 pub use crate::motion::initial_condition::InitialCondition as DrivenStart;
-pub use engine::DrivenEngine;
-pub use ground::DrivenGround;
+pub use ground::{DrivenEngine, DrivenGround};
 pub use toss::{multi_toss, single_toss};
 
 /// A disk on a platform with any drives of height and angle, without units, as [`DimensionlessSystem`] for

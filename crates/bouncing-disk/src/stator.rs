@@ -33,6 +33,7 @@ mod engine;
 mod flight;
 mod impact;
 mod linear_flow;
+mod record;
 mod regime;
 #[cfg(test)]
 mod tests;
@@ -51,7 +52,7 @@ use crate::parameters::stator::{QUALITIES, QUALITIES_IN_WORDS};
 use crate::parameters::system::System;
 
 pub use crate::motion::stator_ledger::{MODES, StatorLedger};
-pub use engine::{StatorEngine, StatorRecord, StatorState};
+pub use record::{StatorEngine, StatorRecord, StatorState};
 use regime::{COS, ContactStiffness, DISPLACEMENTS, Regime, SIN, State, VELOCITIES};
 
 /// Least and largest contact time (rad) on a stator that yields.

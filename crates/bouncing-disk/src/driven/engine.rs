@@ -3,36 +3,26 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::flight::{ContactEnd, Pressed, RelativeState, TimeAhead};
+use bouncing_disk_core::flight::{Pressed, RelativeState, TimeAhead};
 use bouncing_disk_core::numerics::elementary::wrapped_angle;
 use bouncing_disk_core::{ChatterPolicy, Drive};
 
 use super::contact::{Ride, Touching};
-use super::ground::{DrivenEnd, DrivenFlight, DrivenGround, Then};
+use super::ground::{DrivenEnd, DrivenEngine, DrivenFlight, DrivenGround, JOINT, Then, lying_pressed};
 use super::{DrivenStart, DrivenSystem};
 use crate::error::{Error, check, moderate};
 use crate::motion::contact_motion::{Lying, SAME_SPEED};
 use crate::motion::energy::EnergyLedger;
-use crate::motion::engine::{Engine, OnGround, Passed, Stage, Step};
+use crate::motion::engine::{OnGround, Passed, Stage, Step};
 use crate::motion::event::{Energies, EventRecord, SteeredMotion};
 use crate::motion::phase_time::{PhaseSpan, PhaseTime, legal_span, phase_at};
 use crate::motion::rotary_change::RotaryChange;
 use crate::motion::state::{DiskState, LongSum, Mode, SlipDirection};
 use crate::motion::stator_ledger::StatorLedger;
 
-/// Events of friction that come this much before the end of a contact, relative to its time, are the end
-/// itself: both times are roots, each with an error of some roundings of the time.
-pub(super) const JOINT: f64 = 16.0 * f64::EPSILON;
-
 /// A height or velocity of a resumed disk that differs from the platform's by this share is the platform's:
 /// the change of units and the evaluation of the drive leave some roundings each.
 const SAME_PLACE: f64 = 1.0e-12;
-
-/// The motion of a disk on a driven platform, as a lazy sequence of [`EventRecord`]s.
-///
-/// The sequence ends where nothing more can happen, and after an error. A disk that rests for ever on a
-/// platform that moves may stick and slide for ever.
-pub type DrivenEngine = Engine<DrivenGround>;
 
 impl OnGround for DrivenSystem {
     type Ground = DrivenGround;
@@ -378,24 +368,6 @@ impl DrivenEngine {
             ledger.record_normal(0.0, energy(from) - energy(to));
         }
     }
-}
-
-/// A disk that presses on a compliant contact, and slides there in this direction or sticks.
-pub(super) fn lying_pressed(
-    pressed: &Pressed,
-    slip: Option<SlipDirection>,
-) -> Result<Lying<DrivenEnd>, Error> {
-    let (after, then) = match pressed.end(f64::INFINITY)? {
-        Some(ContactEnd::Release(after)) => (after, Then::Leaves),
-        Some(ContactEnd::Settles(after)) => (after, Then::Settles),
-        Some(ContactEnd::Turns(after, branch)) => (after, Then::Turns(branch)),
-        None => (f64::INFINITY, Then::Leaves),
-    };
-    let ahead = || {
-        let time = wrapped_angle(pressed.from().time + after);
-        TimeAhead { after, time, velocity_jump: 0.0 }
-    };
-    Ok(Lying { slip, end: after.is_finite().then(|| DrivenEnd { ahead: ahead(), then }) })
 }
 
 impl SteeredMotion for DrivenEngine {

@@ -1,22 +1,28 @@
 //! The ground of a platform that moves in any way, with rigid or compliant contacts: its next event.
 
 use bouncing_disk_core::chatter::{AfterImpact, ShortFlightCount};
-use bouncing_disk_core::flight::{Branch, ChatterDuration, Pressed, RelativeState, TimeAhead, Touch};
+use bouncing_disk_core::flight::{
+    Branch, ChatterDuration, ContactEnd, Pressed, RelativeState, TimeAhead, Touch,
+};
+use bouncing_disk_core::numerics::elementary::wrapped_angle;
 use bouncing_disk_core::{ChatterPolicy, Drive, Phase};
 
 use super::DrivenSystem;
 use super::contact::{Ride, Touching};
-use super::engine::{DrivenEngine, JOINT, lying_pressed};
 use crate::error::Error;
 use crate::motion::contact_motion::Lying;
 use crate::motion::energy::EnergyLedger;
-use crate::motion::engine::{Ground, Hit, Passed, Stage, StageOn, Step, record_jump};
+use crate::motion::engine::{Engine, Ground, Hit, Passed, Stage, StageOn, Step, record_jump};
 use crate::motion::event::{Event, EventRecord};
 use crate::motion::impact::rebound_velocity;
 use crate::motion::impact_energy::record_slip_end;
 use crate::motion::phase_time::PhaseSpan;
 use crate::motion::rotary_change::RotaryChange;
 use crate::motion::state::{DiskState, Mode, PlatformState, SlipDirection};
+
+/// Events of friction that come this much before the end of a contact, relative to its time, are the end
+/// itself: both times are roots, each with an error of some roundings of the time.
+pub(super) const JOINT: f64 = 16.0 * f64::EPSILON;
 
 /// A platform with any drives of height and angle.
 #[derive(Debug, Clone)]
@@ -59,6 +65,12 @@ pub(super) enum Then {
     /// The spring of a compliant contact does this.
     Turns(Branch),
 }
+
+/// The motion of a disk on a driven platform, as a lazy sequence of [`EventRecord`]s.
+///
+/// The sequence ends where nothing more can happen, and after an error. A disk that rests for ever on a
+/// platform that moves may stick and slide for ever.
+pub type DrivenEngine = Engine<DrivenGround>;
 
 impl DrivenGround {
     pub(super) fn new(policy: ChatterPolicy) -> Self {
@@ -364,4 +376,22 @@ impl DrivenEngine {
         });
         self.moved(to, event, passed, after, Stage::Lying(Lying { slip, end }), [0.0; 2])
     }
+}
+
+/// A disk that presses on a compliant contact, and slides there in this direction or sticks.
+pub(super) fn lying_pressed(
+    pressed: &Pressed,
+    slip: Option<SlipDirection>,
+) -> Result<Lying<DrivenEnd>, Error> {
+    let (after, then) = match pressed.end(f64::INFINITY)? {
+        Some(ContactEnd::Release(after)) => (after, Then::Leaves),
+        Some(ContactEnd::Settles(after)) => (after, Then::Settles),
+        Some(ContactEnd::Turns(after, branch)) => (after, Then::Turns(branch)),
+        None => (f64::INFINITY, Then::Leaves),
+    };
+    let ahead = || {
+        let time = wrapped_angle(pressed.from().time + after);
+        TimeAhead { after, time, velocity_jump: 0.0 }
+    };
+    Ok(Lying { slip, end: after.is_finite().then(|| DrivenEnd { ahead: ahead(), then }) })
 }

@@ -4,7 +4,7 @@ use bouncing_disk_core::chaos::TangentGrowth;
 use bouncing_disk_core::orbits::PeriodicOrbit;
 use bouncing_disk_core::{ChatterPolicy, DrivenMap, ImpactState, Observer, Phase};
 
-use super::engine::DrivenEngine;
+use super::ground::DrivenEngine;
 use super::{DrivenStart, DrivenSystem};
 use crate::error::{Error, check};
 use crate::motion::energy::EnergyLedger;

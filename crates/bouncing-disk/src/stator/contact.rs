@@ -6,9 +6,10 @@ use std::sync::Arc;
 use bouncing_disk_core::flight::MAX_FLIGHT_DURATION;
 use bouncing_disk_core::numerics::elementary::sin_cos;
 
-use super::crossing::{Crossing, Next};
-use super::engine::{CHATTER, Launch, ROUNDING, SAME, StatorEngine, StatorStage};
-use super::linear_flow::{Functional, LinearFlow, dot, size};
+use super::linear_flow::{Functional, dot, size};
+use super::record::{
+    CHATTER, Crossing, Launch, Next, ROUNDING, SAME, StatorEngine, closing, first_sign, lying,
+};
 use super::regime::{ANGLE, CLOSING, COS, ContactStiffness, GAP, N, SIN, SPEED, State};
 use crate::error::Error;
 use crate::motion::contact_motion::Lying;
@@ -17,15 +18,6 @@ use crate::motion::state::SlipDirection;
 
 /// Where rounding calls what slips a stick and what sticks a slip, the present motion goes on for so long (rad).
 const TIE: f64 = 1.0e-6;
-
-/// The end of a contact that is not known to last for ever.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Sometime;
-
-/// A disk that lies on the stator, and slides in this direction or sticks.
-pub(super) const fn lying(slip: Option<SlipDirection>) -> StatorStage {
-    Stage::Lying(Lying { slip, end: Some(Sometime) })
-}
 
 impl StatorEngine {
     /// The end of a contact, or of a slide or a stick in it.
@@ -221,23 +213,4 @@ impl StatorEngine {
 fn repeats(before: &State, after: &State) -> bool {
     let size = after[..ANGLE].iter().fold(1.0, |size: f64, value| size.max(value.abs()));
     (0..ANGLE).all(|index| (after[index] - before[index]).abs() <= SAME * size)
-}
-
-/// Which derivative of a functional is the first one beyond rounding, and whether it is positive; `None` if none is.
-pub(super) fn first_sign(flow: &LinearFlow<N>, functional: &State, state: &State) -> Option<(usize, bool)> {
-    let mut of = *functional;
-    for order in 0..6 {
-        let value = dot(&of, state);
-        if value.abs() > ROUNDING * size(&of, state) {
-            return Some((order, value > 0.0));
-        }
-        of = flow.derivative(&of);
-    }
-    None
-}
-
-pub(super) fn closing() -> State {
-    let mut of = [0.0; N];
-    of[CLOSING] = 1.0;
-    of
 }

@@ -1,42 +1,16 @@
 //! The events of a disk on a compliant stator, and the rigid impact.
 
-use super::contact::{closing, first_sign, lying};
-use super::engine::{CHATTER, Launch, StatorEngine, StatorRecord};
 use super::impact::impact;
 use super::linear_flow::dot;
+use super::record::{CHATTER, Crossing, Launch, StatorEngine, StatorRecord, closing, first_sign, lying};
 use super::regime::{ANGLE, CLOSING, COS, ContactStiffness, GAP, SIN, SPEED, VELOCITIES};
 use crate::motion::energy::EnergyLedger;
 use crate::motion::engine::Stage;
 use crate::motion::event::{Event, SteeredMotion};
 use crate::motion::impact_energy::record_slip_end;
 use crate::motion::phase_time::PhaseSpan;
-use crate::motion::state::{Mode, SlipDirection};
+use crate::motion::state::Mode;
 use crate::motion::stator_ledger::StatorLedger;
-
-/// The next event of a stage: after which time, and which.
-pub(super) type Next = Option<(f64, Crossing)>;
-
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Crossing {
-    /// The gap closes, with this relative velocity.
-    Touch(f64),
-    /// The force of a soft contact sets in before the spring is free.
-    Recontact,
-    /// The normal force falls to zero.
-    Release,
-    /// The slip ends.
-    SlipEnd,
-    /// Friction gives way, and the disk slides so.
-    Slips(SlipDirection),
-    /// The speed reaches another line of the load.
-    LoadNode(usize),
-}
-
-impl Crossing {
-    pub(super) const fn is_of_friction(self) -> bool {
-        matches!(self, Self::SlipEnd | Self::Slips(_))
-    }
-}
 
 impl StatorEngine {
     /// The event, after which the engine is there.

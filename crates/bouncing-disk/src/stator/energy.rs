@@ -1,8 +1,8 @@
 //! The energy balances of a motion between two events.
 
 use super::LoadLine;
-use super::engine::StatorEngine;
 use super::linear_flow::{dot, size};
+use super::record::StatorEngine;
 use super::regime::{
     ANGLE, CLOSING, COS, ContactStiffness, DISPLACEMENTS, GAP, SIN, SPEED, State, VELOCITIES,
 };

@@ -2,8 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::contact::{Sometime, closing, first_sign};
-use super::crossing::Crossing;
+use super::record::{Crossing, Launch, SAME, StatorEngine, StatorRecord, StatorState, closing, first_sign};
 use super::regime::{
     ANGLE, CLOSING, COS, ContactStiffness, DISPLACEMENTS, GAP, N, ONE, Regime, SIN, SPEED, State, VELOCITIES,
 };
@@ -17,98 +16,6 @@ use crate::motion::event::{Energies, Event, Motion, MotionRecord, SteeredMotion}
 use crate::motion::phase_time::{PhaseSpan, PhaseTime, legal_span};
 use crate::motion::state::{DiskState, LongSum, Mode, SlipDirection};
 use crate::motion::stator_ledger::StatorLedger;
-
-/// A rebound after which the chatter would last for less than this (rad) ends at once: what the disk and the stator
-/// do until then differs by the square of it.
-pub(super) const CHATTER: f64 = 1.0e-7;
-
-/// Rounding of a functional at an event, in units of the sizes of its terms.
-pub(super) const ROUNDING: f64 = 64.0 * f64::EPSILON;
-
-/// A contact whose modes come back to the same state after a period, within this share of it, repeats for ever.
-pub(super) const SAME: f64 = 1.0e-13;
-
-/// Disk and modes at an instant.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct StatorState {
-    /// The disk.
-    pub disk: DiskState,
-    /// Coordinate and speed of each mode, the steady motion included; zero for a mode that is not there.
-    pub modes: [[f64; 2]; MODES],
-}
-
-/// An event, with what happened since the one before.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct StatorRecord {
-    /// When it happened.
-    pub time: PhaseTime,
-    /// The event.
-    pub event: Event,
-    /// Just before.
-    pub before: StatorState,
-    /// Just after.
-    pub after: StatorState,
-    /// Axial impulse per unit mass, and angular impulse per moment of inertia; zero without an impact.
-    pub axial_impulse: f64,
-    /// The same by friction.
-    pub angular_impulse: f64,
-    /// Energy balance of the disk.
-    pub ledger: EnergyLedger,
-    /// Energy balance of the modes.
-    pub stator: StatorLedger,
-    /// Since the event before.
-    pub span: PhaseSpan,
-}
-
-impl StatorRecord {
-    /// The largest of the closures of both ledgers, relative to the sizes of the added terms.
-    #[must_use]
-    pub fn relative_closure(&self) -> f64 {
-        let least = f64::MIN_POSITIVE / f64::EPSILON;
-        (self.stator.closure().abs() / self.stator.magnitude.max(least)).max(self.ledger.relative_closure())
-    }
-}
-
-/// How a flight begins, which says which derivatives of the gap vanish at its start.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Launch {
-    /// Above the platform.
-    Air,
-    /// From the platform with a speed.
-    Rebound,
-    /// By a force that falls to zero: in a rigid contact with no acceleration, in a soft one below the platform.
-    /// With its third derivative.
-    Release(f64),
-    /// Below the platform of a soft contact, where spring and damper would pull.
-    Below,
-}
-
-/// What the disk does until the next event.
-pub(super) type StatorStage = Stage<Launch, Sometime>;
-
-/// The motion of a disk on a stator that yields, as a lazy sequence of [`StatorRecord`]s. It ends where nothing more
-/// can happen, and after an error.
-#[derive(Debug, Clone)]
-pub struct StatorEngine {
-    pub(super) system: StatorSystem,
-    pub(super) stage: StatorStage,
-    pub(super) now: PhaseTime,
-    pub(super) state: State,
-    pub(super) angle: LongSum,
-    /// The line of the load.
-    pub(super) line: usize,
-    /// Changes between stick and slide at the same instant.
-    pub(super) ties: u32,
-    /// So long after the last event the disk flies without another one.
-    pub(super) searched: f64,
-    /// So long the disk has flown before `now`.
-    pub(super) aloft: f64,
-    /// Without it ledgers stay empty.
-    pub(crate) with_energy: bool,
-}
 
 impl StatorEngine {
     /// An engine for a disk that starts in contact, by a launch or in the air, on a stator in its steady motion without
@@ -376,20 +283,6 @@ impl StatorEngine {
                 [place + state[DISPLACEMENTS[index]], speed + state[VELOCITIES[index]]]
             }),
         }
-    }
-}
-
-impl MotionRecord for StatorRecord {
-    fn time(&self) -> PhaseTime {
-        self.time
-    }
-
-    fn event(&self) -> Event {
-        self.event
-    }
-
-    fn energies(&self) -> Energies {
-        Energies { disk: self.ledger, stator: self.stator }
     }
 }
 

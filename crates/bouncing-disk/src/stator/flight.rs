@@ -4,8 +4,7 @@ use bouncing_disk_core::flight::MAX_FLIGHT_DURATION;
 use bouncing_disk_core::numerics::elementary::{exp, exp_m1, ln_1p, sin_cos};
 
 use super::LoadLine;
-use super::crossing::{Crossing, Next};
-use super::engine::{Launch, ROUNDING, StatorEngine};
+use super::record::{Crossing, Launch, Next, ROUNDING, StatorEngine};
 use super::regime::{
     ANGLE, CLOSING, COS, ContactStiffness, DISPLACEMENTS, GAP, SIN, SPEED, State, VELOCITIES,
 };

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use bouncing_disk_core::numerics::elementary::hypot;
 
-use super::engine::StatorEngine;
+use super::record::StatorEngine;
 use super::regime::{COS, DISPLACEMENTS, SIN, SPEED, State, VELOCITIES};
 use super::{LoadLine, MODES};
 use crate::motion::contact_motion::Lying;

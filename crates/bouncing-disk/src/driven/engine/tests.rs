@@ -4,6 +4,7 @@ use bouncing_disk_core::Drive;
 use proptest::prelude::*;
 
 use super::*;
+use crate::motion::engine::Engine;
 use crate::motion::event::Event;
 use crate::parameters::driven_platform::Waveform;
 use crate::testing::{self, refused};

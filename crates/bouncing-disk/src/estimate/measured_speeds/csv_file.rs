@@ -7,9 +7,9 @@ use std::collections::BTreeMap;
 use std::io::Read;
 use std::path::Path;
 
-use crate::csv_records::{RecordFault, fields, lines, number, plain, text};
+use crate::csv_records::{fields, lines, number, plain, text};
 use crate::estimate::measured_speeds::decimal_marks::DecimalMarks;
-use crate::estimate::measured_speeds::error::{CsvFault, MeasuredSpeedsError};
+use crate::estimate::measured_speeds::error::{CsvFault, Located, MeasuredSpeedsError};
 use crate::estimate::measured_speeds::units::{SpeedUnit, TimeUnit};
 use crate::estimate::measured_speeds::{MeasuredRun, MeasuredSpeeds};
 use crate::regular_file;
@@ -111,25 +111,6 @@ pub(crate) fn shortened(text: &str) -> String {
         return text.to_owned();
     }
     text.chars().take(SHOWN).chain(['…']).collect()
-}
-
-/// A fault and its place: line and field, counted from 1.
-pub(crate) struct Located(pub(crate) Option<usize>, pub(crate) Option<usize>, pub(crate) CsvFault);
-
-impl Located {
-    pub(crate) fn in_file(self, file: &str) -> MeasuredSpeedsError {
-        let Self(line, field, fault) = self;
-        MeasuredSpeedsError::Malformed { file: file.to_owned(), line, field, fault }
-    }
-}
-
-impl From<RecordFault> for Located {
-    fn from(fault: RecordFault) -> Self {
-        match fault {
-            RecordFault::NotText { line, byte } => Self(Some(line), None, CsvFault::NotText(byte)),
-            RecordFault::OpenQuote { line, field } => Self(Some(line), Some(field), CsvFault::OpenQuote),
-        }
-    }
 }
 
 /// Times and speeds of each run in SI units, by the number of the run.

@@ -1,8 +1,7 @@
 //! The decimal mark of a file of separated values: a point, or a comma where commas separate no columns.
 
 use crate::csv_records::{NumberFault, number};
-use crate::estimate::measured_speeds::csv_file::Located;
-use crate::estimate::measured_speeds::error::CsvFault;
+use crate::estimate::measured_speeds::error::{CsvFault, Located};
 
 /// What the numbers of a file show about its decimal mark.
 pub(crate) struct DecimalMarks {

@@ -1,5 +1,6 @@
 //! The errors of files of measured speeds.
 
+use crate::csv_records::RecordFault;
 use crate::error::Error;
 
 /// The columns, the last of which may be missing.
@@ -156,4 +157,23 @@ pub enum CsvFault {
     /// There are more lines of numbers than this.
     #[error("there are more than {0} lines of numbers; average neighbouring ones")]
     TooLong(usize),
+}
+
+/// A fault and its place: line and field, counted from 1.
+pub(crate) struct Located(pub(crate) Option<usize>, pub(crate) Option<usize>, pub(crate) CsvFault);
+
+impl Located {
+    pub(crate) fn in_file(self, file: &str) -> MeasuredSpeedsError {
+        let Self(line, field, fault) = self;
+        MeasuredSpeedsError::Malformed { file: file.to_owned(), line, field, fault }
+    }
+}
+
+impl From<RecordFault> for Located {
+    fn from(fault: RecordFault) -> Self {
+        match fault {
+            RecordFault::NotText { line, byte } => Self(Some(line), None, CsvFault::NotText(byte)),
+            RecordFault::OpenQuote { line, field } => Self(Some(line), Some(field), CsvFault::OpenQuote),
+        }
+    }
 }

@@ -4,13 +4,11 @@
 use crate::csv_records::{fields, lines, text};
 use crate::error::{Error, finite, not_negative};
 #[cfg(feature = "csv")]
-use crate::estimate::measured_speeds::csv_file::{
-    LARGEST_FILE, Located, NAMES, SEPARATORS, name_and_unit, shortened,
-};
+use crate::estimate::measured_speeds::csv_file::{LARGEST_FILE, NAMES, SEPARATORS, name_and_unit, shortened};
 #[cfg(feature = "csv")]
 use crate::estimate::measured_speeds::decimal_marks::DecimalMarks;
 #[cfg(feature = "csv")]
-use crate::estimate::measured_speeds::error::{CsvFault, MeasuredSpeedsError};
+use crate::estimate::measured_speeds::error::{CsvFault, Located, MeasuredSpeedsError};
 #[cfg(feature = "csv")]
 use crate::estimate::measured_speeds::units::SpeedUnit;
 use crate::estimate::parameter_fit::parameter::FitRange;

@@ -82,7 +82,8 @@ fn long_runs_have_the_means_of_operating_points() {
     for motor in [Motor::paper_70_khz(), in_volts()] {
         let loaded = motor.with(|sheet| sheet.load_torque = 3e-6).expect("legal");
         let settings = OperatingSettings { relative_error: 0.05, ..OperatingSettings::default() };
-        let known = crate::motor::operations(std::slice::from_ref(&loaded), &settings, &Unobserved).expect("no failure");
+        let known = crate::motor::operations(std::slice::from_ref(&loaded), &settings, &Unobserved)
+            .expect("no failure");
         let known = known[0].steady().expect("steady");
         let mut simulation = begun(&loaded).expect("legal");
         let start = simulation.advance(5.0, &Unobserved).expect("no failure");
@@ -197,7 +198,8 @@ fn a_rotor_that_creeps_has_the_power_of_its_operating_point() {
         (sheet.amplitude, sheet.load_torque, sheet.contact_radius) = (Some(4e-11), 4e-5, 5e-3);
     });
     let creeping = creeping.expect("legal");
-    let known = crate::motor::operations(std::slice::from_ref(&creeping), &OperatingSettings::default(), &Unobserved);
+    let known =
+        crate::motor::operations(std::slice::from_ref(&creeping), &OperatingSettings::default(), &Unobserved);
     let known = *known.expect("no failure")[0].steady().expect("steady");
     let mut simulation = begun(&creeping).expect("legal");
     let start = simulation.advance(2.5, &Unobserved).expect("no failure");
