@@ -216,6 +216,9 @@ impl Waveform {
 
     /// Checks what does not depend on amplitude and disk.
     fn check(&self, of: &'static str) -> Result<(), Error> {
+        if *self == Self::Sine {
+            return Ok(());
+        }
         // So small that no acceleration is too large, and a power of two.
         let amplitude = 1.0 / (1_u128 << 100) as f64;
         self.track(of, amplitude, 0.0).map(|_| ())

@@ -131,9 +131,18 @@ pub fn multi_toss(
     settings: MultiTossSettings,
     observer: &dyn Observer,
 ) -> Result<TossOrbit, Error> {
-    let system = system.try_into().map_err(Into::into)?;
+    toss_orbit(system.try_into().map_err(Into::into)?, start, &settings, observer)
+}
+
+/// [`multi_toss`], compiled with this crate and not with its caller, which may not be optimised.
+fn toss_orbit(
+    system: DimensionlessSystem,
+    start: InitialCondition,
+    settings: &MultiTossSettings,
+    observer: &dyn Observer,
+) -> Result<TossOrbit, Error> {
     let collisions = Collisions::new(system, start, settings.policy)?;
-    settle(collisions, system.map(), system.twist_speed(), &settings, observer)
+    settle(collisions, system.map(), system.twist_speed(), settings, observer)
 }
 
 /// The vertical impact map, as far as a classification needs it.
