@@ -21,7 +21,8 @@
 //! # Ok::<(), bouncing_disk::Error>(())
 //! ```
 //!
-//! [`Motor::transient`] computes the run-up of one rotor and [`Motor::transients`] those of many; [`MotorSweep`] varies the
+//! [`Motor::transient`](crate::Motor::transient) computes the run-up of one rotor,
+//! [`Motor::transients`](crate::Motor::transients) of many; [`MotorSweep`] varies the
 //! data sheet. All of them take any sheet: stators that move by waveforms or yield, contacts that take time. Fits of run-ups, computed or measured, are in [`estimate`](crate::estimate). How far to trust
 //! the speeds: docs/numerics/motors.md.
 

@@ -394,6 +394,9 @@ impl SteeredMotion for DrivenEngine {
     }
 
     fn perturb_launch(&mut self, speed: f64) {
+        if speed <= 0.0 {
+            return;
+        }
         let (gap, velocity) = match self.stage {
             Stage::Flight(DrivenFlight::Separated) => (0.0, speed),
             // A contact that takes time ends before its spring is free.

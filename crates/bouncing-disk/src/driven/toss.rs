@@ -88,7 +88,7 @@ pub fn multi_toss(
     let map = DrivenMap::new(system.height().clone(), system.restitution)?;
     let twist_speed = system.angle().bounds().speed;
     let mut engine = DrivenEngine::new(system, start, settings.policy)?;
-    engine.with_energy = false;
+    engine.skip_energies();
     settle(Collisions::of(engine), &map, twist_speed, settings, observer)
 }
 

@@ -26,7 +26,8 @@ pub(crate) const SAME_SPEED: f64 = 4.0 * f64::EPSILON;
 pub struct Lying<End = PhaseTime> {
     /// The direction in which it slips; `None` while it sticks.
     pub(crate) slip: Option<SlipDirection>,
-    /// The end of the contact, if ever: on the sine when the platform falls away.
+    /// The end of the contact, if ever: on the sine when the platform falls away. On a compliant stator there is one
+    /// until the contact is known to last for ever.
     pub(crate) end: Option<End>,
 }
 

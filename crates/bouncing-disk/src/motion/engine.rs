@@ -44,6 +44,7 @@ pub trait Ground: Debug + Clone {
     /// Friction and load.
     fn torques(system: &Self::System) -> [f64; 2];
 
+    #[doc(hidden)]
     /// The event that ends a flight, if it comes within `limit` radians of the last event.
     ///
     /// # Errors
@@ -54,6 +55,7 @@ pub trait Ground: Debug + Clone {
         limit: f64,
     ) -> Result<Option<EventRecord>, Error>;
 
+    #[doc(hidden)]
     /// The next event of a disk that lies on the platform, if it comes within `limit` radians of the last
     /// event.
     ///
@@ -151,7 +153,7 @@ pub struct Engine<G: Ground = SineGround> {
     pub(crate) now: PhaseTime,
     pub(crate) state: DiskState,
     pub(crate) angle: LongSum,
-    /// Without it the ledgers of slides on a drive stay empty: a motor does not need them.
+    /// Without it the ledgers of slides on a drive stay empty: a run-up does not need them.
     pub(crate) with_energy: bool,
 }
 
@@ -163,7 +165,8 @@ impl<G: Ground> Engine<G> {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] or an error of the core for an illegal start; the first event's own errors come
-    /// with that event, except that a start in the air computes its first impact at once.
+    /// with that event, except that on the sine a start in the air computes its first impact at once, and on a drive a
+    /// start in contact its end.
     pub fn new<S: OnGround<Ground = G>>(
         system: S,
         start: InitialCondition,

@@ -178,7 +178,7 @@ pub(crate) trait SteeredMotion: Motion + Send {
     /// The energy of the spring of a compliant contact `span` later, when the disk is in this `state`.
     fn spring_energy(&self, span: f64, state: &DiskState) -> f64;
 
-    /// Whether a flight begins now.
+    /// Whether a flight begins now; on a compliant stator, whether the disk flies.
     fn launches(&self) -> bool;
 
     /// Adds a relative speed >= 0 (g/omega) to a flight that starts now; does nothing at any other time.
@@ -196,7 +196,7 @@ pub(crate) trait SteeredMotion: Motion + Send {
         None
     }
 
-    /// Computes no energies from now on, of which a run-up needs none.
+    /// Leaves out the energies of records that take long to compute, which a run-up does not need.
     fn skip_energies(&mut self);
 }
 

@@ -191,7 +191,7 @@ impl StatorEngine {
         }
     }
 
-    /// A disk in a soft contact, with whatever grip.
+    /// A disk in a compliant contact, whether it sticks or slips.
     pub(super) fn press(&mut self) {
         self.settle_slip();
         self.stage = lying(self.onset(None));

@@ -365,7 +365,7 @@ impl SteeredMotion for StatorEngine {
     }
 
     fn pause_contact(&mut self, span: f64) -> Option<Energies> {
-        (!self.launches()).then(|| self.pause(span).energies())
+        matches!(self.stage, Stage::Lying(_)).then(|| self.pause(span).energies())
     }
 
     fn amplitude_after(&self, span: f64) -> Option<f64> {
