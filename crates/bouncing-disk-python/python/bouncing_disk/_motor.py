@@ -172,7 +172,7 @@ class Motor(Parameters):
     ) -> None:
         self.__dict__["_native"] = native.motor(locals())
 
-    def replace(self, **changes: Float | Mapping[str, Any] | None) -> Motor:
+    def replace(self, **changes: Float | Drive | Mapping[str, Any] | None) -> Motor:
         """The same motor with other values in its data sheet.
 
         Args:
