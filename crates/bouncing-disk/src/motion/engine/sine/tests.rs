@@ -544,3 +544,32 @@ fn motor_flights_close_and_the_angle_does_not_drift() {
     println!("worst closure {:e}, worst flight energy {:e}, angle {:e}", worst.0, worst.1, worst.2);
     assert!(worst.0 < 1e-14 && worst.1 < 1e-12 && worst.2 < 1e-14, "{worst:?}");
 }
+
+/// A cut takes the rebound also where the platform falls away: the disk leaves with the platform's velocity, and the
+/// energy balance has what was taken.
+#[test]
+fn a_cut_where_the_platform_falls_away_lets_the_disk_go_at_once() {
+    let system =
+        ForcingParameters { axial_forcing: 1.2, angular_forcing: 2.0, phase_lag: 0.2, restitution: 0.5 };
+    let system = system.build().expect("legal");
+    // Every impact is slow enough.
+    let policy = ChatterPolicy::Cut(ChatterCut::new(1e3, 0.0, 1).expect("legal"));
+    let mut cuts = 0;
+    for k in 0..40 {
+        let phase = Phase::new(0.1 * f64::from(k)).expect("finite");
+        let start = InitialCondition::Launch { phase, relative_speed: 0.7, angular_speed: 1.0 };
+        for record in records(&system, start, policy, 6) {
+            assert!(record.ledger.relative_closure() <= CLOSURE, "{record:?}");
+            if matches!(record.event, Event::Impact { .. }) {
+                let platform = system.vibration().velocity(record.time.phase);
+                if record.after.mode == Mode::Flight
+                    && system.vibration().falls_away_at(record.time.phase.angle())
+                {
+                    cuts += 1;
+                    assert!((record.after.axial_velocity - platform).abs() <= 1e-15, "{record:?}");
+                }
+            }
+        }
+    }
+    assert!(cuts > 5, "{cuts}");
+}
