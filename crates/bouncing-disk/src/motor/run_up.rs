@@ -114,7 +114,7 @@ impl Motor {
         settings: &TransientSettings,
         observer: &dyn Observer,
     ) -> Result<(SpeedCurve, Vec<f64>), Error> {
-        let system = self.fastest_sine()?;
+        let system = self.on_shaft()?;
         let unit = system.scales();
         settings.check_for(&unit)?;
         let watch = Watch::begin(observer, 0, settings.intervals as u64)?;

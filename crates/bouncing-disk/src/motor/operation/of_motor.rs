@@ -11,7 +11,7 @@ use crate::motor::operation::point::{Estimate, Operation};
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::operation::stall_load::{StallLoad, stall_load};
 use crate::motor::operation::steady_run::{
-    Ends, LoadedMotor, MAX_OPERATED_ROTORS, continued, curve_of, operate,
+    Ends, LargestSpeeds, LoadedMotor, MAX_OPERATED_ROTORS, continued, curve_of, operate,
 };
 use crate::motor::stator::{Stator, on_shaft};
 use crate::parameters::system::System;
@@ -20,7 +20,9 @@ impl LoadedMotor<'static> {
     /// A motor whose stator moves as a sine, with rigid impacts and a constant load.
     pub(crate) fn of_sine(motor: &Motor) -> Result<Self, Error> {
         let (mass, load_torque) = (motor.mass(), motor.load_torque());
-        Ok(Self { system: *motor.rigid_sine()?, stator: &Stator::Sine, mass, load_torque })
+        let system = *motor.rigid_sine()?;
+        let fastest = LargestSpeeds::of_sine(&system);
+        Ok(Self { system, fastest, stator: &Stator::Sine, mass, load_torque })
     }
 }
 
@@ -157,23 +159,18 @@ impl Motor {
             return Err(Error::LoadInTime);
         }
         let (mass, load_torque) = (self.mass(), self.load_torque());
-        Ok(LoadedMotor { system: self.fastest_sine()?, stator: self.stator_motion(), mass, load_torque })
+        let (system, stator) = (self.on_shaft()?, self.stator_motion());
+        let sine = || LargestSpeeds::of_sine(&system);
+        let fastest = stator.driven().map_or_else(sine, |own| LargestSpeeds::of_drives(&system, own));
+        Ok(LoadedMotor { system, fastest, stator, mass, load_torque })
     }
 
-    /// The sine with the same largest speeds as its stator, and the inertia of its shaft: by it starts and errors are
-    /// scaled.
-    pub(crate) fn fastest_sine(&self) -> Result<System, Error> {
-        Ok(match self.stator_motion() {
-            Stator::Sine => *self.system(),
-            Stator::Driven(own) => {
-                let scales = self.system().scales();
-                self.system().bare().with_platform(|platform| {
-                    platform.amplitude = own.system.height().bounds().speed * scales.length;
-                    platform.twist_amplitude = own.system.angle().bounds().speed * scales.angle;
-                })?
-            }
-            Stator::Yielding(_) => on_shaft(self.system(), self.load(), self.mass())?.bare(),
-        })
+    /// The rotor with the inertia of its shaft on the sine of the sheet.
+    pub(crate) fn on_shaft(&self) -> Result<System, Error> {
+        match self.stator_motion() {
+            Stator::Sine | Stator::Driven(_) => Ok(self.system().bare()),
+            Stator::Yielding(_) => Ok(on_shaft(self.system(), self.load(), self.mass())?.bare()),
+        }
     }
 }
 

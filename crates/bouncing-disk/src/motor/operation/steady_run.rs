@@ -6,6 +6,7 @@ use bouncing_disk_core::Observer;
 use bouncing_disk_core::numerics::statistics::{NORMAL_975, mean};
 use bouncing_disk_core::run::Watch;
 
+use crate::driven::DrivenSystem;
 use crate::error::{Error, check, finite, positive, within_limit};
 use crate::motor::batch::shared_orbit::shared_by;
 use crate::motor::operation::followed::Left;
@@ -17,6 +18,7 @@ use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::operation::settling::{decided_by_start, left_out, shortfall};
 use crate::motor::operation::window::{AxialWindow, RotorWindow, Window};
 use crate::motor::stator::Stator;
+use crate::parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem};
 use crate::parameters::scales::Scales;
 use crate::parameters::system::System;
 use crate::stator::{StatorLedger, StatorSystem};
@@ -53,8 +55,10 @@ const STORED_SHARE: f64 = 0.05;
 /// A motor under a load, to be carried on a shared vertical motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct LoadedMotor<'a> {
-    /// On a stator that moves in another way, the sine with the same largest speeds.
+    /// Rotor, shaft and sine of the sheet.
     pub(crate) system: System,
+    /// The largest speeds of the stator.
+    pub(crate) fastest: LargestSpeeds,
     /// The stator; load, friction and phase lag are those of `system`.
     pub(crate) stator: &'a Stator,
     /// Mass m (kg).
@@ -63,7 +67,48 @@ pub(crate) struct LoadedMotor<'a> {
     pub(crate) load_torque: f64,
 }
 
+/// The largest speeds of a stator, by which starts and errors are scaled.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct LargestSpeeds {
+    /// Of the height (g/omega), and of the angle (g a_e/(a_g^2 omega)).
+    pub(crate) height: f64,
+    pub(crate) angle: f64,
+    /// Of the angle (rad/s).
+    pub(crate) angular_speed: f64,
+}
+
+impl LargestSpeeds {
+    /// Those of the sine of a system.
+    pub(crate) fn of_sine(system: &System) -> Self {
+        let own = system.dimensionless();
+        let angular_speed = system.platform().peak_angular_speed();
+        Self { height: own.peak_acceleration(), angle: own.twist_speed(), angular_speed }
+    }
+
+    /// Those of drives on the platform and under the disk of a system.
+    pub(crate) fn of_drives(system: &System, driven: &DrivenSystem) -> Self {
+        let (disk, scales, frequency) =
+            (system.disk(), system.scales(), system.platform().angular_frequency());
+        let preload = disk.preload_acceleration();
+        let inertia = disk.gyration_radius() * disk.gyration_radius() / (disk.contact_radius() * preload);
+        let amplitude = driven.height().bounds().speed * scales.length;
+        let angular_speed = frequency * (driven.angle().bounds().speed * scales.angle);
+        Self {
+            height: amplitude * frequency * frequency / preload,
+            angle: inertia * angular_speed * frequency,
+            angular_speed,
+        }
+    }
+}
+
 impl LoadedMotor<'_> {
+    /// Its numbers without units, with the largest speeds of its stator as those of the sine.
+    fn dimensionless(&self) -> Result<DimensionlessSystem, Error> {
+        let LargestSpeeds { height, angle, .. } = self.fastest;
+        let own = self.system.dimensionless().parameters();
+        DimensionlessParameters { peak_acceleration: height, twist_speed: angle, ..own }.build()
+    }
+
     /// The same motor under another load torque (N m).
     pub(crate) fn with_load(&self, load_torque: f64) -> Result<Self, Error> {
         let disk = self.system.disk().parameters().with_load_torque(load_torque, self.mass)?;
@@ -84,7 +129,7 @@ impl LoadedMotor<'_> {
     /// Whether a mean speed differs from zero: by more than four of its standard errors, and by more than
     /// rounding.
     pub(crate) fn turns(&self, speed: Estimate) -> bool {
-        let rounding = 1e-6 * self.system.platform().peak_angular_speed();
+        let rounding = 1e-6 * self.fastest.angular_speed;
         speed.value.abs() > (4.0 * speed.standard_error).max(rounding)
     }
 
@@ -261,6 +306,8 @@ type MotorResult = (Operation, Vec<f64>, Vec<f64>);
 /// An ensemble under way.
 struct SteadyRun<'a> {
     motors: Vec<LoadedMotor<'a>>,
+    /// Their [`LoadedMotor::dimensionless`].
+    systems: Vec<DimensionlessSystem>,
     /// How many of them the caller requested: each of these is carried twice, from far below and from far
     /// above all steady speeds.
     asked: usize,
@@ -283,7 +330,7 @@ impl<'a> SteadyRun<'a> {
         from: Option<&Ends>,
         settings: &OperatingSettings,
     ) -> Result<Self, Error> {
-        let systems: Vec<_> = motors.iter().map(|motor| *motor.system.dimensionless()).collect();
+        let systems = motors.iter().map(LoadedMotor::dimensionless).collect::<Result<Vec<_>, Error>>()?;
         let stators = motors.iter().map(|motor| motor.stator.for_motor(&motor.system));
         let stators = stators.collect::<Result<Vec<_>, Error>>()?;
         let mut members = (0..settings.members)
@@ -309,7 +356,17 @@ impl<'a> SteadyRun<'a> {
         let most_impacts = (settings.most_impacts / (settings.members * FIRST_WINDOWS) as u64).max(1);
         let least_impacts = ((length * LEAST_IMPACTS as f64) as u64).min(most_impacts);
         let shortfalls = vec![None; asked];
-        Ok(Self { motors, asked, members, duration, least_impacts, most_impacts, shortfalls, wanted: 0.0 })
+        Ok(Self {
+            motors,
+            systems,
+            asked,
+            members,
+            duration,
+            least_impacts,
+            most_impacts,
+            shortfalls,
+            wanted: 0.0,
+        })
     }
 
     /// Where the rotors of the first motor are.
@@ -444,7 +501,7 @@ impl<'a> SteadyRun<'a> {
         let scale = unloaded.map(|(motor, [speeds, _])| {
             // A motor without twist moves only if a load makes it creep.
             let creep = motor.system.dimensionless().friction() * motor.system.scales().angular_speed;
-            mean(speeds).abs().max(0.01 * motor.system.platform().peak_angular_speed().max(creep))
+            mean(speeds).abs().max(0.01 * motor.fastest.angular_speed.max(creep))
         });
         self.wanted = settings.relative_error * scale.fold(0.0, f64::max);
         self.shortfalls = (0..self.asked)
@@ -480,7 +537,7 @@ impl<'a> SteadyRun<'a> {
         let units = Units::of(&self.motors[motor]);
         let sum = self.total(motor, left_out(self.windows())..self.windows());
         let stored = sum.axial.energy_change * units.axial + sum.rotor.kinetic_change * units.rotary;
-        let share = stored.abs() / sum.energy_scale(&units, &self.motors[motor], self.members.len());
+        let share = stored.abs() / sum.energy_scale(&units, &self.systems[motor], self.members.len());
         let time = sum.axial.duration;
         let input = sum.axial.normal_work * units.axial + sum.rotor.friction_work * units.rotary;
         (share > STORED_SHARE)
@@ -568,7 +625,7 @@ impl<'a> SteadyRun<'a> {
             friction_loss: estimate(&friction)?,
             efficiency,
             perturbation_power: estimate(&perturbation)?.value,
-            energy_residual: whole.energy_residual(&units, motor, self.members.len()),
+            energy_residual: whole.energy_residual(&units, &self.systems[index], self.members.len()),
             averaged_time: pairs.below.iter().map(|sum| sum.axial.duration).sum::<f64>() * units.time,
             start_up: starts.sum::<f64>() / self.members.len() as f64 * units.time,
             impacts: pairs.below.iter().map(|sum| sum.axial.impacts).sum(),
@@ -658,8 +715,7 @@ impl Sum {
 
     /// The energy that came in; where less came in than the disks of all members have at their start, that:
     /// there are only roundings then.
-    fn energy_scale(&self, units: &Units, motor: &LoadedMotor<'_>, members: usize) -> f64 {
-        let system = motor.system.dimensionless();
+    fn energy_scale(&self, units: &Units, system: &DimensionlessSystem, members: usize) -> f64 {
         let axial = self.axial.normal_work + self.axial.perturbation_work;
         // A load that drives the motor puts energy in, too, and so does a rotor that slows down.
         let rotor = &self.rotor;
@@ -671,7 +727,7 @@ impl Sum {
     }
 
     /// The residual of the energy balance, relative to the supplied energy.
-    fn energy_residual(&self, units: &Units, motor: &LoadedMotor<'_>, members: usize) -> f64 {
+    fn energy_residual(&self, units: &Units, system: &DimensionlessSystem, members: usize) -> f64 {
         let axial = self.axial.normal_work + self.axial.perturbation_work;
         let axial_left = axial - self.axial.restitution_loss - self.axial.energy_change;
         let rotor = &self.rotor;
@@ -680,7 +736,7 @@ impl Sum {
         let left = (axial_left * units.axial).abs() + (rotary_left * units.rotary).abs() + stator_left.abs();
         // The modes of a heavy stator hold much more than the disk.
         let modes = self.stator();
-        let scale = self.energy_scale(units, motor, members) + modes.drive_work.abs() * units.axial;
+        let scale = self.energy_scale(units, system, members) + modes.drive_work.abs() * units.axial;
         if scale > 0.0 { left / scale } else { left }
     }
 }

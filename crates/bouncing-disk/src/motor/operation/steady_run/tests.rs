@@ -17,7 +17,13 @@ const MASS: f64 = 0.02;
 
 /// This motor under a share of the largest mean torque of friction.
 fn loaded(system: &System, share: f64) -> LoadedMotor<'static> {
-    let unloaded = LoadedMotor { system: *system, stator: &Stator::Sine, mass: MASS, load_torque: 0.0 };
+    let unloaded = LoadedMotor {
+        system: *system,
+        fastest: LargestSpeeds::of_sine(system),
+        stator: &Stator::Sine,
+        mass: MASS,
+        load_torque: 0.0,
+    };
     unloaded.with_load(share * unloaded.largest_torque()).expect("legal")
 }
 
@@ -100,7 +106,13 @@ fn a_load_above_the_largest_torque_of_friction_runs_away() {
     let exact = |load: f64| {
         let scale = base.scales().angular_acceleration;
         let system = base.with_disk(|rotor| rotor.load_acceleration = load * scale).expect("legal");
-        LoadedMotor { system, stator: &Stator::Sine, mass: MASS, load_torque: f64::NAN }
+        LoadedMotor {
+            system,
+            fastest: LargestSpeeds::of_sine(&system),
+            stator: &Stator::Sine,
+            mass: MASS,
+            load_torque: f64::NAN,
+        }
     };
     let friction = base.dimensionless().friction();
     for load in [friction, 1.5 * friction, -friction, -2.0 * friction, 1e6] {
@@ -133,7 +145,13 @@ fn a_load_above_the_largest_torque_of_friction_runs_away() {
     }
     // What nothing holds, nothing drives: it stands still to the bit. The least load runs away with it.
     let slippery = base.with_disk(|rotor| rotor.friction = 0.0).expect("legal");
-    let still = LoadedMotor { system: slippery, stator: &Stator::Sine, mass: MASS, load_torque: 0.0 };
+    let still = LoadedMotor {
+        system: slippery,
+        fastest: LargestSpeeds::of_sine(&slippery),
+        stator: &Stator::Sine,
+        mass: MASS,
+        load_torque: 0.0,
+    };
     let point = *operated(&[still], &settings)[0].steady().expect("steady");
     assert_eq!(point.speed, Estimate { value: 0.0, standard_error: 0.0 });
     let pushed = still.with_load(1e-12).expect("legal");
@@ -339,7 +357,13 @@ mod searches {
         let still = tried_motor().with_platform(|stator| stator.twist_amplitude = 0.0).expect("legal");
         let slippery = tried_motor().with_disk(|rotor| rotor.friction = 0.0).expect("legal");
         for system in [still, slippery] {
-            let motor = LoadedMotor { system, stator: &Stator::Sine, mass: MASS, load_torque: 0.0 };
+            let motor = LoadedMotor {
+                system,
+                fastest: LargestSpeeds::of_sine(&system),
+                stator: &Stator::Sine,
+                mass: MASS,
+                load_torque: 0.0,
+            };
             let error = stall_load(&motor, &settings, &Unobserved).expect_err("it does not turn");
             assert!(matches!(error, Error::DoesNotTurn { .. }), "{error}");
             let error = best_phase_lag(&motor, &settings, &Unobserved).expect_err("it does not turn");
