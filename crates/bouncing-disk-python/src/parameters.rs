@@ -474,7 +474,7 @@ impl<'py> Arguments<'py> {
         Ok(self.held::<Motor>("motor")?.get().0.clone())
     }
 
-    /// A motor with the drive and the `contact_time` of a call in place of those of its sheet, where it has them.
+    /// The motor, whose drive and contact time the arguments of the call replace.
     pub(crate) fn moved(&self, motor: &MotorModel) -> PyResult<MotorModel> {
         let time = self.optional("contact_time")?;
         let drive = if self.0.contains("drive")? { self.given("drive")? } else { None };

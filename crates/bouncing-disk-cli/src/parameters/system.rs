@@ -10,7 +10,7 @@ use crate::range::Words;
 
 pub(crate) type SystemArgs = SourceArgs<DrivenDisk>;
 
-/// A disk on a platform, and how that moves in place of the sine.
+/// A disk on a platform, and the drive of the platform.
 #[derive(Debug, Clone)]
 pub(crate) struct DrivenDisk {
     pub(crate) system: System,
@@ -18,13 +18,13 @@ pub(crate) struct DrivenDisk {
 }
 
 impl DrivenDisk {
-    /// The system and the drive of what is computed for rigid impacts only.
+    /// System and drive, if impacts are rigid.
     pub(crate) fn rigid(self) -> Result<(System, DriveParameters), bouncing_disk::Error> {
         DimensionlessSystem::try_from(self.system)?;
         Ok((self.system, self.drive))
     }
 
-    /// The system of what is computed for rigid impacts on a sine only.
+    /// The system, if impacts are rigid and the platform moves as a sine.
     pub(crate) fn sine(self) -> Result<System, bouncing_disk::Error> {
         self.drive.sine()?;
         Ok(self.rigid()?.0)

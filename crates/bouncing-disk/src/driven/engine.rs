@@ -399,7 +399,7 @@ impl SteeredMotion for DrivenEngine {
         }
         let (gap, velocity) = match self.stage {
             Stage::Flight(DrivenFlight::Separated) => (0.0, speed),
-            // A contact that takes time ends before its spring is free.
+            // A compliant contact ends before its spring is free.
             Stage::Flight(DrivenFlight::Free { gap, velocity }) if gap <= 0.0 && velocity >= 0.0 => {
                 (gap, velocity + speed)
             }

@@ -60,7 +60,7 @@ pub trait Ground: Debug + Clone {
     /// event.
     ///
     /// # Errors
-    /// [`Error::SlipTooLong`], and those of the core's roots.
+    /// [`Error::SlipTooLong`], and errors of the core's roots.
     fn end_contact(
         engine: &mut Engine<Self>,
         lying: Lying<Self::ContactEnd>,
