@@ -1,9 +1,9 @@
 //! Motors: data sheets, operating points, stall, sweeps, traps and sensitivities.
 
 use bouncing_disk::motor::{
-    Estimate, InputSpread, InputTolerance, MotorField, MotorRegime, MotorSweep, OperatingPoint,
-    OperatingSettings, Operation, SensitivityMethod, SensitivityParameter, SensitivityQuantity,
-    SensitivitySettings, Shortfall, SweepAxis, SweepQuantity, TrapVerdict,
+    AxialMotion, Estimate, InputSpread, InputTolerance, Life, MotorField, MotorRegime, MotorSweep,
+    OperatingPoint, OperatingRow, OperatingSettings, Operation, SensitivityMethod, SensitivityParameter,
+    SensitivityQuantity, SensitivitySettings, Shortfall, SweepAxis, SweepQuantity, TrapVerdict,
 };
 use numpy::PyArray1;
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -63,6 +63,9 @@ pub(crate) fn stator_report(a: Arguments<'_>) -> PyResult<Option<Bound<'_, PyDic
     Ok(Some(rows))
 }
 
+/// The place in `OperatingPoints.STATUSES` of a branch that is not there.
+const NO_BRANCH: u8 = 4;
+
 /// How many doubles an operation has.
 const COLUMNS: usize = 7 + 2 * SweepQuantity::WITH_STATOR.len();
 
@@ -101,14 +104,60 @@ fn numbers(operation: &Operation) -> Numbers {
     }
 }
 
-/// The columns of many operations.
-fn columns<'py>(py: Python<'py>, operations: &[Operation]) -> Vec<Bound<'py, PyAny>> {
-    let all: Vec<_> = operations.iter().map(numbers).collect();
+/// The place in `OperatingPoints.MOTIONS`, and the mean life (s), of an operation that has them.
+fn motion_of(operation: Option<&Operation>) -> (u8, f64) {
+    match operation.and_then(Operation::point).map(|point| point.motion) {
+        Some(AxialMotion::Irregular { life: Life::Mean(life) }) => (1, life),
+        Some(AxialMotion::Irregular { .. }) => (1, f64::NAN),
+        Some(AxialMotion::Periodic { .. }) => (2, f64::NAN),
+        Some(AxialMotion::Contact) => (3, f64::NAN),
+        _ => (0, f64::NAN),
+    }
+}
+
+/// The columns of the operations under many loads, and as the last field those of the further branches.
+fn columns<'py>(
+    py: Python<'py>,
+    rows: &[OperatingRow],
+    shape: Option<&Bound<'py, PyTuple>>,
+) -> PyResult<Vec<Bound<'py, PyAny>>> {
+    let most = rows.iter().map(|row| row.branches.len()).max().unwrap_or(0);
+    let others = (1..most).map(|branch| {
+        let mut fields = columns_of(py, rows, branch, shape)?;
+        fields.push(PyTuple::empty(py).into_any());
+        made(py, "OperatingPoints", fields)
+    });
+    let others = PyTuple::new(py, others.collect::<PyResult<Vec<_>>>()?)?;
+    let mut fields = columns_of(py, rows, 0, shape)?;
+    fields.push(others.into_any());
+    Ok(fields)
+}
+
+/// The columns of a branch, NaN where a row has no such branch.
+fn columns_of<'py>(
+    py: Python<'py>,
+    rows: &[OperatingRow],
+    branch: usize,
+    shape: Option<&Bound<'py, PyTuple>>,
+) -> PyResult<Vec<Bound<'py, PyAny>>> {
+    let operations: Vec<_> = rows.iter().map(|row| row.branches.get(branch)).collect();
+    let nothing = ([f64::NAN; COLUMNS], 0, NO_BRANCH);
+    let all: Vec<_> = operations
+        .iter()
+        .map(|operation| operation.map_or(nothing, |operation| numbers(operation)))
+        .collect();
     let doubles = (0..COLUMNS).map(|index| column(py, &all, |(values, ..)| values[index]).into_any());
     let mut fields: Vec<_> = doubles.collect();
     fields.push(column(py, &all, |(_, impacts, _)| *impacts).into_any());
     fields.push(column(py, &all, |(.., status)| *status).into_any());
-    fields
+    let motions: Vec<_> = operations.into_iter().map(motion_of).collect();
+    fields.push(column(py, &motions, |(motion, _)| *motion).into_any());
+    fields.push(column(py, &motions, |(_, life)| *life).into_any());
+    let shaped = |field: Bound<'py, PyAny>| match shape {
+        Some(shape) => field.call_method1("reshape", (shape,)),
+        None => Ok(field),
+    };
+    fields.into_iter().map(shaped).collect()
 }
 
 fn settings(a: &Arguments<'_>) -> PyResult<OperatingSettings> {
@@ -126,8 +175,8 @@ fn settings(a: &Arguments<'_>) -> PyResult<OperatingSettings> {
 pub(crate) fn torque_speed_curve(a: Arguments<'_>) -> Made<'_> {
     let (motor, settings, loads) = (a.motor()?, settings(&a)?, a.row("load_torques")?);
     let motor = a.moved(&motor)?;
-    let operations = a.run(|observer| motor.torque_speed_curve(&loads, &settings, observer))?;
-    made(a.py(), "TorqueSpeedCurve", columns(a.py(), &operations))
+    let rows = a.run(|observer| motor.torque_speed_curve(&loads, &settings, observer))?;
+    made(a.py(), "TorqueSpeedCurve", columns(a.py(), &rows, None)?)
 }
 
 /// The load at which a motor stops.
@@ -220,9 +269,7 @@ pub(crate) fn motor_map(a: Arguments<'_>) -> Made<'_> {
     let sweep = sweep.and_then(|sweep| if continued { sweep.continued() } else { Ok(sweep) });
     let sweep = sweep.map_err(|error| a.refused(error))?;
     let found = a.run(|observer| sweep.run(observer))?;
-    let columns = columns(py, found.cells()).into_iter();
-    let shaped = columns.map(|column| column.call_method1("reshape", (&shape,)));
-    let mut fields = shaped.collect::<PyResult<Vec<_>>>()?;
+    let mut fields = columns(py, found.cells(), Some(&shape))?;
     fields.extend([a.get("motor")?, values.into_any()]);
     made(py, "MotorMap", fields)
 }

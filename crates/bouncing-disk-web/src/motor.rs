@@ -102,7 +102,8 @@ pub(crate) fn loads(request: &LoadsRequest) -> Result<Reply, Refusal> {
         settings.members /= FEWER;
         settings.most_impacts /= FEWER as u64;
     }
-    Reply::short(&motor.torque_speed_curve(load_torques, &settings, &Unobserved)?)
+    let rows = motor.torque_speed_curve(load_torques, &settings, &Unobserved)?;
+    Reply::short(&rows.iter().map(|row| *row.operation()).collect::<Vec<_>>())
 }
 
 fn settings(relative_error: f64, most_impacts: u64, seed: u64) -> Result<OperatingSettings, Refusal> {

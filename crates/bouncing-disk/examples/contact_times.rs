@@ -103,7 +103,7 @@ fn speeds(motor: &Motor, time: f64) -> Result<(), Error> {
     let speed = |lag: f64| {
         let contact = Contact::lasting(time * period);
         let soft = motor.with(|sheet| (sheet.phase_lag, sheet.contact) = (lag, Some(contact)))?;
-        match &soft.torque_speed_curve(&[0.0], &settings, &Unobserved)?[0] {
+        match soft.torque_speed_curve(&[0.0], &settings, &Unobserved)?[0].operation() {
             Operation::Steady(point) => Ok(cell(point.speed)),
             other => Ok::<_, Error>(format!("{other:?}")),
         }

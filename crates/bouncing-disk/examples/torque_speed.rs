@@ -28,7 +28,7 @@ fn main() -> Result<(), Error> {
     let loads = [0.0, 0.2, 0.4, 0.6, 0.8, 1.2].map(|share| share * motor.largest_torque());
     for operation in motor.torque_speed_curve(&loads, &settings, &Unobserved)? {
         let load = 1e3 * operation.load_torque();
-        match operation {
+        match operation.operation() {
             Operation::Steady(point) => {
                 let efficiency = point.efficiency.map_or("driven by the load".to_owned(), |efficiency| {
                     format!("efficiency {:.2} %", 100.0 * efficiency.value)

@@ -37,6 +37,7 @@ mod run_up;
 pub(crate) mod sensitivity;
 pub(crate) mod simulation;
 mod stator;
+pub(crate) mod tape;
 
 pub use batch::members::{MAX_MEMBERS, MAX_SPEEDS, TransientMember};
 pub use batch::transients::transients;
@@ -51,7 +52,9 @@ pub use data_sheet::warning::MotorWarning;
 pub use impulse::{ImpulseBalance, ImpulseTrain, MAX_IMPULSES, NormalImpulses, PhasedImpulse};
 pub use operation::best_phase_lag::BestPhaseLag;
 pub use operation::of_motor::operations;
-pub use operation::point::{Estimate, OperatingPoint, Operation, Shortfall, StatorPoint};
+pub use operation::point::{
+    AxialMotion, Estimate, Life, OperatingPoint, OperatingRow, Operation, Shortfall, StatorPoint,
+};
 pub use operation::settings::OperatingSettings;
 pub use operation::spread::{InputSpread, InputTolerance};
 pub use operation::stall_load::StallLoad;

@@ -312,10 +312,7 @@ impl StatorSystem {
 
     /// The same stator with another disk, load or steady motion.
     pub(crate) fn with_base(&self, base: &DimensionlessSystem) -> Result<Self, Error> {
-        let constant = self.base.load();
-        let line = |line: &LoadLine| LoadLine { torque: line.torque - constant, ..*line };
-        let lines: Vec<_> = self.lines.iter().map(line).collect();
-        Self::build(base, &self.given, self.arm, self.contact_time)?.with_load(&lines)
+        Self::build(base, &self.given, self.arm, self.contact_time)?.with_load(&self.law())
     }
 
     /// The load besides the constant one, if it does not depend on the speed.
@@ -327,6 +324,28 @@ impl StatorSystem {
     /// Whether it has modes.
     pub(crate) const fn yields(&self) -> bool {
         !self.given.is_empty()
+    }
+
+    /// Whether a mode twists, so that friction acts back on it.
+    pub(crate) fn twists(&self) -> bool {
+        self.given.iter().any(|mode| mode.angle != 0.0)
+    }
+
+    /// How long (rad) an isolated contact takes.
+    pub(crate) const fn contact_time(&self) -> Option<f64> {
+        self.contact_time
+    }
+
+    /// The lines of the load besides the constant one.
+    pub(crate) fn law(&self) -> Vec<LoadLine> {
+        let constant = self.base.load();
+        self.lines.iter().map(|line| LoadLine { torque: line.torque - constant, ..*line }).collect()
+    }
+
+    /// The same stator without the law of the load.
+    pub(crate) fn without_law(&self) -> Result<Self, Error> {
+        let line = LoadLine { from: f64::NEG_INFINITY, to: f64::INFINITY, torque: 0.0, slope: 0.0 };
+        self.clone().with_load(&[line])
     }
 
     /// Whether contacts take time.

@@ -255,7 +255,8 @@ fn stators() -> Result<Digest, Error> {
         let curve = motor.torque_speed_curve(&[0.0, 1e-5], &settings, &Unobserved)?;
         for of in [SweepQuantity::Speed, SweepQuantity::StatorAmplitude, SweepQuantity::ElectricalEfficiency]
         {
-            numbers.extend(curve.iter().map(|point| of.of(point).map_or(f64::NAN, |one| one.value)));
+            numbers
+                .extend(curve.iter().map(|point| of.of(point.operation()).map_or(f64::NAN, |one| one.value)));
         }
     }
     Ok(digest_of(numbers))

@@ -277,9 +277,14 @@ class OperatingPoints(Result):
         acceleration: acceleration (rad/s^2) to which a motor tends if its load overpowers it, else NaN.
         impacts: impacts of all members.
         status: a place in :attr:`STATUSES`.
+        motion: how the rotor moves up and down, a place in :attr:`MOTIONS`.
+        life: mean life (s) of an irregular motion that was seen to end, else NaN.
+        others: the same of motions that coexist with these, the most frequent from rest first: NaN and the status
+            ``none`` where there are fewer.
     """
 
-    STATUSES: ClassVar[tuple[str, ...]] = ("steady", "unsettled", "runaway", "depends-on-start")
+    STATUSES: ClassVar[tuple[str, ...]] = ("steady", "unsettled", "runaway", "depends-on-start", "none")
+    MOTIONS: ClassVar[tuple[str, ...]] = ("none", "irregular", "periodic", "contact")
 
     load_torque: FloatArray
     speed: FloatArray
@@ -310,6 +315,9 @@ class OperatingPoints(Result):
     acceleration: FloatArray
     impacts: IntArray
     status: ByteArray
+    motion: ByteArray
+    life: FloatArray
+    others: tuple[OperatingPoints, ...]
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -299,7 +299,7 @@ impl<'a> Model<'a> {
             let settings = OperatingSettings { seed, ..self.settings.operating };
             let all = operations(&motors.collect::<Result<Vec<_>, _>>()?, &settings, &ask)?;
             watch.finish(1);
-            Ok(all.iter().zip(&self.bends).map(|(operation, bend)| response_of(operation, *bend)).collect())
+            Ok(all.iter().zip(&self.bends).map(|(row, bend)| response_of(row.operation(), *bend)).collect())
         };
         let results = in_parallel(places.len(), of_place).into_iter().collect();
         watch.ask()?;

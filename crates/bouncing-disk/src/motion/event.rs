@@ -6,7 +6,7 @@ use crate::motion::energy::EnergyLedger;
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
 use crate::motion::segment::Segment;
 use crate::motion::state::{DiskState, SlipDirection, Snapshot};
-use crate::motion::stator_ledger::StatorLedger;
+use crate::motion::stator_ledger::{MODES, StatorLedger};
 use crate::parameters::dimensionless::DimensionlessSystem;
 use std::fmt::{self, Display, Formatter};
 use std::ops::AddAssign;
@@ -189,6 +189,11 @@ pub(crate) trait SteeredMotion: Motion + Send {
     /// last event and returns `None`.
     fn pause_contact(&mut self, _span: f64) -> Option<Energies> {
         None
+    }
+
+    /// Coordinates and speeds of the modes of a compliant stator at the last event; zero on any other.
+    fn modes(&self) -> [[f64; 2]; MODES] {
+        [[0.0; 2]; MODES]
     }
 
     /// The amplitude of the axial mode of a compliant stator `span` later.

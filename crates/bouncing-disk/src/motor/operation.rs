@@ -7,10 +7,8 @@
 //! docs/numerics/motors.md.
 
 pub(crate) mod best_phase_lag;
-mod energy_rows;
 pub(crate) mod followed;
 mod member;
-mod no_lift_off;
 pub(crate) mod of_motor;
 pub(crate) mod point;
 pub(crate) mod settings;
@@ -18,7 +16,4 @@ mod settling;
 pub(crate) mod spread;
 pub(crate) mod stall_load;
 pub(crate) mod steady_run;
-mod tap;
-pub(crate) mod tapped;
 pub(crate) mod trap_ranges;
-mod window;

@@ -18,7 +18,7 @@ use crate::error::{Error, check};
 use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::motor_field::MotorField;
 use crate::motor::operation::of_motor::operations;
-use crate::motor::operation::point::Operation;
+use crate::motor::operation::point::OperatingRow;
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::parameter_sweep::axis::{SweepAxis, cells, check_axes, sheet_of_cell};
 
@@ -113,7 +113,7 @@ impl MotorSweep {
     ///
     /// # Errors
     /// Those of [`Self::motor_of`] and of [`operations`], for no motor where the group does not exist.
-    pub fn operations(&self, group: usize, observer: &dyn Observer) -> Result<Vec<Operation>, Error> {
+    pub fn operations(&self, group: usize, observer: &dyn Observer) -> Result<Vec<OperatingRow>, Error> {
         let cells = self.groups.get(group).map_or(&[][..], |cells| cells);
         let motors = cells.iter().map(|cell| self.motor_of(*cell)).collect::<Result<Vec<_>, Error>>()?;
         if !self.continued {

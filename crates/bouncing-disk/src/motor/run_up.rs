@@ -13,11 +13,11 @@ use crate::motion::phase_time::PhaseTime;
 use crate::motor::batch::members::TransientMember;
 use crate::motor::batch::transients::transients;
 use crate::motor::data_sheet::Motor;
-use crate::motor::operation::tapped::Tapped;
 use crate::motor::rotor::transient::{
     Bins, FLIGHTS_OF_EVENT, SpeedCurve, TransientSettings, curve, transient,
 };
 use crate::motor::stator::{Stator, lines, still};
+use crate::motor::tape::tapped::Tapped;
 use crate::parameters::load::LoadLaw;
 use crate::parameters::scales::Scales;
 use crate::stator::{StatorEngine, StatorSystem};

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use crate::driven::DrivenSystem;
 use crate::error::Error;
 use crate::motor::data_sheet::parameters::MotorParameters;
-use crate::parameters::dimensionless::DimensionlessParameters;
+use crate::motor::tape::taped::{TapedRotor, Twist};
+use crate::parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem};
 use crate::parameters::disk::Disk;
 use crate::parameters::driven_platform::DrivenPlatform;
 use crate::parameters::load::LoadLaw;
@@ -81,8 +82,22 @@ impl Stator {
     /// This stator without the law of the load.
     pub(crate) fn without_law(&self) -> Result<Self, Error> {
         let Self::Yielding(system) = self else { return Ok(self.clone()) };
-        let line = LoadLine { from: f64::NEG_INFINITY, to: f64::INFINITY, torque: 0.0, slope: 0.0 };
-        Ok(Self::Yielding(Arc::new((**system).clone().with_load(&[line])?)))
+        Ok(Self::Yielding(Arc::new(system.without_law()?)))
+    }
+
+    /// How a rotor of this system is turned whose motion does not act back on the stator.
+    pub(crate) fn rotor(&self, system: &DimensionlessSystem) -> TapedRotor {
+        let (friction, load) = (system.friction(), system.load());
+        let (cosine, sine) = system.twist_components();
+        let twist = Twist::Sine([cosine, sine]);
+        match self {
+            Self::Sine => TapedRotor { friction, load, law: Vec::new(), twist },
+            Self::Driven(own) => own.system.rotor(),
+            Self::Yielding(own) => {
+                let law = if own.constant_law() == Some(0.0) { Vec::new() } else { own.law() };
+                TapedRotor { friction, load, law, twist }
+            }
+        }
     }
 
     /// The system of a stator that moves by waveforms, or whose contacts take time.

@@ -368,6 +368,10 @@ impl SteeredMotion for StatorEngine {
         matches!(self.stage, Stage::Lying(_)).then(|| self.pause(span).energies())
     }
 
+    fn modes(&self) -> [[f64; 2]; MODES] {
+        self.state().modes
+    }
+
     fn amplitude_after(&self, span: f64) -> Option<f64> {
         (self.system.modes[0].height != 0.0).then(|| self.vibration_after(span)[0].amplitude())
     }

@@ -19,17 +19,17 @@ fn starting(duration: f64) -> TransientSettings {
     TransientSettings { duration, intervals: 24, ..TransientSettings::default() }
 }
 
-/// Run-ups and operating points with contacts that take time, of both signs of the damping's square, and with
+/// Run-ups, and operating points, with contacts that take time, of both signs of the damping's square, and with
 /// flights of less than a period and of many.
 pub(crate) fn taps() -> Result<Vec<String>, Error> {
-    let mut numbers = Vec::new();
+    let (mut run_ups, mut numbers) = (Vec::new(), Vec::new());
     for (periods, restitution, lag) in [(0.05, 0.5, 0.0), (0.4, 0.7, -1.2), (0.9, 0.1, 0.6), (0.3, 0.01, 0.2)]
     {
         let motor =
             Motor::paper_70_khz().with(|sheet| (sheet.phase_lag, sheet.restitution) = (lag, restitution))?;
         let motor = motor.with(|sheet| sheet.contact = Some(Contact::lasting(periods / 70e3)))?;
         let curve = motor.transient(Phase::new(0.3)?, &starting(0.01), &Unobserved)?;
-        numbers.extend(curve.times.iter().chain(&curve.speeds));
+        run_ups.extend(curve.times.iter().chain(&curve.speeds));
         let settings = OperatingSettings {
             relative_error: 0.2,
             members: 4,
@@ -38,10 +38,14 @@ pub(crate) fn taps() -> Result<Vec<String>, Error> {
         };
         let points = motor.torque_speed_curve(&[0.0, 1e-6], &settings, &Unobserved)?;
         for quantity in [SweepQuantity::Speed, SweepQuantity::Efficiency] {
-            numbers.extend(points.iter().map(|point| quantity.of(point).map_or(f64::NAN, |one| one.value)));
+            numbers.extend(
+                points.iter().map(|point| quantity.of(point.operation()).map_or(f64::NAN, |one| one.value)),
+            );
         }
     }
-    Ok(one("taps", numbers, 0xa5a0_81dd_65fa_70f2))
+    let mut all = one("run-ups with taps", run_ups, 0x1956_895a_62f8_de14);
+    all.extend(one("taps", numbers, 0x7229_cfb2_1693_f7c7));
+    Ok(all)
 }
 
 /// Rigid impacts and contacts that take time on stators that yield, under a load and when the drive is switched off.
@@ -121,7 +125,7 @@ pub(crate) fn rated_fits() -> Vec<String> {
         .iter()
         .zip(&curve)
         .map(|(load, point)| {
-            let speed = SweepQuantity::Speed.of(point).expect("steady").value;
+            let speed = SweepQuantity::Speed.of(point.operation()).expect("steady").value;
             RatedPoint::under_load([*load, 0.0], [speed, 0.3])
         })
         .collect();
@@ -134,5 +138,5 @@ pub(crate) fn rated_fits() -> Vec<String> {
         numbers.extend(ends.map(|end| end.unwrap_or(f64::INFINITY)));
     }
     numbers.extend([fit.misfit, fit.evaluations as f64]);
-    one("rated fits", numbers, 0x826f_cd51_1e6e_28d4)
+    one("rated fits", numbers, 0x6446_bd4a_e6ca_c7df)
 }

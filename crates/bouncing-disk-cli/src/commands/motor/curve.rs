@@ -1,10 +1,12 @@
 //! `bouncing-disk motor curve`: speed, power and efficiency over the load.
 
-use bouncing_disk::motor::{InputSpread, MotorField, Operation, SweepQuantity};
+use bouncing_disk::motor::{InputSpread, MotorField, OperatingRow, Operation, SweepQuantity};
 
 use bouncing_disk_plot::Figure;
 
-use super::settings::{SettingsArgs, SpreadArgs, interval, lock_note, state, warn, with_stator};
+use super::settings::{
+    SettingsArgs, SpreadArgs, interval, life, lock_note, motion, state, warn, with_stator,
+};
 use crate::commands::prelude::*;
 
 /// The torque-speed curve, with power and efficiency
@@ -55,13 +57,20 @@ pub(super) fn run(args: &CurveArgs, context: Context) -> Result<()> {
         }
         None => vec![None; loads.len()],
     };
-    let rows: Vec<Row> = found.iter().copied().zip(spreads.iter().copied()).collect();
+    // The spread is that of the first branch.
+    let branches = |(row, spread): (&OperatingRow, &Option<InputSpread>)| {
+        let spread = *spread;
+        let all = row.branches.clone().into_iter().enumerate();
+        all.map(move |(branch, operation)| (operation, spread.filter(|_| branch == 0)))
+    };
+    let rows: Vec<Row> = found.iter().zip(&spreads).flat_map(branches).collect();
+    let coexist = found.iter().any(|row| row.branches.len() > 1);
     let job =
         json!({ "motor": motor, "load_torques": load_torques, "settings": settings, "tolerance": tolerance });
     let note = lock_note(&motor)?;
     let report = Report {
         provenance: provenance("bouncing-disk motor curve", &job)?,
-        text: with_stator(shown(), &found, |row| &row.0).to_text(&rows) + &note,
+        text: with_stator(shown(coexist), &found, |row| &row.0).to_text(&rows) + &note,
         table: columns(SweepQuantity::of_table(&found)).csv_of(rows.clone()),
         data: vec![("operations", stored(&found)?), ("spreads", stored(&spreads)?)],
         figure: Some(Box::new(|| draw(motor.largest_torque(), &rows))),
@@ -101,10 +110,16 @@ fn end(row: &Row, end: usize) -> Option<f64> {
     row.1.map(|spread| spread.from_to[end])
 }
 
-fn shown() -> Columns<Row> {
-    Columns::new()
-        .column("load_torque", "N m", |row: &Row| row.0.load_torque())
-        .column("state", "1", |row| state(&row.0))
+fn shown(coexist: bool) -> Columns<Row> {
+    let mut columns = Columns::new().column("load_torque", "N m", |row: &Row| row.0.load_torque()).column(
+        "state",
+        "1",
+        |row| state(&row.0),
+    );
+    if coexist {
+        columns = columns.column("motion", "1", |row| motion(&row.0)).column("life", "s", |row| life(&row.0));
+    }
+    columns
         .column("speed", "rad/s", |row| value(row, SweepQuantity::Speed))
         .column("error", "rad/s", |row| error(row, SweepQuantity::Speed))
         .column("from", "rad/s", |row| end(row, 0))
@@ -119,6 +134,8 @@ fn columns(quantities: &[SweepQuantity]) -> Columns<Row> {
     let load = MotorField::LoadTorque;
     let mut columns = Columns::<Row>::new()
         .column(load.name(), load.unit(), |row| row.0.load_torque())
+        .column("motion", "1", |row| motion(&row.0))
+        .column("life", "s", |row| life(&row.0))
         .column("state", "1", |row| state(&row.0));
     for &quantity in quantities {
         columns = columns.column(quantity.name(), quantity.unit(), move |row| value(row, quantity)).column(

@@ -170,7 +170,7 @@ pub(super) fn traps(args: &TrapsArgs, context: Context) -> Result<()> {
         .column("relative_width", "%", |trap| 100.0 * trap.relative_width)
         .column("long_flights", "1", |trap| trap.verdict.cycle.map(|cycle| cycle.long_flights as f64))
         .column("platform_periods", "1", |trap| trap.verdict.cycle.map(|cycle| cycle.platform_periods as f64))
-        .column("state", "1", |trap| state(&trap.operations[1]))
+        .column("state", "1", |trap| state(trap.operations[1].operation()))
         .column("lower_speed", "rad/s", move |trap| speed(trap, 0).map(|speed| speed.value))
         .column("middle_speed", "rad/s", move |trap| speed(trap, 1).map(|speed| speed.value))
         .column("upper_speed", "rad/s", move |trap| speed(trap, 2).map(|speed| speed.value))

@@ -5,7 +5,8 @@ use bouncing_disk::Motor;
 use bouncing_disk::core::Unobserved;
 use bouncing_disk::core::numerics::statistics::NORMAL_975;
 use bouncing_disk::motor::{
-    Estimate, InputTolerance, OperatingSettings, Operation, Shortfall, SweepQuantity,
+    AxialMotion, Estimate, InputTolerance, Life, OperatingRow, OperatingSettings, Operation, Shortfall,
+    SweepQuantity,
 };
 
 /// The settings of the library, with its defaults.
@@ -102,13 +103,30 @@ pub(super) const fn state(operation: &Operation) -> &'static str {
     }
 }
 
+/// How the rotor of a motor moves up and down.
+pub(super) fn motion(operation: &Operation) -> Option<String> {
+    Some(match operation.point()?.motion {
+        AxialMotion::Periodic { periods, impacts } => format!("{impacts} in {periods}"),
+        AxialMotion::Contact => "contact".to_owned(),
+        _ => "irregular".to_owned(),
+    })
+}
+
+/// The mean life (s) of an irregular motion, if some were seen to end.
+pub(super) fn life(operation: &Operation) -> Option<f64> {
+    match operation.point()?.motion {
+        AxialMotion::Irregular { life: Life::Mean(life) } => Some(life),
+        _ => None,
+    }
+}
+
 /// Columns with what a stator that yields does, if one of the operations has that.
 pub(super) fn with_stator<R: 'static>(
     columns: Columns<R>,
-    operations: &[Operation],
+    rows: &[OperatingRow],
     of: fn(&R) -> &Operation,
 ) -> Columns<R> {
-    let quantities = &SweepQuantity::of_table(operations)[SweepQuantity::ALL.len()..];
+    let quantities = &SweepQuantity::of_table(rows)[SweepQuantity::ALL.len()..];
     quantities.iter().fold(columns, |columns, quantity| {
         let (unit, scale) = shown_unit(*quantity);
         columns.column(quantity.name(), unit, move |row| {

@@ -1,14 +1,15 @@
 //! `bouncing-disk motor sweep`: a motor over one or two fields of its data sheet.
 
 use bouncing_disk::motor::{
-    MotorField, MotorSweep, MotorSweepResult, OperatingSettings, Operation, SweepAxis, SweepQuantity,
+    MotorField, MotorSweep, MotorSweepResult, OperatingRow, OperatingSettings, Operation, SweepAxis,
+    SweepQuantity,
 };
 use bouncing_disk::{Motor, Observer};
 use bouncing_disk_plot::{Figure, SINGLE_COLUMN};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::settings::{SettingsArgs, interval, shown_unit, state, warn, with_stator};
+use super::settings::{SettingsArgs, interval, motion, shown_unit, state, warn, with_stator};
 use crate::commands::prelude::*;
 
 /// A motor over one or two fields of its data sheet
@@ -118,7 +119,7 @@ impl GridJob for SweepJob {
     const COMMAND: &'static str = "motor sweep";
 
     /// The operations of the cells of one vertical motion.
-    type Row = Vec<Operation>;
+    type Row = Vec<OperatingRow>;
 
     type Prepared = MotorSweep;
 
@@ -135,7 +136,7 @@ impl GridJob for SweepJob {
         Ok(rows.into_par_iter().map(group).collect::<Result<_, bouncing_disk::Error>>()?)
     }
 
-    fn report<'a>(&'a self, sweep: &'a MotorSweep, rows: &'a [Vec<Operation>]) -> Result<Report<'a>> {
+    fn report<'a>(&'a self, sweep: &'a MotorSweep, rows: &'a [Vec<OperatingRow>]) -> Result<Report<'a>> {
         let result = sweep.result(rows)?;
         type Row = (Vec<f64>, Operation);
         let of = |row: &Row, quantity: SweepQuantity| quantity.of(&row.1);
@@ -144,6 +145,7 @@ impl GridJob for SweepJob {
             columns = columns.column(axis.parameter.name(), axis.parameter.unit(), move |row| row.0[index]);
         }
         columns = columns
+            .column("motion", "1", |row| motion(&row.1))
             .column("state", "1", |row| state(&row.1))
             .column("speed", "rad/s", move |row| of(row, SweepQuantity::Speed).map(|own| own.value))
             .column("error", "rad/s", move |row| of(row, SweepQuantity::Speed).map(|own| own.standard_error))
@@ -151,10 +153,11 @@ impl GridJob for SweepJob {
             .column("efficiency", "%", move |row| {
                 of(row, SweepQuantity::Efficiency).map(|own| 100.0 * own.value)
             });
-        let row = |(values, operation): (Vec<(MotorField, f64)>, &Operation)| {
-            (values.into_iter().map(|(_, value)| value).collect(), *operation)
+        let branches = |(values, row): (Vec<(MotorField, f64)>, &OperatingRow)| {
+            let values: Vec<f64> = values.into_iter().map(|(_, value)| value).collect();
+            row.branches.clone().into_iter().map(move |operation| (values.clone(), operation))
         };
-        let rows: Vec<Row> = result.iter().map(row).collect();
+        let rows: Vec<Row> = result.iter().flat_map(branches).collect();
         let csv = result.to_csv();
         let Some(quantity) = SweepQuantity::WITH_STATOR.into_iter().find(|own| own.name() == self.picture)
         else {
@@ -173,8 +176,10 @@ impl GridJob for SweepJob {
 /// The quantity over the axes. A missing value is a gap in a curve, and grey in a map.
 fn draw<'a>(result: &'a MotorSweepResult, quantity: SweepQuantity) -> Figure {
     let (name, (unit, scale)) = (quantity.name(), shown_unit(quantity));
-    let estimates =
-        result.cells().iter().map(|cell| quantity.of(cell).map_or((f64::NAN, f64::NAN), interval));
+    let estimates = result
+        .cells()
+        .iter()
+        .map(|cell| quantity.of(cell.operation()).map_or((f64::NAN, f64::NAN), interval));
     let (values, halves): (Vec<f64>, Vec<f64>) =
         estimates.map(|(value, half)| (scale * value, scale * half)).unzip();
     let cells = pictures::Quantity { name, unit, values: &values };

@@ -181,13 +181,6 @@ impl<L: RestitutionLaw> Engine<SineGround<L>> {
         self.attach(rest, chatter)
     }
 
-    /// Lets a contact without end end at `time`, with an event [`Event::Separation`].
-    pub(crate) fn pause_at(&mut self, time: PhaseTime) {
-        if let Stage::Lying(lying) = &mut self.stage {
-            lying.end = Some(time);
-        }
-    }
-
     /// The next event with the segment that it ends; without one, the segment that lasts until `end`: for
     /// ever, or by a slip whose own end is further off than its phase can be resolved.
     pub(crate) fn advance_towards(

@@ -15,8 +15,8 @@ pub(crate) type Row = [f64; WIDTH];
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(align(64))]
 pub(crate) struct RotorRows<T> {
-    friction: Row,
-    load: Row,
+    pub(crate) friction: Row,
+    pub(crate) load: Row,
     twist_cosine: Row,
     twist_sine: Row,
     /// Angular speed after the last impact.
@@ -30,12 +30,29 @@ impl<T: Copy + Default> RotorRows<T> {
     pub(crate) fn of(systems: impl ExactSizeIterator<Item = DimensionlessSystem>) -> Vec<Self> {
         let mut rows = vec![Self::default(); systems.len().div_ceil(WIDTH)];
         for (index, system) in systems.enumerate() {
-            let (rotors, own) = (&mut rows[index / WIDTH], index % WIDTH);
-            rotors.friction[own] = system.friction();
-            rotors.load[own] = system.load();
-            (rotors.twist_cosine[own], rotors.twist_sine[own]) = system.twist_components();
+            let (cosine, sine) = system.twist_components();
+            rows[index / WIDTH].put(index % WIDTH, [system.friction(), system.load()], [cosine, sine]);
         }
         rows
+    }
+
+    /// Puts a rotor in its place: friction and load, and the parts of the stator's angular speed that go with cosine
+    /// and, falling, sine of the phase.
+    pub(crate) fn put(&mut self, own: usize, [friction, load]: [f64; 2], [cosine, sine]: [f64; 2]) {
+        (self.friction[own], self.load[own]) = (friction, load);
+        (self.twist_cosine[own], self.twist_sine[own]) = (cosine, sine);
+    }
+
+    /// Angular speed of the stator under one of the rotors, as `DimensionlessSystem::platform_angular_speed`.
+    #[inline(always)]
+    pub(crate) fn twist(&self, own: usize, sin: f64, cos: f64) -> f64 {
+        self.twist_cosine[own] * cos - self.twist_sine[own] * sin
+    }
+
+    /// The same under all of them.
+    #[inline(always)]
+    pub(crate) fn twists(&self, sin: f64, cos: f64) -> Row {
+        core::array::from_fn(|own| self.twist(own, sin, cos))
     }
 
     /// Takes one of the rotors through a flight and the impact that ends it.
@@ -44,8 +61,7 @@ impl<T: Copy + Default> RotorRows<T> {
         let SharedImpact { duration, sin, cos, velocity, restitution } = *impact;
         Bounce {
             duration,
-            // As `DimensionlessSystem::platform_angular_speed`.
-            platform_speed: self.twist_cosine[own] * cos - self.twist_sine[own] * sin,
+            platform_speed: self.twist(own, sin, cos),
             velocity,
             restitution,
             friction: self.friction[own],

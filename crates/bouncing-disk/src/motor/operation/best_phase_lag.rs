@@ -59,11 +59,11 @@ pub(crate) fn best_phase_lag(
     let offset = Estimate::of(&tops.iter().map(|top| top.0).collect::<Vec<_>>())?;
     let speed = Estimate::of(&tops.iter().map(|top| top.1).collect::<Vec<_>>())?;
     let lag = coarse[best] + offset.value;
-    let mean = |k: usize| second.operations[k].point().map_or(f64::NEG_INFINITY, |point| point.speed.value);
+    let mean = |k: usize| second.rows[k].point().map_or(f64::NEG_INFINITY, |point| point.speed.value);
     // The fine lags inside, the coarse ones beyond them.
     let mut means: Vec<(f64, f64)> = (0..offsets.len()).map(|k| (fine[k], mean(k))).collect();
     for away in 3..=COARSE / 5 {
-        let coarse_mean = |k: usize| first.operations[k % COARSE].point().map(|point| point.speed.value);
+        let coarse_mean = |k: usize| first.rows[k % COARSE].point().map(|point| point.speed.value);
         let (up, down) = (best + away, best + COARSE - away);
         means.push((coarse[best] + away as f64 * step, coarse_mean(up).unwrap_or(f64::NEG_INFINITY)));
         means.push((coarse[best] - away as f64 * step, coarse_mean(down).unwrap_or(f64::NEG_INFINITY)));
@@ -89,9 +89,9 @@ pub(crate) fn best_phase_lag(
 
 /// The index of the fastest motor, and its speed; `None` if all run away.
 fn fastest(results: &Operations) -> Option<(usize, Estimate)> {
-    let speeds = results.operations.iter().enumerate();
+    let speeds = results.rows.iter().enumerate();
     speeds
-        .filter_map(|(index, operation)| operation.point().map(|point| (index, point.speed)))
+        .filter_map(|(index, row)| row.point().map(|point| (index, point.speed)))
         .max_by(|one, other| one.1.value.total_cmp(&other.1.value))
 }
 

@@ -4,17 +4,16 @@
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
 
+use bouncing_disk_core::Phase;
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::run::WorkCount;
-use bouncing_disk_core::{ChatterPolicy, Phase};
 
-use crate::driven::{DrivenEngine, DrivenStart, DrivenSystem};
+use crate::driven::DrivenStart;
 use crate::error::Error;
-use crate::motion::event::{Energies, Event, Motion, MotionRecord, SteeredMotion};
+use crate::motion::event::{Energies, Event, MotionRecord, SteeredMotion};
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
-use crate::motor::operation::tapped::Tapped;
-use crate::motor::operation::window::{AxialWindow, RotorWindow, Window};
 use crate::motor::rotor::transient::FLIGHTS_OF_EVENT;
+use crate::motor::tape::window::{AxialWindow, RotorWindow, Window};
 use crate::parameters::scales::Scales;
 use crate::stator::{MODES, StatorEngine, StatorState, StatorSystem};
 
@@ -28,6 +27,12 @@ pub(crate) struct Left {
 }
 
 impl Left {
+    /// Of an engine at a time before its next event.
+    pub(crate) fn of(engine: &StatorEngine, time: PhaseTime) -> Self {
+        let state = engine.state_after(time.since(&engine.time()).radians()).1;
+        Self { time, state, rises: engine.system().modes.map(|mode| mode.height != 0.0) }
+    }
+
     /// In SI units, or from them by `f64::recip` of each unit; time, angle and angular speed begin anew.
     pub(crate) fn scaled(self, unit: &Scales, of: fn(f64) -> f64) -> Self {
         let (mut state, time) = (self.state, PhaseTime::in_first_period(self.time.phase));
@@ -48,7 +53,6 @@ pub(crate) struct Followed<E> {
     rotors: Vec<Rotor<E>>,
     /// The end of the last window.
     reached: PhaseTime,
-    tapped: Option<Tapped>,
 }
 
 /// A rotor, and what it has done since its start.
@@ -79,87 +83,6 @@ struct Totals {
     angular_speed: f64,
 }
 
-impl Followed<DrivenEngine> {
-    /// Rotors that lie on a prescribed stator at `phase` with these angular speeds, perturbed by numbers of one `seed`.
-    pub(crate) fn on_driven<'a>(
-        starts: impl Iterator<Item = (&'a DrivenSystem, f64)>,
-        phase: Phase,
-        (perturbation, seed): (f64, u64),
-    ) -> Result<Self, Error> {
-        let starts: Vec<_> = starts.collect();
-        let tapped = Tapped::new(starts.iter().map(|(system, _)| *system));
-        let rotors = starts.into_iter().map(|(system, angular_speed)| {
-            let start = DrivenStart::Contact { phase, angular_speed };
-            let engine = DrivenEngine::new(system.clone(), start, ChatterPolicy::Complete)?;
-            Ok(Rotor::new(engine, system.compliance.is_some(), phase, (perturbation, seed)))
-        });
-        let reached = PhaseTime::in_first_period(phase);
-        Ok(Self { rotors: rotors.collect::<Result<_, Error>>()?, reached, tapped })
-    }
-
-    /// Whether the stator never throws the rotors up.
-    pub(crate) fn lies_for_ever(&self) -> bool {
-        self.rotors.iter().all(|rotor| rotor.engine.lies_for_ever())
-    }
-
-    /// The next window, as for a sine; rotors that come to rest for ever have periods in place of impacts.
-    pub(crate) fn next_window(
-        &mut self,
-        duration: f64,
-        impacts: RangeInclusive<u64>,
-        work: &mut WorkCount<'_>,
-    ) -> Result<Window, Error> {
-        let Some(mut tapped) = self.tapped.take() else {
-            return self.general_window(duration, &impacts, true, work);
-        };
-        let from = self.reached;
-        let end = from.after(PhaseSpan::from_radians(duration));
-        let rotors = vec![RotorWindow::default(); self.rotors.len()];
-        let mut window = Window { axial: AxialWindow::default(), rotors };
-        if !tapped.begun && !self.rotors[0].engine.launches() {
-            // The first contact.
-            window.add(&self.general_window(0.0, &(0..=0), false, work)?);
-        }
-        loop {
-            if !tapped.begun {
-                // From where the engines are.
-                let Some(launch) = self.rotors[0].engine.flight() else {
-                    let done = window.axial.impacts;
-                    let left =
-                        impacts.start().saturating_sub(done)..=impacts.end().saturating_sub(done).max(1);
-                    let rest = end.since(&self.reached).radians();
-                    window.add(&self.general_window(rest, &left, true, work)?);
-                    return Ok(window);
-                };
-                tapped.begin(
-                    self.reached,
-                    launch,
-                    self.rotors.iter().map(|rotor| rotor.before.angular_speed),
-                );
-            }
-            let leader = &mut self.rotors[0];
-            let going = |time: &PhaseTime, done: u64| {
-                (time.order(&end).is_lt() || done < *impacts.start()) && done < *impacts.end()
-            };
-            let decided =
-                tapped.run(&mut window, going, || leader.perturbation * leader.generator.unit(), work)?;
-            window.axial.duration = tapped.time.since(&from).radians();
-            self.reached = tapped.time;
-            if decided {
-                self.tapped = Some(tapped);
-                return Ok(window);
-            }
-            // One tap by the engines.
-            for (rotor, speed) in self.rotors.iter_mut().zip(tapped.speeds()) {
-                rotor.engine.fly_from(tapped.time, tapped.launch, speed);
-                rotor.before = rotor.totals(&self.reached);
-            }
-            tapped.begun = false;
-            window.add(&self.general_window(0.0, &(1..=1), false, work)?);
-        }
-    }
-}
-
 impl Followed<StatorEngine> {
     /// As [`Followed::on_driven`], on a stator that yields.
     pub(crate) fn on_yielding<'a>(
@@ -172,7 +95,7 @@ impl Followed<StatorEngine> {
             Ok(Rotor::new(engine, system.takes_time(), phase, perturbation))
         });
         let reached = PhaseTime::in_first_period(phase);
-        Ok(Self { rotors: rotors.collect::<Result<_, Error>>()?, reached, tapped: None })
+        Ok(Self { rotors: rotors.collect::<Result<_, Error>>()?, reached })
     }
 
     /// A rotor goes on from where another one was left, as all that do at the same time.
@@ -186,9 +109,7 @@ impl Followed<StatorEngine> {
 
     /// Where a rotor is at the end of the last window.
     pub(crate) fn left(&self, place: usize) -> Left {
-        let (time, engine) = (self.reached, &self.rotors[place].engine);
-        let state = engine.state_after(time.since(&engine.time()).radians()).1;
-        Left { time, state, rises: engine.system().modes.map(|mode| mode.height != 0.0) }
+        Left::of(&self.rotors[place].engine, self.reached)
     }
 }
 
@@ -231,9 +152,11 @@ impl<E: SteeredMotion> Followed<E> {
             }
             window.rotors.push(RotorWindow {
                 angle: change(|totals| totals.angle),
+                square: f64::NAN,
                 friction_work: change(|totals| totals.energies.disk.friction_work),
                 friction_loss: change(|totals| totals.energies.disk.friction_loss),
                 load_work: change(|totals| totals.energies.disk.load_work),
+                load_impulse: now.energies.stator.load_impulse - before.energies.stator.load_impulse,
                 kinetic_change: 0.5
                     * change(|totals| totals.angular_speed)
                     * (now.angular_speed + before.angular_speed),
@@ -343,71 +266,5 @@ impl<E: SteeredMotion> Rotor<E> {
             angle: state.angle,
             angular_speed: state.angular_speed,
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use bouncing_disk_core::run::Watch;
-    use bouncing_disk_core::{Drive, Unobserved};
-
-    use super::*;
-    use crate::driven::DrivenSystem;
-    use crate::motion::phase_time::phase_at;
-
-    /// Rotors that come down through the platform's largest speed, where the engine takes over and hands back: in
-    /// the regular motion of one tap in each period windows are those of engines alone.
-    #[test]
-    fn windows_with_taps_are_those_of_the_engine() {
-        let (peak, twist) = (197.4, 4.27e5);
-        let systems = [0.0, 0.2].map(|load| {
-            let drive = |size: f64, angle: f64| Drive::fourier(&[(size, angle)]).expect("legal");
-            let (height, angle) = (drive(peak, 0.0), drive(twist, -1.0));
-            let rigid =
-                DrivenSystem { height, angle, friction: 1.0, restitution: 0.5, load, compliance: None };
-            rigid.with_contact_time(TAU).expect("legal")
-        });
-        let speeds = [twist + 20.0, -twist - 20.0, twist + 5.0, 0.3 * twist];
-        let starts = || systems.iter().flat_map(|system| [(system, 0.0); 2]);
-        let member = || Followed::on_driven(starts(), phase_at(0.3), (1e-3, 5)).expect("legal");
-        let (mut fast, mut slow) = (member(), member());
-        let watch = Watch::begin(&Unobserved, 0, u64::MAX).expect("not stopped");
-        fast.next_window(0.0, 2000..=2000, &mut watch.work()).expect("no failure");
-        let tapped = fast.tapped.as_mut().expect("taps");
-        tapped.begin(tapped.time, tapped.launch, speeds.into_iter());
-        slow.reached = fast.reached;
-        for (rotor, speed) in slow.rotors.iter_mut().zip(speeds) {
-            rotor.engine.fly_from(tapped.time, tapped.launch, speed);
-            (rotor.generator, rotor.before) = (fast.rotors[0].generator, rotor.totals(&slow.reached));
-        }
-        for _ in 0..3 {
-            let own = fast.next_window(200.0, 10..=1000, &mut watch.work()).expect("no failure");
-            let known =
-                slow.general_window(200.0, &(10..=1000), false, &mut watch.work()).expect("no failure");
-            assert!(own.axial.impacts == known.axial.impacts && own.axial.impacts > 30, "{own:?}");
-            let near = |of: &dyn Fn(&Window) -> f64, size: f64| {
-                assert!((of(&own) - of(&known)).abs() < 1e-9 * size, "{size} {own:?} {known:?}");
-            };
-            let loss = known.axial.restitution_loss;
-            near(&|window| window.axial.duration, known.axial.duration);
-            near(&|window| window.axial.normal_work, loss);
-            near(&|window| window.axial.restitution_loss, loss);
-            near(&|window| window.axial.energy_change, loss);
-            near(&|window| window.axial.perturbation_work, loss);
-            let size = twist * known.axial.duration;
-            for index in 0..speeds.len() {
-                near(&|window| window.rotors[index].angle, size);
-                near(&|window| window.rotors[index].friction_work, size);
-                near(&|window| window.rotors[index].friction_loss, size);
-                near(&|window| window.rotors[index].load_work, size);
-                near(&|window| window.rotors[index].kinetic_change, size);
-            }
-        }
-        let tapped = fast.tapped.expect("taps");
-        assert!(
-            tapped.speeds().all(|speed| speed.abs() < twist),
-            "{:?}",
-            tapped.speeds().collect::<Vec<_>>()
-        );
     }
 }

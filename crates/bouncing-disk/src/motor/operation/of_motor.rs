@@ -7,7 +7,7 @@ use crate::error::{Error, check};
 use crate::motor::batch::shared_orbit::is_shared;
 use crate::motor::data_sheet::Motor;
 use crate::motor::operation::best_phase_lag::{BestPhaseLag, best_phase_lag};
-use crate::motor::operation::point::{Estimate, Operation};
+use crate::motor::operation::point::{Estimate, OperatingRow, Operation};
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::operation::stall_load::{StallLoad, stall_load};
 use crate::motor::operation::steady_run::{
@@ -39,14 +39,14 @@ impl Motor {
     ///
     /// let motor = Motor::paper_70_khz();
     /// let half = 0.5 * motor.largest_torque();
-    /// let operation = motor.operating_point(half, &OperatingSettings::default(), &Unobserved)?;
-    /// let point = operation.steady().expect("known to 1 %");
+    /// let row = motor.operating_point(half, &OperatingSettings::default(), &Unobserved)?;
+    /// let point = row.steady().expect("known to 1 %");
     /// let (speed, efficiency) = (point.speed, point.efficiency.expect("it works"));
     /// assert!((speed.value - 8.6).abs() < 0.3 && speed.standard_error < 0.2);
     /// assert!((efficiency.value - 0.115).abs() < 0.01);
     /// // A load that friction cannot hold has no operating point.
     /// let overload = motor.operating_point(2.0 * motor.largest_torque(), &OperatingSettings::default(), &Unobserved)?;
-    /// assert!(matches!(overload, Operation::Runaway { .. }));
+    /// assert!(matches!(overload.operation(), Operation::Runaway { .. }));
     /// # Ok::<(), bouncing_disk::Error>(())
     /// ```
     ///
@@ -60,7 +60,7 @@ impl Motor {
         load_torque: f64,
         settings: &OperatingSettings,
         observer: &dyn Observer,
-    ) -> Result<Operation, Error> {
+    ) -> Result<OperatingRow, Error> {
         let mut all = self.torque_speed_curve(&[load_torque], settings, observer)?;
         // As many as loads.
         Ok(all.swap_remove(0))
@@ -81,7 +81,7 @@ impl Motor {
         load_torques: &[f64],
         settings: &OperatingSettings,
         observer: &dyn Observer,
-    ) -> Result<Vec<Operation>, Error> {
+    ) -> Result<Vec<OperatingRow>, Error> {
         curve_of(self.loaded()?, load_torques, settings, observer)
     }
 
@@ -94,14 +94,14 @@ impl Motor {
         let bare = self.stator_motion().without_law()?;
         let unloaded = LoadedMotor { stator: &bare, ..self.loaded()? };
         // As many as loads.
-        match curve_of(unloaded, &[0.0], settings, &Unobserved)?.swap_remove(0) {
+        match curve_of(unloaded, &[0.0], settings, &Unobserved)?[0].operation() {
             Operation::Steady(point) => Ok(point.speed),
             Operation::Unsettled(point, _) => Err(Error::NotSettled {
                 speed: point.speed.value,
                 standard_error: point.speed.standard_error,
             }),
             // No load is not above what friction can hold.
-            Operation::Runaway { load_torque, .. } => Err(Error::Overpowered { load: load_torque }),
+            Operation::Runaway { load_torque, .. } => Err(Error::Overpowered { load: *load_torque }),
         }
     }
 
@@ -147,10 +147,10 @@ impl Motor {
         from: Option<&Ends>,
         settings: &OperatingSettings,
         observer: &dyn Observer,
-    ) -> Result<(Operation, Option<Ends>), Error> {
+    ) -> Result<(OperatingRow, Option<Ends>), Error> {
         let (mut found, ends) = continued(self.loaded()?, from, settings, observer)?;
         // As many as motors.
-        Ok((found.operations.swap_remove(0), ends))
+        Ok((found.rows.swap_remove(0), ends))
     }
 
     /// For a steady operation, which knows no time.
@@ -187,7 +187,7 @@ pub fn operations(
     motors: &[Motor],
     settings: &OperatingSettings,
     observer: &dyn Observer,
-) -> Result<Vec<Operation>, Error> {
+) -> Result<Vec<OperatingRow>, Error> {
     check(!motors.is_empty(), "number of motors", 0.0, "[1, 1000000]")?;
     let (total, mut all) = (motors.len() as u64, Vec::with_capacity(motors.len()));
     let most = (MAX_OPERATED_ROTORS / settings.members.max(1)).max(1);
@@ -204,7 +204,7 @@ pub fn operations(
             continue;
         }
         let loaded: Vec<_> = group.iter().map(Motor::loaded).collect::<Result<_, _>>()?;
-        all.extend(operate(&loaded, settings, &observer)?.operations);
+        all.extend(operate(&loaded, settings, &observer)?.rows);
     }
     // Whatever it says, there is nothing left to stop.
     let _ = observer.observe(Progress { done: total, total });
@@ -214,7 +214,6 @@ pub fn operations(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::motor::OperatingPoint;
     use crate::testing::refused;
 
     #[test]
@@ -229,8 +228,9 @@ mod tests {
             loads.iter().map(|&load| motor.with(|sheet| sheet.load_torque = load).expect("legal")).collect();
         let map = operations(&motors, &settings, &Unobserved).expect("no failure");
         assert_eq!(curve, map);
-        assert!(matches!(curve[3], Operation::Runaway { .. }));
-        let Operation::Runaway { largest_torque, .. } = curve[3] else { unreachable!() };
+        let Operation::Runaway { largest_torque, .. } = curve[3].operation() else {
+            panic!("{:?}", curve[3])
+        };
         assert!((largest_torque / largest - 1.0).abs() < 1e-12);
         // Motors that share nothing, between such that do.
         let other = motor.with(|sheet| sheet.amplitude = Some(1.1e-8)).expect("legal");
@@ -242,7 +242,7 @@ mod tests {
         .expect("no failure");
         let alone = other.operating_point(0.0, &settings, &Unobserved).expect("no failure");
         assert_eq!(mixed[1], alone);
-        let speed = |operation: &Operation| operation.point().map(|point: &OperatingPoint| point.speed.value);
+        let speed = |row: &OperatingRow| row.point().map(|point| point.speed.value);
         assert!(speed(&mixed[0]) > speed(&mixed[2]) && speed(&mixed[2]) > speed(&mixed[3]));
         let unloaded = motor.no_load_speed(&settings).expect("steady");
         assert!((unloaded.value - speed(&curve[0]).expect("steady")).abs() < 4.0 * unloaded.standard_error);

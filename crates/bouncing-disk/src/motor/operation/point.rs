@@ -58,6 +58,40 @@ fn is_zero(value: &f64) -> bool {
     *value == 0.0
 }
 
+/// How the rotor moves up and down in a steady operation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
+pub enum AxialMotion {
+    /// It was not found to repeat itself: means are over time and over an ensemble.
+    Irregular {
+        /// How long it lasts.
+        life: Life,
+    },
+    /// It repeats itself, and so does the rotor: means are over one cycle.
+    Periodic {
+        /// Periods of the drive.
+        periods: u64,
+        /// Impacts in a cycle.
+        impacts: u64,
+    },
+    /// The rotor stays on the stator.
+    Contact,
+}
+
+/// How long an irregular motion lasts before it becomes another one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
+pub enum Life {
+    /// The mean (s): some were seen to end.
+    Mean(f64),
+    /// None was seen to end in this time (s), the longest for which one was watched.
+    NoneEndedIn(f64),
+}
+
 /// A motor in steady operation. All numbers are means over time and over the members of one ensemble of runs.
 ///
 /// Energy is balanced: the input of the platform and the perturbation equals the mechanical power, the two
@@ -72,6 +106,8 @@ pub struct OperatingPoint {
     /// Its standard error; none of a constant torque.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "is_zero"))]
     pub load_torque_error: f64,
+    /// How the rotor moves up and down.
+    pub motion: AxialMotion,
     /// Mean angular speed (rad/s).
     pub speed: Estimate,
     /// Mechanical power, the mean of load torque times speed (W); negative where the load drives the motor.
@@ -205,5 +241,43 @@ impl Operation {
             Self::Steady(point) | Self::Unsettled(point, _) => point.load_torque,
             Self::Runaway { load_torque, .. } => *load_torque,
         }
+    }
+}
+
+/// A motor under a load: its operation, and those that coexist with it.
+///
+/// Most motors have one. With contacts of about half a period, or on a stator that yields, the rotor may move up and
+/// down in more than one way, and turns at another speed in each; which one comes is decided by the start.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct OperatingRow {
+    /// At least one: the first is where most rotors are that started from rest.
+    pub branches: Vec<Operation>,
+}
+
+impl OperatingRow {
+    /// The operation of most rotors that started from rest.
+    #[must_use]
+    pub fn operation(&self) -> &Operation {
+        &self.branches[0]
+    }
+
+    /// [`Operation::steady`] of [`Self::operation`].
+    #[must_use]
+    pub fn steady(&self) -> Option<&OperatingPoint> {
+        self.operation().steady()
+    }
+
+    /// [`Operation::point`] of [`Self::operation`].
+    #[must_use]
+    pub fn point(&self) -> Option<&OperatingPoint> {
+        self.operation().point()
+    }
+
+    /// The load torque T_L (N m).
+    #[must_use]
+    pub fn load_torque(&self) -> f64 {
+        self.operation().load_torque()
     }
 }

@@ -4,7 +4,7 @@ use bouncing_disk_core::Observer;
 use bouncing_disk_core::numerics::elementary::hypot;
 
 use crate::error::Error;
-use crate::motor::operation::point::{Estimate, Operation, Shortfall};
+use crate::motor::operation::point::{Estimate, OperatingRow, Operation, Shortfall};
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::operation::steady_run::{LoadedMotor, operate};
 
@@ -62,8 +62,8 @@ pub(crate) fn stall_load(
     let shares: Vec<f64> =
         (0..2 * STEPS - 1).map(|k| (k as f64 - (STEPS - 1) as f64) / STEPS as f64).collect();
     let first = under(&shares)?;
-    let unloaded = speed_of(&first.operations[STEPS - 1]);
-    check_settled(&first.operations[STEPS - 1..STEPS])?;
+    let unloaded = speed_of(&first.rows[STEPS - 1]);
+    check_settled(&first.rows[STEPS - 1..STEPS])?;
     if !motor.turns(unloaded) || largest <= 0.0 {
         let Estimate { value: speed, standard_error } = unloaded;
         return Err(Error::DoesNotTurn { speed, standard_error });
@@ -71,8 +71,8 @@ pub(crate) fn stall_load(
     let sign = 1.0_f64.copysign(unloaded.value);
     // Steps away from no load, in the direction that brakes.
     let braked = |step: usize| if sign > 0.0 { STEPS - 1 + step } else { STEPS - 1 - step };
-    let turns = |operation: &Operation| sign * speed_of(operation).value > 0.0;
-    let last = (0..STEPS).take_while(|&step| turns(&first.operations[braked(step)])).last().unwrap_or(0);
+    let turns = |row: &OperatingRow| sign * speed_of(row).value > 0.0;
+    let last = (0..STEPS).take_while(|&step| turns(&first.rows[braked(step)])).last().unwrap_or(0);
     let (low, high) = (last as f64 / STEPS as f64, (last + 1) as f64 / STEPS as f64);
     // One step more on either side, for a bracket that is sure.
     let step = (high - low) / STEPS as f64;
@@ -80,7 +80,7 @@ pub(crate) fn stall_load(
         (0..=STEPS + 2).map(|k| (low + step * (k as f64 - 1.0)).clamp(0.0, NEAREST)).collect();
     fine.dedup();
     let second = under(&fine.iter().map(|share| sign * share).collect::<Vec<_>>())?;
-    let speeds: Vec<Estimate> = second.operations.iter().map(speed_of).collect();
+    let speeds: Vec<Estimate> = second.rows.iter().map(speed_of).collect();
     let sure = |estimate: &Estimate, sign: f64| sign * estimate.value > SIGNIFICANT * estimate.standard_error;
     let below = speeds.iter().rposition(|speed| sure(speed, sign)).unwrap_or(0);
     let above = speeds.iter().position(|speed| sure(speed, -sign));
@@ -96,7 +96,7 @@ pub(crate) fn stall_load(
     if above.is_none() && high > NEAREST {
         // No load that was tried surely drives it back, and beyond the largest torque each does. A motor that
         // still gains speed at the last load turns all the same.
-        if let Operation::Unsettled(point, Shortfall::Drift { drift, .. }) = &second.operations[below]
+        if let Operation::Unsettled(point, Shortfall::Drift { drift, .. }) = second.rows[below].operation()
             && sign * drift < 0.0
         {
             let Estimate { value: speed, standard_error } = point.speed;
@@ -108,7 +108,7 @@ pub(crate) fn stall_load(
     }
     let above = above.unwrap_or(fine.len() - 1);
     let (below, above) = (below.min(above.saturating_sub(1)), above.max(1));
-    check_settled(&second.operations[below..=above])?;
+    check_settled(&second.rows[below..=above])?;
     // Each member crosses zero for itself, on the straight line through its own speeds: they share their
     // perturbations.
     let members = second.speeds[below].len();
@@ -157,8 +157,8 @@ pub(crate) fn stall_share(shares: &[f64], speed: impl Fn(usize) -> f64) -> (f64,
 
 /// Refuses speeds that still drift: no standard error contains the remainder of a start-up, so that of a load
 /// from such speeds would be too small.
-fn check_settled(operations: &[Operation]) -> Result<(), Error> {
-    let drifting = operations.iter().find_map(|operation| match operation {
+fn check_settled(rows: &[OperatingRow]) -> Result<(), Error> {
+    let drifting = rows.iter().find_map(|row| match row.operation() {
         Operation::Unsettled(point, Shortfall::Drift { .. }) => Some(point.speed),
         _ => None,
     });
@@ -171,8 +171,8 @@ fn check_settled(operations: &[Operation]) -> Result<(), Error> {
 const NO_SPEED: Estimate = Estimate { value: 0.0, standard_error: f64::INFINITY };
 
 /// The speed of a steady motor; no load here makes a motor run away.
-fn speed_of(operation: &Operation) -> Estimate {
-    operation.point().map_or(NO_SPEED, |point| point.speed)
+fn speed_of(row: &OperatingRow) -> Estimate {
+    row.point().map_or(NO_SPEED, |point| point.speed)
 }
 
 /// Where the least-squares line through the speeds at the shares from one index to another vanishes.

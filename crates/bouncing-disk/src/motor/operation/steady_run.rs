@@ -10,14 +10,16 @@ use crate::driven::DrivenSystem;
 use crate::error::{Error, check, finite, positive, within_limit};
 use crate::motor::batch::shared_orbit::shared_by;
 use crate::motor::operation::followed::Left;
-use crate::motor::operation::member::{Member, far_above};
+use crate::motor::operation::member::{Member, far_above, is_thrown};
 use crate::motor::operation::point::{
-    Estimate, OperatingPoint, Operation, Shortfall, StatorPoint, error_of_mean,
+    AxialMotion, Estimate, Life, OperatingPoint, OperatingRow, Operation, Shortfall, StatorPoint,
+    error_of_mean,
 };
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::operation::settling::{decided_by_start, left_out, shortfall};
-use crate::motor::operation::window::{AxialWindow, RotorWindow, Window};
 use crate::motor::stator::Stator;
+use crate::motor::tape::cycle::Cycle;
+use crate::motor::tape::window::{AxialWindow, RotorWindow, Window};
 use crate::parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem};
 use crate::parameters::scales::Scales;
 use crate::parameters::system::System;
@@ -48,6 +50,21 @@ const MARGIN: f64 = 1.15;
 /// Relative rounding of a load that was computed from the largest torque of friction in other units: some ten
 /// operations.
 const LOAD_ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// Members begin, in place of others that repeat themselves, until there were so many times those of the settings.
+const MOST_STARTS: usize = 3;
+
+/// More cycles than this are a family: each start keeps its own.
+const MOST_CYCLES: usize = 6;
+
+/// Windows that each of the members leaves out as its start-up if some end.
+const START_UP: usize = FIRST_WINDOWS / 2;
+
+/// Least windows for each member from which an irregular motion is stated.
+const LEAST_WINDOWS: usize = 4;
+
+/// The shortfall of irregular motions that have no window yet.
+const NOTHING_YET: Shortfall = Shortfall::Error { standard_error: f64::INFINITY, wanted: 1.0 };
 
 /// A motor whose disk stores more than this share of the power put in has not settled.
 const STORED_SHARE: f64 = 0.05;
@@ -181,9 +198,9 @@ impl LoadedMotor<'_> {
 #[derive(Debug)]
 pub(crate) struct Operations {
     /// In the order of the motors.
-    pub(crate) operations: Vec<Operation>,
-    /// `speeds[rotor][member]`, mean angular speeds (rad/s) after the start-up, in the middle of those of
-    /// rotors from far below and from far above; none for a runaway.
+    pub(crate) rows: Vec<OperatingRow>,
+    /// `speeds[rotor][member]`, mean angular speeds (rad/s) of the first branch after the start-up, in the middle of
+    /// those of rotors from far below and from far above; none for a runaway.
     pub(crate) speeds: Vec<Vec<f64>>,
     /// Those of rotors from far above: the difference bounds the remainder of the start-up.
     pub(crate) speeds_from_above: Vec<Vec<f64>>,
@@ -208,13 +225,13 @@ pub(crate) fn curve_of(
     load_torques: &[f64],
     settings: &OperatingSettings,
     observer: &dyn Observer,
-) -> Result<Vec<Operation>, Error> {
+) -> Result<Vec<OperatingRow>, Error> {
     check(!load_torques.is_empty(), "number of loads", 0.0, "[1, 1000000]")?;
     let motors = load_torques
         .iter()
         .map(|&torque| motor.with_load(finite("load_torque", torque)?))
         .collect::<Result<Vec<_>, Error>>()?;
-    Ok(operate(&motors, settings, observer)?.operations)
+    Ok(operate(&motors, settings, observer)?.rows)
 }
 
 /// Where the two rotors of each member of an ensemble of one motor were left (SI).
@@ -267,7 +284,7 @@ fn operate_from(
     }
 
     let mut results = Operations {
-        operations: Vec::new(),
+        rows: Vec::new(),
         speeds: Vec::new(),
         speeds_from_above: Vec::new(),
         length: length.unwrap_or(1.0),
@@ -291,17 +308,35 @@ fn operate_from(
     .into_iter();
     for motor in motors {
         // Each motor that does not run away has a result.
-        let (operation, speeds, above) = if motor.runs_away() { None } else { known.next() }
-            .unwrap_or_else(|| (motor.runaway(), Vec::new(), Vec::new()));
-        results.operations.push(operation);
+        let (row, speeds, above) = if motor.runs_away() { None } else { known.next() }.unwrap_or_else(|| {
+            let branches = vec![motor.runaway()];
+            (OperatingRow { branches }, Vec::new(), Vec::new())
+        });
+        results.rows.push(row);
         results.speeds.push(speeds);
         results.speeds_from_above.push(above);
     }
     Ok((results, ends))
 }
 
-/// An operation, and the speeds of its members as in [`Operations`].
-type MotorResult = (Operation, Vec<f64>, Vec<f64>);
+/// The operations of a motor, and the speeds of the members of the first as in [`Operations`].
+type MotorResult = (OperatingRow, Vec<f64>, Vec<f64>);
+
+/// A motion that repeats itself, and the rotors that repeat with it.
+struct Repeated {
+    cycle: Cycle,
+    /// What all rotors of a member do in it, with fine and with coarse steps.
+    windows: [Window; 2],
+    /// How many of the members that started from rest came to it.
+    from_rest: usize,
+}
+
+/// A member and its windows.
+struct Carried {
+    index: usize,
+    member: Member,
+    windows: Vec<Window>,
+}
 
 /// An ensemble under way.
 struct SteadyRun<'a> {
@@ -311,7 +346,20 @@ struct SteadyRun<'a> {
     /// How many of them the caller requested: each of these is carried twice, from far below and from far
     /// above all steady speeds.
     asked: usize,
-    members: Vec<(Member, Vec<Window>)>,
+    members: Vec<Carried>,
+    repeated: Vec<Repeated>,
+    /// The windows of irregular motions that ended, without their start-up.
+    ended_windows: Vec<Vec<Window>>,
+    /// How long (rad) the irregular motions beyond their start-up were followed that ended, and how many did.
+    irregular: f64,
+    ended: u64,
+    /// Where those of the first members were left that repeat themselves.
+    left: Vec<(usize, [Left; 2])>,
+    /// Members begun so far, and the most.
+    begun: usize,
+    most_begun: usize,
+    stators: Vec<Stator>,
+    settings: OperatingSettings,
     /// Duration of a window (rad) and its least impacts.
     duration: f64,
     least_impacts: u64,
@@ -334,16 +382,21 @@ impl<'a> SteadyRun<'a> {
         let stators = motors.iter().map(|motor| motor.stator.for_motor(&motor.system));
         let stators = stators.collect::<Result<Vec<_>, Error>>()?;
         let mut members = (0..settings.members)
-            .map(|index| Ok((Member::new(&systems, &stators, asked, index, settings)?, Vec::new())))
+            .map(|index| {
+                let member = Member::new(&systems, &stators, asked, index, settings)?;
+                Ok(Carried { index, member, windows: Vec::new() })
+            })
             .collect::<Result<Vec<_>, Error>>()?;
-        for ((member, _), ends) in members.iter_mut().zip(from.into_iter().flatten()) {
-            if let (Member::Yielding(member), Some(system)) = (member, stators[0].yielded()) {
-                let (scales, speed) = (motors[0].system.scales(), far_above(&systems[0]));
-                for ((place, speed), left) in [(0, -speed), (motors.len(), speed)].into_iter().zip(ends) {
-                    let mut left = left.scaled(&scales, f64::recip);
-                    // That they meet bounds what depends on the start, as of rotors that lie.
-                    left.state.disk.angular_speed = speed;
-                    member.resume(place, system, &left)?;
+        for (Carried { member, .. }, ends) in members.iter_mut().zip(from.into_iter().flatten()) {
+            let Some(system) = stators[0].yielded() else { break };
+            let (scales, speed) = (motors[0].system.scales(), far_above(&systems[0]));
+            for ((place, speed), left) in [(0, -speed), (motors.len(), speed)].into_iter().zip(ends) {
+                let mut left = left.scaled(&scales, f64::recip);
+                // That they meet bounds what depends on the start, as of rotors that lie.
+                left.state.disk.angular_speed = speed;
+                match member {
+                    Member::Yielding(member) => member.resume(place, system, &left)?,
+                    Member::Taped(member) => member.resume(&left)?,
                 }
             }
         }
@@ -361,6 +414,15 @@ impl<'a> SteadyRun<'a> {
             systems,
             asked,
             members,
+            repeated: Vec::new(),
+            ended_windows: Vec::new(),
+            irregular: 0.0,
+            ended: 0,
+            left: Vec::new(),
+            begun: settings.members,
+            most_begun: if from.is_some() { settings.members } else { MOST_STARTS * settings.members },
+            stators,
+            settings: *settings,
             duration,
             least_impacts,
             most_impacts,
@@ -372,28 +434,53 @@ impl<'a> SteadyRun<'a> {
     /// Where the rotors of the first motor are.
     fn ends(&self) -> Option<Ends> {
         let scales = self.motors[0].system.scales();
-        let left = |member: &Member, place: usize| match member {
-            Member::Yielding(member) => Some(member.left(place).scaled(&scales, |unit| unit)),
-            _ => None,
+        let left = |member: &Member, place: usize| {
+            let left = match member {
+                Member::Yielding(member) => Some(member.left(place)),
+                Member::Taped(member) => member.left(),
+            };
+            Some(left?.scaled(&scales, |unit| unit))
         };
         let places = [0, self.rotor_from_above(0)];
-        self.members
-            .iter()
-            .map(|(member, _)| Some([left(member, places[0])?, left(member, places[1])?]))
-            .collect()
+        let ends =
+            |own: &Carried| Some((own.index, [left(&own.member, places[0])?, left(&own.member, places[1])?]));
+        let mut all: Vec<_> = self.members.iter().map(ends).collect::<Option<_>>()?;
+        all.extend(
+            self.left
+                .iter()
+                .map(|(index, left)| (*index, left.map(|left| left.scaled(&scales, |unit| unit)))),
+        );
+        all.retain(|(index, _)| *index < self.settings.members);
+        all.sort_by_key(|(index, _)| *index);
+        (!all.is_empty()).then(|| all.into_iter().map(|(_, left)| left).collect())
     }
 
-    /// Windows so far.
+    /// Windows of a member so far; none if no motion is irregular.
     fn windows(&self) -> usize {
-        self.members[0].1.len()
+        self.members.first().map_or(0, |own| own.windows.len())
+    }
+
+    /// The windows of irregular motions after their start-up: those of each member, or, if some have ended, all of them
+    /// one after the other in as many groups as there are members. None if they are too few.
+    fn averaged(&self) -> Vec<Vec<&Window>> {
+        if self.ended_windows.is_empty() {
+            let after = left_out(self.windows());
+            return self.members.iter().map(|own| own.windows[after..].iter().collect()).collect();
+        }
+        let going = self.members.iter().flat_map(|own| own.windows.iter().skip(START_UP));
+        let all: Vec<&Window> = self.ended_windows.iter().flatten().chain(going).collect();
+        let each = all.len() / self.settings.members;
+        if each < LEAST_WINDOWS { Vec::new() } else { all.chunks_exact(each).map(<[_]>::to_vec).collect() }
     }
 
     fn compute(&mut self, settings: &OperatingSettings, watch: &Watch<'_>) -> Result<(), Error> {
         let mut target = FIRST_WINDOWS;
         loop {
-            let more = target - self.windows();
-            self.extend(more, watch)?;
+            self.extend(target, watch)?;
             self.judge(settings);
+            if self.members.is_empty() {
+                return Ok(());
+            }
             let lacking = self.shortfalls.iter().flatten();
             let Some(factor) = lacking.map(|shortfall| self.hoped_for(shortfall)).reduce(f64::max) else {
                 return Ok(());
@@ -417,6 +504,74 @@ impl<'a> SteadyRun<'a> {
         }
     }
 
+    /// Extends all members to so many windows. One whose motion is found to repeat itself gives its place to a member
+    /// that begins.
+    fn extend(&mut self, target: usize, watch: &Watch<'_>) -> Result<(), Error> {
+        loop {
+            self.extend_all(target, watch)?;
+            if !self.take_repeated(watch)? {
+                return Ok(());
+            }
+        }
+    }
+
+    /// Takes the members that repeat themselves out of those that are irregular; whether others took their places.
+    fn take_repeated(&mut self, watch: &Watch<'_>) -> Result<bool, Error> {
+        let mut begins = false;
+        let start_up = self.duration * START_UP as f64;
+        let largest: Vec<f64> = {
+            let own: Vec<f64> = self.systems.iter().map(far_above).collect();
+            own.iter().chain(&own[..self.asked]).copied().collect()
+        };
+        let mut kept = Vec::new();
+        for mut own in std::mem::take(&mut self.members) {
+            let cycle = match &mut own.member {
+                Member::Taped(member) => member.cycle(&mut watch.work())?,
+                Member::Yielding(_) => None,
+            };
+            let (Some(cycle), Member::Taped(member)) = (cycle, &own.member) else {
+                kept.push(own);
+                continue;
+            };
+            if member.followed > start_up {
+                (self.irregular, self.ended) =
+                    (self.irregular + (member.followed - start_up), self.ended + 1);
+            }
+            self.left.extend(member.left().map(|left| (own.index, [left; 2])));
+            let known = self.repeated.iter().position(|known| known.cycle.is_same(&cycle));
+            let place = known.unwrap_or(self.repeated.len());
+            if known.is_none() {
+                let windows = member.on_cycle(&cycle, &largest);
+                self.repeated.push(Repeated { cycle, windows, from_rest: 0 });
+            }
+            self.repeated[place].from_rest += usize::from(self.is_from_rest(own.index));
+            let mut windows = own.windows;
+            // The last ones may be on the way to the cycle.
+            let rates = self.repeated[place].windows[0].axial.rates();
+            while windows.last().is_some_and(|window| window.axial.is_like(rates)) {
+                windows.pop();
+            }
+            windows.pop();
+            windows.drain(..windows.len().min(START_UP));
+            if !windows.is_empty() {
+                self.ended_windows.push(windows);
+            }
+            if self.begun < self.most_begun {
+                let member =
+                    Member::new(&self.systems, &self.stators, self.asked, self.begun, &self.settings)?;
+                kept.push(Carried { index: self.begun, member, windows: Vec::new() });
+                (self.begun, begins) = (self.begun + 1, true);
+            }
+        }
+        self.members = kept;
+        Ok(begins)
+    }
+
+    /// Whether the member of this index is one that all motors have, and started from rest.
+    fn is_from_rest(&self, index: usize) -> bool {
+        index < self.settings.members && !is_thrown(index)
+    }
+
     /// How many times as long a run has to be.
     fn hoped_for(&self, shortfall: &Shortfall) -> f64 {
         match *shortfall {
@@ -430,18 +585,21 @@ impl<'a> SteadyRun<'a> {
 
     /// Impacts of all members.
     fn spent(&self) -> u64 {
-        let windows = self.members.iter().flat_map(|(_, windows)| windows);
-        windows.map(|window| window.axial.impacts).sum()
+        let windows = self.members.iter().map(|own| &own.windows).chain(&self.ended_windows);
+        windows.flatten().map(|window| window.axial.impacts).sum()
     }
 
-    fn extend(&mut self, more: usize, watch: &Watch<'_>) -> Result<(), Error> {
+    fn extend_all(&mut self, target: usize, watch: &Watch<'_>) -> Result<(), Error> {
         let (duration, impacts) = (self.duration, self.least_impacts..=self.most_impacts);
-        let extend_one = |(member, windows): &mut (Member, Vec<Window>)| {
+        let extend_one = |own: &mut Carried| {
             let mut work = watch.work();
-            for _ in 0..more {
-                let window = member.next_window(duration, impacts.clone(), &mut work)?;
+            while own.windows.len() < target {
+                let window = own.member.next_window(duration, impacts.clone(), &mut work)?;
                 watch.finish(window.axial.impacts);
-                windows.push(window);
+                if own.member.repeats() {
+                    break;
+                }
+                own.windows.push(window);
             }
             Ok::<(), Error>(())
         };
@@ -457,7 +615,8 @@ impl<'a> SteadyRun<'a> {
 
     /// Makes one window of two.
     fn merge(&mut self) {
-        for (_, windows) in &mut self.members {
+        let going = self.members.iter_mut().map(|own| &mut own.windows);
+        for windows in going.chain(&mut self.ended_windows) {
             let mut pairs = std::mem::take(windows).into_iter();
             while let Some(mut window) = pairs.next() {
                 // An odd one at the end is the last and stays alone.
@@ -482,16 +641,20 @@ impl<'a> SteadyRun<'a> {
     /// rotors, and of the one from far above.
     fn speeds(&self, motor: usize) -> [Vec<Vec<f64>>; 2] {
         let unit = self.motors[motor].system.scales().angular_speed;
-        let after = left_out(self.windows());
         let above = self.rotor_from_above(motor);
+        let averaged = self.averaged();
         let of = |angle: &dyn Fn(&[RotorWindow]) -> f64| -> Vec<Vec<f64>> {
-            let speed = |window: &Window| angle(&window.rotors) / window.axial.duration * unit;
-            self.members.iter().map(|(_, windows)| windows[after..].iter().map(speed).collect()).collect()
+            let speed = |window: &&Window| angle(&window.rotors) / window.axial.duration * unit;
+            averaged.iter().map(|windows| windows.iter().map(speed).collect()).collect()
         };
         [of(&|rotors| 0.5 * (rotors[motor].angle + rotors[above].angle)), of(&|rotors| rotors[above].angle)]
     }
 
     fn judge(&mut self, settings: &OperatingSettings) {
+        if self.averaged().is_empty() {
+            self.shortfalls.fill((!self.members.is_empty()).then_some(NOTHING_YET));
+            return;
+        }
         let speeds: Vec<_> = (0..self.motors.len()).map(|motor| self.speeds(motor)).collect();
         let mean = |windows: &[Vec<f64>]| {
             let count = windows.len() * windows[0].len();
@@ -535,19 +698,19 @@ impl<'a> SteadyRun<'a> {
     /// that settles this part falls as one over the time for which it is followed.
     fn unbalanced(&self, motor: usize) -> Option<Shortfall> {
         let units = Units::of(&self.motors[motor]);
-        let sum = self.total(motor, left_out(self.windows())..self.windows());
+        let sum = self.total(motor);
         let stored = sum.axial.energy_change * units.axial + sum.rotor.kinetic_change * units.rotary;
-        let share = stored.abs() / sum.energy_scale(&units, &self.systems[motor], self.members.len());
+        let share = stored.abs() / sum.energy_scale(&units, &self.systems[motor], self.settings.members);
         let time = sum.axial.duration;
         let input = sum.axial.normal_work * units.axial + sum.rotor.friction_work * units.rotary;
         (share > STORED_SHARE)
             .then_some(Shortfall::PowerBalance { stored_power: stored / time, input_power: input / time })
     }
 
-    /// These windows of all members.
-    fn total(&self, rotor: usize, windows: std::ops::Range<usize>) -> Sum {
+    /// All averaged windows.
+    fn total(&self, rotor: usize) -> Sum {
         let mut sum = Sum::default();
-        for window in self.members.iter().flat_map(|(_, all)| &all[windows.clone()]) {
+        for window in self.averaged().into_iter().flatten() {
             sum.add(window, rotor);
         }
         sum
@@ -557,22 +720,92 @@ impl<'a> SteadyRun<'a> {
         (0..self.asked).map(|motor| self.result(motor)).collect()
     }
 
-    /// The operating point of a motor, and the mean speeds (rad/s) of its two rotors in each member.
+    /// The operations of a motor, and the mean speeds (rad/s) of its two rotors in each member.
     fn result(&self, index: usize) -> Result<MotorResult, Error> {
-        let motor = &self.motors[index];
-        let units = Units::of(motor);
-        let after = left_out(self.windows());
-        let [below, above] = [index, self.rotor_from_above(index)].map(|rotor| {
-            let member = |(_, windows): &(Member, Vec<Window>)| {
+        let mut branches = Vec::new();
+        let scales = self.motors[index].system.scales();
+        let speed = |sum: &Sum| sum.rotor.angle / sum.axial.duration * scales.angular_speed;
+        let pairs = self.pairs(index);
+        if !pairs.below.is_empty() {
+            let point = self.point(index, &Averages::Members(&pairs))?;
+            let operation = match self.shortfalls[index] {
+                None => Operation::Steady(point),
+                Some(shortfall) => Operation::Unsettled(point, shortfall),
+            };
+            let from_rest = self.members.iter().filter(|own| self.is_from_rest(own.index)).count();
+            // What ends is not where most are in the end.
+            let from_rest = if self.ended > 0 { 0 } else { from_rest };
+            branches.push((from_rest, operation, pairs.of(&speed)));
+        }
+        if self.repeated.len() > MOST_CYCLES {
+            let operation = self.family(index)?;
+            let speeds: Vec<f64> = self.cycles(index).iter().map(speed).collect();
+            branches.push((usize::from(self.ended > 0), operation, [speeds.clone(), speeds]));
+        }
+        for repeated in self.repeated.iter().filter(|_| self.repeated.len() <= MOST_CYCLES) {
+            let sums = repeated.windows.each_ref().map(|window| {
                 let mut sum = Sum::default();
-                windows[after..].iter().for_each(|window| sum.add(window, rotor));
+                sum.add(window, index);
+                sum
+            });
+            let speeds = vec![speed(&sums[0]); self.settings.members];
+            let point = self.point(index, &Averages::Cycle { sums: &sums, cycle: &repeated.cycle })?;
+            branches.push((repeated.from_rest, Operation::Steady(point), [speeds.clone(), speeds]));
+        }
+        branches.sort_by_key(|(from_rest, _, _)| std::cmp::Reverse(*from_rest));
+        // There are members, or they have repeated themselves.
+        let [middle, above] = branches[0].2.clone();
+        let branches = branches.into_iter().map(|(_, operation, _)| operation).collect();
+        Ok((OperatingRow { branches }, middle, above))
+    }
+
+    /// What a motor's rotor does in each cycle.
+    fn cycles(&self, index: usize) -> Vec<Sum> {
+        let of_cycle = |repeated: &Repeated| {
+            let mut sum = Sum::default();
+            sum.add(&repeated.windows[0], index);
+            sum
+        };
+        self.repeated.iter().map(of_cycle).collect()
+    }
+
+    /// The operation of a motor each start of which keeps a cycle of its own.
+    fn family(&self, index: usize) -> Result<Operation, Error> {
+        let cycles = self.cycles(index);
+        let unit = self.motors[index].system.scales().angular_speed;
+        let speeds: Vec<f64> = cycles.iter().map(|sum| sum.rotor.angle / sum.axial.duration * unit).collect();
+        let pairs = Pairs { below: cycles.clone(), above: cycles };
+        let point = self.point(index, &Averages::Members(&pairs))?;
+        let known = Estimate::of(&speeds)?;
+        let spread = speeds.iter().fold(0.0_f64, |most, speed| (speed - known.value).abs().max(most));
+        let speed = known.bounded_by(Estimate { value: known.value + spread, ..known });
+        let shortfall = Shortfall::Start { spread, standard_error: known.standard_error };
+        let motion = AxialMotion::Periodic {
+            periods: self.repeated[0].cycle.periods,
+            impacts: self.repeated[0].windows[0].axial.impacts,
+        };
+        Ok(Operation::Unsettled(OperatingPoint { speed, motion, ..point }, shortfall))
+    }
+
+    /// The sums of a motor's two rotors in each member after the start-up.
+    fn pairs(&self, index: usize) -> Pairs {
+        let averaged = self.averaged();
+        let [below, above] = [index, self.rotor_from_above(index)].map(|rotor| {
+            let member = |windows: &Vec<&Window>| {
+                let mut sum = Sum::default();
+                windows.iter().for_each(|window| sum.add(window, rotor));
                 sum
             };
-            self.members.iter().map(member).collect::<Vec<Sum>>()
+            averaged.iter().map(member).collect::<Vec<Sum>>()
         });
-        let pairs = Pairs { below, above };
-        let of = |value: &dyn Fn(&Sum) -> f64| pairs.of(value);
-        let estimate = |value: &dyn Fn(&Sum) -> f64| pairs.estimate(value);
+        Pairs { below, above }
+    }
+
+    /// The operating point of a motor.
+    fn point(&self, index: usize, averages: &Averages<'_>) -> Result<OperatingPoint, Error> {
+        let motor = &self.motors[index];
+        let units = Units::of(motor);
+        let estimate = |value: &dyn Fn(&Sum) -> f64| averages.estimate(value);
         let speed = |sum: &Sum| sum.rotor.angle / sum.axial.duration * units.speed;
         let mechanical = |sum: &Sum| sum.rotor.load_work / sum.axial.duration * units.rotary;
         let input = |sum: &Sum| {
@@ -584,8 +817,8 @@ impl<'a> SteadyRun<'a> {
         let perturbation = |sum: &Sum| sum.axial.perturbation_work / sum.axial.duration * units.axial;
         let mechanical_power = estimate(&mechanical)?;
         let braked = mechanical_power.value >= 0.0;
-        let efficiency = pairs.ratio(&mechanical, &input).filter(|_| braked);
-        let torque = |sum: &Sum| sum.stator().load_impulse / sum.axial.duration * units.torque;
+        let efficiency = averages.ratio(&mechanical, &input).filter(|_| braked);
+        let torque = |sum: &Sum| sum.rotor.load_impulse / sum.axial.duration * units.torque;
         let load_torque = if motor.law() == 0.0 {
             Estimate { value: motor.load_torque, standard_error: 0.0 }
         } else {
@@ -604,39 +837,62 @@ impl<'a> SteadyRun<'a> {
                 amplitude: estimate(&amplitude)?,
                 drive_power: estimate(&drive)?,
                 damping_loss: estimate(&loss)?,
-                efficiency: pairs.ratio(&mechanical, &drive).filter(|_| braked),
+                efficiency: averages.ratio(&mechanical, &drive).filter(|_| braked),
             })
         });
-        let starts = self
-            .members
-            .iter()
-            .map(|(_, windows)| windows[..after].iter().map(|window| window.axial.duration).sum::<f64>());
-        let whole = self.total(index, 0..self.windows());
         // The error also includes the spread between starts.
-        let known = estimate(&speed)?;
-        let apart = self.apart(index, &self.speeds(index)[0]);
-        let point = OperatingPoint {
+        let mut known = estimate(&speed)?;
+        let (motion, start_up, whole, members) = match averages {
+            Averages::Members(_) => {
+                let apart = self.apart(index, &self.speeds(index)[0]);
+                known = known.bounded_by(Estimate { value: known.value + apart, ..known });
+                let after = if self.ended_windows.is_empty() { left_out(self.windows()) } else { START_UP };
+                let motion = AxialMotion::Irregular { life: self.life(units.time) };
+                let start_up = after as f64 * self.duration * units.time;
+                (motion, start_up, self.total(index), self.settings.members)
+            }
+            Averages::Cycle { sums: [fine, _], cycle } => {
+                let (periods, impacts) = (cycle.periods, fine.axial.impacts);
+                let motion = if cycle.is_contact() {
+                    AxialMotion::Contact
+                } else {
+                    AxialMotion::Periodic { periods, impacts }
+                };
+                (motion, 0.0, *fine, 1)
+            }
+        };
+        let (duration, impacts) = averages.duration_and_impacts();
+        Ok(OperatingPoint {
             load_torque: load_torque.value,
             load_torque_error: load_torque.standard_error,
-            speed: known.bounded_by(Estimate { value: known.value + apart, ..known }),
+            motion,
+            speed: known,
             mechanical_power,
             input_power: estimate(&input)?,
             restitution_loss: estimate(&restitution)?,
             friction_loss: estimate(&friction)?,
             efficiency,
             perturbation_power: estimate(&perturbation)?.value,
-            energy_residual: whole.energy_residual(&units, &self.systems[index], self.members.len()),
-            averaged_time: pairs.below.iter().map(|sum| sum.axial.duration).sum::<f64>() * units.time,
-            start_up: starts.sum::<f64>() / self.members.len() as f64 * units.time,
-            impacts: pairs.below.iter().map(|sum| sum.axial.impacts).sum(),
+            energy_residual: whole.energy_residual(&units, &self.systems[index], members),
+            averaged_time: duration * units.time,
+            start_up,
+            impacts,
             stator: stator.transpose()?,
-        };
-        let operation = match self.shortfalls[index] {
-            None => Operation::Steady(point),
-            Some(shortfall) => Operation::Unsettled(point, shortfall),
-        };
-        let [middle, above] = of(&speed);
-        Ok((operation, middle, above))
+        })
+    }
+
+    /// How long an irregular motion lasts, in a unit of time per radian: beyond the start-up, in which a member may have
+    /// been on its way to a cycle from the start, it ends at a constant rate.
+    fn life(&self, unit: f64) -> Life {
+        let followed = |own: &Carried| own.windows.iter().map(|window| window.axial.duration).sum::<f64>();
+        let times: Vec<f64> = self.members.iter().map(followed).collect();
+        if self.ended > 0 {
+            let beyond =
+                times.iter().map(|time| (time - self.duration * START_UP as f64).max(0.0)).sum::<f64>();
+            Life::Mean((self.irregular + beyond) / self.ended as f64 * unit)
+        } else {
+            Life::NoneEndedIn(times.into_iter().fold(0.0, f64::max) * unit)
+        }
     }
 }
 
@@ -653,16 +909,52 @@ impl Pairs {
             self.below.iter().zip(&self.above).map(|(one, other)| 0.5 * (value(one) + value(other)));
         [middles.collect(), self.above.iter().map(value).collect()]
     }
+}
 
+/// What means are taken over.
+enum Averages<'a> {
+    Members(&'a Pairs),
+    Cycle { sums: &'a [Sum; 2], cycle: &'a Cycle },
+}
+
+impl Averages<'_> {
     fn estimate(&self, value: &dyn Fn(&Sum) -> f64) -> Result<Estimate, Error> {
-        let [middle, above] = self.of(value);
-        Ok(Estimate::of(&middle)?.bounded_by(Estimate::of(&above)?))
+        match self {
+            Self::Members(pairs) => {
+                let [middle, above] = pairs.of(value);
+                Ok(Estimate::of(&middle)?.bounded_by(Estimate::of(&above)?))
+            }
+            Self::Cycle { sums: [fine, coarse], cycle } => {
+                let known = finite("estimate", value(fine))?;
+                let off = (value(coarse) - known).abs() + cycle.repeats.distance * known.abs();
+                Ok(Estimate { value: known, standard_error: off / NORMAL_975 })
+            }
+        }
     }
 
     fn ratio(&self, dividend: &dyn Fn(&Sum) -> f64, divisor: &dyn Fn(&Sum) -> f64) -> Option<Estimate> {
-        let (work, put_in) = (self.of(dividend), self.of(divisor));
-        let ratio = |start: usize| Estimate::of_ratio(&work[start], &put_in[start]);
-        ratio(0).zip(ratio(1)).map(|(middle, above)| middle.bounded_by(above))
+        match self {
+            Self::Members(pairs) => {
+                let (work, put_in) = (pairs.of(dividend), pairs.of(divisor));
+                let ratio = |start: usize| Estimate::of_ratio(&work[start], &put_in[start]);
+                ratio(0).zip(ratio(1)).map(|(middle, above)| middle.bounded_by(above))
+            }
+            Self::Cycle { sums: [fine, _], .. } => {
+                let ratio = || self.estimate(&|sum| dividend(sum) / divisor(sum)).ok();
+                if divisor(fine) > 0.0 { ratio() } else { None }
+            }
+        }
+    }
+
+    /// Averaged time (rad) and impacts, of all members together.
+    fn duration_and_impacts(&self) -> (f64, u64) {
+        match self {
+            Self::Members(pairs) => (
+                pairs.below.iter().map(|sum| sum.axial.duration).sum(),
+                pairs.below.iter().map(|sum| sum.axial.impacts).sum(),
+            ),
+            Self::Cycle { sums: [fine, _], .. } => (fine.axial.duration, fine.axial.impacts),
+        }
     }
 }
 
@@ -695,7 +987,7 @@ impl Units {
 }
 
 /// Windows of one member, or of all, added up.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Copy, Default)]
 struct Sum {
     axial: AxialWindow,
     rotor: RotorWindow,

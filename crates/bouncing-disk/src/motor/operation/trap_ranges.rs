@@ -10,7 +10,7 @@ use crate::error::{Error, check};
 use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::traps::TrapVerdict;
 use crate::motor::operation::of_motor::operations;
-use crate::motor::operation::point::Operation;
+use crate::motor::operation::point::OperatingRow;
 use crate::motor::operation::settings::OperatingSettings;
 
 /// The least relative width of a trap that is reported by default. A motor whose preload is known to 1 % is
@@ -27,7 +27,7 @@ const HALVINGS: u32 = 24;
 const PLACES: [f64; 3] = [0.1, 0.5, 0.9];
 
 /// A range of the preload that traps a motor ([`Motor::trap_ranges`]).
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct TrapRange {
@@ -44,7 +44,7 @@ pub struct TrapRange {
     /// The operation near the lower edge, in the middle and near the upper edge of the range (a tenth of the
     /// width inside the edges), under the load of the data sheet. Most traps hardly slow a motor, some stop
     /// it.
-    pub operations: [Operation; 3],
+    pub operations: [OperatingRow; 3],
 }
 
 /// The low-period trap that is nearest to a motor.
@@ -137,7 +137,7 @@ impl Motor {
                     relative_width: exp(ends[1] - ends[0]) - 1.0,
                     forcing_from_to: ends.map(|end| forcing * exp(end)),
                     verdict: motors[1].trap_verdict()?,
-                    operations: [operations[0], operations[1], operations[2]],
+                    operations: [0, 1, 2].map(|place| operations[place].clone()),
                 })
             })
             .collect::<Result<Vec<_>, Error>>()?;

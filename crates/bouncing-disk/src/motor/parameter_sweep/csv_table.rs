@@ -1,15 +1,17 @@
 //! The result of a sweep as comma-separated text.
 
 use crate::motor::data_sheet::motor_field::MotorField;
-use crate::motor::operation::point::{OperatingPoint, Operation, Shortfall};
+use crate::motor::operation::point::{AxialMotion, Life, OperatingPoint, Operation, Shortfall};
 use crate::motor::parameter_sweep::quantity::SweepQuantity;
 use crate::motor::parameter_sweep::result::MotorSweepResult;
 
 impl MotorSweepResult {
-    /// The cells as comma-separated text: a header, then one line for each cell, row by row. The header has
-    /// units in the names; numbers are written so that reading them back is exact.
+    /// The cells as comma-separated text: a header, then for each cell, row by row, one line for each branch. The header
+    /// has units in the names; numbers are written so that reading them back is exact.
     ///
-    /// The columns: the axes; `load_torque_n_m`, unless an axis is that; `state`, which is `steady`,
+    /// The columns: the axes; `load_torque_n_m`, unless an axis is that; `branch`, 1 for the one
+    /// that most rotors reach from rest; `motion`, which is `irregular`, `periodic` or `contact`; `life_s`, the mean life of
+    /// an irregular one, if some were seen to end; `state`, which is `steady`,
     /// `unsettled` or `runaway`; `shortfall` of an unsettled cell: `error`, `drift` or `power-balance`; each
     /// [`SweepQuantity`] of the table ([`SweepQuantity::of_table`]) followed by its standard error (`speed_rad_s`, `speed_error_rad_s`); the other
     /// numbers of an [`OperatingPoint`]; `largest_torque_n_m` and `acceleration_rad_s2` of a runaway. Missing
@@ -20,13 +22,16 @@ impl MotorSweepResult {
         let quantities = SweepQuantity::of_table(self.cells());
         // Writing to memory does not fail, and all lines have as many fields.
         let _ = writer.write_record(self.header(quantities));
-        for (values, operation) in self.iter() {
-            let mut fields: Vec<String> = values.into_iter().map(|(_, value)| written(value)).collect();
-            if !self.varies_load() {
-                fields.push(written(operation.load_torque()));
+        for (values, row) in self.iter() {
+            for (branch, operation) in row.branches.iter().enumerate() {
+                let mut fields: Vec<String> = values.iter().map(|(_, value)| written(*value)).collect();
+                if !self.varies_load() {
+                    fields.push(written(operation.load_torque()));
+                }
+                fields.push((branch + 1).to_string());
+                fields.extend(of_operation(operation, quantities));
+                let _ = writer.write_record(fields);
             }
-            fields.extend(of_operation(operation, quantities));
-            let _ = writer.write_record(fields);
         }
         let bytes = writer.into_inner().unwrap_or_default();
         String::from_utf8(bytes).unwrap_or_default()
@@ -42,7 +47,7 @@ impl MotorSweepResult {
         if !self.varies_load() {
             names.push(of_field(MotorField::LoadTorque));
         }
-        names.extend(["state", "shortfall"].map(str::to_owned));
+        names.extend(["branch", "motion", "life_s", "state", "shortfall"].map(str::to_owned));
         for quantity in quantities {
             names.push(column(quantity.name(), quantity.unit()));
             names.push(column(&format!("{}_error", quantity.name()), quantity.unit()));
@@ -78,7 +83,14 @@ fn of_operation(operation: &Operation, quantities: &[SweepQuantity]) -> Vec<Stri
             ("runaway", "", Some((*largest_torque, *acceleration)))
         }
     };
-    let mut fields = vec![state.to_owned(), shortfall.to_owned()];
+    let (motion, life) = match operation.point().map(|point| point.motion) {
+        Some(AxialMotion::Irregular { life: Life::Mean(life) }) => ("irregular", written(life)),
+        Some(AxialMotion::Irregular { .. }) => ("irregular", String::new()),
+        Some(AxialMotion::Periodic { .. }) => ("periodic", String::new()),
+        Some(AxialMotion::Contact) => ("contact", String::new()),
+        None => ("", String::new()),
+    };
+    let mut fields = vec![motion.to_owned(), life, state.to_owned(), shortfall.to_owned()];
     for quantity in quantities {
         let estimate = quantity.of(operation);
         fields.push(estimate.map(|estimate| written(estimate.value)).unwrap_or_default());
@@ -158,10 +170,20 @@ mod tests {
         let mut reader = csv::Reader::from_reader(text.as_bytes());
         let header = reader.headers().expect("has one").clone();
         let place = |name: &str| header.iter().position(|own| own == name).expect(name);
-        let start: Vec<&str> = header.iter().take(6).collect();
+        let start: Vec<&str> = header.iter().take(9).collect();
         assert_eq!(
             start,
-            ["phase_lag_rad", "load_torque_n_m", "state", "shortfall", "speed_rad_s", "speed_error_rad_s"]
+            [
+                "phase_lag_rad",
+                "load_torque_n_m",
+                "branch",
+                "motion",
+                "life_s",
+                "state",
+                "shortfall",
+                "speed_rad_s",
+                "speed_error_rad_s"
+            ]
         );
         let records: Vec<_> = reader.records().map(|record| record.expect("as long")).collect();
         assert_eq!(records.len(), 6);
@@ -171,7 +193,7 @@ mod tests {
             assert_eq!(number("phase_lag_rad"), Some(values[0].1.to_bits()));
             assert_eq!(number("load_torque_n_m"), Some(values[1].1.to_bits()));
             for quantity in SweepQuantity::ALL {
-                let estimate = quantity.of(operation);
+                let estimate = quantity.of(operation.operation());
                 let name = column(quantity.name(), quantity.unit());
                 assert_eq!(number(&name), estimate.map(|estimate| estimate.value.to_bits()), "{name}");
                 compared += usize::from(estimate.is_some());

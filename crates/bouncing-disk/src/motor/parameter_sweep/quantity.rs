@@ -1,6 +1,6 @@
 //! The quantities that a sweep computes in each cell.
 
-use crate::motor::operation::point::{Estimate, Operation};
+use crate::motor::operation::point::{Estimate, OperatingRow, Operation};
 
 /// A quantity of an operating point that is an estimate with a standard error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -52,9 +52,9 @@ impl SweepQuantity {
 
     /// The quantities of a table of these operations: those of a stator only if one of them has it.
     #[must_use]
-    pub fn of_table(operations: &[Operation]) -> &'static [Self] {
-        let yields = |operation: &Operation| operation.point().is_some_and(|point| point.stator.is_some());
-        if operations.iter().any(yields) { &Self::WITH_STATOR } else { &Self::ALL }
+    pub fn of_table(rows: &[OperatingRow]) -> &'static [Self] {
+        let yields = |row: &OperatingRow| row.point().is_some_and(|point| point.stator.is_some());
+        if rows.iter().any(yields) { &Self::WITH_STATOR } else { &Self::ALL }
     }
 
     /// Its name: `mechanical_power`.

@@ -2,7 +2,7 @@
 
 use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::motor_field::MotorField;
-use crate::motor::operation::point::Operation;
+use crate::motor::operation::point::OperatingRow;
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::parameter_sweep::axis::{SweepAxis, values_of_cell};
 use crate::motor::parameter_sweep::quantity::SweepQuantity;
@@ -15,7 +15,7 @@ pub struct MotorSweepResult {
     motor: Motor,
     settings: OperatingSettings,
     axes: Vec<SweepAxis>,
-    cells: Vec<Operation>,
+    cells: Vec<OperatingRow>,
 }
 
 impl MotorSweepResult {
@@ -23,7 +23,7 @@ impl MotorSweepResult {
         motor: Motor,
         settings: OperatingSettings,
         axes: Vec<SweepAxis>,
-        cells: Vec<Operation>,
+        cells: Vec<OperatingRow>,
     ) -> Self {
         Self { motor, settings, axes, cells }
     }
@@ -49,12 +49,12 @@ impl MotorSweepResult {
     /// The operation of each cell, row by row: the first axis is that of the rows, and a single axis has one
     /// cell in each.
     #[must_use]
-    pub fn cells(&self) -> &[Operation] {
+    pub fn cells(&self) -> &[OperatingRow] {
         &self.cells
     }
 
     /// The cells with the values of the axes there, in the order of the axes.
-    pub fn iter(&self) -> impl Iterator<Item = (Vec<(MotorField, f64)>, &Operation)> {
+    pub fn iter(&self) -> impl Iterator<Item = (Vec<(MotorField, f64)>, &OperatingRow)> {
         self.cells.iter().enumerate().map(|(cell, operation)| {
             let values = values_of_cell(&self.axes, cell).collect();
             (values, operation)
@@ -63,7 +63,7 @@ impl MotorSweepResult {
 
     /// The rows of a map: for each value of the first axis the operations along the second one; with a single
     /// axis, one operation in each row.
-    pub fn rows(&self) -> impl Iterator<Item = &[Operation]> {
+    pub fn rows(&self) -> impl Iterator<Item = &[OperatingRow]> {
         let columns = self.axes.get(1).map_or(1, |axis| axis.values.len());
         self.cells.chunks(columns.max(1))
     }
@@ -72,7 +72,7 @@ impl MotorSweepResult {
     /// `None` for a runaway and for an undefined efficiency.
     #[must_use]
     pub fn matrix(&self, quantity: SweepQuantity) -> Vec<Vec<Option<f64>>> {
-        let of = |operation: &Operation| quantity.of(operation).map(|estimate| estimate.value);
+        let of = |row: &OperatingRow| quantity.of(row.operation()).map(|estimate| estimate.value);
         self.rows().map(|row| row.iter().map(of).collect()).collect()
     }
 }

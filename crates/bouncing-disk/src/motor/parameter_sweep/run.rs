@@ -7,7 +7,7 @@ use bouncing_disk_core::run::{Watch, in_parallel, threads};
 use bouncing_disk_core::{Observer, Progress};
 
 use crate::error::Error;
-use crate::motor::operation::point::Operation;
+use crate::motor::operation::point::OperatingRow;
 use crate::motor::parameter_sweep::MotorSweep;
 use crate::motor::parameter_sweep::result::MotorSweepResult;
 
@@ -55,7 +55,7 @@ impl MotorSweep {
     /// # Errors
     /// An error of the core ([`Unfitting`](bouncing_disk_core::Error::Unfitting)) for another number of groups, or
     /// of operations of one.
-    pub fn result(&self, groups: &[Vec<Operation>]) -> Result<MotorSweepResult, Error> {
+    pub fn result(&self, groups: &[Vec<OperatingRow>]) -> Result<MotorSweepResult, Error> {
         let fits = |what, found: usize, expected: usize| {
             let (found, expected) = (found as u64, expected as u64);
             let error = bouncing_disk_core::Error::Unfitting { what, found, expected };
@@ -65,7 +65,7 @@ impl MotorSweep {
         let mut all = Vec::with_capacity(self.cells());
         for (cells, operations) in self.groups().iter().zip(groups) {
             fits("cells of a group of a sweep", operations.len(), cells.len())?;
-            all.extend(cells.iter().copied().zip(operations.iter().copied()));
+            all.extend(cells.iter().copied().zip(operations.iter().cloned()));
         }
         all.sort_by_key(|(cell, _)| *cell);
         let cells = all.into_iter().map(|(_, operation)| operation).collect();
@@ -73,7 +73,7 @@ impl MotorSweep {
     }
 }
 
-fn operations_of(sweep: &MotorSweep, group: usize, watch: &Watch<'_>) -> Result<Vec<Operation>, Error> {
+fn operations_of(sweep: &MotorSweep, group: usize, watch: &Watch<'_>) -> Result<Vec<OperatingRow>, Error> {
     let ask = |_: Progress| match watch.ask() {
         Ok(()) => ControlFlow::Continue(()),
         Err(_) => ControlFlow::Break(()),

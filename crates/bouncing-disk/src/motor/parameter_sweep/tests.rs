@@ -2,7 +2,7 @@ use bouncing_disk_core::Unobserved;
 
 use super::quantity::SweepQuantity;
 use super::*;
-use crate::motor::{MAX_SWEEP_CELLS, MotorSweepResult, Operation, operations};
+use crate::motor::{MAX_SWEEP_CELLS, MotorSweepResult, OperatingRow, operations};
 use crate::testing::{check_stops, refused};
 
 /// Little is asked for, so that much can be tried.
@@ -52,7 +52,7 @@ fn the_rows_of_a_map_are_curves() {
         let motor = Motor::paper_70_khz().with(|sheet| sheet.amplitude = Some(amplitude)).expect("legal");
         let curve = motor.torque_speed_curve(&load.values, &rough(), &Unobserved).expect("no failure");
         assert_eq!(by_rows.rows().nth(row), Some(&curve[..]));
-        let column: Vec<Operation> = by_columns.rows().map(|cells| cells[row]).collect();
+        let column: Vec<OperatingRow> = by_columns.rows().map(|cells| cells[row].clone()).collect();
         assert_eq!(column, curve);
     }
     assert_ne!(by_rows.cells()[0], by_rows.cells()[5]);
@@ -89,7 +89,7 @@ fn values_may_be_few_alike_unsorted_and_extreme() {
     let one = result(&[axis(MotorField::Amplitude, &[1e-8])]);
     assert_eq!((one.cells().len(), one.matrix(SweepQuantity::Efficiency).len()), (1, 1));
     let alone = Motor::paper_70_khz().operating_point(0.0, &rough(), &Unobserved).expect("no failure");
-    assert_eq!(one.cells(), [alone]);
+    assert_eq!(one.cells(), std::slice::from_ref(&alone));
     let values = [2e-8, 1e-8, 2e-8, 0.0, -0.0, 5e-324];
     let many = result(&[axis(MotorField::Amplitude, &values)]);
     assert_eq!(many.cells()[0], many.cells()[2]);
@@ -246,8 +246,8 @@ fn a_continued_sweep_keeps_what_the_rotor_does() {
     }
     // From rest.
     let pressed = sweep.motor_of(5).expect("legal");
-    let alone = pressed.torque_speed_curve(&[0.0], &settings, &Unobserved).expect("no failure")[0];
-    let (alone, down) = (alone.point().expect("no runaway").speed, point(7).speed);
+    let alone = pressed.torque_speed_curve(&[0.0], &settings, &Unobserved).expect("no failure");
+    let (alone, down) = (alone[0].point().expect("no runaway").speed, point(7).speed);
     assert!((alone.value - down.value).abs() < 0.02 * down.value, "{alone:?} {down:?}");
     // From a launch at the speed with which a rotor comes back after a period.
     let system = StatorSystem::of_system(pressed.system(), pressed.mass()).expect("legal");

@@ -124,11 +124,11 @@ fn a_neutral_family_of_motions_is_said_to_depend_on_the_start() {
     let motor = moved(&sheet, Waveform::Triangle, Waveform::Sine);
     let few = OperatingSettings { most_impacts: 200_000, ..settings() };
     let curve = motor.torque_speed_curve(&[0.0], &few, &Unobserved).expect("no failure");
-    let Operation::Unsettled(point, Shortfall::Start { spread, .. }) = curve[0] else {
+    let Operation::Unsettled(point, Shortfall::Start { spread, .. }) = curve[0].operation() else {
         panic!("{:?}", curve[0])
     };
     // The 95 % interval covers the speed of each start, and with it those of a motor started once.
-    assert!(spread > 1.0, "{point:?} {spread}");
+    assert!(*spread > 1.0, "{point:?} {spread}");
     for seed in 1..4 {
         let settings =
             TransientSettings { duration: 1.0, intervals: 10, seed, ..TransientSettings::default() };
@@ -312,7 +312,7 @@ fn operating_points_are_under_the_law_of_the_load() {
     let error = own.speed.standard_error + known.speed.standard_error;
     assert!((own.load_torque / 10e-6 - 1.0).abs() < 1e-9 && own.load_torque_error < 1e-15);
     assert!((own.speed.value - known.speed.value).abs() < 3.0 * error, "{own:?} {known:?}");
-    let Operation::Runaway { load_torque, .. } = point(LoadLaw::constant(38e-6), 4e-6) else {
+    let Operation::Runaway { load_torque, .. } = *point(LoadLaw::constant(38e-6), 4e-6).operation() else {
         panic!("friction holds {}", Motor::paper_70_khz().largest_torque())
     };
     assert!((load_torque / 42e-6 - 1.0).abs() < 1e-9, "{load_torque}");
@@ -330,7 +330,8 @@ fn errors_are_relative_to_the_speed_without_the_law_of_the_load() {
         // What drifts by chance does not say which error it lacks.
         let mut seeds = (1..10).filter_map(|seed| {
             let few = OperatingSettings { relative_error: 1e-6, most_impacts: 100_000, seed, ..settings() };
-            match motor.torque_speed_curve(&[torque], &few, &Unobserved).expect("no failure")[0] {
+            match *motor.torque_speed_curve(&[torque], &few, &Unobserved).expect("no failure")[0].operation()
+            {
                 Operation::Unsettled(_, Shortfall::Error { wanted, .. }) => Some(wanted / few.relative_error),
                 _ => None,
             }

@@ -11,11 +11,12 @@ use crate::motor::batch::members::{MAX_MEMBERS, MAX_SPEEDS};
 use crate::motor::batch::rotor_rows::{RotorRows, Row, SharedImpact, WIDTH};
 use crate::motor::batch::shared_orbit::shared_by;
 use crate::motor::batch::shared_orbit::vertical::VerticalMotion;
-use crate::motor::operation::followed::Followed;
 use crate::motor::rotor::transient::{
     Bins, FLIGHTS_OF_EVENT, Interval, SpeedCurve, TransientSettings, curve, seconds,
 };
 use crate::motor::rotor::{Rotor, RotorStep};
+use crate::motor::tape::source::Source;
+use crate::motor::tape::taped::Taped;
 use crate::parameters::driven_platform::{DrivenPlatform, Waveform};
 use crate::parameters::scales::Scales;
 use crate::parameters::system::System;
@@ -70,13 +71,14 @@ fn soft_transients(
         DrivenSystem::new(&stator.with_contact(system.soft_contact()), system.disk())
     });
     let driven = driven.collect::<Result<Vec<_>, Error>>()?;
-    let mut member = Followed::on_driven(driven.iter().map(|system| (system, 0.0)), phase, perturbation)?;
+    let source = Source::driven(&driven[0], (phase, None), perturbation)?;
+    let mut member = Taped::new(source, driven.iter().map(|system| (system.rotor(), 0.0)));
     let bins = systems.iter().map(|_| Bins::new(settings.duration, settings.intervals));
     let mut bins = bins.collect::<Result<Vec<_>, Error>>()?;
     let (mut passed, mut impacts, unit) = (0.0, 0, systems[0].scales().time);
     while bins[0].present.reached < settings.duration {
         let left = (bins[0].present.end - bins[0].present.reached) / unit;
-        let window = member.next_window(left, 1..=u64::MAX, work)?;
+        let window = member.next_window(left, &(1..=u64::MAX), work)?;
         passed += window.axial.duration;
         impacts += window.axial.impacts;
         for (bins, rotor) in bins.iter_mut().zip(&window.rotors) {

@@ -28,7 +28,12 @@ fn loaded(system: &System, share: f64) -> LoadedMotor<'static> {
 }
 
 fn operated(motors: &[LoadedMotor<'_>], settings: &OperatingSettings) -> Vec<Operation> {
-    operate(motors, settings, &Unobserved).expect("no failure").operations
+    operate(motors, settings, &Unobserved)
+        .expect("no failure")
+        .rows
+        .into_iter()
+        .map(|row| *row.operation())
+        .collect()
 }
 
 /// The energy that comes in is the work done, the losses and what is stored: over whole runs, with loads that
@@ -140,7 +145,7 @@ fn a_load_above_the_largest_torque_of_friction_runs_away() {
         let sheet = sheet.expect("legal");
         for torque in [sheet.largest_torque(), newtons * 0.1 * 0.0125, 0.1 * (0.0125 * newtons)] {
             let operation = sheet.operating_point(torque, &settings, &Unobserved).expect("no failure");
-            assert!(matches!(operation, Operation::Runaway { .. }), "{newtons} {operation:?}");
+            assert!(matches!(operation.operation(), Operation::Runaway { .. }), "{newtons} {operation:?}");
         }
     }
     // What nothing holds, nothing drives: it stands still to the bit. The least load runs away with it.
@@ -236,7 +241,7 @@ fn a_spent_budget_is_said() {
 fn operations_are_the_same_for_any_number_of_threads_and_can_be_stopped() {
     let motors: Vec<LoadedMotor<'_>> = (0..9).map(|k| loaded(&tried_motor(), 0.1 * f64::from(k))).collect();
     let settings = OperatingSettings { relative_error: 0.03, members: 5, ..OperatingSettings::default() };
-    check_stops(20_000_000, |observer| operate(&motors, &settings, observer).map(|all| all.operations));
+    check_stops(20_000_000, |observer| operate(&motors, &settings, observer).map(|all| all.rows));
 }
 
 #[test]

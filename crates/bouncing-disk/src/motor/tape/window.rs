@@ -7,11 +7,15 @@ use crate::stator::StatorLedger;
 pub(crate) struct RotorWindow {
     /// Angle turned.
     pub(crate) angle: f64,
+    /// Integral of the square of the speed.
+    pub(crate) square: f64,
     /// Work of the platform by friction, and loss in it.
     pub(crate) friction_work: f64,
     pub(crate) friction_loss: f64,
     /// Work done against the load.
     pub(crate) load_work: f64,
+    /// Integral of the load torque over time.
+    pub(crate) load_impulse: f64,
     /// Change of the kinetic energy.
     pub(crate) kinetic_change: f64,
     /// On a stator that yields: its energies, and the rotor's own vertical motion.
@@ -44,9 +48,11 @@ pub(crate) struct Window {
 impl RotorWindow {
     pub(crate) fn add(&mut self, next: &Self) {
         self.angle += next.angle;
+        self.square += next.square;
         self.friction_work += next.friction_work;
         self.friction_loss += next.friction_loss;
         self.load_work += next.load_work;
+        self.load_impulse += next.load_impulse;
         self.kinetic_change += next.kinetic_change;
         if let Some((ledger, axial)) = &next.stator {
             let (own, known) = self.stator.get_or_insert_default();
@@ -57,6 +63,16 @@ impl RotorWindow {
 }
 
 impl AxialWindow {
+    /// Loss and impacts in a radian.
+    pub(crate) fn rates(&self) -> [f64; 2] {
+        [self.restitution_loss / self.duration, self.impacts as f64 / self.duration]
+    }
+
+    /// Whether its rates are these, within the drift of a motion on its way to them.
+    pub(crate) fn is_like(&self, rates: [f64; 2]) -> bool {
+        self.rates().into_iter().zip(rates).all(|(own, other)| (own - other).abs() <= 0.02 * other.abs())
+    }
+
     pub(crate) fn add(&mut self, next: &Self) {
         self.duration += next.duration;
         self.normal_work += next.normal_work;

@@ -39,6 +39,15 @@ struct Pair {
     decided: u64,
 }
 
+impl Tapped {
+    /// Kinetic and potential energy.
+    fn axial_energy(&self) -> f64 {
+        let (vibration, [gap, velocity]) = (self.solver.vibration(), self.launch);
+        let speed = vibration.velocity(self.time.phase) + velocity;
+        0.5 * speed * speed + (vibration.height(self.time.phase) + gap) + self.solver.spring_energy(gap)
+    }
+}
+
 impl Pair {
     fn new(case: Case) -> Self {
         let drive = |amplitude: f64, angle: f64| Drive::fourier(&[(amplitude, angle)]).expect("legal");
@@ -57,7 +66,6 @@ impl Pair {
         let Self { case, engine, tapped, .. } = self;
         engine.fly_from(time, launch, speed);
         tapped.begin(time, launch, std::iter::once(speed));
-        tapped.rotors[0].sum = RotorWindow::default();
         let (energy, mut axial) = (tapped.axial_energy(), AxialWindow::default());
         let decided = tapped.tap(&mut axial).is_some();
         let (mut ledger, mut events) = (EnergyLedger::default(), Vec::new());
@@ -69,7 +77,7 @@ impl Pair {
         (self.taps, self.decided) = (self.taps + 1, self.decided + u64::from(decided));
         let (end, rotor) = (engine.state(), &tapped.rotors[0]);
         if decided {
-            let (done, own) = (rotor.sum, rotor.speed);
+            let (done, own) = (rotor.done, rotor.speed);
             let launched = engine.flight().expect("the engine releases the disk, too");
             let duration = engine.time().since(&time).radians();
             let fastest = 1.0 + case.twist + speed.abs() + case.load.abs() * duration;

@@ -9,13 +9,11 @@ use std::f64::consts::TAU;
 
 use bouncing_disk_core::Phase;
 use bouncing_disk_core::numerics::elementary::{acos, atan2, wrapped_angle};
-use bouncing_disk_core::run::WorkCount;
 
 use crate::driven::DrivenSystem;
-use crate::error::Error;
 use crate::motion::phase_time::PhaseTime;
-use crate::motor::operation::tap::{Tap, TapIntegrals, TapSolver};
-use crate::motor::operation::window::{AxialWindow, RotorWindow, Window};
+use crate::motor::tape::tap::{Tap, TapIntegrals, TapSolver};
+use crate::motor::tape::window::{AxialWindow, RotorWindow};
 
 /// How much earlier than expected (rad) a reversal may come: beyond, the last slip has the wrong sign, and the
 /// general engine decides.
@@ -46,9 +44,6 @@ struct TappedRotor {
     /// What the tap that is being computed makes of it.
     next: f64,
     done: RotorWindow,
-    /// The speed at the start of a run, and what is done since then.
-    before: f64,
-    sum: RotorWindow,
 }
 
 impl Tapped {
@@ -75,8 +70,6 @@ impl Tapped {
                 speed: 0.0,
                 next: 0.0,
                 done: RotorWindow::default(),
-                before: 0.0,
-                sum: RotorWindow::default(),
             });
         }
         let (time, launch) = (PhaseTime::in_first_period(Phase::new(0.0).ok()?), [0.0; 2]);
@@ -93,37 +86,6 @@ impl Tapped {
         for (rotor, speed) in self.rotors.iter_mut().zip(speeds) {
             rotor.speed = speed;
         }
-    }
-
-    /// Taps as long as the time and the impacts of the window are `going` on, with a `perturbation` after
-    /// each; whether all of them were decided here.
-    pub(crate) fn run(
-        &mut self,
-        window: &mut Window,
-        going: impl Fn(&PhaseTime, u64) -> bool,
-        mut perturbation: impl FnMut() -> f64,
-        work: &mut WorkCount<'_>,
-    ) -> Result<bool, Error> {
-        let energy = self.axial_energy();
-        for rotor in &mut self.rotors {
-            rotor.before = rotor.speed;
-            rotor.sum = RotorWindow::default();
-        }
-        let mut decided = true;
-        while decided && going(&self.time, window.axial.impacts) {
-            decided = self.tap(&mut window.axial).is_some();
-            if decided {
-                window.axial.perturbation_work += self.perturb(perturbation());
-                work.spend(1 + self.rotors.len() as u64)?;
-            }
-        }
-        window.axial.energy_change += self.axial_energy() - energy;
-        for (rotor, window) in self.rotors.iter_mut().zip(&mut window.rotors) {
-            rotor.sum.load_work = rotor.load * rotor.sum.angle;
-            rotor.sum.kinetic_change = 0.5 * (rotor.speed - rotor.before) * (rotor.speed + rotor.before);
-            window.add(&rotor.sum);
-        }
-        Ok(decided)
     }
 
     /// Goes on to the next release; the angle that the first rotor turns, or nothing as for [`Self::tap`].
@@ -145,7 +107,6 @@ impl Tapped {
         }
         for rotor in &mut self.rotors {
             rotor.speed = rotor.next;
-            rotor.sum.add(&rotor.done);
         }
         let peak = self.solver.vibration().peak_acceleration();
         axial.normal_work += peak * (to.force_cos - from.force_cos);
@@ -162,13 +123,6 @@ impl Tapped {
         let before = self.solver.vibration().velocity(self.time.phase) + self.launch[1];
         self.launch[1] += speed;
         0.5 * speed * (2.0 * before + speed)
-    }
-
-    /// Kinetic and potential energy.
-    pub(crate) fn axial_energy(&self) -> f64 {
-        let (vibration, [gap, velocity]) = (self.solver.vibration(), self.launch);
-        let speed = vibration.velocity(self.time.phase) + velocity;
-        0.5 * speed * speed + (vibration.height(self.time.phase) + gap) + self.solver.spring_energy(gap)
     }
 }
 

@@ -1,0 +1,137 @@
+//! A tape from an engine: of any drive, of rigid and of compliant contacts, of a stator that yields.
+
+use std::f64::consts::TAU;
+
+use bouncing_disk_core::numerics::random::SplitMix64;
+use bouncing_disk_core::run::WorkCount;
+
+use super::Tape;
+use super::cycle::{Key, Touch};
+use crate::error::Error;
+use crate::motion::event::{Event, MotionRecord, SteeredMotion};
+use crate::motion::state::{DiskState, Mode};
+use crate::motor::rotor::transient::FLIGHTS_OF_EVENT;
+
+/// An engine of a disk that friction does not turn, as the source of a tape.
+#[derive(Debug)]
+pub(crate) struct EngineTape<E> {
+    pub(crate) engine: E,
+    /// Contacts take time.
+    takes_time: bool,
+    generator: SplitMix64,
+    perturbation: f64,
+    /// Kinetic and potential energy after the last event.
+    energy: f64,
+}
+
+impl<E: SteeredMotion + Clone> EngineTape<E> {
+    /// Each separation is perturbed by a speed of this size from a stream of this seed.
+    pub(crate) fn new(engine: E, takes_time: bool, (perturbation, seed): (f64, u64)) -> Self {
+        let mut tape =
+            Self { engine, takes_time, generator: SplitMix64::new(seed), perturbation, energy: 0.0 };
+        tape.energy = tape.energy_now();
+        tape
+    }
+
+    /// A speed for the next separation.
+    pub(crate) fn perturbation(&mut self) -> f64 {
+        self.perturbation * self.generator.unit()
+    }
+
+    /// Kinetic energy, height and the energy of a spring, just after the last event.
+    pub(crate) fn energy_now(&self) -> f64 {
+        let state = self.engine.disk();
+        0.5 * state.axial_velocity * state.axial_velocity
+            + state.height
+            + self.engine.spring_energy(0.0, &state)
+    }
+
+    /// Goes on with another engine.
+    pub(crate) fn resume(&mut self, engine: E) {
+        self.engine = engine;
+        self.energy = self.energy_now();
+    }
+
+    /// Goes on where another source has left the disk with this energy.
+    pub(crate) const fn energy_is(&mut self, energy: f64) {
+        self.energy = energy;
+    }
+
+    /// Records up to the next event; a disk that lies for ever, a period. The touch, if the event is one.
+    pub(crate) fn record(&mut self, tape: &mut Tape, work: &mut WorkCount<'_>) -> Result<Touch, Error> {
+        work.spend(FLIGHTS_OF_EVENT)?;
+        let before = self.engine.clone();
+        let (start, from) = (before.disk(), before.time().phase.angle());
+        let record = if before.lies_for_ever() { None } else { self.engine.advance_within(f64::INFINITY)? };
+        let Some(record) = record else {
+            return self.record_period(tape, &before);
+        };
+        let (event, span) = (record.event(), record.time().since(&before.time()).radians());
+        let energies = record.energies();
+        let after = self.engine.disk();
+        let velocity = |span: f64| before.disk_after(span).axial_velocity;
+        let ended = if start.mode == Mode::Flight { start.axial_velocity - span } else { velocity(span) };
+        let phase = record.time().phase;
+        let mut gained = after.axial_velocity - ended;
+        if start.mode != Mode::Flight {
+            tape.press(from, span, |to| velocity(to) - start.axial_velocity + to);
+        } else if let Event::Attachment { .. } = event {
+            // The impacts of a chatter press on the disk as evenly as the contact that follows.
+            let total = after.axial_velocity - start.axial_velocity + span;
+            let share = total.max(0.0) / span.max(f64::MIN_POSITIVE);
+            tape.press(from, span, |to| share * to);
+            gained = 0.0;
+        } else {
+            let (sin, cos) = (phase.sin(), phase.cos());
+            tape.push(super::Knot { duration: span, sin, cos, pressed: 0.0, hit: 0.0 }, phase.angle());
+        }
+        let is_impact = !self.takes_time && matches!(event, Event::Impact { .. } | Event::Kick { .. });
+        if is_impact && let Some(last) = tape.knots.last_mut() {
+            last.hit = gained.max(0.0);
+        }
+        let axial = &mut tape.axial;
+        axial.duration += span;
+        axial.normal_work += energies.disk.normal_work;
+        axial.restitution_loss += energies.disk.restitution_loss;
+        tape.stator += energies.stator;
+        if event.is_relaunch() && self.perturbation > 0.0 {
+            let speed = self.perturbation();
+            let velocity = self.engine.disk().axial_velocity;
+            self.engine.perturb_launch(speed);
+            let perturbed = self.engine.disk().axial_velocity;
+            tape.axial.perturbation_work += 0.5 * (perturbed - velocity) * (perturbed + velocity);
+        }
+        let energy = self.energy_now();
+        tape.axial.energy_change += energy - std::mem::replace(&mut self.energy, energy);
+        match event {
+            Event::Impact { .. } | Event::Kick { .. } | Event::Recontact => {
+                tape.axial.impacts += 1;
+                let disk = self.engine.disk();
+                Ok(Touch::At(Key::new(phase, [disk.axial_velocity, disk.height], self.engine.modes())))
+            }
+            _ => Ok(Touch::None),
+        }
+    }
+
+    /// A disk that lies on the platform for ever goes through a period of the drive; a stator that yields may take many
+    /// of them to settle.
+    fn record_period(&mut self, tape: &mut Tape, lying: &E) -> Result<Touch, Error> {
+        let period = TAU;
+        let from = lying.time().phase.angle();
+        let start: DiskState = lying.disk_after(0.0);
+        tape.press(from, period, |to| lying.disk_after(to).axial_velocity - start.axial_velocity + to);
+        let energies = lying.energies_after(period);
+        tape.axial.duration += period;
+        tape.axial.normal_work += energies.disk.normal_work;
+        tape.axial.restitution_loss += energies.disk.restitution_loss;
+        tape.axial.impacts += 1;
+        tape.stator += energies.stator;
+        if self.engine.pause_contact(period).is_none() {
+            return Ok(Touch::Lies);
+        }
+        let (energy, disk) = (self.energy_now(), self.engine.disk());
+        tape.axial.energy_change += energy - std::mem::replace(&mut self.energy, energy);
+        let phase = self.engine.time().phase;
+        Ok(Touch::At(Key::new(phase, [disk.axial_velocity, disk.height], self.engine.modes())))
+    }
+}

@@ -1,0 +1,319 @@
+//! Rotors that are carried along a tape.
+//!
+//! In a step of contact the force is even and the stator's angular speed a straight line, so that the slip is one too,
+//! with at most one end: rotor, angle and energies follow exactly.
+
+use bouncing_disk_core::sweep::LaneLoop;
+
+use bouncing_disk_core::numerics::elementary::{exp_m1, ln_1p};
+
+use super::window::{AxialWindow, RotorWindow};
+use super::{Knot, Tape};
+use crate::motor::batch::rotor_rows::{RotorRows, Row, WIDTH};
+use crate::stator::{LoadLine, StatorLedger};
+
+/// What rotors have done.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Done {
+    /// Angle turned.
+    pub(crate) angle: Row,
+    /// Integral of the square of the speed.
+    pub(crate) square: Row,
+    /// Work of the stator by friction, and loss in it.
+    pub(crate) work: Row,
+    pub(crate) loss: Row,
+    /// Impulse of the law of the load, and work done against it.
+    pub(crate) law_impulse: Row,
+    pub(crate) law_work: Row,
+}
+
+/// Up to eight rotors on one stator and under one law of the load.
+#[derive(Debug, Clone)]
+pub(crate) struct Rotors {
+    pub(crate) rows: RotorRows<Done>,
+    pub(crate) count: usize,
+    /// The law, besides the constant loads of the rows.
+    pub(crate) law: Vec<LoadLine>,
+    /// Which of the tape's columns has the stator's speed; `None` for a sine.
+    pub(crate) column: Option<usize>,
+}
+
+impl Rotors {
+    /// What the rotor in this place has done in a time (rad), from this speed on.
+    pub(crate) fn done(
+        &self,
+        own: usize,
+        before: f64,
+        duration: f64,
+        stator: Option<(StatorLedger, AxialWindow)>,
+    ) -> RotorWindow {
+        let (after, done, load) = (self.rows.speed[own], &self.rows.tally, self.rows.load[own]);
+        RotorWindow {
+            angle: done.angle[own],
+            square: done.square[own],
+            friction_work: done.work[own],
+            friction_loss: done.loss[own],
+            load_work: load * done.angle[own] + done.law_work[own],
+            load_impulse: load * duration + done.law_impulse[own],
+            kinetic_change: 0.5 * (after - before) * (after + before),
+            stator,
+        }
+    }
+}
+
+/// Carries all rotors along a tape.
+pub(crate) struct Replay<'a> {
+    pub(crate) tape: &'a Tape,
+    pub(crate) rotors: &'a mut [Rotors],
+}
+
+impl LaneLoop for Replay<'_> {
+    #[inline(always)]
+    fn run(self) {
+        for rotors in self.rotors {
+            let Rotors { rows, law, column, count } = rotors;
+            let knots = &self.tape.knots[..];
+            let column = column.map(|column| &self.tape.speeds[column][..]);
+            for (index, pair) in knots.windows(2).enumerate() {
+                let [before, knot] = [&pair[0], &pair[1]];
+                let (from, to) = match column {
+                    None if knot.pressed > 0.0 => {
+                        // A chord of the sine is on average too low by this factor.
+                        let square = knot.duration * knot.duration;
+                        let chord = 1.0 + square * (1.0 / 12.0 + square * (1.0 / 120.0));
+                        let [from, to] = [before, knot].map(|at| rows.twists(at.sin, at.cos));
+                        (from.map(|speed| chord * speed), to.map(|speed| chord * speed))
+                    }
+                    None => ([0.0; WIDTH], [0.0; WIDTH]),
+                    Some(speeds) => ([speeds[index]; WIDTH], [speeds[index + 1]; WIDTH]),
+                };
+                match (knot.pressed > 0.0, law.is_empty()) {
+                    (true, true) => slide(rows, knot, from, to),
+                    (true, false) => slide_under(rows, *count, knot, from, to, law),
+                    (false, true) => fly(rows, knot.duration),
+                    (false, false) => fly_under(rows, *count, knot.duration, law),
+                }
+                if knot.hit > 0.0 {
+                    hit(rows, knot.hit, column.map_or_else(|| rows.twists(knot.sin, knot.cos), |_| to));
+                }
+            }
+        }
+    }
+}
+
+/// A contact step.
+#[inline(always)]
+fn slide(rows: &mut RotorRows<Done>, knot: &Knot, from: Row, to: Row) {
+    for own in 0..WIDTH {
+        let step = Step {
+            span: knot.duration,
+            from: from[own],
+            to: to[own],
+            friction: rows.friction[own] * knot.pressed,
+            load: rows.load[own] * knot.duration,
+        };
+        let slid = step.slide(rows.speed[own]);
+        rows.speed[own] = slid.speed;
+        let done = &mut rows.tally;
+        done.angle[own] += slid.angle;
+        done.square[own] += slid.square;
+        done.work[own] += slid.work;
+        done.loss[own] += slid.loss;
+    }
+}
+
+/// A flight.
+#[inline(always)]
+fn fly(rows: &mut RotorRows<Done>, span: f64) {
+    for own in 0..WIDTH {
+        let (speed, lost) = (rows.speed[own], rows.load[own] * span);
+        rows.speed[own] = speed - lost;
+        let done = &mut rows.tally;
+        done.angle[own] += span * (speed - 0.5 * lost);
+        done.square[own] += span * (speed * (speed - lost) + lost * lost * (1.0 / 3.0));
+    }
+}
+
+/// An impact.
+#[inline(always)]
+fn hit(rows: &mut RotorRows<Done>, impulse: f64, stator: Row) {
+    for (own, stator) in stator.into_iter().enumerate() {
+        let (slip, most) = (rows.speed[own] - stator, rows.friction[own] * impulse);
+        let change = (-slip).max(-most).min(most);
+        // A slip that ends does so exactly.
+        rows.speed[own] = if slip.abs() <= most { stator } else { rows.speed[own] + change };
+        let done = &mut rows.tally;
+        done.work[own] += change * stator;
+        // The impulse acts at the mean of the slip speeds before and after.
+        done.loss[own] -= change * (slip + 0.5 * change);
+    }
+}
+
+/// A contact step under a law of the load, which is that of the speed in the middle.
+fn slide_under(rows: &mut RotorRows<Done>, count: usize, knot: &Knot, from: Row, to: Row, law: &[LoadLine]) {
+    for own in 0..count {
+        let speed = rows.speed[own];
+        let under = |at: f64| {
+            let added = torque(law, at) * knot.duration;
+            let step = Step {
+                span: knot.duration,
+                from: from[own],
+                to: to[own],
+                friction: rows.friction[own] * knot.pressed,
+                load: rows.load[own] * knot.duration + added,
+            };
+            (step.slide(speed), added)
+        };
+        let (near, _) = under(speed);
+        let (slid, added) = under(0.5 * (speed + near.speed));
+        rows.speed[own] = slid.speed;
+        let done = &mut rows.tally;
+        done.angle[own] += slid.angle;
+        done.square[own] += slid.square;
+        done.work[own] += slid.work;
+        done.loss[own] += slid.loss;
+        done.law_impulse[own] += added;
+        done.law_work[own] += added * (slid.angle / knot.duration);
+    }
+}
+
+/// A flight under a law of the load: exactly, line by line.
+fn fly_under(rows: &mut RotorRows<Done>, count: usize, span: f64, law: &[LoadLine]) {
+    for own in 0..count {
+        let load = rows.load[own];
+        let (mut left, mut speed) = (span, rows.speed[own]);
+        let done = &mut rows.tally;
+        while left > 0.0 {
+            let braking = load + torque(law, speed);
+            let line = line_of(law, speed, braking);
+            let (slope, decay) = (line.slope, line.slope * left);
+            // How long the speed stays on the line.
+            let bound = if braking > 0.0 { line.from } else { line.to };
+            let share = slope * (speed - bound) / braking;
+            let reach =
+                if slope.abs() * left < TINY { (speed - bound) / braking } else { -ln_1p(-share) / slope };
+            let (passed, after) = if reach < left && reach > 0.0 {
+                (reach, bound)
+            } else if decay.abs() < TINY {
+                (left, speed - braking * left * (1.0 - 0.5 * decay))
+            } else {
+                (left, speed + braking * (exp_m1(-decay) / slope))
+            };
+            let (lost, rate) = (speed - after, slope * passed);
+            // Integrals of an exponential that goes from one speed to the other.
+            let angle = if rate.abs() < TINY {
+                passed * (0.5 * (speed + after) + lost * rate * (1.0 / 12.0))
+            } else {
+                passed * (speed - braking / slope) + lost / slope
+            };
+            let mean = angle / passed;
+            done.angle[own] += angle;
+            done.square[own] += passed * (mean * mean + lost * lost * (1.0 / 12.0));
+            done.law_impulse[own] += lost - load * passed;
+            done.law_work[own] += 0.5 * lost * (speed + after) - load * angle;
+            left -= passed;
+            speed = after;
+        }
+        rows.speed[own] = speed;
+    }
+}
+
+/// Below this share of a time constant an exponential is taken by its series, to fourth order.
+const TINY: f64 = 1.0e-4;
+
+/// The torque of a law at a speed.
+fn torque(law: &[LoadLine], speed: f64) -> f64 {
+    let line = line_of(law, speed, 0.0);
+    line.torque + line.slope * speed
+}
+
+/// The line of a law at a speed; at an end of two the one into which a rotor goes that is braked so.
+fn line_of(law: &[LoadLine], speed: f64, braking: f64) -> &LoadLine {
+    let index = if braking > 0.0 {
+        law.partition_point(|line| line.to < speed)
+    } else {
+        law.partition_point(|line| line.to <= speed)
+    };
+    &law[index.min(law.len() - 1)]
+}
+
+/// A step of a contact.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Step {
+    pub(crate) span: f64,
+    /// The stator's angular speed at its start and its end.
+    pub(crate) from: f64,
+    pub(crate) to: f64,
+    /// Changes of the rotor's speed by friction and load over the whole step.
+    pub(crate) friction: f64,
+    pub(crate) load: f64,
+}
+
+/// A rotor after a step, and what it did in it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Slid {
+    pub(crate) speed: f64,
+    pub(crate) angle: f64,
+    pub(crate) square: f64,
+    pub(crate) work: f64,
+    pub(crate) loss: f64,
+}
+
+impl Step {
+    /// A rotor with this speed at the start: it slides, and where its slip ends within the step it sticks or slides the
+    /// other way.
+    #[inline(always)]
+    pub(crate) fn slide(self, speed: f64) -> Slid {
+        let Self { span, from, to, friction, load } = self;
+        let gained = to - from;
+        let (slip, pull) = (speed - from, gained + load);
+        // How the slip begins at zero: friction holds it unless the pull is larger.
+        let onset = if pull < -friction {
+            1.0
+        } else if pull > friction {
+            -1.0
+        } else {
+            0.0
+        };
+        let direction = if slip > 0.0 {
+            1.0
+        } else if slip < 0.0 {
+            -1.0
+        } else {
+            onset
+        };
+        let end = slip - (direction * friction + pull);
+        let crosses = direction * end < 0.0;
+        let share = if direction == 0.0 {
+            0.0
+        } else if crosses {
+            slip / (slip - end)
+        } else {
+            1.0
+        };
+        let rest = 1.0 - share;
+        // Up to the end of the slip.
+        let middle = from + gained * share;
+        let reached = if rest > 0.0 { middle } else { speed - (direction * friction + load) };
+        let first = direction * friction * share;
+        let slipped = 0.5 * (slip + if rest > 0.0 { 0.0 } else { end });
+        // And from there on.
+        let left = -(onset * friction + pull) * rest;
+        let (last, torque, again) = if onset == 0.0 {
+            (to, pull * rest, 0.0)
+        } else {
+            (to + left, -onset * friction * rest, 0.5 * left)
+        };
+        let last = if rest > 0.0 { last } else { reached };
+        Slid {
+            speed: last,
+            angle: 0.5 * span * (share * (speed + reached) + rest * (reached + last)),
+            square: span
+                * (1.0 / 3.0)
+                * (share * (speed * speed + speed * reached + reached * reached)
+                    + rest * (reached * reached + reached * last + last * last)),
+            work: 0.5 * (torque * (middle + to) - first * (from + middle)),
+            loss: first * slipped + onset * friction * rest * again,
+        }
+    }
+}

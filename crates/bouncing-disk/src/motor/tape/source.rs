@@ -1,0 +1,132 @@
+//! Where a tape comes from: the vertical motion of a disk that friction does not act back on.
+
+use bouncing_disk_core::run::WorkCount;
+use bouncing_disk_core::{ChatterPolicy, Drive, Phase};
+
+use super::Tape;
+use super::cycle::Touch;
+use super::engine::EngineTape;
+use super::rigid::RigidTape;
+use super::tap::TapSolver;
+use super::taps::TapTape;
+use crate::driven::{DrivenEngine, DrivenStart, DrivenSystem};
+use crate::error::Error;
+use crate::motor::stator::Stator;
+use crate::parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem};
+use crate::stator::{StatorEngine, StatorSystem};
+
+/// What a tape is recorded from.
+#[derive(Debug)]
+pub(crate) enum Source {
+    /// A sine with rigid impacts.
+    Rigid(Box<RigidTape>),
+    /// A sine with contacts that take time.
+    Taps(Box<TapTape>),
+    /// Waveforms.
+    Driven(Box<EngineTape<DrivenEngine>>),
+    /// A stator that yields in its height.
+    Yielding(Box<EngineTape<StatorEngine>>),
+}
+
+impl Source {
+    /// Of a disk that lies on this stator at a phase; `None` if friction acts back on the height. Where contacts take
+    /// time the disk may be thrown up, so fast in units of the platform's largest speed.
+    pub(crate) fn new(
+        stator: &Stator,
+        system: &DimensionlessSystem,
+        start: (Phase, Option<f64>),
+        perturbation: (f64, u64),
+    ) -> Result<Option<Self>, Error> {
+        let phase = start.0;
+        // Contacts that take time need no perturbation: no rest makes all motions one.
+        let undisturbed = (0.0, perturbation.1);
+        Ok(Some(match stator {
+            Stator::Sine => Self::Rigid(Box::new(RigidTape::new(system, phase, perturbation)?)),
+            Stator::Driven(own) => {
+                let soft = own.system.compliance.is_some();
+                Self::driven(&own.system, start, if soft { undisturbed } else { perturbation })?
+            }
+            Stator::Yielding(own) if own.yields() => {
+                if own.twists() {
+                    return Ok(None);
+                }
+                Self::yielding(own, phase, if own.takes_time() { undisturbed } else { perturbation })?
+            }
+            Stator::Yielding(own) => match own.contact_time() {
+                None => Self::Rigid(Box::new(RigidTape::new(own.base(), phase, perturbation)?)),
+                Some(time) => Self::driven(&soft(own.base(), time)?, start, undisturbed)?,
+            },
+        }))
+    }
+
+    /// Of a disk that lies on a stator that moves by waveforms, or whose contacts take time.
+    pub(crate) fn driven(
+        system: &DrivenSystem,
+        (phase, thrown): (Phase, Option<f64>),
+        perturbation: (f64, u64),
+    ) -> Result<Self, Error> {
+        let still = DrivenSystem { friction: 0.0, load: 0.0, angle: Drive::fourier(&[])?, ..system.clone() };
+        let angular_speed = 0.0;
+        let start = match thrown.filter(|_| system.compliance.is_some()) {
+            None => DrivenStart::Contact { phase, angular_speed },
+            Some(share) => {
+                let relative_speed = share * system.height.bounds().speed;
+                DrivenStart::Launch { phase, relative_speed, angular_speed }
+            }
+        };
+        let engine = DrivenEngine::new(still, start, ChatterPolicy::Complete)?;
+        let engine = EngineTape::new(engine, system.compliance.is_some(), perturbation);
+        Ok(match system.compliance.as_ref().and_then(TapSolver::new) {
+            Some(solver) => Self::Taps(Box::new(TapTape::new(solver, engine))),
+            None => Self::Driven(Box::new(engine)),
+        })
+    }
+
+    fn yielding(system: &StatorSystem, phase: Phase, perturbation: (f64, u64)) -> Result<Self, Error> {
+        let own = system.base().parameters();
+        let still = DimensionlessParameters { friction: 0.0, load: 0.0, twist_speed: 0.0, ..own }.build()?;
+        let still = system.without_law()?.with_base(&still)?;
+        let engine = StatorEngine::new(still, DrivenStart::Contact { phase, angular_speed: 0.0 })?;
+        Ok(Self::Yielding(Box::new(EngineTape::new(engine, system.takes_time(), perturbation))))
+    }
+
+    /// Records a step: up to the next event, or more.
+    pub(crate) fn record(&mut self, tape: &mut Tape, work: &mut WorkCount<'_>) -> Result<Touch, Error> {
+        match self {
+            Self::Rigid(source) => source.record(tape, work),
+            Self::Taps(source) => source.record(tape, work),
+            Self::Driven(source) => source.record(tape, work),
+            Self::Yielding(source) => source.record(tape, work),
+        }
+    }
+
+    /// The phase (rad) at the end of what is recorded.
+    pub(crate) fn phase(&self) -> f64 {
+        let time = match self {
+            Self::Rigid(source) => source.time(),
+            Self::Taps(source) => source.time(),
+            Self::Driven(source) => source.engine.time(),
+            Self::Yielding(source) => source.engine.time(),
+        };
+        time.phase.angle()
+    }
+
+    /// Whether the stator has modes, whose energies are recorded.
+    pub(crate) fn yields(&self) -> bool {
+        matches!(self, Self::Yielding(_))
+    }
+}
+
+/// A disk on a sine whose contacts take time.
+fn soft(system: &DimensionlessSystem, contact_time: f64) -> Result<DrivenSystem, Error> {
+    let height = Drive::fourier(&[(system.peak_acceleration(), 0.0)])?;
+    let rigid = DrivenSystem {
+        height,
+        angle: Drive::fourier(&[])?,
+        friction: 0.0,
+        restitution: system.restitution(),
+        load: 0.0,
+        compliance: None,
+    };
+    rigid.with_contact_time(contact_time)
+}

@@ -1,0 +1,174 @@
+//! Rotors on a tape, in windows of time.
+
+use std::ops::RangeInclusive;
+
+use bouncing_disk_core::Drive;
+use bouncing_disk_core::run::WorkCount;
+use bouncing_disk_core::sweep::{InstructionSet, LaneRunner};
+
+use super::Tape;
+use super::cycle::{Cycle, Recurrence, Repeats};
+use super::replay::{Done, Replay, Rotors};
+use super::source::Source;
+use super::window::{AxialWindow, Window};
+use crate::driven::DrivenSystem;
+use crate::error::Error;
+use crate::motor::batch::rotor_rows::{RotorRows, WIDTH};
+use crate::motor::operation::followed::Left;
+use crate::stator::{LoadLine, StatorEngine};
+
+/// Knots after which a tape is replayed: few enough for the cache.
+const BLOCK: usize = 4096;
+
+/// Steps of a contact in a period: a chord of the stator's speed is off by 1e-4 of its amplitude at most.
+const RESOLUTION: f64 = 128.0;
+
+/// How a rotor is turned.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct TapedRotor {
+    pub(crate) friction: f64,
+    /// The constant load, and what the law of the load adds.
+    pub(crate) load: f64,
+    pub(crate) law: Vec<LoadLine>,
+    pub(crate) twist: Twist,
+}
+
+/// How the stator turns under a rotor.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Twist {
+    /// As a sine: the parts of its speed that go with cosine and, falling, sine of the phase.
+    Sine([f64; 2]),
+    Waveform(Drive),
+}
+
+impl DrivenSystem {
+    /// How its rotor is turned.
+    pub(crate) fn rotor(&self) -> TapedRotor {
+        let (angle, start) = (&self.angle, self.angle.at(0.0));
+        let is_sine = angle.next_joint(0.0).is_none() && angle.highest_harmonic() <= 1.0;
+        let parts = [start.velocity, -start.acceleration];
+        let twist = if is_sine { Twist::Sine(parts) } else { Twist::Waveform(angle.clone()) };
+        TapedRotor { friction: self.friction, load: self.load, law: Vec::new(), twist }
+    }
+}
+
+/// Rotors on a tape.
+#[derive(Debug)]
+pub(crate) struct Taped {
+    source: Source,
+    tape: Tape,
+    rotors: Vec<Rotors>,
+    /// Row and place of each rotor.
+    places: Vec<(usize, usize)>,
+    runner: LaneRunner,
+    recurrence: Recurrence,
+    /// The cycle that the motion was found to repeat, after which no window is complete.
+    repeats: Option<Repeats>,
+    /// How long (rad) it was followed.
+    pub(crate) followed: f64,
+}
+
+impl Taped {
+    /// Rotors with these angular speeds.
+    pub(crate) fn new(source: Source, starts: impl Iterator<Item = (TapedRotor, f64)>) -> Self {
+        let mut twists: Vec<Drive> = Vec::new();
+        let (mut rotors, mut places): (Vec<Rotors>, Vec<_>) = Default::default();
+        for (rotor, speed) in starts {
+            let (parts, column) = match rotor.twist {
+                Twist::Sine(parts) => (parts, None),
+                Twist::Waveform(drive) => {
+                    let known = twists.iter().position(|twist| *twist == drive);
+                    let column = known.unwrap_or(twists.len());
+                    if known.is_none() {
+                        twists.push(drive);
+                    }
+                    ([0.0; 2], Some(column))
+                }
+            };
+            let fits = |rows: &Rotors| rows.column == column && rows.law == rotor.law && rows.count < WIDTH;
+            let row = rotors.iter().position(fits).unwrap_or_else(|| {
+                rotors.push(Rotors { rows: RotorRows::default(), count: 0, column, law: rotor.law.clone() });
+                rotors.len() - 1
+            });
+            let own = rotors[row].count;
+            rotors[row].rows.put(own, [rotor.friction, rotor.load], parts);
+            rotors[row].rows.speed[own] = speed;
+            rotors[row].count += 1;
+            places.push((row, own));
+        }
+        let tape = Tape::new(source.phase(), RESOLUTION, twists);
+        let runner = LaneRunner::new(InstructionSet::best());
+        let recurrence = Recurrence::default();
+        Self { source, tape, rotors, places, runner, recurrence, repeats: None, followed: 0.0 }
+    }
+
+    /// Where the disk and the stator that yields are.
+    pub(crate) fn left(&self) -> Option<Left> {
+        let Source::Yielding(source) = &self.source else { return None };
+        Some(Left::of(&source.engine, source.engine.time()))
+    }
+
+    /// Goes on from where another motor was left, with the rotors as they are.
+    pub(crate) fn resume(&mut self, left: &Left) -> Result<(), Error> {
+        let Source::Yielding(source) = &mut self.source else { return Ok(()) };
+        source.resume(StatorEngine::of_state(source.engine.system().clone(), left.time, left.state)?);
+        self.tape.begin(left.time.phase.angle());
+        Ok(())
+    }
+
+    /// The cycle that the motion repeats, if it was found to do so.
+    pub(crate) fn cycle(&mut self, work: &mut WorkCount<'_>) -> Result<Option<Cycle>, Error> {
+        let Some(repeats) = self.repeats else { return Ok(None) };
+        Cycle::record(&mut self.source, repeats, self.tape.twists(), work).map(Some)
+    }
+
+    pub(crate) const fn repeats(&self) -> bool {
+        self.repeats.is_some()
+    }
+
+    /// The rotors of this cycle in the order of this member's, at the speeds that they repeat.
+    pub(crate) fn on_cycle(&self, cycle: &Cycle, largest: &[f64]) -> [Window; 2] {
+        cycle.windows(&self.rotors, &self.places, largest, &self.runner)
+    }
+
+    /// The next window: of `duration` rad at least, and of a number of impacts in a range, whatever the duration; up to
+    /// the end of an event. It ends early where the motion is found to repeat itself.
+    pub(crate) fn next_window(
+        &mut self,
+        duration: f64,
+        impacts: &RangeInclusive<u64>,
+        work: &mut WorkCount<'_>,
+    ) -> Result<Window, Error> {
+        let speeds: Vec<f64> =
+            self.places.iter().map(|&(row, own)| self.rotors[row].rows.speed[own]).collect();
+        let mut axial = AxialWindow::default();
+        let mut ledger = self.source.yields().then(Default::default);
+        loop {
+            let touch = self.source.record(&mut self.tape, work)?;
+            self.repeats = self.recurrence.add(touch);
+            let (now, done) = (&self.tape.axial, axial.impacts + self.tape.axial.impacts);
+            let lasts = axial.duration + now.duration >= duration;
+            let is_enough = self.repeats() || lasts && done >= *impacts.start() || done >= *impacts.end();
+            if is_enough || self.tape.knots.len() > BLOCK {
+                work.spend((self.tape.knots.len() * self.rotors.len() / 32) as u64)?;
+                self.runner.run(Replay { tape: &self.tape, rotors: &mut self.rotors });
+                axial.add(&self.tape.axial);
+                if let Some(ledger) = &mut ledger {
+                    *ledger += self.tape.stator;
+                }
+                self.tape.restart();
+            }
+            if is_enough {
+                break;
+            }
+        }
+        let stator = ledger.map(|ledger| (ledger, axial));
+        let rotors = self.places.iter().zip(speeds);
+        let rotors =
+            rotors.map(|(&(row, own), before)| self.rotors[row].done(own, before, axial.duration, stator));
+        let rotors = rotors.collect();
+        self.followed += axial.duration;
+        self.rotors.iter_mut().for_each(|rotors| rotors.rows.tally = Done::default());
+        Ok(Window { axial, rotors })
+    }
+}
