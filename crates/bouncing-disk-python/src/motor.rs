@@ -3,7 +3,7 @@
 use bouncing_disk::motor::{
     AxialMotion, Estimate, InputSpread, InputTolerance, Life, MotorField, MotorRegime, MotorSweep,
     OperatingPoint, OperatingRow, OperatingSettings, Operation, SensitivityMethod, SensitivityParameter,
-    SensitivityQuantity, SensitivitySettings, Shortfall, SweepAxis, SweepQuantity, TrapVerdict,
+    SensitivityQuantity, SensitivitySettings, Shortfall, StallLoad, SweepAxis, SweepQuantity, TrapVerdict,
 };
 use numpy::PyArray1;
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -185,8 +185,15 @@ pub(crate) fn stall_load(a: Arguments<'_>) -> Made<'_> {
     let (motor, settings) = (a.motor()?, settings(&a)?);
     let motor = a.moved(&motor)?;
     let stall = a.run(|observer| motor.stall_load(&settings, observer))?;
+    shown_stall(a.py(), &stall)
+}
+
+fn shown_stall<'py>(py: Python<'py>, stall: &StallLoad) -> Made<'py> {
+    let others = stall.others.iter().map(|other| shown_stall(py, other)).collect::<PyResult<Vec<_>>>()?;
+    let nothing = Estimate { value: f64::NAN, standard_error: f64::NAN };
+    let blocked = stall.blocked_torque.unwrap_or(nothing);
     make!(
-        a.py(),
+        py,
         "StallLoad",
         stall.torque.value,
         stall.torque.standard_error,
@@ -194,6 +201,9 @@ pub(crate) fn stall_load(a: Arguments<'_>) -> Made<'_> {
         (stall.bracket[0], stall.bracket[1]),
         stall.no_load_speed.value,
         stall.no_load_speed.standard_error,
+        blocked.value,
+        blocked.standard_error,
+        PyTuple::new(py, others)?,
     )
 }
 

@@ -66,9 +66,7 @@ impl Case {
             resonance: Some(omega / TAU),
             ..StatorParameters::default()
         };
-        // The spring is that of the platform that does not yield; the library's contact time is that on this stator.
-        let yields = 1.0 / (1.0 + self.motor.mass() / self.mass).sqrt();
-        let time = self.contact.map(|share| share * yields / 70e3);
+        let time = self.contact.map(|share| share / 70e3);
         // The drive is switched on just after the start.
         let load = LoadLaw::constant(0.0)?.with_drive(1e-9, f64::MAX)?.with_inertia(inertia)?;
         let motor = self.motor.with(|sheet| {

@@ -55,7 +55,7 @@ pub use crate::motion::stator_ledger::{MODES, StatorLedger};
 pub use record::{StatorEngine, StatorRecord, StatorState};
 use regime::{COS, ContactStiffness, DISPLACEMENTS, Regime, SIN, State, VELOCITIES};
 
-/// Least and largest contact time (rad) on a stator that yields.
+/// Least and largest time (rad) that an isolated impact lasts on a stator that yields.
 pub const CONTACT_TIMES: [f64; 2] = [1.0e-2, 1.0e4];
 
 /// Nearer to a jam than this share of the friction that jams, a disk moves too fast for steps.
@@ -173,8 +173,7 @@ impl StatorSystem {
     }
 
     /// As [`Self::new`], with `arm` = (a_e/a_g)^2 and, if given, contacts that take time: an isolated impact
-    /// on this stator, on which nothing else acts, lasts for `contact_time` (rad of the drive) and has the system's
-    /// restitution.
+    /// on a platform that does not yield lasts for `contact_time` (rad of the drive) and has the system's restitution.
     ///
     /// # Errors
     /// As [`Self::new`]; for a contact time those of [`Compliance::new`], within [`CONTACT_TIMES`].
@@ -230,19 +229,16 @@ impl StatorSystem {
             None => ContactStiffness::Rigid,
             Some(time) => {
                 let [least, most] = CONTACT_TIMES;
+                let compliance = Compliance::new(time, system.restitution())?;
+                let share = 1.0 / laws.iter().fold(1.0, |sum, law| sum + law.height * law.by_force);
+                let own = compliance.with_reduced_mass(share)?.contact_time();
                 check(
-                    (least..=most).contains(&time),
-                    "contact time",
-                    time,
+                    (least..=most).contains(&own),
+                    "contact time of an isolated impact on this stator",
+                    own,
                     "[0.01, 1e4] (rad): below, use rigid impacts",
                 )?;
-                let compliance = Compliance::new(time, system.restitution())?;
-                // The mass that an isolated impact on the free modes feels.
-                let share = 1.0 / laws.iter().fold(1.0, |sum, law| sum + law.height * law.by_force);
-                ContactStiffness::Soft {
-                    stiffness: share * compliance.stiffness(),
-                    damping: share * compliance.damping(),
-                }
+                ContactStiffness::Soft { stiffness: compliance.stiffness(), damping: compliance.damping() }
             }
         };
         let mut built = Self {
@@ -331,9 +327,16 @@ impl StatorSystem {
         self.given.iter().any(|mode| mode.angle != 0.0)
     }
 
-    /// How long (rad) an isolated contact takes.
+    /// How long (rad) an isolated contact takes on a platform that does not yield.
     pub(crate) const fn contact_time(&self) -> Option<f64> {
         self.contact_time
+    }
+
+    /// How long (rad) an isolated impact lasts on this stator, and what it keeps of its speed; `None` for rigid impacts.
+    pub(crate) fn isolated_contact(&self) -> Option<[f64; 2]> {
+        let compliance = Compliance::new(self.contact_time?, self.base.restitution()).ok()?;
+        let own = compliance.with_reduced_mass(1.0 / self.mobility()[0][0]).ok()?;
+        Some([own.contact_time(), own.restitution()])
     }
 
     /// The lines of the load besides the constant one.

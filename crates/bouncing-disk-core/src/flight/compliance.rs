@@ -187,6 +187,17 @@ impl Compliance {
         2.0 * share / frequency
     }
 
+    /// The same spring and damper on a platform that recoils, where an impact has this share of the disk's mass: its
+    /// contact time and restitution are those of an isolated impact there.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a share outside (0, 1].
+    pub fn with_reduced_mass(self, share: f64) -> Result<Self, Error> {
+        within("reduced mass", share, f64::MIN_POSITIVE, 1.0, "(0, 1] (of the disk's mass)")?;
+        let Self { stiffness, damping, unloading } = self;
+        Ok(Self { stiffness: stiffness / share, damping: damping / share, unloading: unloading / share })
+    }
+
     const fn is_hysteretic(&self) -> bool {
         self.damping == 0.0
     }

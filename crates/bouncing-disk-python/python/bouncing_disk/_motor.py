@@ -368,6 +368,9 @@ class StallLoad:
         share: the torque as a share of the largest mean torque of friction.
         bracket: loads (N m) under which it surely turns on, and is surely driven back.
         no_load_speed, no_load_speed_error: mean speed without load and its standard error (rad/s).
+        blocked_torque, blocked_torque_error: mean torque (N m) on a rotor that is held at rest, and its standard error;
+            NaN for a rotor that acts back on its stator.
+        others: the same for motions that coexist with this one.
     """
 
     torque: float
@@ -376,6 +379,9 @@ class StallLoad:
     bracket: tuple[float, float]
     no_load_speed: float
     no_load_speed_error: float
+    blocked_torque: float
+    blocked_torque_error: float
+    others: tuple[StallLoad, ...]
 
 
 def stall_load(

@@ -163,9 +163,6 @@ pub trait Motion {
 /// A motion that can be followed to any time and disturbed, as a motor needs it. All spans are in radians since the
 /// last event, and hold if no event comes before their end.
 pub(crate) trait SteeredMotion: Motion + Send {
-    /// Whether the disk acts back on the platform.
-    const YIELDS: bool = false;
-
     /// The next event if it comes within `limit`. Without one the motion stays at its last event.
     fn advance_within(&mut self, limit: f64) -> Result<Option<Self::Record>, Error>;
 

@@ -7,7 +7,7 @@
 //! docs/numerics/motors.md.
 
 pub(crate) mod best_phase_lag;
-pub(crate) mod followed;
+pub(crate) mod coupled;
 mod member;
 pub(crate) mod of_motor;
 pub(crate) mod point;

@@ -85,6 +85,20 @@ impl Stator {
         Ok(Self::Yielding(Arc::new(system.without_law()?)))
     }
 
+    /// Whether friction acts back on the height: each rotor has a vertical motion of its own.
+    pub(crate) fn acts_back(&self) -> bool {
+        matches!(self, Self::Yielding(system) if system.twists())
+    }
+
+    /// Whether its tape takes much longer to record than to replay: all but rigid impacts on a sine.
+    pub(crate) fn takes_long(&self) -> bool {
+        match self {
+            Self::Sine => false,
+            Self::Driven(_) => true,
+            Self::Yielding(system) => !system.twists() && (system.yields() || system.takes_time()),
+        }
+    }
+
     /// How a rotor of this system is turned whose motion does not act back on the stator.
     pub(crate) fn rotor(&self, system: &DimensionlessSystem) -> TapedRotor {
         let (friction, load) = (system.friction(), system.load());

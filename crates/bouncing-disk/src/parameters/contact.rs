@@ -100,7 +100,7 @@ pub enum ContactLaw {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields, default, expecting = "the table contact"))]
 pub struct Contact {
-    /// How long an isolated impact lasts (s), positive; in place of all the rest. Below 1e-6 rad of the
+    /// How long an isolated impact on a platform that does not yield lasts (s), positive; in place of all the rest. Below 1e-6 rad of the
     /// platform's vibration impacts are rigid, with a warning.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub time: Option<f64>,

@@ -210,7 +210,7 @@ impl StatorEngine {
 }
 
 /// Whether a contact is where it was a period before, but for the angle and the speed of the disk.
-fn repeats(before: &State, after: &State) -> bool {
+pub(super) fn repeats(before: &State, after: &State) -> bool {
     let size = after[..ANGLE].iter().fold(1.0, |size: f64, value| size.max(value.abs()));
     (0..ANGLE).all(|index| (after[index] - before[index]).abs() <= SAME * size)
 }

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use super::contact::repeats;
 use super::record::{Crossing, Launch, SAME, StatorEngine, StatorRecord, StatorState, closing, first_sign};
 use super::regime::{
     ANGLE, CLOSING, COS, ContactStiffness, DISPLACEMENTS, GAP, N, ONE, Regime, SIN, SPEED, State, VELOCITIES,
@@ -183,11 +184,15 @@ impl StatorEngine {
     }
 
     /// Moves a disk that lies for ever by whole periods, in which all repeats but the angle and a speed that drifts; the
-    /// energies of one of them. `None` where it does not lie for ever, or a load changes with a speed that drifts.
+    /// energies of one of them. `None` where it does not lie for ever, has not settled yet, or a load changes with a speed
+    /// that drifts.
     pub(crate) fn skip_periods(&mut self, periods: u64) -> Option<StatorRecord> {
         let Stage::Lying(Lying { end: None, .. }) = self.stage else { return None };
         let mut after = self.clone();
         let record = after.pause(TAU);
+        if !repeats(&self.state, &after.state) {
+            return None;
+        }
         let mut gained = after.state[SPEED] - self.state[SPEED];
         if gained.abs() <= SAME * (1.0 + self.state[SPEED].abs()) {
             gained = 0.0;
@@ -307,8 +312,6 @@ impl Motion for StatorEngine {
 }
 
 impl SteeredMotion for StatorEngine {
-    const YIELDS: bool = true;
-
     fn advance_within(&mut self, limit: f64) -> Result<Option<StatorRecord>, Error> {
         let next = match self.stage {
             Stage::Flight(launch) => {

@@ -44,7 +44,7 @@ pub(crate) fn taps() -> Result<Vec<String>, Error> {
         }
     }
     let mut all = one("run-ups with taps", run_ups, 0x1956_895a_62f8_de14);
-    all.extend(one("taps", numbers, 0x7229_cfb2_1693_f7c7));
+    all.extend(one("taps", numbers, 0xa9aa_992f_71e1_0694));
     Ok(all)
 }
 
@@ -60,7 +60,7 @@ pub(crate) fn run_ups_on_stators() -> Result<Vec<String>, Error> {
         ..axial
     };
     let fan = LoadLaw::new(&[0.0, 10.0], &[0.0, 1e-6])?.with_drive(0.0, 0.02)?;
-    let mut numbers = Vec::new();
+    let (mut rigid, mut soft) = (Vec::new(), Vec::new());
     for (stator, speed, contact_time, load) in [
         (axial, Some(30.0), None, None),
         (twisting, None, None, Some(fan)),
@@ -73,10 +73,13 @@ pub(crate) fn run_ups_on_stators() -> Result<Vec<String>, Error> {
         })?;
         let motor = motor.with(|sheet| sheet.contact = contact_time.map(Contact::lasting))?;
         let (curve, amplitudes) = motor.run_up(Phase::new(1.0)?, &starting(0.03), &Unobserved)?;
+        let numbers = if contact_time.is_some() { &mut soft } else { &mut rigid };
         numbers.extend(curve.times.iter().chain(&curve.speeds).chain(&amplitudes));
         numbers.extend([curve.impacts as f64, curve.separations as f64]);
     }
-    Ok(one("run-ups on stators", numbers, 0xc8d4_f580_12a6_cee1))
+    let mut all = one("run-ups on stators with rigid impacts", rigid, 0x58ba_74cb_327b_a8e2);
+    all.extend(one("run-ups on stators with compliant contacts", soft, 0x2436_584f_8ec1_438a));
+    Ok(all)
 }
 
 fn add_rise(numbers: &mut Vec<f64>, rise: &RiseEstimate) {

@@ -109,7 +109,6 @@ fn draw(index: usize) -> Both {
         StatorKind::Axial => {}
     }
     let time = [None, Some(0.3), Some(1.0), Some(4.0)][index % 4];
-    let reduced = 1.0 / (1.0 / mass + 1.0 / axial.mass);
     let prescribed = kind == StatorKind::Axial;
     let turned = kind != StatorKind::AxialTwist;
     let sheet = MotorParameters {
@@ -141,7 +140,7 @@ fn draw(index: usize) -> Both {
         friction,
         restitution,
         load,
-        spring: time.map(|time| spring(reduced, time / frequency, restitution)),
+        spring: time.map(|time| spring(mass, time / frequency, restitution)),
         steps: 100,
         impulses: if turned { 50.0 } else { 800.0 },
         kick: KICK * GRAVITY / omega,

@@ -36,8 +36,9 @@ impl OperationArgs {
 /// The load torque that stops the motor
 #[derive(Debug, Args)]
 #[command(after_help = "\
-The true stall: the load torque at which the mean speed vanishes, not the paper's estimate from the run-up without load \
-(`bouncing-disk fit` has that one). Errors are standard errors at exactly these inputs; the spread is over motors whose \
+The true stall: the load torque at which the mean speed of the free rotor vanishes, not the paper's estimate from the \
+run-up without load (`bouncing-disk fit` has that one). The blocked torque is the mean torque on a rotor that is held at \
+rest; a free rotor swings about its mean speed and stops under another load. Errors are standard errors at exactly these inputs; the spread is over motors whose \
 preload and amplitude lie within the tolerance, and the relaunch perturbation within a decade. See \
 docs/designing-a-motor.md.
 
@@ -62,6 +63,14 @@ pub(super) fn stall(args: &StallArgs, context: Context) -> Result<()> {
     let mut list = Quantities::default();
     list.push("stall_torque", stall.torque.value, "N m");
     list.push("stall_torque_error", stall.torque.standard_error, "N m");
+    if let Some(blocked) = stall.blocked_torque {
+        list.push("blocked_torque", blocked.value, "N m");
+        list.push("blocked_torque_error", blocked.standard_error, "N m");
+    }
+    for other in &stall.others {
+        list.push("coexisting_stall_torque", other.torque.value, "N m");
+        list.push("coexisting_stall_torque_error", other.torque.standard_error, "N m");
+    }
     if let Some(spread) = spread {
         list.push("spread", spread.standard_deviation.value, "N m");
         list.push("spread_error", spread.standard_deviation.standard_error, "N m");

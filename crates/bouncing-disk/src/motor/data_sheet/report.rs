@@ -1,5 +1,6 @@
 //! A check of a data sheet: its derived quantities, and the behaviour of the motor.
 
+use std::f64::consts::TAU;
 use std::fmt::{self, Display, Formatter};
 
 use bouncing_disk_core::Observer;
@@ -10,6 +11,7 @@ use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::regime::{MotorRegime, regime};
 use crate::motor::data_sheet::warning::MotorWarning;
 use crate::parameters::contact::estimate::ContactStatement;
+use crate::stator::StatorSystem;
 
 /// The derived quantities of a data sheet, and the behaviour of the motor ([`Motor::report`]). It prints as
 /// several lines.
@@ -105,6 +107,10 @@ pub struct StatorReport {
     /// The preload (N) from which on a rotor at rest is no longer lifted
     /// ([`StatorModes::lift_off_preload`](crate::parameters::StatorModes::lift_off_preload)); `None` also where contacts take time.
     pub lift_off_preload: Option<f64>,
+    /// The contact time of the sheet in periods of the drive: that of an isolated impact on a platform that does not yield.
+    pub contact_periods: Option<f64>,
+    /// The same on this stator, whose modes recoil, and the restitution there.
+    pub isolated_contact: Option<[f64; 2]>,
 }
 
 impl StatorReport {
@@ -118,6 +124,9 @@ impl StatorReport {
             ("current_without_rotor", self.current, "A"),
             ("power_without_rotor", self.power, "W"),
             ("lift_off_preload", self.lift_off_preload, "N"),
+            ("contact_time_over_period", self.contact_periods, "1"),
+            ("contact_time_on_this_stator_over_period", self.isolated_contact.map(|own| own[0]), "1"),
+            ("restitution_on_this_stator", self.isolated_contact.map(|own| own[1]), "1"),
         ];
         rows.into_iter().filter_map(|(name, value, unit)| Some((name, value?, unit)))
     }
@@ -130,6 +139,7 @@ impl Motor {
         let stator = self.stator()?;
         let electrical = stator.electrical_input_at(stator.motion().angular_frequency);
         let rigid = self.system().soft_contact().is_none();
+        let own = self.stator_motion().yielded();
         Some(StatorReport {
             motor: self.clone(),
             mass_ratio: stator.modes()[0].mass / self.mass(),
@@ -139,6 +149,10 @@ impl Motor {
             current: electrical.and_then(|input| input.current).map(|(amplitude, _)| amplitude),
             power: electrical.map(|input| input.power),
             lift_off_preload: stator.lift_off_preload(self.mass()).filter(|_| rigid),
+            contact_periods: own.and_then(|own| Some(own.contact_time()? / TAU)),
+            isolated_contact: own
+                .and_then(StatorSystem::isolated_contact)
+                .map(|[time, kept]| [time / TAU, kept]),
         })
     }
 }

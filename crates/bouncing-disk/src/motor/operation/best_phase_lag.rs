@@ -13,8 +13,15 @@ use crate::motor::operation::steady_run::{LoadedMotor, Operations, operate};
 /// Lags around the whole circle.
 const COARSE: usize = 32;
 
-/// Lags on either side of the best of these, up to its second neighbour.
-const FINE: usize = 16;
+/// Lags on either side of the best one, up to its second neighbours, in each further search.
+const FINE: usize = 8;
+
+/// Searches after the first, each with lags four times as near to each other, while the speed at the best lag differs by
+/// more than its error from the speeds beside it.
+const SEARCHES: usize = 4;
+
+/// The first search is at most so accurate.
+const ROUGH: f64 = 0.03;
 
 /// The phase lag at which a motor turns fastest forwards, under its load.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,56 +42,85 @@ pub(crate) fn best_phase_lag(
     settings: &OperatingSettings,
     observer: &dyn Observer,
 ) -> Result<BestPhaseLag, Error> {
-    let over = |lags: &[f64]| -> Result<Operations, Error> {
+    let over = |lags: &[f64], settings: &OperatingSettings| -> Result<Operations, Error> {
         let motors = lags.iter().map(|&lag| motor.with_phase_lag(lag)).collect::<Result<Vec<_>, _>>()?;
         operate(&motors, settings, observer)
     };
-    let step = TAU / COARSE as f64;
+    let rough = OperatingSettings { relative_error: settings.relative_error.max(ROUGH), ..*settings };
+    let mut step = TAU / COARSE as f64;
     let coarse: Vec<f64> = (0..COARSE).map(|k| k as f64 * step).collect();
-    let first = over(&coarse)?;
-    let Some((best, speed)) = fastest(&first) else { return Err(Error::Overpowered { load: motor.load() }) };
+    let first = over(&coarse, &motor.for_search(&rough))?;
+    let Some((index, speed)) = fastest(&first) else {
+        return Err(Error::Overpowered { load: motor.load() });
+    };
     if !motor.turns(speed) {
         return Err(Error::DoesNotTurn { speed: speed.value, standard_error: speed.standard_error });
     }
-    let offsets: Vec<f64> =
-        (0..=2 * FINE).map(|k| 2.0 * step * (k as f64 - FINE as f64) / FINE as f64).collect();
-    let fine: Vec<f64> = offsets.iter().map(|offset| coarse[best] + offset).collect();
-    let second = over(&fine)?;
-    // Each member has a parabola of its own through all its speeds: they share their perturbations.
-    let members = second.speeds[0].len();
-    let tops: Vec<(f64, f64)> = (0..members)
-        .map(|member| top(&offsets, |k| second.speeds[k][member]))
-        .map(|(offset, speed)| (offset.clamp(-2.0 * step, 2.0 * step), speed))
-        .collect();
-    let offset = Estimate::of(&tops.iter().map(|top| top.0).collect::<Vec<_>>())?;
-    let speed = Estimate::of(&tops.iter().map(|top| top.1).collect::<Vec<_>>())?;
-    let lag = coarse[best] + offset.value;
-    let mean = |k: usize| second.rows[k].point().map_or(f64::NEG_INFINITY, |point| point.speed.value);
-    // The fine lags inside, the coarse ones beyond them.
-    let mut means: Vec<(f64, f64)> = (0..offsets.len()).map(|k| (fine[k], mean(k))).collect();
-    for away in 3..=COARSE / 5 {
-        let coarse_mean = |k: usize| first.rows[k % COARSE].point().map(|point| point.speed.value);
-        let (up, down) = (best + away, best + COARSE - away);
-        means.push((coarse[best] + away as f64 * step, coarse_mean(up).unwrap_or(f64::NEG_INFINITY)));
-        means.push((coarse[best] - away as f64 * step, coarse_mean(down).unwrap_or(f64::NEG_INFINITY)));
+    let mut best = coarse[index];
+    // Lag and speed of all that is known, the coarse ones once for each turn of the circle next to the best.
+    let mean = |results: &Operations, k: usize| {
+        results.rows[k].point().map_or(f64::NEG_INFINITY, |point| point.speed.value)
+    };
+    let mut means: Vec<(f64, f64)> = Vec::new();
+    for turn in [-TAU, 0.0, TAU] {
+        means.extend(coarse.iter().enumerate().map(|(k, lag)| (lag + turn, mean(&first, k))));
     }
+    for _ in 0..SEARCHES {
+        let part = 2.0 * step / FINE as f64;
+        let offsets: Vec<f64> = (0..=2 * FINE).map(|k| part * (k as f64 - FINE as f64)).collect();
+        let lags: Vec<f64> = offsets.iter().map(|offset| best + offset).collect();
+        let found = over(&lags, &motor.for_search(settings))?;
+        // Each member has a parabola of its own through all its speeds: they share their perturbations.
+        let members = found.speeds[0].len();
+        let tops: Vec<f64> = (0..members)
+            .map(|member| top(&offsets, |k| found.speeds[k][member]).0.clamp(-2.0 * step, 2.0 * step))
+            .collect();
+        let offset = Estimate::of(&tops)?;
+        means.retain(|(lag, _)| (lag - best).abs() > 2.0 * step + 0.5 * part);
+        means.extend(lags.iter().enumerate().map(|(k, lag)| (*lag, mean(&found, k))));
+        // The top of a curve that is no parabola is near its largest value.
+        let Some((index, speed)) = fastest(&found) else { break };
+        let fits = top_fits(&offsets, |k| mean(&found, k), speed.standard_error.max(FLAT * speed.value));
+        if fits {
+            best += offset.value;
+            step = offset.standard_error;
+            break;
+        }
+        best = lags[index];
+        step = part;
+    }
+    let speed = match over(&[best], settings)?.rows[0].point() {
+        Some(point) => point.speed,
+        None => return Err(Error::Overpowered { load: motor.load() }),
+    };
     means.sort_by(|one, other| one.0.total_cmp(&other.0));
-    let centre = means.iter().rposition(|(other, _)| *other <= lag).unwrap_or(0);
     let least = 0.99 * speed.value;
-    let (mut low, mut high) = (lag, lag);
-    for (other, _) in means[..=centre].iter().rev().take_while(|(_, speed)| *speed >= least) {
-        low = *other;
-    }
-    for (other, _) in means[centre + 1..].iter().take_while(|(_, speed)| *speed >= least) {
-        high = *other;
-    }
-    let wrapped = wrapped_angle(lag);
-    let shift = if wrapped > PI { wrapped - TAU - lag } else { wrapped - lag };
+    let centre = means.partition_point(|(lag, _)| *lag <= best);
+    let last_good = |all: &mut dyn Iterator<Item = &(f64, f64)>| {
+        let good = all.take_while(|(lag, speed)| *speed >= least && (lag - best).abs() <= WIDEST);
+        good.last().map_or(best, |(lag, _)| *lag)
+    };
+    let low = last_good(&mut means[..centre].iter().rev());
+    let high = last_good(&mut means[centre..].iter());
+    let wrapped = wrapped_angle(best);
+    let shift = if wrapped > PI { wrapped - TAU - best } else { wrapped - best };
     Ok(BestPhaseLag {
-        phase_lag: Estimate { value: lag + shift, standard_error: offset.standard_error },
+        phase_lag: Estimate { value: best + shift, standard_error: step },
         speed,
         good_from_to: [low + shift, high + shift],
     })
+}
+
+/// Largest range of good lags on either side (rad).
+const WIDEST: f64 = TAU / 5.0;
+
+/// A curve is known well enough where this share of the speed is.
+const FLAT: f64 = 1.0e-4;
+
+/// Whether the least-squares parabola goes through all values within three of this error.
+fn top_fits(offsets: &[f64], value: impl Fn(usize) -> f64, error: f64) -> bool {
+    let parabola = Parabola::through(offsets, &value);
+    (0..offsets.len()).all(|k| (value(k) - parabola.at(offsets[k])).abs() <= 3.0 * error)
 }
 
 /// The index of the fastest motor, and its speed; `None` if all run away.
@@ -98,24 +134,43 @@ fn fastest(results: &Operations) -> Option<(usize, Estimate)> {
 /// Top (offset and height) of the least-squares parabola through values at offsets that are symmetric about
 /// zero; where it has none, the largest value.
 fn top(offsets: &[f64], value: impl Fn(usize) -> f64) -> (f64, f64) {
-    let count = offsets.len() as f64;
-    let square = offsets.iter().map(|x| x * x).sum::<f64>() / count;
-    let (mut mean, mut slope, mut curvature, mut fourth, mut second) = (0.0, 0.0, 0.0, 0.0, 0.0);
-    for (k, x) in offsets.iter().enumerate() {
-        let (y, even) = (value(k), x * x - square);
-        mean += y / count;
-        slope += x * y;
-        second += x * x;
-        curvature += even * y;
-        fourth += even * even;
-    }
-    let (slope, curvature) = (slope / second, curvature / fourth);
-    if curvature < 0.0 {
-        let offset = -0.5 * slope / curvature;
-        return (offset, mean + slope * offset + curvature * (offset * offset - square));
+    let parabola = Parabola::through(offsets, &value);
+    if parabola.curvature < 0.0 {
+        let offset = -0.5 * parabola.slope / parabola.curvature;
+        return (offset, parabola.at(offset));
     }
     let best = (0..offsets.len()).max_by(|one, other| value(*one).total_cmp(&value(*other))).unwrap_or(0);
     (offsets[best], value(best))
+}
+
+/// The least-squares parabola through values at offsets that are symmetric about zero.
+struct Parabola {
+    mean: f64,
+    slope: f64,
+    curvature: f64,
+    /// Mean square of the offsets.
+    square: f64,
+}
+
+impl Parabola {
+    fn through(offsets: &[f64], value: &impl Fn(usize) -> f64) -> Self {
+        let count = offsets.len() as f64;
+        let square = offsets.iter().map(|x| x * x).sum::<f64>() / count;
+        let (mut mean, mut slope, mut curvature, mut fourth, mut second) = (0.0, 0.0, 0.0, 0.0, 0.0);
+        for (k, x) in offsets.iter().enumerate() {
+            let (y, even) = (value(k), x * x - square);
+            mean += y / count;
+            slope += x * y;
+            second += x * x;
+            curvature += even * y;
+            fourth += even * even;
+        }
+        Self { mean, slope: slope / second, curvature: curvature / fourth, square }
+    }
+
+    fn at(&self, x: f64) -> f64 {
+        self.mean + self.slope * x + self.curvature * (x * x - self.square)
+    }
 }
 
 #[cfg(test)]

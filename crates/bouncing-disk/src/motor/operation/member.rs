@@ -5,24 +5,33 @@ use std::ops::RangeInclusive;
 
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::run::WorkCount;
+use bouncing_disk_core::sweep::{InstructionSet, LaneRunner};
 
 use crate::error::Error;
 use crate::motor::batch::members::starting_phase;
-use crate::motor::operation::followed::Followed;
+use crate::motor::operation::coupled::{Coupled, Left};
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::stator::Stator;
+use crate::motor::tape::cycle::Cycle;
 use crate::motor::tape::source::Source;
 use crate::motor::tape::taped::Taped;
 use crate::motor::tape::window::Window;
 use crate::parameters::dimensionless::DimensionlessSystem;
-use crate::stator::StatorEngine;
 
 /// An angular speed above which no rotor under a braking load stays, nor comes to: that of the platform, and
 /// what friction brakes in a period. Without friction a rotor keeps its speed, and starts at rest.
 pub(crate) fn far_above(system: &DimensionlessSystem) -> f64 {
-    let friction = system.friction();
+    far_from(system, 1.0)
+}
+
+/// The same of a rotor with so many times less inertia.
+fn far_from(system: &DimensionlessSystem, quicker: f64) -> f64 {
+    let friction = quicker * system.friction();
     if friction > 0.0 { system.twist_speed() + TAU * friction } else { 0.0 }
 }
+
+/// A rotor with so many times less inertia than another one shows how much less that one has matters.
+const TWICE: f64 = 2.0;
 
 /// Members are thrown up as fast as the platform moves at most, times this.
 const MOST_THROWN: f64 = 3.0;
@@ -42,46 +51,95 @@ fn golden_share(index: usize) -> f64 {
 pub(crate) enum Member {
     /// Rotors on the tape of a vertical motion.
     Taped(Box<Taped>),
-    /// Each rotor acts back on its stator.
-    Yielding(Box<Followed<StatorEngine>>),
+    /// A rotor that acts back on its stator.
+    Coupled(Box<Coupled>),
 }
 
 impl Member {
     /// The member of this `index` among so many as `settings` says. The first `bracketed` of the systems have
     /// two rotors, one from far below all steady speeds and one, behind those of all systems, from as far
-    /// above; the others start at rest. Each system has its stator, all of one kind.
+    /// above; the others start at rest. Each system has its stator, all of one kind. A rotor on a tape has so many times
+    /// less inertia than its motor (`quicker`); if some have, a third rotor of each of the first systems has half of
+    /// that.
     pub(crate) fn new(
         systems: &[DimensionlessSystem],
         stators: &[Stator],
         bracketed: usize,
         index: usize,
+        quicker: &[f64],
         settings: &OperatingSettings,
     ) -> Result<Self, Error> {
         let phase = starting_phase(settings.seed, index, settings.members)?;
         let seed = SplitMix64::seed_of_stream(settings.seed, index as u64);
         let perturbation = (settings.relaunch_perturbation, seed);
-        let from_below = |own| (own, if own < bracketed { -far_above(&systems[own]) } else { 0.0 });
-        let from_above = |own| (own, far_above(&systems[own]));
-        let starts: Vec<(usize, f64)> =
-            (0..systems.len()).map(from_below).chain((0..bracketed).map(from_above)).collect();
-        let thrown = is_thrown(index).then(|| MOST_THROWN * golden_share(index));
-        if let Some(source) = Source::new(&stators[0], &systems[0], (phase, thrown), perturbation)? {
-            let rotor = |&(motor, speed): &(usize, f64)| (stators[motor].rotor(&systems[motor]), speed);
-            return Ok(Self::Taped(Box::new(Taped::new(source, starts.iter().map(rotor)))));
+        if let Stator::Yielding(system) = &stators[0]
+            && stators[0].acts_back()
+        {
+            // No bound from both sides: each rotor has a vertical motion of its own.
+            let speed = if is_thrown(index) { far_above(&systems[0]) } else { 0.0 };
+            return Ok(Self::Coupled(Box::new(Coupled::new(system, phase, speed, perturbation)?)));
         }
-        let own = |&(motor, speed): &(usize, f64)| Some((stators[motor].yielded()?, speed));
-        Ok(Self::Yielding(Box::new(Followed::on_yielding(
-            starts.iter().filter_map(own),
-            phase,
-            perturbation,
-        )?)))
+        let far = |own: usize| far_from(&systems[own], quicker[own]);
+        let from_below = |own| (own, if own < bracketed { -far(own) } else { 0.0 }, quicker[own]);
+        let from_above = |own| (own, far(own), quicker[own]);
+        let mut starts: Vec<(usize, f64, f64)> =
+            (0..systems.len()).map(from_below).chain((0..bracketed).map(from_above)).collect();
+        if quicker.iter().any(|quicker| *quicker > 1.0) {
+            starts.extend((0..bracketed).map(|own| (own, 0.0, TWICE * quicker[own])));
+        }
+        let thrown = is_thrown(index).then(|| MOST_THROWN * golden_share(index));
+        let source = Source::new(&stators[0], &systems[0], (phase, thrown), perturbation)?;
+        let rotor = |&(motor, speed, quicker): &(usize, f64, f64)| {
+            (stators[motor].rotor(&systems[motor]), speed, quicker)
+        };
+        Ok(Self::Taped(Box::new(Taped::new(source, starts.iter().map(rotor)))))
     }
 
     /// Whether its motion was found to repeat itself.
     pub(crate) const fn repeats(&self) -> bool {
         match self {
             Self::Taped(member) => member.repeats(),
-            Self::Yielding(_) => false,
+            Self::Coupled(member) => member.repeats(),
+        }
+    }
+
+    /// The cycle that its motion repeats, if it was found to do so.
+    pub(crate) fn cycle(&mut self, work: &mut WorkCount<'_>) -> Result<Option<Cycle>, Error> {
+        match self {
+            Self::Taped(member) => member.cycle(work),
+            Self::Coupled(member) => member.cycle(work),
+        }
+    }
+
+    /// The rotors of a cycle in the order of this member's, whose speeds lie within these sizes.
+    pub(crate) fn on_cycle(&self, cycle: &Cycle, largest: &[f64]) -> [Window; 2] {
+        match self {
+            Self::Taped(member) => member.on_cycle(cycle, largest),
+            Self::Coupled(_) => cycle.windows(&[], &[], largest, &LaneRunner::new(InstructionSet::best())),
+        }
+    }
+
+    /// How long (rad) it was followed.
+    pub(crate) fn followed(&self) -> f64 {
+        match self {
+            Self::Taped(member) => member.followed,
+            Self::Coupled(member) => member.followed(),
+        }
+    }
+
+    /// Where the disk and a stator that yields are.
+    pub(crate) fn left(&self) -> Option<Left> {
+        match self {
+            Self::Taped(member) => member.left(),
+            Self::Coupled(member) => Some(member.left()),
+        }
+    }
+
+    /// Goes on from where another member was left, with its rotors at the speeds they have.
+    pub(crate) fn resume(&mut self, left: &Left) -> Result<(), Error> {
+        match self {
+            Self::Taped(member) => member.resume(left),
+            Self::Coupled(member) => member.resume(left),
         }
     }
 
@@ -95,7 +153,7 @@ impl Member {
     ) -> Result<Window, Error> {
         match self {
             Self::Taped(member) => member.next_window(duration, &impacts, work),
-            Self::Yielding(member) => member.general_window(duration, &impacts, true, work),
+            Self::Coupled(member) => member.next_window(duration, &impacts, work),
         }
     }
 }

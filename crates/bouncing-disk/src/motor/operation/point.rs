@@ -110,6 +110,12 @@ pub struct OperatingPoint {
     pub motion: AxialMotion,
     /// Mean angular speed (rad/s).
     pub speed: Estimate,
+    /// Standard deviation of the speed over time (rad/s); `None` for a rotor that acts back on its stator.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub speed_deviation: Option<Estimate>,
+    /// Mean torque (N m) of friction on a rotor that is held at rest; `None` for a rotor that acts back on its stator.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub blocked_torque: Option<Estimate>,
     /// Mechanical power, the mean of load torque times speed (W); negative where the load drives the motor.
     pub mechanical_power: Estimate,
     /// Power that the platform puts in by normal forces and by friction (W).

@@ -1,23 +1,33 @@
-//! The load that stops a motor, bracketed.
+//! The load that stops a motor, bracketed, and its torque at rest.
 
 use bouncing_disk_core::Observer;
 use bouncing_disk_core::numerics::elementary::hypot;
 
 use crate::error::Error;
-use crate::motor::operation::point::{Estimate, OperatingRow, Operation, Shortfall};
+use crate::motor::operation::point::{AxialMotion, Estimate, OperatingRow, Operation, Shortfall};
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::operation::steady_run::{LoadedMotor, operate};
 
-/// Steps of the load from zero to the largest mean torque of friction, and between the two loads that the
-/// first search leaves.
+/// Steps of the load from zero to the largest mean torque of friction.
 const STEPS: usize = 16;
+
+/// Parts into which a search divides the steps that the one before leaves, and most searches.
+const PARTS: usize = 6;
+const MOST_SEARCHES: u32 = 12;
+
+/// Loads on either side of the torque at rest in the first search.
+const NEIGHBOURS: i32 = 4;
+
+/// The first search is so many times less accurate than is asked for, and at most that.
+const COARSER: f64 = 4.0;
+const COARSEST: f64 = 0.05;
 
 /// The largest load tried, as a share of the largest torque: closer to it the remaining friction settles a
 /// speed too slowly.
 const NEAREST: f64 = 1.0 - 1.0 / 64.0;
 
 /// A stall load below this part of the largest torque counts as zero: the ripple of a speed within a period
-/// is as large.
+/// is as large. Steps need not be smaller either.
 const LEAST: f64 = 1e-5;
 
 /// The width of an even distribution over its standard deviation, the root of 12.
@@ -29,9 +39,11 @@ const SIGNIFICANT: f64 = 3.0;
 /// The load torque at which the mean speed of a motor vanishes: the true stall, not the paper's alpha_ss/t_c
 /// ([`ExponentialFit::stall_acceleration`](crate::estimate::ExponentialFit::stall_acceleration)), which is an
 /// estimate from the transient without load.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct StallLoad {
+    /// How the rotor moves up and down.
+    pub motion: AxialMotion,
     /// The torque (N m), with the sign of a load: a positive one stops a positive rotation. Its error is that
     /// at exactly these inputs: [`Motor::stall_spread`](crate::Motor::stall_spread) gives its spread over
     /// their tolerances.
@@ -42,8 +54,13 @@ pub struct StallLoad {
     /// speed, and under the second it is surely driven back. The second is mu m g a_e if no smaller one
     /// surely does this.
     pub bracket: [f64; 2],
+    /// The mean torque (N m) on a rotor that is held at rest. A free rotor swings about its mean speed and stops under
+    /// another load. `None` for a rotor that acts back on its stator.
+    pub blocked_torque: Option<Estimate>,
     /// The mean speed without load (rad/s).
     pub no_load_speed: Estimate,
+    /// The same for motions that coexist with this one.
+    pub others: Vec<Self>,
 }
 
 /// The stall load of a motor, whatever the load of its data sheet.
@@ -52,78 +69,182 @@ pub(crate) fn stall_load(
     settings: &OperatingSettings,
     observer: &dyn Observer,
 ) -> Result<StallLoad, Error> {
-    let largest = motor.largest_torque();
-    let under = |shares: &[f64]| {
-        let motors =
-            shares.iter().map(|share| motor.with_load(share * largest)).collect::<Result<Vec<_>, _>>()?;
-        operate(&motors, settings, observer)
-    };
-    // Which way it turns is not known before.
-    let shares: Vec<f64> =
-        (0..2 * STEPS - 1).map(|k| (k as f64 - (STEPS - 1) as f64) / STEPS as f64).collect();
-    let first = under(&shares)?;
-    let unloaded = speed_of(&first.rows[STEPS - 1]);
-    check_settled(&first.rows[STEPS - 1..STEPS])?;
-    if !motor.turns(unloaded) || largest <= 0.0 {
-        let Estimate { value: speed, standard_error } = unloaded;
-        return Err(Error::DoesNotTurn { speed, standard_error });
+    let unloaded = operate(&[motor.with_load(0.0)?], settings, observer)?;
+    let unloaded = &unloaded.rows[0];
+    check_settled(unloaded.operation())?;
+    let speed = speed_of(unloaded.operation());
+    if !motor.turns(speed) || motor.largest_torque() <= 0.0 {
+        return Err(Error::DoesNotTurn { speed: speed.value, standard_error: speed.standard_error });
     }
-    let sign = 1.0_f64.copysign(unloaded.value);
-    // Steps away from no load, in the direction that brakes.
-    let braked = |step: usize| if sign > 0.0 { STEPS - 1 + step } else { STEPS - 1 - step };
-    let turns = |row: &OperatingRow| sign * speed_of(row).value > 0.0;
-    let last = (0..STEPS).take_while(|&step| turns(&first.rows[braked(step)])).last().unwrap_or(0);
-    let (low, high) = (last as f64 / STEPS as f64, (last + 1) as f64 / STEPS as f64);
-    // One step more on either side, for a bracket that is sure.
-    let step = (high - low) / STEPS as f64;
-    let mut fine: Vec<f64> =
-        (0..=STEPS + 2).map(|k| (low + step * (k as f64 - 1.0)).clamp(0.0, NEAREST)).collect();
-    fine.dedup();
-    let second = under(&fine.iter().map(|share| sign * share).collect::<Vec<_>>())?;
-    let speeds: Vec<Estimate> = second.rows.iter().map(speed_of).collect();
-    let sure = |estimate: &Estimate, sign: f64| sign * estimate.value > SIGNIFICANT * estimate.standard_error;
-    let below = speeds.iter().rposition(|speed| sure(speed, sign)).unwrap_or(0);
-    let above = speeds.iter().position(|speed| sure(speed, -sign));
-    let found = |share: Estimate, bracket: [f64; 2]| StallLoad {
-        torque: Estimate {
-            value: sign * share.value * largest,
-            standard_error: share.standard_error * largest,
-        },
-        share: sign * share.value,
-        bracket: bracket.map(|share| sign * share * largest),
-        no_load_speed: unloaded,
-    };
-    if above.is_none() && high > NEAREST {
-        // No load that was tried surely drives it back, and beyond the largest torque each does. A motor that
-        // still gains speed at the last load turns all the same.
-        if let Operation::Unsettled(point, Shortfall::Drift { drift, .. }) = second.rows[below].operation()
+    let mut found = Search { motor, settings, observer, branch: 0 }.run(unloaded)?;
+    // Where rotors act back, the motions under one load are not those under another one.
+    let branches = if motor.stator.acts_back() { 1 } else { unloaded.branches.len() };
+    for branch in 1..branches {
+        if motor.turns(speed_of(&unloaded.branches[branch])) {
+            found.others.push(Search { motor, settings, observer, branch }.run(unloaded)?);
+        }
+    }
+    Ok(found)
+}
+
+/// The search for the load under which a branch has no mean speed.
+struct Search<'a> {
+    motor: &'a LoadedMotor<'a>,
+    settings: &'a OperatingSettings,
+    observer: &'a dyn Observer,
+    branch: usize,
+}
+
+impl Search<'_> {
+    /// The operation of the branch in a row; the first one if it has no such branch.
+    fn of<'a>(&self, row: &'a OperatingRow) -> &'a Operation {
+        row.branches.get(self.branch).unwrap_or_else(|| row.operation())
+    }
+
+    /// The operations under loads that are these shares of the largest torque.
+    fn under(&self, shares: &[f64], settings: &OperatingSettings) -> Result<Vec<Operation>, Error> {
+        let largest = self.motor.largest_torque();
+        let motors: Vec<_> =
+            shares.iter().map(|share| self.motor.with_load(share * largest)).collect::<Result<_, _>>()?;
+        Ok(operate(&motors, settings, self.observer)?.rows.iter().map(|row| *self.of(row)).collect())
+    }
+
+    fn run(&self, unloaded: &OperatingRow) -> Result<StallLoad, Error> {
+        let largest = self.motor.largest_torque();
+        let point = self.of(unloaded).point();
+        let no_load_speed = speed_of(self.of(unloaded));
+        let sign = 1.0_f64.copysign(no_load_speed.value);
+        let turns = |operation: &Operation| sign * speed_of(operation).value > 0.0;
+        let braked = |shares: &[f64]| shares.iter().map(|share| sign * share).collect::<Vec<f64>>();
+
+        let rough = (COARSER * self.settings.relative_error).min(COARSEST).max(self.settings.relative_error);
+        let rough = OperatingSettings { relative_error: rough, ..*self.settings };
+        let settings = self.motor.for_search(self.settings);
+        // The torque on a rotor at rest is near the load that stops a free one, and is it for a slow one.
+        let mut step = 1.0 / STEPS as f64;
+        let near = point.and_then(|point| point.blocked_torque).map(|torque| sign * torque.value / largest);
+        let mut shares: Vec<f64> = match near {
+            Some(near) => {
+                step *= 0.5;
+                let around =
+                    (-NEIGHBOURS..=NEIGHBOURS).map(|k| (near + step * f64::from(k)).clamp(0.0, NEAREST));
+                around.collect()
+            }
+            None => (1..STEPS).map(|k| k as f64 * step).collect(),
+        };
+        shares.dedup();
+        let first = self.under(&braked(&shares), &self.motor.for_search(&rough))?;
+        let last = first.iter().take_while(|operation| turns(operation)).count();
+        let sure = |operation: &Operation, sign: f64| {
+            let speed = speed_of(operation);
+            sign * speed.value > SIGNIFICANT * speed.standard_error
+        };
+        if last == first.len() && shares[last - 1] >= NEAREST && sure(&first[last - 1], sign) {
+            return self.beyond(&shares, &first, no_load_speed, unloaded);
+        }
+        let mut known: Vec<(f64, Operation)> = shares.iter().copied().zip(first).collect();
+        let mut low = last.checked_sub(1).map_or((shares[0] - step).max(0.0), |last| shares[last]);
+        let (mut operations, mut place);
+        let mut searches = 0;
+        let share = loop {
+            searches += 1;
+            // One part more on either side, for a bracket that is sure.
+            let part = step / PARTS as f64;
+            shares = (0..PARTS + 3)
+                .map(|k| (low + part * (k as f64 - 1.0)).clamp(0.0, NEAREST))
+                .collect::<Vec<_>>();
+            shares.dedup();
+            operations = self.under(&braked(&shares), &settings)?;
+            known.extend(shares.iter().copied().zip(operations.iter().copied()));
+            place = operations.iter().take_while(|operation| turns(operation)).count();
+            if place == operations.len() {
+                if shares[place - 1] >= NEAREST {
+                    return self.beyond(&shares, &operations, no_load_speed, unloaded);
+                }
+                low = shares[place - 1];
+                step = (2.0 * step).min(1.0 - low);
+            } else if place == 0 {
+                if shares[0] <= 0.0 {
+                    break Estimate { value: 0.0, standard_error: shares[1] };
+                }
+                let high = shares[0];
+                low = (high - 2.0 * step).max(0.0);
+                step = high - low;
+            } else {
+                let (from, to) = (shares[place - 1], shares[place]);
+                let [before, after] = [place - 1, place].map(|k| speed_of(&operations[k]));
+                let fall = (before.value - after.value).abs();
+                let part = before.value.abs() / fall;
+                let value = from + part * (to - from);
+                // The speeds share their perturbations: all lines of a member move together.
+                let error = (1.0 - part) * before.standard_error + part * after.standard_error;
+                let known = error / fall * (to - from);
+                let bend =
+                    unresolved(|k| speed_of(&operations[k]).value, operations.len(), place - 1) * (to - from);
+                let is_known = bend <= known.max(LEAST);
+                if is_known || searches >= MOST_SEARCHES {
+                    break Estimate { value, standard_error: hypot(known, bend) };
+                }
+                (low, step) = (from, to - from);
+            }
+            if searches >= MOST_SEARCHES {
+                let Estimate { value: speed, standard_error } = speed_of(&operations[0]);
+                return Err(Error::NotSettled { speed, standard_error });
+            }
+        };
+        if share.value <= share.standard_error.max(LEAST) {
+            let Estimate { value: speed, standard_error } = no_load_speed;
+            return Err(Error::DoesNotTurn { speed, standard_error });
+        }
+        let is = |sign: f64| known.iter().filter(move |(_, one)| sure(one, sign)).map(|(share, _)| *share);
+        let below = is(sign).filter(|at| *at < share.value).fold(0.0, f64::max);
+        let above = is(-sign).filter(|at| *at > share.value).fold(1.0, f64::min);
+        check_settled(&operations[place - 1])?;
+        check_settled(&operations[place.min(operations.len() - 1)])?;
+        Ok(StallLoad {
+            motion: point.map_or(AxialMotion::Contact, |point| point.motion),
+            torque: Estimate {
+                value: sign * share.value * largest,
+                standard_error: share.standard_error * largest,
+            },
+            share: sign * share.value,
+            bracket: [below, above].map(|share| sign * share * largest),
+            blocked_torque: point.and_then(|point| point.blocked_torque),
+            no_load_speed,
+            others: Vec::new(),
+        })
+    }
+
+    /// No load that was tried surely drives the rotor back, and beyond the largest torque each does. A motor that
+    /// still gains speed at the last load turns all the same.
+    fn beyond(
+        &self,
+        shares: &[f64],
+        operations: &[Operation],
+        no_load_speed: Estimate,
+        unloaded: &OperatingRow,
+    ) -> Result<StallLoad, Error> {
+        let (largest, sign) = (self.motor.largest_torque(), 1.0_f64.copysign(no_load_speed.value));
+        let last = operations.len() - 1;
+        if let Operation::Unsettled(point, Shortfall::Drift { drift, .. }) = &operations[last]
             && sign * drift < 0.0
         {
             let Estimate { value: speed, standard_error } = point.speed;
             return Err(Error::NotSettled { speed, standard_error });
         }
-        let bracket = [fine[below], 1.0];
+        let bracket = [shares[last], 1.0];
         let [value, standard_error] = [0.5 * (bracket[0] + 1.0), (1.0 - bracket[0]) / EVEN];
-        return Ok(found(Estimate { value, standard_error }, bracket));
+        let point = self.of(unloaded).point();
+        Ok(StallLoad {
+            motion: point.map_or(AxialMotion::Contact, |point| point.motion),
+            torque: Estimate { value: sign * value * largest, standard_error: standard_error * largest },
+            share: sign * value,
+            bracket: bracket.map(|share| sign * share * largest),
+            blocked_torque: point.and_then(|point| point.blocked_torque),
+            no_load_speed,
+            others: Vec::new(),
+        })
     }
-    let above = above.unwrap_or(fine.len() - 1);
-    let (below, above) = (below.min(above.saturating_sub(1)), above.max(1));
-    check_settled(&second.rows[below..=above])?;
-    // Each member crosses zero for itself, on the straight line through its own speeds: they share their
-    // perturbations.
-    let members = second.speeds[below].len();
-    let crossings: Vec<f64> = (0..members)
-        .map(|member| crossing(&fine, |k| sign * second.speeds[k][member], (below, above)))
-        .collect();
-    let mut share = Estimate::of(&crossings)?;
-    if above - below == 1 {
-        let unresolved = unresolved(|k| speeds[k].value, speeds.len(), below) * (fine[above] - fine[below]);
-        share.standard_error = hypot(share.standard_error, unresolved);
-    }
-    if share.value <= share.standard_error.max(LEAST) {
-        return Err(Error::DoesNotTurn { speed: unloaded.value, standard_error: unloaded.standard_error });
-    }
-    Ok(found(share, [fine[below], fine[above]]))
 }
 
 /// The error of the straight line between two neighbouring loads, as a share of their distance: nearly zero
@@ -155,52 +276,21 @@ pub(crate) fn stall_share(shares: &[f64], speed: impl Fn(usize) -> f64) -> (f64,
     }
 }
 
-/// Refuses speeds that still drift: no standard error contains the remainder of a start-up, so that of a load
+/// Refuses a speed that still drifts: no standard error contains the remainder of a start-up, so that of a load
 /// from such speeds would be too small.
-fn check_settled(rows: &[OperatingRow]) -> Result<(), Error> {
-    let drifting = rows.iter().find_map(|row| match row.operation() {
-        Operation::Unsettled(point, Shortfall::Drift { .. }) => Some(point.speed),
-        _ => None,
-    });
-    match drifting {
-        Some(Estimate { value: speed, standard_error }) => Err(Error::NotSettled { speed, standard_error }),
-        None => Ok(()),
+fn check_settled(operation: &Operation) -> Result<(), Error> {
+    match operation {
+        Operation::Unsettled(point, Shortfall::Drift { .. }) => {
+            let Estimate { value: speed, standard_error } = point.speed;
+            Err(Error::NotSettled { speed, standard_error })
+        }
+        _ => Ok(()),
     }
 }
 
 const NO_SPEED: Estimate = Estimate { value: 0.0, standard_error: f64::INFINITY };
 
 /// The speed of a steady motor; no load here makes a motor run away.
-fn speed_of(row: &OperatingRow) -> Estimate {
-    row.point().map_or(NO_SPEED, |point| point.speed)
-}
-
-/// Where the least-squares line through the speeds at the shares from one index to another vanishes.
-pub(crate) fn crossing(shares: &[f64], speed: impl Fn(usize) -> f64, (from, to): (usize, usize)) -> f64 {
-    let count = (to - from + 1) as f64;
-    let (mut x, mut y) = (0.0, 0.0);
-    for (k, share) in shares.iter().enumerate().take(to + 1).skip(from) {
-        x += share;
-        y += speed(k);
-    }
-    let (x, y) = (x / count, y / count);
-    let (mut square, mut product) = (0.0, 0.0);
-    for (k, share) in shares.iter().enumerate().take(to + 1).skip(from) {
-        square += (share - x) * (share - x);
-        product += (share - x) * (speed(k) - y);
-    }
-    x - y * square / product
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_line_vanishes_where_it_does() {
-        let shares = [0.1, 0.2, 0.3, 0.4, 0.5];
-        let of = |k: usize| 3.0 - 10.0 * shares[k];
-        assert!((crossing(&shares, of, (0, 4)) - 0.3).abs() < 1e-15);
-        assert!((crossing(&shares, of, (3, 4)) - 0.3).abs() < 1e-14);
-    }
+fn speed_of(operation: &Operation) -> Estimate {
+    operation.point().map_or(NO_SPEED, |point| point.speed)
 }

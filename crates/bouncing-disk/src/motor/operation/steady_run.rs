@@ -4,12 +4,12 @@ use std::f64::consts::TAU;
 
 use bouncing_disk_core::Observer;
 use bouncing_disk_core::numerics::statistics::{NORMAL_975, mean};
-use bouncing_disk_core::run::Watch;
+use bouncing_disk_core::run::{Watch, in_parallel};
 
 use crate::driven::DrivenSystem;
 use crate::error::{Error, check, finite, positive, within_limit};
 use crate::motor::batch::shared_orbit::shared_by;
-use crate::motor::operation::followed::Left;
+use crate::motor::operation::coupled::Left;
 use crate::motor::operation::member::{Member, far_above, is_thrown};
 use crate::motor::operation::point::{
     AxialMotion, Estimate, Life, OperatingPoint, OperatingRow, Operation, Shortfall, StatorPoint,
@@ -28,6 +28,23 @@ use crate::stator::{StatorLedger, StatorSystem};
 /// Windows of the first round, and windows in the time in which friction gives the platform's largest speed.
 const FIRST_WINDOWS: usize = 12;
 const WINDOWS_OF_RISE: f64 = 2.0;
+
+/// A slow rotor has less inertia than its motor, so that its rise takes no more periods than this, times the platform's
+/// largest speed P (the length of flights), over the requested error or this one, whichever is smaller. The speed is then
+/// off by a third of the requested error.
+const PERIODS_OF_RISE: f64 = 0.3;
+const LOOSE: f64 = 0.01;
+
+/// The length of the shortest run, and the inertia of its rotors.
+const SHORTEST: (f64, f64) = (1.0, 1.0);
+
+/// If the speed of rotors with half their inertia differs by more than this share of the requested error, they get so
+/// many times more.
+const INERTIA_SHARE: f64 = 0.6;
+const SLOWER: f64 = 4.0;
+
+/// Most times less.
+const QUICKEST: f64 = 1.0e6;
 
 /// With more windows, two and two become one.
 const MOST_WINDOWS: usize = 128;
@@ -56,6 +73,9 @@ const MOST_STARTS: usize = 3;
 
 /// More cycles than this are a family: each start keeps its own.
 const MOST_CYCLES: usize = 6;
+
+/// Members of one motor of a search.
+const FEWEST: usize = 4;
 
 /// Windows that each of the members leaves out as its start-up if some end.
 const START_UP: usize = FIRST_WINDOWS / 2;
@@ -150,6 +170,13 @@ impl LoadedMotor<'_> {
         speed.value.abs() > (4.0 * speed.standard_error).max(rounding)
     }
 
+    /// Settings for one of many motors among which something is searched: fewer members where each has a motion of its
+    /// own.
+    pub(crate) fn for_search(&self, settings: &OperatingSettings) -> OperatingSettings {
+        let members = if self.stator.acts_back() { FEWEST } else { settings.members };
+        OperatingSettings { members: members.min(settings.members), ..*settings }
+    }
+
     /// The largest mean torque of friction, mu m g a_e (N m).
     pub(crate) fn largest_torque(&self) -> f64 {
         let disk = self.system.disk();
@@ -204,8 +231,9 @@ pub(crate) struct Operations {
     pub(crate) speeds: Vec<Vec<f64>>,
     /// Those of rotors from far above: the difference bounds the remainder of the start-up.
     pub(crate) speeds_from_above: Vec<Vec<f64>>,
-    /// How long each member was followed, in units of the shortest run.
-    pub(crate) length: f64,
+    /// How long each member was followed, in units of the shortest run, and how many times more inertia than in the first
+    /// run the rotors had.
+    pub(crate) length: (f64, f64),
 }
 
 /// The steady operation of motors that share one vertical motion. The errors are relative to the largest
@@ -234,8 +262,8 @@ pub(crate) fn curve_of(
     Ok(operate(&motors, settings, observer)?.rows)
 }
 
-/// Where the two rotors of each member of an ensemble of one motor were left (SI).
-pub(crate) type Ends = Vec<[Left; 2]>;
+/// Where the members of an ensemble of one motor were left (SI).
+pub(crate) type Ends = Vec<Left>;
 
 /// The steady operation of a motor from where another one was left, and where it is left; none of a runaway, and
 /// of a stator that does not yield.
@@ -252,7 +280,7 @@ pub(crate) fn continued(
 /// [`operate`] with members that are followed for exactly this length, however well the speeds are then
 /// known; the settings may have fewer members than is legal elsewhere.
 pub(crate) fn operate_for(
-    length: Option<f64>,
+    length: Option<(f64, f64)>,
     motors: &[LoadedMotor<'_>],
     settings: &OperatingSettings,
     observer: &dyn Observer,
@@ -261,7 +289,7 @@ pub(crate) fn operate_for(
 }
 
 fn operate_from(
-    length: Option<f64>,
+    length: Option<(f64, f64)>,
     motors: &[LoadedMotor<'_>],
     from: Option<&Ends>,
     settings: &OperatingSettings,
@@ -287,25 +315,59 @@ fn operate_from(
         rows: Vec::new(),
         speeds: Vec::new(),
         speeds_from_above: Vec::new(),
-        length: length.unwrap_or(1.0),
+        length: length.unwrap_or(SHORTEST),
     };
-    let mut ends = None;
-    let mut known = if asked > 0 {
+    let (mut ends, mut known) = (None, Vec::new());
+    let (is_timed, length_of_all) = (length.is_some(), length.unwrap_or(SHORTEST).0);
+    if asked > 0 {
         let watch = Watch::begin(observer, 0, settings.most_impacts)?;
-        let mut run = SteadyRun::new(length.unwrap_or(1.0), carried, asked, from, settings)?;
-        let first = run.duration;
-        match length {
-            Some(_) => run.extend(FIRST_WINDOWS, &watch)?,
-            None => run.compute(settings, &watch)?,
+        let run = |motors: Vec<LoadedMotor<'_>>, asked: usize, reference: Option<f64>| {
+            let (length, mut slower) = length.unwrap_or(SHORTEST);
+            let (run, first) = loop {
+                let mut run = SteadyRun::new((length, slower), motors.clone(), asked, from, settings)?;
+                run.reference = reference;
+                let first = run.duration;
+                if is_timed {
+                    run.extend(FIRST_WINDOWS, &watch)?;
+                } else {
+                    run.compute(settings, &watch)?;
+                }
+                if is_timed || !run.is_too_quick() {
+                    break (run, first);
+                }
+                slower *= SLOWER;
+            };
+            let longer = run.duration / first * run.windows() as f64 / FIRST_WINDOWS as f64;
+            Ok::<_, Error>((run.results()?, (longer, slower), run.ends(), run.scale()))
+        };
+        if motors[0].stator.acts_back() {
+            // Each has a motion of its own. The errors are relative to the speed of the first one without load.
+            let unloaded = carried.iter().position(LoadedMotor::is_unloaded).unwrap_or(0);
+            let (of_unloaded, longer, left, scale) = run(vec![carried[unloaded]], 1, None)?;
+            results.length = (length_of_all * longer.0, longer.1);
+            let others: Vec<usize> = (0..asked).filter(|index| *index != unloaded).collect();
+            let all = in_parallel(others.len(), |index| run(vec![carried[others[index]]], 1, Some(scale)));
+            let mut found: Vec<Option<MotorResult>> = (0..asked).map(|_| None).collect();
+            ends = left.filter(|_| unloaded < asked);
+            for (index, one) in others.into_iter().zip(all) {
+                let (one, longer, left, _) = one?;
+                let longer = (length_of_all * longer.0, longer.1);
+                results.length = (results.length.0.max(longer.0), results.length.1.max(longer.1));
+                ends = ends.or(left);
+                found[index] = one.into_iter().next();
+            }
+            if unloaded < asked {
+                found[unloaded] = of_unloaded.into_iter().next();
+            }
+            known = found.into_iter().flatten().collect();
+        } else {
+            let (found, longer, left, _) = run(carried, asked, None)?;
+            results.length = (length_of_all * longer.0, longer.1);
+            (known, ends) = (found, left);
         }
-        results.length *= run.duration / first * run.windows() as f64 / FIRST_WINDOWS as f64;
         watch.end();
-        ends = run.ends();
-        run.results()?
-    } else {
-        Vec::new()
     }
-    .into_iter();
+    let mut known = known.into_iter();
     for motor in motors {
         // Each motor that does not run away has a result.
         let (row, speeds, above) = if motor.runs_away() { None } else { known.next() }.unwrap_or_else(|| {
@@ -354,17 +416,21 @@ struct SteadyRun<'a> {
     irregular: f64,
     ended: u64,
     /// Where those of the first members were left that repeat themselves.
-    left: Vec<(usize, [Left; 2])>,
+    left: Vec<(usize, Left)>,
     /// Members begun so far, and the most.
     begun: usize,
     most_begun: usize,
     stators: Vec<Stator>,
+    /// How many times less inertia the rotors have than their motors.
+    quicker: Vec<f64>,
     settings: OperatingSettings,
     /// Duration of a window (rad) and its least impacts.
     duration: f64,
     least_impacts: u64,
     /// Most impacts of a window.
     most_impacts: u64,
+    /// The speed (rad/s) that errors are relative to, if it is known already.
+    reference: Option<f64>,
     /// What each rotor still lacks, and the requested error (rad/s).
     shortfalls: Vec<Option<Shortfall>>,
     wanted: f64,
@@ -372,7 +438,7 @@ struct SteadyRun<'a> {
 
 impl<'a> SteadyRun<'a> {
     fn new(
-        length: f64,
+        (length, slower): (f64, f64),
         motors: Vec<LoadedMotor<'a>>,
         asked: usize,
         from: Option<&Ends>,
@@ -381,29 +447,30 @@ impl<'a> SteadyRun<'a> {
         let systems = motors.iter().map(LoadedMotor::dimensionless).collect::<Result<Vec<_>, Error>>()?;
         let stators = motors.iter().map(|motor| motor.stator.for_motor(&motor.system));
         let stators = stators.collect::<Result<Vec<_>, Error>>()?;
+        let rise = |system: &DimensionlessSystem| {
+            if system.friction() > 0.0 { system.twist_speed() / system.friction() } else { 0.0 }
+        };
+        // A slow rotor needs less time with less inertia, which hardly matters. Rigid impacts on a sine take no longer to
+        // record than to replay.
+        let peak = systems[0].peak_acceleration().max(1.0);
+        let longest = slower * TAU * PERIODS_OF_RISE * peak / settings.relative_error.min(LOOSE);
+        let takes_long = stators[0].takes_long();
+        let less = |system| if takes_long { (rise(system) / longest).clamp(1.0, QUICKEST) } else { 1.0 };
+        let quicker: Vec<f64> = systems.iter().map(less).collect();
         let mut members = (0..settings.members)
             .map(|index| {
-                let member = Member::new(&systems, &stators, asked, index, settings)?;
+                let member = Member::new(&systems, &stators, asked, index, &quicker, settings)?;
                 Ok(Carried { index, member, windows: Vec::new() })
             })
             .collect::<Result<Vec<_>, Error>>()?;
-        for (Carried { member, .. }, ends) in members.iter_mut().zip(from.into_iter().flatten()) {
-            let Some(system) = stators[0].yielded() else { break };
-            let (scales, speed) = (motors[0].system.scales(), far_above(&systems[0]));
-            for ((place, speed), left) in [(0, -speed), (motors.len(), speed)].into_iter().zip(ends) {
-                let mut left = left.scaled(&scales, f64::recip);
-                // That they meet bounds what depends on the start, as of rotors that lie.
-                left.state.disk.angular_speed = speed;
-                match member {
-                    Member::Yielding(member) => member.resume(place, system, &left)?,
-                    Member::Taped(member) => member.resume(&left)?,
-                }
-            }
+        let scales = motors[0].system.scales();
+        for (own, left) in members.iter_mut().zip(from.into_iter().flatten()) {
+            own.member.resume(&left.scaled(&scales, f64::recip))?;
         }
         // The time in which friction gives the platform's largest speed, in radians; that of the slowest
         // rotor.
-        let rise = systems.iter().filter(|system| system.friction() > 0.0);
-        let rise = rise.map(|system| system.twist_speed() / system.friction()).fold(0.0, f64::max);
+        let rises = systems.iter().zip(&quicker).map(|(system, quicker)| rise(system) / quicker);
+        let rise = rises.fold(0.0, f64::max);
         let duration = length * (rise.min(f64::MAX) / WINDOWS_OF_RISE).max(LEAST_PERIODS * TAU);
         // Even where the rise takes for ever the first round spends no more than it may.
         let most_impacts = (settings.most_impacts / (settings.members * FIRST_WINDOWS) as u64).max(1);
@@ -422,37 +489,27 @@ impl<'a> SteadyRun<'a> {
             begun: settings.members,
             most_begun: if from.is_some() { settings.members } else { MOST_STARTS * settings.members },
             stators,
+            quicker,
             settings: *settings,
             duration,
             least_impacts,
             most_impacts,
+            reference: None,
             shortfalls,
             wanted: 0.0,
         })
     }
 
-    /// Where the rotors of the first motor are.
+    /// Where the members are.
     fn ends(&self) -> Option<Ends> {
         let scales = self.motors[0].system.scales();
-        let left = |member: &Member, place: usize| {
-            let left = match member {
-                Member::Yielding(member) => Some(member.left(place)),
-                Member::Taped(member) => member.left(),
-            };
-            Some(left?.scaled(&scales, |unit| unit))
-        };
-        let places = [0, self.rotor_from_above(0)];
-        let ends =
-            |own: &Carried| Some((own.index, [left(&own.member, places[0])?, left(&own.member, places[1])?]));
-        let mut all: Vec<_> = self.members.iter().map(ends).collect::<Option<_>>()?;
-        all.extend(
-            self.left
-                .iter()
-                .map(|(index, left)| (*index, left.map(|left| left.scaled(&scales, |unit| unit)))),
-        );
+        let going = self.members.iter().map(|own| own.member.left().map(|left| (own.index, left)));
+        let mut all: Vec<_> = going.collect::<Option<_>>()?;
+        all.extend(&self.left);
         all.retain(|(index, _)| *index < self.settings.members);
         all.sort_by_key(|(index, _)| *index);
-        (!all.is_empty()).then(|| all.into_iter().map(|(_, left)| left).collect())
+        (!all.is_empty())
+            .then(|| all.into_iter().map(|(_, left)| left.scaled(&scales, |unit| unit)).collect())
     }
 
     /// Windows of a member so far; none if no motion is irregular.
@@ -518,30 +575,28 @@ impl<'a> SteadyRun<'a> {
     /// Takes the members that repeat themselves out of those that are irregular; whether others took their places.
     fn take_repeated(&mut self, watch: &Watch<'_>) -> Result<bool, Error> {
         let mut begins = false;
-        let start_up = self.duration * START_UP as f64;
         let largest: Vec<f64> = {
             let own: Vec<f64> = self.systems.iter().map(far_above).collect();
-            own.iter().chain(&own[..self.asked]).copied().collect()
+            let asked = if self.stators[0].acts_back() { 0 } else { self.asked };
+            let again = if self.is_quicker() { asked } else { 0 };
+            own.iter().chain(&own[..asked]).chain(&own[..again]).copied().collect()
         };
         let mut kept = Vec::new();
         for mut own in std::mem::take(&mut self.members) {
-            let cycle = match &mut own.member {
-                Member::Taped(member) => member.cycle(&mut watch.work())?,
-                Member::Yielding(_) => None,
-            };
-            let (Some(cycle), Member::Taped(member)) = (cycle, &own.member) else {
+            let Some(cycle) = own.member.cycle(&mut watch.work())? else {
                 kept.push(own);
                 continue;
             };
-            if member.followed > start_up {
-                (self.irregular, self.ended) =
-                    (self.irregular + (member.followed - start_up), self.ended + 1);
+            let followed = own.member.followed();
+            let start_up = self.duration * START_UP as f64;
+            if followed > start_up {
+                (self.irregular, self.ended) = (self.irregular + (followed - start_up), self.ended + 1);
             }
-            self.left.extend(member.left().map(|left| (own.index, [left; 2])));
+            self.left.extend(own.member.left().map(|left| (own.index, left)));
             let known = self.repeated.iter().position(|known| known.cycle.is_same(&cycle));
             let place = known.unwrap_or(self.repeated.len());
             if known.is_none() {
-                let windows = member.on_cycle(&cycle, &largest);
+                let windows = own.member.on_cycle(&cycle, &largest);
                 self.repeated.push(Repeated { cycle, windows, from_rest: 0 });
             }
             self.repeated[place].from_rest += usize::from(self.is_from_rest(own.index));
@@ -557,8 +612,14 @@ impl<'a> SteadyRun<'a> {
                 self.ended_windows.push(windows);
             }
             if self.begun < self.most_begun {
-                let member =
-                    Member::new(&self.systems, &self.stators, self.asked, self.begun, &self.settings)?;
+                let member = Member::new(
+                    &self.systems,
+                    &self.stators,
+                    self.asked,
+                    self.begun,
+                    &self.quicker,
+                    &self.settings,
+                )?;
                 kept.push(Carried { index: self.begun, member, windows: Vec::new() });
                 (self.begun, begins) = (self.begun + 1, true);
             }
@@ -634,7 +695,8 @@ impl<'a> SteadyRun<'a> {
     /// The rotor of a motor that started from far above; for a motor that the caller did not request, its
     /// only rotor.
     fn rotor_from_above(&self, motor: usize) -> usize {
-        if motor < self.asked { self.motors.len() + motor } else { motor }
+        let bracketed = motor < self.asked && !self.stators[0].acts_back();
+        if bracketed { self.motors.len() + motor } else { motor }
     }
 
     /// Mean speeds (rad/s) in the windows after the start-up, of each member: in the middle of a motor's two
@@ -650,28 +712,39 @@ impl<'a> SteadyRun<'a> {
         [of(&|rotors| 0.5 * (rotors[motor].angle + rotors[above].angle)), of(&|rotors| rotors[above].angle)]
     }
 
+    /// The largest speed (rad/s) of the motors without load, to which errors are relative.
+    fn scale(&self) -> f64 {
+        let unloaded = (0..self.motors.len()).filter(|motor| self.motors[*motor].is_unloaded());
+        let scale = unloaded.map(|index| {
+            let motor = &self.motors[index];
+            let [speeds, _] = self.speeds(index);
+            let means: Vec<f64> = if speeds.is_empty() {
+                let unit = motor.system.scales().angular_speed;
+                let cycles = self.cycles(index);
+                cycles.iter().map(|sum| sum.rotor.angle / sum.axial.duration * unit).collect()
+            } else {
+                speeds.into_iter().flatten().collect()
+            };
+            let known = if means.is_empty() { 0.0 } else { mean(&means) };
+            // A motor without twist moves only if a load makes it creep.
+            let creep = motor.system.dimensionless().friction() * motor.system.scales().angular_speed;
+            known.abs().max(0.01 * motor.fastest.angular_speed.max(creep))
+        });
+        scale.fold(0.0, f64::max)
+    }
+
     fn judge(&mut self, settings: &OperatingSettings) {
         if self.averaged().is_empty() {
             self.shortfalls.fill((!self.members.is_empty()).then_some(NOTHING_YET));
             return;
         }
-        let speeds: Vec<_> = (0..self.motors.len()).map(|motor| self.speeds(motor)).collect();
-        let mean = |windows: &[Vec<f64>]| {
-            let count = windows.len() * windows[0].len();
-            windows.iter().flatten().sum::<f64>() / count as f64
-        };
-        let unloaded = self.motors.iter().zip(&speeds).filter(|(motor, _)| motor.is_unloaded());
-        let scale = unloaded.map(|(motor, [speeds, _])| {
-            // A motor without twist moves only if a load makes it creep.
-            let creep = motor.system.dimensionless().friction() * motor.system.scales().angular_speed;
-            mean(speeds).abs().max(0.01 * motor.fastest.angular_speed.max(creep))
-        });
-        self.wanted = settings.relative_error * scale.fold(0.0, f64::max);
+        self.wanted = settings.relative_error * self.reference.unwrap_or_else(|| self.scale());
         self.shortfalls = (0..self.asked)
             .map(|motor| {
-                let [middle, above] = &speeds[motor];
+                let [middle, above] = &self.speeds(motor);
                 self.undecided(motor, middle)
                     .or_else(|| shortfall(middle, above, self.wanted))
+                    .or_else(|| self.inaccurate(motor))
                     .or_else(|| self.unbalanced(motor))
             })
             .collect();
@@ -701,6 +774,11 @@ impl<'a> SteadyRun<'a> {
         let sum = self.total(motor);
         let stored = sum.axial.energy_change * units.axial + sum.rotor.kinetic_change * units.rotary;
         let share = stored.abs() / sum.energy_scale(&units, &self.systems[motor], self.settings.members);
+        // A disk that is thrown ever higher stores what the platform gives, however much the rotor takes.
+        let given = sum.axial.normal_work.abs() + sum.axial.perturbation_work;
+        let peak = self.systems[motor].peak_acceleration();
+        let moving = 0.5 * self.settings.members as f64 * peak * peak;
+        let share = share.max(sum.axial.energy_change.abs() / given.max(moving));
         let time = sum.axial.duration;
         let input = sum.axial.normal_work * units.axial + sum.rotor.friction_work * units.rotary;
         (share > STORED_SHARE)
@@ -728,7 +806,10 @@ impl<'a> SteadyRun<'a> {
         let pairs = self.pairs(index);
         if !pairs.below.is_empty() {
             let point = self.point(index, &Averages::Members(&pairs))?;
-            let operation = match self.shortfalls[index] {
+            let (standard_error, wanted) = (point.speed.standard_error, self.wanted);
+            let too_large =
+                (standard_error > 1.01 * wanted).then_some(Shortfall::Error { standard_error, wanted });
+            let operation = match self.shortfalls[index].or(too_large) {
                 None => Operation::Steady(point),
                 Some(shortfall) => Operation::Unsettled(point, shortfall),
             };
@@ -774,7 +855,7 @@ impl<'a> SteadyRun<'a> {
         let cycles = self.cycles(index);
         let unit = self.motors[index].system.scales().angular_speed;
         let speeds: Vec<f64> = cycles.iter().map(|sum| sum.rotor.angle / sum.axial.duration * unit).collect();
-        let pairs = Pairs { below: cycles.clone(), above: cycles };
+        let pairs = Pairs { below: cycles.clone(), above: cycles, quickest: Vec::new() };
         let point = self.point(index, &Averages::Members(&pairs))?;
         let known = Estimate::of(&speeds)?;
         let spread = speeds.iter().fold(0.0_f64, |most, speed| (speed - known.value).abs().max(most));
@@ -798,7 +879,47 @@ impl<'a> SteadyRun<'a> {
             };
             averaged.iter().map(member).collect::<Vec<Sum>>()
         });
-        Pairs { below, above }
+        let quickest = self.is_quicker().then(|| self.motors.len() + self.asked + index);
+        let quickest = quickest.map_or_else(Vec::new, |rotor| {
+            let member = |windows: &Vec<&Window>| {
+                let mut sum = Sum::default();
+                windows.iter().for_each(|window| sum.add(window, rotor));
+                sum
+            };
+            averaged.iter().map(member).collect()
+        });
+        Pairs { below, above, quickest }
+    }
+
+    /// Whether the rotors have less inertia than their motors.
+    fn is_quicker(&self) -> bool {
+        self.quicker.iter().any(|quicker| *quicker > 1.0)
+    }
+
+    /// The mean speed (rad/s) of a motor, and by how much that of rotors with half the inertia differs where rotors have
+    /// less than their motors; `None` of no irregular motion.
+    fn with_bias(&self, index: usize) -> Option<(Estimate, f64)> {
+        let unit = self.motors[index].system.scales().angular_speed;
+        let speed = |sum: &Sum| sum.rotor.angle / sum.axial.duration * unit;
+        let pairs = self.pairs(index);
+        let known = Averages::Members(&pairs).estimate(&speed).ok().filter(|_| !pairs.below.is_empty())?;
+        let quickest: Vec<f64> = pairs.quickest.iter().map(speed).collect();
+        let bias = if quickest.is_empty() { 0.0 } else { (mean(&quickest) - known.value).abs() };
+        Some((known, bias))
+    }
+
+    /// Whether the inertia that is left out matters more than the requested error allows.
+    fn is_too_quick(&self) -> bool {
+        let bias = |index| self.with_bias(index).map_or(0.0, |(_, bias)| bias);
+        self.is_quicker() && (0..self.asked).any(|index| bias(index) > INERTIA_SHARE * self.wanted)
+    }
+
+    /// An error that is too large with the inertia that is left out, if a longer run can help.
+    fn inaccurate(&self, index: usize) -> Option<Shortfall> {
+        let (known, bias) = self.with_bias(index)?;
+        let (standard_error, wanted) = (known.standard_error, self.wanted);
+        let helps = standard_error > wanted && bias <= INERTIA_SHARE * wanted;
+        helps.then_some(Shortfall::Error { standard_error, wanted })
     }
 
     /// The operating point of a motor.
@@ -840,6 +961,17 @@ impl<'a> SteadyRun<'a> {
                 efficiency: averages.ratio(&mechanical, &drive).filter(|_| braked),
             })
         });
+        let deviation = |sum: &Sum| {
+            let mean = sum.rotor.angle / sum.axial.duration;
+            let variance = (sum.rotor.square / sum.axial.duration - mean * mean).max(0.0);
+            // That of a slow rotor is inverse to its inertia.
+            let own = if let Averages::Members(_) = averages { self.quicker[index] } else { 1.0 };
+            (variance / own).sqrt() * units.speed
+        };
+        let friction_torque = self.systems[index].friction() * units.torque;
+        let held = |sum: &Sum| sum.rotor.held / sum.axial.duration * friction_torque;
+        let known_of_tapes = averages.first().rotor.held.is_finite();
+        let given = |value: &dyn Fn(&Sum) -> f64| known_of_tapes.then(|| estimate(value)).transpose();
         // The error also includes the spread between starts.
         let mut known = estimate(&speed)?;
         let (motion, start_up, whole, members) = match averages {
@@ -867,6 +999,8 @@ impl<'a> SteadyRun<'a> {
             load_torque_error: load_torque.standard_error,
             motion,
             speed: known,
+            speed_deviation: given(&deviation)?,
+            blocked_torque: given(&held)?,
             mechanical_power,
             input_power: estimate(&input)?,
             restitution_loss: estimate(&restitution)?,
@@ -900,6 +1034,8 @@ impl<'a> SteadyRun<'a> {
 struct Pairs {
     below: Vec<Sum>,
     above: Vec<Sum>,
+    /// Of rotors with half the inertia, where these have less than the motor's.
+    quickest: Vec<Sum>,
 }
 
 impl Pairs {
@@ -922,7 +1058,12 @@ impl Averages<'_> {
         match self {
             Self::Members(pairs) => {
                 let [middle, above] = pairs.of(value);
-                Ok(Estimate::of(&middle)?.bounded_by(Estimate::of(&above)?))
+                let known = Estimate::of(&middle)?.bounded_by(Estimate::of(&above)?);
+                if pairs.quickest.is_empty() {
+                    return Ok(known);
+                }
+                let quickest: Vec<f64> = pairs.quickest.iter().map(value).collect();
+                Ok(known.bounded_by(Estimate::of(&quickest)?))
             }
             Self::Cycle { sums: [fine, coarse], cycle } => {
                 let known = finite("estimate", value(fine))?;
@@ -943,6 +1084,14 @@ impl Averages<'_> {
                 let ratio = || self.estimate(&|sum| dividend(sum) / divisor(sum)).ok();
                 if divisor(fine) > 0.0 { ratio() } else { None }
             }
+        }
+    }
+
+    /// One of the sums.
+    fn first(&self) -> Sum {
+        match self {
+            Self::Members(pairs) => pairs.below.first().copied().unwrap_or_default(),
+            Self::Cycle { sums: [fine, _], .. } => *fine,
         }
     }
 

@@ -10,7 +10,6 @@ use crate::error::{Error, check, positive};
 use crate::motor::data_sheet::Motor;
 use crate::motor::operation::point::Estimate;
 use crate::motor::operation::settings::OperatingSettings;
-use crate::motor::operation::stall_load::crossing;
 use crate::motor::operation::steady_run::{LoadedMotor, operate};
 use crate::motor::sensitivity::parameter::{SensitivityParameter, SensitivityQuantity};
 use crate::statistics::student_quantile;
@@ -296,10 +295,8 @@ fn member_values(
             }
             let torques = |speeds: Vec<Vec<f64>>| {
                 let of_motor = |(speeds, motor): (&[Vec<f64>], &Motor)| {
-                    let of_member = |member: usize| {
-                        crossing(&shares, |k| speeds[k][member], (0, shares.len() - 1))
-                            * motor.largest_torque()
-                    };
+                    let of_member =
+                        |member: usize| crossing(&shares, |k| speeds[k][member]) * motor.largest_torque();
                     (0..speeds[0].len()).map(of_member).collect()
                 };
                 speeds.chunks_exact(shares.len()).zip(motors).map(of_motor).collect()
@@ -384,6 +381,18 @@ impl RegressionLine {
             scatter: variance.sqrt(),
         }
     }
+}
+
+/// Where the least-squares line through the speeds at these shares vanishes.
+fn crossing(shares: &[f64], speed: impl Fn(usize) -> f64) -> f64 {
+    let x = mean(shares);
+    let y = mean(&(0..shares.len()).map(&speed).collect::<Vec<_>>());
+    let (mut square, mut product) = (0.0, 0.0);
+    for (k, share) in shares.iter().enumerate() {
+        square += (share - x) * (share - x);
+        product += (share - x) * (speed(k) - y);
+    }
+    x - y * square / product
 }
 
 #[cfg(test)]

@@ -5,8 +5,8 @@ use bouncing_disk_core::{Phase, Unobserved};
 use super::*;
 use crate::Motor;
 use crate::motor::{
-    Estimate, MotorParameters, OperatingSettings, Operation, SensitivityParameter, SensitivityQuantity,
-    SensitivitySettings, Shortfall, TransientSettings,
+    Estimate, MotorParameters, OperatingRow, OperatingSettings, Operation, SensitivityParameter,
+    SensitivityQuantity, SensitivitySettings, Shortfall, TransientSettings,
 };
 use crate::parameters::contact::Contact;
 use crate::parameters::driven_platform::Waveform;
@@ -158,7 +158,8 @@ fn the_contact_time_decides_on_the_best_lag() {
     let known = &motor.torque_speed_curve(&[0.0], &settings(), &Unobserved).expect("no failure")[0];
     let short = touching(&Motor::paper_70_khz(), 0.02 * period);
     let own = &short.torque_speed_curve(&[0.0], &settings(), &Unobserved).expect("no failure")[0];
-    let (own, known) = (own.steady().expect("known"), known.steady().expect("known"));
+    let steady = |row: &OperatingRow| *row.steady().unwrap_or_else(|| panic!("{row:?}"));
+    let (own, known) = (steady(own), steady(known));
     let error = own.speed.standard_error + known.speed.standard_error;
     assert!((own.speed.value - known.speed.value).abs() < 3.0 * error, "{own:?} {known:?}");
     assert!(own.energy_residual < 1e-9, "{own:?}");

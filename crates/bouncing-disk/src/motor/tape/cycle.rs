@@ -27,13 +27,13 @@ const LONGEST: u64 = 128;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Key([f64; PARTS]);
 
-const PARTS: usize = 8;
+const PARTS: usize = 9;
 
 impl Key {
-    /// Of a disk with this velocity and height, and the modes of its stator.
-    pub(crate) const fn new(phase: Phase, disk: [f64; 2], modes: [[f64; 2]; MODES]) -> Self {
+    /// Of a disk with this velocity and height and, if it acts back, angular speed, and the modes of its stator.
+    pub(crate) const fn new(phase: Phase, disk: [f64; 3], modes: [[f64; 2]; MODES]) -> Self {
         let [[a, b], [c, d]] = modes;
-        Self([phase.sin(), phase.cos(), disk[0], disk[1], a, b, c, d])
+        Self([phase.sin(), phase.cos(), disk[0], disk[1], disk[2], a, b, c, d])
     }
 
     /// How far it is from another one, as the largest share of these sizes.
@@ -115,14 +115,6 @@ const ONE: f64 = 1.0e-7;
 /// Most knots of a cycle, of any length.
 const MOST_KNOTS: f64 = 65_536.0;
 
-/// The least number of touches after which all repeat: a motion that comes near to its cycle from both sides in turn
-/// is first seen to repeat several of them.
-fn least_period(keys: &[Key]) -> usize {
-    let count = keys.len();
-    let repeats = |period: &usize| count.is_multiple_of(*period) && are_same(keys, keys, *period);
-    (1..count).find(repeats).unwrap_or(count)
-}
-
 /// Whether two cycles have the same touches, so many touches apart.
 fn are_same(one: &[Key], other: &[Key], apart: usize) -> bool {
     let sizes = one.iter().fold([0.0; PARTS], |most, key| most_of(most, key.0));
@@ -134,11 +126,19 @@ fn most_of(one: [f64; PARTS], other: [f64; PARTS]) -> [f64; PARTS] {
     core::array::from_fn(|part| one[part].max(other[part].abs()))
 }
 
+/// What is known of a cycle.
+#[derive(Debug, Clone)]
+enum Recorded {
+    /// Finely and coarsely recorded.
+    Tapes(Box<[Tape; 2]>),
+    /// What the rotor does in it that it was found with.
+    Window(Window),
+}
+
 /// A cycle of a vertical motion.
 #[derive(Debug, Clone)]
 pub(crate) struct Cycle {
-    /// Finely and coarsely recorded.
-    tapes: [Tape; 2],
+    recorded: Recorded,
     touches: Vec<Key>,
     pub(crate) repeats: Repeats,
     /// Periods of the drive.
@@ -166,14 +166,29 @@ impl Cycle {
             Ok::<_, Error>((tape, keys))
         };
         let (rough, keys) = record(1.0, repeats.touches)?;
-        let touches = least_period(&keys).min(repeats.touches as usize) as u64;
+        let touches = Self::least_touches(&keys);
         let share = touches as f64 / keys.len() as f64;
         let periods = (rough.axial.duration * share / TAU + 0.5) as u64;
         let most = MOST_KNOTS / periods.max(1) as f64;
         let [fine, coarse] = RESOLUTIONS.map(|resolution| record(resolution.min(most), touches));
         let repeats = Repeats { touches, ..repeats };
         let ((fine, keys), (coarse, _)) = (fine?, coarse?);
-        Ok(Self { tapes: [fine, coarse], touches: keys, repeats, periods })
+        let recorded = Recorded::Tapes(Box::new([fine, coarse]));
+        Ok(Self { recorded, touches: keys, repeats, periods })
+    }
+
+    /// The cycle of a rotor that acts back on its stator.
+    pub(crate) fn of_window(window: Window, touches: Vec<Key>, repeats: Repeats) -> Self {
+        let periods = (window.axial.duration / TAU + 0.5) as u64;
+        Self { recorded: Recorded::Window(window), touches, repeats, periods }
+    }
+
+    /// The least number of touches after which all repeat: a motion that comes near to its cycle from both sides in turn
+    /// is first seen to repeat several of them.
+    pub(crate) fn least_touches(keys: &[Key]) -> u64 {
+        let count = keys.len();
+        let repeats = |period: &usize| count.is_multiple_of(*period) && are_same(keys, keys, *period);
+        (1..count).find(repeats).unwrap_or(count) as u64
     }
 
     /// Whether two are the same motion, entered at different touches or not.
@@ -186,7 +201,10 @@ impl Cycle {
     /// Whether the disk stays on the platform.
     pub(crate) fn is_contact(&self) -> bool {
         let flies = |knot: &Knot| knot.hit > 0.0 || knot.pressed == 0.0 && knot.duration > 0.0;
-        !self.tapes[0].knots.iter().any(flies)
+        match &self.recorded {
+            Recorded::Tapes(tapes) => !tapes[0].knots.iter().any(flies),
+            Recorded::Window(_) => false,
+        }
     }
 
     /// What rotors do in a cycle at whose end each is as fast as at its start: on the fine and on the coarse tape, in
@@ -203,8 +221,11 @@ impl Cycle {
             bounds[row][own] = *largest;
         }
         [0, 1].map(|index| {
-            let tape = &self.tapes[index];
-            let mut rotors = rotors.to_vec();
+            let tape = match &self.recorded {
+                Recorded::Tapes(tapes) => &tapes[index],
+                Recorded::Window(window) => return window.clone(),
+            };
+            let mut rotors: Vec<Rotors> = rotors.iter().map(Rotors::at_own_inertia).collect();
             let (mut low, mut high) =
                 (bounds.iter().map(|row| row.map(|size| -size)).collect::<Vec<_>>(), bounds.clone());
             let mut middle = vec![[0.0; WIDTH]; rotors.len()];

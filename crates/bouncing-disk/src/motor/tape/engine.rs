@@ -107,7 +107,7 @@ impl<E: SteeredMotion + Clone> EngineTape<E> {
             Event::Impact { .. } | Event::Kick { .. } | Event::Recontact => {
                 tape.axial.impacts += 1;
                 let disk = self.engine.disk();
-                Ok(Touch::At(Key::new(phase, [disk.axial_velocity, disk.height], self.engine.modes())))
+                Ok(Touch::At(Key::new(phase, [disk.axial_velocity, disk.height, 0.0], self.engine.modes())))
             }
             _ => Ok(Touch::None),
         }
@@ -132,6 +132,6 @@ impl<E: SteeredMotion + Clone> EngineTape<E> {
         let (energy, disk) = (self.energy_now(), self.engine.disk());
         tape.axial.energy_change += energy - std::mem::replace(&mut self.energy, energy);
         let phase = self.engine.time().phase;
-        Ok(Touch::At(Key::new(phase, [disk.axial_velocity, disk.height], self.engine.modes())))
+        Ok(Touch::At(Key::new(phase, [disk.axial_velocity, disk.height, 0.0], self.engine.modes())))
     }
 }

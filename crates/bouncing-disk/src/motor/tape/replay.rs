@@ -22,6 +22,8 @@ pub(crate) struct Done {
     /// Work of the stator by friction, and loss in it.
     pub(crate) work: Row,
     pub(crate) loss: Row,
+    /// Impulse, over the friction, that would act on a rotor that is held at rest.
+    pub(crate) held: Row,
     /// Impulse of the law of the load, and work done against it.
     pub(crate) law_impulse: Row,
     pub(crate) law_work: Row,
@@ -32,6 +34,8 @@ pub(crate) struct Done {
 pub(crate) struct Rotors {
     pub(crate) rows: RotorRows<Done>,
     pub(crate) count: usize,
+    /// How many times less inertia each has than the motor's.
+    pub(crate) quicker: Row,
     /// The law, besides the constant loads of the rows.
     pub(crate) law: Vec<LoadLine>,
     /// Which of the tape's columns has the stator's speed; `None` for a sine.
@@ -39,6 +43,22 @@ pub(crate) struct Rotors {
 }
 
 impl Rotors {
+    /// The same rotors with the inertia of their motors.
+    pub(crate) fn at_own_inertia(&self) -> Self {
+        let mut rotors = self.clone();
+        for own in 0..WIDTH {
+            let quicker = std::mem::replace(&mut rotors.quicker[own], 1.0);
+            rotors.rows.friction[own] /= quicker;
+            rotors.rows.load[own] /= quicker;
+            if own == 0 {
+                for line in &mut rotors.law {
+                    (line.torque, line.slope) = (line.torque / quicker, line.slope / quicker);
+                }
+            }
+        }
+        rotors
+    }
+
     /// What the rotor in this place has done in a time (rad), from this speed on.
     pub(crate) fn done(
         &self,
@@ -48,14 +68,17 @@ impl Rotors {
         stator: Option<(StatorLedger, AxialWindow)>,
     ) -> RotorWindow {
         let (after, done, load) = (self.rows.speed[own], &self.rows.tally, self.rows.load[own]);
+        // Impulses are in units of the inertia.
+        let inertia = 1.0 / self.quicker[own];
         RotorWindow {
             angle: done.angle[own],
             square: done.square[own],
-            friction_work: done.work[own],
-            friction_loss: done.loss[own],
-            load_work: load * done.angle[own] + done.law_work[own],
-            load_impulse: load * duration + done.law_impulse[own],
-            kinetic_change: 0.5 * (after - before) * (after + before),
+            held: done.held[own],
+            friction_work: inertia * done.work[own],
+            friction_loss: inertia * done.loss[own],
+            load_work: inertia * (load * done.angle[own] + done.law_work[own]),
+            load_impulse: inertia * (load * duration + done.law_impulse[own]),
+            kinetic_change: inertia * (0.5 * (after - before) * (after + before)),
             stator,
         }
     }
@@ -71,7 +94,7 @@ impl LaneLoop for Replay<'_> {
     #[inline(always)]
     fn run(self) {
         for rotors in self.rotors {
-            let Rotors { rows, law, column, count } = rotors;
+            let Rotors { rows, law, column, count, .. } = rotors;
             let knots = &self.tape.knots[..];
             let column = column.map(|column| &self.tape.speeds[column][..]);
             for (index, pair) in knots.windows(2).enumerate() {
@@ -92,6 +115,9 @@ impl LaneLoop for Replay<'_> {
                     (true, false) => slide_under(rows, *count, knot, from, to, law),
                     (false, true) => fly(rows, knot.duration),
                     (false, false) => fly_under(rows, *count, knot.duration, law),
+                }
+                if knot.pressed > 0.0 {
+                    hold(&mut rows.tally, knot.pressed, from, to);
                 }
                 if knot.hit > 0.0 {
                     hit(rows, knot.hit, column.map_or_else(|| rows.twists(knot.sin, knot.cos), |_| to));
@@ -122,6 +148,18 @@ fn slide(rows: &mut RotorRows<Done>, knot: &Knot, from: Row, to: Row) {
     }
 }
 
+/// A contact step on a rotor that is held at rest.
+#[inline(always)]
+fn hold(done: &mut Done, impulse: f64, from: Row, to: Row) {
+    for own in 0..WIDTH {
+        let (from, to) = (from[own], to[own]);
+        let (size, sum) = (from.abs() + to.abs(), from + to);
+        // Of one sign all of it, else the difference of the parts on both sides of the reversal.
+        let share = if from * to >= 0.0 { sum.signum() } else { sum / size };
+        done.held[own] += if size > 0.0 { impulse * share } else { 0.0 };
+    }
+}
+
 /// A flight.
 #[inline(always)]
 fn fly(rows: &mut RotorRows<Done>, span: f64) {
@@ -143,6 +181,13 @@ fn hit(rows: &mut RotorRows<Done>, impulse: f64, stator: Row) {
         // A slip that ends does so exactly.
         rows.speed[own] = if slip.abs() <= most { stator } else { rows.speed[own] + change };
         let done = &mut rows.tally;
+        done.held[own] += if stator > 0.0 {
+            impulse
+        } else if stator < 0.0 {
+            -impulse
+        } else {
+            0.0
+        };
         done.work[own] += change * stator;
         // The impulse acts at the mean of the slip speeds before and after.
         done.loss[own] -= change * (slip + 0.5 * change);

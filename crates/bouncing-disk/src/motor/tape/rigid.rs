@@ -89,7 +89,7 @@ impl RigidTape {
 
     fn hit(&mut self, impact: &Impact, tape: &mut Tape) -> Key {
         let Some(vertical) = &self.vertical else {
-            return Key::new(impact.phase, [0.0; 2], [[0.0; 2]; MODES]);
+            return Key::new(impact.phase, [0.0; 3], [[0.0; 2]; MODES]);
         };
         let restitution = vertical.restitution();
         let impulse = axial_impulse(restitution, impact.velocity);
@@ -104,7 +104,7 @@ impl RigidTape {
         axial.restitution_loss +=
             0.5 * ((1.0 - restitution) * (1.0 + restitution)) * (impact.velocity * impact.velocity);
         axial.energy_change += energy - std::mem::replace(&mut self.energy, energy);
-        Key::new(impact.phase, [impact.velocity, 0.0], [[0.0; 2]; MODES])
+        Key::new(impact.phase, [impact.velocity, 0.0, 0.0], [[0.0; 2]; MODES])
     }
 
     /// A rest of the disk up to its separation, with the chatter before it; without an attachment, the first one.

@@ -29,34 +29,31 @@ pub(crate) enum Source {
 }
 
 impl Source {
-    /// Of a disk that lies on this stator at a phase; `None` if friction acts back on the height. Where contacts take
+    /// Of a disk that lies at a phase on this stator, on whose height friction does not act back. Where contacts take
     /// time the disk may be thrown up, so fast in units of the platform's largest speed.
     pub(crate) fn new(
         stator: &Stator,
         system: &DimensionlessSystem,
         start: (Phase, Option<f64>),
         perturbation: (f64, u64),
-    ) -> Result<Option<Self>, Error> {
+    ) -> Result<Self, Error> {
         let phase = start.0;
         // Contacts that take time need no perturbation: no rest makes all motions one.
         let undisturbed = (0.0, perturbation.1);
-        Ok(Some(match stator {
+        Ok(match stator {
             Stator::Sine => Self::Rigid(Box::new(RigidTape::new(system, phase, perturbation)?)),
             Stator::Driven(own) => {
                 let soft = own.system.compliance.is_some();
                 Self::driven(&own.system, start, if soft { undisturbed } else { perturbation })?
             }
             Stator::Yielding(own) if own.yields() => {
-                if own.twists() {
-                    return Ok(None);
-                }
                 Self::yielding(own, phase, if own.takes_time() { undisturbed } else { perturbation })?
             }
             Stator::Yielding(own) => match own.contact_time() {
                 None => Self::Rigid(Box::new(RigidTape::new(own.base(), phase, perturbation)?)),
                 Some(time) => Self::driven(&soft(own.base(), time)?, start, undisturbed)?,
             },
-        }))
+        })
     }
 
     /// Of a disk that lies on a stator that moves by waveforms, or whose contacts take time.

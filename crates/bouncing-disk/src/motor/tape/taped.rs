@@ -14,7 +14,7 @@ use super::window::{AxialWindow, Window};
 use crate::driven::DrivenSystem;
 use crate::error::Error;
 use crate::motor::batch::rotor_rows::{RotorRows, WIDTH};
-use crate::motor::operation::followed::Left;
+use crate::motor::operation::coupled::Left;
 use crate::stator::{LoadLine, StatorEngine};
 
 /// Knots after which a tape is replayed: few enough for the cache.
@@ -69,11 +69,11 @@ pub(crate) struct Taped {
 }
 
 impl Taped {
-    /// Rotors with these angular speeds.
-    pub(crate) fn new(source: Source, starts: impl Iterator<Item = (TapedRotor, f64)>) -> Self {
+    /// Rotors with these angular speeds, and so many times less inertia than the motor's.
+    pub(crate) fn new(source: Source, starts: impl Iterator<Item = (TapedRotor, f64, f64)>) -> Self {
         let mut twists: Vec<Drive> = Vec::new();
         let (mut rotors, mut places): (Vec<Rotors>, Vec<_>) = Default::default();
-        for (rotor, speed) in starts {
+        for (rotor, speed, quicker) in starts {
             let (parts, column) = match rotor.twist {
                 Twist::Sine(parts) => (parts, None),
                 Twist::Waveform(drive) => {
@@ -85,13 +85,21 @@ impl Taped {
                     ([0.0; 2], Some(column))
                 }
             };
-            let fits = |rows: &Rotors| rows.column == column && rows.law == rotor.law && rows.count < WIDTH;
+            let times = |line: &LoadLine| LoadLine {
+                torque: quicker * line.torque,
+                slope: quicker * line.slope,
+                ..*line
+            };
+            let law: Vec<LoadLine> = rotor.law.iter().map(times).collect();
+            let fits = |rows: &Rotors| rows.column == column && rows.law == law && rows.count < WIDTH;
             let row = rotors.iter().position(fits).unwrap_or_else(|| {
-                rotors.push(Rotors { rows: RotorRows::default(), count: 0, column, law: rotor.law.clone() });
+                let (rows, quicker, law) = (RotorRows::default(), [1.0; WIDTH], law.clone());
+                rotors.push(Rotors { rows, count: 0, quicker, column, law });
                 rotors.len() - 1
             });
             let own = rotors[row].count;
-            rotors[row].rows.put(own, [rotor.friction, rotor.load], parts);
+            rotors[row].rows.put(own, [quicker * rotor.friction, quicker * rotor.load], parts);
+            rotors[row].quicker[own] = quicker;
             rotors[row].rows.speed[own] = speed;
             rotors[row].count += 1;
             places.push((row, own));

@@ -94,7 +94,7 @@ impl TapTape {
         axial.energy_change +=
             self.solver_energy(release, launch) - self.solver_energy(time, [gap, velocity]);
         self.release = Some((release, launch));
-        Some(Touch::At(Key::new(tap.phase, [tap.velocity, tap.gap], [[0.0; 2]; MODES])))
+        Some(Touch::At(Key::new(tap.phase, [tap.velocity, tap.gap, 0.0], [[0.0; 2]; MODES])))
     }
 
     /// Kinetic and potential energy at a release.

@@ -9,6 +9,8 @@ pub(crate) struct RotorWindow {
     pub(crate) angle: f64,
     /// Integral of the square of the speed.
     pub(crate) square: f64,
+    /// Impulse of friction, over its coefficient, on a rotor that is held at rest; NaN for one that acts back.
+    pub(crate) held: f64,
     /// Work of the platform by friction, and loss in it.
     pub(crate) friction_work: f64,
     pub(crate) friction_loss: f64,
@@ -49,6 +51,7 @@ impl RotorWindow {
     pub(crate) fn add(&mut self, next: &Self) {
         self.angle += next.angle;
         self.square += next.square;
+        self.held += next.held;
         self.friction_work += next.friction_work;
         self.friction_loss += next.friction_loss;
         self.load_work += next.load_work;

@@ -72,7 +72,7 @@ fn soft_transients(
     });
     let driven = driven.collect::<Result<Vec<_>, Error>>()?;
     let source = Source::driven(&driven[0], (phase, None), perturbation)?;
-    let mut member = Taped::new(source, driven.iter().map(|system| (system.rotor(), 0.0)));
+    let mut member = Taped::new(source, driven.iter().map(|system| (system.rotor(), 0.0, 1.0)));
     let bins = systems.iter().map(|_| Bins::new(settings.duration, settings.intervals));
     let mut bins = bins.collect::<Result<Vec<_>, Error>>()?;
     let (mut passed, mut impacts, unit) = (0.0, 0, systems[0].scales().time);

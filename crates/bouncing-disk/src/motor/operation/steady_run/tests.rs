@@ -416,7 +416,8 @@ fn stated_errors_hold_where_loose_ones_are_asked_for() {
         let share = if seed % 3 == 0 { 0.3 } else { 0.0 };
         let speed = |relative_error: f64, seed: u64| {
             let settings = OperatingSettings { relative_error, seed, ..OperatingSettings::default() };
-            operated(&[loaded(&system, share)], &settings)[0].steady().expect("steady").speed
+            let operation = operated(&[loaded(&system, share)], &settings)[0];
+            operation.steady().unwrap_or_else(|| panic!("{operation:?}")).speed
         };
         let (loose, long) = (speed(0.5, seed), speed(0.005, 100 + seed));
         let error = hypot(loose.standard_error, long.standard_error);

@@ -1,0 +1,276 @@
+//! A rotor that acts back on its stator: followed by the engine of both.
+
+use std::f64::consts::TAU;
+use std::ops::RangeInclusive;
+
+use bouncing_disk_core::Phase;
+use bouncing_disk_core::numerics::random::SplitMix64;
+use bouncing_disk_core::run::WorkCount;
+
+use crate::driven::DrivenStart;
+use crate::error::Error;
+use crate::motion::event::{Energies, Event, Motion, MotionRecord, SteeredMotion};
+use crate::motion::phase_time::{PhaseSpan, PhaseTime};
+use crate::motor::rotor::transient::FLIGHTS_OF_EVENT;
+use crate::motor::tape::cycle::{Cycle, Key, Recurrence, Repeats, Touch};
+use crate::motor::tape::window::{AxialWindow, RotorWindow, Window};
+use crate::parameters::scales::Scales;
+use crate::stator::{MODES, StatorEngine, StatorState, StatorSystem};
+
+/// Where a rotor on a stator that yields was left.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Left {
+    pub(crate) time: PhaseTime,
+    pub(crate) state: StatorState,
+    /// Whether the coordinate of a mode is a height.
+    rises: [bool; MODES],
+}
+
+impl Left {
+    /// Of an engine at a time before its next event.
+    pub(crate) fn of(engine: &StatorEngine, time: PhaseTime) -> Self {
+        let state = engine.state_after(time.since(&engine.time()).radians()).1;
+        Self { time, state, rises: engine.system().modes.map(|mode| mode.height != 0.0) }
+    }
+
+    /// In SI units, or from them by `f64::recip` of each unit; time and angle begin anew.
+    pub(crate) fn scaled(self, unit: &Scales, of: fn(f64) -> f64) -> Self {
+        let (mut state, time) = (self.state, PhaseTime::in_first_period(self.time.phase));
+        state.disk.height *= of(unit.length);
+        state.disk.axial_velocity *= of(unit.velocity);
+        (state.disk.angle, state.disk.angular_speed) =
+            (0.0, state.disk.angular_speed * of(unit.angular_speed));
+        for ([place, speed], rises) in state.modes.iter_mut().zip(self.rises) {
+            *place *= of(if rises { unit.length } else { unit.angle });
+            *speed *= of(if rises { unit.velocity } else { unit.angular_speed });
+        }
+        Self { time, state, ..self }
+    }
+}
+
+/// A rotor and its stator, and what they have done since their start.
+#[derive(Debug)]
+pub(crate) struct Coupled {
+    engine: StatorEngine,
+    generator: SplitMix64,
+    perturbation: f64,
+    energies: Energies,
+    /// Energy given by the perturbations.
+    given: f64,
+    impacts: u64,
+    /// Impacts, and what of the events of a contact that takes time recurs without an impact.
+    recurrences: u64,
+    start: PhaseTime,
+    /// Now, and the end of the last window with what was done up to it.
+    reached: PhaseTime,
+    ended: PhaseTime,
+    before: Totals,
+    recurrence: Recurrence,
+    /// The cycle that the motion was found to repeat, after which no window is complete.
+    repeats: Option<Repeats>,
+}
+
+/// What a rotor has done up to a time.
+#[derive(Debug, Clone, Copy, Default)]
+struct Totals {
+    energies: Energies,
+    given: f64,
+    impacts: u64,
+    axial_energy: f64,
+    angle: f64,
+    angular_speed: f64,
+}
+
+impl Coupled {
+    /// A rotor that lies on its stator at `phase` with an angular speed. Where impacts are rigid separations are
+    /// perturbed by speeds of this size from a stream of this seed.
+    pub(crate) fn new(
+        system: &StatorSystem,
+        phase: Phase,
+        angular_speed: f64,
+        (perturbation, seed): (f64, u64),
+    ) -> Result<Self, Error> {
+        let engine = StatorEngine::new(system.clone(), DrivenStart::Contact { phase, angular_speed })?;
+        let reached = PhaseTime::in_first_period(phase);
+        let mut coupled = Self {
+            perturbation: if system.takes_time() { 0.0 } else { perturbation },
+            engine,
+            generator: SplitMix64::new(seed),
+            energies: Energies::default(),
+            given: 0.0,
+            impacts: 0,
+            recurrences: 0,
+            start: reached,
+            reached,
+            ended: reached,
+            before: Totals::default(),
+            recurrence: Recurrence::default(),
+            repeats: None,
+        };
+        coupled.before = coupled.totals(&reached);
+        Ok(coupled)
+    }
+
+    /// Goes on from where another one was left.
+    pub(crate) fn resume(&mut self, left: &Left) -> Result<(), Error> {
+        (self.start, self.reached, self.ended) = (left.time, left.time, left.time);
+        self.engine = StatorEngine::of_state(self.engine.system().clone(), left.time, left.state)?;
+        self.before = self.totals(&self.reached);
+        Ok(())
+    }
+
+    /// Where it is at the end of the last window.
+    pub(crate) fn left(&self) -> Left {
+        Left::of(&self.engine, self.reached)
+    }
+
+    pub(crate) const fn repeats(&self) -> bool {
+        self.repeats.is_some()
+    }
+
+    /// How long (rad) it was followed.
+    pub(crate) fn followed(&self) -> f64 {
+        self.reached.since(&self.start).radians()
+    }
+
+    /// The cycle that the motion repeats, if it was found to do so.
+    pub(crate) fn cycle(&mut self, work: &mut WorkCount<'_>) -> Result<Option<Cycle>, Error> {
+        let Some(repeats) = self.repeats else { return Ok(None) };
+        let mut round = |touches: u64| {
+            let mut keys = Vec::new();
+            while (keys.len() as u64) < touches {
+                if let Some(Touch::At(key)) = self.advance(f64::INFINITY, work)? {
+                    keys.push(key);
+                }
+            }
+            Ok::<_, Error>((self.window(false), keys))
+        };
+        // From the last touch on.
+        let (_, keys) = round(repeats.touches)?;
+        let touches = Cycle::least_touches(&keys);
+        let (window, keys) = round(touches)?;
+        Ok(Some(Cycle::of_window(window, keys, Repeats { touches, ..repeats })))
+    }
+
+    /// The next window: of `duration` rad at least, and of a number of impacts in a range, whatever the duration; up to
+    /// the end of an event. It ends early where the motion is found to repeat itself.
+    pub(crate) fn next_window(
+        &mut self,
+        duration: f64,
+        impacts: &RangeInclusive<u64>,
+        work: &mut WorkCount<'_>,
+    ) -> Result<Window, Error> {
+        let from = self.reached;
+        let end = from.after(PhaseSpan::from_radians(duration));
+        let (before, impacts_before) = (self.recurrences, self.impacts);
+        loop {
+            let (now, done) = (self.engine.time(), self.recurrences - before);
+            // A rotor that lies on the stator has events of friction only, or none.
+            let lies = self.impacts == impacts_before;
+            let lasts = now.order(&end).is_ge() && (lies || done >= *impacts.start());
+            if lasts || done >= *impacts.end() {
+                return Ok(self.window(false));
+            }
+            if self.engine.lies_for_ever() {
+                let periods = ((duration / TAU) as u64).saturating_add(1).min(*impacts.end());
+                self.follow(&from.after(PhaseSpan { periods, remainder: 0.0 }), work)?;
+                return Ok(self.window(true));
+            }
+            if let Some(touch) = self.advance(f64::INFINITY, work)? {
+                self.repeats = self.recurrence.add(touch);
+                if self.repeats() {
+                    return Ok(self.window(false));
+                }
+            }
+        }
+    }
+
+    /// Goes on to this time.
+    fn follow(&mut self, to: &PhaseTime, work: &mut WorkCount<'_>) -> Result<(), Error> {
+        while self.advance(to.since(&self.engine.time()).radians(), work)?.is_some() {}
+        if let Some(energies) = self.engine.pause_contact(to.since(&self.engine.time()).radians()) {
+            self.energies += energies;
+        }
+        self.reached = *to;
+        Ok(())
+    }
+
+    /// The next event within `limit`, if there is one, as a touch or none.
+    fn advance(&mut self, limit: f64, work: &mut WorkCount<'_>) -> Result<Option<Touch>, Error> {
+        work.spend(FLIGHTS_OF_EVENT)?;
+        let Some(record) = self.engine.advance_within(limit)? else { return Ok(None) };
+        let event = record.event();
+        self.energies += record.energies();
+        let mut touch = Touch::None;
+        match event {
+            Event::Impact { .. } | Event::Kick { .. } | Event::Recontact => {
+                self.impacts += 1;
+                self.recurrences += 1;
+                let disk = self.engine.disk();
+                let own = [disk.axial_velocity, disk.height, disk.angular_speed];
+                touch = Touch::At(Key::new(record.time().phase, own, self.engine.modes()));
+            }
+            Event::Turn | Event::SlipToStick | Event::SlipReversal(_) => self.recurrences += 1,
+            _ => {}
+        }
+        if event.is_relaunch() && self.perturbation > 0.0 {
+            let speed = self.perturbation * self.generator.unit();
+            let before = self.engine.disk().axial_velocity;
+            self.engine.perturb_launch(speed);
+            let after = self.engine.disk().axial_velocity;
+            self.given += 0.5 * (after - before) * (after + before);
+        }
+        self.reached = self.engine.time();
+        Ok(Some(touch))
+    }
+
+    /// What was done since the last window; a rotor that `lies` for ever has periods in place of impacts.
+    fn window(&mut self, lies: bool) -> Window {
+        let now = self.totals(&self.reached);
+        let before = std::mem::replace(&mut self.before, now);
+        let change = |of: fn(&Totals) -> f64| of(&now) - of(&before);
+        let duration = self.reached.since(&std::mem::replace(&mut self.ended, self.reached)).radians();
+        let impacts = now.impacts - before.impacts;
+        let axial = AxialWindow {
+            duration,
+            normal_work: change(|totals| totals.energies.disk.normal_work),
+            perturbation_work: change(|totals| totals.given),
+            restitution_loss: change(|totals| totals.energies.disk.restitution_loss),
+            energy_change: change(|totals| totals.axial_energy),
+            impacts: if lies || impacts == 0 { (duration / TAU + 0.5) as u64 } else { impacts },
+        };
+        let ledger = now.energies.stator - before.energies.stator;
+        let rotor = RotorWindow {
+            angle: change(|totals| totals.angle),
+            square: f64::NAN,
+            held: f64::NAN,
+            friction_work: change(|totals| totals.energies.disk.friction_work),
+            friction_loss: change(|totals| totals.energies.disk.friction_loss),
+            load_work: change(|totals| totals.energies.disk.load_work),
+            load_impulse: ledger.load_impulse,
+            kinetic_change: 0.5
+                * change(|totals| totals.angular_speed)
+                * (now.angular_speed + before.angular_speed),
+            stator: Some((ledger, axial)),
+        };
+        Window { axial, rotors: vec![rotor] }
+    }
+
+    /// At a time before the next event.
+    fn totals(&self, at: &PhaseTime) -> Totals {
+        let span = at.since(&self.engine.time()).radians();
+        let state = self.engine.disk_after(span);
+        let mut energies = self.engine.energies_after(span);
+        energies += self.energies;
+        Totals {
+            energies,
+            given: self.given,
+            impacts: self.impacts,
+            axial_energy: 0.5 * state.axial_velocity * state.axial_velocity
+                + state.height
+                + self.engine.spring_energy(span, &state),
+            angle: state.angle,
+            angular_speed: state.angular_speed,
+        }
+    }
+}
