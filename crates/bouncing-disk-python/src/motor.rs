@@ -142,10 +142,7 @@ fn columns_of<'py>(
 ) -> PyResult<Vec<Bound<'py, PyAny>>> {
     let operations: Vec<_> = rows.iter().map(|row| row.branches.get(branch)).collect();
     let nothing = ([f64::NAN; COLUMNS], 0, NO_BRANCH);
-    let all: Vec<_> = operations
-        .iter()
-        .map(|operation| operation.map_or(nothing, |operation| numbers(operation)))
-        .collect();
+    let all: Vec<_> = operations.iter().map(|operation| operation.map_or(nothing, numbers)).collect();
     let doubles = (0..COLUMNS).map(|index| column(py, &all, |(values, ..)| values[index]).into_any());
     let mut fields: Vec<_> = doubles.collect();
     fields.push(column(py, &all, |(_, impacts, _)| *impacts).into_any());

@@ -157,3 +157,6 @@ impl Member {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -362,3 +362,6 @@ impl Step {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

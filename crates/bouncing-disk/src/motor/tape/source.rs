@@ -11,6 +11,7 @@ use super::tap::TapSolver;
 use super::taps::TapTape;
 use crate::driven::{DrivenEngine, DrivenStart, DrivenSystem};
 use crate::error::Error;
+use crate::motion::phase_time::PhaseTime;
 use crate::motor::stator::Stator;
 use crate::parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem};
 use crate::stator::{StatorEngine, StatorSystem};
@@ -97,15 +98,19 @@ impl Source {
         }
     }
 
-    /// The phase (rad) at the end of what is recorded.
-    pub(crate) fn phase(&self) -> f64 {
-        let time = match self {
+    /// When what is recorded ends.
+    pub(crate) fn time(&self) -> PhaseTime {
+        match self {
             Self::Rigid(source) => source.time(),
             Self::Taps(source) => source.time(),
             Self::Driven(source) => source.engine.time(),
             Self::Yielding(source) => source.engine.time(),
-        };
-        time.phase.angle()
+        }
+    }
+
+    /// The phase (rad) there.
+    pub(crate) fn phase(&self) -> f64 {
+        self.time().phase.angle()
     }
 
     /// Whether the stator has modes, whose energies are recorded.

@@ -110,6 +110,17 @@ impl Taped {
         Self { source, tape, rotors, places, runner, recurrence, repeats: None, followed: 0.0 }
     }
 
+    #[cfg(test)]
+    pub(crate) fn speeds(&self) -> Vec<f64> {
+        self.places.iter().map(|&(row, own)| self.rotors[row].rows.speed[own]).collect()
+    }
+
+    /// When the last window ends.
+    #[cfg(test)]
+    pub(crate) fn time(&self) -> crate::motion::phase_time::PhaseTime {
+        self.source.time()
+    }
+
     /// Where the disk and the stator that yields are.
     pub(crate) fn left(&self) -> Option<Left> {
         let Source::Yielding(source) = &self.source else { return None };
