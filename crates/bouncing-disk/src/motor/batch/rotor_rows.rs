@@ -1,8 +1,11 @@
 //! The rotors on one vertical motion, as rows of numbers that a loop takes through an impact together.
 
+#[cfg(feature = "fit")]
 use bouncing_disk_core::Impact;
 
+#[cfg(feature = "fit")]
 use crate::motor::rotor::Bounce;
+#[cfg(feature = "fit")]
 use crate::parameters::dimensionless::DimensionlessSystem;
 
 /// Rotors of one row: as many as the widest vectors of today hold.
@@ -27,6 +30,7 @@ pub(crate) struct RotorRows<T> {
 
 impl<T: Copy + Default> RotorRows<T> {
     /// Rows of all these systems.
+    #[cfg(feature = "fit")]
     pub(crate) fn of(systems: impl ExactSizeIterator<Item = DimensionlessSystem>) -> Vec<Self> {
         let mut rows = vec![Self::default(); systems.len().div_ceil(WIDTH)];
         for (index, system) in systems.enumerate() {
@@ -56,6 +60,7 @@ impl<T: Copy + Default> RotorRows<T> {
     }
 
     /// Takes one of the rotors through a flight and the impact that ends it.
+    #[cfg(feature = "fit")]
     #[inline(always)]
     pub(crate) fn bounce(&self, own: usize, impact: &SharedImpact) -> Bounce {
         let SharedImpact { duration, sin, cos, velocity, restitution } = *impact;
@@ -71,6 +76,7 @@ impl<T: Copy + Default> RotorRows<T> {
 }
 
 /// A flight and its impact, the same for all rotors.
+#[cfg(feature = "fit")]
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct SharedImpact {
     /// Duration of the flight (rad).
@@ -82,6 +88,7 @@ pub(crate) struct SharedImpact {
     restitution: f64,
 }
 
+#[cfg(feature = "fit")]
 impl SharedImpact {
     /// Of a vertical motion with this restitution.
     pub(crate) fn new(impact: &Impact, restitution: f64) -> Self {

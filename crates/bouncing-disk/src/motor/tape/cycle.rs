@@ -20,6 +20,9 @@ const SAME: f64 = 1.0e-11;
 /// A motion comes nearer to its cycle by at least the rest of this factor.
 const SLOWEST: f64 = 1.0 - 1.0e-5;
 
+/// A part of a state counts as at least this share of the largest.
+const SMALL: f64 = 1.0e-3;
+
 /// Most touches of a cycle.
 const LONGEST: u64 = 128;
 
@@ -29,6 +32,9 @@ pub(crate) struct Key([f64; PARTS]);
 
 const PARTS: usize = 9;
 
+/// The place of the rotor's angular speed.
+const SPEED: usize = 4;
+
 impl Key {
     /// Of a disk with this velocity and height and, if it acts back, angular speed, and the modes of its stator.
     pub(crate) const fn new(phase: Phase, disk: [f64; 3], modes: [[f64; 2]; MODES]) -> Self {
@@ -36,12 +42,14 @@ impl Key {
         Self([phase.sin(), phase.cos(), disk[0], disk[1], disk[2], a, b, c, d])
     }
 
-    /// How far it is from another one, as the largest share of these sizes.
+    /// How far it is from another one, as the largest share of these sizes; a part that stays small counts as a share of
+    /// the others.
     fn distance(&self, other: &Self, sizes: [f64; PARTS]) -> f64 {
+        // The angular speed has a unit of its own.
+        let others = sizes.into_iter().enumerate().filter(|(part, _)| *part != SPEED);
+        let least = SMALL * others.map(|(_, size)| size).fold(1.0, f64::max);
         let parts = self.0.iter().zip(other.0).zip(sizes);
-        parts
-            .map(|((one, other), size)| (one - other).abs() / size.max(f64::MIN_POSITIVE))
-            .fold(0.0, f64::max)
+        parts.map(|((one, other), size)| (one - other).abs() / size.max(least)).fold(0.0, f64::max)
     }
 }
 
