@@ -14,7 +14,8 @@
 //! let motor = Motor::paper_70_khz();
 //! let settings = OperatingSettings { relative_error: 0.05, ..OperatingSettings::default() };
 //! let load = 0.2 * motor.largest_torque();
-//! let Operation::Steady(point) = motor.operating_point(load, &settings, &Unobserved)? else {
+//! let row = motor.operating_point(load, &settings, &Unobserved)?;
+//! let Operation::Steady(point) = row.operation() else {
 //!     panic!("it turns");
 //! };
 //! assert!(point.speed.value > 0.0);
