@@ -103,8 +103,9 @@ const UNDER_LEGEND: f64 = 0.68;
 const NEXT_TO_RULE: f64 = 3.0;
 
 /// Two panels over the load: speed with its spread over motors, and powers with the efficiency. Beyond
-/// `largest_torque` (N m) the load overpowers the motor.
-pub fn torque_speed(largest_torque: f64, found: &[LoadPoint]) -> Figure {
+/// `largest_torque` (N m) the load overpowers the motor. The upper panel also shows the speeds of motions that coexist
+/// with these, each as a curve of its own.
+pub fn torque_speed(largest_torque: f64, found: &[LoadPoint], coexisting: &[Vec<LoadPoint>]) -> Figure {
     const HEIGHT: f64 = 338.0;
     let margins = Margins { left: 46.0, right: 44.0, top: 14.0, bottom: 34.0 };
     let grid = Grid::new(SINGLE_COLUMN + 30.0, HEIGHT, 2, 1).margins(margins).gaps(10.0, 16.0);
@@ -120,13 +121,21 @@ pub fn torque_speed(largest_torque: f64, found: &[LoadPoint]) -> Figure {
         interval_curve(points, colour, Fill::new(colour, 0.2), name)
     };
     let speeds = points(|own| own.speed, 1.0);
+    let others: Vec<Vec<Point>> = coexisting
+        .iter()
+        .map(|branch| {
+            let speeds = branch.iter().filter_map(|own| Some((torque * own.load_torque, own.speed?)));
+            speeds.map(|(load, (value, half))| (load, value, half)).collect()
+        })
+        .collect();
     let spread = found.iter().zip(&loads).filter_map(|(own, load)| Some((*load, own.spread?)));
     let spread: Vec<Point> = spread.map(|(load, [from, to])| (load, from, to)).collect();
     let (first, last) = Axis::ends_around(loads.iter().copied());
     let x = || Axis::spanned(first, last);
     // Beyond the requested loads there is nothing to see.
     let limit = Some(torque * largest_torque).filter(|limit| (first..=last).contains(limit));
-    let ends = speeds.iter().flat_map(|point| [point.1 - point.2, point.1 + point.2]);
+    let ends =
+        speeds.iter().chain(others.iter().flatten()).flat_map(|point| [point.1 - point.2, point.1 + point.2]);
     let ends = ends.chain(spread.iter().flat_map(|(_, from, to)| [*from, *to]));
     let (slowest, fastest) = Axis::ends_around(ends.chain([0.0]));
     let spread = (spread.len() > 1).then(|| Band::new(spread).colour(Colour::BLUE).opacity(0.15));
@@ -162,7 +171,10 @@ pub fn torque_speed(largest_torque: f64, found: &[LoadPoint]) -> Figure {
         .layer(Rule::horizontal(0.0).stroke(Stroke::new(Colour::GREY, 0.5)))
         .layers(rules.clone())
         .layers(spread)
-        .layers(curve(&speeds, Colour::BLUE, None))
+        .layers(curve(&speeds, Colour::BLUE, coexisting.first().map(|_| "reached from rest")))
+        .layers(others.iter().enumerate().flat_map(|(index, speeds)| {
+            curve(speeds, Colour::VERMILION, (index == 0).then_some("coexisting"))
+        }))
         .layers(stall.map(|stall| {
             Scatter::new([(stall, 0.0)]).marker(Marker::Circle).size(4.5).colour(Colour::BLUE).filled_white()
         }))

@@ -73,15 +73,15 @@ pub(super) fn run(args: &CurveArgs, context: Context) -> Result<()> {
         text: with_stator(shown(coexist), &found, |row| &row.0).to_text(&rows) + &note,
         table: columns(SweepQuantity::of_table(&found)).csv_of(rows.clone()),
         data: vec![("operations", stored(&found)?), ("spreads", stored(&spreads)?)],
-        figure: Some(Box::new(|| draw(motor.largest_torque(), &rows))),
+        figure: Some(Box::new(|| draw(motor.largest_torque(), &found, &spreads))),
     };
     report.deliver(&args.output, context)
 }
 
 const NO_FRICTION: &str = "without friction the largest torque is 0, so there is no torque-speed curve";
 
-fn draw(largest_torque: f64, rows: &[Row]) -> Figure {
-    let point = |(operation, spread): &Row| {
+fn draw(largest_torque: f64, found: &[OperatingRow], spreads: &[Option<InputSpread>]) -> Figure {
+    let point = |operation: &Operation, spread: Option<InputSpread>| {
         let of = |quantity: SweepQuantity| quantity.of(operation).map(interval);
         pictures::LoadPoint {
             load_torque: operation.load_torque(),
@@ -92,7 +92,13 @@ fn draw(largest_torque: f64, rows: &[Row]) -> Figure {
             efficiency: of(SweepQuantity::Efficiency),
         }
     };
-    pictures::torque_speed(largest_torque, &rows.iter().map(point).collect::<Vec<_>>())
+    let first: Vec<_> =
+        found.iter().zip(spreads).map(|(row, spread)| point(row.operation(), *spread)).collect();
+    let most = found.iter().map(|row| row.branches.len()).max().unwrap_or(0);
+    let branch =
+        |index: usize| found.iter().filter_map(|row| Some(point(row.branches.get(index)?, None))).collect();
+    let others: Vec<Vec<_>> = (1..most).map(branch).collect();
+    pictures::torque_speed(largest_torque, &first, &others)
 }
 
 /// A load, and the spread over motors within the tolerance, if requested.

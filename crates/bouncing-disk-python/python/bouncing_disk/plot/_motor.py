@@ -135,7 +135,7 @@ def torque_speed(
     relative_error: float = 0.01,
     ax: Axes | None = None,
 ) -> tuple[Figure, Axes]:
-    """Speed and mechanical power of a motor against its load, with two standard errors.
+    """Speed and mechanical power of a motor against its load, with two standard errors; speeds of coexisting motions.
 
     Args:
         curve: the curve to draw; for a motor, it is computed.
@@ -156,7 +156,8 @@ def torque_speed(
         raise TypeError(f"curve must be a TorqueSpeedCurve or a Motor, not {type(curve).__name__}")
     order = np.argsort(curve.load_torque, kind="stable")
     # A load that drives the rotor backwards ever faster has no steady speed.
-    steady = curve.status == bd.TorqueSpeedCurve.STATUSES.index("steady")
+    steady_status = bd.TorqueSpeedCurve.STATUSES.index("steady")
+    steady = curve.status == steady_status
     runs = order[(steady & np.isfinite(curve.speed))[order]]
     torques, torque = unit_of(curve.load_torque, "N m", least=1.0)
     speeds, speed = unit_of(curve.speed[runs], "rad/s")
@@ -168,6 +169,14 @@ def torque_speed(
             load[runs], speeds * curve.speed[runs], _bars(speeds, curve.speed_error[runs]), color=BLACK,
             marker="o", markersize=3.0, capsize=1.5, linewidth=1.0, label="speed",
         )  # fmt: skip
+        for index, other in enumerate(curve.others):
+            there = order[(other.status == steady_status)[order]]
+            axes.errorbar(
+                torques * other.load_torque[there], speeds * other.speed[there],
+                _bars(speeds, other.speed_error[there]), color=BLACK, marker="o", markersize=3.0,
+                markerfacecolor="white", capsize=1.5, linewidth=0.7, linestyle=(0, (1, 1)),
+                label="coexisting motion" if index == 0 else None,
+            )  # fmt: skip
         axes.set_xlabel(labelled("load torque", torque))
         axes.set_ylabel(labelled("rotary speed", speed))
         power_axis = axes.twinx()
