@@ -115,7 +115,7 @@ fn motion_of(operation: Option<&Operation>) -> (u8, f64) {
     }
 }
 
-/// The columns of the operations under many loads, and as the last field those of the further branches.
+/// The columns of the operations under many loads; the last field holds the further branches.
 fn columns<'py>(
     py: Python<'py>,
     rows: &[OperatingRow],

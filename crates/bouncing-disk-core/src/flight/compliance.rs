@@ -187,8 +187,8 @@ impl Compliance {
         2.0 * share / frequency
     }
 
-    /// The same spring and damper on a platform that recoils, where an impact has this share of the disk's mass: its
-    /// contact time and restitution are those of an isolated impact there.
+    /// The same spring and damper on a platform that recoils, where an impact has this share of the disk's mass. Contact
+    /// time and restitution then describe an isolated impact there.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a share outside (0, 1].

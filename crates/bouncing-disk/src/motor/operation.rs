@@ -6,8 +6,10 @@
 //! long they run, which part counts as start-up, and when a number is known well enough. See
 //! docs/numerics/motors.md.
 
+mod averages;
 pub(crate) mod best_phase_lag;
 pub(crate) mod coupled;
+pub(crate) mod loaded_motor;
 mod member;
 pub(crate) mod of_motor;
 pub(crate) mod point;

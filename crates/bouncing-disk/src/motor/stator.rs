@@ -5,8 +5,7 @@ use std::sync::Arc;
 use crate::driven::DrivenSystem;
 use crate::error::Error;
 use crate::motor::data_sheet::parameters::MotorParameters;
-use crate::motor::tape::taped::{TapedRotor, Twist};
-use crate::parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem};
+use crate::parameters::dimensionless::DimensionlessParameters;
 use crate::parameters::disk::Disk;
 use crate::parameters::driven_platform::DrivenPlatform;
 use crate::parameters::load::LoadLaw;
@@ -96,21 +95,6 @@ impl Stator {
             Self::Sine => false,
             Self::Driven(_) => true,
             Self::Yielding(system) => !system.twists() && (system.yields() || system.takes_time()),
-        }
-    }
-
-    /// How a rotor of this system is turned whose motion does not act back on the stator.
-    pub(crate) fn rotor(&self, system: &DimensionlessSystem) -> TapedRotor {
-        let (friction, load) = (system.friction(), system.load());
-        let (cosine, sine) = system.twist_components();
-        let twist = Twist::Sine([cosine, sine]);
-        match self {
-            Self::Sine => TapedRotor { friction, load, law: Vec::new(), twist },
-            Self::Driven(own) => own.system.rotor(),
-            Self::Yielding(own) => {
-                let law = if own.constant_law() == Some(0.0) { Vec::new() } else { own.law() };
-                TapedRotor { friction, load, law, twist }
-            }
         }
     }
 

@@ -8,6 +8,8 @@
 
 pub(crate) mod cycle;
 mod engine;
+pub(crate) mod left;
+pub(crate) mod recurrence;
 pub(crate) mod replay;
 mod rigid;
 pub(crate) mod source;
@@ -66,6 +68,7 @@ impl Tape {
         tape
     }
 
+    /// The ways in which stators turn other than as a sine.
     pub(crate) fn twists(&self) -> Vec<Drive> {
         self.twists.clone()
     }

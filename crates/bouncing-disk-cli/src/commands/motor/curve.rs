@@ -57,7 +57,7 @@ pub(super) fn run(args: &CurveArgs, context: Context) -> Result<()> {
         }
         None => vec![None; loads.len()],
     };
-    // The spread is that of the first branch.
+    // Only the first branch has a spread.
     let branches = |(row, spread): (&OperatingRow, &Option<InputSpread>)| {
         let spread = *spread;
         let all = row.branches.clone().into_iter().enumerate();

@@ -107,7 +107,7 @@ pub struct StatorReport {
     /// The preload (N) from which on a rotor at rest is no longer lifted
     /// ([`StatorModes::lift_off_preload`](crate::parameters::StatorModes::lift_off_preload)); `None` also where contacts take time.
     pub lift_off_preload: Option<f64>,
-    /// The contact time of the sheet in periods of the drive: that of an isolated impact on a platform that does not yield.
+    /// The contact time of the sheet in periods of the drive, for a platform that does not yield.
     pub contact_periods: Option<f64>,
     /// The same on this stator, whose modes recoil, and the restitution there.
     pub isolated_contact: Option<[f64; 2]>,

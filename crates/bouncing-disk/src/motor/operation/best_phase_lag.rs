@@ -6,9 +6,10 @@ use bouncing_disk_core::Observer;
 use bouncing_disk_core::numerics::elementary::wrapped_angle;
 
 use crate::error::Error;
+use crate::motor::operation::loaded_motor::LoadedMotor;
 use crate::motor::operation::point::Estimate;
 use crate::motor::operation::settings::OperatingSettings;
-use crate::motor::operation::steady_run::{LoadedMotor, Operations, operate};
+use crate::motor::operation::steady_run::{Operations, operate};
 
 /// Lags around the whole circle.
 const COARSE: usize = 32;
@@ -16,8 +17,7 @@ const COARSE: usize = 32;
 /// Lags on either side of the best one, up to its second neighbours, in each further search.
 const FINE: usize = 8;
 
-/// Searches after the first, each with lags four times as near to each other, while the speed at the best lag differs by
-/// more than its error from the speeds beside it.
+/// Searches after the first, each with lags four times as near to each other, while no parabola goes through the speeds.
 const SEARCHES: usize = 4;
 
 /// The first search is at most so accurate.

@@ -12,43 +12,13 @@ use crate::error::Error;
 use crate::motion::event::{Energies, Event, Motion, MotionRecord, SteeredMotion};
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
 use crate::motor::rotor::transient::FLIGHTS_OF_EVENT;
-use crate::motor::tape::cycle::{Cycle, Key, Recurrence, Repeats, Touch};
+use crate::motor::tape::cycle::Cycle;
+use crate::motor::tape::left::Left;
+use crate::motor::tape::recurrence::{Key, Recurrence, Repeats, Touch};
 use crate::motor::tape::window::{AxialWindow, RotorWindow, Window};
-use crate::parameters::scales::Scales;
-use crate::stator::{MODES, StatorEngine, StatorState, StatorSystem};
+use crate::stator::{StatorEngine, StatorSystem};
 
-/// Where a rotor on a stator that yields was left.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Left {
-    pub(crate) time: PhaseTime,
-    pub(crate) state: StatorState,
-    /// Whether the coordinate of a mode is a height.
-    rises: [bool; MODES],
-}
-
-impl Left {
-    /// Of an engine at a time before its next event.
-    pub(crate) fn of(engine: &StatorEngine, time: PhaseTime) -> Self {
-        let state = engine.state_after(time.since(&engine.time()).radians()).1;
-        Self { time, state, rises: engine.system().modes.map(|mode| mode.height != 0.0) }
-    }
-
-    /// In SI units, or from them by `f64::recip` of each unit; time and angle begin anew.
-    pub(crate) fn scaled(self, unit: &Scales, of: fn(f64) -> f64) -> Self {
-        let (mut state, time) = (self.state, PhaseTime::in_first_period(self.time.phase));
-        state.disk.height *= of(unit.length);
-        state.disk.axial_velocity *= of(unit.velocity);
-        (state.disk.angle, state.disk.angular_speed) =
-            (0.0, state.disk.angular_speed * of(unit.angular_speed));
-        for ([place, speed], rises) in state.modes.iter_mut().zip(self.rises) {
-            *place *= of(if rises { unit.length } else { unit.angle });
-            *speed *= of(if rises { unit.velocity } else { unit.angular_speed });
-        }
-        Self { time, state, ..self }
-    }
-}
-
-/// A rotor and its stator, and what they have done since their start.
+/// A rotor with its stator, and sums since their start.
 #[derive(Debug)]
 pub(crate) struct Coupled {
     engine: StatorEngine,
@@ -58,10 +28,10 @@ pub(crate) struct Coupled {
     /// Energy given by the perturbations.
     given: f64,
     impacts: u64,
-    /// Impacts, and what of the events of a contact that takes time recurs without an impact.
+    /// Impacts, and those events of a compliant contact that recur without an impact.
     recurrences: u64,
     start: PhaseTime,
-    /// Now, and the end of the last window with what was done up to it.
+    /// Now, and the end of the last window with the sums up to there.
     reached: PhaseTime,
     ended: PhaseTime,
     before: Totals,
@@ -224,7 +194,7 @@ impl Coupled {
         Ok(Some(touch))
     }
 
-    /// What was done since the last window; a rotor that `lies` for ever has periods in place of impacts.
+    /// The sums since the last window; for a rotor that `lies` for ever periods count as impacts.
     fn window(&mut self, lies: bool) -> Window {
         let now = self.totals(&self.reached);
         let before = std::mem::replace(&mut self.before, now);

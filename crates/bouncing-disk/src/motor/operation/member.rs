@@ -9,10 +9,11 @@ use bouncing_disk_core::sweep::{InstructionSet, LaneRunner};
 
 use crate::error::Error;
 use crate::motor::batch::members::starting_phase;
-use crate::motor::operation::coupled::{Coupled, Left};
+use crate::motor::operation::coupled::Coupled;
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::stator::Stator;
 use crate::motor::tape::cycle::Cycle;
+use crate::motor::tape::left::Left;
 use crate::motor::tape::source::Source;
 use crate::motor::tape::taped::Taped;
 use crate::motor::tape::window::Window;

@@ -7,12 +7,11 @@ use crate::error::{Error, check};
 use crate::motor::batch::shared_orbit::is_shared;
 use crate::motor::data_sheet::Motor;
 use crate::motor::operation::best_phase_lag::{BestPhaseLag, best_phase_lag};
+use crate::motor::operation::loaded_motor::{LargestSpeeds, LoadedMotor};
 use crate::motor::operation::point::{Estimate, OperatingRow, Operation};
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::operation::stall_load::{StallLoad, stall_load};
-use crate::motor::operation::steady_run::{
-    Ends, LargestSpeeds, LoadedMotor, MAX_OPERATED_ROTORS, continued, curve_of, operate,
-};
+use crate::motor::operation::steady_run::{Ends, MAX_OPERATED_ROTORS, continued, curve_of, operate};
 use crate::motor::stator::{Stator, on_shaft};
 use crate::parameters::system::System;
 
@@ -246,6 +245,50 @@ mod tests {
         assert!(speed(&mixed[0]) > speed(&mixed[2]) && speed(&mixed[2]) > speed(&mixed[3]));
         let unloaded = motor.no_load_speed(&settings).expect("steady");
         assert!((unloaded.value - speed(&curve[0]).expect("steady")).abs() < 4.0 * unloaded.standard_error);
+    }
+
+    /// A motor of 40 kHz with contacts of 0.56 periods is tapped in every period, or flies for thousands of them before it
+    /// is. Small steps of fourth order give the taps 2.97 rad/s, and those of 0.77 periods 3.626.
+    #[test]
+    fn coexisting_motions_are_branches_and_none_is_averaged() {
+        use crate::motor::{AxialMotion, Life, MotorParameters};
+        use crate::parameters::contact::Contact;
+        let wave = |microseconds: f64| {
+            let sheet = |sheet: &mut MotorParameters| {
+                (sheet.drive_frequency, sheet.amplitude) = (40e3, Some(0.5e-6));
+                (sheet.peak_angular_speed, sheet.twist_amplitude) = (Some(12.0), None);
+                (sheet.mass, sheet.density, sheet.rotor_radius) = (Some(0.020), None, None);
+                (sheet.contact_radius, sheet.gyration_radius) = (12.5e-3, Some(10e-3));
+                (sheet.preload_force, sheet.preload_acceleration) = (Some(5.0), None);
+                sheet.contact = Some(Contact::lasting(1e-6 * microseconds));
+            };
+            Motor::paper_70_khz().with(sheet).expect("legal")
+        };
+        let settings = OperatingSettings::default();
+        let row = wave(14.0).operating_point(0.0, &settings, &Unobserved).expect("no failure");
+        let [tapped, flying] = [0, 1].map(|branch| *row.branches[branch].steady().expect("known"));
+        assert_eq!(row.branches.len(), 2);
+        assert_eq!(tapped.motion, AxialMotion::Periodic { periods: 1, impacts: 1 });
+        assert!((tapped.speed.value - 2.97).abs() < 0.006, "{tapped:?}");
+        let AxialMotion::Irregular { life: Life::Mean(life) } = flying.motion else { panic!("{flying:?}") };
+        // A run of this length sees a few of them end.
+        assert!((0.3..10.0).contains(&life) && flying.speed.value > 8.0, "{flying:?}");
+        for point in [tapped, flying] {
+            let out = point.restitution_loss.value + point.friction_loss.value;
+            let error = point.restitution_loss.standard_error + point.input_power.standard_error;
+            assert!((point.input_power.value - out).abs() < 1e-6 * out + 3.0 * error, "{point:?}");
+        }
+        let soft = wave(19.25).operating_point(0.0, &settings, &Unobserved).expect("no failure");
+        let speed = soft.steady().expect("known").speed;
+        assert!(soft.branches.len() == 1 && (speed.value - 3.626).abs() < 0.003, "{speed:?}");
+        // A free rotor stops under another load than the torque on one that is held.
+        let stall = wave(14.0).stall_load(&settings, &Unobserved).expect("it turns");
+        assert_eq!(stall.others.len(), 1);
+        for own in [&stall, &stall.others[0]] {
+            let blocked = own.blocked_torque.expect("nothing acts back");
+            assert!(own.bracket[0] < own.torque.value && own.torque.value < own.bracket[1], "{own:?}");
+            assert!((blocked.value / own.torque.value - 1.0).abs() < 0.05, "{own:?}");
+        }
     }
 
     #[test]

@@ -13,10 +13,11 @@ use bouncing_disk_core::{Observer, Progress};
 
 use crate::error::{Error, check, finite, within_limit};
 use crate::motor::data_sheet::Motor;
+use crate::motor::operation::loaded_motor::LoadedMotor;
 use crate::motor::operation::point::Estimate;
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::operation::stall_load::stall_share;
-use crate::motor::operation::steady_run::{LoadedMotor, Operations, operate, operate_for};
+use crate::motor::operation::steady_run::{Operations, operate, operate_for};
 
 /// Members of a drawn motor: the fewest that have a scatter, which is then pooled over all draws. Each member
 /// runs as long as one of the motor itself. No run ends because its own error looks small, so the errors are

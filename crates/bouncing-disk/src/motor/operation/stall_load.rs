@@ -4,9 +4,10 @@ use bouncing_disk_core::Observer;
 use bouncing_disk_core::numerics::elementary::hypot;
 
 use crate::error::Error;
+use crate::motor::operation::loaded_motor::LoadedMotor;
 use crate::motor::operation::point::{AxialMotion, Estimate, OperatingRow, Operation, Shortfall};
 use crate::motor::operation::settings::OperatingSettings;
-use crate::motor::operation::steady_run::{LoadedMotor, operate};
+use crate::motor::operation::steady_run::operate;
 
 /// Steps of the load from zero to the largest mean torque of friction.
 const STEPS: usize = 16;

@@ -6,10 +6,10 @@ use bouncing_disk_core::Observer;
 use bouncing_disk_core::numerics::statistics::{NORMAL_975, mean};
 use bouncing_disk_core::run::{Watch, in_parallel};
 
-use crate::driven::DrivenSystem;
 use crate::error::{Error, check, finite, positive, within_limit};
 use crate::motor::batch::shared_orbit::shared_by;
-use crate::motor::operation::coupled::Left;
+use crate::motor::operation::averages::{Averages, Pairs, Sum, Units};
+use crate::motor::operation::loaded_motor::LoadedMotor;
 use crate::motor::operation::member::{Member, far_above, is_thrown};
 use crate::motor::operation::point::{
     AxialMotion, Estimate, Life, OperatingPoint, OperatingRow, Operation, Shortfall, StatorPoint,
@@ -19,11 +19,10 @@ use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::operation::settling::{decided_by_start, left_out, shortfall};
 use crate::motor::stator::Stator;
 use crate::motor::tape::cycle::Cycle;
-use crate::motor::tape::window::{AxialWindow, RotorWindow, Window};
-use crate::parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem};
-use crate::parameters::scales::Scales;
+use crate::motor::tape::left::Left;
+use crate::motor::tape::window::{RotorWindow, Window};
+use crate::parameters::dimensionless::DimensionlessSystem;
 use crate::parameters::system::System;
-use crate::stator::{StatorLedger, StatorSystem};
 
 /// Windows of the first round, and windows in the time in which friction gives the platform's largest speed.
 const FIRST_WINDOWS: usize = 12;
@@ -64,18 +63,11 @@ const GROWTH: f64 = 3.0;
 /// needed.
 const MARGIN: f64 = 1.15;
 
-/// Relative rounding of a load that was computed from the largest torque of friction in other units: some ten
-/// operations.
-const LOAD_ROUNDING: f64 = 16.0 * f64::EPSILON;
-
 /// Members begin, in place of others that repeat themselves, until there were so many times those of the settings.
 const MOST_STARTS: usize = 3;
 
 /// More cycles than this are a family: each start keeps its own.
 const MOST_CYCLES: usize = 6;
-
-/// Members of one motor of a search.
-const FEWEST: usize = 4;
 
 /// Windows that each of the members leaves out as its start-up if some end.
 const START_UP: usize = FIRST_WINDOWS / 2;
@@ -88,138 +80,6 @@ const NOTHING_YET: Shortfall = Shortfall::Error { standard_error: f64::INFINITY,
 
 /// A motor whose disk stores more than this share of the power put in has not settled.
 const STORED_SHARE: f64 = 0.05;
-
-/// A motor under a load, to be carried on a shared vertical motion.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct LoadedMotor<'a> {
-    /// Rotor, shaft and sine of the sheet.
-    pub(crate) system: System,
-    /// The largest speeds of the stator.
-    pub(crate) fastest: LargestSpeeds,
-    /// The stator; load, friction and phase lag are those of `system`.
-    pub(crate) stator: &'a Stator,
-    /// Mass m (kg).
-    pub(crate) mass: f64,
-    /// Load torque T_L (N m) as given, from which the system's load is computed.
-    pub(crate) load_torque: f64,
-}
-
-/// The largest speeds of a stator, by which starts and errors are scaled.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct LargestSpeeds {
-    /// Of the height (g/omega), and of the angle (g a_e/(a_g^2 omega)).
-    pub(crate) height: f64,
-    pub(crate) angle: f64,
-    /// Of the angle (rad/s).
-    pub(crate) angular_speed: f64,
-}
-
-impl LargestSpeeds {
-    /// Those of the sine of a system.
-    pub(crate) fn of_sine(system: &System) -> Self {
-        let own = system.dimensionless();
-        let angular_speed = system.platform().peak_angular_speed();
-        Self { height: own.peak_acceleration(), angle: own.twist_speed(), angular_speed }
-    }
-
-    /// Those of drives on the platform and under the disk of a system.
-    pub(crate) fn of_drives(system: &System, driven: &DrivenSystem) -> Self {
-        let (disk, scales, frequency) =
-            (system.disk(), system.scales(), system.platform().angular_frequency());
-        let preload = disk.preload_acceleration();
-        let inertia = disk.gyration_radius() * disk.gyration_radius() / (disk.contact_radius() * preload);
-        let amplitude = driven.height().bounds().speed * scales.length;
-        let angular_speed = frequency * (driven.angle().bounds().speed * scales.angle);
-        Self {
-            height: amplitude * frequency * frequency / preload,
-            angle: inertia * angular_speed * frequency,
-            angular_speed,
-        }
-    }
-}
-
-impl LoadedMotor<'_> {
-    /// Its numbers without units, with the largest speeds of its stator as those of the sine.
-    fn dimensionless(&self) -> Result<DimensionlessSystem, Error> {
-        let LargestSpeeds { height, angle, .. } = self.fastest;
-        let own = self.system.dimensionless().parameters();
-        DimensionlessParameters { peak_acceleration: height, twist_speed: angle, ..own }.build()
-    }
-
-    /// The same motor under another load torque (N m).
-    pub(crate) fn with_load(&self, load_torque: f64) -> Result<Self, Error> {
-        let disk = self.system.disk().parameters().with_load_torque(load_torque, self.mass)?;
-        Ok(Self { system: System::new(*self.system.platform(), disk.build()?)?, load_torque, ..*self })
-    }
-
-    /// The same motor with another phase lag (rad).
-    pub(crate) fn with_phase_lag(&self, phase_lag: f64) -> Result<Self, Error> {
-        let system = self.system.with_platform(|platform| platform.phase_lag = phase_lag)?;
-        Ok(Self { system, ..*self })
-    }
-
-    /// The load torque in units of m g a_e.
-    pub(crate) const fn load(&self) -> f64 {
-        self.system.dimensionless().load()
-    }
-
-    /// Whether a mean speed differs from zero: by more than four of its standard errors, and by more than
-    /// rounding.
-    pub(crate) fn turns(&self, speed: Estimate) -> bool {
-        let rounding = 1e-6 * self.fastest.angular_speed;
-        speed.value.abs() > (4.0 * speed.standard_error).max(rounding)
-    }
-
-    /// Settings for one of many motors among which something is searched: fewer members where each has a motion of its
-    /// own.
-    pub(crate) fn for_search(&self, settings: &OperatingSettings) -> OperatingSettings {
-        let members = if self.stator.acts_back() { FEWEST } else { settings.members };
-        OperatingSettings { members: members.min(settings.members), ..*settings }
-    }
-
-    /// The largest mean torque of friction, mu m g a_e (N m).
-    pub(crate) fn largest_torque(&self) -> f64 {
-        let disk = self.system.disk();
-        disk.friction() * self.mass * disk.preload_acceleration() * disk.contact_radius()
-    }
-
-    /// Its stator, if it yields or the load has a law.
-    fn yielding(&self) -> Option<&StatorSystem> {
-        self.stator.yielded()
-    }
-
-    /// What the law of the load adds to the load torque; infinite where it depends on the speed.
-    fn law(&self) -> f64 {
-        self.yielding().map_or(0.0, |own| own.constant_law().unwrap_or(f64::INFINITY))
-    }
-
-    /// Neither load torque nor law.
-    fn is_unloaded(&self) -> bool {
-        self.load() == 0.0 && self.law() == 0.0
-    }
-
-    /// The load accelerates it for ever: in units of m g a_e it is above the coefficient of friction, or
-    /// equal to it but for the rounding of the torques in other units. On average the normal force is the
-    /// weight under preload, so that friction gives no more, whatever the motion. Of a load that depends on the speed this
-    /// is not known.
-    fn runs_away(&self) -> bool {
-        let system = self.system.dimensionless();
-        let load = system.load() + self.law();
-        load.is_finite() && load != 0.0 && load.abs() >= system.friction() * (1.0 - LOAD_ROUNDING)
-    }
-
-    fn runaway(&self) -> Operation {
-        let system = self.system.dimensionless();
-        let load = system.load() + self.law();
-        let beyond = (load.abs() - system.friction()).max(0.0);
-        let scale = self.system.scales().angular_acceleration;
-        Operation::Runaway {
-            load_torque: self.load_torque + self.law() * Units::of(self).torque,
-            largest_torque: self.largest_torque(),
-            acceleration: -beyond.copysign(load) * scale,
-        }
-    }
-}
 
 /// The mean speeds of all rotors and members, and the operations that follow from them.
 #[derive(Debug)]
@@ -787,11 +647,7 @@ impl<'a> SteadyRun<'a> {
 
     /// All averaged windows.
     fn total(&self, rotor: usize) -> Sum {
-        let mut sum = Sum::default();
-        for window in self.averaged().into_iter().flatten() {
-            sum.add(window, rotor);
-        }
-        sum
+        Sum::of(self.averaged().into_iter().flatten(), rotor)
     }
 
     fn results(&self) -> Result<Vec<MotorResult>, Error> {
@@ -824,11 +680,7 @@ impl<'a> SteadyRun<'a> {
             branches.push((usize::from(self.ended > 0), operation, [speeds.clone(), speeds]));
         }
         for repeated in self.repeated.iter().filter(|_| self.repeated.len() <= MOST_CYCLES) {
-            let sums = repeated.windows.each_ref().map(|window| {
-                let mut sum = Sum::default();
-                sum.add(window, index);
-                sum
-            });
+            let sums = repeated.windows.each_ref().map(|window| Sum::of(std::iter::once(window), index));
             let speeds = vec![speed(&sums[0]); self.settings.members];
             let point = self.point(index, &Averages::Cycle { sums: &sums, cycle: &repeated.cycle })?;
             branches.push((repeated.from_rest, Operation::Steady(point), [speeds.clone(), speeds]));
@@ -842,11 +694,7 @@ impl<'a> SteadyRun<'a> {
 
     /// What a motor's rotor does in each cycle.
     fn cycles(&self, index: usize) -> Vec<Sum> {
-        let of_cycle = |repeated: &Repeated| {
-            let mut sum = Sum::default();
-            sum.add(&repeated.windows[0], index);
-            sum
-        };
+        let of_cycle = |repeated: &Repeated| Sum::of(std::iter::once(&repeated.windows[0]), index);
         self.repeated.iter().map(of_cycle).collect()
     }
 
@@ -871,23 +719,12 @@ impl<'a> SteadyRun<'a> {
     /// The sums of a motor's two rotors in each member after the start-up.
     fn pairs(&self, index: usize) -> Pairs {
         let averaged = self.averaged();
-        let [below, above] = [index, self.rotor_from_above(index)].map(|rotor| {
-            let member = |windows: &Vec<&Window>| {
-                let mut sum = Sum::default();
-                windows.iter().for_each(|window| sum.add(window, rotor));
-                sum
-            };
-            averaged.iter().map(member).collect::<Vec<Sum>>()
-        });
-        let quickest = self.is_quicker().then(|| self.motors.len() + self.asked + index);
-        let quickest = quickest.map_or_else(Vec::new, |rotor| {
-            let member = |windows: &Vec<&Window>| {
-                let mut sum = Sum::default();
-                windows.iter().for_each(|window| sum.add(window, rotor));
-                sum
-            };
-            averaged.iter().map(member).collect()
-        });
+        let sums = |rotor: usize| -> Vec<Sum> {
+            averaged.iter().map(|windows| Sum::of(windows.iter().copied(), rotor)).collect()
+        };
+        let (below, above) = (sums(index), sums(self.rotor_from_above(index)));
+        let quickest =
+            if self.is_quicker() { sums(self.motors.len() + self.asked + index) } else { Vec::new() };
         Pairs { below, above, quickest }
     }
 
@@ -1027,158 +864,6 @@ impl<'a> SteadyRun<'a> {
         } else {
             Life::NoneEndedIn(times.into_iter().fold(0.0, f64::max) * unit)
         }
-    }
-}
-
-/// The sums of each member, of its rotors from far below and from far above.
-struct Pairs {
-    below: Vec<Sum>,
-    above: Vec<Sum>,
-    /// Of rotors with half the inertia, where these have less than the motor's.
-    quickest: Vec<Sum>,
-}
-
-impl Pairs {
-    /// Of each member in the middle of its two rotors, and of that from above.
-    fn of(&self, value: &dyn Fn(&Sum) -> f64) -> [Vec<f64>; 2] {
-        let middles =
-            self.below.iter().zip(&self.above).map(|(one, other)| 0.5 * (value(one) + value(other)));
-        [middles.collect(), self.above.iter().map(value).collect()]
-    }
-}
-
-/// What means are taken over.
-enum Averages<'a> {
-    Members(&'a Pairs),
-    Cycle { sums: &'a [Sum; 2], cycle: &'a Cycle },
-}
-
-impl Averages<'_> {
-    fn estimate(&self, value: &dyn Fn(&Sum) -> f64) -> Result<Estimate, Error> {
-        match self {
-            Self::Members(pairs) => {
-                let [middle, above] = pairs.of(value);
-                let known = Estimate::of(&middle)?.bounded_by(Estimate::of(&above)?);
-                if pairs.quickest.is_empty() {
-                    return Ok(known);
-                }
-                let quickest: Vec<f64> = pairs.quickest.iter().map(value).collect();
-                Ok(known.bounded_by(Estimate::of(&quickest)?))
-            }
-            Self::Cycle { sums: [fine, coarse], cycle } => {
-                let known = finite("estimate", value(fine))?;
-                let off = (value(coarse) - known).abs() + cycle.repeats.distance * known.abs();
-                Ok(Estimate { value: known, standard_error: off / NORMAL_975 })
-            }
-        }
-    }
-
-    fn ratio(&self, dividend: &dyn Fn(&Sum) -> f64, divisor: &dyn Fn(&Sum) -> f64) -> Option<Estimate> {
-        match self {
-            Self::Members(pairs) => {
-                let (work, put_in) = (pairs.of(dividend), pairs.of(divisor));
-                let ratio = |start: usize| Estimate::of_ratio(&work[start], &put_in[start]);
-                ratio(0).zip(ratio(1)).map(|(middle, above)| middle.bounded_by(above))
-            }
-            Self::Cycle { sums: [fine, _], .. } => {
-                let ratio = || self.estimate(&|sum| dividend(sum) / divisor(sum)).ok();
-                if divisor(fine) > 0.0 { ratio() } else { None }
-            }
-        }
-    }
-
-    /// One of the sums.
-    fn first(&self) -> Sum {
-        match self {
-            Self::Members(pairs) => pairs.below.first().copied().unwrap_or_default(),
-            Self::Cycle { sums: [fine, _], .. } => *fine,
-        }
-    }
-
-    /// Averaged time (rad) and impacts, of all members together.
-    fn duration_and_impacts(&self) -> (f64, u64) {
-        match self {
-            Self::Members(pairs) => (
-                pairs.below.iter().map(|sum| sum.axial.duration).sum(),
-                pairs.below.iter().map(|sum| sum.axial.impacts).sum(),
-            ),
-            Self::Cycle { sums: [fine, _], .. } => (fine.axial.duration, fine.axial.impacts),
-        }
-    }
-}
-
-/// SI units of what the windows hold.
-struct Units {
-    time: f64,
-    length: f64,
-    speed: f64,
-    /// m g a_e (N m).
-    torque: f64,
-    /// Power (W) for one unit of axial, and of rotary energy in a radian.
-    axial: f64,
-    rotary: f64,
-}
-
-impl Units {
-    fn of(motor: &LoadedMotor<'_>) -> Self {
-        let Scales { time, length, angular_speed, axial_energy, rotary_energy, .. } = motor.system.scales();
-        Self {
-            time,
-            length,
-            speed: angular_speed,
-            torque: motor.mass
-                * motor.system.disk().preload_acceleration()
-                * motor.system.disk().contact_radius(),
-            axial: motor.mass * axial_energy / time,
-            rotary: motor.mass * rotary_energy / time,
-        }
-    }
-}
-
-/// Windows of one member, or of all, added up.
-#[derive(Debug, Clone, Copy, Default)]
-struct Sum {
-    axial: AxialWindow,
-    rotor: RotorWindow,
-}
-
-impl Sum {
-    fn add(&mut self, window: &Window, rotor: usize) {
-        let rotor = &window.rotors[rotor];
-        self.axial.add(rotor.stator.as_ref().map_or(&window.axial, |(_, own)| own));
-        self.rotor.add(rotor);
-    }
-
-    /// The energies of a stator that yields.
-    fn stator(&self) -> StatorLedger {
-        self.rotor.stator.map(|(ledger, _)| ledger).unwrap_or_default()
-    }
-
-    /// The energy that came in; where less came in than the disks of all members have at their start, that:
-    /// there are only roundings then.
-    fn energy_scale(&self, units: &Units, system: &DimensionlessSystem, members: usize) -> f64 {
-        let axial = self.axial.normal_work + self.axial.perturbation_work;
-        // A load that drives the motor puts energy in, too, and so does a rotor that slows down.
-        let rotor = &self.rotor;
-        let rotary = rotor.friction_work.abs().max(rotor.load_work.abs()).max(rotor.friction_loss);
-        let put_in = axial.abs() * units.axial + rotary * units.rotary;
-        let (peak, twist) = (system.peak_acceleration(), far_above(system).max(system.twist_speed()));
-        let moving = 0.5 * peak * peak * units.axial + 0.5 * twist * twist * units.rotary;
-        put_in.max(members as f64 * moving)
-    }
-
-    /// The residual of the energy balance, relative to the supplied energy.
-    fn energy_residual(&self, units: &Units, system: &DimensionlessSystem, members: usize) -> f64 {
-        let axial = self.axial.normal_work + self.axial.perturbation_work;
-        let axial_left = axial - self.axial.restitution_loss - self.axial.energy_change;
-        let rotor = &self.rotor;
-        let rotary_left = rotor.friction_work - rotor.friction_loss - rotor.load_work - rotor.kinetic_change;
-        let stator_left = self.stator().closure() * units.axial;
-        let left = (axial_left * units.axial).abs() + (rotary_left * units.rotary).abs() + stator_left.abs();
-        // The modes of a heavy stator hold much more than the disk.
-        let modes = self.stator();
-        let scale = self.energy_scale(units, system, members) + modes.drive_work.abs() * units.axial;
-        if scale > 0.0 { left / scale } else { left }
     }
 }
 

@@ -8,9 +8,10 @@ use bouncing_disk_core::{Observer, Progress};
 
 use crate::error::{Error, check, positive};
 use crate::motor::data_sheet::Motor;
+use crate::motor::operation::loaded_motor::LoadedMotor;
 use crate::motor::operation::point::Estimate;
 use crate::motor::operation::settings::OperatingSettings;
-use crate::motor::operation::steady_run::{LoadedMotor, operate};
+use crate::motor::operation::steady_run::operate;
 use crate::motor::sensitivity::parameter::{SensitivityParameter, SensitivityQuantity};
 use crate::statistics::student_quantile;
 

@@ -2,114 +2,18 @@
 
 use std::f64::consts::TAU;
 
+use bouncing_disk_core::Drive;
 use bouncing_disk_core::run::WorkCount;
 use bouncing_disk_core::sweep::LaneRunner;
-use bouncing_disk_core::{Drive, Phase};
 
+use super::recurrence::{Key, Repeats, Touch, are_same};
 use super::replay::{Done, Replay, Rotors};
 use super::source::Source;
 use super::window::Window;
 use super::{Knot, Tape};
 use crate::error::Error;
 use crate::motor::batch::rotor_rows::WIDTH;
-use crate::stator::{MODES, StatorLedger};
-
-/// A state that differs from an earlier one by less than this share of the largest seen repeats it. Two cycles must.
-const SAME: f64 = 1.0e-11;
-
-/// A motion comes nearer to its cycle by at least the rest of this factor.
-const SLOWEST: f64 = 1.0 - 1.0e-5;
-
-/// A part of a state counts as at least this share of the largest.
-const SMALL: f64 = 1.0e-3;
-
-/// Most touches of a cycle.
-const LONGEST: u64 = 128;
-
-/// Where a disk touches the platform, or leaves it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Key([f64; PARTS]);
-
-const PARTS: usize = 9;
-
-/// The place of the rotor's angular speed.
-const SPEED: usize = 4;
-
-impl Key {
-    /// Of a disk with this velocity and height and, if it acts back, angular speed, and the modes of its stator.
-    pub(crate) const fn new(phase: Phase, disk: [f64; 3], modes: [[f64; 2]; MODES]) -> Self {
-        let [[a, b], [c, d]] = modes;
-        Self([phase.sin(), phase.cos(), disk[0], disk[1], disk[2], a, b, c, d])
-    }
-
-    /// How far it is from another one, as the largest share of these sizes; a part that stays small counts as a share of
-    /// the others.
-    fn distance(&self, other: &Self, sizes: [f64; PARTS]) -> f64 {
-        // The angular speed has a unit of its own.
-        let others = sizes.into_iter().enumerate().filter(|(part, _)| *part != SPEED);
-        let least = SMALL * others.map(|(_, size)| size).fold(1.0, f64::max);
-        let parts = self.0.iter().zip(other.0).zip(sizes);
-        parts.map(|((one, other), size)| (one - other).abs() / size.max(least)).fold(0.0, f64::max)
-    }
-}
-
-/// What a recorded step has shown.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Touch {
-    None,
-    At(Key),
-    /// The disk lies on the platform for ever.
-    Lies,
-}
-
-/// The search for a cycle among the touches of a motion: each is compared with one that is renewed from time to time.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Recurrence {
-    reference: Option<Key>,
-    largest: [f64; PARTS],
-    since: u64,
-    renewal: u64,
-    /// Touches of the cycle that was seen last, and by how much it missed.
-    seen: Option<(u64, f64)>,
-}
-
-/// A cycle that was seen twice.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Repeats {
-    /// Touches of a cycle, or periods of a disk that lies on the platform.
-    pub(crate) touches: u64,
-    /// How far the motion may still be from the cycle, as a share of the largest state.
-    pub(crate) distance: f64,
-}
-
-impl Recurrence {
-    /// Adds what a step has shown: the cycle, if the motion repeats one.
-    pub(crate) fn add(&mut self, touch: Touch) -> Option<Repeats> {
-        let key = match touch {
-            Touch::None => return None,
-            Touch::Lies => return Some(Repeats { touches: 1, distance: 0.0 }),
-            Touch::At(key) => key,
-        };
-        self.largest = most_of(self.largest, key.0);
-        self.since += 1;
-        let off = self.reference.map_or(f64::INFINITY, |reference| key.distance(&reference, self.largest));
-        if off < SAME {
-            let seen = self.seen.replace((self.since, off));
-            let touches = std::mem::take(&mut self.since);
-            self.reference = Some(key);
-            // What is left of a geometric series that falls as the last two terms do.
-            return seen.filter(|seen| seen.0 == touches).map(|(_, before)| {
-                let ratio = if before > 0.0 { (off / before).min(SLOWEST) } else { 0.0 };
-                Repeats { touches, distance: off.max(f64::EPSILON) / (1.0 - ratio) }
-            });
-        }
-        if self.since >= self.renewal {
-            self.renewal = (2 * self.renewal).clamp(1, LONGEST);
-            (self.reference, self.since, self.seen) = (Some(key), 0, None);
-        }
-        None
-    }
-}
+use crate::stator::StatorLedger;
 
 /// Halvings that find the speed of a rotor that repeats with a cycle, to rounding.
 const HALVINGS: u32 = 60;
@@ -117,22 +21,8 @@ const HALVINGS: u32 = 60;
 /// Steps of a contact in a period, in a cycle and in a coarser copy that shows what steps do.
 const RESOLUTIONS: [f64; 2] = [2048.0, 1024.0];
 
-/// Touches that differ by less than this share of the largest are one.
-const ONE: f64 = 1.0e-7;
-
 /// Most knots of a cycle, of any length.
 const MOST_KNOTS: f64 = 65_536.0;
-
-/// Whether two cycles have the same touches, so many touches apart.
-fn are_same(one: &[Key], other: &[Key], apart: usize) -> bool {
-    let sizes = one.iter().fold([0.0; PARTS], |most, key| most_of(most, key.0));
-    let other = other.iter().cycle().skip(apart);
-    one.iter().zip(other).all(|(one, other)| one.distance(other, sizes) < ONE)
-}
-
-fn most_of(one: [f64; PARTS], other: [f64; PARTS]) -> [f64; PARTS] {
-    core::array::from_fn(|part| one[part].max(other[part].abs()))
-}
 
 /// What is known of a cycle.
 #[derive(Debug, Clone)]
@@ -168,7 +58,7 @@ impl Cycle {
                 match source.record(&mut tape, work)? {
                     Touch::None => {}
                     Touch::At(key) => keys.push(key),
-                    Touch::Lies => keys.push(Key([0.0; PARTS])),
+                    Touch::Lies => keys.push(Key::LYING),
                 }
             }
             Ok::<_, Error>((tape, keys))

@@ -6,7 +6,7 @@ use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::run::WorkCount;
 
 use super::Tape;
-use super::cycle::{Key, Touch};
+use super::recurrence::{Key, Touch};
 use crate::error::Error;
 use crate::motion::event::{Event, MotionRecord, SteeredMotion};
 use crate::motion::state::{DiskState, Mode};

@@ -29,6 +29,17 @@ pub(crate) struct Done {
     pub(crate) law_work: Row,
 }
 
+impl Done {
+    /// Adds what a rotor has done in a contact step.
+    #[inline(always)]
+    fn add(&mut self, own: usize, slid: &Slid) {
+        self.angle[own] += slid.angle;
+        self.square[own] += slid.square;
+        self.work[own] += slid.work;
+        self.loss[own] += slid.loss;
+    }
+}
+
 /// Up to eight rotors on one stator and under one law of the load.
 #[derive(Debug, Clone)]
 pub(crate) struct Rotors {
@@ -45,16 +56,14 @@ pub(crate) struct Rotors {
 impl Rotors {
     /// The same rotors with the inertia of their motors.
     pub(crate) fn at_own_inertia(&self) -> Self {
-        let mut rotors = self.clone();
+        let mut rotors = Self { quicker: [1.0; WIDTH], ..self.clone() };
         for own in 0..WIDTH {
-            let quicker = std::mem::replace(&mut rotors.quicker[own], 1.0);
-            rotors.rows.friction[own] /= quicker;
-            rotors.rows.load[own] /= quicker;
-            if own == 0 {
-                for line in &mut rotors.law {
-                    (line.torque, line.slope) = (line.torque / quicker, line.slope / quicker);
-                }
-            }
+            rotors.rows.friction[own] /= self.quicker[own];
+            rotors.rows.load[own] /= self.quicker[own];
+        }
+        // Rotors under one law have the same factor.
+        for line in &mut rotors.law {
+            (line.torque, line.slope) = (line.torque / self.quicker[0], line.slope / self.quicker[0]);
         }
         rotors
     }
@@ -140,11 +149,7 @@ fn slide(rows: &mut RotorRows<Done>, knot: &Knot, from: Row, to: Row) {
         };
         let slid = step.slide(rows.speed[own]);
         rows.speed[own] = slid.speed;
-        let done = &mut rows.tally;
-        done.angle[own] += slid.angle;
-        done.square[own] += slid.square;
-        done.work[own] += slid.work;
-        done.loss[own] += slid.loss;
+        rows.tally.add(own, &slid);
     }
 }
 
@@ -212,11 +217,8 @@ fn slide_under(rows: &mut RotorRows<Done>, count: usize, knot: &Knot, from: Row,
         let (near, _) = under(speed);
         let (slid, added) = under(0.5 * (speed + near.speed));
         rows.speed[own] = slid.speed;
+        rows.tally.add(own, &slid);
         let done = &mut rows.tally;
-        done.angle[own] += slid.angle;
-        done.square[own] += slid.square;
-        done.work[own] += slid.work;
-        done.loss[own] += slid.loss;
         done.law_impulse[own] += added;
         done.law_work[own] += added * (slid.angle / knot.duration);
     }

@@ -6,7 +6,7 @@ use bouncing_disk_core::numerics::elementary::cos;
 use bouncing_disk_core::run::WorkCount;
 use bouncing_disk_core::{Attachment, ChatterPolicy, Impact, OrbitEvent, Phase};
 
-use super::cycle::{Key, Touch};
+use super::recurrence::{Key, Touch};
 use super::{Knot, Tape};
 use crate::error::Error;
 use crate::motion::chatter::Chatter;

@@ -4,8 +4,8 @@ use bouncing_disk_core::run::WorkCount;
 use bouncing_disk_core::{ChatterPolicy, Drive, Phase};
 
 use super::Tape;
-use super::cycle::Touch;
 use super::engine::EngineTape;
+use super::recurrence::Touch;
 use super::rigid::RigidTape;
 use super::tap::TapSolver;
 use super::taps::TapTape;

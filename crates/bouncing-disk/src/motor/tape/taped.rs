@@ -7,14 +7,17 @@ use bouncing_disk_core::run::WorkCount;
 use bouncing_disk_core::sweep::{InstructionSet, LaneRunner};
 
 use super::Tape;
-use super::cycle::{Cycle, Recurrence, Repeats};
+use super::cycle::Cycle;
+use super::recurrence::{Recurrence, Repeats};
 use super::replay::{Done, Replay, Rotors};
 use super::source::Source;
 use super::window::{AxialWindow, Window};
 use crate::driven::DrivenSystem;
 use crate::error::Error;
 use crate::motor::batch::rotor_rows::{RotorRows, WIDTH};
-use crate::motor::operation::coupled::Left;
+use crate::motor::stator::Stator;
+use crate::motor::tape::left::Left;
+use crate::parameters::dimensionless::DimensionlessSystem;
 use crate::stator::{LoadLine, StatorEngine};
 
 /// Knots after which a tape is replayed: few enough for the cache.
@@ -49,6 +52,23 @@ impl DrivenSystem {
         let parts = [start.velocity, -start.acceleration];
         let twist = if is_sine { Twist::Sine(parts) } else { Twist::Waveform(angle.clone()) };
         TapedRotor { friction: self.friction, load: self.load, law: Vec::new(), twist }
+    }
+}
+
+impl Stator {
+    /// How a rotor of this system is turned whose motion does not act back on the stator.
+    pub(crate) fn rotor(&self, system: &DimensionlessSystem) -> TapedRotor {
+        let (friction, load) = (system.friction(), system.load());
+        let (cosine, sine) = system.twist_components();
+        let twist = Twist::Sine([cosine, sine]);
+        match self {
+            Self::Sine => TapedRotor { friction, load, law: Vec::new(), twist },
+            Self::Driven(own) => own.system.rotor(),
+            Self::Yielding(own) => {
+                let law = if own.constant_law() == Some(0.0) { Vec::new() } else { own.law() };
+                TapedRotor { friction, load, law, twist }
+            }
+        }
     }
 }
 

@@ -2,8 +2,8 @@
 
 use bouncing_disk_core::run::WorkCount;
 
-use super::cycle::{Key, Touch};
 use super::engine::EngineTape;
+use super::recurrence::{Key, Touch};
 use super::{Knot, Tape};
 use crate::driven::DrivenEngine;
 use crate::error::Error;

@@ -19,8 +19,8 @@ fn member(systems: &[DimensionlessSystem], stators: &[Stator], index: usize) -> 
     }
 }
 
-/// The engine of each rotor alone, perturbed by the same stream, hits at the same times and turns as fast, but for what
-/// the steps of a rest leave out.
+/// The engine of each rotor alone, perturbed by the same stream, hits at the same times. It turns as fast within the error of
+/// the steps of a rest.
 #[test]
 fn a_rotor_on_a_tape_of_rigid_impacts_is_that_of_its_engine() {
     for amplitude in [1e-8, 2e-9, 6e-11] {
@@ -58,8 +58,7 @@ fn a_rotor_on_a_tape_of_rigid_impacts_is_that_of_its_engine() {
     }
 }
 
-/// The same of contacts that take time and of waveforms, over a few flights: chaos tells the rounding of two motions
-/// apart.
+/// The same for compliant contacts and waveforms, over a few flights: chaos amplifies the rounding of two motions.
 #[test]
 fn a_rotor_on_any_tape_is_that_of_its_engine() {
     let sheet = Motor::paper_70_khz().with(|sheet| sheet.friction = 1.0).expect("legal");

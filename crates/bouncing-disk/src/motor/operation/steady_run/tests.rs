@@ -9,6 +9,7 @@ use super::*;
 use crate::estimate::{Spread, TransientEnsemble};
 use crate::motion::EnergyLedger;
 use crate::motor::TransientSettings;
+use crate::motor::operation::loaded_motor::LargestSpeeds;
 use crate::testing::{check_stops, motor, refused, tried_motor};
 use crate::{Engine, InitialCondition, Motor};
 

@@ -1,0 +1,174 @@
+//! Means over the members of an ensemble, or over a cycle, with their errors, and the units of what windows hold.
+
+use bouncing_disk_core::numerics::statistics::NORMAL_975;
+
+use crate::error::{Error, finite};
+use crate::motor::operation::loaded_motor::LoadedMotor;
+use crate::motor::operation::member::far_above;
+use crate::motor::operation::point::Estimate;
+use crate::motor::tape::cycle::Cycle;
+use crate::motor::tape::window::{AxialWindow, RotorWindow, Window};
+use crate::parameters::dimensionless::DimensionlessSystem;
+use crate::parameters::scales::Scales;
+use crate::stator::StatorLedger;
+
+/// The sums of each member, of its rotors from far below and from far above.
+pub(super) struct Pairs {
+    pub(super) below: Vec<Sum>,
+    pub(super) above: Vec<Sum>,
+    /// Of rotors with half the inertia, where these have less than the motor's.
+    pub(super) quickest: Vec<Sum>,
+}
+
+impl Pairs {
+    /// Of each member in the middle of its two rotors, and of that from above.
+    pub(super) fn of(&self, value: &dyn Fn(&Sum) -> f64) -> [Vec<f64>; 2] {
+        let middles =
+            self.below.iter().zip(&self.above).map(|(one, other)| 0.5 * (value(one) + value(other)));
+        [middles.collect(), self.above.iter().map(value).collect()]
+    }
+}
+
+/// What means are taken over.
+pub(super) enum Averages<'a> {
+    Members(&'a Pairs),
+    Cycle { sums: &'a [Sum; 2], cycle: &'a Cycle },
+}
+
+impl Averages<'_> {
+    pub(super) fn estimate(&self, value: &dyn Fn(&Sum) -> f64) -> Result<Estimate, Error> {
+        match self {
+            Self::Members(pairs) => {
+                let [middle, above] = pairs.of(value);
+                let known = Estimate::of(&middle)?.bounded_by(Estimate::of(&above)?);
+                if pairs.quickest.is_empty() {
+                    return Ok(known);
+                }
+                let quickest: Vec<f64> = pairs.quickest.iter().map(value).collect();
+                Ok(known.bounded_by(Estimate::of(&quickest)?))
+            }
+            Self::Cycle { sums: [fine, coarse], cycle } => {
+                let known = finite("estimate", value(fine))?;
+                let off = (value(coarse) - known).abs() + cycle.repeats.distance * known.abs();
+                Ok(Estimate { value: known, standard_error: off / NORMAL_975 })
+            }
+        }
+    }
+
+    pub(super) fn ratio(
+        &self,
+        dividend: &dyn Fn(&Sum) -> f64,
+        divisor: &dyn Fn(&Sum) -> f64,
+    ) -> Option<Estimate> {
+        match self {
+            Self::Members(pairs) => {
+                let (work, put_in) = (pairs.of(dividend), pairs.of(divisor));
+                let ratio = |start: usize| Estimate::of_ratio(&work[start], &put_in[start]);
+                ratio(0).zip(ratio(1)).map(|(middle, above)| middle.bounded_by(above))
+            }
+            Self::Cycle { sums: [fine, _], .. } => {
+                let ratio = || self.estimate(&|sum| dividend(sum) / divisor(sum)).ok();
+                if divisor(fine) > 0.0 { ratio() } else { None }
+            }
+        }
+    }
+
+    /// One of the sums.
+    pub(super) fn first(&self) -> Sum {
+        match self {
+            Self::Members(pairs) => pairs.below.first().copied().unwrap_or_default(),
+            Self::Cycle { sums: [fine, _], .. } => *fine,
+        }
+    }
+
+    /// Averaged time (rad) and impacts, of all members together.
+    pub(super) fn duration_and_impacts(&self) -> (f64, u64) {
+        match self {
+            Self::Members(pairs) => (
+                pairs.below.iter().map(|sum| sum.axial.duration).sum(),
+                pairs.below.iter().map(|sum| sum.axial.impacts).sum(),
+            ),
+            Self::Cycle { sums: [fine, _], .. } => (fine.axial.duration, fine.axial.impacts),
+        }
+    }
+}
+
+/// SI units of what the windows hold.
+pub(super) struct Units {
+    pub(super) time: f64,
+    pub(super) length: f64,
+    pub(super) speed: f64,
+    /// m g a_e (N m).
+    pub(super) torque: f64,
+    /// Power (W) for one unit of axial, and of rotary energy in a radian.
+    pub(super) axial: f64,
+    pub(super) rotary: f64,
+}
+
+impl Units {
+    pub(super) fn of(motor: &LoadedMotor<'_>) -> Self {
+        let Scales { time, length, angular_speed, axial_energy, rotary_energy, .. } = motor.system.scales();
+        Self {
+            time,
+            length,
+            speed: angular_speed,
+            torque: motor.torque_unit(),
+            axial: motor.mass * axial_energy / time,
+            rotary: motor.mass * rotary_energy / time,
+        }
+    }
+}
+
+/// Windows of one member, or of all, added up.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Sum {
+    pub(super) axial: AxialWindow,
+    pub(super) rotor: RotorWindow,
+}
+
+impl Sum {
+    /// Of a rotor in these windows.
+    pub(super) fn of<'a>(windows: impl Iterator<Item = &'a Window>, rotor: usize) -> Self {
+        let mut sum = Self::default();
+        windows.for_each(|window| sum.add(window, rotor));
+        sum
+    }
+
+    fn add(&mut self, window: &Window, rotor: usize) {
+        let rotor = &window.rotors[rotor];
+        self.axial.add(rotor.stator.as_ref().map_or(&window.axial, |(_, own)| own));
+        self.rotor.add(rotor);
+    }
+
+    /// The energies of a stator that yields.
+    pub(super) fn stator(&self) -> StatorLedger {
+        self.rotor.stator.map(|(ledger, _)| ledger).unwrap_or_default()
+    }
+
+    /// The energy that came in; where less came in than the disks of all members have at their start, that:
+    /// there are only roundings then.
+    pub(super) fn energy_scale(&self, units: &Units, system: &DimensionlessSystem, members: usize) -> f64 {
+        let axial = self.axial.normal_work + self.axial.perturbation_work;
+        // A load that drives the motor puts energy in, too, and so does a rotor that slows down.
+        let rotor = &self.rotor;
+        let rotary = rotor.friction_work.abs().max(rotor.load_work.abs()).max(rotor.friction_loss);
+        let put_in = axial.abs() * units.axial + rotary * units.rotary;
+        let (peak, twist) = (system.peak_acceleration(), far_above(system).max(system.twist_speed()));
+        let moving = 0.5 * peak * peak * units.axial + 0.5 * twist * twist * units.rotary;
+        put_in.max(members as f64 * moving)
+    }
+
+    /// The residual of the energy balance, relative to the supplied energy.
+    pub(super) fn energy_residual(&self, units: &Units, system: &DimensionlessSystem, members: usize) -> f64 {
+        let axial = self.axial.normal_work + self.axial.perturbation_work;
+        let axial_left = axial - self.axial.restitution_loss - self.axial.energy_change;
+        let rotor = &self.rotor;
+        let rotary_left = rotor.friction_work - rotor.friction_loss - rotor.load_work - rotor.kinetic_change;
+        let stator_left = self.stator().closure() * units.axial;
+        let left = (axial_left * units.axial).abs() + (rotary_left * units.rotary).abs() + stator_left.abs();
+        // The modes of a heavy stator hold much more than the disk.
+        let modes = self.stator();
+        let scale = self.energy_scale(units, system, members) + modes.drive_work.abs() * units.axial;
+        if scale > 0.0 { left / scale } else { left }
+    }
+}

@@ -1,0 +1,155 @@
+//! A motor with its stator under a load torque.
+
+use crate::driven::DrivenSystem;
+use crate::error::Error;
+use crate::motor::operation::point::{Estimate, Operation};
+use crate::motor::operation::settings::OperatingSettings;
+use crate::motor::stator::Stator;
+use crate::parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem};
+use crate::parameters::system::System;
+use crate::stator::StatorSystem;
+
+/// Relative rounding of a load that was computed from the largest torque of friction in other units: some ten
+/// operations.
+const LOAD_ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// Members of one motor of a search.
+const FEWEST: usize = 4;
+
+/// A motor under a load, to be carried on a shared vertical motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct LoadedMotor<'a> {
+    /// Rotor, shaft and sine of the sheet.
+    pub(crate) system: System,
+    /// The largest speeds of the stator.
+    pub(crate) fastest: LargestSpeeds,
+    /// The stator; load, friction and phase lag are those of `system`.
+    pub(crate) stator: &'a Stator,
+    /// Mass m (kg).
+    pub(crate) mass: f64,
+    /// Load torque T_L (N m) as given, from which the system's load is computed.
+    pub(crate) load_torque: f64,
+}
+
+/// The largest speeds of a stator, by which starts and errors are scaled.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct LargestSpeeds {
+    /// Of the height (g/omega), and of the angle (g a_e/(a_g^2 omega)).
+    pub(crate) height: f64,
+    pub(crate) angle: f64,
+    /// Of the angle (rad/s).
+    pub(crate) angular_speed: f64,
+}
+
+impl LargestSpeeds {
+    /// Those of the sine of a system.
+    pub(crate) fn of_sine(system: &System) -> Self {
+        let own = system.dimensionless();
+        let angular_speed = system.platform().peak_angular_speed();
+        Self { height: own.peak_acceleration(), angle: own.twist_speed(), angular_speed }
+    }
+
+    /// Those of drives on the platform and under the disk of a system.
+    pub(crate) fn of_drives(system: &System, driven: &DrivenSystem) -> Self {
+        let (disk, scales, frequency) =
+            (system.disk(), system.scales(), system.platform().angular_frequency());
+        let preload = disk.preload_acceleration();
+        let inertia = disk.gyration_radius() * disk.gyration_radius() / (disk.contact_radius() * preload);
+        let amplitude = driven.height().bounds().speed * scales.length;
+        let angular_speed = frequency * (driven.angle().bounds().speed * scales.angle);
+        Self {
+            height: amplitude * frequency * frequency / preload,
+            angle: inertia * angular_speed * frequency,
+            angular_speed,
+        }
+    }
+}
+
+impl LoadedMotor<'_> {
+    /// Its numbers without units, with the largest speeds of its stator as those of the sine.
+    pub(super) fn dimensionless(&self) -> Result<DimensionlessSystem, Error> {
+        let LargestSpeeds { height, angle, .. } = self.fastest;
+        let own = self.system.dimensionless().parameters();
+        DimensionlessParameters { peak_acceleration: height, twist_speed: angle, ..own }.build()
+    }
+
+    /// The same motor under another load torque (N m).
+    pub(crate) fn with_load(&self, load_torque: f64) -> Result<Self, Error> {
+        let disk = self.system.disk().parameters().with_load_torque(load_torque, self.mass)?;
+        Ok(Self { system: System::new(*self.system.platform(), disk.build()?)?, load_torque, ..*self })
+    }
+
+    /// The same motor with another phase lag (rad).
+    pub(crate) fn with_phase_lag(&self, phase_lag: f64) -> Result<Self, Error> {
+        let system = self.system.with_platform(|platform| platform.phase_lag = phase_lag)?;
+        Ok(Self { system, ..*self })
+    }
+
+    /// The load torque in units of m g a_e.
+    pub(crate) const fn load(&self) -> f64 {
+        self.system.dimensionless().load()
+    }
+
+    /// Whether a mean speed differs from zero: by more than four of its standard errors, and by more than
+    /// rounding.
+    pub(crate) fn turns(&self, speed: Estimate) -> bool {
+        let rounding = 1e-6 * self.fastest.angular_speed;
+        speed.value.abs() > (4.0 * speed.standard_error).max(rounding)
+    }
+
+    /// Settings for one of many motors among which something is searched: fewer members where each has a motion of its
+    /// own.
+    pub(crate) fn for_search(&self, settings: &OperatingSettings) -> OperatingSettings {
+        let members = if self.stator.acts_back() { FEWEST } else { settings.members };
+        OperatingSettings { members: members.min(settings.members), ..*settings }
+    }
+
+    /// The unit of torque, m g a_e (N m).
+    pub(super) fn torque_unit(&self) -> f64 {
+        let disk = self.system.disk();
+        self.mass * disk.preload_acceleration() * disk.contact_radius()
+    }
+
+    /// The largest mean torque of friction, mu m g a_e (N m).
+    pub(crate) fn largest_torque(&self) -> f64 {
+        let disk = self.system.disk();
+        disk.friction() * self.mass * disk.preload_acceleration() * disk.contact_radius()
+    }
+
+    /// Its stator, if it yields or the load has a law.
+    pub(super) fn yielding(&self) -> Option<&StatorSystem> {
+        self.stator.yielded()
+    }
+
+    /// What the law of the load adds to the load torque; infinite where it depends on the speed.
+    pub(super) fn law(&self) -> f64 {
+        self.yielding().map_or(0.0, |own| own.constant_law().unwrap_or(f64::INFINITY))
+    }
+
+    /// Neither load torque nor law.
+    pub(super) fn is_unloaded(&self) -> bool {
+        self.load() == 0.0 && self.law() == 0.0
+    }
+
+    /// The load accelerates it for ever: in units of m g a_e it is above the coefficient of friction, or
+    /// equal to it but for the rounding of the torques in other units. On average the normal force is the
+    /// weight under preload, so that friction gives no more, whatever the motion. Of a load that depends on the speed this
+    /// is not known.
+    pub(super) fn runs_away(&self) -> bool {
+        let system = self.system.dimensionless();
+        let load = system.load() + self.law();
+        load.is_finite() && load != 0.0 && load.abs() >= system.friction() * (1.0 - LOAD_ROUNDING)
+    }
+
+    pub(super) fn runaway(&self) -> Operation {
+        let system = self.system.dimensionless();
+        let load = system.load() + self.law();
+        let beyond = (load.abs() - system.friction()).max(0.0);
+        let scale = self.system.scales().angular_acceleration;
+        Operation::Runaway {
+            load_torque: self.load_torque + self.law() * self.torque_unit(),
+            largest_torque: self.largest_torque(),
+            acceleration: -beyond.copysign(load) * scale,
+        }
+    }
+}

@@ -1,0 +1,119 @@
+//! The search for a cycle among the touches of a motion.
+
+use bouncing_disk_core::Phase;
+
+use crate::stator::MODES;
+
+/// A state that differs from an earlier one by less than this share of the largest seen repeats it. Two cycles must.
+const SAME: f64 = 1.0e-11;
+
+/// A motion comes nearer to its cycle by at least the rest of this factor.
+const SLOWEST: f64 = 1.0 - 1.0e-5;
+
+/// A part of a state counts as at least this share of the largest.
+const SMALL: f64 = 1.0e-3;
+
+/// Most touches of a cycle.
+const LONGEST: u64 = 128;
+
+/// Where a disk touches the platform, or leaves it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Key([f64; PARTS]);
+
+const PARTS: usize = 9;
+
+/// The place of the rotor's angular speed.
+const SPEED: usize = 4;
+
+impl Key {
+    /// That of a disk that never touches: it repeats each period.
+    pub(crate) const LYING: Self = Self([0.0; PARTS]);
+
+    /// Of a disk with this velocity and height and, if it acts back, angular speed, and the modes of its stator.
+    pub(crate) const fn new(phase: Phase, disk: [f64; 3], modes: [[f64; 2]; MODES]) -> Self {
+        let [[a, b], [c, d]] = modes;
+        Self([phase.sin(), phase.cos(), disk[0], disk[1], disk[2], a, b, c, d])
+    }
+
+    /// How far it is from another one, as the largest share of these sizes; a part that stays small counts as a share of
+    /// the others.
+    fn distance(&self, other: &Self, sizes: [f64; PARTS]) -> f64 {
+        // The angular speed has a unit of its own.
+        let others = sizes.into_iter().enumerate().filter(|(part, _)| *part != SPEED);
+        let least = SMALL * others.map(|(_, size)| size).fold(1.0, f64::max);
+        let parts = self.0.iter().zip(other.0).zip(sizes);
+        parts.map(|((one, other), size)| (one - other).abs() / size.max(least)).fold(0.0, f64::max)
+    }
+}
+
+/// What a recorded step has shown.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Touch {
+    None,
+    At(Key),
+    /// The disk lies on the platform for ever.
+    Lies,
+}
+
+/// The search for a cycle among the touches of a motion: each is compared with one that is renewed from time to time.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Recurrence {
+    reference: Option<Key>,
+    largest: [f64; PARTS],
+    since: u64,
+    renewal: u64,
+    /// Touches of the cycle that was seen last, and by how much it missed.
+    seen: Option<(u64, f64)>,
+}
+
+/// A cycle that was seen twice.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Repeats {
+    /// Touches of a cycle, or periods of a disk that lies on the platform.
+    pub(crate) touches: u64,
+    /// How far the motion may still be from the cycle, as a share of the largest state.
+    pub(crate) distance: f64,
+}
+
+impl Recurrence {
+    /// Adds what a step has shown: the cycle, if the motion repeats one.
+    pub(crate) fn add(&mut self, touch: Touch) -> Option<Repeats> {
+        let key = match touch {
+            Touch::None => return None,
+            Touch::Lies => return Some(Repeats { touches: 1, distance: 0.0 }),
+            Touch::At(key) => key,
+        };
+        self.largest = most_of(self.largest, key.0);
+        self.since += 1;
+        let off = self.reference.map_or(f64::INFINITY, |reference| key.distance(&reference, self.largest));
+        if off < SAME {
+            let seen = self.seen.replace((self.since, off));
+            let touches = std::mem::take(&mut self.since);
+            self.reference = Some(key);
+            // What is left of a geometric series that falls as the last two terms do.
+            return seen.filter(|seen| seen.0 == touches).map(|(_, before)| {
+                let ratio = if before > 0.0 { (off / before).min(SLOWEST) } else { 0.0 };
+                Repeats { touches, distance: off.max(f64::EPSILON) / (1.0 - ratio) }
+            });
+        }
+        if self.since >= self.renewal {
+            self.renewal = (2 * self.renewal).clamp(1, LONGEST);
+            (self.reference, self.since, self.seen) = (Some(key), 0, None);
+        }
+        None
+    }
+}
+
+/// Touches that differ by less than this share of the largest are one.
+const ONE: f64 = 1.0e-7;
+
+/// Whether two cycles have the same touches, so many touches apart.
+pub(crate) fn are_same(one: &[Key], other: &[Key], apart: usize) -> bool {
+    let sizes = one.iter().fold([0.0; PARTS], |most, key| most_of(most, key.0));
+    let other = other.iter().cycle().skip(apart);
+    one.iter().zip(other).all(|(one, other)| one.distance(other, sizes) < ONE)
+}
+
+fn most_of(one: [f64; PARTS], other: [f64; PARTS]) -> [f64; PARTS] {
+    core::array::from_fn(|part| one[part].max(other[part].abs()))
+}
