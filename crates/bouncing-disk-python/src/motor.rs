@@ -107,7 +107,7 @@ fn numbers(operation: &Operation) -> Numbers {
 /// The place in `OperatingPoints.MOTIONS`, and the mean life (s), of an operation that has them.
 fn motion_of(operation: Option<&Operation>) -> (u8, f64) {
     match operation.and_then(Operation::point).map(|point| point.motion) {
-        Some(AxialMotion::Irregular { life: Life::Mean(life) }) => (1, life),
+        Some(AxialMotion::Irregular { life: Life::Mean(life) }) => (1, life.value),
         Some(AxialMotion::Irregular { .. }) => (1, f64::NAN),
         Some(AxialMotion::Periodic { .. }) => (2, f64::NAN),
         Some(AxialMotion::Contact) => (3, f64::NAN),

@@ -313,8 +313,9 @@ impl StatorSystem {
 
     /// The load besides the constant one, if it does not depend on the speed.
     pub(crate) fn constant_law(&self) -> Option<f64> {
-        let varies = self.lines.iter().any(|line| line.slope != 0.0);
-        (!varies).then(|| self.lines[0].torque - self.base.load())
+        let first = self.lines[0];
+        let varies = self.lines.iter().any(|line| line.slope != 0.0 || line.torque != first.torque);
+        (!varies).then(|| first.torque - self.base.load())
     }
 
     /// Whether it has modes.
@@ -325,6 +326,12 @@ impl StatorSystem {
     /// Whether a mode twists, so that friction acts back on it.
     pub(crate) fn twists(&self) -> bool {
         self.given.iter().any(|mode| mode.angle != 0.0)
+    }
+
+    /// The longest time (rad) in which an amplitude falls by a factor e without a disk; zero without modes.
+    pub(crate) fn decay_time(&self) -> f64 {
+        let times = self.given.iter().zip(&self.modes).map(|(_, mode)| 2.0 / mode.damping);
+        times.fold(0.0, f64::max)
     }
 
     /// How long (rad) an isolated contact takes on a platform that does not yield.

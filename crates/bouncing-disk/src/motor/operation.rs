@@ -18,4 +18,5 @@ mod settling;
 pub(crate) mod spread;
 pub(crate) mod stall_load;
 pub(crate) mod steady_run;
+pub(crate) mod survey;
 pub(crate) mod trap_ranges;

@@ -98,6 +98,25 @@ impl Stator {
         }
     }
 
+    /// Whether the disk moves it.
+    pub(crate) fn yields(&self) -> bool {
+        matches!(self, Self::Yielding(system) if system.yields())
+    }
+
+    /// Whether its speed jumps.
+    pub(crate) fn has_kinks(&self) -> bool {
+        self.driven().is_some_and(|system| system.height().kinks().next().is_some())
+    }
+
+    /// Whether contacts on it take time.
+    pub(crate) fn takes_time(&self) -> bool {
+        match self {
+            Self::Sine => false,
+            Self::Driven(own) => own.system.compliance.is_some(),
+            Self::Yielding(system) => system.takes_time(),
+        }
+    }
+
     /// The system of a stator that moves by waveforms, or whose contacts take time.
     pub(crate) fn driven(&self) -> Option<&DrivenSystem> {
         match self {

@@ -51,7 +51,7 @@ pub(crate) struct Tape {
     pub(crate) knots: Vec<Knot>,
     /// The stator's angular speed at the knots, for each way in which it turns other than as a sine.
     pub(crate) speeds: Vec<Vec<f64>>,
-    /// Steps of a contact in a period of the drive.
+    /// Steps of a contact in a period of the drive; zero for a contact in one step.
     pub(crate) resolution: f64,
     /// Energies and impacts of what is recorded.
     pub(crate) axial: AxialWindow,
@@ -90,8 +90,11 @@ impl Tape {
         (self.axial, self.stator) = Default::default();
     }
 
-    /// Steps for a contact that lasts so long.
+    /// Steps for a contact that lasts so long; one where only the motion is wanted.
     pub(crate) fn steps(&self, duration: f64) -> u32 {
+        if self.resolution == 0.0 {
+            return 1;
+        }
         (duration * (self.resolution / TAU)).ceil().clamp(LEAST_STEPS, f64::from(u32::MAX)) as u32
     }
 
@@ -118,11 +121,13 @@ impl Tape {
 
     /// Adds a contact that lasts so long from this phase (rad) on, by the impulse up to a time after its start.
     pub(crate) fn press(&mut self, phase: f64, duration: f64, impulse: impl Fn(f64) -> f64) {
-        let step = duration / f64::from(self.steps(duration));
+        self.axial.pressed += duration;
+        let steps = self.steps(duration);
+        let step = duration / f64::from(steps);
         let (mut after, mut before) = (0.0, impulse(0.0));
         let mut index = 0_u32;
         while after < duration {
-            let next = if index + 1 >= self.steps(duration) { duration } else { step * f64::from(index + 1) };
+            let next = if index + 1 >= steps { duration } else { step * f64::from(index + 1) };
             let kink = self.next_kink(phase + after, next - after);
             let to = kink.map_or(next, |kink| after + kink);
             let now = impulse(to);

@@ -115,7 +115,7 @@ pub(super) fn motion(operation: &Operation) -> Option<String> {
 /// The mean life (s) of an irregular motion, if some were seen to end.
 pub(super) fn life(operation: &Operation) -> Option<f64> {
     match operation.point()?.motion {
-        AxialMotion::Irregular { life: Life::Mean(life) } => Some(life),
+        AxialMotion::Irregular { life: Life::Mean(life) } => Some(life.value),
         _ => None,
     }
 }

@@ -1,11 +1,12 @@
 //! Means over the members of an ensemble, or over a cycle, with their errors, and the units of what windows hold.
 
-use bouncing_disk_core::numerics::statistics::NORMAL_975;
+use bouncing_disk_core::numerics::elementary::hypot;
+use bouncing_disk_core::numerics::statistics::{NORMAL_975, mean};
 
 use crate::error::{Error, finite};
 use crate::motor::operation::loaded_motor::LoadedMotor;
 use crate::motor::operation::member::far_above;
-use crate::motor::operation::point::Estimate;
+use crate::motor::operation::point::{Estimate, by_perturbation};
 use crate::motor::tape::cycle::Cycle;
 use crate::motor::tape::window::{AxialWindow, RotorWindow, Window};
 use crate::parameters::dimensionless::DimensionlessSystem;
@@ -13,11 +14,16 @@ use crate::parameters::scales::Scales;
 use crate::stator::StatorLedger;
 
 /// The sums of each member, of its rotors from far below and from far above.
+#[derive(Clone)]
 pub(super) struct Pairs {
     pub(super) below: Vec<Sum>,
     pub(super) above: Vec<Sum>,
     /// Of rotors with half the inertia, where these have less than the motor's.
     pub(super) quickest: Vec<Sum>,
+    /// Whether members have perturbations of different sizes.
+    pub(super) are_perturbed: bool,
+    /// By how much of themselves values may be off for the steps of the tape.
+    pub(super) steps: f64,
 }
 
 impl Pairs {
@@ -26,6 +32,22 @@ impl Pairs {
         let middles =
             self.below.iter().zip(&self.above).map(|(one, other)| 0.5 * (value(one) + value(other)));
         [middles.collect(), self.above.iter().map(value).collect()]
+    }
+
+    /// The mean of a value of each member, with its scatter.
+    pub(super) fn scatter(&self, values: &[f64]) -> Result<Estimate, Error> {
+        if self.are_perturbed { Estimate::of_decade(values) } else { Estimate::of(values) }
+    }
+
+    /// The standard deviation of a value over a decade of the perturbation, as far as it is more than the scatter of the
+    /// members explains: an even distribution over the change.
+    pub(super) fn change(&self, values: &[f64]) -> Result<f64, Error> {
+        if !self.are_perturbed {
+            return Ok(0.0);
+        }
+        let [less, more] = by_perturbation(values);
+        let (change, scatter) = (mean(&more) - mean(&less), 2.0 * self.scatter(values)?.standard_error);
+        Ok(((change * change - scatter * scatter).max(0.0) / 12.0).sqrt())
     }
 }
 
@@ -40,12 +62,15 @@ impl Averages<'_> {
         match self {
             Self::Members(pairs) => {
                 let [middle, above] = pairs.of(value);
-                let known = Estimate::of(&middle)?.bounded_by(Estimate::of(&above)?);
+                let known = pairs.scatter(&middle)?.bounded_by(pairs.scatter(&above)?);
+                let standard_error = hypot(known.standard_error, pairs.change(&middle)?);
+                let off = known.value * (1.0 + pairs.steps);
+                let known = Estimate { standard_error, ..known }.bounded_by(Estimate { value: off, ..known });
                 if pairs.quickest.is_empty() {
                     return Ok(known);
                 }
                 let quickest: Vec<f64> = pairs.quickest.iter().map(value).collect();
-                Ok(known.bounded_by(Estimate::of(&quickest)?))
+                Ok(known.bounded_by(pairs.scatter(&quickest)?))
             }
             Self::Cycle { sums: [fine, coarse], cycle } => {
                 let known = finite("estimate", value(fine))?;

@@ -4,6 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use bouncing_disk_core::Observer;
 use bouncing_disk_core::numerics::elementary::wrapped_angle;
+use bouncing_disk_core::run::Watch;
 
 use crate::error::Error;
 use crate::motor::operation::loaded_motor::LoadedMotor;
@@ -42,6 +43,8 @@ pub(crate) fn best_phase_lag(
     settings: &OperatingSettings,
     observer: &dyn Observer,
 ) -> Result<BestPhaseLag, Error> {
+    let survey = motor.survey(&Watch::begin(observer, 0, settings.most_impacts)?)?;
+    let motor = &LoadedMotor { surveyed: survey.as_ref(), ..*motor };
     let over = |lags: &[f64], settings: &OperatingSettings| -> Result<Operations, Error> {
         let motors = lags.iter().map(|&lag| motor.with_phase_lag(lag)).collect::<Result<Vec<_>, _>>()?;
         operate(&motors, settings, observer)
@@ -82,8 +85,11 @@ pub(crate) fn best_phase_lag(
         let Some((index, speed)) = fastest(&found) else { break };
         let fits = top_fits(&offsets, |k| mean(&found, k), speed.standard_error.max(FLAT * speed.value));
         if fits {
+            // A curve that is no parabola has its top elsewhere by some share of what a narrower one says.
+            let inner = FINE / 2..3 * FINE / 2 + 1;
+            let narrow = top(&offsets[inner], |k| mean(&found, k + FINE / 2)).0;
             best += offset.value;
-            step = offset.standard_error;
+            step = offset.bounded_by(Estimate { value: narrow, ..offset }).standard_error;
             break;
         }
         best = lags[index];
@@ -115,7 +121,7 @@ pub(crate) fn best_phase_lag(
 const WIDEST: f64 = TAU / 5.0;
 
 /// A curve is known well enough where this share of the speed is.
-const FLAT: f64 = 1.0e-4;
+const FLAT: f64 = 1.0e-6;
 
 /// Whether the least-squares parabola goes through all values within three of this error.
 fn top_fits(offsets: &[f64], value: impl Fn(usize) -> f64, error: f64) -> bool {

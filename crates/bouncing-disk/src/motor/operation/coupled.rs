@@ -146,8 +146,10 @@ impl Coupled {
                 self.follow(&from.after(PhaseSpan { periods, remainder: 0.0 }), work)?;
                 return Ok(self.window(true));
             }
+            let before = self.engine.time();
             if let Some(touch) = self.advance(f64::INFINITY, work)? {
-                self.repeats = self.recurrence.add(touch);
+                let lasted = self.engine.time().since(&before).radians();
+                self.repeats = self.recurrence.add(touch, lasted);
                 if self.repeats() {
                     return Ok(self.window(false));
                 }
@@ -207,6 +209,7 @@ impl Coupled {
             perturbation_work: change(|totals| totals.given),
             restitution_loss: change(|totals| totals.energies.disk.restitution_loss),
             energy_change: change(|totals| totals.axial_energy),
+            pressed: 0.0,
             impacts: if lies || impacts == 0 { (duration / TAU + 0.5) as u64 } else { impacts },
         };
         let ledger = now.energies.stator - before.energies.stator;

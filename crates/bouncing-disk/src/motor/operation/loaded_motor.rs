@@ -1,9 +1,12 @@
 //! A motor with its stator under a load torque.
 
 use crate::driven::DrivenSystem;
+use bouncing_disk_core::run::Watch;
+
 use crate::error::Error;
 use crate::motor::operation::point::{Estimate, Operation};
 use crate::motor::operation::settings::OperatingSettings;
+use crate::motor::operation::survey::Survey;
 use crate::motor::stator::Stator;
 use crate::parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem};
 use crate::parameters::system::System;
@@ -17,7 +20,7 @@ const LOAD_ROUNDING: f64 = 16.0 * f64::EPSILON;
 const FEWEST: usize = 4;
 
 /// A motor under a load, to be carried on a shared vertical motion.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct LoadedMotor<'a> {
     /// Rotor, shaft and sine of the sheet.
     pub(crate) system: System,
@@ -29,6 +32,8 @@ pub(crate) struct LoadedMotor<'a> {
     pub(crate) mass: f64,
     /// Load torque T_L (N m) as given, from which the system's load is computed.
     pub(crate) load_torque: f64,
+    /// What is known of the vertical motions, which loads, friction and lag do not change.
+    pub(crate) surveyed: Option<&'a Survey>,
 }
 
 /// The largest speeds of a stator, by which starts and errors are scaled.
@@ -71,6 +76,14 @@ impl LoadedMotor<'_> {
         let LargestSpeeds { height, angle, .. } = self.fastest;
         let own = self.system.dimensionless().parameters();
         DimensionlessParameters { peak_acceleration: height, twist_speed: angle, ..own }.build()
+    }
+
+    /// Its vertical motions; `None` as for [`Survey::of`].
+    pub(super) fn survey(&self, watch: &Watch<'_>) -> Result<Option<Survey>, Error> {
+        if self.stator.acts_back() {
+            return Ok(None);
+        }
+        Survey::of(&self.stator.for_motor(&self.system)?, &self.dimensionless()?, watch)
     }
 
     /// The same motor under another load torque (N m).

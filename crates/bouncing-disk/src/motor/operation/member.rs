@@ -14,8 +14,9 @@ use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::stator::Stator;
 use crate::motor::tape::cycle::Cycle;
 use crate::motor::tape::left::Left;
+use crate::motor::tape::recurrence::Repeats;
 use crate::motor::tape::source::Source;
-use crate::motor::tape::taped::Taped;
+use crate::motor::tape::taped::{Taped, resolution};
 use crate::motor::tape::window::Window;
 use crate::parameters::dimensionless::DimensionlessSystem;
 
@@ -43,8 +44,27 @@ pub(crate) const fn is_thrown(index: usize) -> bool {
 }
 
 /// Numbers that fill (0, 1) evenly.
-fn golden_share(index: usize) -> f64 {
+pub(crate) fn golden_share(index: usize) -> f64 {
     (index as f64 * 0.618_033_988_749_894_8).fract()
+}
+
+/// The root of ten.
+const HALF_DECADE: f64 = 3.162_277_660_168_379_5;
+
+/// Two and two members have perturbations at either end of a decade: their difference shows what the size of the
+/// perturbation does.
+pub(crate) const fn is_perturbed_more(index: usize) -> bool {
+    index / 2 % 2 == 1
+}
+
+fn of_decade(index: usize) -> f64 {
+    if is_perturbed_more(index) { HALF_DECADE } else { 1.0 / HALF_DECADE }
+}
+
+/// How fast the disk of this index is thrown up, in units of the platform's largest speed; not at all of one that starts
+/// from rest.
+pub(crate) fn thrown(index: usize) -> Option<f64> {
+    is_thrown(index).then(|| MOST_THROWN * golden_share(index))
 }
 
 /// A member of the ensemble: it starts at a phase and with a stream of random numbers of its own.
@@ -68,11 +88,12 @@ impl Member {
         bracketed: usize,
         index: usize,
         quicker: &[f64],
+        from: Option<&Source>,
         settings: &OperatingSettings,
     ) -> Result<Self, Error> {
         let phase = starting_phase(settings.seed, index, settings.members)?;
         let seed = SplitMix64::seed_of_stream(settings.seed, index as u64);
-        let perturbation = (settings.relaunch_perturbation, seed);
+        let perturbation = (settings.relaunch_perturbation * of_decade(index), seed);
         if let Stator::Yielding(system) = &stators[0]
             && stators[0].acts_back()
         {
@@ -88,12 +109,26 @@ impl Member {
         if quicker.iter().any(|quicker| *quicker > 1.0) {
             starts.extend((0..bracketed).map(|own| (own, 0.0, TWICE * quicker[own])));
         }
-        let thrown = is_thrown(index).then(|| MOST_THROWN * golden_share(index));
-        let source = Source::new(&stators[0], &systems[0], (phase, thrown), perturbation)?;
+        let source = match from {
+            Some(source) => source.clone(),
+            None => Source::new(&stators[0], &systems[0], (phase, None), perturbation)?,
+        };
         let rotor = |&(motor, speed, quicker): &(usize, f64, f64)| {
             (stators[motor].rotor(&systems[motor]), speed, quicker)
         };
-        Ok(Self::Taped(Box::new(Taped::new(source, starts.iter().map(rotor)))))
+        Ok(Self::Taped(Box::new(Taped::new(
+            source,
+            resolution(settings.relative_error),
+            starts.iter().map(rotor),
+        ))))
+    }
+
+    /// The same on a motion that is known to repeat itself.
+    pub(crate) fn on(self, repeats: Repeats) -> Self {
+        match self {
+            Self::Taped(member) => Self::Taped(Box::new(member.on(repeats))),
+            Self::Coupled(_) => self,
+        }
     }
 
     /// Whether its motion was found to repeat itself.

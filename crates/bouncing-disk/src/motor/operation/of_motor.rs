@@ -18,10 +18,13 @@ use crate::parameters::system::System;
 impl LoadedMotor<'static> {
     /// A motor whose stator moves as a sine, with rigid impacts and a constant load.
     pub(crate) fn of_sine(motor: &Motor) -> Result<Self, Error> {
-        let (mass, load_torque) = (motor.mass(), motor.load_torque());
-        let system = *motor.rigid_sine()?;
+        Ok(Self::on_sine(*motor.rigid_sine()?, motor.mass(), motor.load_torque()))
+    }
+
+    /// A rotor of this mass (kg) on a sine, with rigid impacts and a load torque (N m) that the system has, too.
+    pub(crate) fn on_sine(system: System, mass: f64, load_torque: f64) -> Self {
         let fastest = LargestSpeeds::of_sine(&system);
-        Ok(Self { system, fastest, stator: &Stator::Sine, mass, load_torque })
+        Self { system, fastest, stator: &Stator::Sine, mass, load_torque, surveyed: None }
     }
 }
 
@@ -161,7 +164,7 @@ impl Motor {
         let (system, stator) = (self.on_shaft()?, self.stator_motion());
         let sine = || LargestSpeeds::of_sine(&system);
         let fastest = stator.driven().map_or_else(sine, |own| LargestSpeeds::of_drives(&system, own));
-        Ok(LoadedMotor { system, fastest, stator, mass, load_torque })
+        Ok(LoadedMotor { system, fastest, stator, mass, load_torque, surveyed: None })
     }
 
     /// The rotor with the inertia of its shaft on the sine of the sheet.
@@ -272,7 +275,7 @@ mod tests {
         assert!((tapped.speed.value - 2.97).abs() < 0.006, "{tapped:?}");
         let AxialMotion::Irregular { life: Life::Mean(life) } = flying.motion else { panic!("{flying:?}") };
         // A run of this length sees a few of them end.
-        assert!((0.3..10.0).contains(&life) && flying.speed.value > 8.0, "{flying:?}");
+        assert!((0.3..10.0).contains(&life.value) && flying.speed.value > 8.0, "{flying:?}");
         for point in [tapped, flying] {
             let out = point.restitution_loss.value + point.friction_loss.value;
             let error = point.restitution_loss.standard_error + point.input_power.standard_error;

@@ -3,6 +3,7 @@
 use bouncing_disk_core::numerics::statistics::{NORMAL_975, mean, standard_deviation};
 
 use crate::error::{Error, finite, not_negative};
+use crate::motor::operation::member::is_perturbed_more;
 use crate::statistics::student_quantile;
 
 /// A number estimated from independent runs, with its standard error.
@@ -24,6 +25,16 @@ impl Estimate {
         let value = finite("estimate", mean(values))?;
         let standard_error = error_of_mean(values);
         Ok(Self { value, standard_error: not_negative("standard_error", standard_error)? })
+    }
+
+    /// The mean of values, every second two of which were perturbed more than the others, with the scatter about the mean of
+    /// their kind as its error.
+    pub(crate) fn of_decade(values: &[f64]) -> Result<Self, Error> {
+        let (count, kinds) = (values.len() as f64, by_perturbation(values));
+        let squares = |own: &Vec<f64>| own.len() as f64 * mean_square_about_mean(own);
+        let variance = kinds.iter().map(squares).sum::<f64>() / (count - 2.0);
+        let standard_error = (variance / count).sqrt() * (student_quantile(count - 2.0) / NORMAL_975);
+        Ok(Self { value: finite("estimate", mean(values))?, standard_error })
     }
 
     /// The mean of runs from two sides, with its distance from one of them as a bound on its bias.
@@ -51,6 +62,19 @@ impl Estimate {
 pub(crate) fn error_of_mean(values: &[f64]) -> f64 {
     let size = values.len() as f64;
     standard_deviation(values) / size.sqrt() * (student_quantile(size - 1.0) / NORMAL_975)
+}
+
+/// The values of members that are perturbed less, and of those that are more.
+pub(crate) fn by_perturbation(values: &[f64]) -> [Vec<f64>; 2] {
+    [false, true].map(|more| {
+        let own = values.iter().enumerate().filter(|(index, _)| is_perturbed_more(*index) == more);
+        own.map(|(_, value)| *value).collect()
+    })
+}
+
+fn mean_square_about_mean(values: &[f64]) -> f64 {
+    let about = mean(values);
+    mean(&values.iter().map(|value| (value - about) * (value - about)).collect::<Vec<_>>())
 }
 
 #[cfg(feature = "serde")]
@@ -87,7 +111,7 @@ pub enum AxialMotion {
 #[non_exhaustive]
 pub enum Life {
     /// The mean (s): some were seen to end.
-    Mean(f64),
+    Mean(Estimate),
     /// None was seen to end in this time (s), the longest for which one was watched.
     NoneEndedIn(f64),
 }

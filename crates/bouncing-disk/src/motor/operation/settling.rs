@@ -33,10 +33,12 @@ pub(crate) type Speeds = [Vec<f64>];
 /// The mean speed in the middle of rotors that started from far below and far above on the same vertical
 /// motions, with a bound of its bias by those from above: a rotor never overtakes another one, and steady
 /// ones are between them. `None` if it is not finite.
-fn steady_speed(middle: &Speeds, above: &Speeds) -> Option<Estimate> {
-    let of =
-        |speeds: &Speeds| Estimate::of(&speeds.iter().map(|windows| mean(windows)).collect::<Vec<_>>()).ok();
-    Some(of(middle)?.bounded_by(of(above)?))
+fn steady_speed(middle: &Speeds, above: &Speeds, are_perturbed: bool) -> Option<Estimate> {
+    let of = |speeds: &Speeds| {
+        let means: Vec<f64> = speeds.iter().map(|windows| mean(windows)).collect();
+        if are_perturbed { Estimate::of_decade(&means) } else { Estimate::of(&means) }
+    };
+    Some(of(middle).ok()?.bounded_by(of(above).ok()?))
 }
 
 /// By how much the mean of a member differs most from the mean of all, if its start decides on it; `None` if the scatter
@@ -54,8 +56,14 @@ pub(crate) fn decided_by_start(speeds: &Speeds) -> Option<f64> {
 }
 
 /// Judges the mean speed of windows: `None` if it is steady, its standard error at most `wanted`, and no more
-/// of this a bound of the start-up than scatter.
-pub(crate) fn shortfall(middle: &Speeds, above: &Speeds, wanted: f64) -> Option<Shortfall> {
+/// of this a bound of the start-up than scatter. Where members have perturbations of two sizes the scatter is that about
+/// the mean of each size.
+pub(crate) fn shortfall(
+    middle: &Speeds,
+    above: &Speeds,
+    are_perturbed: bool,
+    wanted: f64,
+) -> Option<Shortfall> {
     let drifts: Vec<f64> = middle
         .iter()
         .map(|windows| {
@@ -67,7 +75,9 @@ pub(crate) fn shortfall(middle: &Speeds, above: &Speeds, wanted: f64) -> Option<
     if drift.abs() > (DRIFT * standard_error).max(NEGLIGIBLE * wanted) || !drift.is_finite() {
         return Some(Shortfall::Drift { drift, standard_error });
     }
-    let (Some(speed), Some(bounded)) = (steady_speed(middle, middle), steady_speed(middle, above)) else {
+    let (Some(speed), Some(bounded)) =
+        (steady_speed(middle, middle, are_perturbed), steady_speed(middle, above, are_perturbed))
+    else {
         return Some(Shortfall::Drift { drift, standard_error });
     };
     let bound = bounded.standard_error - speed.standard_error;
@@ -97,7 +107,7 @@ mod tests {
 
     /// Of rotors that have met.
     fn alone(speeds: &Speeds, wanted: f64) -> Option<Shortfall> {
-        shortfall(speeds, speeds, wanted)
+        shortfall(speeds, speeds, false, wanted)
     }
 
     #[test]
@@ -128,11 +138,13 @@ mod tests {
     fn what_depends_on_the_start_is_no_part_of_a_steady_mean() {
         let (below, above) = (noisy(16, 12, |_| 5.0), noisy(16, 12, |_| 5.3));
         assert_eq!(alone(&below, 0.2), None);
-        let Some(Shortfall::Drift { drift, .. }) = shortfall(&below, &above, 0.2) else { panic!("steady") };
+        let Some(Shortfall::Drift { drift, .. }) = shortfall(&below, &above, false, 0.2) else {
+            panic!("steady")
+        };
         assert!((drift - 0.3).abs() < 1e-12, "{drift}");
         let near = noisy(16, 12, |_| 5.01);
-        assert_eq!(shortfall(&below, &near, 0.2), None);
-        let error = |above: &Speeds| steady_speed(&below, above).expect("finite").standard_error;
+        assert_eq!(shortfall(&below, &near, false, 0.2), None);
+        let error = |above: &Speeds| steady_speed(&below, above, false).expect("finite").standard_error;
         assert!((error(&near) - error(&below) - 0.01 / NORMAL_975).abs() < 1e-12);
     }
 

@@ -2,6 +2,7 @@
 
 use bouncing_disk_core::Observer;
 use bouncing_disk_core::numerics::elementary::hypot;
+use bouncing_disk_core::run::Watch;
 
 use crate::error::Error;
 use crate::motor::operation::loaded_motor::LoadedMotor;
@@ -70,6 +71,8 @@ pub(crate) fn stall_load(
     settings: &OperatingSettings,
     observer: &dyn Observer,
 ) -> Result<StallLoad, Error> {
+    let survey = motor.survey(&Watch::begin(observer, 0, settings.most_impacts)?)?;
+    let motor = &LoadedMotor { surveyed: survey.as_ref(), ..*motor };
     let unloaded = operate(&[motor.with_load(0.0)?], settings, observer)?;
     let unloaded = &unloaded.rows[0];
     check_settled(unloaded.operation())?;

@@ -17,16 +17,23 @@ use crate::motor::operation::point::{
 };
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::operation::settling::{decided_by_start, left_out, shortfall};
+use crate::motor::operation::survey::{Lived, Survey};
 use crate::motor::stator::Stator;
 use crate::motor::tape::cycle::Cycle;
 use crate::motor::tape::left::Left;
+use crate::motor::tape::source::Source;
+use crate::motor::tape::taped::{error_of_steps, resolution};
 use crate::motor::tape::window::{RotorWindow, Window};
 use crate::parameters::dimensionless::DimensionlessSystem;
 use crate::parameters::system::System;
+use crate::stator::StatorSystem;
 
 /// Windows of the first round, and windows in the time in which friction gives the platform's largest speed.
 const FIRST_WINDOWS: usize = 12;
 const WINDOWS_OF_RISE: f64 = 2.0;
+
+/// The least length of a window, over the time in which an amplitude of the stator falls by a factor e.
+const WINDOW_OF_DECAY: f64 = 0.75;
 
 /// A slow rotor has less inertia than its motor, so that its rise takes no more periods than this, times the platform's
 /// largest speed P (the length of flights), over the requested error or this one, whichever is smaller. The speed is then
@@ -41,6 +48,10 @@ const SHORTEST: (f64, f64) = (1.0, 1.0);
 /// many times more.
 const INERTIA_SHARE: f64 = 0.6;
 const SLOWER: f64 = 4.0;
+
+/// If the scatter is less than this share of the requested error, a longer run does not help: the rest is what the
+/// perturbation changes.
+const SCATTER_SHARE: f64 = 0.5;
 
 /// Most times less.
 const QUICKEST: f64 = 1.0e6;
@@ -66,8 +77,11 @@ const MARGIN: f64 = 1.15;
 /// Members begin, in place of others that repeat themselves, until there were so many times those of the settings.
 const MOST_STARTS: usize = 3;
 
-/// More cycles than this are a family: each start keeps its own.
+/// More cycles than this on a stator with kinks are a family: each start keeps its own.
 const MOST_CYCLES: usize = 6;
+
+/// Rotors from below and from above that are farther apart than so many requested errors stay so.
+const PARTED: f64 = 8.0;
 
 /// Windows that each of the members leaves out as its start-up if some end.
 const START_UP: usize = FIRST_WINDOWS / 2;
@@ -162,6 +176,7 @@ fn operate_from(
     for motor in motors {
         positive("mass", motor.mass)?;
     }
+    let survey;
     let mut carried: Vec<LoadedMotor<'_>> =
         motors.iter().copied().filter(|motor| !motor.runs_away()).collect();
     let asked = carried.len();
@@ -181,6 +196,8 @@ fn operate_from(
     let (is_timed, length_of_all) = (length.is_some(), length.unwrap_or(SHORTEST).0);
     if asked > 0 {
         let watch = Watch::begin(observer, 0, settings.most_impacts)?;
+        survey = if carried[0].surveyed.is_some() { None } else { carried[0].survey(&watch)? };
+        carried.iter_mut().for_each(|motor| motor.surveyed = motor.surveyed.or(survey.as_ref()));
         let run = |motors: Vec<LoadedMotor<'_>>, asked: usize, reference: Option<f64>| {
             let (length, mut slower) = length.unwrap_or(SHORTEST);
             let (run, first) = loop {
@@ -257,6 +274,8 @@ struct Repeated {
 struct Carried {
     index: usize,
     member: Member,
+    /// How many starts from rest it stands for.
+    from_rest: usize,
     windows: Vec<Window>,
 }
 
@@ -272,9 +291,8 @@ struct SteadyRun<'a> {
     repeated: Vec<Repeated>,
     /// The windows of irregular motions that ended, without their start-up.
     ended_windows: Vec<Vec<Window>>,
-    /// How long (rad) the irregular motions beyond their start-up were followed that ended, and how many did.
-    irregular: f64,
-    ended: u64,
+    /// How long irregular motions lasted that ended, and all of a survey.
+    life: Lived,
     /// Where those of the first members were left that repeat themselves.
     left: Vec<(usize, Left)>,
     /// Members begun so far, and the most.
@@ -317,37 +335,37 @@ impl<'a> SteadyRun<'a> {
         let takes_long = stators[0].takes_long();
         let less = |system| if takes_long { (rise(system) / longest).clamp(1.0, QUICKEST) } else { 1.0 };
         let quicker: Vec<f64> = systems.iter().map(less).collect();
-        let mut members = (0..settings.members)
-            .map(|index| {
-                let member = Member::new(&systems, &stators, asked, index, &quicker, settings)?;
-                Ok(Carried { index, member, windows: Vec::new() })
-            })
-            .collect::<Result<Vec<_>, Error>>()?;
-        let scales = motors[0].system.scales();
-        for (own, left) in members.iter_mut().zip(from.into_iter().flatten()) {
-            own.member.resume(&left.scaled(&scales, f64::recip))?;
-        }
         // The time in which friction gives the platform's largest speed, in radians; that of the slowest
         // rotor.
         let rises = systems.iter().zip(&quicker).map(|(system, quicker)| rise(system) / quicker);
         let rise = rises.fold(0.0, f64::max);
-        let duration = length * (rise.min(f64::MAX) / WINDOWS_OF_RISE).max(LEAST_PERIODS * TAU);
+        // The amplitude of a stator that yields settles within the windows that are left out first.
+        let settles = WINDOW_OF_DECAY * motors[0].stator.yielded().map_or(0.0, StatorSystem::decay_time);
+        let duration = length * (rise.min(f64::MAX) / WINDOWS_OF_RISE).max(LEAST_PERIODS * TAU).max(settles);
         // Even where the rise takes for ever the first round spends no more than it may.
         let most_impacts = (settings.most_impacts / (settings.members * FIRST_WINDOWS) as u64).max(1);
         let least_impacts = ((length * LEAST_IMPACTS as f64) as u64).min(most_impacts);
+        let survey = motors[0].surveyed;
+        let most_begun = match (survey, from) {
+            (Some(Survey { irregular: Some(irregular), .. }), _) => {
+                irregular.len().min(MOST_STARTS * settings.members)
+            }
+            (_, Some(_)) => settings.members,
+            (_, None) => MOST_STARTS * settings.members,
+        };
         let shortfalls = vec![None; asked];
-        Ok(Self {
+        let life = survey.map_or_else(Lived::default, |survey| survey.life);
+        let mut run = Self {
             motors,
             systems,
             asked,
-            members,
+            members: Vec::new(),
             repeated: Vec::new(),
             ended_windows: Vec::new(),
-            irregular: 0.0,
-            ended: 0,
+            life,
             left: Vec::new(),
-            begun: settings.members,
-            most_begun: if from.is_some() { settings.members } else { MOST_STARTS * settings.members },
+            begun: 0,
+            most_begun,
             stators,
             quicker,
             settings: *settings,
@@ -357,7 +375,41 @@ impl<'a> SteadyRun<'a> {
             reference: None,
             shortfalls,
             wanted: 0.0,
-        })
+        };
+        for surveyed in survey.into_iter().flat_map(|survey| &survey.cycles) {
+            let member = run.member(0, Some(&surveyed.source))?.on(surveyed.repeats);
+            let from_rest = surveyed.from_rest;
+            run.members.push(Carried { index: settings.members, member, from_rest, windows: Vec::new() });
+        }
+        while run.begun < settings.members.min(run.most_begun) {
+            let begins = run.begin()?;
+            run.members.push(begins);
+        }
+        let scales = run.motors[0].system.scales();
+        for (own, left) in run.members.iter_mut().zip(from.into_iter().flatten()) {
+            own.member.resume(&left.scaled(&scales, f64::recip))?;
+        }
+        Ok(run)
+    }
+
+    /// The next member that begins.
+    fn begin(&mut self) -> Result<Carried, Error> {
+        let index = self.begun;
+        self.begun += 1;
+        let survey = self.motors[0].surveyed;
+        let known =
+            survey.and_then(|survey| survey.irregular.as_ref().map(|all| (&all[index], survey.from_rest)));
+        let from_rest = match known {
+            Some((_, from_rest)) if index == 0 => from_rest,
+            Some(_) => 0,
+            None => usize::from(index < self.settings.members && !is_thrown(index)),
+        };
+        let member = self.member(index, known.map(|(source, _)| source))?;
+        Ok(Carried { index, member, from_rest, windows: Vec::new() })
+    }
+
+    fn member(&self, index: usize, from: Option<&Source>) -> Result<Member, Error> {
+        Member::new(&self.systems, &self.stators, self.asked, index, &self.quicker, from, &self.settings)
     }
 
     /// Where the members are.
@@ -441,16 +493,17 @@ impl<'a> SteadyRun<'a> {
             let again = if self.is_quicker() { asked } else { 0 };
             own.iter().chain(&own[..asked]).chain(&own[..again]).copied().collect()
         };
-        let mut kept = Vec::new();
+        let (mut kept, mut places) = (Vec::new(), 0);
         for mut own in std::mem::take(&mut self.members) {
             let Some(cycle) = own.member.cycle(&mut watch.work())? else {
                 kept.push(own);
                 continue;
             };
-            let followed = own.member.followed();
-            let start_up = self.duration * START_UP as f64;
-            if followed > start_up {
-                (self.irregular, self.ended) = (self.irregular + (followed - start_up), self.ended + 1);
+            // A motion that ends in its start-up was on its way to the cycle.
+            let start_up = of_windows(&own.windows[..own.windows.len().min(START_UP)]);
+            let (followed, lasts) = (own.member.followed(), own.windows.len() >= START_UP);
+            if lasts {
+                self.life.add(followed - start_up, true);
             }
             self.left.extend(own.member.left().map(|left| (own.index, left)));
             let known = self.repeated.iter().position(|known| known.cycle.is_same(&cycle));
@@ -459,7 +512,7 @@ impl<'a> SteadyRun<'a> {
                 let windows = own.member.on_cycle(&cycle, &largest);
                 self.repeated.push(Repeated { cycle, windows, from_rest: 0 });
             }
-            self.repeated[place].from_rest += usize::from(self.is_from_rest(own.index));
+            self.repeated[place].from_rest += own.from_rest;
             let mut windows = own.windows;
             // The last ones may be on the way to the cycle.
             let rates = self.repeated[place].windows[0].axial.rates();
@@ -471,26 +524,19 @@ impl<'a> SteadyRun<'a> {
             if !windows.is_empty() {
                 self.ended_windows.push(windows);
             }
-            if self.begun < self.most_begun {
-                let member = Member::new(
-                    &self.systems,
-                    &self.stators,
-                    self.asked,
-                    self.begun,
-                    &self.quicker,
-                    &self.settings,
-                )?;
-                kept.push(Carried { index: self.begun, member, windows: Vec::new() });
-                (self.begun, begins) = (self.begun + 1, true);
+            // A cycle of the survey takes no place.
+            places += usize::from(followed > 0.0);
+        }
+        // Where all come to one cycle further starts bring nothing new.
+        if !kept.is_empty() || self.life.ended > 0 || self.repeated.len() > 1 {
+            let begin = places.min(self.most_begun - self.begun);
+            for _ in 0..begin {
+                kept.push(self.begin()?);
             }
+            begins = begin > 0;
         }
         self.members = kept;
         Ok(begins)
-    }
-
-    /// Whether the member of this index is one that all motors have, and started from rest.
-    fn is_from_rest(&self, index: usize) -> bool {
-        index < self.settings.members && !is_thrown(index)
     }
 
     /// How many times as long a run has to be.
@@ -514,13 +560,12 @@ impl<'a> SteadyRun<'a> {
         let (duration, impacts) = (self.duration, self.least_impacts..=self.most_impacts);
         let extend_one = |own: &mut Carried| {
             let mut work = watch.work();
-            while own.windows.len() < target {
+            while own.windows.len() < target && !own.member.repeats() {
                 let window = own.member.next_window(duration, impacts.clone(), &mut work)?;
                 watch.finish(window.axial.impacts);
-                if own.member.repeats() {
-                    break;
+                if !own.member.repeats() {
+                    own.windows.push(window);
                 }
-                own.windows.push(window);
             }
             Ok::<(), Error>(())
         };
@@ -602,20 +647,41 @@ impl<'a> SteadyRun<'a> {
         self.shortfalls = (0..self.asked)
             .map(|motor| {
                 let [middle, above] = &self.speeds(motor);
+                if self.is_parted(motor) {
+                    return self.unbalanced(motor);
+                }
                 self.undecided(motor, middle)
-                    .or_else(|| shortfall(middle, above, self.wanted))
+                    .or_else(|| shortfall(middle, above, self.are_perturbed(), self.wanted))
                     .or_else(|| self.inaccurate(motor))
                     .or_else(|| self.unbalanced(motor))
             })
             .collect();
     }
 
+    /// Whether rotors from far below and from far above stay apart: under a load that falls with the speed both are where
+    /// they remain, and no rotor passes from one to the other.
+    fn is_parted(&self, motor: usize) -> bool {
+        if self.motors[motor].law().is_finite() {
+            return false;
+        }
+        let ([middle, above], are_perturbed) = (self.speeds(motor), self.are_perturbed());
+        let below: Vec<Vec<f64>> = middle
+            .iter()
+            .zip(&above)
+            .map(|(middle, above)| {
+                middle.iter().zip(above).map(|(middle, above)| 2.0 * middle - above).collect()
+            })
+            .collect();
+        let settled = |speeds: &[Vec<f64>]| shortfall(speeds, speeds, are_perturbed, self.wanted).is_none();
+        let of_all =
+            |speeds: &[Vec<f64>]| mean(&speeds.iter().map(|windows| mean(windows)).collect::<Vec<_>>());
+        settled(&below) && settled(&above) && of_all(&above) - of_all(&below) > PARTED * self.wanted
+    }
+
     /// By how much (rad/s) the speed depends on the start, of a motor whose stator has kinks. Between two kinks such a
     /// stator may carry a whole family of motions, each of which keeps a speed of its own.
     fn apart(&self, motor: usize, speeds: &[Vec<f64>]) -> f64 {
-        let driven = self.motors[motor].stator.driven();
-        let has_kinks = driven.is_some_and(|system| system.height().kinks().next().is_some());
-        if has_kinks { decided_by_start(speeds).unwrap_or(0.0) } else { 0.0 }
+        if self.motors[motor].stator.has_kinks() { decided_by_start(speeds).unwrap_or(0.0) } else { 0.0 }
     }
 
     /// A dependence on the start that is larger than the requested error.
@@ -660,26 +726,43 @@ impl<'a> SteadyRun<'a> {
         let scales = self.motors[index].system.scales();
         let speed = |sum: &Sum| sum.rotor.angle / sum.axial.duration * scales.angular_speed;
         let pairs = self.pairs(index);
-        if !pairs.below.is_empty() {
-            let point = self.point(index, &Averages::Members(&pairs))?;
+        // From below and from above, if these stay apart.
+        let alone = |sums: &Vec<Sum>| Pairs { below: sums.clone(), above: sums.clone(), ..pairs.clone() };
+        let all = match (pairs.below.is_empty(), self.is_parted(index)) {
+            (true, _) => Vec::new(),
+            (false, true) => vec![alone(&pairs.below), alone(&pairs.above)],
+            (false, false) => vec![pairs.clone()],
+        };
+        for pairs in &all {
+            let point = self.point(index, &Averages::Members(pairs))?;
             let (standard_error, wanted) = (point.speed.standard_error, self.wanted);
             let too_large =
                 (standard_error > 1.01 * wanted).then_some(Shortfall::Error { standard_error, wanted });
             let operation = match self.shortfalls[index].or(too_large) {
                 None => Operation::Steady(point),
+                Some(Shortfall::Error { .. }) => {
+                    Operation::Unsettled(point, Shortfall::Error { standard_error, wanted })
+                }
                 Some(shortfall) => Operation::Unsettled(point, shortfall),
             };
-            let from_rest = self.members.iter().filter(|own| self.is_from_rest(own.index)).count();
+            let from_rest = self.members.iter().map(|own| own.from_rest).sum();
             // What ends is not where most are in the end.
-            let from_rest = if self.ended > 0 { 0 } else { from_rest };
+            let from_rest = if self.life.ended > 0 { 0 } else { from_rest };
             branches.push((from_rest, operation, pairs.of(&speed)));
         }
-        if self.repeated.len() > MOST_CYCLES {
+        // A rotor from rest does not stay where it is driven back.
+        if let [(_, first, _), (_, _, _)] = &branches[..]
+            && first.point().is_some_and(|point| point.speed.value < 0.0)
+        {
+            branches.swap(0, 1);
+        }
+        let is_family = self.repeated.len() > MOST_CYCLES && self.motors[index].stator.has_kinks();
+        if is_family {
             let operation = self.family(index)?;
             let speeds: Vec<f64> = self.cycles(index).iter().map(speed).collect();
-            branches.push((usize::from(self.ended > 0), operation, [speeds.clone(), speeds]));
+            branches.push((usize::from(self.life.ended > 0), operation, [speeds.clone(), speeds]));
         }
-        for repeated in self.repeated.iter().filter(|_| self.repeated.len() <= MOST_CYCLES) {
+        for repeated in self.repeated.iter().filter(|_| !is_family) {
             let sums = repeated.windows.each_ref().map(|window| Sum::of(std::iter::once(window), index));
             let speeds = vec![speed(&sums[0]); self.settings.members];
             let point = self.point(index, &Averages::Cycle { sums: &sums, cycle: &repeated.cycle })?;
@@ -703,7 +786,8 @@ impl<'a> SteadyRun<'a> {
         let cycles = self.cycles(index);
         let unit = self.motors[index].system.scales().angular_speed;
         let speeds: Vec<f64> = cycles.iter().map(|sum| sum.rotor.angle / sum.axial.duration * unit).collect();
-        let pairs = Pairs { below: cycles.clone(), above: cycles, quickest: Vec::new() };
+        let (below, quickest) = (cycles.clone(), Vec::new());
+        let pairs = Pairs { below, above: cycles, quickest, are_perturbed: false, steps: 0.0 };
         let point = self.point(index, &Averages::Members(&pairs))?;
         let known = Estimate::of(&speeds)?;
         let spread = speeds.iter().fold(0.0_f64, |most, speed| (speed - known.value).abs().max(most));
@@ -725,7 +809,19 @@ impl<'a> SteadyRun<'a> {
         let (below, above) = (sums(index), sums(self.rotor_from_above(index)));
         let quickest =
             if self.is_quicker() { sums(self.motors.len() + self.asked + index) } else { Vec::new() };
-        Pairs { below, above, quickest }
+        let are_perturbed = self.are_perturbed();
+        let is_pressed = below.iter().any(|sum| sum.axial.pressed > 0.0);
+        let steps = if is_pressed { error_of_steps(resolution(self.settings.relative_error)) } else { 0.0 };
+        Pairs { below, above, quickest, are_perturbed, steps }
+    }
+
+    /// Whether members have perturbations of two sizes, each at its place.
+    fn are_perturbed(&self) -> bool {
+        let count = self.members.len();
+        !self.stators[0].takes_time()
+            && self.ended_windows.is_empty()
+            && count == self.settings.members
+            && count > 3
     }
 
     /// Whether the rotors have less inertia than their motors.
@@ -735,27 +831,30 @@ impl<'a> SteadyRun<'a> {
 
     /// The mean speed (rad/s) of a motor, and by how much that of rotors with half the inertia differs where rotors have
     /// less than their motors; `None` of no irregular motion.
-    fn with_bias(&self, index: usize) -> Option<(Estimate, f64)> {
+    fn with_bias(&self, index: usize) -> Option<(Estimate, [f64; 2])> {
         let unit = self.motors[index].system.scales().angular_speed;
         let speed = |sum: &Sum| sum.rotor.angle / sum.axial.duration * unit;
         let pairs = self.pairs(index);
         let known = Averages::Members(&pairs).estimate(&speed).ok().filter(|_| !pairs.below.is_empty())?;
         let quickest: Vec<f64> = pairs.quickest.iter().map(speed).collect();
         let bias = if quickest.is_empty() { 0.0 } else { (mean(&quickest) - known.value).abs() };
-        Some((known, bias))
+        Some((known, [bias, pairs.change(&pairs.of(&speed)[0]).ok()?]))
     }
 
     /// Whether the inertia that is left out matters more than the requested error allows.
     fn is_too_quick(&self) -> bool {
-        let bias = |index| self.with_bias(index).map_or(0.0, |(_, bias)| bias);
+        let bias = |index| self.with_bias(index).map_or(0.0, |(_, [bias, _])| bias);
         self.is_quicker() && (0..self.asked).any(|index| bias(index) > INERTIA_SHARE * self.wanted)
     }
 
-    /// An error that is too large with the inertia that is left out, if a longer run can help.
+    /// An error that is too large with the inertia that is left out and what the perturbation changes, if a longer run can
+    /// help.
     fn inaccurate(&self, index: usize) -> Option<Shortfall> {
-        let (known, bias) = self.with_bias(index)?;
+        let (known, [bias, change]) = self.with_bias(index)?;
         let (standard_error, wanted) = (known.standard_error, self.wanted);
-        let helps = standard_error > wanted && bias <= INERTIA_SHARE * wanted;
+        let scatter = (standard_error * standard_error - change * change).max(0.0).sqrt();
+        let helps =
+            standard_error > wanted && bias <= INERTIA_SHARE * wanted && scatter > SCATTER_SHARE * wanted;
         helps.then_some(Shortfall::Error { standard_error, wanted })
     }
 
@@ -817,7 +916,8 @@ impl<'a> SteadyRun<'a> {
                 known = known.bounded_by(Estimate { value: known.value + apart, ..known });
                 let after = if self.ended_windows.is_empty() { left_out(self.windows()) } else { START_UP };
                 let motion = AxialMotion::Irregular { life: self.life(units.time) };
-                let start_up = after as f64 * self.duration * units.time;
+                let omitted = |own: &Carried| of_windows(&own.windows[..after.min(own.windows.len())]);
+                let start_up = self.members.iter().map(omitted).fold(0.0, f64::max) * units.time;
                 (motion, start_up, self.total(index), self.settings.members)
             }
             Averages::Cycle { sums: [fine, _], cycle } => {
@@ -855,16 +955,21 @@ impl<'a> SteadyRun<'a> {
     /// How long an irregular motion lasts, in a unit of time per radian: beyond the start-up, in which a member may have
     /// been on its way to a cycle from the start, it ends at a constant rate.
     fn life(&self, unit: f64) -> Life {
-        let followed = |own: &Carried| own.windows.iter().map(|window| window.axial.duration).sum::<f64>();
-        let times: Vec<f64> = self.members.iter().map(followed).collect();
-        if self.ended > 0 {
-            let beyond =
-                times.iter().map(|time| (time - self.duration * START_UP as f64).max(0.0)).sum::<f64>();
-            Life::Mean((self.irregular + beyond) / self.ended as f64 * unit)
-        } else {
-            Life::NoneEndedIn(times.into_iter().fold(0.0, f64::max) * unit)
+        let mut life = self.life;
+        for own in &self.members {
+            life.add(of_windows(&own.windows[own.windows.len().min(START_UP)..]), false);
         }
+        if life.ended == 0 {
+            return Life::NoneEndedIn(life.longest * unit);
+        }
+        let (value, ends) = (life.total / life.ended as f64 * unit, life.ended as f64);
+        Life::Mean(Estimate { value, standard_error: value / ends.sqrt() })
     }
+}
+
+/// How long (rad) windows last together.
+fn of_windows(windows: &[Window]) -> f64 {
+    windows.iter().map(|window| window.axial.duration).sum()
 }
 
 #[cfg(test)]

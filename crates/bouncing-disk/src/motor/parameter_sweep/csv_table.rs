@@ -84,7 +84,7 @@ fn of_operation(operation: &Operation, quantities: &[SweepQuantity]) -> Vec<Stri
         }
     };
     let (motion, life) = match operation.point().map(|point| point.motion) {
-        Some(AxialMotion::Irregular { life: Life::Mean(life) }) => ("irregular", written(life)),
+        Some(AxialMotion::Irregular { life: Life::Mean(life) }) => ("irregular", written(life.value)),
         Some(AxialMotion::Irregular { .. }) => ("irregular", String::new()),
         Some(AxialMotion::Periodic { .. }) => ("periodic", String::new()),
         Some(AxialMotion::Contact) => ("contact", String::new()),

@@ -6,7 +6,7 @@ use bouncing_disk_core::Drive;
 use bouncing_disk_core::run::WorkCount;
 use bouncing_disk_core::sweep::LaneRunner;
 
-use super::recurrence::{Key, Repeats, Touch, are_same};
+use super::recurrence::{Key, ONE, ONE_OF_TWO, Repeats, Touch, are_same, is_near};
 use super::replay::{Done, Replay, Rotors};
 use super::source::Source;
 use super::window::Window;
@@ -85,15 +85,23 @@ impl Cycle {
     /// is first seen to repeat several of them.
     pub(crate) fn least_touches(keys: &[Key]) -> u64 {
         let count = keys.len();
-        let repeats = |period: &usize| count.is_multiple_of(*period) && are_same(keys, keys, *period);
+        let repeats = |period: &usize| count.is_multiple_of(*period) && are_same(keys, keys, *period, ONE);
         (1..count).find(repeats).unwrap_or(count) as u64
     }
 
     /// Whether two are the same motion, entered at different touches or not.
     pub(crate) fn is_same(&self, other: &Self) -> bool {
+        // Each may be left at some distance from where it ends.
+        let within = ONE_OF_TWO.max(2.0 * (self.repeats.distance + other.repeats.distance));
+        let is_same = |apart| are_same(&self.touches, &other.touches, apart, within);
         self.touches.len() == other.touches.len()
             && self.periods == other.periods
-            && (0..self.touches.len()).any(|apart| are_same(&self.touches, &other.touches, apart))
+            && (0..self.touches.len()).any(is_same)
+    }
+
+    /// Whether a touch is near one of its touches.
+    pub(crate) fn is_near(&self, key: &Key) -> bool {
+        is_near(&self.touches, key)
     }
 
     /// Whether the disk stays on the platform.

@@ -13,7 +13,7 @@ use crate::motion::state::{DiskState, Mode};
 use crate::motor::rotor::transient::FLIGHTS_OF_EVENT;
 
 /// An engine of a disk that friction does not turn, as the source of a tape.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct EngineTape<E> {
     pub(crate) engine: E,
     /// Contacts take time.
@@ -22,15 +22,28 @@ pub(crate) struct EngineTape<E> {
     perturbation: f64,
     /// Kinetic and potential energy after the last event.
     energy: f64,
+    /// Whether the disk has turned and not left the platform since.
+    has_turned: bool,
 }
 
 impl<E: SteeredMotion + Clone> EngineTape<E> {
     /// Each separation is perturbed by a speed of this size from a stream of this seed.
     pub(crate) fn new(engine: E, takes_time: bool, (perturbation, seed): (f64, u64)) -> Self {
-        let mut tape =
-            Self { engine, takes_time, generator: SplitMix64::new(seed), perturbation, energy: 0.0 };
+        let mut tape = Self {
+            engine,
+            takes_time,
+            generator: SplitMix64::new(seed),
+            perturbation,
+            energy: 0.0,
+            has_turned: false,
+        };
         tape.energy = tape.energy_now();
         tape
+    }
+
+    /// Whether contacts take time.
+    pub(crate) const fn takes_time(&self) -> bool {
+        self.takes_time
     }
 
     /// A speed for the next separation.
@@ -103,14 +116,17 @@ impl<E: SteeredMotion + Clone> EngineTape<E> {
         }
         let energy = self.energy_now();
         tape.axial.energy_change += energy - std::mem::replace(&mut self.energy, energy);
-        match event {
-            Event::Impact { .. } | Event::Kick { .. } | Event::Recontact => {
-                tape.axial.impacts += 1;
-                let disk = self.engine.disk();
-                Ok(Touch::At(Key::new(phase, [disk.axial_velocity, disk.height, 0.0], self.engine.modes())))
-            }
-            _ => Ok(Touch::None),
+        // A disk that never leaves the platform may turn there, where a contact unloads at less stiffness.
+        let turns = event == Event::Turn;
+        let is_touch = matches!(event, Event::Impact { .. } | Event::Kick { .. } | Event::Recontact)
+            || turns && self.has_turned;
+        self.has_turned = turns || self.has_turned && !is_touch && event != Event::Separation;
+        if !is_touch {
+            return Ok(Touch::None);
         }
+        tape.axial.impacts += 1;
+        let disk = self.engine.disk();
+        Ok(Touch::At(Key::new(phase, [disk.axial_velocity, disk.height, 0.0], self.engine.modes())))
     }
 
     /// A disk that lies on the platform for ever goes through a period of the drive; a stator that yields may take many

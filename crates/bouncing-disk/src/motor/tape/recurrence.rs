@@ -1,5 +1,7 @@
 //! The search for a cycle among the touches of a motion.
 
+use std::f64::consts::PI;
+
 use bouncing_disk_core::Phase;
 
 use crate::stator::MODES;
@@ -12,6 +14,9 @@ const SLOWEST: f64 = 1.0 - 1.0e-5;
 
 /// A part of a state counts as at least this share of the largest.
 const SMALL: f64 = 1.0e-3;
+
+/// A cycle takes a period of the drive at least.
+const LEAST_CYCLE: f64 = PI;
 
 /// Most touches of a cycle.
 const LONGEST: u64 = 128;
@@ -61,6 +66,8 @@ pub(crate) struct Recurrence {
     reference: Option<Key>,
     largest: [f64; PARTS],
     since: u64,
+    /// Time (rad) since the reference.
+    elapsed: f64,
     renewal: u64,
     /// Touches of the cycle that was seen last, and by how much it missed.
     seen: Option<(u64, f64)>,
@@ -76,8 +83,9 @@ pub(crate) struct Repeats {
 }
 
 impl Recurrence {
-    /// Adds what a step has shown: the cycle, if the motion repeats one.
-    pub(crate) fn add(&mut self, touch: Touch) -> Option<Repeats> {
+    /// Adds what a step of this duration (rad) has shown: the cycle, if the motion repeats one.
+    pub(crate) fn add(&mut self, touch: Touch, duration: f64) -> Option<Repeats> {
+        self.elapsed += duration;
         let key = match touch {
             Touch::None => return None,
             Touch::Lies => return Some(Repeats { touches: 1, distance: 0.0 }),
@@ -86,9 +94,11 @@ impl Recurrence {
         self.largest = most_of(self.largest, key.0);
         self.since += 1;
         let off = self.reference.map_or(f64::INFINITY, |reference| key.distance(&reference, self.largest));
-        if off < SAME {
+        // A motion may touch twice at one instant.
+        if off < SAME && self.elapsed > LEAST_CYCLE {
             let seen = self.seen.replace((self.since, off));
             let touches = std::mem::take(&mut self.since);
+            self.elapsed = 0.0;
             self.reference = Some(key);
             // What is left of a geometric series that falls as the last two terms do.
             return seen.filter(|seen| seen.0 == touches).map(|(_, before)| {
@@ -98,20 +108,33 @@ impl Recurrence {
         }
         if self.since >= self.renewal {
             self.renewal = (2 * self.renewal).clamp(1, LONGEST);
-            (self.reference, self.since, self.seen) = (Some(key), 0, None);
+            (self.reference, self.since, self.elapsed, self.seen) = (Some(key), 0, 0.0, None);
         }
         None
     }
 }
 
-/// Touches that differ by less than this share of the largest are one.
-const ONE: f64 = 1.0e-7;
+/// Touches of one motion that differ by less than this share of the largest are one.
+pub(crate) const ONE: f64 = 1.0e-7;
 
-/// Whether two cycles have the same touches, so many touches apart.
-pub(crate) fn are_same(one: &[Key], other: &[Key], apart: usize) -> bool {
+/// The same of two motions that were found to repeat themselves: where the contact force just touches zero, touches differ
+/// like the root of [`SAME`].
+pub(crate) const ONE_OF_TWO: f64 = 1.0e-5;
+
+/// Whether two cycles have the same touches, so many touches apart, within this share of the largest.
+pub(crate) fn are_same(one: &[Key], other: &[Key], apart: usize, within: f64) -> bool {
     let sizes = one.iter().fold([0.0; PARTS], |most, key| most_of(most, key.0));
     let other = other.iter().cycle().skip(apart);
-    one.iter().zip(other).all(|(one, other)| one.distance(other, sizes) < ONE)
+    one.iter().zip(other).all(|(one, other)| one.distance(other, sizes) < within)
+}
+
+/// A motion that touches nearer to a cycle than this share of the largest is on its way to it.
+const NEAR: f64 = 0.05;
+
+/// Whether a touch is near one of a cycle's.
+pub(crate) fn is_near(cycle: &[Key], key: &Key) -> bool {
+    let sizes = cycle.iter().fold([0.0; PARTS], |most, key| most_of(most, key.0));
+    cycle.iter().any(|own| own.distance(key, sizes) < NEAR)
 }
 
 fn most_of(one: [f64; PARTS], other: [f64; PARTS]) -> [f64; PARTS] {

@@ -23,7 +23,7 @@ use crate::parameters::dimensionless::{DimensionlessParameters, DimensionlessSys
 use crate::stator::MODES;
 
 /// Rigid impacts on a sine.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct RigidTape {
     /// `None` for a platform that never falls away.
     vertical: Option<VerticalMotion>,
@@ -36,11 +36,12 @@ pub(crate) struct RigidTape {
 }
 
 impl RigidTape {
-    /// A disk that lies on the platform at `phase`; each separation is perturbed by a speed of this size from a stream
+    /// A disk that lies on the platform at `phase`, or is thrown up from it, so fast in units of the platform's largest speed;
+    /// each separation is perturbed by a speed of this size from a stream
     /// of this seed.
     pub(crate) fn new(
         system: &DimensionlessSystem,
-        phase: Phase,
+        (phase, thrown): (Phase, Option<f64>),
         perturbation: (f64, u64),
     ) -> Result<Self, Error> {
         let own = system.parameters();
@@ -48,9 +49,14 @@ impl RigidTape {
         let (policy, angular_speed) = (ChatterPolicy::Complete, 0.0);
         let engine = Engine::new(still, InitialCondition::Contact { phase, angular_speed }, policy)?;
         let vertical = VerticalMotion::from_rest(system, phase, policy, perturbation)?;
-        let rests = !engine.launches();
+        let speed = thrown.map_or(0.0, |thrown| thrown * system.peak_acceleration());
+        let vertical = match vertical {
+            Some(vertical) if thrown.is_some() => Some(vertical.thrown(phase, speed, policy)?),
+            vertical => vertical,
+        };
+        let rests = thrown.is_none() && !engine.launches();
         let mut tape = Self { vertical, engine, rests, energy: 0.0 };
-        tape.energy = tape.energy_at(PhaseTime::in_first_period(phase), 0.0);
+        tape.energy = tape.energy_at(PhaseTime::in_first_period(phase), speed);
         Ok(tape)
     }
 

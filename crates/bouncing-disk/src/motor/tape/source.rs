@@ -17,7 +17,7 @@ use crate::parameters::dimensionless::{DimensionlessParameters, DimensionlessSys
 use crate::stator::{StatorEngine, StatorSystem};
 
 /// What a tape is recorded from.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) enum Source {
     /// A sine with rigid impacts.
     Rigid(Box<RigidTape>),
@@ -30,8 +30,8 @@ pub(crate) enum Source {
 }
 
 impl Source {
-    /// Of a disk that lies at a phase on this stator, on whose height friction does not act back. Where contacts take
-    /// time the disk may be thrown up, so fast in units of the platform's largest speed.
+    /// Of a disk that lies at a phase on this stator, on whose height friction does not act back, or is thrown up from it, so
+    /// fast in units of the platform's largest speed; not from a stator that yields.
     pub(crate) fn new(
         stator: &Stator,
         system: &DimensionlessSystem,
@@ -42,7 +42,7 @@ impl Source {
         // Contacts that take time need no perturbation: no rest makes all motions one.
         let undisturbed = (0.0, perturbation.1);
         Ok(match stator {
-            Stator::Sine => Self::Rigid(Box::new(RigidTape::new(system, phase, perturbation)?)),
+            Stator::Sine => Self::Rigid(Box::new(RigidTape::new(system, start, perturbation)?)),
             Stator::Driven(own) => {
                 let soft = own.system.compliance.is_some();
                 Self::driven(&own.system, start, if soft { undisturbed } else { perturbation })?
@@ -51,7 +51,7 @@ impl Source {
                 Self::yielding(own, phase, if own.takes_time() { undisturbed } else { perturbation })?
             }
             Stator::Yielding(own) => match own.contact_time() {
-                None => Self::Rigid(Box::new(RigidTape::new(own.base(), phase, perturbation)?)),
+                None => Self::Rigid(Box::new(RigidTape::new(own.base(), start, perturbation)?)),
                 Some(time) => Self::driven(&soft(own.base(), time)?, start, undisturbed)?,
             },
         })
@@ -65,7 +65,7 @@ impl Source {
     ) -> Result<Self, Error> {
         let still = DrivenSystem { friction: 0.0, load: 0.0, angle: Drive::fourier(&[])?, ..system.clone() };
         let angular_speed = 0.0;
-        let start = match thrown.filter(|_| system.compliance.is_some()) {
+        let start = match thrown {
             None => DrivenStart::Contact { phase, angular_speed },
             Some(share) => {
                 let relative_speed = share * system.height.bounds().speed;
@@ -111,6 +111,15 @@ impl Source {
     /// The phase (rad) there.
     pub(crate) fn phase(&self) -> f64 {
         self.time().phase.angle()
+    }
+
+    /// Whether its contacts take time; of a stator that yields this is not said.
+    pub(crate) const fn takes_time(&self) -> bool {
+        match self {
+            Self::Taps(_) => true,
+            Self::Driven(source) => source.takes_time(),
+            Self::Rigid(_) | Self::Yielding(_) => false,
+        }
     }
 
     /// Whether the stator has modes, whose energies are recorded.

@@ -1,5 +1,6 @@
 //! Rotors on a tape, in windows of time.
 
+use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
 
 use bouncing_disk_core::Drive;
@@ -23,8 +24,22 @@ use crate::stator::{LoadLine, StatorEngine};
 /// Knots after which a tape is replayed: few enough for the cache.
 const BLOCK: usize = 4096;
 
-/// Steps of a contact in a period: a chord of the stator's speed is off by 1e-4 of its amplitude at most.
+/// Steps of a contact in a period where speeds are wanted to a share of [`COARSE`] or more; their error is of second
+/// order in their length.
 const RESOLUTION: f64 = 128.0;
+const COARSE: f64 = 2.0e-3;
+
+/// Steps of a contact in a period for a speed that is wanted to this share.
+pub(crate) fn resolution(relative_error: f64) -> f64 {
+    RESOLUTION * (COARSE / relative_error).max(1.0).sqrt()
+}
+
+/// By how much of itself a speed may be off that was computed with so many steps: a chord of the stator's speed is off
+/// by the square of its length over 8, and by 2/3 of this on average.
+pub(crate) fn error_of_steps(resolution: f64) -> f64 {
+    let step = TAU / resolution;
+    step * step * (1.0 / 12.0)
+}
 
 /// How a rotor is turned.
 #[derive(Debug, Clone, PartialEq)]
@@ -89,8 +104,13 @@ pub(crate) struct Taped {
 }
 
 impl Taped {
-    /// Rotors with these angular speeds, and so many times less inertia than the motor's.
-    pub(crate) fn new(source: Source, starts: impl Iterator<Item = (TapedRotor, f64, f64)>) -> Self {
+    /// Rotors with these angular speeds, and so many times less inertia than the motor's, on a tape with so many steps of a
+    /// contact in a period.
+    pub(crate) fn new(
+        source: Source,
+        resolution: f64,
+        starts: impl Iterator<Item = (TapedRotor, f64, f64)>,
+    ) -> Self {
         let mut twists: Vec<Drive> = Vec::new();
         let (mut rotors, mut places): (Vec<Rotors>, Vec<_>) = Default::default();
         for (rotor, speed, quicker) in starts {
@@ -124,10 +144,15 @@ impl Taped {
             rotors[row].count += 1;
             places.push((row, own));
         }
-        let tape = Tape::new(source.phase(), RESOLUTION, twists);
+        let tape = Tape::new(source.phase(), resolution, twists);
         let runner = LaneRunner::new(InstructionSet::best());
         let recurrence = Recurrence::default();
         Self { source, tape, rotors, places, runner, recurrence, repeats: None, followed: 0.0 }
+    }
+
+    /// The same on a motion that is known to repeat itself.
+    pub(crate) fn on(self, repeats: Repeats) -> Self {
+        Self { repeats: Some(repeats), ..self }
     }
 
     #[cfg(test)]
@@ -183,8 +208,9 @@ impl Taped {
         let mut axial = AxialWindow::default();
         let mut ledger = self.source.yields().then(Default::default);
         loop {
+            let before = self.tape.axial.duration;
             let touch = self.source.record(&mut self.tape, work)?;
-            self.repeats = self.recurrence.add(touch);
+            self.repeats = self.recurrence.add(touch, self.tape.axial.duration - before);
             let (now, done) = (&self.tape.axial, axial.impacts + self.tape.axial.impacts);
             let lasts = axial.duration + now.duration >= duration;
             let is_enough = self.repeats() || lasts && done >= *impacts.start() || done >= *impacts.end();

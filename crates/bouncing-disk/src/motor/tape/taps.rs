@@ -12,7 +12,7 @@ use crate::motor::tape::tap::TapSolver;
 use crate::stator::MODES;
 
 /// Taps, and the engine that decides where the closed forms do not.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct TapTape {
     solver: TapSolver,
     pub(crate) engine: EngineTape<DrivenEngine>,
@@ -82,6 +82,7 @@ impl TapTape {
         let peak = self.solver.vibration().peak_acceleration();
         let axial = &mut tape.axial;
         axial.duration += touch.duration + span;
+        axial.pressed += span;
         axial.normal_work += peak * (to.force_cos - from.force_cos);
         axial.restitution_loss +=
             (to.loss - from.loss) + (self.solver.spring_energy(gap) - self.solver.spring_energy(touch.gap));

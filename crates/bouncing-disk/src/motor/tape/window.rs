@@ -36,6 +36,8 @@ pub(crate) struct AxialWindow {
     pub(crate) restitution_loss: f64,
     /// Change of the kinetic and potential energy.
     pub(crate) energy_change: f64,
+    /// Time (rad) in contact.
+    pub(crate) pressed: f64,
     /// Impacts; periods of rotors that never bounce.
     pub(crate) impacts: u64,
 }
@@ -82,6 +84,7 @@ impl AxialWindow {
         self.perturbation_work += next.perturbation_work;
         self.restitution_loss += next.restitution_loss;
         self.energy_change += next.energy_change;
+        self.pressed += next.pressed;
         self.impacts += next.impacts;
     }
 }

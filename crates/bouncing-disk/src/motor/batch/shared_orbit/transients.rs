@@ -16,7 +16,7 @@ use crate::motor::rotor::transient::{
 };
 use crate::motor::rotor::{Rotor, RotorStep};
 use crate::motor::tape::source::Source;
-use crate::motor::tape::taped::Taped;
+use crate::motor::tape::taped::{Taped, resolution};
 use crate::parameters::driven_platform::{DrivenPlatform, Waveform};
 use crate::parameters::scales::Scales;
 use crate::parameters::system::System;
@@ -72,7 +72,8 @@ fn soft_transients(
     });
     let driven = driven.collect::<Result<Vec<_>, Error>>()?;
     let source = Source::driven(&driven[0], (phase, None), perturbation)?;
-    let mut member = Taped::new(source, driven.iter().map(|system| (system.rotor(), 0.0, 1.0)));
+    let mut member =
+        Taped::new(source, resolution(1.0), driven.iter().map(|system| (system.rotor(), 0.0, 1.0)));
     let bins = systems.iter().map(|_| Bins::new(settings.duration, settings.intervals));
     let mut bins = bins.collect::<Result<Vec<_>, Error>>()?;
     let (mut passed, mut impacts, unit) = (0.0, 0, systems[0].scales().time);

@@ -45,6 +45,12 @@ impl VerticalMotion {
         }))
     }
 
+    /// The motion of a disk that is thrown up from the platform at `phase`, with this speed relative to it.
+    pub(crate) fn thrown(self, phase: Phase, speed: f64, policy: ChatterPolicy) -> Result<Self, Error> {
+        let orbit = self.map.orbit_from_launch(Launch::new(phase, speed)?, policy);
+        Ok(Self { orbit, ..self })
+    }
+
     /// The coefficient of restitution.
     pub(crate) const fn restitution(&self) -> f64 {
         self.map.restitution()

@@ -13,7 +13,7 @@ use crate::{Motor, System};
 fn member(systems: &[DimensionlessSystem], stators: &[Stator], index: usize) -> (Taped, OperatingSettings) {
     let settings = OperatingSettings { members: 5, seed: 9, ..OperatingSettings::default() };
     let quicker = vec![1.0; systems.len()];
-    match Member::new(systems, stators, 0, index, &quicker, &settings).expect("legal") {
+    match Member::new(systems, stators, 0, index, &quicker, None, &settings).expect("legal") {
         Member::Taped(member) => (*member, settings),
         Member::Coupled(_) => panic!("nothing acts back"),
     }
@@ -46,7 +46,7 @@ fn a_rotor_on_a_tape_of_rigid_impacts_is_that_of_its_engine() {
             while engine.time().order(&member.time()).is_lt() {
                 let record = engine.advance().expect("no failure").expect("it goes on");
                 if record.event == Event::Separation {
-                    let speed = settings.relaunch_perturbation * generator.unit();
+                    let speed = settings.relaunch_perturbation * of_decade(0) * generator.unit();
                     engine.perturb_launch(speed).expect("legal");
                 }
             }

@@ -9,7 +9,6 @@ use super::*;
 use crate::estimate::{Spread, TransientEnsemble};
 use crate::motion::EnergyLedger;
 use crate::motor::TransientSettings;
-use crate::motor::operation::loaded_motor::LargestSpeeds;
 use crate::testing::{check_stops, motor, refused, tried_motor};
 use crate::{Engine, InitialCondition, Motor};
 
@@ -18,13 +17,7 @@ const MASS: f64 = 0.02;
 
 /// This motor under a share of the largest mean torque of friction.
 fn loaded(system: &System, share: f64) -> LoadedMotor<'static> {
-    let unloaded = LoadedMotor {
-        system: *system,
-        fastest: LargestSpeeds::of_sine(system),
-        stator: &Stator::Sine,
-        mass: MASS,
-        load_torque: 0.0,
-    };
+    let unloaded = LoadedMotor::on_sine(*system, MASS, 0.0);
     unloaded.with_load(share * unloaded.largest_torque()).expect("legal")
 }
 
@@ -112,13 +105,7 @@ fn a_load_above_the_largest_torque_of_friction_runs_away() {
     let exact = |load: f64| {
         let scale = base.scales().angular_acceleration;
         let system = base.with_disk(|rotor| rotor.load_acceleration = load * scale).expect("legal");
-        LoadedMotor {
-            system,
-            fastest: LargestSpeeds::of_sine(&system),
-            stator: &Stator::Sine,
-            mass: MASS,
-            load_torque: f64::NAN,
-        }
+        LoadedMotor::on_sine(system, MASS, f64::NAN)
     };
     let friction = base.dimensionless().friction();
     for load in [friction, 1.5 * friction, -friction, -2.0 * friction, 1e6] {
@@ -151,13 +138,7 @@ fn a_load_above_the_largest_torque_of_friction_runs_away() {
     }
     // What nothing holds, nothing drives: it stands still to the bit. The least load runs away with it.
     let slippery = base.with_disk(|rotor| rotor.friction = 0.0).expect("legal");
-    let still = LoadedMotor {
-        system: slippery,
-        fastest: LargestSpeeds::of_sine(&slippery),
-        stator: &Stator::Sine,
-        mass: MASS,
-        load_torque: 0.0,
-    };
+    let still = LoadedMotor::on_sine(slippery, MASS, 0.0);
     let point = *operated(&[still], &settings)[0].steady().expect("steady");
     assert_eq!(point.speed, Estimate { value: 0.0, standard_error: 0.0 });
     let pushed = still.with_load(1e-12).expect("legal");
@@ -363,13 +344,7 @@ mod searches {
         let still = tried_motor().with_platform(|stator| stator.twist_amplitude = 0.0).expect("legal");
         let slippery = tried_motor().with_disk(|rotor| rotor.friction = 0.0).expect("legal");
         for system in [still, slippery] {
-            let motor = LoadedMotor {
-                system,
-                fastest: LargestSpeeds::of_sine(&system),
-                stator: &Stator::Sine,
-                mass: MASS,
-                load_torque: 0.0,
-            };
+            let motor = LoadedMotor::on_sine(system, MASS, 0.0);
             let error = stall_load(&motor, &settings, &Unobserved).expect_err("it does not turn");
             assert!(matches!(error, Error::DoesNotTurn { .. }), "{error}");
             let error = best_phase_lag(&motor, &settings, &Unobserved).expect_err("it does not turn");
