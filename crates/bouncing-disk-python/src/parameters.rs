@@ -442,16 +442,16 @@ impl<'py> Arguments<'py> {
         }
     }
 
-    /// The shape of the height of `drive` and `contact_time`, which decide the vertical motion; `None` for rigid
+    /// The shape of the height of `drive` and `contact_periods`, which decide the vertical motion; `None` for rigid
     /// impacts on the sine.
     pub(crate) fn shape(&self) -> PyResult<Option<(Waveform, Option<f64>)>> {
         let drive = self.drive("drive")?;
         if drive.start_phase.is_some() {
             return Err(self.refused(Error::StartPhase));
         }
-        let contact_time = self.optional("contact_time")?;
-        let is_rigid_sine = drive.height == Waveform::Sine && contact_time.is_none();
-        Ok((!is_rigid_sine).then_some((drive.height, contact_time)))
+        let contact_periods = self.optional("contact_periods")?;
+        let is_rigid_sine = drive.height == Waveform::Sine && contact_periods.is_none();
+        Ok((!is_rigid_sine).then_some((drive.height, contact_periods)))
     }
 
     /// The name of an argument; of a method that has none of it, the object itself.

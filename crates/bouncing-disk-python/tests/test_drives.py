@@ -45,15 +45,15 @@ def test_a_contact_that_takes_time_moves_the_orbit() -> None:
             max_platform_periods=1,
             phases=20,
             speeds=20,
-            contact_time=time,
+            contact_periods=time,
         )
         for time in (None, 1e-4, 0.2)
     }
     phases = {time: [orbit.impact_phase[0] for orbit in found if orbit.is_stable] for time, found in orbits.items()}
     assert phases[1e-4] == pytest.approx(phases[None], abs=1e-2) and abs(phases[0.2][0] - phases[None][0]) > 0.1
-    with pytest.raises(ValueError, match="contact_time = 0"):
+    with pytest.raises(ValueError, match="contact_periods = 0"):
         bd.orbit_diagram(
-            axial_forcing=0.4, restitution=0.5, impact_phase=0.0, normalised_speed=1.0, contact_time=0.0
+            axial_forcing=0.4, restitution=0.5, impact_phase=0.0, normalised_speed=1.0, contact_periods=0.0
         )
 
 

@@ -56,7 +56,7 @@ def test_orbits_of_another_motion_are_refused_by_name() -> None:
         lambda: bd.basins(other, **known),
         lambda: bd.basins(other, **{**known, "known_orbits": [orbit]}),
         lambda: bd.basins(own, **known, drive=bd.Drive.parabolas()),
-        lambda: bd.basins(own, **known, contact_time=0.1),
+        lambda: bd.basins(own, **known, contact_periods=0.1),
         lambda: bd.continued(other, orbit, parameter_range=(0.3, 0.4)),
         lambda: bd.manifold(other, saddle_of(own), arclength=1.0),
     ]

@@ -22,7 +22,7 @@ const FORCING: f64 = 0.486;
 The search for the attractors comes first, and needs no hints. Then each cell of the window says where an impact in its middle leads, \
 as in Fig. 7 of the paper: phases in periods (tau_imp/2pi), speeds normalised, |w_A Gamma/(omega A)|. Labels in files: \
 0 undecided, 1 rest, 2 and more the other attractors in the order of the table; in .json two hexadecimal digits a cell. With a \
-[drive] that is not a sine, and with --contact-time, the attractors are the attracting orbits of up to 8 impacts. An orbit with an impact within 0.001 rad \
+[drive] that is not a sine, and with --contact-periods, the attractors are the attracting orbits of up to 8 impacts. An orbit with an impact within 0.001 rad \
 of one of these belongs to its basin; chaos stays undecided. See docs/studying-the-dynamics.md.
 
 Examples:
@@ -74,7 +74,7 @@ pub(super) fn run(args: &BasinsArgs, context: Context) -> Result<()> {
         settings: BasinSettings { max_impacts: args.impacts, ..BasinSettings::default() },
         search: AttractorSearch::default().with_starts(args.starts)?,
         drive: shape(&system, &drive)?,
-        contact_time: args.contact.contact_time,
+        contact_periods: args.contact.contact_periods,
     };
     grid::run(job, &args.map.system.inputs(), &args.grid, &args.output, context)
 }
@@ -94,7 +94,7 @@ pub(crate) struct BasinsJob {
     drive: Waveform,
     /// How long an impact lasts (periods).
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    contact_time: Option<f64>,
+    contact_periods: Option<f64>,
 }
 
 /// How near an impact must come to an orbit of a drive that is not a sine (rad): a twentieth of a cell of the
@@ -145,11 +145,11 @@ impl GridJob for BasinsJob {
         self.window()?;
         // The search is a small part of the work, and has no part of the bar.
         let silent = |progress: Progress| observer.observe(Progress { done: 0, ..progress });
-        if is_rigid_sine(&self.drive, self.contact_time) {
+        if is_rigid_sine(&self.drive, self.contact_periods) {
             let map = map(self.axial_forcing, self.restitution)?;
             return Ok(Known::Sine(map.attractors(&self.search, &silent)?));
         }
-        let map = driven_map(&self.drive, self.contact_time, self.axial_forcing, self.restitution)?;
+        let map = driven_map(&self.drive, self.contact_periods, self.axial_forcing, self.restitution)?;
         // As many starts, on a square.
         let side = self.search.starts().isqrt();
         let search = OrbitSearch::new(LONGEST, LONGEST as u64)?.with_starts(side, side)?;
@@ -198,7 +198,7 @@ impl GridJob for BasinsJob {
             self.axial_forcing,
             self.restitution,
             self.cells,
-            and_shape(&self.drive, self.contact_time)
+            and_shape(&self.drive, self.contact_periods)
         );
         let listed = move || {
             let all = all.clone().into_iter();
@@ -207,7 +207,7 @@ impl GridJob for BasinsJob {
         let figure = move || {
             let basins = pictures::Basins {
                 title: pictures::forcing_and_restitution(self.axial_forcing, self.restitution)
-                    + &and_shape(&self.drive, self.contact_time),
+                    + &and_shape(&self.drive, self.contact_periods),
                 phases: self.phase_periods,
                 speeds: self.normalised_speed,
                 labels: &labels().collect::<Vec<_>>(),

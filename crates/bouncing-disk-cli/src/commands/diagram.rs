@@ -32,7 +32,7 @@ phases that differ by a millionth of a period. See docs/studying-the-dynamics.md
 Examples:
   bouncing-disk diagram --out diagram.png
   bouncing-disk diagram -G 0.45:0.55:1001 --start period-1 --out cascade.csv
-  bouncing-disk diagram -G 0:3:601 --contact-time 0.3 --out soft.png
+  bouncing-disk diagram -G 0:3:601 --contact-periods 0.3 --out soft.png
   bouncing-disk diagram --chunk 1/10 --out part-1.json")]
 pub(crate) struct DiagramArgs {
     /// Axial forcing parameter Gamma = A omega^2/(pi g): a number, or a range FIRST:LAST:POINTS, both ends
@@ -61,10 +61,10 @@ pub(crate) struct DiagramArgs {
 pub(super) fn run(args: &DiagramArgs, context: Context) -> Result<()> {
     let given = args.map.system.unless_template(&args.output, context)?;
     let Some((system, drive)) = given.map(DrivenDisk::rigid).transpose()? else { return Ok(()) };
-    let (drive, contact_time) = (shape(&system, &drive)?, args.contact.contact_time);
+    let (drive, contact_periods) = (shape(&system, &drive)?, args.contact.contact_periods);
     let otherwise = FORCINGS.parse().map_err(Failure::Usage)?;
     let (axial_forcings, restitutions) = args.map.values(&system, args.axial_forcing, otherwise);
-    let starts = match (&args.start[..], is_rigid_sine(&drive, contact_time)) {
+    let starts = match (&args.start[..], is_rigid_sine(&drive, contact_periods)) {
         ([], true) => vec![Start::Rest, Start::PeriodOne],
         ([], false) => vec![Start::Rest, Start::Rise],
         (starts, is_rigid_sine) if is_rigid_sine || !starts.contains(&Start::PeriodOne) => starts.to_vec(),
@@ -77,7 +77,7 @@ pub(super) fn run(args: &DiagramArgs, context: Context) -> Result<()> {
         transient: args.transient,
         recorded: args.recorded,
         drive,
-        contact_time,
+        contact_periods,
     };
     grid::run(job, &args.map.system.inputs(), &args.grid, &args.output, context)
 }
@@ -104,7 +104,7 @@ pub(crate) struct DiagramJob {
     drive: Waveform,
     /// How long an impact lasts (periods).
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    contact_time: Option<f64>,
+    contact_periods: Option<f64>,
 }
 
 /// The impacts of one forcing and one start: phases (periods) and normalised speeds.
@@ -170,9 +170,10 @@ impl<'a> Diagram<'a> {
     }
 
     fn draw(self) -> Figure {
-        let DiagramJob { axial_forcings, restitution, starts, drive, contact_time, .. } = self.job;
+        let DiagramJob { axial_forcings, restitution, starts, drive, contact_periods, .. } = self.job;
         // The shape once: the names stand side by side.
-        let shape = |index: usize| if index == 0 { and_shape(drive, *contact_time) } else { String::new() };
+        let shape =
+            |index: usize| if index == 0 { and_shape(drive, *contact_periods) } else { String::new() };
         let named = |(index, start): (usize, &Start)| (start.in_words() + &shape(index), Vec::new());
         let mut starts: Vec<OrbitsFrom> = starts.iter().enumerate().map(named).collect();
         for (forcing, start, phase, speed) in self.impacts() {
@@ -199,7 +200,7 @@ impl GridJob for DiagramJob {
         let (low, high) = self.axial_forcings.ends();
         for forcing in [low, high] {
             map(forcing, self.restitution)?;
-            driven_map(&self.drive, self.contact_time, forcing, self.restitution)?;
+            driven_map(&self.drive, self.contact_periods, forcing, self.restitution)?;
         }
         let orbits = (self.axial_forcings.count() * self.starts.len()) as u64;
         grid::check_room(
@@ -216,8 +217,8 @@ impl GridJob for DiagramJob {
         for row in rows.clone() {
             let (forcing, restitution) = (self.axial_forcings.value(row), self.restitution);
             let map = map(forcing, restitution)?;
-            let own = (!is_rigid_sine(&self.drive, self.contact_time))
-                .then(|| driven_map(&self.drive, self.contact_time, forcing, restitution))
+            let own = (!is_rigid_sine(&self.drive, self.contact_periods))
+                .then(|| driven_map(&self.drive, self.contact_periods, forcing, restitution))
                 .transpose()?;
             let rise = own.as_ref().map_or(0.0, |own| own.drive().fastest_rise_phase());
             for (start, kind) in self.starts.iter().enumerate() {
@@ -231,7 +232,7 @@ impl GridJob for DiagramJob {
             }
         }
         let (transient, recorded) = (self.transient, self.recorded);
-        let found = if is_rigid_sine(&self.drive, self.contact_time) {
+        let found = if is_rigid_sine(&self.drive, self.contact_periods) {
             orbit_diagram(&orbits, transient, recorded, observer)?
         } else {
             driven_diagram(&driven, transient, recorded, observer)?

@@ -53,7 +53,7 @@ pub(super) struct ContactArgs {
     /// disk at the speed v the results show the impact that would rebound so: that phase, and the speed
     /// v/EPSILON
     #[arg(long, value_name = "PERIODS", allow_negative_numbers = true)]
-    pub(super) contact_time: Option<f64>,
+    pub(super) contact_periods: Option<f64>,
 }
 
 pub(super) fn single(range: Range, option: &str) -> Result<f64> {
@@ -68,11 +68,11 @@ pub(super) fn map(axial_forcing: f64, restitution: f64) -> Result<ImpactMap, Err
 /// The map of a platform whose height has another shape than the sine, or where contacts take time (periods).
 pub(super) fn driven_map(
     shape: &Waveform,
-    contact_time: Option<f64>,
+    contact_periods: Option<f64>,
     axial_forcing: f64,
     restitution: f64,
 ) -> Result<DrivenMap> {
-    Ok(shape.map(&map(axial_forcing, restitution)?, contact_time)?)
+    Ok(shape.map(&map(axial_forcing, restitution)?, contact_periods)?)
 }
 
 /// The shape of the height, which alone decides the vertical motion of rigid impacts.
@@ -86,14 +86,14 @@ pub(super) fn is_sine(shape: &Waveform) -> bool {
 }
 
 /// The paper's platform, whose map has closed forms.
-pub(super) fn is_rigid_sine(shape: &Waveform, contact_time: Option<f64>) -> bool {
-    is_sine(shape) && contact_time.is_none()
+pub(super) fn is_rigid_sine(shape: &Waveform, contact_periods: Option<f64>) -> bool {
+    is_sine(shape) && contact_periods.is_none()
 }
 
 /// What is added to a line on the vertical motion of another shape or contact.
-pub(super) fn and_shape(shape: &Waveform, contact_time: Option<f64>) -> String {
+pub(super) fn and_shape(shape: &Waveform, contact_periods: Option<f64>) -> String {
     let shape = if is_sine(shape) { String::new() } else { format!(", {shape}") };
-    shape + &contact_time.map_or_else(String::new, |periods| format!(", contact time {periods} periods"))
+    shape + &contact_periods.map_or_else(String::new, |periods| format!(", contact time {periods} periods"))
 }
 
 /// How far beside the period-1 orbit a start lies, relative to its speed: where the orbit is unstable, the

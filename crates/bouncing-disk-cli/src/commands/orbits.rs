@@ -45,17 +45,18 @@ pub(crate) struct OrbitsArgs {
 pub(super) fn run(args: &OrbitsArgs, context: Context) -> Result<()> {
     let given = args.map.system.begin(&args.output, true, context)?;
     let Some((system, drive)) = given.map(DrivenDisk::rigid).transpose()? else { return Ok(()) };
-    let (drive, contact_time) = (shape(&system, &drive)?, args.contact.contact_time);
+    let (drive, contact_periods) = (shape(&system, &drive)?, args.contact.contact_periods);
     let (axial_forcing, restitution) = args.map.pair(&system, args.axial_forcing, FORCING)?;
     let search =
         OrbitSearch::new(args.impacts, args.platform_periods)?.with_starts(args.starts, args.starts)?;
     let watch = context.watch("orbits");
-    let (orbits, coverage) = if is_rigid_sine(&drive, contact_time) {
+    let (orbits, coverage) = if is_rigid_sine(&drive, contact_periods) {
         let found = map(axial_forcing, restitution)?.periodic_orbits(&search, &watch)?;
         (found.orbits, Some(found.coverage))
     } else {
         (
-            driven_map(&drive, contact_time, axial_forcing, restitution)?.periodic_orbits(&search, &watch)?,
+            driven_map(&drive, contact_periods, axial_forcing, restitution)?
+                .periodic_orbits(&search, &watch)?,
             None,
         )
     };
@@ -63,8 +64,8 @@ pub(super) fn run(args: &OrbitsArgs, context: Context) -> Result<()> {
     if !is_sine(&drive) {
         job["drive"] = json!(drive);
     }
-    if let Some(periods) = contact_time {
-        job["contact_time"] = json!(periods);
+    if let Some(periods) = contact_periods {
+        job["contact_periods"] = json!(periods);
     }
     let numbered = orbits.iter().enumerate();
     let rows = numbered
@@ -77,7 +78,7 @@ pub(super) fn run(args: &OrbitsArgs, context: Context) -> Result<()> {
         data: vec![("orbits", stored(&orbits)?), ("coverage", stored(&coverage)?)],
         figure: Some(Box::new(|| {
             let title = pictures::forcing_and_restitution(axial_forcing, restitution);
-            draw(&(title + &and_shape(&drive, contact_time)), &orbits)
+            draw(&(title + &and_shape(&drive, contact_periods)), &orbits)
         })),
     };
     report.deliver(&args.output, context)

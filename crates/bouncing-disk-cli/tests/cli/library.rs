@@ -172,7 +172,7 @@ fn diagrams_orbits_and_basins_of_contacts_that_take_time() {
     let orbits = [0.45, 0.55].map(|forcing| map(forcing).orbit(start, ChatterPolicy::Complete));
     let columns = driven_diagram(&orbits, 100, 40, &Unobserved).unwrap();
     let line = "diagram -G 0.45:0.55:2 --start 0.1,1.3 --transient 100 --recorded 40";
-    let (rigid, soft) = (written(line), written(&format!("{line} --contact-time 0.2")));
+    let (rigid, soft) = (written(line), written(&format!("{line} --contact-periods 0.2")));
     for (index, column) in columns.iter().enumerate() {
         let phases: Vec<f64> = column.iter().map(|impact| impact.phase().cycles()).collect();
         let of = |found: &Value| found["columns"][index]["impacts"]["impact_phase_periods"].clone();
@@ -181,20 +181,20 @@ fn diagrams_orbits_and_basins_of_contacts_that_take_time() {
     }
     let search = OrbitSearch::new(1, 1).unwrap().with_starts(20, 20).unwrap();
     let orbits = map(0.45).periodic_orbits(&search, &Unobserved).unwrap();
-    let orbit = "orbits -G 0.45 --impacts 1 --platform-periods 1 --starts 20 --contact-time 0.2";
+    let orbit = "orbits -G 0.45 --impacts 1 --platform-periods 1 --starts 20 --contact-periods 0.2";
     assert_eq!(written(orbit)["orbits"], stored(&orbits));
     assert!(orbits.iter().any(|orbit| orbit.stability() == Stability::Stable));
-    let basins = written("basins -G 0.45 --cells 12 --speed 0:2 --starts 400 --contact-time 0.2");
+    let basins = written("basins -G 0.45 --cells 12 --speed 0:2 --starts 400 --contact-periods 0.2");
     // No contact lasts for ever there, and there is one attracting orbit.
     assert!(basins["hexadecimal_labels_by_speed"].to_string().contains("02"), "{basins}");
-    let legal = "contact_time = 0 is outside its legal range [1e-6, 1000] (periods of the platform)";
+    let legal = "contact_periods = 0 is outside its legal range [1e-6, 1000] (periods of the platform)";
     let lines = [
-        ("orbits --contact-time 0", legal),
-        ("diagram --contact-time nan", "contact_time = NaN is outside"),
-        ("basins --contact-time=-1", "contact_time = -1 is outside"),
-        ("orbits --contact-time 0.2 -r 0", "restitution of a contact that takes time = 0 is outside"),
-        ("diagram --contact-time 0.2 --start period-1", "rigid impacts"),
-        ("verdicts --contact-time 0.2", "unexpected argument"),
+        ("orbits --contact-periods 0", legal),
+        ("diagram --contact-periods nan", "contact_periods = NaN is outside"),
+        ("basins --contact-periods=-1", "contact_periods = -1 is outside"),
+        ("orbits --contact-periods 0.2 -r 0", "restitution of a contact that takes time = 0 is outside"),
+        ("diagram --contact-periods 0.2 --start period-1", "rigid impacts"),
+        ("verdicts --contact-periods 0.2", "unexpected argument"),
     ];
     folder.all_refused(2, &lines);
 }

@@ -192,7 +192,7 @@ def basins(
     known_orbits: Iterable[PeriodicOrbit | tuple[PeriodicOrbit, Float]] | None = None,
     max_impacts: Int = 2000,
     drive: Drive | None = None,
-    contact_time: Float | None = None,
+    contact_periods: Float | None = None,
     chatter: ChatterCut | None = None,
     progress: Progress = None,
 ) -> Basins:
@@ -211,7 +211,7 @@ def basins(
         max_impacts: impacts after which a start is left undecided.
         drive: how the platform moves; ``None`` for the sine. On another drive, and with a contact time, each orbit
             needs a radius.
-        contact_time: as of :func:`orbit_diagram`.
+        contact_periods: as of :func:`orbit_diagram`.
         chatter: how a chatter ends; ``None`` sums it.
 
     Raises:

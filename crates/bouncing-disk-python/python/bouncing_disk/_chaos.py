@@ -92,7 +92,7 @@ def orbit_diagram(
     transient: Int = 3000,
     recorded: Int = 256,
     drive: Drive | None = None,
-    contact_time: Float | None = None,
+    contact_periods: Float | None = None,
     chatter: ChatterCut | None = None,
     progress: Progress = None,
 ) -> OrbitDiagram:
@@ -108,7 +108,7 @@ def orbit_diagram(
         transient: impacts of each orbit that are not recorded.
         recorded: impacts of each orbit that are; fewer if the disk rests for ever.
         drive: how the platform moves; ``None`` for the sine.
-        contact_time: how long an isolated impact lasts, in periods, in [1e-6, 1000]; ``None`` for rigid ones.
+        contact_periods: how long an isolated impact lasts, in periods, in [1e-6, 1000]; ``None`` for rigid ones.
             Where the disk is released at the speed v, the impact that would rebound so is recorded.
         chatter: how a chatter ends; ``None`` sums it.
 

@@ -220,7 +220,7 @@ def periodic_orbits(
     phases: Int = 96,
     speeds: Int = 96,
     drive: Drive | None = None,
-    contact_time: Float | None = None,
+    contact_periods: Float | None = None,
     progress: Progress = None,
 ) -> list[PeriodicOrbit]:
     """The periodic orbits of few impacts, stable and unstable.
@@ -234,7 +234,7 @@ def periodic_orbits(
         phases, speeds: starts along each axis, in [2, 4096].
         drive: how the platform moves; ``None`` for the sine. Orbits with an impact on a kink are left out: they
             have no multipliers.
-        contact_time: as of :func:`orbit_diagram`.
+        contact_periods: as of :func:`orbit_diagram`.
 
     Returns:
         By rising number of impacts, then of platform periods, then by falling speed of the fastest impact,

@@ -137,7 +137,7 @@ const GROUPS: Readonly<Record<keyof typeof WORDS.form.groups, readonly Parameter
   ],
   disk: [
     {
-      ...{ name: "contact_time", symbol: "T_c", unit: "2π/ω", refusedAs: ["contact.time", "contact time"] },
+      ...{ name: "contact_time", symbol: "T_c", unit: "2π/ω", refusedAs: ["contact.time", "contact time", "contact_periods"] },
       slider: () => [0, 2],
       value: ({ system }) =>
         asTyped(contactPeriods(system), (periods) => contactTime(periods, system) === system.contact_time),

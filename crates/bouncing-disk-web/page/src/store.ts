@@ -181,7 +181,7 @@ const needsCheck = (change: Change): boolean =>
 /** The change that takes a refused quantity back to its default; after some tries, all that can be refused. */
 function mended(refusal: Refusal, tries: number): Change {
   const { system, mass, start } = DEFAULT_STATE;
-  const name = (refusal.quantity ?? "").replace(/^contact[ .]time$/, "contact_time").replace(/^restitution .*/, "restitution");
+  const name = (refusal.quantity ?? "").replace(/^contact([ .]time|_periods)$/, "contact_time").replace(/^restitution .*/, "restitution");
   if (tries < MOST_MENDINGS / 2) {
     if (Object.hasOwn(system, name)) return { system: { [name]: system[name as keyof typeof system] } };
     if (Object.hasOwn(start, name)) return { start: { [name]: start[name as keyof typeof start] } };

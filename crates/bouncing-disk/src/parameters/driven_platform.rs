@@ -125,18 +125,18 @@ impl Waveform {
     }
 
     /// The impact map of a height of this shape, with the amplitude and the restitution of `sine`; where an
-    /// impact takes `contact_time` (periods), that from release to release
+    /// impact takes `contact_periods` (periods), that from release to release
     /// ([`DrivenMap::with_contact_time`]).
     ///
     /// # Errors
     /// Those of [`DrivenPlatform::new`] and [`DrivenMap::with_contact_time`]; [`Error::OutOfRange`] for a
     /// contact time outside [1e-6, 1000] periods.
-    pub fn map(&self, sine: &ImpactMap, contact_time: Option<f64>) -> Result<DrivenMap, Error> {
+    pub fn map(&self, sine: &ImpactMap, contact_periods: Option<f64>) -> Result<DrivenMap, Error> {
         let track = self.track("height", sine.vibration().peak_acceleration(), 0.0)?;
         let map = DrivenMap::new(track, sine.restitution())?;
-        let Some(periods) = contact_time else { return Ok(map) };
+        let Some(periods) = contact_periods else { return Ok(map) };
         let legal = "[1e-6, 1000] (periods of the platform)";
-        check((1e-6..=1000.0).contains(&periods), "contact_time", periods, legal)?;
+        check((1e-6..=1000.0).contains(&periods), "contact_periods", periods, legal)?;
         Ok(map.with_contact_time(TAU * periods)?)
     }
 

@@ -88,8 +88,8 @@ mod tests {
     use crate::motor::{MotorParameters, TransientSettings};
     use crate::parameters::contact::Contact;
 
-    fn impulses(contact_time: f64, peak: f64, settling: usize, periods: usize) -> NormalImpulses {
-        let contact = Compliance::new(contact_time * TAU, 0.5).expect("legal");
+    fn impulses(contact_periods: f64, peak: f64, settling: usize, periods: usize) -> NormalImpulses {
+        let contact = Compliance::new(contact_periods * TAU, 0.5).expect("legal");
         let platform = CompliantPlatform::new(Drive::fourier(&[(peak, 0.0)]).expect("legal"), contact);
         NormalImpulses::of_contact(&platform.expect("legal"), settling, periods).expect("no failure")
     }
@@ -98,10 +98,10 @@ mod tests {
     fn the_impulse_is_the_weight_times_the_time() {
         let peak = Motor::paper_70_khz().system().dimensionless().peak_acceleration();
         // Tapped in every period; partly in contact; never left.
-        for (contact_time, peak) in [(1.0, peak), (5.0, peak), (18.0, peak), (1.0, 0.5)] {
-            let impulses = impulses(contact_time, peak, 5_000, 100);
+        for (contact_periods, peak) in [(1.0, peak), (5.0, peak), (18.0, peak), (1.0, 0.5)] {
+            let impulses = impulses(contact_periods, peak, 5_000, 100);
             let off = impulses.total() / impulses.duration - 1.0;
-            assert!(off.abs() < 1e-4, "{contact_time} {peak}: {off}");
+            assert!(off.abs() < 1e-4, "{contact_periods} {peak}: {off}");
             let once = impulses.landings.iter().all(|phase| (phase - impulses.landings[0]).abs() < 1e-9);
             assert!(once, "{:?}", impulses.landings);
         }

@@ -24,9 +24,9 @@ export class ReportPanel {
     const later = report === null || whyNothingTurns(report) === null ? "…" : "–";
     if (report === null) this.facts.clear(later);
     else {
-      const [[, contact_time], [, indentation]] = report.contact;
+      const [[, contact_periods], [, indentation]] = report.contact;
       this.facts.set({
-        ...{ regime: regimeOf(report), forcing: plain(report.axial_forcing, 5), contact_time, indentation },
+        ...{ regime: regimeOf(report), forcing: plain(report.axial_forcing, 5), contact_periods, indentation },
         torque: quantity(report.largest_torque, "N m"),
         speed: own === null ? later : steadySpeed(own, report.largest_torque),
         amplitude: own === null ? later : amplitudeOf(own),
