@@ -18,9 +18,6 @@ const FEW_IMPACTS: u64 = 5_000_000;
 /// Most impacts that a request may allow: those of the library's default.
 const MOST_IMPACTS: u64 = 20_000_000;
 
-/// A tap takes longer than an impact, and taps scatter less: so many times fewer members and impacts.
-const FEWER: usize = 4;
-
 /// The distance up to which a trap is reported, as a relative change of the preload or the amplitude.
 const TRAP_RANGE: f64 = 0.02;
 
@@ -93,17 +90,11 @@ fn rise_of(fit: &TransientFit) -> Value {
     json!({ "form": fit.form, "constant": rise.constant, "residual": rise.residual })
 }
 
-/// The library's operation under each load.
+/// The library's operations under each load.
 pub(crate) fn loads(request: &LoadsRequest) -> Result<Reply, Refusal> {
     let LoadsRequest { sheet, load_torques, relative_error, most_impacts, seed } = request;
-    let mut settings = settings(*relative_error, *most_impacts, *seed)?;
-    let motor = motor_of(sheet)?;
-    if motor.rigid_sine().is_err() {
-        settings.members /= FEWER;
-        settings.most_impacts /= FEWER as u64;
-    }
-    let rows = motor.torque_speed_curve(load_torques, &settings, &Unobserved)?;
-    Reply::short(&rows.iter().map(|row| *row.operation()).collect::<Vec<_>>())
+    let settings = settings(*relative_error, *most_impacts, *seed)?;
+    Reply::short(&motor_of(sheet)?.torque_speed_curve(load_torques, &settings, &Unobserved)?)
 }
 
 fn settings(relative_error: f64, most_impacts: u64, seed: u64) -> Result<OperatingSettings, Refusal> {
@@ -116,10 +107,6 @@ fn settings(relative_error: f64, most_impacts: u64, seed: u64) -> Result<Operati
 /// A motor that does not turn without a load has no stall load, which is an answer and no failure.
 pub(crate) fn stall(sheet: MotorParameters, relative_error: f64, seed: u64) -> Result<Reply, Refusal> {
     let motor = motor_of(&sheet)?;
-    if motor.rigid_sine().is_err() {
-        let message = "with a contact time or a stator that yields the search takes minutes: use bouncing-disk motor stall";
-        return Err(Refusal::new("computation", message.to_owned()));
-    }
     let (torque, speed) = match motor.stall_load(&settings(relative_error, FEW_IMPACTS, seed)?, &Unobserved) {
         Ok(stall) => (Some(stall.torque), stall.no_load_speed),
         Err(Error::DoesNotTurn { speed, standard_error }) => {

@@ -202,8 +202,6 @@ fn a_value_out_of_its_range_is_named() {
 fn what_does_not_belong_together_is_refused() {
     let (late, soft) = (json!({ "contact_time": 0.03 }), json!({ "contact_periods": 0.1 }));
     let text = |changes: Value| json!({ "text": with(sheet(), changes).to_string() });
-    let [contact, stator] =
-        [json!({ "time": 1e-5 }), json!({ "kind": "axial", "mass": 0.05, "quality": 300.0 })];
     let hysteretic = json!({ "contact": { "time": 2e-5, "law": "hysteresis" } });
     let varies = json!({ "load": { "speeds": [0.0], "torques": [1e-6] } });
     for (call, changes, said) in [
@@ -215,8 +213,6 @@ fn what_does_not_belong_together_is_refused() {
         ("attractors", soft.clone(), "rigid impacts"),
         ("basins", soft, "rigid impacts"),
         ("motor_report", motor(json!({ "twist_amplitude": 1e-4 })), "twist_amplitude"),
-        ("motor_stall", motor(json!({ "contact": contact })), "bouncing-disk motor stall"),
-        ("motor_stall", motor(json!({ "stator": stator, "amplitude": 1e-7 })), "bouncing-disk motor stall"),
         ("sheet_read", json!({ "text": "" }), "text"),
         ("sheet_read", json!({ "text": "{}" }), "text"),
         ("sheet_read", json!({ "text": "[]" }), "text"),
@@ -473,15 +469,10 @@ fn a_motor_is_that_of_its_sheet() {
     ] {
         let own = with(motor(changes), json!({ "most_impacts": most_impacts, "load_torques": [0.0, 1e-6] }));
         let motor = Motor::from_json(&own["sheet"].to_string()).expect("legal");
-        let mut settings =
+        let settings =
             OperatingSettings { relative_error: 0.2, seed: 1, most_impacts, ..OperatingSettings::default() };
         let trap = motor.nearest_trap(0.02, &Unobserved).ok();
-        if trap.is_none() {
-            // The page's few impacts are shared by a quarter of the members.
-            (settings.members, settings.most_impacts) = (4, most_impacts / 4);
-        }
         let known = motor.torque_speed_curve(&[0.0, 1e-6], &settings, &Unobserved).expect("runs");
-        let known: Vec<_> = known.iter().map(|row| row.operation()).collect();
         assert_eq!(answered("motor_loads", own.clone()).0, json!(known));
         let (report, _) = answered("motor_report", json!({ "sheet": own["sheet"] }));
         assert_eq!(report["trap"], json!(trap.flatten()));

@@ -144,7 +144,18 @@ export type OperationJson = {
   readonly Runaway?: Numbers<"load_torque" | "largest_torque" | "acceleration">;
 };
 
-type PointJson = Numbers<"load_torque"> &
+/** The library's `OperatingRow`: a motor under a load. The first branch is where most rotors are that started from rest. */
+export interface RowJson {
+  readonly branches: readonly OperationJson[];
+}
+
+/** How the rotor moves up and down, and how long an irregular motion lasts (s); the library's `AxialMotion`. */
+export type AxialMotionJson =
+  | "Contact"
+  | { readonly Periodic: Numbers<"periods" | "impacts"> }
+  | { readonly Irregular: { readonly life: { readonly Mean: number } | { readonly NoneEndedIn: number } } };
+
+type PointJson = Numbers<"load_torque"> & { readonly motion: AxialMotionJson } &
   Readonly<Record<"speed" | "mechanical_power" | "input_power", EstimateJson>> & {
     readonly efficiency: EstimateJson | null;
     readonly stator?: { readonly amplitude: EstimateJson };

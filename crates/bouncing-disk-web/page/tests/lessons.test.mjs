@@ -163,7 +163,7 @@ test("motor: what the sheet, the run-up and the curve say", async () => {
   const load_torques = Array.from({ length: 9 }, (_, index) => (index * largest) / 8);
   const request = { call: "motor_loads", sheet, load_torques, relative_error: 0.02, most_impacts: 20e6, seed: 1 };
   const { json } = await ask(request);
-  const powers = json.flatMap(({ Steady, Unsettled }) => (Steady ?? Unsettled?.[0])?.mechanical_power.value ?? []);
+  const powers = json.flatMap(({ branches: [{ Steady, Unsettled }] }) => (Steady ?? Unsettled?.[0])?.mechanical_power.value ?? []);
   const best = powers.indexOf(Math.max(...powers));
   step("motor", 3).says(`near ${micro(load_torques[best])}`, `${(1e6 * powers[best]).toFixed(0)} µW`);
   assert.ok(Math.abs(load_torques[best] / stall.torque - 0.5) < 0.06);

@@ -79,7 +79,8 @@ onPage("a motor that nothing turns is said to be one, and keeps no curves of ano
 
 const operation = (row) => ({
   load_torque: 0, speed: 20, speed_error: 0.1, mechanical_power: 0, mechanical_power_error: 1e-9, input_power: 1e-3,
-  input_power_error: 1e-6, efficiency: NaN, efficiency_error: NaN, status: 0, shortfall: null, wanted: 0.1, ...row,
+  input_power_error: 1e-6, efficiency: NaN, efficiency_error: NaN, status: 0, shortfall: null, wanted: 0.1,
+  motion: null, others: [], ...row,
 }); // prettier-ignore
 const curves = (...rows) => words.describeCurves(rows.map(operation), null);
 
@@ -92,6 +93,36 @@ test("a load that puts power in is not said to take it, and what has not settled
     assert.match(sentence, /so far, not settled/);
     assert.doesNotMatch(sentence, /±/);
   }
+});
+
+test("motions that coexist are curves, sentences and lines of their own", async () => {
+  const { loadCharts, motorOffers } = await sourceOf("views/motor/charts.ts");
+  const irregular = { Irregular: { life: { Mean: 0.25 } } };
+  const other = operation({ speed: 12, status: 1, shortfall: "it drifts", motion: irregular });
+  const rows = [operation({ motion: "Contact", others: [other] }), operation({ load_torque: 1e-5 })];
+  const [speed, power] = loadCharts(rows, 1e-5, null);
+  assert.deepEqual(speed.curves.map(({ label, y }) => [label, [...y]]), [
+    ["speed", [20, 20]],
+    ["coexisting motion 2", [12, NaN]],
+  ]);
+  assert.deepEqual(speed.marks.map(({ x, y, form }) => [x, y, form]), [[0, 12, "circle"]]);
+  assert.equal(power.curves.length, 2);
+  assert.match(words.describeCurves(rows, null)[0], / Under 1 of 2 loads motions coexist/);
+  assert.doesNotMatch(curves({}, {})[0], /coexist/);
+  const told = [
+    ["Contact", "the rotor stays on the stator"],
+    [{ Periodic: { periods: 3, impacts: 2 } }, "periodic: impacts to periods of the drive as 2 to 3"],
+    [irregular, "irregular, for 250 ms on average until another motion follows"],
+    [{ Irregular: { life: { NoneEndedIn: 4 } } }, "irregular; none was seen to end in 4.00 s"],
+  ];
+  for (const [motion, said] of told) assert.equal(words.describeMotion(motion), said);
+  const known = { sheet: {}, text: "", transient: null, operations: rows };
+  const table = motorOffers(known, null, [], {}).find(({ kind }) => kind === "csv");
+  const lines = (await (await table.make()).text()).trim().split("\n");
+  assert.deepEqual(
+    lines.slice(-3).map((line) => line.split(",").slice(0, 4)),
+    [["0", "1", "contact", ""], ["0", "2", "irregular", "0.25"], ["0.00001", "1", "", ""]],
+  );
 });
 
 test("points at zero stand inside the frame where there is nothing but zero", async () => {
@@ -125,7 +156,7 @@ test("a trap is told with digits enough to find it", () => {
 onMotor("a contact time is stated, and what it rules out is said", "&contact_time=1e-6", async (page) => {
   await isFact(page, "Contact time over the period", /^0\.07 \(contacts take it\)$/);
   await isFact(page, "Regime", /^of rigid impacts: /);
-  await isFact(page, "Stall load", /bouncing-disk motor stall$/);
+  await isFact(page, "Stall load", /^\([\d.]+ ± [\d.]+\) .?N m$/);
   await page.click("#tab-basins");
   await whenText(page, "#status", /set the contact time to 0$/);
   await type(page, "contact_time", "0.25");

@@ -4,9 +4,10 @@ import type { Offer } from "../../contract";
 import { padded, prefixed } from "../../drawing/axes";
 import { chartOffers, spanOf, type Chart, type Curve, type Mark, type Stretch } from "../../drawing/chart";
 import { ONE_COLUMN, rowsOf, tableOffers, type Basis } from "../../drawing/files";
-import { TRANSIENT_COLUMNS, type Range, type StallJson } from "../../protocol";
-import { WORDS } from "../../words";
-import { ESTIMATES, membersOf, SEED, type Estimated, type Known, type Operation, type Transient } from "./requests";
+import { TRANSIENT_COLUMNS, type AxialMotionJson, type Range, type StallJson } from "../../protocol";
+import { say, WORDS } from "../../words";
+import { ESTIMATES, membersOf, SEED } from "./requests";
+import type { Estimated, Known, Operation, Row, Transient } from "./requests";
 
 const { charts: TEXTS, files: FILES, titles: TITLES } = WORDS.motor;
 
@@ -45,11 +46,16 @@ interface Kind {
   readonly curves: readonly (Pick<Curve, "label" | "colour" | "dash"> & { readonly name: Estimated })[];
   /** The factor of the numbers; without it they have a prefix of their unit. */
   readonly factor?: number;
+  /** Whether motions that coexist with the first one are drawn, too. */
+  readonly coexisting?: boolean;
 }
+
+/** The colours of motions that coexist with the one reached from rest. */
+const COEXISTING = ["--curve-power", "--curve-efficiency", "--curve-input"] as const;
 
 const KINDS: readonly Kind[] = [
   {
-    ...{ title: TEXTS.speed, label: TEXTS.speed_axis, factor: 1 },
+    ...{ title: TEXTS.speed, label: TEXTS.speed_axis, factor: 1, coexisting: true },
     curves: [{ name: "speed", label: TEXTS.speed_curve, colour: "--curve-speed" }],
   },
   {
@@ -65,8 +71,19 @@ const KINDS: readonly Kind[] = [
   },
 ];
 
+/** The speeds of motions that coexist, each a curve of its own with gaps under the loads that have no such motion. */
+function coexistingCurves(rows: readonly Row[]): Curve[] {
+  const most = Math.max(...rows.map(({ others }) => others.length));
+  return Array.from({ length: most }, (_, branch) => {
+    const of = (name: "speed" | "speed_error") => rows.map(({ others }) => others[branch]?.[name] ?? NaN);
+    const colour = COEXISTING[branch % COEXISTING.length] as string;
+    const label = say(TEXTS.coexisting, { number: branch + 2 });
+    return { label, y: of("speed"), error: of("speed_error"), colour, dash: [2, 3], points: true };
+  });
+}
+
 /** Speed, power and efficiency against load, with bands of two standard errors; nothing where there is no load. */
-export function loadCharts(operations: readonly Operation[], largest: number, stall: StallJson | null): Chart[] {
+export function loadCharts(operations: readonly Row[], largest: number, stall: StallJson | null): Chart[] {
   if (operations.length === 0) return [];
   const shown = [...operations].sort((one, two) => one.load_torque - two.load_torque);
   const x = prefixed(TEXTS.load, padded([0, largest], 0.03));
@@ -76,17 +93,22 @@ export function loadCharts(operations: readonly Operation[], largest: number, st
   const by = 2 * finite(torque_error ?? 0);
   const stretches: Stretch[] = [{ range: [largest, end], label: TEXTS.runaway, colour: "--runaway" }];
   if (stop !== null) stretches.push({ at: stop, range: [stop - by, stop + by], label: TEXTS.stall, colour: "--stall" });
-  return KINDS.map(({ title, label, curves: described, factor }) => {
-    const curves = described.map(({ name, ...own }) => {
+  return KINDS.map(({ title, label, curves: described, factor, coexisting }) => {
+    const own = described.map(({ name, ...own }) => {
       const [y, error] = [shown.map((row) => row[name]), shown.map((row) => row[`${name}_error`])];
       return { ...own, y, error, points: true };
     });
-    const [{ y: values = [], colour = "" } = {}] = curves;
-    const marks = shown.flatMap(({ status }, index): Mark[] => {
+    const others = coexisting === true ? coexistingCurves(shown) : [];
+    const curves = [...own, ...others];
+    const mark = ({ y, colour }: Curve, index: number, status: number | undefined): Mark[] => {
       const x = at[index] ?? NaN;
       if (status === 2) return [{ x, y: 0, form: "cross", colour: "--warning" }];
-      return status === 0 ? [] : [{ x, y: finite(values[index] ?? NaN), form: "circle", colour }];
-    });
+      return status === 1 ? [{ x, y: finite(y[index] ?? NaN), form: "circle", colour }] : [];
+    };
+    const marks = shown.flatMap((row, index) => [
+      ...own.slice(0, 1).flatMap((curve) => mark(curve, index, row.status)),
+      ...others.flatMap((curve, branch) => mark(curve, index, row.others[branch]?.status)),
+    ]);
     const range = spanOf(curves, [0], 0.08);
     const y = factor === undefined ? prefixed(label, range) : { label, range, factor };
     return { title, x, y, at, curves, marks, stretches };
@@ -94,11 +116,30 @@ export function loadCharts(operations: readonly Operation[], largest: number, st
 }
 
 const LOAD_COLUMNS = [
-  "load_torque_N_m", "speed_rad_per_s", "speed_error_rad_per_s", "mechanical_power_W", "mechanical_power_error_W",
+  "load_torque_N_m", "branch", "motion", "life_s", "speed_rad_per_s", "speed_error_rad_per_s", "mechanical_power_W", "mechanical_power_error_W",
   "input_power_W", "input_power_error_W", "efficiency", "efficiency_error", "status",
   "relative_error_wanted", "shortfall",
 ]; // prettier-ignore
 const STATUS = ["steady", "unsettled", "runaway"] as const;
+
+/** A line of the table: one branch of one load. */
+function lineOf(one: Operation, branch: number): (string | number)[] {
+  const estimates = ESTIMATES.flatMap((name) => [one[name], one[`${name}_error`]]);
+  const [kind, life] = motionOf(one.motion);
+  return [
+    ...[one.load_torque, branch + 1, kind, life ?? "", ...estimates],
+    ...[STATUS[one.status] ?? "", one.wanted, one.shortfall ?? ""],
+  ];
+}
+
+/** The kind of a motion, and the mean life (s) of an irregular one if some were seen to end. */
+function motionOf(motion: AxialMotionJson | null): [kind: string, life: number | null] {
+  if (motion === null) return ["", null];
+  if (motion === "Contact") return ["contact", null];
+  if ("Periodic" in motion) return ["periodic", null];
+  const { life } = motion.Irregular;
+  return ["irregular", "Mean" in life ? life.Mean : null];
+}
 
 export function motorOffers(known: Known, runUp: Chart | null, curves: readonly Chart[], basis: Basis): Offer[] {
   const { sheet, text, transient, operations } = known;
@@ -111,11 +152,7 @@ export function motorOffers(known: Known, runUp: Chart | null, curves: readonly 
     offers.push(...tableOffers({ name: FILES.run_up, parameters, columns, rows }));
   }
   if (operations.length > 0) {
-    const rows = () =>
-      operations.map((row) => {
-        const estimates = ESTIMATES.flatMap((name) => [row[name], row[`${name}_error`]]);
-        return [row.load_torque, ...estimates, STATUS[row.status] ?? "", row.wanted, row.shortfall ?? ""];
-      });
+    const rows = () => operations.flatMap((row) => [row, ...row.others].map(lineOf));
     offers.push(...tableOffers({ name: FILES.curve, parameters: { sheet, seed: SEED }, columns: LOAD_COLUMNS, rows }));
   }
   const each = ONE_COLUMN * 0.62;

@@ -2,7 +2,8 @@
 
 import type { Context, State } from "../../contract";
 import { plain } from "../../numbers";
-import type { MotorSheet, OperationJson, ReportJson, Request, SheetJson, StallJson, TransientJson } from "../../protocol";
+import type { AxialMotionJson, MotorSheet, OperationJson, ReportJson, Request } from "../../protocol";
+import type { RowJson, SheetJson, StallJson, TransientJson } from "../../protocol";
 import { say, WORDS } from "../../words";
 
 /** Of all that is asked of a motor, one after the other. */
@@ -29,11 +30,15 @@ export type Estimated = (typeof ESTIMATES)[number];
 /** One load; its status is 0 (steady), 1 (unsettled) or 2 (runaway). */
 export type Operation = Record<"load_torque" | "status" | Estimated | `${Estimated}_error`, number> & {
   readonly shortfall: string | null;
+  readonly motion: AxialMotionJson | null;
   /** Of a stator that yields (m). */
   readonly amplitude: number | null;
   /** The relative error that was asked for. */
   readonly wanted: number;
 };
+
+/** The operation that most rotors reach from rest, and those that coexist with it. */
+export type Row = Operation & { readonly others: readonly Operation[] };
 
 export interface Transient {
   readonly json: TransientJson;
@@ -46,9 +51,9 @@ export class Known {
   text = "";
   report: ReportJson | null = null;
   transient: Transient | null = null;
-  operations: readonly Operation[] = [];
+  operations: readonly Row[] = [];
   /** The operation under the load of the sheet. */
-  own: Operation | null = null;
+  own: Row | null = null;
   /** How many of the passes are done: what a view that was left has, it does not compute again. */
   passes = 0;
   /** Why there is none of these, where they cannot be computed. */
@@ -79,14 +84,20 @@ export async function operate(
   sheet: MotorSheet,
   load_torques: readonly number[],
   pass: Pass,
-): Promise<Operation[]> {
+): Promise<Row[]> {
   const request = { call: "motor_loads", sheet, load_torques, ...pass, seed: SEED } as const;
-  const { json } = await client.series<OperationJson[]>(SLOT, [request]);
-  return json.map((operation) => operationOf(operation, pass.relative_error));
+  const { json } = await client.series<RowJson[]>(SLOT, [request]);
+  return json.map((row) => rowOf(row, pass.relative_error));
+}
+
+/** A load has one branch at least. */
+export function rowOf({ branches }: RowJson, wanted: number): Row {
+  const [first = {}, ...others] = branches;
+  return { ...operationOf(first, wanted), others: others.map((other) => operationOf(other, wanted)) };
 }
 
 /** Without a number where the library has none. */
-export function operationOf({ Steady, Unsettled, Runaway }: OperationJson, wanted: number): Operation {
+function operationOf({ Steady, Unsettled, Runaway }: OperationJson, wanted: number): Operation {
   const point = Steady ?? Unsettled?.[0];
   const estimates = ESTIMATES.flatMap((name) => {
     const { value, standard_error } = point?.[name] ?? { value: NaN, standard_error: NaN };
@@ -98,6 +109,7 @@ export function operationOf({ Steady, Unsettled, Runaway }: OperationJson, wante
     ...Object.fromEntries(estimates),
     status: Steady ? 0 : Unsettled ? 1 : 2,
     shortfall: lacks === undefined ? null : shortfallOf(lacks),
+    motion: point?.motion ?? null,
     amplitude: point?.stator?.amplitude.value ?? null,
     wanted,
   } as Operation;

@@ -2,9 +2,9 @@
 
 import { element, Facts, section, setText } from "../../elements";
 import { grouped, plain, prefixOf, quantity, shown, withError } from "../../numbers";
-import type { IntervalJson, ReportJson, StallJson, TrapJson } from "../../protocol";
+import type { AxialMotionJson, IntervalJson, ReportJson, StallJson, TrapJson } from "../../protocol";
 import { say, WORDS } from "../../words";
-import type { Known, Operation, Transient } from "./requests";
+import type { Known, Operation, Row, Transient } from "./requests";
 
 const TEXTS = WORDS.motor;
 
@@ -30,6 +30,8 @@ export class ReportPanel {
         torque: quantity(report.largest_torque, "N m"),
         speed: own === null ? later : steadySpeed(own, report.largest_torque),
         amplitude: own === null ? later : amplitudeOf(own),
+        motion: own === null ? later : describeMotion(own.motion),
+        others: own === null ? later : describeOthers(own, report.largest_torque),
         constant: transient === null ? (problems.runUp ?? later) : timeConstant(transient.json, own),
         stall: stall === null ? (problems.stall ?? later) : describeStall(stall),
       });
@@ -39,6 +41,25 @@ export class ReportPanel {
     this.warnings.replaceChildren(...(report?.warnings ?? []).map((warning) => element("li", {}, warning)));
   }
 }
+
+/** How the rotor moves up and down, and how long that lasts. */
+export function describeMotion(motion: AxialMotionJson | null): string {
+  if (motion === null) return TEXTS.motions.none;
+  if (motion === "Contact") return TEXTS.motions.contact;
+  if ("Periodic" in motion) return say(TEXTS.motions.periodic, motion.Periodic);
+  const { life } = motion.Irregular;
+  if ("Mean" in life) return say(TEXTS.motions.mean, { life: quantity(life.Mean, "s") });
+  return say(TEXTS.motions.lasting, { time: quantity(life.NoneEndedIn, "s") });
+}
+
+/** The motions that coexist with the one reached from rest, numbered as in the chart. */
+const describeOthers = ({ others }: Row, largest: number): string =>
+  others
+    .map((other, index) => {
+      const values = { number: index + 2, speed: steadySpeed(other, largest), motion: describeMotion(other.motion) };
+      return say(TEXTS.motions.other, values);
+    })
+    .join("; ") || TEXTS.motions.no_others;
 
 const amplitudeOf = ({ amplitude, load_torque }: Operation): string =>
   amplitude === null ? TEXTS.as_system : `${quantity(amplitude, "m")} ${under(load_torque)}`;
@@ -114,7 +135,7 @@ export function describeStall(stall: StallJson): string {
 }
 
 /** A sentence for speed, power and efficiency each; none before there is a load. */
-export function describeCurves(operations: readonly Operation[], stall: StallJson | null): string[] {
+export function describeCurves(operations: readonly Row[], stall: StallJson | null): string[] {
   const known = operations.filter(({ status }) => status !== 2);
   const [first, last] = [known[0], known.at(-1)];
   if (first === undefined || last === undefined)
@@ -129,13 +150,15 @@ export function describeCurves(operations: readonly Operation[], stall: StallJso
   const speedAt = (row: Operation) =>
     say(TEXTS.speed_at, told(row, (error) => `${withError(row.speed, error)} rad/s`, row.speed_error));
   const stop = stall === null || stall.torque === null ? "" : ` ${say(TEXTS.stalls, { load: describeStall(stall) })}`;
+  const several = operations.filter(({ others }) => others.length > 0).length;
+  const more = several === 0 ? "" : ` ${say(TEXTS.several, { several, all: operations.length })}`;
   const [powerful, efficient] = [best("mechanical_power"), best("efficiency")];
   const { mechanical_power: power, mechanical_power_error } = powerful;
   const { efficiency: share, efficiency_error } = efficient;
   const most = told(powerful, (error) => quantity(power, "W", 4, error), mechanical_power_error);
   const finest = told(efficient, (error) => `${withError(share, error, 100)} %`, efficiency_error);
   return [
-    `${say(TEXTS.from_to, { first: speedAt(first), last: speedAt(last) })}${stop}`,
+    `${say(TEXTS.from_to, { first: speedAt(first), last: speedAt(last) })}${stop}${more}`,
     power > 0 ? say(TEXTS.most_power, most) : TEXTS.no_power,
     share > 0 ? say(TEXTS.best_efficiency, finest) : TEXTS.no_efficiency,
   ];

@@ -1,12 +1,12 @@
 /** What a scan computes: the requests of its points, and the numbers in the answers. */
 
 import { Refused, type Change, type Context, type ResultName, type State } from "../../contract";
-import type { OperationJson, Request, Response, SheetJson } from "../../protocol";
+import type { Request, Response, RowJson, SheetJson } from "../../protocol";
 import type { AttractorsJson, TossJson, VerdictJson } from "../../protocol";
 import { say, WORDS } from "../../words";
 import { REST } from "../../presets";
 import { impactOf, mapOf } from "../asking";
-import { operationOf, SEED, sheetRequest } from "../motor/requests";
+import { rowOf, SEED, sheetRequest } from "../motor/requests";
 
 type Answer = Response<unknown>;
 
@@ -76,8 +76,8 @@ const ofMotor = (unit: string, name: "speed" | "mechanical_power" | "efficiency"
     return { call: "motor_loads", sheet, load_torques: [sheet.load_torque], ...OPERATION };
   },
   read({ json }) {
-    const [operation = {}] = json as OperationJson[];
-    const { [name]: value, [`${name}_error` as const]: error, shortfall: lacks } = operationOf(operation, NaN);
+    const [row = { branches: [] }] = json as RowJson[];
+    const { [name]: value, [`${name}_error` as const]: error, shortfall: lacks } = rowOf(row, NaN);
     return { value, error, ...(lacks !== null && { lacks }) };
   },
 });
