@@ -104,9 +104,16 @@ fn numbers(operation: &Operation) -> Numbers {
     }
 }
 
-/// The place in `OperatingPoints.MOTIONS`, and the mean life (s), of an operation that has them.
+/// `OperatingPoints.MOTIONS`.
+const MOTIONS: [&str; 4] = ["none", "irregular", "periodic", "contact"];
+
+/// The place in `MOTIONS`, and the mean life (s), of an operation that has them.
 fn motion_of(operation: Option<&Operation>) -> (u8, f64) {
-    match operation.and_then(Operation::point).map(|point| point.motion) {
+    named(operation.and_then(Operation::point).map(|point| point.motion))
+}
+
+fn named(motion: Option<AxialMotion>) -> (u8, f64) {
+    match motion {
         Some(AxialMotion::Irregular { life: Life::Mean(life) }) => (1, life.value),
         Some(AxialMotion::Irregular { .. }) => (1, f64::NAN),
         Some(AxialMotion::Periodic { .. }) => (2, f64::NAN),
@@ -189,6 +196,7 @@ fn shown_stall<'py>(py: Python<'py>, stall: &StallLoad) -> Made<'py> {
     let others = stall.others.iter().map(|other| shown_stall(py, other)).collect::<PyResult<Vec<_>>>()?;
     let nothing = Estimate { value: f64::NAN, standard_error: f64::NAN };
     let blocked = stall.blocked_torque.unwrap_or(nothing);
+    let (motion, life) = named(Some(stall.motion));
     make!(
         py,
         "StallLoad",
@@ -200,6 +208,8 @@ fn shown_stall<'py>(py: Python<'py>, stall: &StallLoad) -> Made<'py> {
         stall.no_load_speed.standard_error,
         blocked.value,
         blocked.standard_error,
+        MOTIONS[usize::from(motion)],
+        life,
         PyTuple::new(py, others)?,
     )
 }

@@ -72,6 +72,11 @@ def test_a_curve_falls_from_the_speed_without_load_to_stall() -> None:
     assert curve.efficiency[1] == pytest.approx(curve.mechanical_power[1] / curve.input_power[1])
     assert (np.abs(curve.energy_residual[:2]) < 1e-9).all()
     assert (curve.impacts[:2] > 0).all()
+    # A free rotor swings about its mean speed; all rotors of one vertical motion have one torque at rest.
+    assert (curve.speed_deviation[:2] > 0.0).all() and math.isnan(curve.speed_deviation[2])
+    assert curve.blocked_torque[0] == pytest.approx(curve.blocked_torque[1], rel=1e-3) and curve.blocked_torque_error[0] > 0.0
+    assert curve.blocked_torque[0] == pytest.approx(stall.blocked_torque, rel=0.2)
+    assert stall.motion == curve.MOTIONS[curve.motion[0]] == "irregular"
     own = bd.torque_speed_curve(MOTOR.replace(load_torque=1.0), load_torques=loads, relative_error=0.05)
     assert own == curve
     few = bd.torque_speed_curve(MOTOR, load_torques=[0.0], relative_error=1e-6, most_impacts=1)
@@ -208,6 +213,7 @@ def test_a_stator_that_yields_is_computed_or_refused() -> None:
     assert curve.drive_power == pytest.approx(curve.damping_loss + curve.input_power, rel=0.02)
     assert curve.electrical_efficiency[1] == pytest.approx(curve.mechanical_power[1] / curve.drive_power[1])
     assert (curve.stator_amplitude < 1e-7).all() and (curve.stator_amplitude_error > 0.0).all()
+    assert np.isnan(curve.speed_deviation).any() == np.isnan(curve.blocked_torque).any()
     prescribed = bd.torque_speed_curve(MOTOR, load_torques=[0.0], **loose)
     assert np.isnan(prescribed.stator_amplitude).all() and np.isfinite(prescribed.efficiency).all()
     heavy = bd.motor_map(motor, axes={"stator.mass": [0.05, 0.5]}, **loose)

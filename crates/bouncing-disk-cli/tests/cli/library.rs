@@ -77,6 +77,41 @@ fn stators_that_yield() {
     assert_eq!((&row["value"], &row["unit"]), (&json!(limit), &json!("N")));
 }
 
+/// The deviation of the speed and the torque at rest stand in tables and files of curves and sweeps.
+#[test]
+fn the_tables_of_a_motor_state_deviation_and_torque_at_rest() {
+    let folder = Folder::new();
+    let motor = Motor::paper_70_khz();
+    let settings = OperatingSettings {
+        relative_error: 0.3,
+        members: 4,
+        most_impacts: 20_000,
+        ..OperatingSettings::default()
+    };
+    let accuracy = "--relative-error 0.3 --members 4 --most-impacts 20000";
+    let curve = motor.torque_speed_curve(&[0.0, 1e-5], &settings, &Unobserved).unwrap();
+    let point = curve[1].point().unwrap();
+    let curve = format!("motor curve --loads 0:1e-5:2 --no-spread {accuracy}");
+    let sweep = format!("motor sweep --over load_torque=0:1e-5:2 {accuracy}");
+    for line in [curve, sweep] {
+        let text = folder.done(&line);
+        assert!(text.contains("speed deviation (rad/s)") && text.contains("blocked torque (N m)"), "{text}");
+        folder.done(&format!("{line} --out a.csv --force"));
+        let text = folder.text("a.csv");
+        let rows: Vec<Vec<&str>> = text.lines().skip(1).map(|line| line.split(',').collect()).collect();
+        for (name, estimate) in
+            [("speed_deviation_rad_s", point.speed_deviation), ("blocked_torque_n_m", point.blocked_torque)]
+        {
+            let (estimate, place) =
+                (estimate.unwrap(), rows[0].iter().position(|own| *own == name).expect(name));
+            assert_eq!(rows[2][place].parse(), Ok(estimate.value), "{name}");
+            assert_eq!(rows[2][place + 1].parse(), Ok(estimate.standard_error), "{name}");
+        }
+    }
+    let stall = folder.done("motor stall --no-spread --relative-error 0.3 --members 4 --most-impacts 200000");
+    assert!(stall.contains("irregular") && stall.contains("blocked torque"), "{stall}");
+}
+
 /// The JSON that a command writes.
 fn written(line: &str) -> Value {
     let folder = Folder::new();

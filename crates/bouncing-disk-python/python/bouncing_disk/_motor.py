@@ -264,6 +264,9 @@ class OperatingPoints(Result):
         restitution_loss, restitution_loss_error, friction_loss, friction_loss_error: power lost in impacts
             and in friction (W).
         efficiency, efficiency_error: mechanical power over the power put in.
+        speed_deviation, speed_deviation_error: standard deviation of the speed over time (rad/s); NaN for a rotor that
+            acts back on its stator, as the next one.
+        blocked_torque, blocked_torque_error: mean torque (N m) of friction on a rotor that is held at rest.
         stator_amplitude, stator_amplitude_error: amplitude under load of a stator that yields (m), else NaN, as the
             next three: 2^(1/2) times the root mean square of the speed of its axial mode over the angular frequency
             of the drive. A static sag is not in it.
@@ -299,6 +302,10 @@ class OperatingPoints(Result):
     friction_loss_error: FloatArray
     efficiency: FloatArray
     efficiency_error: FloatArray
+    speed_deviation: FloatArray
+    speed_deviation_error: FloatArray
+    blocked_torque: FloatArray
+    blocked_torque_error: FloatArray
     stator_amplitude: FloatArray
     stator_amplitude_error: FloatArray
     drive_power: FloatArray
@@ -370,6 +377,8 @@ class StallLoad:
         no_load_speed, no_load_speed_error: mean speed without load and its standard error (rad/s).
         blocked_torque, blocked_torque_error: mean torque (N m) on a rotor that is held at rest, and its standard error;
             NaN for a rotor that acts back on its stator.
+        motion: how the rotor moves up and down, a word of :attr:`OperatingPoints.MOTIONS`.
+        life: mean life (s) of an irregular motion that was seen to end, else NaN.
         others: the same for motions that coexist with this one.
     """
 
@@ -381,6 +390,8 @@ class StallLoad:
     no_load_speed_error: float
     blocked_torque: float
     blocked_torque_error: float
+    motion: str
+    life: float
     others: tuple[StallLoad, ...]
 
 

@@ -5,7 +5,7 @@ use bouncing_disk::motor::{InputSpread, MotorField, OperatingRow, Operation, Swe
 use bouncing_disk_plot::Figure;
 
 use super::settings::{
-    SettingsArgs, SpreadArgs, interval, life, lock_note, motion, state, warn, with_stator,
+    SettingsArgs, SpreadArgs, interval, life, lock_note, motion, state, warn, with_details,
 };
 use crate::commands::prelude::*;
 
@@ -70,7 +70,7 @@ pub(super) fn run(args: &CurveArgs, context: Context) -> Result<()> {
     let note = lock_note(&motor)?;
     let report = Report {
         provenance: provenance("bouncing-disk motor curve", &job)?,
-        text: with_stator(shown(coexist), &found, |row| &row.0).to_text(&rows) + &note,
+        text: with_details(shown(coexist), &found, |row| &row.0).to_text(&rows) + &note,
         table: columns(SweepQuantity::of_table(&found)).csv_of(rows.clone()),
         data: vec![("operations", stored(&found)?), ("spreads", stored(&spreads)?)],
         figure: Some(Box::new(|| draw(motor.largest_torque(), &found, &spreads))),

@@ -2,10 +2,10 @@
 //! phase lag at which it turns fastest, and the preloads at which it is locked on a short cycle.
 
 use bouncing_disk::Motor;
-use bouncing_disk::motor::{LEAST_TRAP_WIDTH, OperatingSettings, TrapRange};
+use bouncing_disk::motor::{LEAST_TRAP_WIDTH, OperatingSettings, StallLoad, TrapRange};
 use serde_json::Value;
 
-use super::settings::{SettingsArgs, SpreadArgs, lock_note, state, warn};
+use super::settings::{SettingsArgs, SpreadArgs, lock_note, named, state, warn};
 use crate::commands::prelude::*;
 
 /// The arguments of a command that looks for one operation of a motor.
@@ -61,15 +61,9 @@ pub(super) fn stall(args: &StallArgs, context: Context) -> Result<()> {
     let spread = tolerance.map(|tolerance| motor.stall_spread(&settings, &tolerance, &watch));
     let spread = spread.transpose()?.flatten();
     let mut list = Quantities::default();
-    list.push("stall_torque", stall.torque.value, "N m");
-    list.push("stall_torque_error", stall.torque.standard_error, "N m");
-    if let Some(blocked) = stall.blocked_torque {
-        list.push("blocked_torque", blocked.value, "N m");
-        list.push("blocked_torque_error", blocked.standard_error, "N m");
-    }
+    push_stall(&mut list, "", &stall);
     for other in &stall.others {
-        list.push("coexisting_stall_torque", other.torque.value, "N m");
-        list.push("coexisting_stall_torque_error", other.torque.standard_error, "N m");
+        push_stall(&mut list, "coexisting_", other);
     }
     if let Some(spread) = spread {
         list.push("spread", spread.standard_deviation.value, "N m");
@@ -94,6 +88,17 @@ pub(super) fn stall(args: &StallArgs, context: Context) -> Result<()> {
         figure: None,
     };
     report.deliver(&args.operation.output, context)
+}
+
+/// The motion of a rotor, the load that stops it in this motion, and its torque at rest.
+fn push_stall(list: &mut Quantities, prefix: &str, stall: &StallLoad) {
+    list.push(&format!("{prefix}motion"), named(stall.motion), "1");
+    list.push(&format!("{prefix}stall_torque"), stall.torque.value, "N m");
+    list.push(&format!("{prefix}stall_torque_error"), stall.torque.standard_error, "N m");
+    if let Some(blocked) = stall.blocked_torque {
+        list.push(&format!("{prefix}blocked_torque"), blocked.value, "N m");
+        list.push(&format!("{prefix}blocked_torque_error"), blocked.standard_error, "N m");
+    }
 }
 
 /// Refuses a motor that nothing turns, whose speed would be that of rounding.

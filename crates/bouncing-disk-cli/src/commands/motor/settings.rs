@@ -105,11 +105,16 @@ pub(super) const fn state(operation: &Operation) -> &'static str {
 
 /// How the rotor of a motor moves up and down.
 pub(super) fn motion(operation: &Operation) -> Option<String> {
-    Some(match operation.point()?.motion {
+    operation.point().map(|point| named(point.motion))
+}
+
+/// The name of a motion up and down.
+pub(super) fn named(motion: AxialMotion) -> String {
+    match motion {
         AxialMotion::Periodic { periods, impacts } => format!("{impacts} in {periods}"),
         AxialMotion::Contact => "contact".to_owned(),
         _ => "irregular".to_owned(),
-    })
+    }
 }
 
 /// The mean life (s) of an irregular motion, if some were seen to end.
@@ -120,15 +125,21 @@ pub(super) fn life(operation: &Operation) -> Option<f64> {
     }
 }
 
-/// Columns with what a stator that yields does, if one of the operations has that.
-pub(super) fn with_stator<R: 'static>(
+/// Columns with the standard deviation of the speed, the torque on a rotor at rest, and what a stator that yields does, if one of
+/// the operations has them.
+pub(super) fn with_details<R: 'static>(
     columns: Columns<R>,
     rows: &[OperatingRow],
     of: fn(&R) -> &Operation,
 ) -> Columns<R> {
-    let quantities = &SweepQuantity::of_table(rows)[SweepQuantity::ALL.len()..];
-    quantities.iter().fold(columns, |columns, quantity| {
-        let (unit, scale) = shown_unit(*quantity);
+    let is_known = |quantity: &SweepQuantity| {
+        let mut operations = rows.iter().flat_map(|row| &row.branches);
+        operations.any(|operation| quantity.of(operation).is_some())
+    };
+    let own = [SweepQuantity::SpeedDeviation, SweepQuantity::BlockedTorque].into_iter().filter(is_known);
+    let of_stator = SweepQuantity::of_table(rows).iter().skip(SweepQuantity::ALL.len()).copied();
+    own.chain(of_stator).fold(columns, |columns, quantity| {
+        let (unit, scale) = shown_unit(quantity);
         columns.column(quantity.name(), unit, move |row| {
             quantity.of(of(row)).map(|estimate| scale * estimate.value)
         })

@@ -9,7 +9,7 @@ use bouncing_disk_plot::{Figure, SINGLE_COLUMN};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::settings::{SettingsArgs, interval, motion, shown_unit, state, warn, with_stator};
+use super::settings::{SettingsArgs, interval, motion, shown_unit, state, warn, with_details};
 use crate::commands::prelude::*;
 
 /// A motor over one or two fields of its data sheet
@@ -64,6 +64,8 @@ const PICTURES: Words<SweepQuantity> = &[
     ("mechanical-power", "Load torque times mean speed", SweepQuantity::MechanicalPower),
     ("input-power", "Power that the stator puts in", SweepQuantity::InputPower),
     ("efficiency", "Mechanical power over the power put in", SweepQuantity::Efficiency),
+    ("speed-deviation", "Standard deviation of the speed over time", SweepQuantity::SpeedDeviation),
+    ("blocked-torque", "Mean torque on a rotor that is held at rest", SweepQuantity::BlockedTorque),
     ("stator-amplitude", "Amplitude under load of a stator that yields", SweepQuantity::StatorAmplitude),
     ("drive-power", "Power that the drive puts into such a stator", SweepQuantity::DrivePower),
     ("electrical-efficiency", "Mechanical power over that of the drive", SweepQuantity::ElectricalEfficiency),
@@ -165,7 +167,7 @@ impl GridJob for SweepJob {
         };
         Ok(Report {
             provenance: provenance("bouncing-disk motor sweep", self)?,
-            text: with_stator(columns, result.cells(), |row| &row.1).to_text(&rows),
+            text: with_details(columns, result.cells(), |row| &row.1).to_text(&rows),
             table: Box::new(move |to| to.write_all(csv.as_bytes())),
             data: vec![("axes", stored(result.axes())?), ("cells", stored(result.cells())?)],
             figure: Some(Box::new(move || draw(&result, quantity))),

@@ -19,6 +19,11 @@ pub enum SweepQuantity {
     FrictionLoss,
     /// Mechanical power over the power put in.
     Efficiency,
+    /// Standard deviation of the speed over time (rad/s), as [`OperatingPoint::speed_deviation`](crate::motor::OperatingPoint::speed_deviation).
+    SpeedDeviation,
+    /// Mean torque on a rotor that is held at rest (N m), as
+    /// [`OperatingPoint::blocked_torque`](crate::motor::OperatingPoint::blocked_torque).
+    BlockedTorque,
     /// Amplitude under load of a stator that yields (m), as [`StatorPoint::amplitude`](crate::motor::StatorPoint::amplitude).
     StatorAmplitude,
     /// Power that the drive puts into such a stator (W).
@@ -31,19 +36,21 @@ pub enum SweepQuantity {
 
 impl SweepQuantity {
     /// All quantities but those of a stator that yields, in the order of the columns of a table.
-    pub const ALL: [Self; 6] = {
-        let [a, b, c, d, e, f, ..] = Self::WITH_STATOR;
-        [a, b, c, d, e, f]
+    pub const ALL: [Self; 8] = {
+        let [a, b, c, d, e, f, g, h, ..] = Self::WITH_STATOR;
+        [a, b, c, d, e, f, g, h]
     };
 
     /// All quantities, those of a stator that yields last.
-    pub const WITH_STATOR: [Self; 10] = [
+    pub const WITH_STATOR: [Self; 12] = [
         Self::Speed,
         Self::MechanicalPower,
         Self::InputPower,
         Self::RestitutionLoss,
         Self::FrictionLoss,
         Self::Efficiency,
+        Self::SpeedDeviation,
+        Self::BlockedTorque,
         Self::StatorAmplitude,
         Self::DrivePower,
         Self::DampingLoss,
@@ -67,6 +74,8 @@ impl SweepQuantity {
             Self::RestitutionLoss => "restitution_loss",
             Self::FrictionLoss => "friction_loss",
             Self::Efficiency => "efficiency",
+            Self::SpeedDeviation => "speed_deviation",
+            Self::BlockedTorque => "blocked_torque",
             Self::StatorAmplitude => "stator_amplitude",
             Self::DrivePower => "drive_power",
             Self::DampingLoss => "damping_loss",
@@ -74,19 +83,21 @@ impl SweepQuantity {
         }
     }
 
-    /// Its unit: `rad/s`, `W`, `m`, or `1` for a number without a unit.
+    /// Its unit: `rad/s`, `N m`, `W`, `m`, or `1` for a number without a unit.
     #[must_use]
     pub const fn unit(self) -> &'static str {
         match self {
-            Self::Speed => "rad/s",
+            Self::Speed | Self::SpeedDeviation => "rad/s",
+            Self::BlockedTorque => "N m",
             Self::StatorAmplitude => "m",
             Self::Efficiency | Self::ElectricalEfficiency => "1",
             _ => "W",
         }
     }
 
-    /// Its value, however well it is known; `None` for a runaway, for an undefined efficiency, and
-    /// for what a stator that does not yield has not.
+    /// Its value, however well it is known; `None` for a runaway, for an undefined efficiency, for the quantities of a
+    /// stator that yields on one that does not, and for deviation and blocked torque of a rotor that acts back on its
+    /// stator.
     #[must_use]
     pub fn of(self, operation: &Operation) -> Option<Estimate> {
         let point = operation.point()?;
@@ -97,6 +108,8 @@ impl SweepQuantity {
             Self::RestitutionLoss => Some(point.restitution_loss),
             Self::FrictionLoss => Some(point.friction_loss),
             Self::Efficiency => point.efficiency,
+            Self::SpeedDeviation => point.speed_deviation,
+            Self::BlockedTorque => point.blocked_torque,
             Self::StatorAmplitude => Some(point.stator?.amplitude),
             Self::DrivePower => Some(point.stator?.drive_power),
             Self::DampingLoss => Some(point.stator?.damping_loss),
