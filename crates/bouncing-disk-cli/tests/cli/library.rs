@@ -65,6 +65,12 @@ fn stators_that_yield() {
             assert_eq!(rows[2][place + 1].parse(), Ok(estimate.standard_error), "{name}");
         }
     }
+    // A continued sweep says what it holds, which the swept field is not.
+    let line = "motor sweep motor.toml --over drive_frequency=69e3:70e3:2 --up-and-down";
+    let text = folder.done(&format!("{line} {accuracy}"));
+    let held = "held: amplitude = 1e-7 m without a rotor, peak_angular_speed = 30 rad/s, \
+                preload_acceleration = 9.8 m/s^2, phase_lag = 0 rad, and";
+    assert!(text.lines().next().unwrap().contains(held) && text.lines().count() == 5, "{text}");
     let settings = TransientSettings { duration: 0.02, intervals: 4, ..TransientSettings::default() };
     let members = TransientMember::of_ensemble(motor.system(), &settings, 5).unwrap();
     let curves = motor.transients(&members, &Unobserved).unwrap();
@@ -107,6 +113,12 @@ fn the_tables_of_a_motor_state_deviation_and_torque_at_rest() {
             assert_eq!(rows[2][place].parse(), Ok(estimate.value), "{name}");
             assert_eq!(rows[2][place + 1].parse(), Ok(estimate.standard_error), "{name}");
         }
+    }
+    // A map marks what is not settled.
+    let map = "motor sweep --over phase_lag=0:1:2 --over load_torque=0:1e-5:2 --out a.svg --force";
+    for (most, marked) in [(200_000, false), (1, true)] {
+        folder.done(&format!("{map} --relative-error 0.3 --members 4 --most-impacts {most}"));
+        assert_eq!(folder.text("a.svg").contains("not settled"), marked, "{most}");
     }
     let stall = folder.done("motor stall --no-spread --relative-error 0.3 --members 4 --most-impacts 200000");
     assert!(stall.contains("irregular") && stall.contains("blocked torque"), "{stall}");

@@ -1,6 +1,7 @@
 //! Maps of equal cells and the key of their colours: basins, regimes, a quantity over two parameters.
 
 use super::impact_plane::{IMPACT_PHASE, IMPACT_SPEED, crosses};
+use super::marks::{self, CellMarks};
 use super::torque_speed::Quantity;
 use crate::axis::Axis;
 use crate::colour::Colour;
@@ -160,8 +161,15 @@ impl Regimes<'_> {
 const LEVELS: usize = 24;
 
 /// A quantity over two parameters that have equal distances, row by row, as a map with a bar of its colours;
-/// a cell that is not finite is grey.
-pub fn heat_map(columns: &Quantity<'_>, rows: &Quantity<'_>, cells: &Quantity<'_>) -> Figure {
+/// a cell that is not finite is grey. Cells have their marks, which a key below the map explains.
+pub fn heat_map(
+    columns: &Quantity<'_>,
+    rows: &Quantity<'_>,
+    cells: &Quantity<'_>,
+    cell_marks: &[CellMarks],
+) -> Figure {
+    const WIDTH: f64 = 156.0;
+    const HEIGHT: f64 = 150.0;
     let (x, x_label) = columns.shown();
     let (y, y_label) = rows.shown();
     let (values, label) = cells.shown();
@@ -185,17 +193,25 @@ pub fn heat_map(columns: &Quantity<'_>, rows: &Quantity<'_>, cells: &Quantity<'_
     let palette: Vec<Colour> = std::iter::once(Colour::PALE_GREY).chain(steps).collect();
     let cells = values.iter().map(level).collect();
     let (x_ends, y_ends) = (outer_ends(&x), outer_ends(&y));
-    let map = Panel::new(Rect::new(48.0, 12.0, 156.0, 150.0))
+    let side = |ends: (f64, f64), count: usize, size: f64| {
+        let count = count.max(1) as f64;
+        ((ends.1 - ends.0) / count, size / count)
+    };
+    let sides = [side(x_ends, x.len(), WIDTH), side(y_ends, y.len(), HEIGHT)];
+    let map = Panel::new(Rect::new(48.0, 12.0, WIDTH, HEIGHT))
         .x(Axis::linear(x_ends.0, x_ends.1).label(x_label))
         .y(Axis::linear(y_ends.0, y_ends.1).label(y_label))
-        .layer(Raster::new(x.len(), y.len(), cells, &palette, x_ends, y_ends));
+        .layer(Raster::new(x.len(), y.len(), cells, &palette, x_ends, y_ends))
+        .layers(marks::of_map((&x, &y), cell_marks, sides));
     let bar = (1..=LEVELS as u8).collect();
-    let bar = Panel::new(Rect::new(212.0, 12.0, 8.0, 150.0))
+    let bar = Panel::new(Rect::new(212.0, 12.0, 8.0, HEIGHT))
         .x(Axis::linear(0.0, 1.0).ticks(Ticks::none()))
         .y(Axis::linear(least, most).ticks(Ticks::none()))
         .right(Axis::spanned(least, most).label(label))
         .layer(Raster::new(1, LEVELS, bar, &palette, (0.0, 1.0), (least, most)));
-    Figure::new(SINGLE_COLUMN + 30.0, 202.0).panels([map, bar])
+    let key = marks::key(cell_marks, 48.0, 198.0);
+    let height = 202.0 + key.as_ref().map_or(0.0, |(_, height)| height + 2.0);
+    Figure::new(SINGLE_COLUMN + 30.0, height).panels([map, bar]).panels(key.map(|(key, _)| key))
 }
 
 /// The outer ends of equal cells with these middles.

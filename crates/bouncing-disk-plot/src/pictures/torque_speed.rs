@@ -1,5 +1,6 @@
 //! Quantities of a motor with their intervals: over the load, and over another parameter.
 
+use super::marks::{self, CellMarks};
 use crate::annotation::Text;
 use crate::axis::Axis;
 use crate::colour::Colour;
@@ -64,18 +65,57 @@ pub fn interval_curve(points: &[Point], colour: Colour, band: Fill, name: Option
     [area.style(band).into(), Line::new(line()).width(0.8).colour(colour).into(), dots.into()]
 }
 
-/// A quantity, with the half widths of its intervals, over one parameter.
-pub fn swept_curve(along: &Quantity<'_>, quantity: &Quantity<'_>, half_widths: &[f64]) -> Figure {
+/// A quantity, with the half widths of its intervals, over one parameter. `coexisting` has values and half widths of further
+/// motions with their marks, not finite where there is none: where there are several motions, their points are not joined.
+/// A key below the curve explains the marks.
+pub fn swept_curve(
+    along: &Quantity<'_>,
+    quantity: &Quantity<'_>,
+    half_widths: &[f64],
+    cell_marks: &[CellMarks],
+    coexisting: &[Vec<(f64, f64, CellMarks)>],
+) -> Figure {
     let ((places, place_label), (values, label)) = (along.shown(), quantity.shown());
     let scale = quantity.prefixed().0;
     let halves = half_widths.iter().map(|half| scale * half);
     let points: Vec<Point> =
         places.iter().zip(values).zip(halves).map(|((x, y), half)| (*x, y, half)).collect();
+    let mut marked: Vec<(Point, CellMarks)> =
+        points.iter().copied().zip(cell_marks.iter().copied()).collect();
+    let others: Vec<Point> = coexisting
+        .iter()
+        .flat_map(|branch| places.iter().zip(branch))
+        .filter(|(_, (y, ..))| y.is_finite())
+        .map(|(x, (y, half, marks))| {
+            let point = (*x, scale * y, scale * half);
+            marked.push((point, *marks));
+            point
+        })
+        .collect();
+    let ends = points.iter().chain(&others).flat_map(|(_, y, half)| [y - half, y + half, 0.0]);
     let panel = Panel::new(Rect::new(48.0, 12.0, 186.0, 150.0))
-        .x(Axis::around(places).label(place_label))
-        .y(Axis::around(points.iter().flat_map(|(_, y, half)| [y - half, y + half, 0.0])).label(label))
-        .layers(interval_curve(&points, Colour::BLUE, Fill::new(Colour::LIGHT_GREY, 0.8), None));
-    Figure::new(SINGLE_COLUMN, 202.0).panel(panel)
+        .x(Axis::around(places.iter().copied()).label(place_label))
+        .y(Axis::around(ends).label(label));
+    let panel = if others.is_empty() {
+        panel.layers(interval_curve(&points, Colour::BLUE, Fill::new(Colour::LIGHT_GREY, 0.8), None))
+    } else {
+        let known: Vec<Point> = points.into_iter().filter(|(_, y, _)| y.is_finite()).collect();
+        let dots = |points: &[Point], colour: Colour, name: &str| {
+            let halves = points.iter().map(|(.., half)| *half).collect::<Vec<_>>();
+            let dots = Scatter::new(points.iter().map(|(x, y, _)| (*x, *y))).errors_y(halves);
+            dots.size(2.6).colour(colour).name(name)
+        };
+        panel
+            .layer(dots(&known, Colour::BLUE, "reached from rest"))
+            .layer(dots(&others, Colour::VERMILION, "coexisting"))
+            .legend(Legend::at(Corner::BottomLeft).without_frame().inset(4.0))
+    };
+    let cells: Vec<CellMarks> = marked.iter().map(|(_, marks)| *marks).collect();
+    let marked: Vec<(f64, f64)> = marked.iter().map(|((x, y, _), _)| (*x, *y)).collect();
+    let panel = panel.layers(marks::of_curve(&marked, &cells));
+    let key = marks::key(&cells, 48.0, 198.0);
+    let height = 202.0 + key.as_ref().map_or(0.0, |(_, height)| height + 2.0);
+    Figure::new(SINGLE_COLUMN, height).panel(panel).panels(key.map(|(key, _)| key))
 }
 
 /// The behaviour of a motor under a load (N m): values with the half widths of their intervals, where it has

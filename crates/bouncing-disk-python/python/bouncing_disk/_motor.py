@@ -544,6 +544,8 @@ def motor_map(
 ) -> MotorMap:
     """Speed, power and efficiency of a motor over one or two parameters of its data sheet.
 
+    The numbers of a cell are those of the motion that most rotors reach from rest; `motion` and `status` say whether it is
+    periodic and whether it is settled, and `others` has the motions that coexist with it.
     Cells that share a vertical motion are computed on one orbit. A parameter replaces its alternative: a sweep
     over ``preload_force`` of a motor with a ``preload_acceleration`` has the force alone.
 
@@ -552,7 +554,9 @@ def motor_map(
             rows, shape (n,).
         continued: whether each cell of one axis starts from where the one before was left, in place of from rest: of a
             ``stator`` that yields, whose state may depend on what was before. Height and modes go on; the speed of
-            the rotor begins anew. Where members are in several states, their mean is that of none.
+            the rotor begins anew. All other fields of the sheet are held: over ``drive_frequency`` its volts, its force or
+            its amplitude without a rotor, the preload and the phase lag. Where members are in several states, their mean
+            is that of none.
         relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`torque_speed_curve`.
 
     >>> import bouncing_disk as bd

@@ -94,7 +94,8 @@ impl MotorSweep {
 
     /// This sweep over one axis with each cell from where the one before was left, in place of from rest, and the
     /// first from rest: amplitude and motion of a rotor on a stator that yields may depend on what was before. Let the values go up and
-    /// down again. The cells are one group.
+    /// down again. The cells are one group. All other fields of the sheet are held: over the drive frequency the volts, the
+    /// force or the amplitude without a rotor (whichever the sheet gives), the preload and the phase lag.
     ///
     /// Height and modes go on. The speeds of the rotors begin anew far below and above, as in every cell, which bounds
     /// what still depends on the start. After a runaway a cell goes on from the last one that had a speed. Members may

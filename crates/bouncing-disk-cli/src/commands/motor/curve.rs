@@ -60,8 +60,8 @@ pub(super) fn run(args: &CurveArgs, context: Context) -> Result<()> {
     // Only the first branch has a spread.
     let branches = |(row, spread): (&OperatingRow, &Option<InputSpread>)| {
         let spread = *spread;
-        let all = row.branches.clone().into_iter().enumerate();
-        all.map(move |(branch, operation)| (operation, spread.filter(|_| branch == 0)))
+        let all = row.branches.clone().into_iter().zip(1..);
+        all.map(move |(operation, branch)| (operation, spread.filter(|_| branch == 1), branch))
     };
     let rows: Vec<Row> = found.iter().zip(&spreads).flat_map(branches).collect();
     let coexist = found.iter().any(|row| row.branches.len() > 1);
@@ -101,8 +101,9 @@ fn draw(largest_torque: f64, found: &[OperatingRow], spreads: &[Option<InputSpre
     pictures::torque_speed(largest_torque, &first, &others)
 }
 
-/// A load, and the spread over motors within the tolerance, if requested.
-type Row = (Operation, Option<InputSpread>);
+/// A load, the spread over motors within the tolerance, if requested, and the number of the branch: 1 for the one that most
+/// rotors reach from rest.
+type Row = (Operation, Option<InputSpread>, usize);
 
 fn value(row: &Row, quantity: SweepQuantity) -> Option<f64> {
     quantity.of(&row.0).map(|estimate| estimate.value)
@@ -123,7 +124,10 @@ fn shown(coexist: bool) -> Columns<Row> {
         |row| state(&row.0),
     );
     if coexist {
-        columns = columns.column("motion", "1", |row| motion(&row.0)).column("life", "s", |row| life(&row.0));
+        columns = columns
+            .column("branch", "1", |row| row.2)
+            .column("motion", "1", |row| motion(&row.0))
+            .column("life", "s", |row| life(&row.0));
     }
     columns
         .column("speed", "rad/s", |row| value(row, SweepQuantity::Speed))
@@ -140,6 +144,7 @@ fn columns(quantities: &[SweepQuantity]) -> Columns<Row> {
     let load = MotorField::LoadTorque;
     let mut columns = Columns::<Row>::new()
         .column(load.name(), load.unit(), |row| row.0.load_torque())
+        .column("branch", "1", |row| row.2)
         .column("motion", "1", |row| motion(&row.0))
         .column("life", "s", |row| life(&row.0))
         .column("state", "1", |row| state(&row.0));

@@ -1,15 +1,15 @@
 //! `bouncing-disk motor sweep`: a motor over one or two fields of its data sheet.
 
 use bouncing_disk::motor::{
-    MotorField, MotorSweep, MotorSweepResult, OperatingRow, OperatingSettings, Operation, SweepAxis,
-    SweepQuantity,
+    AxialMotion, MotorField, MotorSweep, MotorSweepResult, OperatingPoint, OperatingRow, OperatingSettings,
+    Operation, SweepAxis, SweepQuantity,
 };
 use bouncing_disk::{Motor, Observer};
-use bouncing_disk_plot::{Figure, SINGLE_COLUMN};
+use bouncing_disk_plot::{Figure, SINGLE_COLUMN, rounded};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::settings::{SettingsArgs, interval, motion, shown_unit, state, warn, with_details};
+use super::settings::{SettingsArgs, interval, life, motion, shown_unit, state, warn, with_details};
 use crate::commands::prelude::*;
 
 /// A motor over one or two fields of its data sheet
@@ -18,7 +18,9 @@ use crate::commands::prelude::*;
 One --over makes a curve, two make a map, the first being that of the rows. Cells of one vertical motion (they differ in \
 load, friction, phase lag, twist, radii or mass only) are computed on one orbit, as a row of the computation: --chunk and \
 --journal divide and keep these. Fields are those of the data sheet, in its units; \
-contact.time makes contacts take time, cell by cell. See docs/designing-a-motor.md.
+contact.time makes contacts take time, cell by cell. A cell has a line for each motion that coexists there. A map shows the first, \
+which most rotors reach from rest, and marks cells with several motions, with a periodic one, and cells that are not settled. With --up-and-down \
+all fields but that of --over are held, and the first line of the output names the drive, the preload and the phase lag. See docs/designing-a-motor.md.
 
 Examples:
   bouncing-disk motor sweep --over load_torque=0:30e-6:7 --out curve.csv
@@ -58,6 +60,20 @@ fn over(text: &str) -> Result<Over, String> {
     let field = field.trim().parse::<MotorField>().map_err(|unknown| unknown.to_string())?;
     Ok(Over { field, values: values.parse()? })
 }
+
+/// What a continued sweep names, where the sheet gives it: of the drive the one amplitude that is held (the others follow from
+/// it at each frequency), the frequency, the twist, the preload and the phase lag.
+const HELD: [MotorField; 9] = [
+    MotorField::DriveFrequency,
+    MotorField::Amplitude,
+    MotorField::StatorForce,
+    MotorField::StatorVolts,
+    MotorField::PeakAngularSpeed,
+    MotorField::TwistAmplitude,
+    MotorField::PreloadForce,
+    MotorField::PreloadAcceleration,
+    MotorField::PhaseLag,
+];
 
 const PICTURES: Words<SweepQuantity> = &[
     ("speed", "Mean angular speed", SweepQuantity::Speed),
@@ -103,6 +119,29 @@ pub(crate) struct SweepJob {
 }
 
 impl SweepJob {
+    /// The line that says from where the cells of a continued sweep start, and which inputs it holds: those that are given, but
+    /// for the one that is swept and those that it replaces.
+    fn held(&self, replaced: &[MotorField]) -> String {
+        if !self.up_and_down {
+            return String::new();
+        }
+        let sheet = self.motor.parameters();
+        let swept = |field: &MotorField| {
+            replaced.contains(field) || self.axes.iter().any(|axis| axis.field == *field)
+        };
+        let shown = |field: &MotorField| {
+            let unit = if field.unit() == "1" { String::new() } else { format!(" {}", field.unit()) };
+            let which = if *field == MotorField::Amplitude { " without a rotor" } else { "" };
+            Some(format!("{} = {}{unit}{which}", field.name(), rounded(field.value(sheet)?, 6)))
+        };
+        let held: Vec<String> = HELD.iter().filter(|field| !swept(field)).filter_map(shown).collect();
+        format!(
+            "continued: each cell starts from where the one before was left, the first from rest; held: {}, and all else in \
+             the sheet\n",
+            held.join(", ")
+        )
+    }
+
     fn sweep(&self) -> Result<MotorSweep> {
         let axis = |over: &Over| {
             let mut values: Vec<f64> = over.values.values().collect();
@@ -140,14 +179,21 @@ impl GridJob for SweepJob {
 
     fn report<'a>(&'a self, sweep: &'a MotorSweep, rows: &'a [Vec<OperatingRow>]) -> Result<Report<'a>> {
         let result = sweep.result(rows)?;
-        type Row = (Vec<f64>, Operation);
+        type Row = (Vec<f64>, Operation, usize);
         let of = |row: &Row, quantity: SweepQuantity| quantity.of(&row.1);
+        let coexist = result.cells().iter().any(|row| row.branches.len() > 1);
         let mut columns = Columns::<Row>::new();
         for (index, axis) in result.axes().iter().enumerate() {
             columns = columns.column(axis.parameter.name(), axis.parameter.unit(), move |row| row.0[index]);
         }
+        if coexist {
+            columns = columns.column("branch", "1", |row| row.2);
+        }
+        columns = columns.column("motion", "1", |row| motion(&row.1));
+        if coexist {
+            columns = columns.column("life", "s", |row| life(&row.1));
+        }
         columns = columns
-            .column("motion", "1", |row| motion(&row.1))
             .column("state", "1", |row| state(&row.1))
             .column("speed", "rad/s", move |row| of(row, SweepQuantity::Speed).map(|own| own.value))
             .column("error", "rad/s", move |row| of(row, SweepQuantity::Speed).map(|own| own.standard_error))
@@ -157,7 +203,8 @@ impl GridJob for SweepJob {
             });
         let branches = |(values, row): (Vec<(MotorField, f64)>, &OperatingRow)| {
             let values: Vec<f64> = values.into_iter().map(|(_, value)| value).collect();
-            row.branches.clone().into_iter().map(move |operation| (values.clone(), operation))
+            let all = row.branches.clone().into_iter().zip(1..);
+            all.map(move |(operation, branch)| (values.clone(), operation, branch))
         };
         let rows: Vec<Row> = result.iter().flat_map(branches).collect();
         let csv = result.to_csv();
@@ -167,11 +214,22 @@ impl GridJob for SweepJob {
         };
         Ok(Report {
             provenance: provenance("bouncing-disk motor sweep", self)?,
-            text: with_details(columns, result.cells(), |row| &row.1).to_text(&rows),
+            text: self.held(&sweep.replaced())
+                + &with_details(columns, result.cells(), |row| &row.1).to_text(&rows),
             table: Box::new(move |to| to.write_all(csv.as_bytes())),
             data: vec![("axes", stored(result.axes())?), ("cells", stored(result.cells())?)],
             figure: Some(Box::new(move || draw(&result, quantity))),
         })
+    }
+}
+
+/// What the picture says of an operation beside its value.
+fn marks(operation: &Operation, coexisting: bool) -> pictures::CellMarks {
+    let repeats = |point: &OperatingPoint| matches!(point.motion, AxialMotion::Periodic { .. });
+    pictures::CellMarks {
+        coexisting,
+        periodic: operation.point().is_some_and(repeats),
+        unsettled: matches!(operation, Operation::Unsettled(..)),
     }
 }
 
@@ -184,6 +242,22 @@ fn draw<'a>(result: &'a MotorSweepResult, quantity: SweepQuantity) -> Figure {
         .map(|cell| quantity.of(cell.operation()).map_or((f64::NAN, f64::NAN), interval));
     let (values, halves): (Vec<f64>, Vec<f64>) =
         estimates.map(|(value, half)| (scale * value, scale * half)).unzip();
+    // A curve shows all branches, a map the first one.
+    let is_map = result.axes().len() > 1;
+    let of_first = |row: &OperatingRow| marks(row.operation(), is_map && row.branches.len() > 1);
+    let cell_marks: Vec<_> = result.cells().iter().map(of_first).collect();
+    let most = result.cells().iter().map(|row| row.branches.len()).max().unwrap_or(0);
+    let others: Vec<Vec<(f64, f64, pictures::CellMarks)>> = (1..most)
+        .map(|branch| {
+            let of = |row: &OperatingRow| {
+                let operation = row.branches.get(branch)?;
+                let (value, half) = quantity.of(operation).map(interval)?;
+                Some((scale * value, scale * half, marks(operation, false)))
+            };
+            let none = (f64::NAN, f64::NAN, pictures::CellMarks::default());
+            result.cells().iter().map(|row| of(row).unwrap_or(none)).collect()
+        })
+        .collect();
     let cells = pictures::Quantity { name, unit, values: &values };
     let along = |axis: &'a SweepAxis| pictures::Quantity {
         name: axis.parameter.name(),
@@ -191,8 +265,8 @@ fn draw<'a>(result: &'a MotorSweepResult, quantity: SweepQuantity) -> Figure {
         values: &axis.values,
     };
     match result.axes() {
-        [rows, columns, ..] => pictures::heat_map(&along(columns), &along(rows), &cells),
-        [only] => pictures::swept_curve(&along(only), &cells, &halves),
+        [rows, columns, ..] => pictures::heat_map(&along(columns), &along(rows), &cells, &cell_marks),
+        [only] => pictures::swept_curve(&along(only), &cells, &halves, &cell_marks, &others),
         [] => Figure::new(SINGLE_COLUMN, SINGLE_COLUMN),
     }
 }
