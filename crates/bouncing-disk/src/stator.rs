@@ -334,6 +334,13 @@ impl StatorSystem {
         times.fold(0.0, f64::max)
     }
 
+    /// Mass in units of the disk's, times quality, of the mode that moves in height: a disk of this mass takes so many
+    /// radians to change its amplitude by what it weighs. Zero without such a mode.
+    pub(crate) fn ringing(&self) -> f64 {
+        let axial = self.given.iter().find(|mode| mode.height != 0.0);
+        axial.map_or(0.0, |mode| mode.mass * mode.quality)
+    }
+
     /// How long (rad) an isolated contact takes on a platform that does not yield.
     pub(crate) const fn contact_time(&self) -> Option<f64> {
         self.contact_time

@@ -8,6 +8,7 @@
 
 pub(crate) mod cycle;
 mod engine;
+pub(crate) mod held;
 pub(crate) mod left;
 pub(crate) mod recurrence;
 pub(crate) mod replay;

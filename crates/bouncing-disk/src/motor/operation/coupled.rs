@@ -16,7 +16,7 @@ use crate::motor::tape::cycle::Cycle;
 use crate::motor::tape::left::Left;
 use crate::motor::tape::recurrence::{Key, Recurrence, Repeats, Touch};
 use crate::motor::tape::window::{AxialWindow, RotorWindow, Window};
-use crate::stator::{StatorEngine, StatorSystem};
+use crate::stator::{StatorEngine, StatorState, StatorSystem};
 
 /// A rotor with its stator, and sums since their start.
 #[derive(Debug)]
@@ -82,11 +82,16 @@ impl Coupled {
     }
 
     /// Goes on from where another one was left.
-    pub(crate) fn resume(&mut self, left: &Left) -> Result<(), Error> {
-        (self.start, self.reached, self.ended) = (left.time, left.time, left.time);
-        self.engine = StatorEngine::of_state(self.engine.system().clone(), left.time, left.state)?;
+    pub(crate) fn go_on_from(&mut self, time: PhaseTime, state: StatorState) -> Result<(), Error> {
+        (self.start, self.reached, self.ended) = (time, time, time);
+        self.engine = StatorEngine::of_state(self.engine.system().clone(), time, state)?;
         self.before = self.totals(&self.reached);
         Ok(())
+    }
+
+    /// The rotor's angular speed after the last event.
+    pub(crate) fn angular_speed(&self) -> f64 {
+        self.engine.disk().angular_speed
     }
 
     /// Where it is at the end of the last window.

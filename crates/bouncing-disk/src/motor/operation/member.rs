@@ -3,22 +3,27 @@
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
 
+use bouncing_disk_core::Phase;
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::run::WorkCount;
 use bouncing_disk_core::sweep::{InstructionSet, LaneRunner};
 
 use crate::error::Error;
+use crate::motion::phase_time::PhaseTime;
+use crate::motion::state::{DiskState, Mode};
 use crate::motor::batch::members::starting_phase;
 use crate::motor::operation::coupled::Coupled;
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::stator::Stator;
 use crate::motor::tape::cycle::Cycle;
+use crate::motor::tape::held::{DiskStart, Held, held_amplitudes};
 use crate::motor::tape::left::Left;
 use crate::motor::tape::recurrence::Repeats;
 use crate::motor::tape::source::Source;
 use crate::motor::tape::taped::{Taped, resolution};
 use crate::motor::tape::window::Window;
 use crate::parameters::dimensionless::DimensionlessSystem;
+use crate::stator::{MODES, StatorState};
 
 /// An angular speed above which no rotor under a braking load stays, nor comes to: that of the platform, and
 /// what friction brakes in a period. Without friction a rotor keeps its speed, and starts at rest.
@@ -38,7 +43,8 @@ const TWICE: f64 = 2.0;
 /// Members are thrown up as fast as the platform moves at most, times this.
 const MOST_THROWN: f64 = 3.0;
 
-/// Every second member starts with a throw where that may decide what becomes of it; the others start from rest.
+/// Every second member starts with a throw or on a held amplitude where that may decide what becomes of it; the others
+/// start from rest.
 pub(crate) const fn is_thrown(index: usize) -> bool {
     index % 2 == 1
 }
@@ -65,6 +71,71 @@ fn of_decade(index: usize) -> f64 {
 /// from rest.
 pub(crate) fn thrown(index: usize) -> Option<f64> {
     is_thrown(index).then(|| MOST_THROWN * golden_share(index))
+}
+
+/// With so many times the disk's mass for each radian that the stator rings, a run from rest takes too long to settle.
+const SLOWEST: f64 = 1.0e5;
+
+/// Of a stator with so many times the disk's mass a flight changes the amplitude by less than is stated.
+const HEAVY: f64 = 100.0;
+
+/// Where members start on a stator that yields.
+#[derive(Debug, Default)]
+pub(crate) struct Starts {
+    yields: bool,
+    /// The stable held amplitudes.
+    held: Vec<Held>,
+    /// Whether no member starts on a stator without a rotor, and whether none starts off the motion of a held amplitude.
+    slow: bool,
+    rings: bool,
+}
+
+impl Starts {
+    /// Of this stator; none where it does not yield. Where friction acts back on it no amplitude is held.
+    pub(crate) fn new(
+        stator: &Stator,
+        settings: &OperatingSettings,
+        work: &mut WorkCount<'_>,
+    ) -> Result<Self, Error> {
+        let Some(system) = stator.yielded().filter(|own| own.yields()) else { return Ok(Self::default()) };
+        if system.twists() {
+            return Ok(Self { yields: true, ..Self::default() });
+        }
+        let perturbation = (settings.relaunch_perturbation, settings.seed);
+        let mut held = held_amplitudes(system, perturbation, work)?;
+        held.retain(|own| own.is_stable);
+        let slow = system.ringing() > SLOWEST;
+        Ok(Self { yields: true, held, slow, rings: slow && system.modes[0].weight < HEAVY })
+    }
+
+    /// Whether members start on different amplitudes.
+    pub(crate) const fn has_many(&self) -> bool {
+        self.held.len() > 1
+    }
+
+    /// Where the member of this index and phase starts. Every second one is on each held amplitude in turn, on its motion
+    /// or thrown up. Of the others one half starts with the stator at rest, the other half with it in its motion without a
+    /// rotor; where it takes too long to settle from there, all start on the lowest amplitude, to which a run comes whose
+    /// stator is at rest, too.
+    pub(crate) fn of(&self, index: usize, phase: Phase) -> Option<(PhaseTime, StatorState)> {
+        let (count, share) = (self.held.len(), golden_share(index));
+        let (turn, disk) = match (is_thrown(index), index / 2 / count.max(1) % 2) {
+            (true, 1) => (index / 2 % count.max(1), DiskStart::Thrown(phase, MOST_THROWN * share)),
+            (true, _) => (index / 2 % count.max(1), DiskStart::OnMotion(share)),
+            (false, _) if self.slow && count > 0 => (0, DiskStart::AtRest(phase)),
+            (false, _) if self.yields && index % 4 == 0 => return Some(at_rest(phase)),
+            (false, _) => return None,
+        };
+        let disk = if self.rings { DiskStart::OnMotion(share) } else { disk };
+        self.held.get(turn).map(|held| held.start(disk))
+    }
+}
+
+/// A disk that lies on a stator at rest.
+fn at_rest(phase: Phase) -> (PhaseTime, StatorState) {
+    let mut disk = DiskState::flying(0.0, 0.0, 0.0);
+    disk.mode = Mode::Sticking;
+    (PhaseTime::in_first_period(phase), StatorState { disk, modes: [[0.0; 2]; MODES] })
 }
 
 /// A member of the ensemble: it starts at a phase and with a stream of random numbers of its own.
@@ -171,12 +242,20 @@ impl Member {
         }
     }
 
-    /// Goes on from where another member was left, with its rotors at the speeds they have.
-    pub(crate) fn resume(&mut self, left: &Left) -> Result<(), Error> {
+    /// Goes on from a state of disk and stator, such as another member was left in; rotors on a tape keep their speeds.
+    pub(crate) fn go_on_from(&mut self, (time, state): (PhaseTime, StatorState)) -> Result<(), Error> {
         match self {
-            Self::Taped(member) => member.resume(left),
-            Self::Coupled(member) => member.resume(left),
+            Self::Taped(member) => member.go_on_from(time, state),
+            Self::Coupled(member) => member.go_on_from(time, state),
         }
+    }
+
+    /// Starts from a state of disk and stator, with its rotors at the speeds that they have.
+    pub(crate) fn set_off(&mut self, (time, mut state): (PhaseTime, StatorState)) -> Result<(), Error> {
+        if let Self::Coupled(member) = self {
+            state.disk.angular_speed = member.angular_speed();
+        }
+        self.go_on_from((time, state))
     }
 
     /// The next window: of `duration` rad at least, and of a number of impacts in a range, whatever the

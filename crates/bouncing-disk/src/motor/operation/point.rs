@@ -199,10 +199,10 @@ pub enum Shortfall {
         wanted: f64,
     },
     /// The speed still drifts: the early part of the average differs from the late one, or it depends on the
-    /// speed at the start.
+    /// speed at the start. Or the amplitude of a stator that yields does.
     Drift {
         /// The late mean minus the early one (rad/s), or by how much rotors that started from far above are
-        /// still faster.
+        /// still faster; of an amplitude, as if the speed were proportional to it.
         drift: f64,
         /// The standard error of this difference (rad/s).
         standard_error: f64,

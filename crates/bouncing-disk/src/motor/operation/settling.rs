@@ -55,6 +55,22 @@ pub(crate) fn decided_by_start(speeds: &Speeds) -> Option<f64> {
     (between > DECIDED * explained).then_some(most)
 }
 
+/// By how much the late part of what windows state differs from the early one, and the standard error of that, if it is
+/// significant: what is stated then still drifts.
+pub(crate) fn drift(stated: &Speeds, wanted: f64) -> Option<(f64, f64)> {
+    let drifts: Vec<f64> = stated
+        .iter()
+        .map(|windows| {
+            let (early, late) = windows.split_at(windows.len().div_ceil(3));
+            mean(late) - mean(early)
+        })
+        .collect();
+    let (drift, standard_error) = (mean(&drifts), error_of_mean(&drifts));
+    let is_significant =
+        drift.abs() > (DRIFT * standard_error).max(NEGLIGIBLE * wanted) || !drift.is_finite();
+    is_significant.then_some((drift, standard_error))
+}
+
 /// Judges the mean speed of windows: `None` if it is steady, its standard error at most `wanted`, and no more
 /// of this a bound of the start-up than scatter. Where members have perturbations of two sizes the scatter is that about
 /// the mean of each size.
@@ -64,21 +80,13 @@ pub(crate) fn shortfall(
     are_perturbed: bool,
     wanted: f64,
 ) -> Option<Shortfall> {
-    let drifts: Vec<f64> = middle
-        .iter()
-        .map(|windows| {
-            let (early, late) = windows.split_at(windows.len().div_ceil(3));
-            mean(late) - mean(early)
-        })
-        .collect();
-    let (drift, standard_error) = (mean(&drifts), error_of_mean(&drifts));
-    if drift.abs() > (DRIFT * standard_error).max(NEGLIGIBLE * wanted) || !drift.is_finite() {
+    if let Some((drift, standard_error)) = drift(middle, wanted) {
         return Some(Shortfall::Drift { drift, standard_error });
     }
     let (Some(speed), Some(bounded)) =
         (steady_speed(middle, middle, are_perturbed), steady_speed(middle, above, are_perturbed))
     else {
-        return Some(Shortfall::Drift { drift, standard_error });
+        return Some(Shortfall::Drift { drift: f64::NAN, standard_error: f64::NAN });
     };
     let bound = bounded.standard_error - speed.standard_error;
     if bound > speed.standard_error.max(NEGLIGIBLE * wanted) {

@@ -7,16 +7,17 @@ use bouncing_disk_core::numerics::statistics::{NORMAL_975, mean};
 use bouncing_disk_core::run::{Watch, in_parallel};
 
 use crate::error::{Error, check, finite, positive, within_limit};
+use crate::motor::batch::members::starting_phase;
 use crate::motor::batch::shared_orbit::shared_by;
 use crate::motor::operation::averages::{Averages, Pairs, Sum, Units};
 use crate::motor::operation::loaded_motor::LoadedMotor;
-use crate::motor::operation::member::{Member, far_above, is_thrown};
+use crate::motor::operation::member::{Member, Starts, far_above, is_thrown};
 use crate::motor::operation::point::{
     AxialMotion, Estimate, Life, OperatingPoint, OperatingRow, Operation, Shortfall, StatorPoint,
     error_of_mean,
 };
 use crate::motor::operation::settings::OperatingSettings;
-use crate::motor::operation::settling::{decided_by_start, left_out, shortfall};
+use crate::motor::operation::settling::{decided_by_start, drift, left_out, shortfall};
 use crate::motor::operation::survey::{Lived, Survey};
 use crate::motor::stator::Stator;
 use crate::motor::tape::cycle::Cycle;
@@ -201,7 +202,8 @@ fn operate_from(
         let run = |motors: Vec<LoadedMotor<'_>>, asked: usize, reference: Option<f64>| {
             let (length, mut slower) = length.unwrap_or(SHORTEST);
             let (run, first) = loop {
-                let mut run = SteadyRun::new((length, slower), motors.clone(), asked, from, settings)?;
+                let mut run =
+                    SteadyRun::new((length, slower), motors.clone(), asked, from, settings, &watch)?;
                 run.reference = reference;
                 let first = run.duration;
                 if is_timed {
@@ -299,6 +301,8 @@ struct SteadyRun<'a> {
     begun: usize,
     most_begun: usize,
     stators: Vec<Stator>,
+    /// Held amplitudes, on which members start.
+    held: Starts,
     /// How many times less inertia the rotors have than their motors.
     quicker: Vec<f64>,
     settings: OperatingSettings,
@@ -321,6 +325,7 @@ impl<'a> SteadyRun<'a> {
         asked: usize,
         from: Option<&Ends>,
         settings: &OperatingSettings,
+        watch: &Watch<'_>,
     ) -> Result<Self, Error> {
         let systems = motors.iter().map(LoadedMotor::dimensionless).collect::<Result<Vec<_>, Error>>()?;
         let stators = motors.iter().map(|motor| motor.stator.for_motor(&motor.system));
@@ -335,6 +340,10 @@ impl<'a> SteadyRun<'a> {
         let takes_long = stators[0].takes_long();
         let less = |system| if takes_long { (rise(system) / longest).clamp(1.0, QUICKEST) } else { 1.0 };
         let quicker: Vec<f64> = systems.iter().map(less).collect();
+        let held = match from {
+            None => Starts::new(&stators[0], settings, &mut watch.work())?,
+            Some(_) => Starts::default(),
+        };
         // The time in which friction gives the platform's largest speed, in radians; that of the slowest
         // rotor.
         let rises = systems.iter().zip(&quicker).map(|(system, quicker)| rise(system) / quicker);
@@ -367,6 +376,7 @@ impl<'a> SteadyRun<'a> {
             begun: 0,
             most_begun,
             stators,
+            held,
             quicker,
             settings: *settings,
             duration,
@@ -387,7 +397,8 @@ impl<'a> SteadyRun<'a> {
         }
         let scales = run.motors[0].system.scales();
         for (own, left) in run.members.iter_mut().zip(from.into_iter().flatten()) {
-            own.member.resume(&left.scaled(&scales, f64::recip))?;
+            let left = left.scaled(&scales, f64::recip);
+            own.member.go_on_from((left.time, left.state))?;
         }
         Ok(run)
     }
@@ -404,12 +415,27 @@ impl<'a> SteadyRun<'a> {
             Some(_) => 0,
             None => usize::from(index < self.settings.members && !is_thrown(index)),
         };
-        let member = self.member(index, known.map(|(source, _)| source))?;
+        let from = known.map(|(source, _)| source);
+        let member = self.member(index, from)?;
         Ok(Carried { index, member, from_rest, windows: Vec::new() })
     }
 
     fn member(&self, index: usize, from: Option<&Source>) -> Result<Member, Error> {
-        Member::new(&self.systems, &self.stators, self.asked, index, &self.quicker, from, &self.settings)
+        let mut member = Member::new(
+            &self.systems,
+            &self.stators,
+            self.asked,
+            index,
+            &self.quicker,
+            from,
+            &self.settings,
+        )?;
+        if let Some(start) =
+            self.held.of(index, starting_phase(self.settings.seed, index, self.settings.members)?)
+        {
+            member.set_off(start)?;
+        }
+        Ok(member)
     }
 
     /// Where the members are.
@@ -652,6 +678,7 @@ impl<'a> SteadyRun<'a> {
                 }
                 self.undecided(motor, middle)
                     .or_else(|| shortfall(middle, above, self.are_perturbed(), self.wanted))
+                    .or_else(|| self.drifting_amplitude(motor, middle))
                     .or_else(|| self.inaccurate(motor))
                     .or_else(|| self.unbalanced(motor))
             })
@@ -678,10 +705,31 @@ impl<'a> SteadyRun<'a> {
         settled(&below) && settled(&above) && of_all(&above) - of_all(&below) > PARTED * self.wanted
     }
 
-    /// By how much (rad/s) the speed depends on the start, of a motor whose stator has kinks. Between two kinks such a
-    /// stator may carry a whole family of motions, each of which keeps a speed of its own.
+    /// The amplitude of a stator that yields, if it still drifts, as the speed would drift that follows it.
+    fn drifting_amplitude(&self, motor: usize, speeds: &[Vec<f64>]) -> Option<Shortfall> {
+        let system = self.motors[motor].yielding().filter(|system| system.yields())?;
+        let amplitude = |window: &&Window| {
+            let (ledger, axial) = window.rotors[motor].stator.unwrap_or_default();
+            system.amplitude(0, ledger.damping_loss[0], axial.duration)
+        };
+        let amplitudes: Vec<Vec<f64>> =
+            self.averaged().iter().map(|windows| windows.iter().map(amplitude).collect()).collect();
+        let of_all = |all: &[Vec<f64>]| mean(&all.iter().map(|windows| mean(windows)).collect::<Vec<_>>());
+        let known = of_all(&amplitudes);
+        let (off, standard_error) = drift(&amplitudes, self.settings.relative_error * known)?;
+        let [drift, standard_error] = [off, standard_error].map(|part| part / known * of_all(speeds));
+        Some(Shortfall::Drift { drift, standard_error: standard_error.abs() })
+    }
+
+    /// By how much (rad/s) the speed depends on the start, of a motor whose stator has kinks, or yields. Between two kinks
+    /// a stator may carry a whole family of motions, each of which keeps a speed of its own; one that yields may keep two
+    /// amplitudes, on each of which the motion is irregular.
     fn apart(&self, motor: usize, speeds: &[Vec<f64>]) -> f64 {
-        if self.motors[motor].stator.has_kinks() { decided_by_start(speeds).unwrap_or(0.0) } else { 0.0 }
+        if self.motors[motor].stator.has_kinks() || self.held.has_many() {
+            decided_by_start(speeds).unwrap_or(0.0)
+        } else {
+            0.0
+        }
     }
 
     /// A dependence on the start that is larger than the requested error.

@@ -11,10 +11,12 @@ use super::tap::TapSolver;
 use super::taps::TapTape;
 use crate::driven::{DrivenEngine, DrivenStart, DrivenSystem};
 use crate::error::Error;
+use crate::motion::event::Motion;
 use crate::motion::phase_time::PhaseTime;
+use crate::motion::state::DiskState;
 use crate::motor::stator::Stator;
 use crate::parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem};
-use crate::stator::{StatorEngine, StatorSystem};
+use crate::stator::{StatorEngine, StatorState, StatorSystem};
 
 /// What a tape is recorded from.
 #[derive(Debug, Clone)]
@@ -72,12 +74,18 @@ impl Source {
                 DrivenStart::Launch { phase, relative_speed, angular_speed }
             }
         };
-        let engine = DrivenEngine::new(still, start, ChatterPolicy::Complete)?;
-        let engine = EngineTape::new(engine, system.compliance.is_some(), perturbation);
-        Ok(match system.compliance.as_ref().and_then(TapSolver::new) {
+        Ok(Self::of_engine(DrivenEngine::new(still, start, ChatterPolicy::Complete)?, perturbation))
+    }
+
+    /// Of a disk without friction, from where it is on a prescribed motion.
+    pub(crate) fn of_engine(engine: DrivenEngine, perturbation: (f64, u64)) -> Self {
+        let compliance = engine.system().compliance.as_ref();
+        let (takes_time, solver) = (compliance.is_some(), compliance.and_then(TapSolver::new));
+        let engine = EngineTape::new(engine, takes_time, perturbation);
+        match solver {
             Some(solver) => Self::Taps(Box::new(TapTape::new(solver, engine))),
             None => Self::Driven(Box::new(engine)),
-        })
+        }
     }
 
     fn yielding(system: &StatorSystem, phase: Phase, perturbation: (f64, u64)) -> Result<Self, Error> {
@@ -86,6 +94,13 @@ impl Source {
         let still = system.without_law()?.with_base(&still)?;
         let engine = StatorEngine::new(still, DrivenStart::Contact { phase, angular_speed: 0.0 })?;
         Ok(Self::Yielding(Box::new(EngineTape::new(engine, system.takes_time(), perturbation))))
+    }
+
+    /// Goes on with another motion of the disk on a stator that yields.
+    pub(crate) fn go_on_from(&mut self, time: PhaseTime, state: StatorState) -> Result<(), Error> {
+        let Self::Yielding(source) = self else { return Ok(()) };
+        source.resume(StatorEngine::of_state(source.engine.system().clone(), time, state)?);
+        Ok(())
     }
 
     /// Records a step: up to the next event, or more.
@@ -122,6 +137,15 @@ impl Source {
         }
     }
 
+    /// The disk there, on a prescribed motion by the general engine or in taps.
+    pub(crate) fn disk(&self) -> Option<DiskState> {
+        match self {
+            Self::Taps(source) => Some(source.disk()),
+            Self::Driven(source) => Some(source.engine.disk()),
+            Self::Rigid(_) | Self::Yielding(_) => None,
+        }
+    }
+
     /// Whether the stator has modes, whose energies are recorded.
     pub(crate) fn yields(&self) -> bool {
         matches!(self, Self::Yielding(_))
@@ -130,14 +154,12 @@ impl Source {
 
 /// A disk on a sine whose contacts take time.
 fn soft(system: &DimensionlessSystem, contact_time: f64) -> Result<DrivenSystem, Error> {
-    let height = Drive::fourier(&[(system.peak_acceleration(), 0.0)])?;
-    let rigid = DrivenSystem {
-        height,
-        angle: Drive::fourier(&[])?,
-        friction: 0.0,
-        restitution: system.restitution(),
-        load: 0.0,
-        compliance: None,
-    };
-    rigid.with_contact_time(contact_time)
+    bare(system.peak_acceleration(), system.restitution())?.with_contact_time(contact_time)
+}
+
+/// A disk without friction on a sine, with rigid impacts.
+pub(crate) fn bare(amplitude: f64, restitution: f64) -> Result<DrivenSystem, Error> {
+    let height = Drive::fourier(&[(amplitude, 0.0)])?;
+    let angle = Drive::fourier(&[])?;
+    Ok(DrivenSystem { height, angle, friction: 0.0, restitution, load: 0.0, compliance: None })
 }

@@ -15,11 +15,12 @@ use super::source::Source;
 use super::window::{AxialWindow, Window};
 use crate::driven::DrivenSystem;
 use crate::error::Error;
+use crate::motion::phase_time::PhaseTime;
 use crate::motor::batch::rotor_rows::{RotorRows, WIDTH};
 use crate::motor::stator::Stator;
 use crate::motor::tape::left::Left;
 use crate::parameters::dimensionless::DimensionlessSystem;
-use crate::stator::{LoadLine, StatorEngine};
+use crate::stator::{LoadLine, StatorState};
 
 /// Knots after which a tape is replayed: few enough for the cache.
 const BLOCK: usize = 4096;
@@ -173,10 +174,9 @@ impl Taped {
     }
 
     /// Goes on from where another motor was left, with the rotors as they are.
-    pub(crate) fn resume(&mut self, left: &Left) -> Result<(), Error> {
-        let Source::Yielding(source) = &mut self.source else { return Ok(()) };
-        source.resume(StatorEngine::of_state(source.engine.system().clone(), left.time, left.state)?);
-        self.tape.begin(left.time.phase.angle());
+    pub(crate) fn go_on_from(&mut self, time: PhaseTime, state: StatorState) -> Result<(), Error> {
+        self.source.go_on_from(time, state)?;
+        self.tape.begin(self.source.phase());
         Ok(())
     }
 

@@ -7,7 +7,9 @@ use super::recurrence::{Key, Touch};
 use super::{Knot, Tape};
 use crate::driven::DrivenEngine;
 use crate::error::Error;
+use crate::motion::event::Motion;
 use crate::motion::phase_time::PhaseTime;
+use crate::motion::state::DiskState;
 use crate::motor::tape::tap::TapSolver;
 use crate::stator::MODES;
 
@@ -29,6 +31,14 @@ impl TapTape {
     /// When the recorded motion ends.
     pub(crate) fn time(&self) -> PhaseTime {
         self.release.map_or_else(|| self.engine.engine.time(), |(time, _)| time)
+    }
+
+    /// The disk there.
+    pub(crate) fn disk(&self) -> DiskState {
+        let Some((time, [gap, velocity])) = self.release else { return self.engine.engine.disk() };
+        let vibration = self.solver.vibration();
+        let (height, speed) = (vibration.height(time.phase), vibration.velocity(time.phase));
+        DiskState::flying(height + gap, speed + velocity, 0.0)
     }
 
     /// Records a tap, or up to the engine's next event.

@@ -1,0 +1,127 @@
+//! Held amplitudes: on which motions of a stator that yields in its height a run may start.
+//!
+//! Let the stator move as a sine of an amplitude A, whatever the disk does. The first harmonic of the contact force says
+//! which drive would keep it. Those amplitudes that ask for the drive that there is are nearly the steady ones, unstable
+//! ones and those that no run from rest comes to included (docs/numerics/motors.md, "Held amplitudes").
+
+mod branch;
+
+use bouncing_disk_core::Phase;
+use bouncing_disk_core::numerics::elementary::{exp, hypot, ln, sin_cos};
+use bouncing_disk_core::run::WorkCount;
+
+use crate::error::Error;
+use crate::motion::phase_time::PhaseTime;
+use crate::motion::state::{DiskState, Mode};
+use crate::motor::tape::held::branch::Search;
+use crate::stator::{StatorState, StatorSystem};
+
+/// Neighbouring amplitudes of a branch, and the least number of them.
+const RATIO: f64 = 1.18;
+const LEAST_AMPLITUDES: f64 = 6.0;
+
+/// Two held amplitudes that differ by less than this share are one, found on two branches or by scatter.
+const ONE: f64 = 0.05;
+
+/// By how much of the stator's speed the starts of two members on one held amplitude may differ.
+const APART: f64 = 1.0e-6;
+
+/// A motion of disk and stator that the drive would keep if the stator moved as a sine.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Held {
+    /// In units of g/omega^2.
+    pub(crate) amplitude: f64,
+    /// Whether a larger amplitude asks for a larger drive.
+    pub(crate) is_stable: bool,
+    /// How far (rad) the stator's phase is ahead of where it is without a disk, and how far its weight bends it.
+    ahead: f64,
+    sag: f64,
+    /// Disk and stator on it, at this phase of the drive.
+    time: PhaseTime,
+    state: StatorState,
+}
+
+/// How a disk starts on a stator that moves with a held amplitude.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum DiskStart {
+    /// On the motion that goes with the amplitude; in flight it is off by a tiny part of this share.
+    OnMotion(f64),
+    /// At rest on the stator at this phase of the drive; a disk that lies there for ever is on that motion.
+    AtRest(Phase),
+    /// Thrown up at this phase, so fast in units of the stator's speed, unless it lies there for ever.
+    Thrown(Phase, f64),
+}
+
+impl Held {
+    /// The start of a run on it.
+    pub(crate) fn start(&self, disk: DiskStart) -> (PhaseTime, StatorState) {
+        let mut state = self.state;
+        let (phase, speed, mode) = match disk {
+            DiskStart::OnMotion(share) => {
+                if state.disk.mode == Mode::Flight {
+                    state.disk.axial_velocity += APART * share * self.amplitude;
+                }
+                return (self.time, state);
+            }
+            DiskStart::AtRest(_) | DiskStart::Thrown(..) if self.state.disk.mode != Mode::Flight => {
+                return (self.time, state);
+            }
+            DiskStart::AtRest(phase) => (phase, 0.0, Mode::Sticking),
+            DiskStart::Thrown(phase, share) => (phase, share * self.amplitude, Mode::Flight),
+        };
+        let (sin, cos) = sin_cos(phase.angle() + self.ahead);
+        state.modes[0] = [self.amplitude * sin - self.sag, self.amplitude * cos];
+        state.disk = DiskState::flying(state.modes[0][0], state.modes[0][1] + speed, 0.0);
+        state.disk.mode = mode;
+        (PhaseTime::in_first_period(phase), state)
+    }
+}
+
+/// The held amplitudes of a stator with one mode, which moves in height, in rising order; none without a drive.
+/// Relaunches from rigid contacts are perturbed by speeds up to this size from a stream of this seed.
+pub(crate) fn held_amplitudes(
+    system: &StatorSystem,
+    perturbation: (f64, u64),
+    work: &mut WorkCount<'_>,
+) -> Result<Vec<Held>, Error> {
+    let free = system.base().peak_acceleration();
+    if free == 0.0 || system.modes[0].height == 0.0 {
+        return Ok(Vec::new());
+    }
+    let mut search = Search::new(system, perturbation, work)?;
+    let mut found: Vec<Held> = search.lying()?.into_iter().collect();
+    // The mean force is 1 and never pulls, so that its first harmonic is at most 2; it puts no power in.
+    let [re, im] = search.follows();
+    let size = hypot(search.stiffness[0], search.stiffness[1]);
+    let least = (1.0 / hypot(re, im)).max(free - 2.0 / size);
+    let most = (free + 2.0 / size).min(search.force / search.stiffness[1]);
+    if least < most {
+        let range = ln((most + ONE * (most - least)) / least);
+        let steps = (range / ln(RATIO)).max(LEAST_AMPLITUDES).ceil() as u32;
+        let at = |step: u32| least * exp(range * (f64::from(step) / f64::from(steps)));
+        let mut both = || {
+            let mut branch = search.start(least)?;
+            search.follow(&mut branch, (1..=steps).map(at), &mut found)?;
+            search.follow(&mut branch, (0..steps).rev().map(at), &mut found)
+        };
+        // A branch that cannot be computed gives no starts.
+        if let Err(error @ Error::Core(bouncing_disk_core::Error::Stopped { .. })) = both() {
+            return Err(error);
+        }
+    }
+    found.sort_by(|one, other| one.amplitude.total_cmp(&other.amplitude));
+    Ok(found)
+}
+
+/// Adds one that is not known yet.
+fn add(found: &mut Vec<Held>, held: Held) {
+    let is_known = |known: &Held| {
+        known.is_stable == held.is_stable && (known.amplitude / held.amplitude - 1.0).abs() < ONE
+    };
+    if !found.iter().any(is_known) {
+        found.push(held);
+    }
+}
+
+#[cfg(test)]
+mod tests;
