@@ -532,12 +532,19 @@ impl<'a> SteadyRun<'a> {
                 self.life.add(followed - start_up, true);
             }
             self.left.extend(own.member.left().map(|left| (own.index, left)));
-            let known = self.repeated.iter().position(|known| known.cycle.is_same(&cycle));
-            let place = known.unwrap_or(self.repeated.len());
-            if known.is_none() {
-                let windows = own.member.on_cycle(&cycle, &largest);
-                self.repeated.push(Repeated { cycle, windows, from_rest: 0 });
-            }
+            let place = match self.repeated.iter().position(|known| known.cycle.is_same(&cycle)) {
+                Some(known) => known,
+                None => {
+                    // A disk that just touches the stator does so more or less often in what is one motion all the same.
+                    let windows = own.member.on_cycle(&cycle, &largest);
+                    let alike = |known: &Repeated| known.windows[0].is_like(&windows[0], &largest);
+                    let known = self.repeated.iter().position(alike).unwrap_or(self.repeated.len());
+                    if known == self.repeated.len() {
+                        self.repeated.push(Repeated { cycle, windows, from_rest: 0 });
+                    }
+                    known
+                }
+            };
             self.repeated[place].from_rest += own.from_rest;
             let mut windows = own.windows;
             // The last ones may be on the way to the cycle.

@@ -89,7 +89,22 @@ impl AxialWindow {
     }
 }
 
+/// Cycles whose rates and speeds differ by less than this share are one.
+const ALIKE: f64 = 1.0e-5;
+
 impl Window {
+    /// Whether a cycle has the rates of another one and moves its rotors alike, whose speeds lie within these sizes.
+    pub(crate) fn is_like(&self, other: &Self, largest: &[f64]) -> bool {
+        let loses = |window: &Self| window.axial.restitution_loss / window.axial.duration;
+        let speed = |window: &Self, rotor: usize| window.rotors[rotor].angle / window.axial.duration;
+        let is_alike = |rotor: usize| {
+            let scale = largest.get(rotor).map_or_else(|| speed(self, rotor).abs(), |size| *size);
+            (speed(self, rotor) - speed(other, rotor)).abs() <= ALIKE * scale
+        };
+        (loses(self) - loses(other)).abs() <= ALIKE * loses(other).abs()
+            && (0..self.rotors.len().min(other.rotors.len())).all(is_alike)
+    }
+
     /// This window and the one that follows it as one.
     pub(crate) fn add(&mut self, next: &Self) {
         self.axial.add(&next.axial);
