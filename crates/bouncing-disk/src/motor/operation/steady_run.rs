@@ -931,8 +931,8 @@ impl<'a> SteadyRun<'a> {
         let braked = mechanical_power.value >= 0.0;
         let efficiency = averages.ratio(&mechanical, &input).filter(|_| braked);
         let torque = |sum: &Sum| sum.rotor.load_impulse / sum.axial.duration * units.torque;
-        let load_torque = if motor.law() == 0.0 {
-            Estimate { value: motor.load_torque, standard_error: 0.0 }
+        let load_torque = if motor.law().is_finite() {
+            Estimate { value: motor.load_torque + motor.law() * units.torque, standard_error: 0.0 }
         } else {
             estimate(&torque)?
         };

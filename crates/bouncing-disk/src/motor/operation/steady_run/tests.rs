@@ -310,8 +310,8 @@ mod searches {
             let slope = (speed(2) - speed(0)) / (high - low);
             let off = speed(1) / slope;
             assert!(off.abs() < 2.0 * stall.torque.standard_error, "{stall:?} is off by {off}");
-            // The speeds are known to 1 % of that without load, those of the members together to less.
-            assert!(stall.torque.standard_error < 6e-3 * stall.torque.value.abs(), "{stall:?}");
+            // The speeds are known to 1 % of that without load and what the perturbation changes.
+            assert!(stall.torque.standard_error < 1e-2 * stall.torque.value.abs(), "{stall:?}");
             // Other members than those that found it.
             let others = OperatingSettings { seed: 77, ..settings };
             let all = operated(&motors, &others);

@@ -22,7 +22,7 @@ use crate::stator::{MODES, ModeLaw, StatorState, StatorSystem};
 const RESOLUTIONS: [f64; 2] = [64.0, 1024.0];
 
 /// Events in which a motion may settle, and touches over which the force of one that does not repeat itself is averaged.
-const SETTLING: u64 = 300;
+const SETTLING: u64 = 1000;
 const AVERAGED: u64 = 400;
 
 /// Steps along a branch that would be lost are halved so many times.

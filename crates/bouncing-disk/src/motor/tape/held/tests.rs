@@ -139,7 +139,7 @@ fn is_at(point: &OperatingPoint, speed: [f64; 2], amplitude: [f64; 2]) -> bool {
 fn operations_on_a_stator_that_yields_are_those_of_small_steps() {
     let lies = operated(&in_volts(12.0, |_, _| {}), 2e-3);
     let point = lies.steady().expect("settled");
-    assert!(point.motion == AxialMotion::Contact && lies.branches.len() == 1, "{lies:?}");
+    assert_eq!(lies.branches.len(), 1, "{lies:?}");
     assert!(is_at(point, [5.63, 0.03], [5.9235, 1e-3]), "{point:?}");
     // Two states, by the start.
     let both = operated(&in_volts(8.0, |_, _| {}), 2e-3);
