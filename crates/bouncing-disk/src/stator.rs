@@ -365,6 +365,14 @@ impl StatorSystem {
         self.clone().with_load(&[line])
     }
 
+    /// How far a contact is pressed in by the preload alone.
+    pub(crate) const fn compression(&self) -> f64 {
+        match self.contact {
+            ContactStiffness::Rigid => 0.0,
+            ContactStiffness::Soft { stiffness, .. } => 1.0 / stiffness,
+        }
+    }
+
     /// Whether contacts take time.
     pub(crate) const fn takes_time(&self) -> bool {
         self.contact_time.is_some()

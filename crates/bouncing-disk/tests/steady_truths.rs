@@ -34,7 +34,7 @@ use bouncing_disk::motor::{OperatingSettings, Operation};
 const MOST: [usize; 2] = [1, 2];
 
 /// Coarser than the default, to take seconds: an interval has to hold the truth at any requested error.
-const SETTINGS: (f64, usize, u64) = (0.1, 4, 100_000);
+const SETTINGS: (f64, usize, u64) = (0.03, 16, 2_000_000);
 
 /// A motor without an answer after this time (s) is missed.
 const LONGEST: u64 = 10;

@@ -39,15 +39,18 @@ impl Pairs {
         if self.are_perturbed { Estimate::of_decade(values) } else { Estimate::of(values) }
     }
 
-    /// The standard deviation of a value over a decade of the perturbation, as far as it is more than the scatter of the
-    /// members explains: an even distribution over the change.
+    /// The standard deviation of a value over a decade of the perturbation, as far as it is twice what the scatter of the
+    /// members explains.
     pub(super) fn change(&self, values: &[f64]) -> Result<f64, Error> {
         if !self.are_perturbed {
             return Ok(0.0);
         }
-        let [less, more] = by_perturbation(values);
-        let (change, scatter) = (mean(&more) - mean(&less), 2.0 * self.scatter(values)?.standard_error);
-        Ok(((change * change - scatter * scatter).max(0.0) / 12.0).sqrt())
+        let (all, count) = (mean(values), values.len() as f64);
+        let off = |own: &Vec<f64>| own.len() as f64 / count * (mean(own) - all) * (mean(own) - all);
+        let between = by_perturbation(values).iter().map(off).sum::<f64>();
+        // Three means about that of all.
+        let scatter = self.scatter(values)?.standard_error;
+        Ok((between - 2.0 * (2.0 * scatter * scatter)).max(0.0).sqrt())
     }
 }
 

@@ -14,7 +14,7 @@ use crate::motion::phase_time::{PhaseSpan, PhaseTime};
 use crate::motor::rotor::transient::FLIGHTS_OF_EVENT;
 use crate::motor::tape::cycle::Cycle;
 use crate::motor::tape::left::Left;
-use crate::motor::tape::recurrence::{Key, Recurrence, Repeats, Touch};
+use crate::motor::tape::recurrence::{AT_ONCE, Key, Recurrence, Repeats, Touch};
 use crate::motor::tape::window::{AxialWindow, RotorWindow, Window};
 use crate::stator::{StatorEngine, StatorState, StatorSystem};
 
@@ -36,6 +36,8 @@ pub(crate) struct Coupled {
     ended: PhaseTime,
     before: Totals,
     recurrence: Recurrence,
+    /// When it touched last.
+    touched: Option<PhaseTime>,
     /// The cycle that the motion was found to repeat, after which no window is complete.
     repeats: Option<Repeats>,
 }
@@ -75,6 +77,7 @@ impl Coupled {
             ended: reached,
             before: Totals::default(),
             recurrence: Recurrence::default(),
+            touched: None,
             repeats: None,
         };
         coupled.before = coupled.totals(&reached);
@@ -183,9 +186,12 @@ impl Coupled {
             Event::Impact { .. } | Event::Kick { .. } | Event::Recontact => {
                 self.impacts += 1;
                 self.recurrences += 1;
-                let disk = self.engine.disk();
-                let own = [disk.axial_velocity, disk.height, disk.angular_speed];
-                touch = Touch::At(Key::new(record.time().phase, own, self.engine.modes()));
+                let (now, disk) = (record.time(), self.engine.disk());
+                let at_once = |touched: PhaseTime| now.since(&touched).radians() < AT_ONCE;
+                if !self.touched.replace(now).is_some_and(at_once) {
+                    let own = [disk.axial_velocity, disk.height, disk.angular_speed];
+                    touch = Touch::At(Key::new(now.phase, own, self.engine.modes()));
+                }
             }
             Event::Turn | Event::SlipToStick | Event::SlipReversal(_) => self.recurrences += 1,
             _ => {}

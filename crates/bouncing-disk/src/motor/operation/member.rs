@@ -57,14 +57,15 @@ pub(crate) fn golden_share(index: usize) -> f64 {
 /// The root of ten.
 const HALF_DECADE: f64 = 3.162_277_660_168_379_5;
 
-/// Two and two members have perturbations at either end of a decade: their difference shows what the size of the
-/// perturbation does.
-pub(crate) const fn is_perturbed_more(index: usize) -> bool {
-    index / 2 % 2 == 1
+/// Of four members one has a smaller and one a larger perturbation, at either end of a decade: they show what its size
+/// does. The size of this index: 0 for that of the settings, 1 and 2 for the others.
+pub(crate) const fn size_of_perturbation(index: usize) -> usize {
+    (index % 4).saturating_sub(1)
 }
 
+/// Its factor.
 fn of_decade(index: usize) -> f64 {
-    if is_perturbed_more(index) { HALF_DECADE } else { 1.0 / HALF_DECADE }
+    [1.0, 1.0 / HALF_DECADE, HALF_DECADE][size_of_perturbation(index)]
 }
 
 /// How fast the disk of this index is thrown up, in units of the platform's largest speed; not at all of one that starts
@@ -76,6 +77,9 @@ pub(crate) fn thrown(index: usize) -> Option<f64> {
 /// With so many times the disk's mass for each radian that the stator rings, a run from rest takes too long to settle.
 const SLOWEST: f64 = 1.0e5;
 
+/// A stator whose amplitude takes longer (rad) to fall by a factor e is not left alone to do so.
+pub(crate) const LONGEST_DECAY: f64 = 1.0e5;
+
 /// Of a stator with so many times the disk's mass a flight changes the amplitude by less than is stated.
 const HEAVY: f64 = 100.0;
 
@@ -85,9 +89,13 @@ pub(crate) struct Starts {
     yields: bool,
     /// The stable held amplitudes.
     held: Vec<Held>,
-    /// Whether no member starts on a stator without a rotor, and whether none starts off the motion of a held amplitude.
+    /// Whether no member starts on a stator at rest, and whether none starts off the motion of a held amplitude.
     slow: bool,
     rings: bool,
+    /// Whether none starts where the stator is without a rotor: it takes too long to leave that.
+    slowest: bool,
+    /// How far a contact is pressed in by the preload.
+    compression: f64,
 }
 
 impl Starts {
@@ -98,14 +106,17 @@ impl Starts {
         work: &mut WorkCount<'_>,
     ) -> Result<Self, Error> {
         let Some(system) = stator.yielded().filter(|own| own.yields()) else { return Ok(Self::default()) };
+        let compression = system.compression();
         if system.twists() {
-            return Ok(Self { yields: true, ..Self::default() });
+            return Ok(Self { yields: true, compression, ..Self::default() });
         }
         let perturbation = (settings.relaunch_perturbation, settings.seed);
         let mut held = held_amplitudes(system, perturbation, work)?;
         held.retain(|own| own.is_stable);
         let slow = system.ringing() > SLOWEST;
-        Ok(Self { yields: true, held, slow, rings: slow && system.modes[0].weight < HEAVY })
+        let rings = slow && system.modes[0].weight < HEAVY;
+        let slowest = slow && system.decay_time() > LONGEST_DECAY;
+        Ok(Self { yields: true, held, slow, rings, slowest, compression })
     }
 
     /// Whether members start on different amplitudes.
@@ -114,17 +125,17 @@ impl Starts {
     }
 
     /// Where the member of this index and phase starts. Every second one is on each held amplitude in turn, on its motion
-    /// or thrown up. Of the others one half starts with the stator at rest, the other half with it in its motion without a
-    /// rotor; where it takes too long to settle from there, all start on the lowest amplitude, to which a run comes whose
-    /// stator is at rest, too.
+    /// or thrown up. Of the others one half starts with the stator at rest, or where it takes too long to settle from there
+    /// on the lowest amplitude, to which a run from rest comes, too; the other half with the stator as it moves without a
+    /// rotor, unless that takes too long to leave.
     pub(crate) fn of(&self, index: usize, phase: Phase) -> Option<(PhaseTime, StatorState)> {
         let (count, share) = (self.held.len(), golden_share(index));
         let (turn, disk) = match (is_thrown(index), index / 2 / count.max(1) % 2) {
             (true, 1) => (index / 2 % count.max(1), DiskStart::Thrown(phase, MOST_THROWN * share)),
             (true, _) => (index / 2 % count.max(1), DiskStart::OnMotion(share)),
+            (false, _) if index % 4 == 2 && !self.slowest || !self.yields => return None,
             (false, _) if self.slow && count > 0 => (0, DiskStart::AtRest(phase)),
-            (false, _) if self.yields && index % 4 == 0 => return Some(at_rest(phase)),
-            (false, _) => return None,
+            (false, _) => return Some(at_rest(phase, self.compression)),
         };
         let disk = if self.rings { DiskStart::OnMotion(share) } else { disk };
         self.held.get(turn).map(|held| held.start(disk))
@@ -132,8 +143,8 @@ impl Starts {
 }
 
 /// A disk that lies on a stator at rest.
-fn at_rest(phase: Phase) -> (PhaseTime, StatorState) {
-    let mut disk = DiskState::flying(0.0, 0.0, 0.0);
+fn at_rest(phase: Phase, compression: f64) -> (PhaseTime, StatorState) {
+    let mut disk = DiskState::flying(-compression, 0.0, 0.0);
     disk.mode = Mode::Sticking;
     (PhaseTime::in_first_period(phase), StatorState { disk, modes: [[0.0; 2]; MODES] })
 }

@@ -3,7 +3,7 @@
 use bouncing_disk_core::numerics::statistics::{NORMAL_975, mean, standard_deviation};
 
 use crate::error::{Error, finite, not_negative};
-use crate::motor::operation::member::is_perturbed_more;
+use crate::motor::operation::member::size_of_perturbation;
 use crate::statistics::student_quantile;
 
 /// A number estimated from independent runs, with its standard error.
@@ -27,13 +27,13 @@ impl Estimate {
         Ok(Self { value, standard_error: not_negative("standard_error", standard_error)? })
     }
 
-    /// The mean of values, every second two of which were perturbed more than the others, with the scatter about the mean of
-    /// their kind as its error.
+    /// The mean of the values of members with perturbations of three sizes, with the scatter about the mean of each size as
+    /// its error.
     pub(crate) fn of_decade(values: &[f64]) -> Result<Self, Error> {
-        let (count, kinds) = (values.len() as f64, by_perturbation(values));
-        let squares = |own: &Vec<f64>| own.len() as f64 * mean_square_about_mean(own);
-        let variance = kinds.iter().map(squares).sum::<f64>() / (count - 2.0);
-        let standard_error = (variance / count).sqrt() * (student_quantile(count - 2.0) / NORMAL_975);
+        let sizes = by_perturbation(values);
+        let (count, squares) = (values.len() as f64, sizes.iter().map(|own| squares_about_mean(own)));
+        let (variance, freedom) = (squares.sum::<f64>(), count - sizes.len() as f64);
+        let standard_error = (variance / freedom / count).sqrt() * (student_quantile(freedom) / NORMAL_975);
         Ok(Self { value: finite("estimate", mean(values))?, standard_error })
     }
 
@@ -64,17 +64,17 @@ pub(crate) fn error_of_mean(values: &[f64]) -> f64 {
     standard_deviation(values) / size.sqrt() * (student_quantile(size - 1.0) / NORMAL_975)
 }
 
-/// The values of members that are perturbed less, and of those that are more.
-pub(crate) fn by_perturbation(values: &[f64]) -> [Vec<f64>; 2] {
-    [false, true].map(|more| {
-        let own = values.iter().enumerate().filter(|(index, _)| is_perturbed_more(*index) == more);
+/// The values of members by the size of their perturbation.
+pub(crate) fn by_perturbation(values: &[f64]) -> [Vec<f64>; 3] {
+    [0, 1, 2].map(|size| {
+        let own = values.iter().enumerate().filter(|(index, _)| size_of_perturbation(*index) == size);
         own.map(|(_, value)| *value).collect()
     })
 }
 
-fn mean_square_about_mean(values: &[f64]) -> f64 {
+fn squares_about_mean(values: &[f64]) -> f64 {
     let about = mean(values);
-    mean(&values.iter().map(|value| (value - about) * (value - about)).collect::<Vec<_>>())
+    values.iter().map(|value| (value - about) * (value - about)).sum()
 }
 
 #[cfg(feature = "serde")]

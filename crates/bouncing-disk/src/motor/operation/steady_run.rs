@@ -11,7 +11,7 @@ use crate::motor::batch::members::starting_phase;
 use crate::motor::batch::shared_orbit::shared_by;
 use crate::motor::operation::averages::{Averages, Pairs, Sum, Units};
 use crate::motor::operation::loaded_motor::LoadedMotor;
-use crate::motor::operation::member::{Member, Starts, far_above, is_thrown};
+use crate::motor::operation::member::{LONGEST_DECAY, Member, Starts, far_above, is_thrown};
 use crate::motor::operation::point::{
     AxialMotion, Estimate, Life, OperatingPoint, OperatingRow, Operation, Shortfall, StatorPoint,
     error_of_mean,
@@ -35,6 +35,9 @@ const WINDOWS_OF_RISE: f64 = 2.0;
 
 /// The least length of a window, over the time in which an amplitude of the stator falls by a factor e.
 const WINDOW_OF_DECAY: f64 = 0.75;
+
+/// That of a stator whose members start on held amplitudes, as a share.
+const HELD_SHARE: f64 = 0.3;
 
 /// A slow rotor has less inertia than its motor, so that its rise takes no more periods than this, times the platform's
 /// largest speed P (the length of flights), over the requested error or this one, whichever is smaller. The speed is then
@@ -80,6 +83,9 @@ const MOST_STARTS: usize = 3;
 
 /// More cycles than this on a stator with kinks are a family: each start keeps its own.
 const MOST_CYCLES: usize = 6;
+
+/// With fewer members the scatter of those with perturbations of one size is not known.
+const LEAST_FOR_DECADE: usize = 8;
 
 /// Rotors from below and from above that are farther apart than so many requested errors stay so.
 const PARTED: f64 = 8.0;
@@ -349,7 +355,8 @@ impl<'a> SteadyRun<'a> {
         let rises = systems.iter().zip(&quicker).map(|(system, quicker)| rise(system) / quicker);
         let rise = rises.fold(0.0, f64::max);
         // The amplitude of a stator that yields settles within the windows that are left out first.
-        let settles = WINDOW_OF_DECAY * motors[0].stator.yielded().map_or(0.0, StatorSystem::decay_time);
+        let decay = motors[0].stator.yielded().map_or(0.0, StatorSystem::decay_time);
+        let settles = WINDOW_OF_DECAY * if decay > LONGEST_DECAY { HELD_SHARE * decay } else { decay };
         let duration = length * (rise.min(f64::MAX) / WINDOWS_OF_RISE).max(LEAST_PERIODS * TAU).max(settles);
         // Even where the rise takes for ever the first round spends no more than it may.
         let most_impacts = (settings.most_impacts / (settings.members * FIRST_WINDOWS) as u64).max(1);
@@ -876,7 +883,7 @@ impl<'a> SteadyRun<'a> {
         !self.stators[0].takes_time()
             && self.ended_windows.is_empty()
             && count == self.settings.members
-            && count > 3
+            && count >= LEAST_FOR_DECADE
     }
 
     /// Whether the rotors have less inertia than their motors.

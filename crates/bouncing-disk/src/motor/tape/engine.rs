@@ -6,9 +6,10 @@ use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::run::WorkCount;
 
 use super::Tape;
-use super::recurrence::{Key, Touch};
+use super::recurrence::{AT_ONCE, Key, Touch};
 use crate::error::Error;
 use crate::motion::event::{Event, MotionRecord, SteeredMotion};
+use crate::motion::phase_time::PhaseTime;
 use crate::motion::state::{DiskState, Mode};
 use crate::motor::rotor::transient::FLIGHTS_OF_EVENT;
 
@@ -24,6 +25,8 @@ pub(crate) struct EngineTape<E> {
     energy: f64,
     /// Whether the disk has turned and not left the platform since.
     has_turned: bool,
+    /// When it touched last.
+    touched: Option<PhaseTime>,
 }
 
 impl<E: SteeredMotion + Clone> EngineTape<E> {
@@ -36,6 +39,7 @@ impl<E: SteeredMotion + Clone> EngineTape<E> {
             perturbation,
             energy: 0.0,
             has_turned: false,
+            touched: None,
         };
         tape.energy = tape.energy_now();
         tape
@@ -122,6 +126,10 @@ impl<E: SteeredMotion + Clone> EngineTape<E> {
             || turns && self.has_turned;
         self.has_turned = turns || self.has_turned && !is_touch && event != Event::Separation;
         if !is_touch {
+            return Ok(Touch::None);
+        }
+        let now = self.engine.time();
+        if self.touched.replace(now).is_some_and(|touched| now.since(&touched).radians() < AT_ONCE) {
             return Ok(Touch::None);
         }
         tape.axial.impacts += 1;

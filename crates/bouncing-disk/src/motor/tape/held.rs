@@ -36,6 +36,8 @@ pub(crate) struct Held {
     /// How far (rad) the stator's phase is ahead of where it is without a disk, and how far its weight bends it.
     ahead: f64,
     sag: f64,
+    /// How far a contact is pressed in by the preload.
+    compression: f64,
     /// Disk and stator on it, at this phase of the drive.
     time: PhaseTime,
     state: StatorState,
@@ -73,6 +75,9 @@ impl Held {
         state.modes[0] = [self.amplitude * sin - self.sag, self.amplitude * cos];
         state.disk = DiskState::flying(state.modes[0][0], state.modes[0][1] + speed, 0.0);
         state.disk.mode = mode;
+        if mode != Mode::Flight {
+            state.disk.height -= self.compression;
+        }
         (PhaseTime::in_first_period(phase), state)
     }
 }

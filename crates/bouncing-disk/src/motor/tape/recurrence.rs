@@ -18,6 +18,9 @@ const SMALL: f64 = 1.0e-3;
 /// A cycle takes a period of the drive at least.
 const LEAST_CYCLE: f64 = PI;
 
+/// Touches that follow one another after a shorter time (rad) are one.
+pub(crate) const AT_ONCE: f64 = 1.0e-9;
+
 /// Most touches of a cycle.
 const LONGEST: u64 = 128;
 

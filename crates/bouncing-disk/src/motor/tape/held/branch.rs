@@ -128,7 +128,8 @@ impl<'a, 'w> Search<'a, 'w> {
         let mut disk = motion.disk;
         (disk.height, disk.axial_velocity) = (disk.height + modes[0][0], disk.axial_velocity + modes[0][1]);
         let time = PhaseTime::in_first_period(Phase::new(wrapped_angle(phase.angle() - ahead))?);
-        Ok(Held { amplitude, is_stable, ahead, sag, time, state: StatorState { disk, modes } })
+        let compression = self.system.compression();
+        Ok(Held { amplitude, is_stable, ahead, sag, compression, time, state: StatorState { disk, modes } })
     }
 
     fn platform(&self, amplitude: f64) -> Result<DrivenSystem, Error> {
