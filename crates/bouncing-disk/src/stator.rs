@@ -314,7 +314,10 @@ impl StatorSystem {
     /// The load besides the constant one, if it does not depend on the speed.
     pub(crate) fn constant_law(&self) -> Option<f64> {
         let first = self.lines[0];
-        let varies = self.lines.iter().any(|line| line.slope != 0.0 || line.torque.to_bits() != first.torque.to_bits());
+        let varies = self
+            .lines
+            .iter()
+            .any(|line| line.slope != 0.0 || line.torque.to_bits() != first.torque.to_bits());
         (!varies).then(|| first.torque - self.base.load())
     }
 

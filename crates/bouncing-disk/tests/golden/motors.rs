@@ -44,7 +44,7 @@ pub(crate) fn taps() -> Result<Vec<String>, Error> {
         }
     }
     let mut all = one("run-ups with taps", run_ups, 0x1956_895a_62f8_de14);
-    all.extend(one("taps", numbers, 0xa9aa_992f_71e1_0694));
+    all.extend(one("taps", numbers, 0x4331_8d14_cc11_ab8e));
     Ok(all)
 }
 
@@ -141,5 +141,5 @@ pub(crate) fn rated_fits() -> Vec<String> {
         numbers.extend(ends.map(|end| end.unwrap_or(f64::INFINITY)));
     }
     numbers.extend([fit.misfit, fit.evaluations as f64]);
-    one("rated fits", numbers, 0x6446_bd4a_e6ca_c7df)
+    one("rated fits", numbers, 0x736e_3bf8_d1e3_f443)
 }

@@ -139,6 +139,12 @@ impl LoadedMotor<'_> {
         self.yielding().map_or(0.0, |own| own.constant_law().unwrap_or(f64::INFINITY))
     }
 
+    /// The torque (N m) of load and law on a rotor that begins to turn forwards.
+    pub(super) fn torque_at_rest(&self) -> f64 {
+        let law = self.yielding().and_then(|own| own.lines.iter().find(|line| line.to > 0.0));
+        law.map_or(self.load_torque, |line| line.torque * self.torque_unit())
+    }
+
     /// Neither load torque nor law.
     pub(super) fn is_unloaded(&self) -> bool {
         self.load() == 0.0 && self.law() == 0.0

@@ -812,9 +812,11 @@ impl<'a> SteadyRun<'a> {
             let from_rest = if self.life.ended > 0 { 0 } else { from_rest };
             branches.push((from_rest, operation, pairs.of(&speed)));
         }
-        // A rotor from rest does not stay where it is driven back.
+        // A rotor that the stator turns forwards from rest does not come to where rotors are driven back.
         if let [(_, first, _), (_, _, _)] = &branches[..]
-            && first.point().is_some_and(|point| point.speed.value < 0.0)
+            && let Some(OperatingPoint { blocked_torque: Some(torque), speed, .. }) = first.point()
+            && speed.value < 0.0
+            && torque.value > self.motors[index].torque_at_rest()
         {
             branches.swap(0, 1);
         }

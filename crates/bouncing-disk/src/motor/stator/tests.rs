@@ -285,6 +285,38 @@ fn a_stator_yields_by_its_mass() {
     assert!(weighed.stator.expect("yields").amplitude.value < 1e-9, "{weighed:?}");
 }
 
+/// Under a load that falls with the speed a slow rotor has two stable speeds: where it is driven back through the steep part
+/// below zero, and beyond the fall. A load above the torque at rest keeps a rotor from rest at the former.
+#[test]
+fn a_load_that_falls_with_the_speed_leaves_two_operations() {
+    let sheet = |inertia: f64, most: f64| {
+        let law = LoadLaw::new(&[-1.0, 0.0, 0.5, 3.0, 10.0], &[0.0, most, most, 1e-3, 1e-3]).expect("legal");
+        let wave = |sheet: &mut MotorParameters| {
+            (sheet.drive_frequency, sheet.amplitude) = (40e3, Some(0.5e-6));
+            (sheet.peak_angular_speed, sheet.twist_amplitude) = (Some(12.0), None);
+            (sheet.mass, sheet.density, sheet.rotor_radius) = (Some(0.020), None, None);
+            (sheet.contact_radius, sheet.gyration_radius) = (12.5e-3, Some(inertia));
+            (sheet.preload_force, sheet.preload_acceleration) = (Some(5.0), None);
+            sheet.load = Some(law);
+        };
+        let motor = Motor::paper_70_khz().with(wave).expect("legal");
+        motor.operating_point(0.0, &settings(), &Unobserved).expect("no failure")
+    };
+    let speeds = |row: &OperatingRow| -> Vec<f64> {
+        row.branches.iter().map(|one| one.steady().expect("settled").speed.value).collect()
+    };
+    let (most, both) = (5.2e-3, sheet(71e-3, 5.2e-3));
+    let found = speeds(&both);
+    assert!(found.len() == 2 && found[0] < 0.0 && (found[1] - 7.3).abs() < 0.3, "{both:?}");
+    // The line of the load has the torque at rest there.
+    let blocked = both.point().and_then(|point| point.blocked_torque).expect("nothing acts back").value;
+    assert!((found[0] - (blocked / most - 1.0)).abs() < 0.05, "{both:?}");
+    let one = sheet(71e-3, 3.6e-3);
+    assert!(one.branches.len() == 1 && (speeds(&one)[0] - 7.3).abs() < 0.3, "{one:?}");
+    // A quick rotor swings from one to the other.
+    assert_eq!(sheet(10e-3, 5.2e-3).branches.len(), 1);
+}
+
 /// A load over the speed: its mean torque is that of its mean speed on a line, with a node on it or not, and the torque
 /// that is asked for comes on top. What varies in time is refused.
 #[test]
