@@ -29,7 +29,8 @@ fn main() -> Result<(), Error> {
     for operation in motor.torque_speed_curve(&loads, &settings, &Unobserved)? {
         let load = 1e3 * operation.load_torque();
         match operation.operation() {
-            Operation::Steady(point) => {
+            // One that lacks something is known all the same: its error is larger than was asked for.
+            Operation::Steady(point) | Operation::Unsettled(point, _) => {
                 let efficiency = point.efficiency.map_or("driven by the load".to_owned(), |efficiency| {
                     format!("efficiency {:.2} %", 100.0 * efficiency.value)
                 });
