@@ -14,7 +14,7 @@ fn points(amplitude: f64, load: LoadLaw, torques: &[f64]) -> Result<Vec<Operatin
         Motor::paper_70_khz().with(|sheet| (sheet.amplitude, sheet.load) = (Some(amplitude), Some(load)))?;
     let settings = OperatingSettings { relative_error: 0.005, ..OperatingSettings::default() };
     let found = motor.torque_speed_curve(torques, &settings, &Unobserved)?;
-    Ok(found.iter().filter_map(|operation| operation.steady().copied()).collect())
+    Ok(found.iter().filter_map(|operation| operation.point().copied()).collect())
 }
 
 fn main() -> Result<(), Error> {
