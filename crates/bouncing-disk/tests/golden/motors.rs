@@ -141,5 +141,5 @@ pub(crate) fn rated_fits() -> Vec<String> {
         numbers.extend(ends.map(|end| end.unwrap_or(f64::INFINITY)));
     }
     numbers.extend([fit.misfit, fit.evaluations as f64]);
-    one("rated fits", numbers, 0x736e_3bf8_d1e3_f443)
+    one("rated fits", numbers, 0x9520_17f5_1371_1639)
 }

@@ -63,6 +63,9 @@ pub(crate) const fn size_of_perturbation(index: usize) -> usize {
     (index % 4).saturating_sub(1)
 }
 
+/// With fewer members all have the perturbation of the settings: the scatter at one size would not be known.
+pub(crate) const LEAST_FOR_DECADE: usize = 8;
+
 /// Its factor.
 fn of_decade(index: usize) -> f64 {
     [1.0, 1.0 / HALF_DECADE, HALF_DECADE][size_of_perturbation(index)]
@@ -175,7 +178,8 @@ impl Member {
     ) -> Result<Self, Error> {
         let phase = starting_phase(settings.seed, index, settings.members)?;
         let seed = SplitMix64::seed_of_stream(settings.seed, index as u64);
-        let perturbation = (settings.relaunch_perturbation * of_decade(index), seed);
+        let factor = if settings.members >= LEAST_FOR_DECADE { of_decade(index) } else { 1.0 };
+        let perturbation = (settings.relaunch_perturbation * factor, seed);
         if let Stator::Yielding(system) = &stators[0]
             && stators[0].acts_back()
         {

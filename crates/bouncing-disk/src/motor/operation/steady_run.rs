@@ -11,7 +11,9 @@ use crate::motor::batch::members::starting_phase;
 use crate::motor::batch::shared_orbit::shared_by;
 use crate::motor::operation::averages::{Averages, Pairs, Sum, Units};
 use crate::motor::operation::loaded_motor::LoadedMotor;
-use crate::motor::operation::member::{LONGEST_DECAY, Member, Starts, far_above, is_thrown};
+use crate::motor::operation::member::{
+    LEAST_FOR_DECADE, LONGEST_DECAY, Member, Starts, far_above, is_thrown,
+};
 use crate::motor::operation::point::{
     AxialMotion, Estimate, Life, OperatingPoint, OperatingRow, Operation, Shortfall, StatorPoint,
     error_of_mean,
@@ -83,9 +85,6 @@ const MOST_STARTS: usize = 3;
 
 /// More cycles than this on a stator with kinks are a family: each start keeps its own.
 const MOST_CYCLES: usize = 6;
-
-/// With fewer members the scatter of those with perturbations of one size is not known.
-const LEAST_FOR_DECADE: usize = 8;
 
 /// Rotors from below and from above that are farther apart than so many requested errors stay so.
 const PARTED: f64 = 8.0;

@@ -46,7 +46,7 @@ fn a_rotor_on_a_tape_of_rigid_impacts_is_that_of_its_engine() {
             while engine.time().order(&member.time()).is_lt() {
                 let record = engine.advance().expect("no failure").expect("it goes on");
                 if record.event == Event::Separation {
-                    let speed = settings.relaunch_perturbation * of_decade(0) * generator.unit();
+                    let speed = settings.relaunch_perturbation * generator.unit();
                     engine.perturb_launch(speed).expect("legal");
                 }
             }
