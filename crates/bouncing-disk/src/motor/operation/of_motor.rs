@@ -37,14 +37,16 @@ impl Motor {
     /// ```
     /// # use bouncing_disk::core::Unobserved;
     /// use bouncing_disk::Motor;
-    /// use bouncing_disk::motor::{OperatingSettings, Operation};
+    /// use bouncing_disk::motor::{OperatingSettings, Operation, Shortfall};
     ///
     /// let motor = Motor::paper_70_khz();
     /// let half = 0.5 * motor.largest_torque();
     /// let row = motor.operating_point(half, &OperatingSettings::default(), &Unobserved)?;
-    /// let point = row.steady().expect("known to 1 %");
+    /// // Known to 5 % only: the speed depends on the size of the perturbation at relaunches.
+    /// assert!(matches!(row.operation(), Operation::Unsettled(_, Shortfall::Error { .. })));
+    /// let point = row.point().expect("a steady state");
     /// let (speed, efficiency) = (point.speed, point.efficiency.expect("it works"));
-    /// assert!((speed.value - 8.6).abs() < 0.3 && speed.standard_error < 0.2);
+    /// assert!((speed.value - 8.8).abs() < 0.3 && speed.standard_error < 0.6);
     /// assert!((efficiency.value - 0.115).abs() < 0.01);
     /// // A load that friction cannot hold has no operating point.
     /// let overload = motor.operating_point(2.0 * motor.largest_torque(), &OperatingSettings::default(), &Unobserved)?;
