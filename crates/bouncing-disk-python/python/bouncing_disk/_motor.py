@@ -265,7 +265,13 @@ class OperatingPoints(Result):
             and in friction (W).
         efficiency, efficiency_error: mechanical power over the power put in.
         speed_deviation, speed_deviation_error: standard deviation of the speed over time (rad/s); NaN for a rotor that
-            acts back on its stator, as the next one.
+            acts back on its stator, as the next ones up to the torque.
+        speed_low, speed_low_error, speed_high, speed_high_error: between which speeds (rad/s) the rotor is in 95 % of the
+            time, and always where its motion repeats itself.
+        time_constant, time_constant_error: time constant of the speed (s), from its change to the nearest other load that
+            is asked for; NaN of a locked motor and of a load alone.
+        unstable_speed, unstable_speed_error: under a load that falls with the speed, where the rotor keeps one of two speeds,
+            that between them (rad/s) beyond which it goes to the other; else NaN.
         blocked_torque, blocked_torque_error: mean torque (N m) of friction on a rotor that is held at rest.
         stator_amplitude, stator_amplitude_error: amplitude under load of a stator that yields (m), else NaN, as the
             next three: 2^(1/2) times the root mean square of the speed of its axial mode over the angular frequency
@@ -304,6 +310,14 @@ class OperatingPoints(Result):
     efficiency_error: FloatArray
     speed_deviation: FloatArray
     speed_deviation_error: FloatArray
+    speed_low: FloatArray
+    speed_low_error: FloatArray
+    speed_high: FloatArray
+    speed_high_error: FloatArray
+    time_constant: FloatArray
+    time_constant_error: FloatArray
+    unstable_speed: FloatArray
+    unstable_speed_error: FloatArray
     blocked_torque: FloatArray
     blocked_torque_error: FloatArray
     stator_amplitude: FloatArray

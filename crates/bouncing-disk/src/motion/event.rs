@@ -169,6 +169,11 @@ pub(crate) trait SteeredMotion: Motion + Send {
     /// The disk `span` later.
     fn disk_after(&self, span: f64) -> DiskState;
 
+    /// The axial velocity of the disk at times `span` later that rise.
+    fn velocities(&self) -> Box<dyn FnMut(f64) -> f64 + '_> {
+        Box::new(|span| self.disk_after(span).axial_velocity)
+    }
+
     /// The energy balances of this `span`.
     fn energies_after(&self, span: f64) -> Energies;
 

@@ -32,6 +32,7 @@ use bouncing_disk_core::numerics::roots::bisection;
 use bouncing_disk_core::{Attachment, ChatterPolicy, ImpactMap, Launch, Orbit, OrbitEvent, Phase};
 
 use crate::error::{Error, moderate_not_negative, positive, within_limit};
+use crate::motor::batch::members::golden_share;
 use crate::motor::circular::Concentration;
 use crate::parameters::dimensionless::DimensionlessSystem;
 use crate::toss::chattering_cycle::LONG_FLIGHT;
@@ -42,9 +43,6 @@ const CONTACT_PARTS: u32 = 32;
 
 /// Impacts after which a motion that does not come to rest is given up.
 const LONGEST_CYCLE: usize = 10_000;
-
-/// The irrational step of an evenly filling sequence: the golden ratio.
-const GOLDEN_STEP: f64 = 0.618_033_988_749_894_8;
 
 /// A normal impulse, and where in the cycle of the platform it acts.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -187,7 +185,7 @@ impl NormalImpulses {
 /// Gives the launch that is due a relative speed of an evenly filling sequence.
 fn relaunch(orbit: &mut Orbit, perturbation: f64, index: u32) -> Result<(), Error> {
     if perturbation > 0.0 {
-        let share = (f64::from(index) * GOLDEN_STEP).rem_euclid(1.0);
+        let share = golden_share(index as usize);
         orbit.perturb_launch(perturbation * share)?;
     }
     Ok(())

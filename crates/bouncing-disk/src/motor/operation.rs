@@ -9,6 +9,7 @@
 mod averages;
 pub(crate) mod best_phase_lag;
 pub(crate) mod coupled;
+mod crossing;
 pub(crate) mod loaded_motor;
 mod member;
 pub(crate) mod of_motor;

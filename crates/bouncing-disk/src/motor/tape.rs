@@ -121,7 +121,7 @@ impl Tape {
     }
 
     /// Adds a contact that lasts so long from this phase (rad) on, by the impulse up to a time after its start.
-    pub(crate) fn press(&mut self, phase: f64, duration: f64, impulse: impl Fn(f64) -> f64) {
+    pub(crate) fn press(&mut self, phase: f64, duration: f64, mut impulse: impl FnMut(f64) -> f64) {
         self.axial.pressed += duration;
         let steps = self.steps(duration);
         let step = duration / f64::from(steps);

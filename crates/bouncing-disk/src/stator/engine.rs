@@ -77,6 +77,7 @@ impl StatorEngine {
             searched: 0.0,
             aloft: 0.0,
             with_energy: true,
+            bounds_closely: false,
         };
         engine.line = engine.line_at(engine.state[SPEED]);
         match engine.system.contact {
@@ -377,6 +378,25 @@ impl SteeredMotion for StatorEngine {
 
     fn amplitude_after(&self, span: f64) -> Option<f64> {
         (self.system.modes[0].height != 0.0).then(|| self.vibration_after(span)[0].amplitude())
+    }
+
+    fn velocities(&self) -> Box<dyn FnMut(f64) -> f64 + '_> {
+        if !matches!(self.stage, Stage::Lying(_)) {
+            return Box::new(|span| self.disk_after(span).axial_velocity);
+        }
+        // One expansion for all times within a step.
+        let flow = &self.regime().flow;
+        let (mut state, mut passed, mut expanded) = (self.state, 0, flow.expand(&self.state));
+        Box::new(move |span| {
+            let whole = (span / flow.step()) as u64;
+            if passed < whole {
+                (passed..whole).for_each(|_| state = flow.advance(&state));
+                (passed, expanded) = (whole, flow.expand(&state));
+            }
+            let mut at = expanded.at(span - whole as f64 * flow.step());
+            (at[SIN], at[COS]) = self.phase_after(span);
+            self.system.tip(&at)[1] + at[CLOSING]
+        })
     }
 
     fn skip_energies(&mut self) {

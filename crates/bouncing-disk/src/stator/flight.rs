@@ -1,7 +1,7 @@
 //! A flight over a compliant stator, in closed form, and its end.
 
 use bouncing_disk_core::flight::MAX_FLIGHT_DURATION;
-use bouncing_disk_core::numerics::elementary::{exp, exp_m1, ln_1p, sin_cos};
+use bouncing_disk_core::numerics::elementary::{exp, exp_m1, hypot, ln_1p, sin_cos};
 
 use super::LoadLine;
 use super::record::{Crossing, Launch, Next, ROUNDING, StatorEngine};
@@ -131,20 +131,60 @@ impl StatorEngine {
         bounds
     }
 
+    /// The same for a time (rad) from a state on, by what steady motion and ringing are together: on a stator that a disk
+    /// has slowed down they nearly cancel, and stay so while their phases hardly part.
+    fn bounds_within(&self, state: &State, time: f64) -> Bounds {
+        let always = self.bounds(state);
+        if !self.bounds_closely {
+            return always;
+        }
+        // Both as real parts of complex numbers that turn with the drive.
+        let [a, b] = self.system.height;
+        let (sin, cos) = (state[SIN], state[COS]);
+        let steady = [a * sin + b * cos, b * sin - a * cos];
+        let (mut place, mut pull) = (steady, steady.map(|part| -part));
+        let (mut moved, mut pulled) = (0.0, 0.0);
+        for (index, mode) in self.system.modes.iter().enumerate().filter(|(_, mode)| mode.height != 0.0) {
+            let decay = 0.5 * mode.damping;
+            let frequency = (mode.stiffness - decay * decay).max(0.0).sqrt();
+            if frequency < decay {
+                return always;
+            }
+            let (r, speed) = (state[DISPLACEMENTS[index]], state[VELOCITIES[index]]);
+            let [re, im] = [mode.height * r, -mode.height * ((speed + decay * r) / frequency)];
+            let [square, turn] = [decay * decay - frequency * frequency, -2.0 * decay * frequency];
+            place = [place[0] + re, place[1] + im];
+            pull = [pull[0] + (square * re - turn * im), pull[1] + (square * im + turn * re)];
+            // |exp(z t) - 1| is at most |z| t where exp(z t) decays.
+            let leaves = hypot(decay, frequency - 1.0) * time * hypot(re, im);
+            moved += leaves;
+            pulled += mode.stiffness * leaves;
+        }
+        Bounds {
+            height: always.height.min(hypot(place[0], place[1]) + moved),
+            acceleration: always.acceleration.min(hypot(pull[0], pull[1]) + pulled),
+        }
+    }
+
     /// The time from which on a disk that flies `passed` after the last event may touch the stator again, and the state
     /// then: it is higher than the stator comes, or the gap cannot close yet with the largest acceleration.
     fn cleared(&self, mut passed: f64, mut state: State) -> (f64, State) {
         let step = self.regime().flow.step();
         loop {
-            let Bounds { height: highest, acceleration } = self.bounds(&state);
             let [height, velocity] = self.system.tip(&state);
             // When a fall from this height with this velocity ends.
             let lands = |above: f64, velocity: f64, pull: f64| {
                 (velocity + (velocity * velocity + 2.0 * pull * above.max(0.0)).sqrt()) / pull
             };
-            let (above, v) = (state[GAP] + height - highest, state[CLOSING] + velocity);
+            let v = state[CLOSING] + velocity;
+            // Up to a fall to the mean height of the stator, which comes no lower than that at its highest.
+            let within = lands(state[GAP] + height, v, 1.0);
+            let Bounds { height: highest, acceleration } = self.bounds_within(&state, within);
+            let above = state[GAP] + height - highest;
             let free = if above > 0.0 { lands(above, v, 1.0) } else { 0.0 };
-            let clear = free.max(lands(state[GAP], state[CLOSING], 1.0 + acceleration)) - 0.25 * step;
+            let closes = lands(state[GAP], state[CLOSING], 1.0 + acceleration);
+            let closes = if self.bounds_closely { closes.min(within) } else { closes };
+            let clear = free.max(closes) - 0.25 * step;
             if clear < step {
                 return (passed, state);
             }

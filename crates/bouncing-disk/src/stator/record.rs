@@ -101,6 +101,9 @@ pub struct StatorEngine {
     pub(super) aloft: f64,
     /// Without it ledgers stay empty.
     pub(crate) with_energy: bool,
+    /// Whether long flights are searched from where the stator can come on them, which needs many times less time and rounds
+    /// otherwise than a run-up, whose bits stay.
+    pub(crate) bounds_closely: bool,
 }
 
 impl MotionRecord for StatorRecord {

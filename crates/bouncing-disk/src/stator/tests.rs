@@ -326,6 +326,7 @@ fn attack_seams(count: usize, events: usize) -> usize {
         let Ok(system) = StatorSystem::build(&base, &modes, 0.5, contact_time) else { continue };
         let phase = pick(&mut random, &[0.0, TAU - 1e-15, 0.3, 1.57, 4.7]);
         let mut engine = StatorEngine::new(system.clone(), start(phase)).expect("legal");
+        engine.bounds_closely = trial % 2 == 0;
         let mut zero = 0;
         for _ in 0..events {
             let before = engine.clone();

@@ -67,7 +67,13 @@ pub(super) fn run(args: &CurveArgs, context: Context) -> Result<()> {
     let coexist = found.iter().any(|row| row.branches.len() > 1);
     let job =
         json!({ "motor": motor, "load_torques": load_torques, "settings": settings, "tolerance": tolerance });
-    let note = lock_note(&motor)?;
+    let starts = found.iter().filter(|row| row.starts() == Some(true)).map(OperatingRow::load_torque);
+    let note = match starts.reduce(f64::max) {
+        Some(most) => format!(
+            "\nstarts from rest under {most} N m, the largest of these loads under which it surely does\n"
+        ),
+        None => "\nunder none of these loads it surely starts from rest\n".to_owned(),
+    } + &lock_note(&motor)?;
     let report = Report {
         provenance: provenance("bouncing-disk motor curve", &job)?,
         text: with_details(shown(coexist), &found, |row| &row.0).to_text(&rows) + &note,

@@ -38,7 +38,8 @@ impl OperationArgs {
 #[command(after_help = "\
 The true stall: the load torque at which the mean speed of the free rotor vanishes, not the paper's estimate from the \
 run-up without load (`bouncing-disk fit` has that one). The blocked torque is the mean torque on a rotor that is held at \
-rest; a free rotor swings about its mean speed and stops under another load. Errors are standard errors at exactly these inputs; the spread is over motors whose \
+rest; a free rotor swings about its mean speed and stops under another load. Without a drive friction holds the rotor against \
+the holding torque mu m g a_e. Errors are standard errors at exactly these inputs; the spread is over motors whose \
 preload and amplitude lie within the tolerance, and the relaunch perturbation within a decade. See \
 docs/designing-a-motor.md.
 
@@ -72,6 +73,7 @@ pub(super) fn stall(args: &StallArgs, context: Context) -> Result<()> {
         list.push("draws_to", spread.from_to[1], "N m");
         list.push("draws_in_a_trap", format!("{} of {}", spread.trapped, spread.draws + spread.without), "1");
     }
+    list.push("holding_torque", motor.largest_torque(), "N m");
     list.push("share_of_largest_torque", stall.share, "1");
     list.push("surely_turns_at", stall.bracket[0], "N m");
     list.push("surely_driven_back_at", stall.bracket[1], "N m");

@@ -125,8 +125,8 @@ pub(super) fn life(operation: &Operation) -> Option<f64> {
     }
 }
 
-/// Columns with the standard deviation of the speed, the torque on a rotor at rest, and what a stator that yields does, if one of
-/// the operations has them.
+/// Columns with deviation, range and time constant of the speed, the torque on a rotor at rest, and what a stator that yields
+/// does, if one of the operations has them.
 pub(super) fn with_details<R: 'static>(
     columns: Columns<R>,
     rows: &[OperatingRow],
@@ -136,7 +136,15 @@ pub(super) fn with_details<R: 'static>(
         let mut operations = rows.iter().flat_map(|row| &row.branches);
         operations.any(|operation| quantity.of(operation).is_some())
     };
-    let own = [SweepQuantity::SpeedDeviation, SweepQuantity::BlockedTorque].into_iter().filter(is_known);
+    let details = [
+        SweepQuantity::SpeedDeviation,
+        SweepQuantity::SpeedLow,
+        SweepQuantity::SpeedHigh,
+        SweepQuantity::TimeConstant,
+        SweepQuantity::UnstableSpeed,
+        SweepQuantity::BlockedTorque,
+    ];
+    let own = details.into_iter().filter(is_known);
     let of_stator = SweepQuantity::of_table(rows).iter().skip(SweepQuantity::ALL.len()).copied();
     own.chain(of_stator).fold(columns, |columns, quantity| {
         let (unit, scale) = shown_unit(quantity);

@@ -76,6 +76,11 @@ pub(crate) fn starting_phase(seed: u64, index: usize, members: usize) -> Result<
     Ok(Phase::new(TAU * (index as f64 + step) / members as f64)?)
 }
 
+/// Numbers that fill (0, 1) evenly.
+pub(crate) fn golden_share(index: usize) -> f64 {
+    (index as f64 * 0.618_033_988_749_894_8).fract()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -6,9 +6,9 @@ use bouncing_disk_core::numerics::statistics::{NORMAL_975, mean};
 use crate::error::{Error, finite};
 use crate::motor::operation::loaded_motor::LoadedMotor;
 use crate::motor::operation::member::far_above;
-use crate::motor::operation::point::{Estimate, by_perturbation};
+use crate::motor::operation::point::{Estimate, by_perturbation, error_of_mean};
 use crate::motor::tape::cycle::Cycle;
-use crate::motor::tape::window::{AxialWindow, RotorWindow, Window};
+use crate::motor::tape::window::{AxialWindow, RotorWindow, Speeds, Window};
 use crate::parameters::dimensionless::DimensionlessSystem;
 use crate::parameters::scales::Scales;
 use crate::stator::StatorLedger;
@@ -20,6 +20,8 @@ pub(super) struct Pairs {
     pub(super) above: Vec<Sum>,
     /// Of rotors with half the inertia, where these have less than the motor's.
     pub(super) quickest: Vec<Sum>,
+    /// Speeds of each member's two rotors at times that are spread evenly.
+    pub(super) samples: Vec<Vec<f64>>,
     /// Whether members have perturbations of different sizes.
     pub(super) are_perturbed: bool,
     /// By how much of themselves values may be off for the steps of the tape.
@@ -83,6 +85,56 @@ impl Averages<'_> {
         }
     }
 
+    /// The difference of a value of other rotors on the same motion and of these.
+    pub(super) fn rise(&self, others: &Self, value: &dyn Fn(&Sum) -> f64) -> Result<Estimate, Error> {
+        match (self, others) {
+            (Self::Members(own), Self::Members(other)) => {
+                let ([own_values, _], [others, _]) = (own.of(value), other.of(value));
+                let rises: Vec<f64> = own_values.iter().zip(others).map(|(own, other)| other - own).collect();
+                let known = own.scatter(&rises)?;
+                Ok(Estimate { standard_error: hypot(known.standard_error, own.change(&rises)?), ..known })
+            }
+            _ => {
+                let (own, other) = (self.estimate(value)?, others.estimate(value)?);
+                let standard_error = own.standard_error + other.standard_error;
+                Ok(Estimate { value: other.value - own.value, standard_error })
+            }
+        }
+    }
+
+    /// Between which speeds rotors are in 95 % of the time that have so many times less inertia than their motor, and in a
+    /// cycle always; `None` where too little is known of their speeds.
+    pub(super) fn speed_range(&self, quicker: f64) -> Option<[Estimate; 2]> {
+        let pairs = match self {
+            Self::Cycle { sums, .. } => {
+                let [Speeds::Within(fine), Speeds::Within(coarse)] = sums.map(|sum| sum.rotor.speeds) else {
+                    return None;
+                };
+                return Some([0, 1].map(|end| {
+                    let standard_error = (fine[end] - coarse[end]).abs() / NORMAL_975;
+                    Estimate { value: fine[end], standard_error }
+                }));
+            }
+            Self::Members(pairs) => pairs,
+        };
+        let count = pairs.samples.len();
+        if pairs.samples.iter().map(Vec::len).sum::<usize>() < LEAST_SAMPLES {
+            return None;
+        }
+        let without = |left_out: usize| {
+            let kept = pairs.samples.iter().enumerate().filter(|(member, _)| *member != left_out);
+            middle_of(kept.flat_map(|(_, samples)| samples).copied().collect(), quicker)
+        };
+        // The scatter of what is left without each of the members in turn.
+        let all: Vec<[f64; 2]> = (0..count).map(without).collect();
+        let found = without(count);
+        Some([0, 1].map(|end| {
+            let ends: Vec<f64> = all.iter().map(|range| range[end]).collect();
+            let standard_error = error_of_mean(&ends) * (count as f64 - 1.0);
+            Estimate { value: found[end], standard_error }
+        }))
+    }
+
     pub(super) fn ratio(
         &self,
         dividend: &dyn Fn(&Sum) -> f64,
@@ -119,6 +171,22 @@ impl Averages<'_> {
             Self::Cycle { sums: [fine, _], .. } => (fine.axial.duration, fine.axial.impacts),
         }
     }
+}
+
+/// Least samples of a speed from whose order a range is taken.
+const LEAST_SAMPLES: usize = 160;
+
+/// The ends of the middle 95 % of speeds, each so much nearer to their mean as the swing of a rotor with its whole inertia
+/// is smaller.
+fn middle_of(mut speeds: Vec<f64>, quicker: f64) -> [f64; 2] {
+    let about = mean(&speeds);
+    speeds.sort_by(f64::total_cmp);
+    [0.025, 0.975].map(|share| {
+        let place = share * (speeds.len() - 1) as f64;
+        let (index, part) = (place as usize, place.fract());
+        let speed = speeds[index] + part * (speeds[index + 1] - speeds[index]);
+        about + (speed - about) / quicker.sqrt()
+    })
 }
 
 /// SI units of what the windows hold.

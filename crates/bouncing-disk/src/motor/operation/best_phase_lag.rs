@@ -44,7 +44,7 @@ pub(crate) fn best_phase_lag(
     observer: &dyn Observer,
 ) -> Result<BestPhaseLag, Error> {
     let survey = motor.survey(&Watch::begin(observer, 0, settings.most_impacts)?)?;
-    let motor = &LoadedMotor { surveyed: survey.as_ref(), ..*motor };
+    let motor = &LoadedMotor { surveyed: survey.as_ref(), first_only: motor.stator.acts_back(), ..*motor };
     let over = |lags: &[f64], settings: &OperatingSettings| -> Result<Operations, Error> {
         let motors = lags.iter().map(|&lag| motor.with_phase_lag(lag)).collect::<Result<Vec<_>, _>>()?;
         operate(&motors, settings, observer)
@@ -73,12 +73,7 @@ pub(crate) fn best_phase_lag(
         let offsets: Vec<f64> = (0..=2 * FINE).map(|k| part * (k as f64 - FINE as f64)).collect();
         let lags: Vec<f64> = offsets.iter().map(|offset| best + offset).collect();
         let found = over(&lags, &motor.for_search(settings))?;
-        // Each member has a parabola of its own through all its speeds: they share their perturbations.
-        let members = found.speeds[0].len();
-        let tops: Vec<f64> = (0..members)
-            .map(|member| top(&offsets, |k| found.speeds[k][member]).0.clamp(-2.0 * step, 2.0 * step))
-            .collect();
-        let offset = Estimate::of(&tops)?;
+        let offset = Estimate::of(&tops(&offsets, &found.speeds, 2.0 * step))?;
         means.retain(|(lag, _)| (lag - best).abs() > 2.0 * step + 0.5 * part);
         means.extend(lags.iter().enumerate().map(|(k, lag)| (*lag, mean(&found, k))));
         // The top of a curve that is no parabola is near its largest value.
@@ -89,7 +84,9 @@ pub(crate) fn best_phase_lag(
             let inner = FINE / 2..3 * FINE / 2 + 1;
             let narrow = top(&offsets[inner], |k| mean(&found, k + FINE / 2)).0;
             best += offset.value;
-            step = offset.bounded_by(Estimate { value: narrow, ..offset }).standard_error;
+            // And that of rotors from above, or with coarser steps of a cycle, bounds the bias.
+            let above = Estimate::of(&tops(&offsets, &found.speeds_from_above, 2.0 * step))?;
+            step = offset.bounded_by(Estimate { value: narrow, ..offset }).bounded_by(above).standard_error;
             break;
         }
         best = lags[index];
@@ -135,6 +132,14 @@ fn fastest(results: &Operations) -> Option<(usize, Estimate)> {
     speeds
         .filter_map(|(index, row)| row.point().map(|point| (index, point.speed)))
         .max_by(|one, other| one.1.value.total_cmp(&other.1.value))
+}
+
+/// The offset at which each member is fastest, within this size: each has a parabola of its own through all its speeds,
+/// which share their perturbations. Where each lag has a motion of its own, some members of one may have come to another
+/// motion.
+fn tops(offsets: &[f64], speeds: &[Vec<f64>], within: f64) -> Vec<f64> {
+    let members = speeds.iter().map(Vec::len).min().unwrap_or(0);
+    (0..members).map(|member| top(offsets, |k| speeds[k][member]).0.clamp(-within, within)).collect()
 }
 
 /// Top (offset and height) of the least-squares parabola through values at offsets that are symmetric about
@@ -188,6 +193,13 @@ mod tests {
         let offsets: Vec<f64> = (-8..=8).map(|k| 0.05 * f64::from(k)).collect();
         let (offset, height) = top(&offsets, |k| 7.0 - 3.0 * (offsets[k] - 0.123) * (offsets[k] - 0.123));
         assert!((offset - 0.123).abs() < 1e-14 && (height - 7.0).abs() < 1e-14, "{offset} {height}");
+        let all: Vec<Vec<f64>> = offsets.iter().map(|x| vec![-(x - 0.1) * (x - 0.1); 4]).collect();
+        let mut fewer = all.clone();
+        fewer[3].pop();
+        assert_eq!(
+            (tops(&offsets, &all, 0.05), tops(&offsets, &fewer, 0.05)),
+            (vec![0.05; 4], vec![0.05; 3])
+        );
         // One that is open upwards has none.
         let (offset, height) = top(&offsets, |k| offsets[k] * offsets[k] + offsets[k]);
         assert!((offset - 0.4).abs() < 1e-15 && (height - 0.56).abs() < 1e-15, "{offset} {height}");

@@ -15,7 +15,7 @@ use crate::motor::rotor::transient::FLIGHTS_OF_EVENT;
 use crate::motor::tape::cycle::Cycle;
 use crate::motor::tape::left::Left;
 use crate::motor::tape::recurrence::{AT_ONCE, Key, Recurrence, Repeats, Touch};
-use crate::motor::tape::window::{AxialWindow, RotorWindow, Window};
+use crate::motor::tape::window::{AxialWindow, RotorWindow, Speeds, Window};
 use crate::stator::{StatorEngine, StatorState, StatorSystem};
 
 /// A rotor with its stator, and sums since their start.
@@ -62,7 +62,8 @@ impl Coupled {
         angular_speed: f64,
         (perturbation, seed): (f64, u64),
     ) -> Result<Self, Error> {
-        let engine = StatorEngine::new(system.clone(), DrivenStart::Contact { phase, angular_speed })?;
+        let mut engine = StatorEngine::new(system.clone(), DrivenStart::Contact { phase, angular_speed })?;
+        engine.bounds_closely = true;
         let reached = PhaseTime::in_first_period(phase);
         let mut coupled = Self {
             perturbation: if system.takes_time() { 0.0 } else { perturbation },
@@ -88,6 +89,7 @@ impl Coupled {
     pub(crate) fn go_on_from(&mut self, time: PhaseTime, state: StatorState) -> Result<(), Error> {
         (self.start, self.reached, self.ended) = (time, time, time);
         self.engine = StatorEngine::of_state(self.engine.system().clone(), time, state)?;
+        self.engine.bounds_closely = true;
         self.before = self.totals(&self.reached);
         Ok(())
     }
@@ -235,6 +237,7 @@ impl Coupled {
             kinetic_change: 0.5
                 * change(|totals| totals.angular_speed)
                 * (now.angular_speed + before.angular_speed),
+            speeds: Speeds::Unknown,
             stator: Some((ledger, axial)),
         };
         Window { axial, rotors: vec![rotor] }

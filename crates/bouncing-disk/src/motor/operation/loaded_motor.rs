@@ -34,6 +34,8 @@ pub(crate) struct LoadedMotor<'a> {
     pub(crate) load_torque: f64,
     /// What is known of the vertical motions, which loads, friction and lag do not change.
     pub(crate) surveyed: Option<&'a Survey>,
+    /// Whether only the motion is wanted that most rotors come to from rest.
+    pub(crate) first_only: bool,
 }
 
 /// The largest speeds of a stator, by which starts and errors are scaled.
@@ -106,8 +108,13 @@ impl LoadedMotor<'_> {
     /// Whether a mean speed differs from zero: by more than four of its standard errors, and by more than
     /// rounding.
     pub(crate) fn turns(&self, speed: Estimate) -> bool {
+        self.turns_by(4.0, speed)
+    }
+
+    /// The same for so many standard errors.
+    pub(crate) fn turns_by(&self, errors: f64, speed: Estimate) -> bool {
         let rounding = 1e-6 * self.fastest.angular_speed;
-        speed.value.abs() > (4.0 * speed.standard_error).max(rounding)
+        speed.value.abs() > (errors * speed.standard_error).max(rounding)
     }
 
     /// Settings for one of many motors among which something is searched: fewer members where each has a motion of its

@@ -11,7 +11,7 @@ use bouncing_disk_core::sweep::{InstructionSet, LaneRunner};
 use crate::error::Error;
 use crate::motion::phase_time::PhaseTime;
 use crate::motion::state::{DiskState, Mode};
-use crate::motor::batch::members::starting_phase;
+use crate::motor::batch::members::{golden_share, starting_phase};
 use crate::motor::operation::coupled::Coupled;
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::stator::Stator;
@@ -49,11 +49,6 @@ pub(crate) const fn is_thrown(index: usize) -> bool {
     index % 2 == 1
 }
 
-/// Numbers that fill (0, 1) evenly.
-pub(crate) fn golden_share(index: usize) -> f64 {
-    (index as f64 * 0.618_033_988_749_894_8).fract()
-}
-
 /// The root of ten.
 const HALF_DECADE: f64 = 3.162_277_660_168_379_5;
 
@@ -87,7 +82,7 @@ pub(crate) const LONGEST_DECAY: f64 = 1.0e5;
 const HEAVY: f64 = 100.0;
 
 /// Where members start on a stator that yields.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Starts {
     yields: bool,
     /// The stable held amplitudes.
@@ -125,6 +120,11 @@ impl Starts {
     /// Whether members start on different amplitudes.
     pub(crate) const fn has_many(&self) -> bool {
         self.held.len() > 1
+    }
+
+    /// The largest acceleration (g) on a held amplitude: a disk slows the stator down to them.
+    pub(crate) fn largest(&self) -> Option<f64> {
+        self.held.iter().map(|own| own.amplitude).reduce(f64::max)
     }
 
     /// Where the member of this index and phase starts. Every second one is on each held amplitude in turn, on its motion

@@ -24,7 +24,7 @@ impl LoadedMotor<'static> {
     /// A rotor of this mass (kg) on a sine, with rigid impacts and a load torque (N m) that the system has, too.
     pub(crate) fn on_sine(system: System, mass: f64, load_torque: f64) -> Self {
         let fastest = LargestSpeeds::of_sine(&system);
-        Self { system, fastest, stator: &Stator::Sine, mass, load_torque, surveyed: None }
+        Self { system, fastest, stator: &Stator::Sine, mass, load_torque, surveyed: None, first_only: false }
     }
 }
 
@@ -167,7 +167,7 @@ impl Motor {
         let (system, stator) = (self.on_shaft()?, self.stator_motion());
         let sine = || LargestSpeeds::of_sine(&system);
         let fastest = stator.driven().map_or_else(sine, |own| LargestSpeeds::of_drives(&system, own));
-        Ok(LoadedMotor { system, fastest, stator, mass, load_torque, surveyed: None })
+        Ok(LoadedMotor { system, fastest, stator, mass, load_torque, surveyed: None, first_only: false })
     }
 
     /// The rotor with the inertia of its shaft on the sine of the sheet.

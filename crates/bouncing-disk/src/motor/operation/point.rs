@@ -20,6 +20,11 @@ pub struct Estimate {
 }
 
 impl Estimate {
+    /// In another unit, so many of which are one of this.
+    pub(crate) fn times(self, factor: f64) -> Self {
+        Self { value: factor * self.value, standard_error: factor * self.standard_error }
+    }
+
     /// The mean of independent values, at least one.
     pub(crate) fn of(values: &[f64]) -> Result<Self, Error> {
         let value = finite("estimate", mean(values))?;
@@ -137,6 +142,19 @@ pub struct OperatingPoint {
     /// Standard deviation of the speed over time (rad/s); `None` for a rotor that acts back on its stator.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub speed_deviation: Option<Estimate>,
+    /// Between which speeds (rad/s) the rotor is in 95 % of the time, and always where its motion repeats itself; `None` for
+    /// a rotor that acts back on its stator.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub speed_range: Option<[Estimate; 2]>,
+    /// Time constant (s) of the speed, from the slope of the torque-speed curve: the moment of inertia times the change of
+    /// the speed with the load, up to the nearest other load of the same run. `None` without another load that brings
+    /// another speed, as of a locked motor, and for a rotor that acts back on its stator.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub time_constant: Option<Estimate>,
+    /// Under a load that falls with the speed, where the rotor keeps one of two speeds: that between them (rad/s) beyond
+    /// which it goes to the other.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub unstable_speed: Option<Estimate>,
     /// Mean torque (N m) of friction on a rotor that is held at rest; `None` for a rotor that acts back on its stator.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub blocked_torque: Option<Estimate>,
@@ -246,6 +264,13 @@ pub enum Operation {
 }
 
 impl Operation {
+    pub(crate) fn point_mut(&mut self) -> Option<&mut OperatingPoint> {
+        match self {
+            Self::Steady(point) | Self::Unsettled(point, _) => Some(point),
+            Self::Runaway { .. } => None,
+        }
+    }
+
     /// The operating point, if it is known to the requested accuracy.
     #[must_use]
     pub const fn steady(&self) -> Option<&OperatingPoint> {
@@ -291,6 +316,26 @@ impl OperatingRow {
     #[must_use]
     pub fn operation(&self) -> &Operation {
         &self.branches[0]
+    }
+
+    /// Whether a rotor that starts from rest comes to turn against its load, or at all if there is none; `None` where the
+    /// errors do not decide it.
+    #[must_use]
+    pub fn starts(&self) -> Option<bool> {
+        let Some(point) = self.point() else { return Some(false) };
+        let drives = if point.load_torque == 0.0 {
+            Estimate { value: point.speed.value.abs(), ..point.speed }
+        } else {
+            point.mechanical_power
+        };
+        let within = NORMAL_975 * drives.standard_error;
+        if drives.value > within {
+            Some(true)
+        } else if drives.value < -within || drives.value == 0.0 {
+            Some(false)
+        } else {
+            None
+        }
     }
 
     /// [`Operation::steady`] of [`Self::operation`].

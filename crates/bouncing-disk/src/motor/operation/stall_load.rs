@@ -2,6 +2,7 @@
 
 use bouncing_disk_core::Observer;
 use bouncing_disk_core::numerics::elementary::hypot;
+use bouncing_disk_core::numerics::statistics::NORMAL_975;
 use bouncing_disk_core::run::Watch;
 
 use crate::error::Error;
@@ -72,11 +73,15 @@ pub(crate) fn stall_load(
     observer: &dyn Observer,
 ) -> Result<StallLoad, Error> {
     let survey = motor.survey(&Watch::begin(observer, 0, settings.most_impacts)?)?;
-    let motor = &LoadedMotor { surveyed: survey.as_ref(), ..*motor };
+    let motor = &LoadedMotor { surveyed: survey.as_ref(), first_only: motor.stator.acts_back(), ..*motor };
     let unloaded = operate(&[motor.with_load(0.0)?], settings, observer)?;
     let unloaded = &unloaded.rows[0];
     check_settled(unloaded.operation())?;
     let speed = speed_of(unloaded.operation());
+    if motor.largest_torque() > 0.0 && !motor.turns(speed) && motor.turns_by(NORMAL_975, speed) {
+        // It seems to turn, but is not known well enough.
+        return Err(Error::NotSettled { speed: speed.value, standard_error: speed.standard_error });
+    }
     if !motor.turns(speed) || motor.largest_torque() <= 0.0 {
         return Err(Error::DoesNotTurn { speed: speed.value, standard_error: speed.standard_error });
     }

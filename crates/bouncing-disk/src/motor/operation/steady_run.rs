@@ -10,6 +10,7 @@ use crate::error::{Error, check, finite, positive, within_limit};
 use crate::motor::batch::members::starting_phase;
 use crate::motor::batch::shared_orbit::shared_by;
 use crate::motor::operation::averages::{Averages, Pairs, Sum, Units};
+use crate::motor::operation::crossing::unstable_speed;
 use crate::motor::operation::loaded_motor::LoadedMotor;
 use crate::motor::operation::member::{
     LEAST_FOR_DECADE, LONGEST_DECAY, Member, Starts, far_above, is_thrown,
@@ -45,6 +46,10 @@ const HELD_SHARE: f64 = 0.3;
 /// largest speed P (the length of flights), over the requested error or this one, whichever is smaller. The speed is then
 /// off by a third of the requested error.
 const PERIODS_OF_RISE: f64 = 0.3;
+
+/// The same of rigid impacts on a stator that yields, whose long flights take longest to record: where the speed is then
+/// off by too much, the rotors get more inertia.
+const QUICK_SHARE: f64 = 0.02;
 const LOOSE: f64 = 0.01;
 
 /// The length of the shortest run, and the inertia of its rotors.
@@ -95,6 +100,9 @@ const START_UP: usize = FIRST_WINDOWS / 2;
 /// Least windows for each member from which an irregular motion is stated.
 const LEAST_WINDOWS: usize = 4;
 
+/// Least members that keep an amplitude of their own.
+const LEAST_OF_GROUP: usize = 2;
+
 /// The shortfall of irregular motions that have no window yet.
 const NOTHING_YET: Shortfall = Shortfall::Error { standard_error: f64::INFINITY, wanted: 1.0 };
 
@@ -109,7 +117,8 @@ pub(crate) struct Operations {
     /// `speeds[rotor][member]`, mean angular speeds (rad/s) of the first branch after the start-up, in the middle of
     /// those of rotors from far below and from far above; none for a runaway.
     pub(crate) speeds: Vec<Vec<f64>>,
-    /// Those of rotors from far above: the difference bounds the remainder of the start-up.
+    /// Those of rotors from far above, and in a cycle with coarser steps: the difference bounds the remainder of the
+    /// start-up, and what steps do.
     pub(crate) speeds_from_above: Vec<Vec<f64>>,
     /// How long each member was followed, in units of the shortest run, and how many times more inertia than in the first
     /// run the rotors had.
@@ -206,23 +215,26 @@ fn operate_from(
         carried.iter_mut().for_each(|motor| motor.surveyed = motor.surveyed.or(survey.as_ref()));
         let run = |motors: Vec<LoadedMotor<'_>>, asked: usize, reference: Option<f64>| {
             let (length, mut slower) = length.unwrap_or(SHORTEST);
-            let (run, first) = loop {
+            let (parts, first) = loop {
                 let mut run =
                     SteadyRun::new((length, slower), motors.clone(), asked, from, settings, &watch)?;
                 run.reference = reference;
                 let first = run.duration;
                 if is_timed {
                     run.extend(FIRST_WINDOWS, &watch)?;
-                } else {
-                    run.compute(settings, &watch)?;
+                    break (vec![run], first);
                 }
-                if is_timed || !run.is_too_quick() {
-                    break (run, first);
+                let parts = run.settle(&watch)?;
+                if !parts.iter().any(SteadyRun::is_too_quick) {
+                    break (parts, first);
                 }
                 slower *= SLOWER;
             };
-            let longer = run.duration / first * run.windows() as f64 / FIRST_WINDOWS as f64;
-            Ok::<_, Error>((run.results()?, (longer, slower), run.ends(), run.scale()))
+            let longest =
+                parts.iter().map(|run| run.duration / first * run.windows() as f64).fold(0.0, f64::max);
+            let longer = longest / FIRST_WINDOWS as f64;
+            let scale = parts[0].reference.unwrap_or_else(|| parts[0].scale());
+            Ok::<_, Error>((results_of(&parts)?, (longer, slower), ends_of(&parts), scale))
         };
         if motors[0].stator.acts_back() {
             // Each has a motion of its own. The errors are relative to the speed of the first one without load.
@@ -254,10 +266,12 @@ fn operate_from(
     let mut known = known.into_iter();
     for motor in motors {
         // Each motor that does not run away has a result.
-        let (row, speeds, above) = if motor.runs_away() { None } else { known.next() }.unwrap_or_else(|| {
-            let branches = vec![motor.runaway()];
-            (OperatingRow { branches }, Vec::new(), Vec::new())
-        });
+        let (mut row, speeds, above) =
+            if motor.runs_away() { None } else { known.next() }.unwrap_or_else(|| {
+                let branches = vec![motor.runaway()];
+                (OperatingRow { branches }, Vec::new(), Vec::new())
+            });
+        add_unstable_speed(motor, &mut row, settings, observer)?;
         results.rows.push(row);
         results.speeds.push(speeds);
         results.speeds_from_above.push(above);
@@ -265,8 +279,33 @@ fn operate_from(
     Ok((results, ends))
 }
 
+/// Gives two irregular motions of a row, of rotors from below and from above that stay apart, the speed between them.
+fn add_unstable_speed(
+    motor: &LoadedMotor<'_>,
+    row: &mut OperatingRow,
+    settings: &OperatingSettings,
+    observer: &dyn Observer,
+) -> Result<(), Error> {
+    let points = row.branches.iter_mut().filter_map(Operation::point_mut);
+    let mut irregular: Vec<_> =
+        points.filter(|point| matches!(point.motion, AxialMotion::Irregular { .. })).collect();
+    irregular.sort_by(|one, other| one.speed.value.total_cmp(&other.speed.value));
+    if let [slow, fast] = &mut irregular[..]
+        && !motor.law().is_finite()
+    {
+        let speeds = [slow.speed.value, fast.speed.value];
+        let between = unstable_speed(motor, speeds, settings, observer)?;
+        (slow.unstable_speed, fast.unstable_speed) = (between, between);
+    }
+    Ok(())
+}
+
 /// The operations of a motor, and the speeds of the members of the first as in [`Operations`].
 type MotorResult = (OperatingRow, Vec<f64>, Vec<f64>);
+
+/// How many members came to an operation from rest, the operation, and the mean speeds (rad/s) of its two rotors in each
+/// member.
+type Branch = (usize, Operation, [Vec<f64>; 2]);
 
 /// A motion that repeats itself, and the rotors that repeat with it.
 struct Repeated {
@@ -338,24 +377,27 @@ impl<'a> SteadyRun<'a> {
         let rise = |system: &DimensionlessSystem| {
             if system.friction() > 0.0 { system.twist_speed() / system.friction() } else { 0.0 }
         };
-        // A slow rotor needs less time with less inertia, which hardly matters. Rigid impacts on a sine take no longer to
-        // record than to replay.
-        let peak = systems[0].peak_acceleration().max(1.0);
-        let longest = slower * TAU * PERIODS_OF_RISE * peak / settings.relative_error.min(LOOSE);
-        let takes_long = stators[0].takes_long();
-        let less = |system| if takes_long { (rise(system) / longest).clamp(1.0, QUICKEST) } else { 1.0 };
-        let quicker: Vec<f64> = systems.iter().map(less).collect();
         let held = match from {
             None => Starts::new(&stators[0], settings, &mut watch.work())?,
             Some(_) => Starts::default(),
         };
+        // The amplitude of a stator that yields settles within the windows that are left out first.
+        let decay = motors[0].stator.yielded().map_or(0.0, StatorSystem::decay_time);
+        let settles = WINDOW_OF_DECAY * if decay > LONGEST_DECAY { HELD_SHARE * decay } else { decay };
+        // A slow rotor needs less time with less inertia, which hardly matters. Rigid impacts on a sine take no longer to
+        // record than to replay.
+        let peak = held.largest().unwrap_or_else(|| systems[0].peak_acceleration()).max(1.0);
+        let share =
+            if stators[0].yields() && !stators[0].takes_time() { QUICK_SHARE } else { PERIODS_OF_RISE };
+        let longest = slower * TAU * share * peak / settings.relative_error.min(LOOSE);
+        let longest = longest.max(WINDOWS_OF_RISE * settles);
+        let takes_long = stators[0].takes_long();
+        let less = |system| if takes_long { (rise(system) / longest).clamp(1.0, QUICKEST) } else { 1.0 };
+        let quicker: Vec<f64> = systems.iter().map(less).collect();
         // The time in which friction gives the platform's largest speed, in radians; that of the slowest
         // rotor.
         let rises = systems.iter().zip(&quicker).map(|(system, quicker)| rise(system) / quicker);
         let rise = rises.fold(0.0, f64::max);
-        // The amplitude of a stator that yields settles within the windows that are left out first.
-        let decay = motors[0].stator.yielded().map_or(0.0, StatorSystem::decay_time);
-        let settles = WINDOW_OF_DECAY * if decay > LONGEST_DECAY { HELD_SHARE * decay } else { decay };
         let duration = length * (rise.min(f64::MAX) / WINDOWS_OF_RISE).max(LEAST_PERIODS * TAU).max(settles);
         // Even where the rise takes for ever the first round spends no more than it may.
         let most_impacts = (settings.most_impacts / (settings.members * FIRST_WINDOWS) as u64).max(1);
@@ -444,18 +486,6 @@ impl<'a> SteadyRun<'a> {
         Ok(member)
     }
 
-    /// Where the members are.
-    fn ends(&self) -> Option<Ends> {
-        let scales = self.motors[0].system.scales();
-        let going = self.members.iter().map(|own| own.member.left().map(|left| (own.index, left)));
-        let mut all: Vec<_> = going.collect::<Option<_>>()?;
-        all.extend(&self.left);
-        all.retain(|(index, _)| *index < self.settings.members);
-        all.sort_by_key(|(index, _)| *index);
-        (!all.is_empty())
-            .then(|| all.into_iter().map(|(_, left)| left.scaled(&scales, |unit| unit)).collect())
-    }
-
     /// Windows of a member so far; none if no motion is irregular.
     fn windows(&self) -> usize {
         self.members.first().map_or(0, |own| own.windows.len())
@@ -474,28 +504,71 @@ impl<'a> SteadyRun<'a> {
         if each < LEAST_WINDOWS { Vec::new() } else { all.chunks_exact(each).map(<[_]>::to_vec).collect() }
     }
 
-    fn compute(&mut self, settings: &OperatingSettings, watch: &Watch<'_>) -> Result<(), Error> {
+    /// Follows the members until the speeds are known, and those that keep amplitudes of their own each alone from where
+    /// this is seen.
+    fn settle(mut self, watch: &Watch<'_>) -> Result<Vec<Self>, Error> {
+        let groups = self.compute(watch)?;
+        if groups.len() < 2 {
+            return Ok(vec![self]);
+        }
+        let reference = Some(self.reference.unwrap_or_else(|| self.scale()));
+        let mut members: Vec<Option<Carried>> =
+            std::mem::take(&mut self.members).into_iter().map(Some).collect();
+        let all = members.len() as u64;
+        let mut parts = Vec::new();
+        for group in groups {
+            let count = group.len();
+            let own: Vec<Carried> = group.into_iter().filter_map(|index| members[index].take()).collect();
+            let most_impacts = self.settings.most_impacts / all * count as u64;
+            let part = Self {
+                members: own,
+                settings: OperatingSettings { members: count, most_impacts, ..self.settings },
+                repeated: if parts.is_empty() { std::mem::take(&mut self.repeated) } else { Vec::new() },
+                left: if parts.is_empty() { std::mem::take(&mut self.left) } else { Vec::new() },
+                ended_windows: Vec::new(),
+                motors: self.motors.clone(),
+                systems: self.systems.clone(),
+                stators: self.stators.clone(),
+                quicker: self.quicker.clone(),
+                shortfalls: self.shortfalls.clone(),
+                held: self.held.clone(),
+                most_begun: self.begun,
+                reference,
+                ..self
+            };
+            parts.extend(part.settle(watch)?);
+        }
+        Ok(parts)
+    }
+
+    /// Follows the members until the speeds are known, or until they are seen to keep amplitudes of their own: the places
+    /// of those on each.
+    fn compute(&mut self, watch: &Watch<'_>) -> Result<Vec<Vec<usize>>, Error> {
         let mut target = FIRST_WINDOWS;
         loop {
             self.extend(target, watch)?;
-            self.judge(settings);
-            if self.members.is_empty() {
-                return Ok(());
+            self.judge();
+            let groups = self.groups();
+            if groups.len() > 1 {
+                return Ok(groups);
+            }
+            if self.members.is_empty() || self.knows_first() {
+                return Ok(Vec::new());
             }
             let lacking = self.shortfalls.iter().flatten();
             let Some(factor) = lacking.map(|shortfall| self.hoped_for(shortfall)).reduce(f64::max) else {
-                return Ok(());
+                return Ok(Vec::new());
             };
             let windows = self.windows();
             let grown = (windows as f64 * factor.min(GROWTH)).ceil() as usize;
             target = grown.max(windows + 1);
             // Whether the impacts that are left are enough.
             let spent = self.spent();
-            let left = settings.most_impacts.saturating_sub(spent);
+            let left = self.settings.most_impacts.saturating_sub(spent);
             let each = spent.max(1) as f64 / windows as f64;
             let affordable = windows.saturating_add((left as f64 / each) as usize);
             if affordable <= windows {
-                return Ok(());
+                return Ok(Vec::new());
             }
             target = target.min(affordable);
             if target > MOST_WINDOWS && self.windows() >= 2 * FIRST_WINDOWS {
@@ -531,12 +604,7 @@ impl<'a> SteadyRun<'a> {
                 kept.push(own);
                 continue;
             };
-            // A motion that ends in its start-up was on its way to the cycle.
-            let start_up = of_windows(&own.windows[..own.windows.len().min(START_UP)]);
-            let (followed, lasts) = (own.member.followed(), own.windows.len() >= START_UP);
-            if lasts {
-                self.life.add(followed - start_up, true);
-            }
+            let followed = own.member.followed();
             self.left.extend(own.member.left().map(|left| (own.index, left)));
             let place = match self.repeated.iter().position(|known| known.cycle.is_same(&cycle)) {
                 Some(known) => known,
@@ -560,14 +628,17 @@ impl<'a> SteadyRun<'a> {
             }
             windows.pop();
             windows.drain(..windows.len().min(START_UP));
+            // Without windows that are left it was on its way to the cycle from the start.
             if !windows.is_empty() {
+                self.life.add(of_windows(&windows), true);
                 self.ended_windows.push(windows);
             }
             // A cycle of the survey takes no place.
             places += usize::from(followed > 0.0);
         }
         // Where all come to one cycle further starts bring nothing new.
-        if !kept.is_empty() || self.life.ended > 0 || self.repeated.len() > 1 {
+        let (several, irregular) = (self.repeated.len() > 1, !kept.is_empty() || self.life.ended > 0);
+        if (several || irregular) && !self.knows_first() {
             let begin = places.min(self.most_begun - self.begun);
             for _ in 0..begin {
                 kept.push(self.begin()?);
@@ -576,6 +647,11 @@ impl<'a> SteadyRun<'a> {
         }
         self.members = kept;
         Ok(begins)
+    }
+
+    /// Whether nothing more is wanted than is known: irregular motions end, so that a cycle is where most are from rest.
+    fn knows_first(&self) -> bool {
+        self.motors[0].first_only && self.life.ended > 0 && !self.repeated.is_empty()
     }
 
     /// How many times as long a run has to be.
@@ -677,12 +753,12 @@ impl<'a> SteadyRun<'a> {
         scale.fold(0.0, f64::max)
     }
 
-    fn judge(&mut self, settings: &OperatingSettings) {
+    fn judge(&mut self) {
         if self.averaged().is_empty() {
             self.shortfalls.fill((!self.members.is_empty()).then_some(NOTHING_YET));
             return;
         }
-        self.wanted = settings.relative_error * self.reference.unwrap_or_else(|| self.scale());
+        self.wanted = self.settings.relative_error * self.reference.unwrap_or_else(|| self.scale());
         self.shortfalls = (0..self.asked)
             .map(|motor| {
                 let [middle, above] = &self.speeds(motor);
@@ -720,18 +796,49 @@ impl<'a> SteadyRun<'a> {
 
     /// The amplitude of a stator that yields, if it still drifts, as the speed would drift that follows it.
     fn drifting_amplitude(&self, motor: usize, speeds: &[Vec<f64>]) -> Option<Shortfall> {
-        let system = self.motors[motor].yielding().filter(|system| system.yields())?;
-        let amplitude = |window: &&Window| {
-            let (ledger, axial) = window.rotors[motor].stator.unwrap_or_default();
-            system.amplitude(0, ledger.damping_loss[0], axial.duration)
-        };
-        let amplitudes: Vec<Vec<f64>> =
-            self.averaged().iter().map(|windows| windows.iter().map(amplitude).collect()).collect();
+        let amplitudes = self.amplitudes(motor)?;
         let of_all = |all: &[Vec<f64>]| mean(&all.iter().map(|windows| mean(windows)).collect::<Vec<_>>());
         let known = of_all(&amplitudes);
         let (off, standard_error) = drift(&amplitudes, self.settings.relative_error * known)?;
         let [drift, standard_error] = [off, standard_error].map(|part| part / known * of_all(speeds));
         Some(Shortfall::Drift { drift, standard_error: standard_error.abs() })
+    }
+
+    /// The amplitude of a stator that yields in the windows after the start-up, of each member.
+    fn amplitudes(&self, motor: usize) -> Option<Vec<Vec<f64>>> {
+        let system = self.motors[motor].yielding().filter(|system| system.yields())?;
+        let amplitude = |window: &&Window| {
+            let (ledger, axial) = window.rotors[motor].stator.unwrap_or_default();
+            system.amplitude(0, ledger.damping_loss[0], axial.duration)
+        };
+        Some(self.averaged().iter().map(|windows| windows.iter().map(amplitude).collect()).collect())
+    }
+
+    /// The members on each of the amplitudes that a stator keeps on irregular motions, and that do not drift; all of them
+    /// where they have one. Those of a part that falls apart again do so later.
+    fn groups(&self) -> Vec<Vec<usize>> {
+        let amplitudes =
+            (self.held.has_many() && self.ended_windows.is_empty()).then(|| self.amplitudes(0)).flatten();
+        let Some(amplitudes) = amplitudes.filter(|all| decided_by_start(all).is_some()) else {
+            return Vec::new();
+        };
+        let mut order: Vec<(f64, usize)> =
+            amplitudes.iter().enumerate().map(|(index, windows)| (mean(windows), index)).collect();
+        order.sort_by(|one, other| one.0.total_cmp(&other.0));
+        let ratio = |place: &usize| order[place + 1].0 / order[*place].0;
+        let gap = (0..order.len() - 1).max_by(|one, other| ratio(one).total_cmp(&ratio(other))).unwrap_or(0);
+        let (low, high) = order.split_at(gap + 1);
+        let groups: Vec<Vec<usize>> =
+            [low, high].map(|part| part.iter().map(|(_, index)| *index).collect()).into();
+        // What differs by less than is asked for is in the error.
+        if ratio(&gap) < 1.0 + self.settings.relative_error {
+            return Vec::new();
+        }
+        let is_settled = |group: &Vec<usize>| {
+            let own: Vec<Vec<f64>> = group.iter().map(|index| amplitudes[*index].clone()).collect();
+            group.len() >= LEAST_OF_GROUP && drift(&own, 0.0).is_none()
+        };
+        if groups.iter().all(is_settled) { groups } else { Vec::new() }
     }
 
     /// By how much (rad/s) the speed depends on the start, of a motor whose stator has kinks, or yields. Between two kinks
@@ -777,25 +884,25 @@ impl<'a> SteadyRun<'a> {
         Sum::of(self.averaged().into_iter().flatten(), rotor)
     }
 
-    fn results(&self) -> Result<Vec<MotorResult>, Error> {
-        (0..self.asked).map(|motor| self.result(motor)).collect()
-    }
-
-    /// The operations of a motor, and the mean speeds (rad/s) of its two rotors in each member.
-    fn result(&self, index: usize) -> Result<MotorResult, Error> {
+    /// The operations of a motor.
+    fn branches(&self, index: usize) -> Result<Vec<Branch>, Error> {
         let mut branches = Vec::new();
         let scales = self.motors[index].system.scales();
         let speed = |sum: &Sum| sum.rotor.angle / sum.axial.duration * scales.angular_speed;
         let pairs = self.pairs(index);
         // From below and from above, if these stay apart.
-        let alone = |sums: &Vec<Sum>| Pairs { below: sums.clone(), above: sums.clone(), ..pairs.clone() };
-        let all = match (pairs.below.is_empty(), self.is_parted(index)) {
+        let is_parted = !pairs.below.is_empty() && self.is_parted(index);
+        let from_above = self.rotor_from_above(index);
+        let all = match (pairs.below.is_empty(), is_parted) {
             (true, _) => Vec::new(),
-            (false, true) => vec![alone(&pairs.below), alone(&pairs.above)],
-            (false, false) => vec![pairs.clone()],
+            (false, true) => vec![self.pairs_of([index; 2]), self.pairs_of([from_above; 2])],
+            (false, false) => vec![pairs],
         };
+        let beside = self.beside(index);
         for pairs in &all {
-            let point = self.point(index, &Averages::Members(pairs))?;
+            let others = beside.filter(|_| !is_parted).map(|beside| self.pairs(beside));
+            let others = others.as_ref().map(Averages::Members);
+            let point = self.point(index, &Averages::Members(pairs), others.as_ref())?;
             let (standard_error, wanted) = (point.speed.standard_error, self.wanted);
             let too_large =
                 (standard_error > 1.01 * wanted).then_some(Shortfall::Error { standard_error, wanted });
@@ -827,15 +934,53 @@ impl<'a> SteadyRun<'a> {
         }
         for repeated in self.repeated.iter().filter(|_| !is_family) {
             let sums = repeated.windows.each_ref().map(|window| Sum::of(std::iter::once(window), index));
-            let speeds = vec![speed(&sums[0]); self.settings.members];
-            let point = self.point(index, &Averages::Cycle { sums: &sums, cycle: &repeated.cycle })?;
-            branches.push((repeated.from_rest, Operation::Steady(point), [speeds.clone(), speeds]));
+            let speeds = sums.each_ref().map(|sum| vec![speed(sum); self.settings.members]);
+            let averages = Averages::Cycle { sums: &sums, cycle: &repeated.cycle };
+            let others = beside.map(|beside| {
+                repeated.windows.each_ref().map(|window| Sum::of(std::iter::once(window), beside))
+            });
+            let others = others.as_ref().map(|sums| Averages::Cycle { sums, cycle: &repeated.cycle });
+            let point = self.point(index, &averages, others.as_ref())?;
+            branches.push((repeated.from_rest, Operation::Steady(point), speeds));
         }
-        branches.sort_by_key(|(from_rest, _, _)| std::cmp::Reverse(*from_rest));
-        // There are members, or they have repeated themselves.
-        let [middle, above] = branches[0].2.clone();
-        let branches = branches.into_iter().map(|(_, operation, _)| operation).collect();
-        Ok((OperatingRow { branches }, middle, above))
+        Ok(branches)
+    }
+
+    /// The motor that differs least from this one in its constant load, and in nothing else; none where each has a vertical
+    /// motion of its own.
+    fn beside(&self, index: usize) -> Option<usize> {
+        let motor = &self.motors[index];
+        if motor.stator.acts_back() {
+            return None;
+        }
+        let apart = |other: &usize| (self.systems[*other].load() - self.systems[index].load()).abs();
+        let differs = |other: &usize| {
+            let own = &self.motors[*other];
+            let bare = |motor: &LoadedMotor<'_>| motor.system.with_disk(|disk| disk.load_acceleration = 0.0);
+            let is_same = own.mass.to_bits() == motor.mass.to_bits() && bare(own).ok() == bare(motor).ok();
+            let law = motor.law();
+            let has_same_law = law.is_finite() && law.to_bits() == own.law().to_bits()
+                || std::ptr::eq(own.stator, motor.stator);
+            is_same && has_same_law && apart(other) > 0.0
+        };
+        (0..self.motors.len()).filter(differs).min_by(|one, other| apart(one).total_cmp(&apart(other)))
+    }
+
+    /// The time constant (s) of a motor's speed, from its change with the load.
+    fn time_constant(
+        &self,
+        index: usize,
+        averages: &Averages<'_>,
+        others: &Averages<'_>,
+    ) -> Option<Estimate> {
+        let (motor, other) = (&self.motors[index], &self.motors[self.beside(index)?]);
+        let unit = Units::of(motor).speed;
+        let rise = averages.rise(others, &|sum| sum.rotor.angle / sum.axial.duration * unit).ok()?;
+        let gyration = motor.system.disk().gyration_radius();
+        let inertia = motor.mass * gyration * gyration;
+        let times = inertia / (motor.load_torque - other.load_torque);
+        let known = Estimate { value: times * rise.value, standard_error: times.abs() * rise.standard_error };
+        (known.value > NORMAL_975 * known.standard_error).then_some(known)
     }
 
     /// What a motor's rotor does in each cycle.
@@ -850,8 +995,9 @@ impl<'a> SteadyRun<'a> {
         let unit = self.motors[index].system.scales().angular_speed;
         let speeds: Vec<f64> = cycles.iter().map(|sum| sum.rotor.angle / sum.axial.duration * unit).collect();
         let (below, quickest) = (cycles.clone(), Vec::new());
-        let pairs = Pairs { below, above: cycles, quickest, are_perturbed: false, steps: 0.0 };
-        let point = self.point(index, &Averages::Members(&pairs))?;
+        let samples = Vec::new();
+        let pairs = Pairs { below, above: cycles, quickest, samples, are_perturbed: false, steps: 0.0 };
+        let point = self.point(index, &Averages::Members(&pairs), None)?;
         let known = Estimate::of(&speeds)?;
         let spread = speeds.iter().fold(0.0_f64, |most, speed| (speed - known.value).abs().max(most));
         let speed = known.bounded_by(Estimate { value: known.value + spread, ..known });
@@ -865,17 +1011,30 @@ impl<'a> SteadyRun<'a> {
 
     /// The sums of a motor's two rotors in each member after the start-up.
     fn pairs(&self, index: usize) -> Pairs {
+        let halved =
+            (self.is_quicker() && index < self.asked).then(|| self.motors.len() + self.asked + index);
+        Pairs {
+            quickest: halved.map_or_else(Vec::new, |halved| self.pairs_of([halved; 2]).below),
+            ..self.pairs_of([index, self.rotor_from_above(index)])
+        }
+    }
+
+    /// The sums of two rotors in each member after the start-up.
+    fn pairs_of(&self, rotors: [usize; 2]) -> Pairs {
         let averaged = self.averaged();
-        let sums = |rotor: usize| -> Vec<Sum> {
+        let [below, above] = rotors.map(|rotor| -> Vec<Sum> {
             averaged.iter().map(|windows| Sum::of(windows.iter().copied(), rotor)).collect()
+        });
+        let quickest = Vec::new();
+        let samples = |windows: &Vec<&Window>| {
+            let of = |rotor: usize| windows.iter().flat_map(move |own| own.rotors[rotor].speeds.samples());
+            rotors.into_iter().flat_map(of).collect()
         };
-        let (below, above) = (sums(index), sums(self.rotor_from_above(index)));
-        let quickest =
-            if self.is_quicker() { sums(self.motors.len() + self.asked + index) } else { Vec::new() };
+        let samples = averaged.iter().map(samples).collect();
         let are_perturbed = self.are_perturbed();
         let is_pressed = below.iter().any(|sum| sum.axial.pressed > 0.0);
         let steps = if is_pressed { error_of_steps(resolution(self.settings.relative_error)) } else { 0.0 };
-        Pairs { below, above, quickest, are_perturbed, steps }
+        Pairs { below, above, quickest, samples, are_perturbed, steps }
     }
 
     /// Whether members have perturbations of two sizes, each at its place.
@@ -921,8 +1080,13 @@ impl<'a> SteadyRun<'a> {
         helps.then_some(Shortfall::Error { standard_error, wanted })
     }
 
-    /// The operating point of a motor.
-    fn point(&self, index: usize, averages: &Averages<'_>) -> Result<OperatingPoint, Error> {
+    /// The operating point of a motor; the others are the averages of the motor beside it, if there is one.
+    fn point(
+        &self,
+        index: usize,
+        averages: &Averages<'_>,
+        others: Option<&Averages<'_>>,
+    ) -> Result<OperatingPoint, Error> {
         let motor = &self.motors[index];
         let units = Units::of(motor);
         let estimate = |value: &dyn Fn(&Sum) -> f64| averages.estimate(value);
@@ -960,12 +1124,14 @@ impl<'a> SteadyRun<'a> {
                 efficiency: averages.ratio(&mechanical, &drive).filter(|_| braked),
             })
         });
+        let of_all = estimate(&speed)?.value / units.speed;
         let deviation = |sum: &Sum| {
-            let mean = sum.rotor.angle / sum.axial.duration;
-            let variance = (sum.rotor.square / sum.axial.duration - mean * mean).max(0.0);
+            // About the mean of all members: the speed of one may wander for longer than it is followed.
+            let RotorWindow { angle, square, .. } = sum.rotor;
+            let squares = square - of_all * (2.0 * angle - of_all * sum.axial.duration);
             // That of a slow rotor is inverse to its inertia.
             let own = if let Averages::Members(_) = averages { self.quicker[index] } else { 1.0 };
-            (variance / own).sqrt() * units.speed
+            (squares / sum.axial.duration / own).max(0.0).sqrt() * units.speed
         };
         let friction_torque = self.systems[index].friction() * units.torque;
         let held = |sum: &Sum| sum.rotor.held / sum.axial.duration * friction_torque;
@@ -1000,6 +1166,11 @@ impl<'a> SteadyRun<'a> {
             motion,
             speed: known,
             speed_deviation: given(&deviation)?,
+            speed_range: averages
+                .speed_range(self.quicker[index])
+                .map(|range| range.map(|end| end.times(units.speed))),
+            unstable_speed: None,
+            time_constant: others.and_then(|others| self.time_constant(index, averages, others)),
             blocked_torque: given(&held)?,
             mechanical_power,
             input_power: estimate(&input)?,
@@ -1028,6 +1199,34 @@ impl<'a> SteadyRun<'a> {
         let (value, ends) = (life.total / life.ended as f64 * unit, life.ended as f64);
         Life::Mean(Estimate { value, standard_error: value / ends.sqrt() })
     }
+}
+
+/// The operations of each motor, of all parts.
+fn results_of(parts: &[SteadyRun<'_>]) -> Result<Vec<MotorResult>, Error> {
+    let result = |index: usize| {
+        let mut branches = Vec::new();
+        for part in parts {
+            branches.extend(part.branches(index)?);
+        }
+        branches.sort_by_key(|(from_rest, _, _)| std::cmp::Reverse(*from_rest));
+        // There are members, or they have repeated themselves.
+        let [middle, above] = branches[0].2.clone();
+        let branches = branches.into_iter().map(|(_, operation, _)| operation).collect();
+        Ok((OperatingRow { branches }, middle, above))
+    };
+    (0..parts[0].asked).map(result).collect()
+}
+
+/// Where the members are; none of a stator that does not yield.
+fn ends_of(parts: &[SteadyRun<'_>]) -> Option<Ends> {
+    let scales = parts[0].motors[0].system.scales();
+    let of = |own: &Carried| own.member.left().map(|left| (own.index, left));
+    let mut all: Vec<_> = parts.iter().flat_map(|run| &run.members).map(of).collect::<Option<_>>()?;
+    all.extend(parts.iter().flat_map(|run| &run.left).copied());
+    let members = parts.iter().map(|run| run.settings.members).sum();
+    all.retain(|(index, _)| *index < members);
+    all.sort_by_key(|(index, _)| *index);
+    (!all.is_empty()).then(|| all.into_iter().map(|(_, left)| left.scaled(&scales, |unit| unit)).collect())
 }
 
 /// How long (rad) windows last together.

@@ -10,7 +10,8 @@ use bouncing_disk_core::Phase;
 use bouncing_disk_core::run::{Watch, WorkCount, in_parallel};
 
 use crate::error::Error;
-use crate::motor::operation::member::{golden_share, is_thrown, thrown};
+use crate::motor::batch::members::golden_share;
+use crate::motor::operation::member::{is_thrown, thrown};
 use crate::motor::stator::Stator;
 use crate::motor::tape::Tape;
 use crate::motor::tape::cycle::Cycle;

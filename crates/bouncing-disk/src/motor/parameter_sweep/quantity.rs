@@ -21,6 +21,15 @@ pub enum SweepQuantity {
     Efficiency,
     /// Standard deviation of the speed over time (rad/s), as [`OperatingPoint::speed_deviation`](crate::motor::OperatingPoint::speed_deviation).
     SpeedDeviation,
+    /// Lower end of the range of the speed (rad/s), as [`OperatingPoint::speed_range`](crate::motor::OperatingPoint::speed_range).
+    SpeedLow,
+    /// Its upper end.
+    SpeedHigh,
+    /// Time constant of the speed (s), as [`OperatingPoint::time_constant`](crate::motor::OperatingPoint::time_constant).
+    TimeConstant,
+    /// Where the rotor keeps one of two speeds, that between them (rad/s), as
+    /// [`OperatingPoint::unstable_speed`](crate::motor::OperatingPoint::unstable_speed).
+    UnstableSpeed,
     /// Mean torque on a rotor that is held at rest (N m), as
     /// [`OperatingPoint::blocked_torque`](crate::motor::OperatingPoint::blocked_torque).
     BlockedTorque,
@@ -36,13 +45,13 @@ pub enum SweepQuantity {
 
 impl SweepQuantity {
     /// All quantities but those of a stator that yields, in the order of the columns of a table.
-    pub const ALL: [Self; 8] = {
-        let [a, b, c, d, e, f, g, h, ..] = Self::WITH_STATOR;
-        [a, b, c, d, e, f, g, h]
+    pub const ALL: [Self; 12] = {
+        let [a, b, c, d, e, f, g, h, i, j, k, l, ..] = Self::WITH_STATOR;
+        [a, b, c, d, e, f, g, h, i, j, k, l]
     };
 
     /// All quantities, those of a stator that yields last.
-    pub const WITH_STATOR: [Self; 12] = [
+    pub const WITH_STATOR: [Self; 16] = [
         Self::Speed,
         Self::MechanicalPower,
         Self::InputPower,
@@ -50,6 +59,10 @@ impl SweepQuantity {
         Self::FrictionLoss,
         Self::Efficiency,
         Self::SpeedDeviation,
+        Self::SpeedLow,
+        Self::SpeedHigh,
+        Self::TimeConstant,
+        Self::UnstableSpeed,
         Self::BlockedTorque,
         Self::StatorAmplitude,
         Self::DrivePower,
@@ -75,6 +88,10 @@ impl SweepQuantity {
             Self::FrictionLoss => "friction_loss",
             Self::Efficiency => "efficiency",
             Self::SpeedDeviation => "speed_deviation",
+            Self::SpeedLow => "speed_low",
+            Self::SpeedHigh => "speed_high",
+            Self::TimeConstant => "time_constant",
+            Self::UnstableSpeed => "unstable_speed",
             Self::BlockedTorque => "blocked_torque",
             Self::StatorAmplitude => "stator_amplitude",
             Self::DrivePower => "drive_power",
@@ -87,7 +104,10 @@ impl SweepQuantity {
     #[must_use]
     pub const fn unit(self) -> &'static str {
         match self {
-            Self::Speed | Self::SpeedDeviation => "rad/s",
+            Self::Speed | Self::SpeedDeviation | Self::SpeedLow | Self::SpeedHigh | Self::UnstableSpeed => {
+                "rad/s"
+            }
+            Self::TimeConstant => "s",
             Self::BlockedTorque => "N m",
             Self::StatorAmplitude => "m",
             Self::Efficiency | Self::ElectricalEfficiency => "1",
@@ -96,8 +116,8 @@ impl SweepQuantity {
     }
 
     /// Its value, however well it is known; `None` for a runaway, for an undefined efficiency, for the quantities of a
-    /// stator that yields on one that does not, and for deviation and blocked torque of a rotor that acts back on its
-    /// stator.
+    /// stator that yields on one that does not, and for deviation, range, time constant and blocked torque of a rotor that
+    /// acts back on its stator.
     #[must_use]
     pub fn of(self, operation: &Operation) -> Option<Estimate> {
         let point = operation.point()?;
@@ -109,6 +129,10 @@ impl SweepQuantity {
             Self::FrictionLoss => Some(point.friction_loss),
             Self::Efficiency => point.efficiency,
             Self::SpeedDeviation => point.speed_deviation,
+            Self::SpeedLow => point.speed_range.map(|[low, _]| low),
+            Self::SpeedHigh => point.speed_range.map(|[_, high]| high),
+            Self::TimeConstant => point.time_constant,
+            Self::UnstableSpeed => point.unstable_speed,
             Self::BlockedTorque => point.blocked_torque,
             Self::StatorAmplitude => Some(point.stator?.amplitude),
             Self::DrivePower => Some(point.stator?.drive_power),

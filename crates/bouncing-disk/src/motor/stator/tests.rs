@@ -311,6 +311,9 @@ fn a_load_that_falls_with_the_speed_leaves_two_operations() {
     // The line of the load has the torque at rest there.
     let blocked = both.point().and_then(|point| point.blocked_torque).expect("nothing acts back").value;
     assert!((found[0] - (blocked / most - 1.0)).abs() < 0.05, "{both:?}");
+    // Between them a rotor falls back or speeds up: from small steps with the speed held.
+    let between = both.point().and_then(|point| point.unstable_speed).expect("found");
+    assert!(between.value > 0.5 && between.value < 3.0 && between.standard_error < 0.1, "{between:?}");
     let one = sheet(71e-3, 3.6e-3);
     assert!(one.branches.len() == 1 && (speeds(&one)[0] - 7.3).abs() < 0.3, "{one:?}");
     // A quick rotor swings from one to the other.

@@ -9,7 +9,7 @@ use bouncing_disk_core::sweep::LaneRunner;
 use super::recurrence::{Key, ONE, ONE_OF_TWO, Repeats, Touch, are_same, is_near};
 use super::replay::{Done, Replay, Rotors};
 use super::source::Source;
-use super::window::Window;
+use super::window::{RotorWindow, Speeds, Window};
 use super::{Knot, Tape};
 use crate::error::Error;
 use crate::motor::batch::rotor_rows::WIDTH;
@@ -135,6 +135,7 @@ impl Cycle {
             let (mut low, mut high) =
                 (bounds.iter().map(|row| row.map(|size| -size)).collect::<Vec<_>>(), bounds.clone());
             let mut middle = vec![[0.0; WIDTH]; rotors.len()];
+            let mut extremes = Vec::new();
             for step in 0..=HALVINGS {
                 for (row, rotors) in rotors.iter_mut().enumerate() {
                     for own in 0..WIDTH {
@@ -149,14 +150,40 @@ impl Cycle {
                     rotors.rows.speed = middle[row];
                     rotors.rows.tally = Done::default();
                 }
-                runner.run(Replay { tape, rotors: &mut rotors });
+                if step == HALVINGS {
+                    extremes = along(tape, rotors.clone(), places, runner);
+                }
+                let steps = 1..tape.knots.len();
+                runner.run(Replay { tape, steps, rotors: &mut rotors });
             }
             let axial = tape.axial;
             let stator = (tape.stator != StatorLedger::default()).then_some((tape.stator, axial));
-            let done = |&(row, own): &(usize, usize)| {
-                rotors[row].done(own, middle[row][own], axial.duration, stator)
+            let done = |(&(row, own), within): (&(usize, usize), [f64; 2])| {
+                let done = rotors[row].done(own, middle[row][own], axial.duration, stator);
+                RotorWindow { speeds: Speeds::Within(within), ..done }
             };
-            Window { axial, rotors: places.iter().map(done).collect() }
+            Window { axial, rotors: places.iter().zip(extremes).map(done).collect() }
         })
     }
+}
+
+/// The least and the largest speed along a tape of the rotors at these places.
+fn along(
+    tape: &Tape,
+    mut rotors: Vec<Rotors>,
+    places: &[(usize, usize)],
+    runner: &LaneRunner,
+) -> Vec<[f64; 2]> {
+    let speed = |rotors: &[Rotors], (row, own): (usize, usize)| rotors[row].rows.speed[own];
+    let mut all: Vec<[f64; 2]> = places.iter().map(|place| [speed(&rotors, *place); 2]).collect();
+    for (index, knot) in tape.knots.iter().enumerate().skip(1) {
+        let before: Vec<f64> = places.iter().map(|place| speed(&rotors, *place)).collect();
+        runner.run(Replay { tape, steps: index..index + 1, rotors: &mut rotors });
+        for (((row, own), before), [least, largest]) in places.iter().zip(before).zip(&mut all) {
+            for speed in [rotors[*row].within(*own, knot, 1.0, before), rotors[*row].rows.speed[*own]] {
+                (*least, *largest) = (least.min(speed), largest.max(speed));
+            }
+        }
+    }
+    all
 }

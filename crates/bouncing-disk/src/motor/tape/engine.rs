@@ -86,11 +86,14 @@ impl<E: SteeredMotion + Clone> EngineTape<E> {
         let (event, span) = (record.event(), record.time().since(&before.time()).radians());
         let energies = record.energies();
         let after = self.engine.disk();
-        let velocity = |span: f64| before.disk_after(span).axial_velocity;
-        let ended = if start.mode == Mode::Flight { start.axial_velocity - span } else { velocity(span) };
+        let ended = match start.mode {
+            Mode::Flight => start.axial_velocity - span,
+            _ => before.disk_after(span).axial_velocity,
+        };
         let phase = record.time().phase;
         let mut gained = after.axial_velocity - ended;
         if start.mode != Mode::Flight {
+            let mut velocity = before.velocities();
             tape.press(from, span, |to| velocity(to) - start.axial_velocity + to);
         } else if let Event::Attachment { .. } = event {
             // The impacts of a chatter press on the disk as evenly as the contact that follows.
@@ -143,7 +146,8 @@ impl<E: SteeredMotion + Clone> EngineTape<E> {
         let period = TAU;
         let from = lying.time().phase.angle();
         let start: DiskState = lying.disk_after(0.0);
-        tape.press(from, period, |to| lying.disk_after(to).axial_velocity - start.axial_velocity + to);
+        let mut velocity = lying.velocities();
+        tape.press(from, period, |to| velocity(to) - start.axial_velocity + to);
         let energies = lying.energies_after(period);
         tape.axial.duration += period;
         tape.axial.normal_work += energies.disk.normal_work;

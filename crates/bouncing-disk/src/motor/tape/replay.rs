@@ -3,11 +3,12 @@
 //! In a step of contact the force is even and the stator's angular speed a straight line, so that the slip is one too,
 //! with at most one end: rotor, angle and energies follow exactly.
 
-use bouncing_disk_core::sweep::LaneLoop;
+use std::ops::Range;
 
 use bouncing_disk_core::numerics::elementary::{exp_m1, ln_1p};
+use bouncing_disk_core::sweep::LaneLoop;
 
-use super::window::{AxialWindow, RotorWindow};
+use super::window::{AxialWindow, RotorWindow, Speeds};
 use super::{Knot, Tape};
 use crate::motor::batch::rotor_rows::{RotorRows, Row, WIDTH};
 use crate::stator::{LoadLine, StatorLedger};
@@ -88,24 +89,36 @@ impl Rotors {
             load_work: inertia * (load * done.angle[own] + done.law_work[own]),
             load_impulse: inertia * (load * duration + done.law_impulse[own]),
             kinetic_change: inertia * (0.5 * (after - before) * (after + before)),
+            speeds: Speeds::Unknown,
             stator,
         }
     }
+
+    /// The speed of the rotor in this place at this share of a step that it began with a speed, and whose contact has ended.
+    pub(crate) fn within(&self, own: usize, knot: &Knot, share: f64, before: f64) -> f64 {
+        if knot.pressed > 0.0 {
+            return before + share * (self.rows.speed[own] - before);
+        }
+        let law = if self.law.is_empty() { 0.0 } else { torque(&self.law, before) };
+        before - share * knot.duration * (self.rows.load[own] + law)
+    }
 }
 
-/// Carries all rotors along a tape.
+/// Carries all rotors along these steps of a tape; the first is 1.
 pub(crate) struct Replay<'a> {
     pub(crate) tape: &'a Tape,
+    pub(crate) steps: Range<usize>,
     pub(crate) rotors: &'a mut [Rotors],
 }
 
 impl LaneLoop for Replay<'_> {
     #[inline(always)]
     fn run(self) {
+        let Range { start, end } = self.steps;
+        let knots = &self.tape.knots[start - 1..end];
         for rotors in self.rotors {
             let Rotors { rows, law, column, count, .. } = rotors;
-            let knots = &self.tape.knots[..];
-            let column = column.map(|column| &self.tape.speeds[column][..]);
+            let column = column.map(|column| &self.tape.speeds[column][start - 1..end]);
             for (index, pair) in knots.windows(2).enumerate() {
                 let [before, knot] = [&pair[0], &pair[1]];
                 let (from, to) = match column {
@@ -269,7 +282,7 @@ fn fly_under(rows: &mut RotorRows<Done>, count: usize, span: f64, law: &[LoadLin
 const TINY: f64 = 1.0e-4;
 
 /// The torque of a law at a speed.
-fn torque(law: &[LoadLine], speed: f64) -> f64 {
+pub(crate) fn torque(law: &[LoadLine], speed: f64) -> f64 {
     let line = line_of(law, speed, 0.0);
     line.torque + line.slope * speed
 }

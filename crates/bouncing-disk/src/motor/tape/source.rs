@@ -92,14 +92,17 @@ impl Source {
         let own = system.base().parameters();
         let still = DimensionlessParameters { friction: 0.0, load: 0.0, twist_speed: 0.0, ..own }.build()?;
         let still = system.without_law()?.with_base(&still)?;
-        let engine = StatorEngine::new(still, DrivenStart::Contact { phase, angular_speed: 0.0 })?;
+        let mut engine = StatorEngine::new(still, DrivenStart::Contact { phase, angular_speed: 0.0 })?;
+        engine.bounds_closely = true;
         Ok(Self::Yielding(Box::new(EngineTape::new(engine, system.takes_time(), perturbation))))
     }
 
     /// Goes on with another motion of the disk on a stator that yields.
     pub(crate) fn go_on_from(&mut self, time: PhaseTime, state: StatorState) -> Result<(), Error> {
         let Self::Yielding(source) = self else { return Ok(()) };
-        source.resume(StatorEngine::of_state(source.engine.system().clone(), time, state)?);
+        let mut engine = StatorEngine::of_state(source.engine.system().clone(), time, state)?;
+        engine.bounds_closely = true;
+        source.resume(engine);
         Ok(())
     }
 

@@ -1,6 +1,8 @@
 //! Rotors on a tape, in windows of time.
 
+use std::array;
 use std::f64::consts::TAU;
+use std::iter::Peekable;
 use std::ops::RangeInclusive;
 
 use bouncing_disk_core::Drive;
@@ -12,10 +14,11 @@ use super::cycle::Cycle;
 use super::recurrence::{Recurrence, Repeats};
 use super::replay::{Done, Replay, Rotors};
 use super::source::Source;
-use super::window::{AxialWindow, Window};
+use super::window::{AxialWindow, RotorWindow, SAMPLES, Speeds, Window};
 use crate::driven::DrivenSystem;
 use crate::error::Error;
 use crate::motion::phase_time::PhaseTime;
+use crate::motor::batch::members::golden_share;
 use crate::motor::batch::rotor_rows::{RotorRows, WIDTH};
 use crate::motor::stator::Stator;
 use crate::motor::tape::left::Left;
@@ -102,6 +105,20 @@ pub(crate) struct Taped {
     repeats: Option<Repeats>,
     /// How long (rad) it was followed.
     pub(crate) followed: f64,
+    /// Windows begun.
+    begun: usize,
+}
+
+/// When speeds are noted in the window of this number, after its start: once in each part of it, at places that fill the part
+/// evenly over many windows.
+pub(crate) fn sampled_at(window: usize, duration: f64) -> [f64; SAMPLES] {
+    let share = golden_share(window);
+    array::from_fn(|part| duration * ((part as f64 + share) / SAMPLES as f64))
+}
+
+/// The speeds of rotors at these places.
+fn speeds_of(rotors: &[Rotors], places: &[(usize, usize)]) -> Vec<f64> {
+    places.iter().map(|&(row, own)| rotors[row].rows.speed[own]).collect()
 }
 
 impl Taped {
@@ -148,7 +165,7 @@ impl Taped {
         let tape = Tape::new(source.phase(), resolution, twists);
         let runner = LaneRunner::new(InstructionSet::best());
         let recurrence = Recurrence::default();
-        Self { source, tape, rotors, places, runner, recurrence, repeats: None, followed: 0.0 }
+        Self { source, tape, rotors, places, runner, recurrence, repeats: None, followed: 0.0, begun: 0 }
     }
 
     /// The same on a motion that is known to repeat itself.
@@ -156,9 +173,8 @@ impl Taped {
         Self { repeats: Some(repeats), ..self }
     }
 
-    #[cfg(test)]
     pub(crate) fn speeds(&self) -> Vec<f64> {
-        self.places.iter().map(|&(row, own)| self.rotors[row].rows.speed[own]).collect()
+        speeds_of(&self.rotors, &self.places)
     }
 
     /// When the last window ends.
@@ -195,6 +211,36 @@ impl Taped {
         cycle.windows(&self.rotors, &self.places, largest, &self.runner)
     }
 
+    /// Carries all rotors along the tape, which begins at a time in its window, and notes their speeds when these are due.
+    fn replay(
+        &mut self,
+        mut time: f64,
+        due: &mut Peekable<impl Iterator<Item = (f64, usize)>>,
+        samples: &mut [[f64; SAMPLES]],
+    ) {
+        let (tape, rotors) = (&self.tape, &mut self.rotors);
+        let (mut start, mut index) = (1, 1);
+        while due.peek().is_some() && index < tape.knots.len() {
+            let knot = &tape.knots[index];
+            let mut sampled = None;
+            while let Some((at, sample)) = due.next_if(|(at, _)| *at < time + knot.duration) {
+                let before = sampled.get_or_insert_with(|| {
+                    self.runner.run(Replay { tape, steps: start..index, rotors });
+                    let before = speeds_of(rotors, &self.places);
+                    self.runner.run(Replay { tape, steps: index..index + 1, rotors });
+                    start = index + 1;
+                    before
+                });
+                for ((&(row, own), before), samples) in self.places.iter().zip(before).zip(&mut *samples) {
+                    samples[sample] = rotors[row].within(own, knot, (at - time) / knot.duration, *before);
+                }
+            }
+            time += knot.duration;
+            index += 1;
+        }
+        self.runner.run(Replay { tape, steps: start..tape.knots.len(), rotors });
+    }
+
     /// The next window: of `duration` rad at least, and of a number of impacts in a range, whatever the duration; up to
     /// the end of an event. It ends early where the motion is found to repeat itself.
     pub(crate) fn next_window(
@@ -203,8 +249,10 @@ impl Taped {
         impacts: &RangeInclusive<u64>,
         work: &mut WorkCount<'_>,
     ) -> Result<Window, Error> {
-        let speeds: Vec<f64> =
-            self.places.iter().map(|&(row, own)| self.rotors[row].rows.speed[own]).collect();
+        let speeds = self.speeds();
+        let mut samples = vec![[f64::NAN; SAMPLES]; self.places.len()];
+        let mut due = sampled_at(self.begun, duration).into_iter().zip(0..).peekable();
+        self.begun += 1;
         let mut axial = AxialWindow::default();
         let mut ledger = self.source.yields().then(Default::default);
         loop {
@@ -216,7 +264,7 @@ impl Taped {
             let is_enough = self.repeats() || lasts && done >= *impacts.start() || done >= *impacts.end();
             if is_enough || self.tape.knots.len() > BLOCK {
                 work.spend((self.tape.knots.len() * self.rotors.len() / 32) as u64)?;
-                self.runner.run(Replay { tape: &self.tape, rotors: &mut self.rotors });
+                self.replay(axial.duration, &mut due, &mut samples);
                 axial.add(&self.tape.axial);
                 if let Some(ledger) = &mut ledger {
                     *ledger += self.tape.stator;
@@ -228,9 +276,11 @@ impl Taped {
             }
         }
         let stator = ledger.map(|ledger| (ledger, axial));
-        let rotors = self.places.iter().zip(speeds);
-        let rotors =
-            rotors.map(|(&(row, own), before)| self.rotors[row].done(own, before, axial.duration, stator));
+        let rotors = self.places.iter().zip(speeds).zip(samples);
+        let rotors = rotors.map(|((&(row, own), before), samples)| RotorWindow {
+            speeds: Speeds::Samples(samples),
+            ..self.rotors[row].done(own, before, axial.duration, stator)
+        });
         let rotors = rotors.collect();
         self.followed += axial.duration;
         self.rotors.iter_mut().for_each(|rotors| rotors.rows.tally = Done::default());

@@ -2,6 +2,38 @@
 
 use crate::stator::StatorLedger;
 
+/// Times in a window at which the speed is noted.
+pub(crate) const SAMPLES: usize = 4;
+
+/// What is known of a rotor's speeds in a window.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) enum Speeds {
+    /// Nothing, as of a rotor that acts back.
+    #[default]
+    Unknown,
+    /// At times spread evenly over the window, in their order; NaN where there is none.
+    Samples([f64; SAMPLES]),
+    /// The least and the largest of a cycle.
+    Within([f64; 2]),
+}
+
+impl Speeds {
+    /// The samples that there are.
+    pub(crate) fn samples(&self) -> impl Iterator<Item = f64> + use<> {
+        let all = if let Self::Samples(all) = *self { all } else { [f64::NAN; SAMPLES] };
+        all.into_iter().filter(|speed| speed.is_finite())
+    }
+
+    /// Those of this window and of the one that follows it: every second sample of both.
+    fn with(self, next: Self) -> Self {
+        match (self, next) {
+            (Self::Samples(own), Self::Samples(next)) => Self::Samples([own[0], own[2], next[0], next[2]]),
+            (Self::Unknown, known) => known,
+            (known, _) => known,
+        }
+    }
+}
+
 /// The motion of a rotor in a window of time, without units.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct RotorWindow {
@@ -20,6 +52,7 @@ pub(crate) struct RotorWindow {
     pub(crate) load_impulse: f64,
     /// Change of the kinetic energy.
     pub(crate) kinetic_change: f64,
+    pub(crate) speeds: Speeds,
     /// On a stator that yields: its energies, and the rotor's own vertical motion.
     pub(crate) stator: Option<(StatorLedger, AxialWindow)>,
 }
@@ -59,6 +92,7 @@ impl RotorWindow {
         self.load_work += next.load_work;
         self.load_impulse += next.load_impulse;
         self.kinetic_change += next.kinetic_change;
+        self.speeds = self.speeds.with(next.speeds);
         if let Some((ledger, axial)) = &next.stator {
             let (own, known) = self.stator.get_or_insert_default();
             *own += *ledger;

@@ -1,4 +1,4 @@
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 use bouncing_disk_core::numerics::elementary::hypot;
 use bouncing_disk_core::numerics::random::SplitMix64;
@@ -428,6 +428,53 @@ fn speeds_under_a_load_that_slows_the_rise_have_true_errors() {
         within += u64::from((speed.value - 5.482).abs() <= 1.96 * speed.standard_error);
     }
     assert!(within + 1 >= tries, "{within} of {tries}");
+}
+
+/// A rotor that is hit once in each period has the stator's speed after each impact, and its load slows it in flight: the
+/// range is what one flight takes, and the mean falls with the load as if the time constant was half of a period.
+#[test]
+fn a_locked_motor_has_the_range_and_the_time_constant_of_its_flights() {
+    let base = System::motor();
+    let unit = base.platform().amplitude() / base.peak_acceleration();
+    let system = base
+        .with_platform(|stator| stator.amplitude = 1.3 * unit)
+        .and_then(|motor| motor.with_disk(|rotor| rotor.restitution = 0.5))
+        .expect("legal");
+    let period = TAU / system.platform().angular_frequency();
+    let motors = [loaded(&system, 0.1), loaded(&system, 0.2)];
+    let rows = operate(&motors, &OperatingSettings::default(), &Unobserved).expect("no failure").rows;
+    for (motor, row) in motors.iter().zip(rows) {
+        let points = row.branches.iter().filter_map(Operation::steady);
+        let locked: Vec<_> = points
+            .filter(|point| matches!(point.motion, AxialMotion::Periodic { periods: 1, impacts: 1 }))
+            .collect();
+        assert_eq!(locked.len(), 1, "{row:?}");
+        let [low, high] = locked[0].speed_range.expect("one rotor for a tape");
+        let lost = motor.system.disk().load_acceleration() * period;
+        assert!(((high.value - low.value) / lost - 1.0).abs() < 1e-6, "{row:?}");
+        assert!((0.5 * (high.value + low.value) / locked[0].speed.value - 1.0).abs() < 1e-9, "{row:?}");
+        let constant = locked[0].time_constant.expect("another load");
+        assert!((2.0 * constant.value / period - 1.0).abs() < 1e-3, "{constant:?} {period}");
+    }
+}
+
+/// The speed of an irregular motion is nearly normal about its mean, and rises to it in some of its time constants.
+#[test]
+fn the_range_and_the_time_constant_are_those_of_the_rotor() {
+    let system = motor(1e-8, 0.0);
+    let motors = [loaded(&system, 0.0), loaded(&system, 0.2)];
+    let row =
+        operate(&motors, &OperatingSettings::default(), &Unobserved).expect("no failure").rows.remove(0);
+    let point = row.point().expect("none runs away");
+    let [low, high] = point.speed_range.expect("one rotor for a tape");
+    let deviation = point.speed_deviation.expect("one rotor for a tape").value;
+    assert!(((high.value - low.value) / (2.0 * NORMAL_975 * deviation) - 1.0).abs() < 0.2, "{point:?}");
+    let known = point.time_constant.expect("another load").value;
+    let settings = TransientSettings { duration: 4.0 * known, ..TransientSettings::default() };
+    let run_ups = TransientEnsemble::new(&system, &settings, 12, &Unobserved).expect("legal");
+    // The curve is steeper the slower the rotor is, so that a run-up from rest takes longer.
+    let ratio = run_ups.time_constant.mean / known;
+    assert!(ratio > 1.0 && ratio < 1.5, "{ratio}");
 }
 
 /// A ball that is thrown in time with an elastic platform is thrown ever higher: no mean of it is steady.

@@ -133,7 +133,11 @@ fn a_slide_on_a_sine_takes_its_mean_speed() {
     rows.put(0, [0.1, 0.0], [2.0, 0.0]);
     rows.speed[0] = 50.0;
     let mut rotors = [Rotors { rows, count: 1, quicker: [1.0; WIDTH], law: Vec::new(), column: None }];
-    LaneRunner::new(InstructionSet::best()).run(Replay { tape: &tape, rotors: &mut rotors });
+    LaneRunner::new(InstructionSet::best()).run(Replay {
+        tape: &tape,
+        steps: 1..tape.knots.len(),
+        rotors: &mut rotors,
+    });
     // Friction 0.1 times the force 3 times the integral of 2 cos over a quarter of a period.
     let done = rotors[0].rows.tally;
     // The series of the chord leaves out 17 h^6/20160 and less.

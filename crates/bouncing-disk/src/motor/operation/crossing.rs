@@ -1,0 +1,90 @@
+//! The unstable speed of a rotor under a load that falls with the speed.
+
+use bouncing_disk_core::Observer;
+use bouncing_disk_core::numerics::statistics::NORMAL_975;
+use roots::{Convergency, find_root_regula_falsi};
+
+use crate::error::Error;
+use crate::motor::operation::loaded_motor::LoadedMotor;
+use crate::motor::operation::point::Estimate;
+use crate::motor::operation::settings::OperatingSettings;
+use crate::motor::operation::steady_run::operate_for;
+use crate::motor::tape::replay::torque;
+
+/// Share of the distance between two stable speeds next to which no unstable one is sought, and over which the slope is
+/// taken.
+const MARGIN: f64 = 1.0 / 32.0;
+
+/// Share of its standard error within which a speed is found, and most speeds that are tried.
+const FOUND: f64 = 0.25;
+const MOST_STEPS: usize = 40;
+
+/// The speed (rad/s) between two stable ones, the slower first, from which a rotor goes to either: there the torque of the
+/// motor meets that of the load from below. `None` where it is not found, or not known to their distance.
+///
+/// The torque of the motor at a speed is the constant load under which a rotor has this mean speed, and that of the load
+/// is the one at the mean speed. This holds for rotors that swing little, and others do not keep two speeds.
+pub(super) fn unstable_speed(
+    motor: &LoadedMotor<'_>,
+    [slow, fast]: [f64; 2],
+    settings: &OperatingSettings,
+    observer: &dyn Observer,
+) -> Result<Option<Estimate>, Error> {
+    let Some(law) = motor.yielding() else { return Ok(None) };
+    let bare = motor.stator.without_law()?;
+    let unit = motor.system.scales().angular_speed;
+    let mut length = None;
+    // By how much a rotor is faster that has the load of a speed.
+    let mut excess = |speed: f64| {
+        let load = torque(&law.lines, speed / unit) * motor.torque_unit();
+        let loaded = LoadedMotor { stator: &bare, ..*motor }.with_load(load)?;
+        let found = operate_for(length, &[loaded], settings, observer)?;
+        // All on one tape, so that their scatter is the same.
+        length = length.or(Some(found.length));
+        // No load is more than friction gives at a speed that is kept.
+        let free =
+            found.rows[0].point().map_or(Estimate { value: slow, standard_error: 0.0 }, |one| one.speed);
+        Ok::<_, Error>(Estimate { value: free.value - speed, ..free })
+    };
+    let apart = MARGIN * (fast - slow);
+    let (from, to) = (slow + apart, fast - apart);
+    let ends = [excess(from)?, excess(to)?];
+    if ends[0].value >= 0.0 || ends[1].value <= 0.0 {
+        return Ok(None);
+    }
+    let mut failure = None;
+    let off = |speed: f64| match excess(speed) {
+        Ok(known) => known.value,
+        Err(error) => {
+            failure = failure.take().or(Some(error));
+            0.0
+        }
+    };
+    let mut near = Near(FOUND * ends[0].standard_error.max(ends[1].standard_error));
+    let Ok(value) = find_root_regula_falsi(from, to, off, &mut near) else { return Ok(None) };
+    if let Some(error) = failure {
+        return Err(error);
+    }
+    let [below, at, above] = [excess(value - apart)?, excess(value)?, excess(value + apart)?];
+    let slope = (above.value - below.value) / (2.0 * apart);
+    let standard_error = (at.standard_error + at.value.abs() / NORMAL_975) / slope;
+    let is_known = slope > 0.0 && NORMAL_975 * standard_error < fast - slow;
+    Ok(is_known.then_some(Estimate { value, standard_error }))
+}
+
+/// How near the two speeds must come.
+struct Near(f64);
+
+impl Convergency<f64> for Near {
+    fn is_root_found(&mut self, excess: f64) -> bool {
+        excess.abs() <= self.0
+    }
+
+    fn is_converged(&mut self, one: f64, other: f64) -> bool {
+        (one - other).abs() <= self.0
+    }
+
+    fn is_iteration_limit_reached(&mut self, steps: usize) -> bool {
+        steps >= MOST_STEPS
+    }
+}
