@@ -76,7 +76,7 @@ pub(super) fn run(args: &CurveArgs, context: Context) -> Result<()> {
     } + &lock_note(&motor)?;
     let report = Report {
         provenance: provenance("bouncing-disk motor curve", &job)?,
-        text: with_details(shown(coexist), &found, |row| &row.0).to_text(&rows) + &note,
+        text: with_details(shown(coexist, tolerance.is_some()), &found, |row| &row.0).to_text(&rows) + &note,
         table: columns(SweepQuantity::of_table(&found)).csv_of(rows.clone()),
         data: vec![("operations", stored(&found)?), ("spreads", stored(&spreads)?)],
         figure: Some(Box::new(|| draw(motor.largest_torque(), &found, &spreads))),
@@ -123,7 +123,7 @@ fn end(row: &Row, end: usize) -> Option<f64> {
     row.1.map(|spread| spread.from_to[end])
 }
 
-fn shown(coexist: bool) -> Columns<Row> {
+fn shown(coexist: bool, has_spread: bool) -> Columns<Row> {
     let mut columns = Columns::new().column("load_torque", "N m", |row: &Row| row.0.load_torque()).column(
         "state",
         "1",
@@ -135,11 +135,15 @@ fn shown(coexist: bool) -> Columns<Row> {
             .column("motion", "1", |row| motion(&row.0))
             .column("life", "s", |row| life(&row.0));
     }
+    columns = columns.column("speed", "rad/s", |row| value(row, SweepQuantity::Speed)).column(
+        "error",
+        "rad/s",
+        |row| error(row, SweepQuantity::Speed),
+    );
+    if has_spread {
+        columns = columns.column("from", "rad/s", |row| end(row, 0)).column("to", "rad/s", |row| end(row, 1));
+    }
     columns
-        .column("speed", "rad/s", |row| value(row, SweepQuantity::Speed))
-        .column("error", "rad/s", |row| error(row, SweepQuantity::Speed))
-        .column("from", "rad/s", |row| end(row, 0))
-        .column("to", "rad/s", |row| end(row, 1))
         .column("power", "W", |row| value(row, SweepQuantity::MechanicalPower))
         .column("input_power", "W", |row| value(row, SweepQuantity::InputPower))
         .column("efficiency", "%", |row| value(row, SweepQuantity::Efficiency).map(|share| 100.0 * share))
