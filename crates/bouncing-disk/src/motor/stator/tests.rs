@@ -1,11 +1,14 @@
 //! Motors on all stators, against each other and against what is known of them.
 
+use bouncing_disk_core::numerics::elementary::hypot;
+use bouncing_disk_core::numerics::statistics::NORMAL_975;
 use bouncing_disk_core::{Phase, Unobserved};
 
 use super::*;
 use crate::Motor;
+use crate::motor::operation::steady_run::operate_for;
 use crate::motor::{
-    Estimate, MotorParameters, OperatingRow, OperatingSettings, Operation, SensitivityParameter,
+    AxialMotion, Estimate, MotorParameters, OperatingRow, OperatingSettings, Operation, SensitivityParameter,
     SensitivityQuantity, SensitivitySettings, Shortfall, TransientSettings,
 };
 use crate::parameters::contact::Contact;
@@ -163,6 +166,39 @@ fn the_contact_time_decides_on_the_best_lag() {
     let error = own.speed.standard_error + known.speed.standard_error;
     assert!((own.speed.value - known.speed.value).abs() < 3.0 * error, "{own:?} {known:?}");
     assert!(own.energy_residual < 1e-9, "{own:?}");
+}
+
+/// A slow rotor turns with less inertia where the tape takes long to record; at its own it has the same speed within the
+/// errors, which hold the bias. The time constants are 10,000 to 60,000 periods.
+#[test]
+fn slow_rotors_turn_as_fast_at_their_own_inertia() {
+    let mut within = 0;
+    for k in 0..10_u32 {
+        let share = f64::from(k) / 10.0;
+        let motor = Motor::paper_70_khz().with(|sheet| {
+            (sheet.drive_frequency, sheet.amplitude) = (40e3, Some(0.3e-6 + 0.4e-6 * share));
+            (sheet.peak_angular_speed, sheet.twist_amplitude) = (Some(12.0), None);
+            (sheet.mass, sheet.density, sheet.rotor_radius) = (Some(0.020), None, None);
+            (sheet.contact_radius, sheet.gyration_radius) = (12.5e-3, Some(80e-3 + 100e-3 * share));
+            (sheet.preload_force, sheet.preload_acceleration) = (Some(5.0 - 2.0 * share), None);
+            (sheet.restitution, sheet.phase_lag) = (0.3 + 0.3 * share, 1.5 * share - 0.5);
+            sheet.contact = Some(Contact::lasting((2.0 + 6.0 * (3.0 * share).fract()) * 1e-6));
+        });
+        let motor = motor.expect("legal");
+        let load = 0.5 * (2.0 * share).fract() * motor.largest_torque();
+        let loaded = motor.loaded().and_then(|motor| motor.with_load(load)).expect("legal");
+        let settings = OperatingSettings::default();
+        let run = |length| {
+            let found = operate_for(length, &[loaded], &settings, &Unobserved).expect("no failure");
+            let point = *found.rows[0].point().expect("no runaway");
+            assert!(matches!(point.motion, AxialMotion::Irregular { .. }), "{k} {point:?}");
+            point.speed
+        };
+        let (own, quick) = (run(Some((1.0, 1e9))), run(None));
+        let error = hypot(own.standard_error, quick.standard_error);
+        within += u32::from((own.value - quick.value).abs() <= NORMAL_975 * error);
+    }
+    assert!(within >= 9, "{within} of 10");
 }
 
 /// Taps in closed form give the run-up of the engine, which follows an angle with a second harmonic, be it
