@@ -106,6 +106,9 @@ const LEAST_OF_GROUP: usize = 2;
 /// The shortfall of irregular motions that have no window yet.
 const NOTHING_YET: Shortfall = Shortfall::Error { standard_error: f64::INFINITY, wanted: 1.0 };
 
+/// A speed below this share of the stator's is that of rounding.
+const LEAST_SPEED: f64 = 1.0e-12;
+
 /// A motor whose disk stores more than this share of the power put in has not settled.
 const STORED_SHARE: f64 = 0.05;
 
@@ -1150,6 +1153,10 @@ impl<'a> SteadyRun<'a> {
                 (motion, start_up, self.total(index), self.settings.members)
             }
             Averages::Cycle { sums: [fine, _], cycle } => {
+                let least = LEAST_SPEED * motor.fastest.angular_speed;
+                if known.value.abs() < least {
+                    known = Estimate { value: 0.0, standard_error: least / NORMAL_975 };
+                }
                 let (periods, impacts) = (cycle.periods, fine.axial.impacts);
                 let motion = if cycle.is_contact() {
                     AxialMotion::Contact

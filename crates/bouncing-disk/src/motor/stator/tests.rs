@@ -168,6 +168,19 @@ fn the_contact_time_decides_on_the_best_lag() {
     assert!(own.energy_residual < 1e-9, "{own:?}");
 }
 
+/// Without amplitude the stator turns the rotor forwards as much as backwards: its speed is zero, and no rounding of it.
+#[test]
+fn a_stator_that_only_turns_leaves_the_rotor_at_rest() {
+    let motor = Motor::paper_70_khz().with(|sheet| sheet.amplitude = Some(0.0)).expect("legal");
+    for motor in [motor.clone(), touching(&motor, 7e-6)] {
+        let row = motor.operating_point(0.0, &settings(), &Unobserved).expect("no failure");
+        let speed = row.steady().expect("settled").speed;
+        assert!(speed.value == 0.0 && speed.standard_error < 1e-9, "{row:?}");
+        assert_eq!(row.starts(), Some(false));
+        assert!(motor.stall_load(&settings(), &Unobserved).is_err());
+    }
+}
+
 /// A slow rotor turns with less inertia where the tape takes long to record; at its own it has the same speed within the
 /// errors, which hold the bias. The time constants are 10,000 to 60,000 periods.
 #[test]

@@ -67,12 +67,12 @@ impl Source {
     ) -> Result<Self, Error> {
         let still = DrivenSystem { friction: 0.0, load: 0.0, angle: Drive::fourier(&[])?, ..system.clone() };
         let angular_speed = 0.0;
-        let start = match thrown {
-            None => DrivenStart::Contact { phase, angular_speed },
-            Some(share) => {
-                let relative_speed = share * system.height.bounds().speed;
+        // A platform that does not move throws nothing.
+        let start = match thrown.map(|share| share * system.height.bounds().speed) {
+            Some(relative_speed) if relative_speed > 0.0 => {
                 DrivenStart::Launch { phase, relative_speed, angular_speed }
             }
+            _ => DrivenStart::Contact { phase, angular_speed },
         };
         Ok(Self::of_engine(DrivenEngine::new(still, start, ChatterPolicy::Complete)?, perturbation))
     }
