@@ -2,10 +2,10 @@
 
 use bouncing_disk::motor::{InputSpread, MotorField, OperatingRow, Operation, SweepQuantity};
 
-use bouncing_disk_plot::Figure;
+use bouncing_disk_plot::{Figure, rounded};
 
 use super::settings::{
-    SettingsArgs, SpreadArgs, interval, life, lock_note, motion, state, warn, with_details,
+    SettingsArgs, SpreadArgs, interval, life, lock_note, motion, shown_life, state, warn, with_details,
 };
 use crate::commands::prelude::*;
 
@@ -26,7 +26,8 @@ Examples:
 pub(crate) struct CurveArgs {
     #[command(flatten)]
     motor: MotorArgs,
-    /// Load torques (N m), FIRST:LAST:POINTS; eleven from none to the largest torque unless given
+    /// Load torques (N m), FIRST:LAST:POINTS, on top of a table [load]; eleven from none to the largest torque unless given,
+    /// none with such a table
     #[arg(help_heading = OWN, long, value_name = "LOADS", allow_hyphen_values = true)]
     loads: Option<Range>,
     #[command(flatten)]
@@ -40,8 +41,11 @@ pub(crate) struct CurveArgs {
 pub(super) fn run(args: &CurveArgs, context: Context) -> Result<()> {
     let Some(motor) = args.motor.begin(&args.output, true, context)? else { return Ok(()) };
     warn(&motor, context);
+    // A law of the load has a torque already.
+    let has_law = motor.load().is_some();
     let load_torques = match args.loads {
         Some(loads) => loads,
+        None if has_law => Range::new(0.0, 0.0, 1).map_err(Failure::Usage)?,
         None if motor.largest_torque() == 0.0 => return Err(Failure::Usage(NO_FRICTION.to_owned())),
         None => Range::new(0.0, motor.largest_torque(), 11).map_err(Failure::Usage)?,
     };
@@ -58,25 +62,29 @@ pub(super) fn run(args: &CurveArgs, context: Context) -> Result<()> {
         None => vec![None; loads.len()],
     };
     // Only the first branch has a spread.
-    let branches = |(row, spread): (&OperatingRow, &Option<InputSpread>)| {
-        let spread = *spread;
+    let branches = |((row, spread), load): ((&OperatingRow, &Option<InputSpread>), &f64)| {
+        let (spread, load) = (*spread, *load);
         let all = row.branches.clone().into_iter().zip(1..);
-        all.map(move |(operation, branch)| (operation, spread.filter(|_| branch == 1), branch))
+        all.map(move |(operation, branch)| (operation, spread.filter(|_| branch == 1), branch, load))
     };
-    let rows: Vec<Row> = found.iter().zip(&spreads).flat_map(branches).collect();
+    let rows: Vec<Row> = found.iter().zip(&spreads).zip(&loads).flat_map(branches).collect();
     let coexist = found.iter().any(|row| row.branches.len() > 1);
     let job =
         json!({ "motor": motor, "load_torques": load_torques, "settings": settings, "tolerance": tolerance });
-    let starts = found.iter().filter(|row| row.starts() == Some(true)).map(OperatingRow::load_torque);
+    let starts =
+        found.iter().zip(&loads).filter(|(row, _)| row.starts() == Some(true)).map(|(_, load)| *load);
+    let of_these = if has_law { "of these added torques" } else { "of these loads" };
     let note = match starts.reduce(f64::max) {
         Some(most) => format!(
-            "\nstarts from rest under {most} N m, the largest of these loads under which it surely does\n"
+            "\nstarts from rest under {} N m, the largest {of_these} under which it surely does\n",
+            rounded(most, 6)
         ),
         None => "\nunder none of these loads it surely starts from rest\n".to_owned(),
     } + &lock_note(&motor)?;
     let report = Report {
         provenance: provenance("bouncing-disk motor curve", &job)?,
-        text: with_details(shown(coexist, tolerance.is_some()), &found, |row| &row.0).to_text(&rows) + &note,
+        text: with_details(shown(has_law, coexist, tolerance.is_some()), &found, |row| &row.0).to_text(&rows)
+            + &note,
         table: columns(SweepQuantity::of_table(&found)).csv_of(rows.clone()),
         data: vec![("operations", stored(&found)?), ("spreads", stored(&spreads)?)],
         figure: Some(Box::new(|| draw(motor.largest_torque(), &found, &spreads))),
@@ -107,9 +115,9 @@ fn draw(largest_torque: f64, found: &[OperatingRow], spreads: &[Option<InputSpre
     pictures::torque_speed(largest_torque, &first, &others)
 }
 
-/// A load, the spread over motors within the tolerance, if requested, and the number of the branch: 1 for the one that most
-/// rotors reach from rest.
-type Row = (Operation, Option<InputSpread>, usize);
+/// A load, the spread over motors within the tolerance, if requested, the number of the branch: 1 for the one that most
+/// rotors reach from rest, and the load torque (N m) that was asked for.
+type Row = (Operation, Option<InputSpread>, usize, f64);
 
 fn value(row: &Row, quantity: SweepQuantity) -> Option<f64> {
     quantity.of(&row.0).map(|estimate| estimate.value)
@@ -123,17 +131,19 @@ fn end(row: &Row, end: usize) -> Option<f64> {
     row.1.map(|spread| spread.from_to[end])
 }
 
-fn shown(coexist: bool, has_spread: bool) -> Columns<Row> {
-    let mut columns = Columns::new().column("load_torque", "N m", |row: &Row| row.0.load_torque()).column(
-        "state",
-        "1",
-        |row| state(&row.0),
-    );
+fn shown(has_law: bool, coexist: bool, has_spread: bool) -> Columns<Row> {
+    let mut columns = Columns::<Row>::new();
+    if has_law {
+        columns = columns.column("added_torque", "N m", |row| row.3);
+    }
+    columns = columns
+        .column("load_torque", "N m", |row| row.0.load_torque())
+        .column("state", "1", |row| state(&row.0));
     if coexist {
         columns = columns
             .column("branch", "1", |row| row.2)
             .column("motion", "1", |row| motion(&row.0))
-            .column("life", "s", |row| life(&row.0));
+            .column("life", "s", |row| shown_life(&row.0));
     }
     columns = columns.column("speed", "rad/s", |row| value(row, SweepQuantity::Speed)).column(
         "error",

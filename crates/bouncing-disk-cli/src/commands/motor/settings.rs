@@ -8,6 +8,7 @@ use bouncing_disk::motor::{
     AxialMotion, Estimate, InputTolerance, Life, OperatingRow, OperatingSettings, Operation, Shortfall,
     SweepQuantity,
 };
+use bouncing_disk_plot::rounded;
 
 /// The settings of the library, with its defaults.
 #[derive(Debug, Clone, Args)]
@@ -114,6 +115,15 @@ pub(super) fn named(motion: AxialMotion) -> String {
         AxialMotion::Periodic { periods, impacts } => format!("{impacts} in {periods}"),
         AxialMotion::Contact => "contact".to_owned(),
         _ => "irregular".to_owned(),
+    }
+}
+
+/// How long an irregular motion lasts, for people: its mean life, or more than it was watched for.
+pub(super) fn shown_life(operation: &Operation) -> Option<String> {
+    match operation.point()?.motion {
+        AxialMotion::Irregular { life: Life::Mean(life) } => Some(rounded(life.value, 3)),
+        AxialMotion::Irregular { life: Life::NoneEndedIn(time) } => Some(format!("> {}", rounded(time, 3))),
+        _ => None,
     }
 }
 

@@ -9,7 +9,7 @@ use bouncing_disk_plot::{Figure, SINGLE_COLUMN, rounded};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::settings::{SettingsArgs, interval, life, motion, shown_unit, state, warn, with_details};
+use super::settings::{SettingsArgs, interval, motion, shown_life, shown_unit, state, warn, with_details};
 use crate::commands::prelude::*;
 
 /// A motor over one or two fields of its data sheet
@@ -191,7 +191,7 @@ impl GridJob for SweepJob {
         }
         columns = columns.column("motion", "1", |row| motion(&row.1));
         if coexist {
-            columns = columns.column("life", "s", |row| life(&row.1));
+            columns = columns.column("life", "s", |row| shown_life(&row.1));
         }
         columns = columns
             .column("state", "1", |row| state(&row.1))

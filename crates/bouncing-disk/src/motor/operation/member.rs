@@ -127,6 +127,12 @@ impl Starts {
         self.held.iter().map(|own| own.amplitude).reduce(f64::max)
     }
 
+    /// Whether the member of this index starts with rotor and stator at rest, or on the lowest held amplitude, to which that
+    /// comes.
+    pub(crate) const fn is_from_rest(&self, index: usize) -> bool {
+        !is_thrown(index) && (index.is_multiple_of(4) || !self.yields || self.slowest)
+    }
+
     /// Where the member of this index and phase starts. Every second one is on each held amplitude in turn, on its motion
     /// or thrown up. Of the others one half starts with the stator at rest, or where it takes too long to settle from there
     /// on the lowest amplitude, to which a run from rest comes, too; the other half with the stator as it moves without a

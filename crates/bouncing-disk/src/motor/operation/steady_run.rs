@@ -12,9 +12,7 @@ use crate::motor::batch::shared_orbit::shared_by;
 use crate::motor::operation::averages::{Averages, Pairs, Sum, Units};
 use crate::motor::operation::crossing::unstable_speed;
 use crate::motor::operation::loaded_motor::LoadedMotor;
-use crate::motor::operation::member::{
-    LEAST_FOR_DECADE, LONGEST_DECAY, Member, Starts, far_above, is_thrown,
-};
+use crate::motor::operation::member::{LEAST_FOR_DECADE, LONGEST_DECAY, Member, Starts, far_above};
 use crate::motor::operation::point::{
     AxialMotion, Estimate, Life, OperatingPoint, OperatingRow, Operation, Shortfall, StatorPoint,
     error_of_mean,
@@ -464,7 +462,7 @@ impl<'a> SteadyRun<'a> {
         let from_rest = match known {
             Some((_, from_rest)) if index == 0 => from_rest,
             Some(_) => 0,
-            None => usize::from(index < self.settings.members && !is_thrown(index)),
+            None => usize::from(index < self.settings.members && self.held.is_from_rest(index)),
         };
         let from = known.map(|(source, _)| source);
         let member = self.member(index, from)?;
