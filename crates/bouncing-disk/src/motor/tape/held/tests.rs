@@ -162,3 +162,25 @@ fn stators_that_ring_for_long_settle() {
     assert!(points.iter().any(|own| is_at(own, [3.0, 0.05], [504.992, 5e-3])), "{row:?}");
     assert!(points.iter().any(|own| is_at(own, [8.4, 0.2], [504.73, 0.03])), "{row:?}");
 }
+
+/// With rigid impacts on a stator of 20 rotors and quality 1000 the motion is irregular on either of two amplitudes: 4.977 nm
+/// from rest, and 45.8(1.1) nm, at 9.140 and 8.75(4) rad/s by small steps.
+#[test]
+fn irregular_motions_on_two_amplitudes_are_two_branches() {
+    let motor = in_volts(5.0, |sheet, table| {
+        sheet.contact = None;
+        (table.mass, table.quality) = (Some(0.4), Some(1000.0));
+        (table.volts, table.force) = (None, Some(6.5));
+        (table.anti_resonance, table.capacitance) = (None, None);
+    });
+    let settings = OperatingSettings { relative_error: 0.05, ..OperatingSettings::default() };
+    let row = motor.operating_point(0.0, &settings, &Unobserved).expect("no failure");
+    let points: Vec<_> = row.branches.iter().map(|own| own.steady().expect("settled")).collect();
+    assert!(points.len() == 2, "{row:?}");
+    for (point, amplitude, speed) in [(points[0], 4.977, 9.140), (points[1], 45.8, 8.75)] {
+        let known = point.stator.expect("it yields").amplitude;
+        let within = (1e9 * known.value - amplitude).abs() < 1.96 * (1e9 * known.standard_error) + 2.2;
+        assert!(within && matches!(point.motion, AxialMotion::Irregular { .. }), "{row:?}");
+        assert!((point.speed.value - speed).abs() < 1.96 * point.speed.standard_error + 0.08, "{row:?}");
+    }
+}
