@@ -3,28 +3,23 @@
 use std::f64::consts::TAU;
 
 use bouncing_disk_core::Observer;
-use bouncing_disk_core::numerics::statistics::{NORMAL_975, mean};
 use bouncing_disk_core::run::{Watch, in_parallel};
 
+use self::rows::results_of;
 use crate::error::{Error, check, finite, positive, within_limit};
 use crate::motor::batch::members::starting_phase;
 use crate::motor::batch::shared_orbit::shared_by;
-use crate::motor::operation::averages::{Averages, Pairs, Sum, Units};
 use crate::motor::operation::crossing::unstable_speed;
 use crate::motor::operation::loaded_motor::LoadedMotor;
-use crate::motor::operation::member::{LEAST_FOR_DECADE, LONGEST_DECAY, Member, Starts, far_above};
-use crate::motor::operation::point::{
-    AxialMotion, Estimate, Life, OperatingPoint, OperatingRow, Operation, Shortfall, StatorPoint,
-    error_of_mean,
-};
+use crate::motor::operation::member::{LONGEST_DECAY, Member, Starts, far_above};
+use crate::motor::operation::point::{AxialMotion, OperatingRow, Operation, Shortfall};
 use crate::motor::operation::settings::OperatingSettings;
-use crate::motor::operation::settling::{decided_by_start, drift, left_out, shortfall};
+use crate::motor::operation::settling::left_out;
 use crate::motor::operation::survey::{Lived, Survey};
 use crate::motor::stator::Stator;
 use crate::motor::tape::cycle::Cycle;
 use crate::motor::tape::left::Left;
 use crate::motor::tape::source::Source;
-use crate::motor::tape::taped::{error_of_steps, resolution};
 use crate::motor::tape::window::{RotorWindow, Window};
 use crate::parameters::dimensionless::DimensionlessSystem;
 use crate::parameters::system::System;
@@ -53,14 +48,8 @@ const LOOSE: f64 = 0.01;
 /// The length of the shortest run, and the inertia of its rotors.
 const SHORTEST: (f64, f64) = (1.0, 1.0);
 
-/// If the speed of rotors with half their inertia differs by more than this share of the requested error, they get so
-/// many times more.
-const INERTIA_SHARE: f64 = 0.6;
+/// A run whose rotors have too little inertia begins again with so many times more.
 const SLOWER: f64 = 4.0;
-
-/// If the scatter is less than this share of the requested error, a longer run does not help: the rest is what the
-/// perturbation changes.
-const SCATTER_SHARE: f64 = 0.5;
 
 /// Most times less.
 const QUICKEST: f64 = 1.0e6;
@@ -89,26 +78,11 @@ const MOST_STARTS: usize = 3;
 /// More cycles than this on a stator with kinks are a family: each start keeps its own.
 const MOST_CYCLES: usize = 6;
 
-/// Rotors from below and from above that are farther apart than so many requested errors stay so.
-const PARTED: f64 = 8.0;
-
 /// Windows that each of the members leaves out as its start-up if some end.
 const START_UP: usize = FIRST_WINDOWS / 2;
 
 /// Least windows for each member from which an irregular motion is stated.
 const LEAST_WINDOWS: usize = 4;
-
-/// Least members that keep an amplitude of their own.
-const LEAST_OF_GROUP: usize = 2;
-
-/// The shortfall of irregular motions that have no window yet.
-const NOTHING_YET: Shortfall = Shortfall::Error { standard_error: f64::INFINITY, wanted: 1.0 };
-
-/// A speed below this share of the stator's is that of rounding.
-const LEAST_SPEED: f64 = 1.0e-12;
-
-/// A motor whose disk stores more than this share of the power put in has not settled.
-const STORED_SHARE: f64 = 0.05;
 
 /// The mean speeds of all rotors and members, and the operations that follow from them.
 #[derive(Debug)]
@@ -732,494 +706,6 @@ impl<'a> SteadyRun<'a> {
         };
         [of(&|rotors| 0.5 * (rotors[motor].angle + rotors[above].angle)), of(&|rotors| rotors[above].angle)]
     }
-
-    /// The largest speed (rad/s) of the motors without load, to which errors are relative.
-    fn scale(&self) -> f64 {
-        let unloaded = (0..self.motors.len()).filter(|motor| self.motors[*motor].is_unloaded());
-        let scale = unloaded.map(|index| {
-            let motor = &self.motors[index];
-            let [speeds, _] = self.speeds(index);
-            let means: Vec<f64> = if speeds.is_empty() {
-                let unit = motor.system.scales().angular_speed;
-                let cycles = self.cycles(index);
-                cycles.iter().map(|sum| sum.rotor.angle / sum.axial.duration * unit).collect()
-            } else {
-                speeds.into_iter().flatten().collect()
-            };
-            let known = if means.is_empty() { 0.0 } else { mean(&means) };
-            // A motor without twist moves only if a load makes it creep.
-            let creep = motor.system.dimensionless().friction() * motor.system.scales().angular_speed;
-            known.abs().max(0.01 * motor.fastest.angular_speed.max(creep))
-        });
-        scale.fold(0.0, f64::max)
-    }
-
-    fn judge(&mut self) {
-        if self.averaged().is_empty() {
-            self.shortfalls.fill((!self.members.is_empty()).then_some(NOTHING_YET));
-            return;
-        }
-        self.wanted = self.settings.relative_error * self.reference.unwrap_or_else(|| self.scale());
-        self.shortfalls = (0..self.asked)
-            .map(|motor| {
-                let [middle, above] = &self.speeds(motor);
-                if self.is_parted(motor) {
-                    return self.unbalanced(motor);
-                }
-                self.undecided(motor, middle)
-                    .or_else(|| shortfall(middle, above, self.are_perturbed(), self.wanted))
-                    .or_else(|| self.drifting_amplitude(motor, middle))
-                    .or_else(|| self.inaccurate(motor))
-                    .or_else(|| self.unbalanced(motor))
-            })
-            .collect();
-    }
-
-    /// Whether rotors from far below and from far above stay apart: under a load that falls with the speed both are where
-    /// they remain, and no rotor passes from one to the other.
-    fn is_parted(&self, motor: usize) -> bool {
-        if self.motors[motor].law().is_finite() {
-            return false;
-        }
-        let ([middle, above], are_perturbed) = (self.speeds(motor), self.are_perturbed());
-        let below: Vec<Vec<f64>> = middle
-            .iter()
-            .zip(&above)
-            .map(|(middle, above)| {
-                middle.iter().zip(above).map(|(middle, above)| 2.0 * middle - above).collect()
-            })
-            .collect();
-        let settled = |speeds: &[Vec<f64>]| shortfall(speeds, speeds, are_perturbed, self.wanted).is_none();
-        let of_all =
-            |speeds: &[Vec<f64>]| mean(&speeds.iter().map(|windows| mean(windows)).collect::<Vec<_>>());
-        settled(&below) && settled(&above) && of_all(&above) - of_all(&below) > PARTED * self.wanted
-    }
-
-    /// The amplitude of a stator that yields, if it still drifts, as the speed would drift that follows it.
-    fn drifting_amplitude(&self, motor: usize, speeds: &[Vec<f64>]) -> Option<Shortfall> {
-        let amplitudes = self.amplitudes(motor)?;
-        let of_all = |all: &[Vec<f64>]| mean(&all.iter().map(|windows| mean(windows)).collect::<Vec<_>>());
-        let known = of_all(&amplitudes);
-        let (off, standard_error) = drift(&amplitudes, self.settings.relative_error * known)?;
-        let [drift, standard_error] = [off, standard_error].map(|part| part / known * of_all(speeds));
-        Some(Shortfall::Drift { drift, standard_error: standard_error.abs() })
-    }
-
-    /// The amplitude of a stator that yields in the windows after the start-up, of each member.
-    fn amplitudes(&self, motor: usize) -> Option<Vec<Vec<f64>>> {
-        let system = self.motors[motor].yielding().filter(|system| system.yields())?;
-        let amplitude = |window: &&Window| {
-            let (ledger, axial) = window.rotors[motor].stator.unwrap_or_default();
-            system.amplitude(0, ledger.damping_loss[0], axial.duration)
-        };
-        Some(self.averaged().iter().map(|windows| windows.iter().map(amplitude).collect()).collect())
-    }
-
-    /// The members on each of the amplitudes that a stator keeps on irregular motions, and that do not drift; all of them
-    /// where they have one. Those of a part that falls apart again do so later.
-    fn groups(&self) -> Vec<Vec<usize>> {
-        let amplitudes =
-            (self.held.has_many() && self.ended_windows.is_empty()).then(|| self.amplitudes(0)).flatten();
-        let Some(amplitudes) = amplitudes.filter(|all| decided_by_start(all).is_some()) else {
-            return Vec::new();
-        };
-        let mut order: Vec<(f64, usize)> =
-            amplitudes.iter().enumerate().map(|(index, windows)| (mean(windows), index)).collect();
-        order.sort_by(|one, other| one.0.total_cmp(&other.0));
-        let ratio = |place: &usize| order[place + 1].0 / order[*place].0;
-        let gap = (0..order.len() - 1).max_by(|one, other| ratio(one).total_cmp(&ratio(other))).unwrap_or(0);
-        let (low, high) = order.split_at(gap + 1);
-        let groups: Vec<Vec<usize>> =
-            [low, high].map(|part| part.iter().map(|(_, index)| *index).collect()).into();
-        // What differs by less than is asked for is in the error.
-        if ratio(&gap) < 1.0 + self.settings.relative_error {
-            return Vec::new();
-        }
-        let is_settled = |group: &Vec<usize>| {
-            let own: Vec<Vec<f64>> = group.iter().map(|index| amplitudes[*index].clone()).collect();
-            group.len() >= LEAST_OF_GROUP && drift(&own, 0.0).is_none()
-        };
-        if groups.iter().all(is_settled) { groups } else { Vec::new() }
-    }
-
-    /// By how much (rad/s) the speed depends on the start, of a motor whose stator has kinks, or yields. Between two kinks
-    /// a stator may carry a whole family of motions, each of which keeps a speed of its own; one that yields may keep two
-    /// amplitudes, on each of which the motion is irregular.
-    fn apart(&self, motor: usize, speeds: &[Vec<f64>]) -> f64 {
-        if self.motors[motor].stator.has_kinks() || self.held.has_many() {
-            decided_by_start(speeds).unwrap_or(0.0)
-        } else {
-            0.0
-        }
-    }
-
-    /// A dependence on the start that is larger than the requested error.
-    fn undecided(&self, motor: usize, speeds: &[Vec<f64>]) -> Option<Shortfall> {
-        let spread = self.apart(motor, speeds);
-        let means: Vec<f64> = speeds.iter().map(|windows| mean(windows)).collect();
-        let standard_error = error_of_mean(&means);
-        (standard_error + spread / NORMAL_975 > self.wanted && spread > 0.0)
-            .then_some(Shortfall::Start { spread, standard_error })
-    }
-
-    /// The energy that the disk still stores, if it is too large a part of the supplied energy. For a disk
-    /// that settles this part falls as one over the time for which it is followed.
-    fn unbalanced(&self, motor: usize) -> Option<Shortfall> {
-        let units = Units::of(&self.motors[motor]);
-        let sum = self.total(motor);
-        let stored = sum.axial.energy_change * units.axial + sum.rotor.kinetic_change * units.rotary;
-        let share = stored.abs() / sum.energy_scale(&units, &self.systems[motor], self.settings.members);
-        // A disk that is thrown ever higher stores what the platform gives, however much the rotor takes.
-        let given = sum.axial.normal_work.abs() + sum.axial.perturbation_work;
-        let peak = self.systems[motor].peak_acceleration();
-        let moving = 0.5 * self.settings.members as f64 * peak * peak;
-        let share = share.max(sum.axial.energy_change.abs() / given.max(moving));
-        let time = sum.axial.duration;
-        let input = sum.axial.normal_work * units.axial + sum.rotor.friction_work * units.rotary;
-        (share > STORED_SHARE)
-            .then_some(Shortfall::PowerBalance { stored_power: stored / time, input_power: input / time })
-    }
-
-    /// All averaged windows.
-    fn total(&self, rotor: usize) -> Sum {
-        Sum::of(self.averaged().into_iter().flatten(), rotor)
-    }
-
-    /// The operations of a motor.
-    fn branches(&self, index: usize) -> Result<Vec<Branch>, Error> {
-        let mut branches = Vec::new();
-        let scales = self.motors[index].system.scales();
-        let speed = |sum: &Sum| sum.rotor.angle / sum.axial.duration * scales.angular_speed;
-        let pairs = self.pairs(index);
-        // From below and from above, if these stay apart.
-        let is_parted = !pairs.below.is_empty() && self.is_parted(index);
-        let from_above = self.rotor_from_above(index);
-        let all = match (pairs.below.is_empty(), is_parted) {
-            (true, _) => Vec::new(),
-            (false, true) => vec![self.pairs_of([index; 2]), self.pairs_of([from_above; 2])],
-            (false, false) => vec![pairs],
-        };
-        let beside = self.beside(index);
-        for pairs in &all {
-            let others = beside.filter(|_| !is_parted).map(|beside| self.pairs(beside));
-            let others = others.as_ref().map(Averages::Members);
-            let point = self.point(index, &Averages::Members(pairs), others.as_ref())?;
-            let (standard_error, wanted) = (point.speed.standard_error, self.wanted);
-            let too_large =
-                (standard_error > 1.01 * wanted).then_some(Shortfall::Error { standard_error, wanted });
-            let operation = match self.shortfalls[index].or(too_large) {
-                None => Operation::Steady(point),
-                Some(Shortfall::Error { .. }) => {
-                    Operation::Unsettled(point, Shortfall::Error { standard_error, wanted })
-                }
-                Some(shortfall) => Operation::Unsettled(point, shortfall),
-            };
-            let from_rest = self.members.iter().map(|own| own.from_rest).sum();
-            // What ends is not where most are in the end.
-            let from_rest = if self.life.ended > 0 { 0 } else { from_rest };
-            branches.push((from_rest, operation, pairs.of(&speed)));
-        }
-        // A rotor that the stator turns forwards from rest does not come to where rotors are driven back.
-        if let [(_, first, _), (_, _, _)] = &branches[..]
-            && let Some(OperatingPoint { blocked_torque: Some(torque), speed, .. }) = first.point()
-            && speed.value < 0.0
-            && torque.value > self.motors[index].torque_at_rest()
-        {
-            branches.swap(0, 1);
-        }
-        let is_family = self.repeated.len() > MOST_CYCLES && self.motors[index].stator.has_kinks();
-        if is_family {
-            let operation = self.family(index)?;
-            let speeds: Vec<f64> = self.cycles(index).iter().map(speed).collect();
-            branches.push((usize::from(self.life.ended > 0), operation, [speeds.clone(), speeds]));
-        }
-        for repeated in self.repeated.iter().filter(|_| !is_family) {
-            let sums = repeated.windows.each_ref().map(|window| Sum::of(std::iter::once(window), index));
-            let speeds = sums.each_ref().map(|sum| vec![speed(sum); self.settings.members]);
-            let averages = Averages::Cycle { sums: &sums, cycle: &repeated.cycle };
-            let others = beside.map(|beside| {
-                repeated.windows.each_ref().map(|window| Sum::of(std::iter::once(window), beside))
-            });
-            let others = others.as_ref().map(|sums| Averages::Cycle { sums, cycle: &repeated.cycle });
-            let point = self.point(index, &averages, others.as_ref())?;
-            branches.push((repeated.from_rest, Operation::Steady(point), speeds));
-        }
-        Ok(branches)
-    }
-
-    /// The motor that differs least from this one in its constant load, and in nothing else; none where each has a vertical
-    /// motion of its own.
-    fn beside(&self, index: usize) -> Option<usize> {
-        let motor = &self.motors[index];
-        if motor.stator.acts_back() {
-            return None;
-        }
-        let apart = |other: &usize| (self.systems[*other].load() - self.systems[index].load()).abs();
-        let differs = |other: &usize| {
-            let own = &self.motors[*other];
-            let bare = |motor: &LoadedMotor<'_>| motor.system.with_disk(|disk| disk.load_acceleration = 0.0);
-            let is_same = own.mass.to_bits() == motor.mass.to_bits() && bare(own).ok() == bare(motor).ok();
-            let law = motor.law();
-            let has_same_law = law.is_finite() && law.to_bits() == own.law().to_bits()
-                || std::ptr::eq(own.stator, motor.stator);
-            is_same && has_same_law && apart(other) > 0.0
-        };
-        (0..self.motors.len()).filter(differs).min_by(|one, other| apart(one).total_cmp(&apart(other)))
-    }
-
-    /// The time constant (s) of a motor's speed, from its change with the load.
-    fn time_constant(
-        &self,
-        index: usize,
-        averages: &Averages<'_>,
-        others: &Averages<'_>,
-    ) -> Option<Estimate> {
-        let (motor, other) = (&self.motors[index], &self.motors[self.beside(index)?]);
-        let unit = Units::of(motor).speed;
-        let rise = averages.rise(others, &|sum| sum.rotor.angle / sum.axial.duration * unit).ok()?;
-        let gyration = motor.system.disk().gyration_radius();
-        let inertia = motor.mass * gyration * gyration;
-        let times = inertia / (motor.load_torque - other.load_torque);
-        let known = Estimate { value: times * rise.value, standard_error: times.abs() * rise.standard_error };
-        (known.value > NORMAL_975 * known.standard_error).then_some(known)
-    }
-
-    /// What a motor's rotor does in each cycle.
-    fn cycles(&self, index: usize) -> Vec<Sum> {
-        let of_cycle = |repeated: &Repeated| Sum::of(std::iter::once(&repeated.windows[0]), index);
-        self.repeated.iter().map(of_cycle).collect()
-    }
-
-    /// The operation of a motor each start of which keeps a cycle of its own.
-    fn family(&self, index: usize) -> Result<Operation, Error> {
-        let cycles = self.cycles(index);
-        let unit = self.motors[index].system.scales().angular_speed;
-        let speeds: Vec<f64> = cycles.iter().map(|sum| sum.rotor.angle / sum.axial.duration * unit).collect();
-        let (below, quickest) = (cycles.clone(), Vec::new());
-        let samples = Vec::new();
-        let pairs = Pairs { below, above: cycles, quickest, samples, are_perturbed: false, steps: 0.0 };
-        let point = self.point(index, &Averages::Members(&pairs), None)?;
-        let known = Estimate::of(&speeds)?;
-        let spread = speeds.iter().fold(0.0_f64, |most, speed| (speed - known.value).abs().max(most));
-        let speed = known.bounded_by(Estimate { value: known.value + spread, ..known });
-        let shortfall = Shortfall::Start { spread, standard_error: known.standard_error };
-        let motion = AxialMotion::Periodic {
-            periods: self.repeated[0].cycle.periods,
-            impacts: self.repeated[0].windows[0].axial.impacts,
-        };
-        Ok(Operation::Unsettled(OperatingPoint { speed, motion, ..point }, shortfall))
-    }
-
-    /// The sums of a motor's two rotors in each member after the start-up.
-    fn pairs(&self, index: usize) -> Pairs {
-        let halved =
-            (self.is_quicker() && index < self.asked).then(|| self.motors.len() + self.asked + index);
-        Pairs {
-            quickest: halved.map_or_else(Vec::new, |halved| self.pairs_of([halved; 2]).below),
-            ..self.pairs_of([index, self.rotor_from_above(index)])
-        }
-    }
-
-    /// The sums of two rotors in each member after the start-up.
-    fn pairs_of(&self, rotors: [usize; 2]) -> Pairs {
-        let averaged = self.averaged();
-        let [below, above] = rotors.map(|rotor| -> Vec<Sum> {
-            averaged.iter().map(|windows| Sum::of(windows.iter().copied(), rotor)).collect()
-        });
-        let quickest = Vec::new();
-        let samples = |windows: &Vec<&Window>| {
-            let of = |rotor: usize| windows.iter().flat_map(move |own| own.rotors[rotor].speeds.samples());
-            rotors.into_iter().flat_map(of).collect()
-        };
-        let samples = averaged.iter().map(samples).collect();
-        let are_perturbed = self.are_perturbed();
-        let is_pressed = below.iter().any(|sum| sum.axial.pressed > 0.0);
-        let steps = if is_pressed { error_of_steps(resolution(self.settings.relative_error)) } else { 0.0 };
-        Pairs { below, above, quickest, samples, are_perturbed, steps }
-    }
-
-    /// Whether members have perturbations of two sizes, each at its place.
-    fn are_perturbed(&self) -> bool {
-        let count = self.members.len();
-        !self.stators[0].takes_time()
-            && self.ended_windows.is_empty()
-            && count == self.settings.members
-            && count >= LEAST_FOR_DECADE
-    }
-
-    /// Whether the rotors have less inertia than their motors.
-    fn is_quicker(&self) -> bool {
-        self.quicker.iter().any(|quicker| *quicker > 1.0)
-    }
-
-    /// The mean speed (rad/s) of a motor, and by how much that of rotors with half the inertia differs where rotors have
-    /// less than their motors; `None` of no irregular motion.
-    fn with_bias(&self, index: usize) -> Option<(Estimate, [f64; 2])> {
-        let unit = self.motors[index].system.scales().angular_speed;
-        let speed = |sum: &Sum| sum.rotor.angle / sum.axial.duration * unit;
-        let pairs = self.pairs(index);
-        let known = Averages::Members(&pairs).estimate(&speed).ok().filter(|_| !pairs.below.is_empty())?;
-        let quickest: Vec<f64> = pairs.quickest.iter().map(speed).collect();
-        let bias = if quickest.is_empty() { 0.0 } else { (mean(&quickest) - known.value).abs() };
-        Some((known, [bias, pairs.change(&pairs.of(&speed)[0]).ok()?]))
-    }
-
-    /// Whether the inertia that is left out matters more than the requested error allows.
-    fn is_too_quick(&self) -> bool {
-        let bias = |index| self.with_bias(index).map_or(0.0, |(_, [bias, _])| bias);
-        self.is_quicker() && (0..self.asked).any(|index| bias(index) > INERTIA_SHARE * self.wanted)
-    }
-
-    /// An error that is too large with the inertia that is left out and what the perturbation changes, if a longer run can
-    /// help.
-    fn inaccurate(&self, index: usize) -> Option<Shortfall> {
-        let (known, [bias, change]) = self.with_bias(index)?;
-        let (standard_error, wanted) = (known.standard_error, self.wanted);
-        let scatter = (standard_error * standard_error - change * change).max(0.0).sqrt();
-        let helps =
-            standard_error > wanted && bias <= INERTIA_SHARE * wanted && scatter > SCATTER_SHARE * wanted;
-        helps.then_some(Shortfall::Error { standard_error, wanted })
-    }
-
-    /// The operating point of a motor; the others are the averages of the motor beside it, if there is one.
-    fn point(
-        &self,
-        index: usize,
-        averages: &Averages<'_>,
-        others: Option<&Averages<'_>>,
-    ) -> Result<OperatingPoint, Error> {
-        let motor = &self.motors[index];
-        let units = Units::of(motor);
-        let estimate = |value: &dyn Fn(&Sum) -> f64| averages.estimate(value);
-        let speed = |sum: &Sum| sum.rotor.angle / sum.axial.duration * units.speed;
-        let mechanical = |sum: &Sum| sum.rotor.load_work / sum.axial.duration * units.rotary;
-        let input = |sum: &Sum| {
-            (sum.axial.normal_work * units.axial + sum.rotor.friction_work * units.rotary)
-                / sum.axial.duration
-        };
-        let restitution = |sum: &Sum| sum.axial.restitution_loss / sum.axial.duration * units.axial;
-        let friction = |sum: &Sum| sum.rotor.friction_loss / sum.axial.duration * units.rotary;
-        let perturbation = |sum: &Sum| sum.axial.perturbation_work / sum.axial.duration * units.axial;
-        let mechanical_power = estimate(&mechanical)?;
-        let braked = mechanical_power.value >= 0.0;
-        let efficiency = averages.ratio(&mechanical, &input).filter(|_| braked);
-        let torque = |sum: &Sum| sum.rotor.load_impulse / sum.axial.duration * units.torque;
-        let load_torque = if motor.law().is_finite() {
-            Estimate { value: motor.load_torque + motor.law() * units.torque, standard_error: 0.0 }
-        } else {
-            estimate(&torque)?
-        };
-        let stator = motor.yielding().filter(|system| system.yields()).map(|system| {
-            // What no mode gives the disk a prescribed twist does.
-            let drive = |sum: &Sum| {
-                let ledger = sum.stator();
-                input(sum) + (ledger.drive_work - ledger.disk_work) / sum.axial.duration * units.axial
-            };
-            let lost = |sum: &Sum| sum.stator().damping_loss;
-            let amplitude = |sum: &Sum| system.amplitude(0, lost(sum)[0], sum.axial.duration) * units.length;
-            let loss = |sum: &Sum| lost(sum).iter().sum::<f64>() / sum.axial.duration * units.axial;
-            Ok::<_, Error>(StatorPoint {
-                amplitude: estimate(&amplitude)?,
-                drive_power: estimate(&drive)?,
-                damping_loss: estimate(&loss)?,
-                efficiency: averages.ratio(&mechanical, &drive).filter(|_| braked),
-            })
-        });
-        let of_all = estimate(&speed)?.value / units.speed;
-        let deviation = |sum: &Sum| {
-            // About the mean of all members: the speed of one may wander for longer than it is followed.
-            let RotorWindow { angle, square, .. } = sum.rotor;
-            let squares = square - of_all * (2.0 * angle - of_all * sum.axial.duration);
-            // That of a slow rotor is inverse to its inertia.
-            let own = if let Averages::Members(_) = averages { self.quicker[index] } else { 1.0 };
-            (squares / sum.axial.duration / own).max(0.0).sqrt() * units.speed
-        };
-        let friction_torque = self.systems[index].friction() * units.torque;
-        let held = |sum: &Sum| sum.rotor.held / sum.axial.duration * friction_torque;
-        let known_of_tapes = averages.first().rotor.held.is_finite();
-        let given = |value: &dyn Fn(&Sum) -> f64| known_of_tapes.then(|| estimate(value)).transpose();
-        // The error also includes the spread between starts.
-        let mut known = estimate(&speed)?;
-        let (motion, start_up, whole, members) = match averages {
-            Averages::Members(_) => {
-                let apart = self.apart(index, &self.speeds(index)[0]);
-                known = known.bounded_by(Estimate { value: known.value + apart, ..known });
-                let after = if self.ended_windows.is_empty() { left_out(self.windows()) } else { START_UP };
-                let motion = AxialMotion::Irregular { life: self.life(units.time) };
-                let omitted = |own: &Carried| of_windows(&own.windows[..after.min(own.windows.len())]);
-                let start_up = self.members.iter().map(omitted).fold(0.0, f64::max) * units.time;
-                (motion, start_up, self.total(index), self.settings.members)
-            }
-            Averages::Cycle { sums: [fine, _], cycle } => {
-                let least = LEAST_SPEED * motor.fastest.angular_speed;
-                if known.value.abs() < least {
-                    known = Estimate { value: 0.0, standard_error: least / NORMAL_975 };
-                }
-                let (periods, impacts) = (cycle.periods, fine.axial.impacts);
-                let motion = if cycle.is_contact() {
-                    AxialMotion::Contact
-                } else {
-                    AxialMotion::Periodic { periods, impacts }
-                };
-                (motion, 0.0, *fine, 1)
-            }
-        };
-        let (duration, impacts) = averages.duration_and_impacts();
-        Ok(OperatingPoint {
-            load_torque: load_torque.value,
-            load_torque_error: load_torque.standard_error,
-            motion,
-            speed: known,
-            speed_deviation: given(&deviation)?,
-            speed_range: averages
-                .speed_range(self.quicker[index])
-                .map(|range| range.map(|end| end.times(units.speed))),
-            unstable_speed: None,
-            time_constant: others.and_then(|others| self.time_constant(index, averages, others)),
-            blocked_torque: given(&held)?,
-            mechanical_power,
-            input_power: estimate(&input)?,
-            restitution_loss: estimate(&restitution)?,
-            friction_loss: estimate(&friction)?,
-            efficiency,
-            perturbation_power: estimate(&perturbation)?.value,
-            energy_residual: whole.energy_residual(&units, &self.systems[index], members),
-            averaged_time: duration * units.time,
-            start_up,
-            impacts,
-            stator: stator.transpose()?,
-        })
-    }
-
-    /// How long an irregular motion lasts, in a unit of time per radian: beyond the start-up, in which a member may have
-    /// been on its way to a cycle from the start, it ends at a constant rate.
-    fn life(&self, unit: f64) -> Life {
-        let mut life = self.life;
-        for own in &self.members {
-            life.add(of_windows(&own.windows[own.windows.len().min(START_UP)..]), false);
-        }
-        if life.ended == 0 {
-            return Life::NoneEndedIn(life.longest * unit);
-        }
-        let (value, ends) = (life.total / life.ended as f64 * unit, life.ended as f64);
-        Life::Mean(Estimate { value, standard_error: value / ends.sqrt() })
-    }
-}
-
-/// The operations of each motor, of all parts.
-fn results_of(parts: &[SteadyRun<'_>]) -> Result<Vec<MotorResult>, Error> {
-    let result = |index: usize| {
-        let mut branches = Vec::new();
-        for part in parts {
-            branches.extend(part.branches(index)?);
-        }
-        branches.sort_by_key(|(from_rest, _, _)| std::cmp::Reverse(*from_rest));
-        // There are members, or they have repeated themselves.
-        let [middle, above] = branches[0].2.clone();
-        let branches = branches.into_iter().map(|(_, operation, _)| operation).collect();
-        Ok((OperatingRow { branches }, middle, above))
-    };
-    (0..parts[0].asked).map(result).collect()
 }
 
 /// Where the members are; none of a stator that does not yield.
@@ -1239,5 +725,7 @@ fn of_windows(windows: &[Window]) -> f64 {
     windows.iter().map(|window| window.axial.duration).sum()
 }
 
+mod judgement;
+mod rows;
 #[cfg(test)]
 mod tests;

@@ -2,13 +2,13 @@ use std::f64::consts::{PI, TAU};
 
 use bouncing_disk_core::numerics::elementary::hypot;
 use bouncing_disk_core::numerics::random::SplitMix64;
-use bouncing_disk_core::numerics::statistics::mean;
+use bouncing_disk_core::numerics::statistics::{NORMAL_975, mean};
 use bouncing_disk_core::{ChatterPolicy, Phase, Unobserved};
 
 use super::*;
 use crate::estimate::{Spread, TransientEnsemble};
 use crate::motion::EnergyLedger;
-use crate::motor::TransientSettings;
+use crate::motor::{Estimate, TransientSettings};
 use crate::testing::{check_stops, motor, refused, tried_motor};
 use crate::{Engine, InitialCondition, Motor};
 
