@@ -135,8 +135,8 @@ pub(super) fn life(operation: &Operation) -> Option<f64> {
     }
 }
 
-/// Columns with deviation, range and time constant of the speed, the torque on a rotor at rest, and what a stator that yields
-/// does, if one of the operations has them.
+/// Columns with deviation, range and time constant of the speed, the blocked torque, and the amplitude and powers of a stator
+/// that yields, if one of the operations has them.
 pub(super) fn with_details<R: 'static>(
     columns: Columns<R>,
     rows: &[OperatingRow],

@@ -102,8 +102,8 @@ impl Averages<'_> {
         }
     }
 
-    /// Between which speeds rotors are in 95 % of the time that have so many times less inertia than their motor, and in a
-    /// cycle always; `None` where too little is known of their speeds.
+    /// The range of the speed: 95 % of the time, and in a cycle all of it. The rotors have so many times less inertia than
+    /// their motor. `None` where too few speeds are known.
     pub(super) fn speed_range(&self, quicker: f64) -> Option<[Estimate; 2]> {
         let pairs = match self {
             Self::Cycle { sums, .. } => {
@@ -118,14 +118,15 @@ impl Averages<'_> {
             Self::Members(pairs) => pairs,
         };
         let count = pairs.samples.len();
-        if pairs.samples.iter().map(Vec::len).sum::<usize>() < LEAST_SAMPLES {
+        // The scatter needs two members.
+        if count < 2 || pairs.samples.iter().map(Vec::len).sum::<usize>() < LEAST_SAMPLES {
             return None;
         }
         let without = |left_out: usize| {
             let kept = pairs.samples.iter().enumerate().filter(|(member, _)| *member != left_out);
             middle_of(kept.flat_map(|(_, samples)| samples).copied().collect(), quicker)
         };
-        // The scatter of what is left without each of the members in turn.
+        // Each member is left out in turn: the jackknife.
         let all: Vec<[f64; 2]> = (0..count).map(without).collect();
         let found = without(count);
         Some([0, 1].map(|end| {

@@ -84,7 +84,7 @@ pub(crate) fn best_phase_lag(
             let inner = FINE / 2..3 * FINE / 2 + 1;
             let narrow = top(&offsets[inner], |k| mean(&found, k + FINE / 2)).0;
             best += offset.value;
-            // And that of rotors from above, or with coarser steps of a cycle, bounds the bias.
+            // The top for rotors from above, or for coarser steps of a cycle, bounds the bias.
             let above = Estimate::of(&tops(&offsets, &found.speeds_from_above, 2.0 * step))?;
             step = offset.bounded_by(Estimate { value: narrow, ..offset }).bounded_by(above).standard_error;
             break;

@@ -19,11 +19,12 @@ const MARGIN: f64 = 1.0 / 32.0;
 const FOUND: f64 = 0.25;
 const MOST_STEPS: usize = 40;
 
-/// The speed (rad/s) between two stable ones, the slower first, from which a rotor goes to either: there the torque of the
-/// motor meets that of the load from below. `None` where it is not found, or not known to their distance.
+/// The speed (rad/s) between two stable ones, the slower first, from which a rotor goes to either. There the motor's torque
+/// rises through the torque of the load. `None` where it is not found, or its interval is wider than the distance of the
+/// two.
 ///
-/// The torque of the motor at a speed is the constant load under which a rotor has this mean speed, and that of the load
-/// is the one at the mean speed. This holds for rotors that swing little, and others do not keep two speeds.
+/// The motor's torque at a speed is the constant load under which a rotor has this mean speed. The law of the load is taken
+/// at the mean speed: a rotor that keeps one of two speeds swings little.
 pub(super) fn unstable_speed(
     motor: &LoadedMotor<'_>,
     [slow, fast]: [f64; 2],

@@ -318,8 +318,8 @@ impl OperatingRow {
         &self.branches[0]
     }
 
-    /// Whether a rotor that starts from rest comes to turn against its load, or at all if there is none; `None` where the
-    /// errors do not decide it.
+    /// Whether a rotor that starts from rest turns against its load in the end; without a load, whether it turns. `None`
+    /// where the errors do not decide it.
     #[must_use]
     pub fn starts(&self) -> Option<bool> {
         let Some(point) = self.point() else { return Some(false) };

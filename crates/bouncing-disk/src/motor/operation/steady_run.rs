@@ -92,8 +92,8 @@ pub(crate) struct Operations {
     /// `speeds[rotor][member]`, mean angular speeds (rad/s) of the first branch after the start-up, in the middle of
     /// those of rotors from far below and from far above; none for a runaway.
     pub(crate) speeds: Vec<Vec<f64>>,
-    /// Those of rotors from far above, and in a cycle with coarser steps: the difference bounds the remainder of the
-    /// start-up, and what steps do.
+    /// The same of rotors from far above, and in a cycle with coarser steps. The difference bounds the error of the start-up
+    /// and of the steps.
     pub(crate) speeds_from_above: Vec<Vec<f64>>,
     /// How long each member was followed, in units of the shortest run, and how many times more inertia than in the first
     /// run the rotors had.

@@ -1,4 +1,4 @@
-//! Whether the speeds of a run are known, and what they lack.
+//! Judges whether the speeds of a run are known, and names their shortfalls.
 
 use bouncing_disk_core::numerics::statistics::{NORMAL_975, mean};
 
