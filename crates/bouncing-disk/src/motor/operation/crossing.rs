@@ -24,7 +24,7 @@ const MOST_STEPS: usize = 40;
 /// two.
 ///
 /// The motor's torque at a speed is the constant load under which a rotor has this mean speed. The law of the load is taken
-/// at the mean speed: a rotor that keeps one of two speeds swings little.
+/// at the mean speed. The rotor's swing is part of the error, because it carries a rotor across.
 pub(super) fn unstable_speed(
     motor: &LoadedMotor<'_>,
     [slow, fast]: [f64; 2],
@@ -34,7 +34,7 @@ pub(super) fn unstable_speed(
     let Some(law) = motor.yielding() else { return Ok(None) };
     let bare = motor.stator.without_law()?;
     let unit = motor.system.scales().angular_speed;
-    let mut length = None;
+    let (mut length, mut swing) = (None, 0.0);
     // By how much a rotor is faster that has the load of a speed.
     let mut excess = |speed: f64| {
         let load = torque(&law.lines, speed / unit) * motor.torque_unit();
@@ -42,6 +42,8 @@ pub(super) fn unstable_speed(
         let found = operate_for(length, &[loaded], settings, observer)?;
         // All on one tape, so that their scatter is the same.
         length = length.or(Some(found.length));
+        let deviation = found.rows[0].point().and_then(|one| one.speed_deviation);
+        swing = deviation.map_or(0.0, |deviation| deviation.value);
         // No load is more than friction gives at a speed that is kept.
         let free =
             found.rows[0].point().map_or(Estimate { value: slow, standard_error: 0.0 }, |one| one.speed);
@@ -66,9 +68,10 @@ pub(super) fn unstable_speed(
     if let Some(error) = failure {
         return Err(error);
     }
-    let [below, at, above] = [excess(value - apart)?, excess(value)?, excess(value + apart)?];
+    let [below, above, at] = [excess(value - apart)?, excess(value + apart)?, excess(value)?];
     let slope = (above.value - below.value) / (2.0 * apart);
-    let standard_error = (at.standard_error + at.value.abs() / NORMAL_975) / slope;
+    // Its swing carries a rotor across a speed that is near.
+    let standard_error = (at.standard_error + at.value.abs() / NORMAL_975) / slope + swing;
     let is_known = slope > 0.0 && NORMAL_975 * standard_error < fast - slow;
     Ok(is_known.then_some(Estimate { value, standard_error }))
 }
