@@ -38,6 +38,7 @@ mod regime;
 #[cfg(test)]
 mod tests;
 mod vibration;
+mod works;
 
 use std::sync::Arc;
 

@@ -22,6 +22,10 @@ use crate::motor::operation::point::OperatingRow;
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::parameter_sweep::axis::{SweepAxis, cells, check_axes, sheet_of_cell};
 
+/// Impacts of a rotor that acts back on its stator take so many times longer than those on a sine: a cell has so many
+/// times fewer, or a map of two hundred cells would take an hour for the few that never settle.
+const SHARE_OF_CELL: u64 = 100;
+
 /// A motor in steady operation over one or two parameters: curves and maps of speed, power and efficiency.
 ///
 /// A sweep has a cell for each value of its axis, or each pair of values of its two; the cells are numbered
@@ -35,6 +39,9 @@ use crate::motor::parameter_sweep::axis::{SweepAxis, cells, check_axes, sheet_of
 /// one by one.) Such a group, of 256 cells at most, runs until each of its cells is known well
 /// enough. A number of a cell therefore depends on the rest of its group, within its standard error; the
 /// cells of a group share their perturbations, so that their differences are more precise than their values.
+/// A cell whose rotor acts back on its stator has a hundredth of the settings' most impacts: there an impact takes a hundred
+/// times as long.
+///
 /// Groups depend on the sweep alone. The results are the same bits for any number of threads.
 ///
 /// ```
@@ -117,16 +124,27 @@ impl MotorSweep {
     pub fn operations(&self, group: usize, observer: &dyn Observer) -> Result<Vec<OperatingRow>, Error> {
         let cells = self.groups.get(group).map_or(&[][..], |cells| cells);
         let motors = cells.iter().map(|cell| self.motor_of(*cell)).collect::<Result<Vec<_>, Error>>()?;
+        let settings = self.settings_of(&motors);
         if !self.continued {
-            return operations(&motors, &self.settings, observer);
+            return operations(&motors, &settings, observer);
         }
         let mut ends = None;
         let each = motors.into_iter().map(|motor| {
-            let (operation, left) = motor.continued(ends.as_ref(), &self.settings, observer)?;
+            let (operation, left) = motor.continued(ends.as_ref(), &settings, observer)?;
             ends = left.or(ends.take());
             Ok(operation)
         });
         each.collect()
+    }
+
+    /// A rotor that acts back on its stator may have [`SHARE_OF_CELL`] of the impacts.
+    fn settings_of(&self, motors: &[Motor]) -> OperatingSettings {
+        let most_impacts = if motors.iter().any(|motor| motor.stator_motion().acts_back()) {
+            (self.settings.most_impacts / SHARE_OF_CELL).max(1)
+        } else {
+            self.settings.most_impacts
+        };
+        OperatingSettings { most_impacts, ..self.settings }
     }
 
     /// The motor that is varied.

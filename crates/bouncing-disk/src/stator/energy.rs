@@ -1,15 +1,10 @@
 //! The energy balances of a motion between two events.
 
 use super::LoadLine;
-use super::linear_flow::{dot, size};
 use super::record::StatorEngine;
-use super::regime::{
-    ANGLE, CLOSING, COS, ContactStiffness, DISPLACEMENTS, GAP, SIN, SPEED, State, VELOCITIES,
-};
+use super::regime::{ANGLE, COS, ContactStiffness, DISPLACEMENTS, GAP, Regime, SIN, State, VELOCITIES};
 use crate::motion::energy::EnergyLedger;
 use crate::motion::engine::Stage;
-use crate::motion::gauss::EIGHT_POINTS;
-use crate::motion::state::Mode;
 use crate::motion::stator_ledger::StatorLedger;
 
 impl StatorEngine {
@@ -47,12 +42,8 @@ impl StatorEngine {
             Stage::Lying(_) => self.record_contact(span, &mut ledger, &mut stator),
             // In a short flight the closed forms are differences of two works of almost a whole period.
             _ if span < self.regime().flow.step() => {
-                let expanded = self.regime().flow.expand(&self.state);
-                for (time, part) in nodes(span) {
-                    let mut at = expanded.at(time);
-                    (at[SIN], at[COS]) = self.phase_after(time);
-                    self.record_mode_works(&at, part, [0.0; 2], &mut stator);
-                }
+                let Regime { flow, works, .. } = self.regime();
+                works.record_part(flow, &self.state, span, (&mut ledger, &mut stator));
             }
             _ => self.record_flight(span, state, &mut stator),
         }
@@ -96,61 +87,17 @@ impl StatorEngine {
         }
     }
 
-    /// Works and losses of the modes in an instant of so long `part`.
-    fn record_mode_works(&self, at: &State, part: f64, [force, torque]: [f64; 2], stator: &mut StatorLedger) {
-        for (index, mode) in self.system.modes.iter().enumerate().filter(|(_, mode)| mode.weight > 0.0) {
-            let [_, speed] = self.mode_state(index, at);
-            let [u, v] = self.system.steady(index, (at[SIN], at[COS]));
-            let drive = mode.weight * ((mode.stiffness - 1.0) * u + mode.damping * v);
-            let taken = mode.height * force + self.system.arm * mode.angle * torque;
-            let loss = mode.weight * mode.damping * speed * speed;
-            stator.record(index, part * drive * speed, part * loss, part * taken * speed);
-        }
-    }
-
-    /// Works and losses over a contact, by quadrature of the state on each step.
+    /// Works and losses over a contact.
     fn record_contact(&self, span: f64, ledger: &mut EnergyLedger, stator: &mut StatorLedger) {
-        let regime = self.regime();
-        let flow = &regime.flow;
+        let Regime { flow, works, .. } = self.regime();
         let (mut state, mut passed) = (self.state, 0.0);
-        let friction = self.system.base.friction();
-        let line = self.system.lines[self.line];
-        while passed < span {
-            let length = (span - passed).min(flow.step());
-            let expanded = flow.expand(&state);
-            for (time, part) in nodes(length) {
-                let mut at = expanded.at(time);
-                (at[SIN], at[COS]) = self.phase_after(passed + time);
-                let (force, torque) = (dot(regime.force.now(), &at), dot(&regime.torque, &at));
-                let ([_, tip], [_, turn]) = (self.system.tip(&at), self.system.twist(&at));
-                let damper = match self.system.contact {
-                    ContactStiffness::Soft { damping, .. } => damping * at[CLOSING] * at[CLOSING],
-                    ContactStiffness::Rigid => 0.0,
-                };
-                ledger.record_normal(part * force * tip, part * damper);
-                if line.slope != 0.0 {
-                    let load = part * (line.torque + line.slope * at[SPEED]) * at[SPEED];
-                    ledger.record_load(load, load.abs());
-                }
-                let lost = match self.mode() {
-                    Mode::Sticking => 0.0,
-                    _ => friction * force * (at[SPEED] - turn).abs(),
-                };
-                // The speed of the tip is a small sum of its steady motion and the ringing where the disk is heavy.
-                let terms = size(&regime.torque, &at) * size(regime.slip.now(), &at);
-                ledger.record_friction(part * torque * turn, part * lost, part * (terms + lost));
-                self.record_mode_works(&at, part, [force, torque], stator);
-            }
-            state = if length < flow.step() { state } else { flow.advance(&state) };
+        while span - passed >= flow.step() {
+            state = works.record_step(flow, &state, (&mut *ledger, &mut *stator));
             passed += flow.step();
+            (state[SIN], state[COS]) = self.phase_after(passed);
         }
+        works.record_part(flow, &state, span - passed, (ledger, stator));
     }
-}
-
-/// Times and weights of the rule on an interval of this length.
-fn nodes(length: f64) -> impl Iterator<Item = (f64, f64)> {
-    let all = EIGHT_POINTS.into_iter().flat_map(|(node, weight)| [(node, weight), (-node, weight)]);
-    all.map(move |(node, weight)| (0.5 * length * (1.0 + node), 0.5 * length * weight))
 }
 
 /// The integrals of cos(tau) r' and sin(tau) r' of a ringing x = (r, r') but for a constant: the second component of

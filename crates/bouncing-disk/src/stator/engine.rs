@@ -386,12 +386,12 @@ impl SteeredMotion for StatorEngine {
         }
         // One expansion for all times within a step.
         let flow = &self.regime().flow;
-        let (mut state, mut passed, mut expanded) = (self.state, 0, flow.expand(&self.state));
+        let (mut state, mut passed, mut expanded) = (self.state, 0, flow.expand(&self.state, flow.step()));
         Box::new(move |span| {
             let whole = (span / flow.step()) as u64;
             if passed < whole {
                 (passed..whole).for_each(|_| state = flow.advance(&state));
-                (passed, expanded) = (whole, flow.expand(&state));
+                (passed, expanded) = (whole, flow.expand(&state, flow.step()));
             }
             let mut at = expanded.at(span - whole as f64 * flow.step());
             (at[SIN], at[COS]) = self.phase_after(span);

@@ -38,6 +38,8 @@ pub(crate) struct Functional<const N: usize> {
     now: Vector<N>,
     /// For each component of the state its weights in the coefficients, up to the last one that it has.
     columns: Vec<Vec<f64>>,
+    /// The sums of their sizes.
+    sizes: Vector<N>,
     step: f64,
 }
 
@@ -53,11 +55,13 @@ pub(crate) struct TaylorStep {
     fourth: f64,
 }
 
-/// The state on one step: its Taylor coefficients.
+/// The state on a part of a step: its Taylor polynomial in shares of it.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct StateStep<const N: usize> {
-    coefficients: [Vector<N>; DEGREE + 1],
-    step: f64,
+    terms: [Vector<N>; DEGREE + 1],
+    /// The degree.
+    last: usize,
+    length: f64,
 }
 
 /// The sum of the sizes of the terms of a functional.
@@ -119,19 +123,32 @@ impl<const N: usize> LinearFlow<N> {
             rows[k] = self.derivative(&rows[k - 1]).map(|entry| entry * (self.step / k as f64));
         }
         let used = |i: usize| rows.iter().rposition(|row| row[i] != 0.0).map_or(0, |last| last + 1);
-        let columns = (0..N).map(|i| rows[..used(i)].iter().map(|row| row[i]).collect()).collect();
-        Functional { now: of, columns, step: self.step }
+        let column = |i: usize| rows[..used(i)].iter().map(|row| row[i]).collect();
+        let columns: Vec<Vec<f64>> = (0..N).map(column).collect();
+        let sizes = array::from_fn(|i| columns[i].iter().map(|weight| weight.abs()).sum());
+        Functional { now: of, columns, sizes, step: self.step }
     }
 
-    /// The state on the next step.
+    /// The state on so much of the next step.
     #[must_use]
-    pub(crate) fn expand(&self, state: &Vector<N>) -> StateStep<N> {
-        let mut coefficients = [*state; DEGREE + 1];
-        for k in 1..=DEGREE {
-            coefficients[k] =
-                self.vector_field(&coefficients[k - 1]).map(|value| value * (self.step / k as f64));
+    pub(crate) fn expand(&self, state: &Vector<N>, length: f64) -> StateStep<N> {
+        let mut terms = [*state; DEGREE + 1];
+        let last = self.degree(length);
+        for k in 1..=last {
+            terms[k] = self.vector_field(&terms[k - 1]).map(|value| value * (length / k as f64));
         }
-        StateStep { coefficients, step: self.step }
+        StateStep { terms, last, length }
+    }
+
+    /// The degree from which on the terms of the solution are negligible after this time.
+    fn degree(&self, time: f64) -> usize {
+        let (mut last, mut bound) = (0, 1.0);
+        // A gap that opens by its third derivative keeps its digits.
+        while last < DEGREE && (last < 4 || bound > NEGLIGIBLE) {
+            last += 1;
+            bound *= if last > 3 { time / (self.step * last as f64) } else { 1.0 };
+        }
+        last
     }
 
     fn vector_field(&self, state: &Vector<N>) -> Vector<N> {
@@ -145,18 +162,7 @@ impl<const N: usize> LinearFlow<N> {
     /// The state after a time of at most a step.
     #[must_use]
     pub(crate) fn after(&self, state: &Vector<N>, time: f64) -> Vector<N> {
-        let (mut terms, mut last, mut bound) = ([*state; DEGREE + 1], 0, 1.0);
-        // A gap that opens by its third derivative keeps its digits.
-        while last < DEGREE && (last < 4 || bound > NEGLIGIBLE) {
-            last += 1;
-            bound *= if last > 3 { time / (self.step * last as f64) } else { 1.0 };
-            terms[last] = self.vector_field(&terms[last - 1]).map(|value| value * (time / last as f64));
-        }
-        let mut sum = terms[last];
-        for term in terms[..last].iter().rev() {
-            sum = array::from_fn(|i| sum[i] + term[i]);
-        }
-        sum
+        self.expand(state, time).at_end()
     }
 
     /// The state a whole step later.
@@ -167,15 +173,24 @@ impl<const N: usize> LinearFlow<N> {
 }
 
 impl<const N: usize> StateStep<N> {
-    /// The state after a time of at most a step.
+    /// The state after a time within it.
     #[must_use]
     pub(crate) fn at(&self, time: f64) -> Vector<N> {
-        let share = time / self.step;
-        let mut state = self.coefficients[DEGREE];
-        for row in self.coefficients[..DEGREE].iter().rev() {
-            for (value, coefficient) in state.iter_mut().zip(row) {
-                *value = *value * share + coefficient;
+        let share = time / self.length;
+        let mut state = self.terms[self.last];
+        for row in self.terms[..self.last].iter().rev() {
+            for (value, term) in state.iter_mut().zip(row) {
+                *value = *value * share + term;
             }
+        }
+        state
+    }
+
+    /// The state at its end.
+    fn at_end(&self) -> Vector<N> {
+        let mut state = self.terms[self.last];
+        for row in self.terms[..self.last].iter().rev() {
+            state = array::from_fn(|i| state[i] + row[i]);
         }
         state
     }
@@ -192,17 +207,13 @@ impl<const N: usize> Functional<N> {
     /// the value.
     #[must_use]
     pub(crate) fn along(&self, state: &Vector<N>, error: f64) -> TaylorStep {
-        let (mut coefficients, mut sizes) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1]);
+        let mut coefficients = [0.0; DEGREE + 1];
         for (value, column) in state.iter().zip(&self.columns) {
-            let used = column.len();
-            let (sums, sizes) = (&mut coefficients[..used], &mut sizes[..used]);
-            for k in 0..used {
-                let term = column[k] * value;
-                sums[k] += term;
-                sizes[k] += term.abs();
+            for (sum, weight) in coefficients.iter_mut().zip(column) {
+                *sum += weight * value;
             }
         }
-        let size = sizes.iter().sum();
+        let size = size(&self.sizes, state);
         TaylorStep { coefficients, size, step: self.step, error, fourth: 0.0 }.bounded()
     }
 }

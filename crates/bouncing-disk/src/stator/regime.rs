@@ -15,6 +15,7 @@
 use std::f64::consts::TAU;
 
 use super::linear_flow::{Functional, LinearFlow, Vector};
+use super::works::Works;
 use super::{LoadLine, MODES, StatorSystem};
 use crate::motion::state::{Mode, SlipDirection};
 
@@ -57,11 +58,11 @@ pub(crate) struct Regime {
     pub(crate) hold: [Functional<N>; 2],
     /// How far the speed is above the lower end of the line of the load, and below its upper end.
     pub(crate) nodes: [Option<Functional<N>>; 2],
-    /// T.
-    pub(crate) torque: Vector<N>,
+    /// Works and losses while it lasts.
+    pub(super) works: Works,
 }
 
-fn unit(index: usize) -> State {
+pub(super) fn unit(index: usize) -> State {
     let mut unit = [0.0; N];
     unit[index] = 1.0;
     unit
@@ -151,19 +152,22 @@ impl Regime {
         for (j, mode) in system.modes.iter().enumerate() {
             slip[VELOCITIES[j]] = -mode.angle;
         }
-        let direction = if mode == Mode::Sliding(SlipDirection::Backward) { -1.0 } else { 1.0 };
+        if mode == Mode::Sliding(SlipDirection::Backward) {
+            slip = slip.map(|entry| -entry);
+        }
         let grips = force.map(|entry| friction * entry);
+        let works = Works::new(system, mode, [&force, &torque, &slip], (line.slope != 0.0).then_some(load));
         let force = if mode == Mode::Flight { pull } else { force };
         Self {
             gap: flow.functional(unit(GAP)),
             force: flow.functional(force),
-            slip: flow.functional(slip.map(|entry| direction * entry)),
+            slip: flow.functional(slip),
             hold: [-1.0, 1.0].map(|sign| flow.functional(sum(&grips, &torque, sign))),
             nodes: [(1.0, line.from), (-1.0, line.to)].map(|(sign, node)| {
                 let distance = sum(&unit(SPEED).map(|one| sign * one), &unit(ONE), -sign * node);
                 node.is_finite().then(|| flow.functional(distance))
             }),
-            torque,
+            works,
             flow,
         }
     }

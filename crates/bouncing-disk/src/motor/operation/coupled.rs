@@ -104,8 +104,13 @@ impl Coupled {
         Left::of(&self.engine, self.reached)
     }
 
-    pub(crate) const fn repeats(&self) -> bool {
-        self.repeats.is_some()
+    pub(crate) const fn repeats(&self) -> Option<Repeats> {
+        self.repeats
+    }
+
+    /// Other members have come to cycles with these touches.
+    pub(crate) fn know(&mut self, cycles: &[&[Key]]) {
+        self.recurrence.know(cycles);
     }
 
     /// How long (rad) it was followed.
@@ -160,7 +165,7 @@ impl Coupled {
             if let Some(touch) = self.advance(f64::INFINITY, work)? {
                 let lasted = self.engine.time().since(&before).radians();
                 self.repeats = self.recurrence.add(touch, lasted);
-                if self.repeats() {
+                if self.repeats.is_some() {
                     return Ok(self.window(false));
                 }
             }

@@ -18,7 +18,7 @@ use crate::motor::stator::Stator;
 use crate::motor::tape::cycle::Cycle;
 use crate::motor::tape::held::{DiskStart, Held, held_amplitudes};
 use crate::motor::tape::left::Left;
-use crate::motor::tape::recurrence::Repeats;
+use crate::motor::tape::recurrence::{Key, Repeats};
 use crate::motor::tape::source::Source;
 use crate::motor::tape::taped::{Taped, resolution};
 use crate::motor::tape::window::Window;
@@ -223,11 +223,19 @@ impl Member {
         }
     }
 
-    /// Whether its motion was found to repeat itself.
-    pub(crate) const fn repeats(&self) -> bool {
+    /// What its motion was found to repeat.
+    pub(crate) const fn repeats(&self) -> Option<Repeats> {
         match self {
             Self::Taped(member) => member.repeats(),
             Self::Coupled(member) => member.repeats(),
+        }
+    }
+
+    /// Other members have come to cycles with these touches.
+    pub(crate) fn know(&mut self, cycles: &[&[Key]]) {
+        match self {
+            Self::Taped(member) => member.know(cycles),
+            Self::Coupled(member) => member.know(cycles),
         }
     }
 

@@ -19,6 +19,7 @@ use crate::motor::operation::survey::{Lived, Survey};
 use crate::motor::stator::Stator;
 use crate::motor::tape::cycle::Cycle;
 use crate::motor::tape::left::Left;
+use crate::motor::tape::recurrence::Key;
 use crate::motor::tape::source::Source;
 use crate::motor::tape::window::{RotorWindow, Window};
 use crate::parameters::dimensionless::DimensionlessSystem;
@@ -71,6 +72,9 @@ const GROWTH: f64 = 3.0;
 /// The factor by which the estimated number of windows is increased, so that a further round is seldom
 /// needed.
 const MARGIN: f64 = 1.15;
+
+/// Members of which the first cycles are known.
+const PILOTS: usize = 2;
 
 /// Members begin, in place of others that repeat themselves, until there were so many times those of the settings.
 const MOST_STARTS: usize = 3;
@@ -556,7 +560,16 @@ impl<'a> SteadyRun<'a> {
     /// Extends all members to so many windows. One whose motion is found to repeat itself gives its place to a member
     /// that begins.
     fn extend(&mut self, target: usize, watch: &Watch<'_>) -> Result<(), Error> {
+        if self.windows() == 0 && self.stators[0].yields() && self.members.len() > PILOTS {
+            // Others are soon seen to come to the cycles that these take long to be followed to.
+            let others = self.members.split_off(PILOTS);
+            self.extend_all(target, watch)?;
+            self.take_repeated(watch)?;
+            self.members.extend(others);
+        }
         loop {
+            let cycles: Vec<&[Key]> = self.repeated.iter().map(|known| known.cycle.touches()).collect();
+            self.members.iter_mut().for_each(|own| own.member.know(&cycles));
             self.extend_all(target, watch)?;
             if !self.take_repeated(watch)? {
                 return Ok(());
@@ -575,25 +588,12 @@ impl<'a> SteadyRun<'a> {
         };
         let (mut kept, mut places) = (Vec::new(), 0);
         for mut own in std::mem::take(&mut self.members) {
-            let Some(cycle) = own.member.cycle(&mut watch.work())? else {
+            let Some(place) = self.place_of(&mut own.member, &largest, watch)? else {
                 kept.push(own);
                 continue;
             };
             let followed = own.member.followed();
             self.left.extend(own.member.left().map(|left| (own.index, left)));
-            let place = match self.repeated.iter().position(|known| known.cycle.is_same(&cycle)) {
-                Some(known) => known,
-                None => {
-                    // A disk that just touches the stator does so more or less often in what is one motion all the same.
-                    let windows = own.member.on_cycle(&cycle, &largest);
-                    let alike = |known: &Repeated| known.windows[0].is_like(&windows[0], &largest);
-                    let known = self.repeated.iter().position(alike).unwrap_or(self.repeated.len());
-                    if known == self.repeated.len() {
-                        self.repeated.push(Repeated { cycle, windows, from_rest: 0 });
-                    }
-                    known
-                }
-            };
             self.repeated[place].from_rest += own.from_rest;
             let mut windows = own.windows;
             // The last ones may be on the way to the cycle.
@@ -624,6 +624,30 @@ impl<'a> SteadyRun<'a> {
         Ok(begins)
     }
 
+    /// The place of the cycle that a member repeats, if it was found to do so: a new one if it is not known.
+    fn place_of(
+        &mut self,
+        member: &mut Member,
+        largest: &[f64],
+        watch: &Watch<'_>,
+    ) -> Result<Option<usize>, Error> {
+        if let Some(known) = member.repeats().and_then(|repeats| repeats.known) {
+            return Ok(Some(known));
+        }
+        let Some(cycle) = member.cycle(&mut watch.work())? else { return Ok(None) };
+        if let Some(known) = self.repeated.iter().position(|known| known.cycle.is_same(&cycle)) {
+            return Ok(Some(known));
+        }
+        // A disk that just touches the stator does so more or less often in what is one motion all the same.
+        let windows = member.on_cycle(&cycle, largest);
+        let alike = |known: &Repeated| known.windows[0].is_like(&windows[0], largest);
+        let known = self.repeated.iter().position(alike).unwrap_or(self.repeated.len());
+        if known == self.repeated.len() {
+            self.repeated.push(Repeated { cycle, windows, from_rest: 0 });
+        }
+        Ok(Some(known))
+    }
+
     /// Whether nothing more is wanted than is known: irregular motions end, so that a cycle is where most are from rest.
     fn knows_first(&self) -> bool {
         self.motors[0].first_only && self.life.ended > 0 && !self.repeated.is_empty()
@@ -650,10 +674,10 @@ impl<'a> SteadyRun<'a> {
         let (duration, impacts) = (self.duration, self.least_impacts..=self.most_impacts);
         let extend_one = |own: &mut Carried| {
             let mut work = watch.work();
-            while own.windows.len() < target && !own.member.repeats() {
+            while own.windows.len() < target && own.member.repeats().is_none() {
                 let window = own.member.next_window(duration, impacts.clone(), &mut work)?;
                 watch.finish(window.axial.impacts);
-                if !own.member.repeats() {
+                if own.member.repeats().is_none() {
                     own.windows.push(window);
                 }
             }

@@ -99,6 +99,11 @@ impl Cycle {
             && (0..self.touches.len()).any(is_same)
     }
 
+    /// Its touches.
+    pub(crate) fn touches(&self) -> &[Key] {
+        &self.touches
+    }
+
     /// Whether a touch is near one of its touches.
     pub(crate) fn is_near(&self, key: &Key) -> bool {
         is_near(&self.touches, key)

@@ -9,6 +9,9 @@ use crate::stator::MODES;
 /// A state that differs from an earlier one by less than this share of the largest seen repeats it. Two cycles must.
 const SAME: f64 = 1.0e-11;
 
+/// A motion that comes so near to a stable cycle that is known stays on it.
+const JOINS: f64 = 1.0e-5;
+
 /// A motion comes nearer to its cycle by at least the rest of this factor.
 const SLOWEST: f64 = 1.0 - 1.0e-5;
 
@@ -74,11 +77,15 @@ pub(crate) struct Recurrence {
     renewal: u64,
     /// Touches of the cycle that was seen last, and by how much it missed.
     seen: Option<(u64, f64)>,
+    /// The touches of cycles that other members have come to.
+    known: Vec<Vec<Key>>,
 }
 
-/// A cycle that was seen twice.
+/// A cycle that was seen twice, or is known.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Repeats {
+    /// The place of a cycle that is known.
+    pub(crate) known: Option<usize>,
     /// Touches of a cycle, or periods of a disk that lies on the platform.
     pub(crate) touches: u64,
     /// How far the motion may still be from the cycle, as a share of the largest state.
@@ -91,7 +98,7 @@ impl Recurrence {
         self.elapsed += duration;
         let key = match touch {
             Touch::None => return None,
-            Touch::Lies => return Some(Repeats { touches: 1, distance: 0.0 }),
+            Touch::Lies => return Some(Repeats { known: None, touches: 1, distance: 0.0 }),
             Touch::At(key) => key,
         };
         self.largest = most_of(self.largest, key.0);
@@ -106,14 +113,37 @@ impl Recurrence {
             // What is left of a geometric series that falls as the last two terms do.
             return seen.filter(|seen| seen.0 == touches).map(|(_, before)| {
                 let ratio = if before > 0.0 { (off / before).min(SLOWEST) } else { 0.0 };
-                Repeats { touches, distance: off.max(f64::EPSILON) / (1.0 - ratio) }
+                Repeats { known: None, touches, distance: off.max(f64::EPSILON) / (1.0 - ratio) }
             });
+        }
+        if off < JOINS && self.elapsed > LEAST_CYCLE {
+            let joined = self.joined(&key);
+            if joined.is_some() {
+                return joined;
+            }
         }
         if self.since >= self.renewal {
             self.renewal = (2 * self.renewal).clamp(1, LONGEST);
             (self.reference, self.since, self.elapsed, self.seen) = (Some(key), 0, 0.0, None);
         }
         None
+    }
+
+    /// Other members have come to cycles with these touches.
+    pub(crate) fn know(&mut self, cycles: &[&[Key]]) {
+        self.known = cycles.iter().map(|touches| touches.to_vec()).collect();
+    }
+
+    /// The known cycle that a touch with which the motion nearly repeats itself is very near to, and nearer than a cycle ago.
+    fn joined(&self, key: &Key) -> Option<Repeats> {
+        let reference = self.reference?;
+        let distance = |own: &Key| own.distance(key, self.largest);
+        let comes =
+            |own: &Key| distance(own) < JOINS && distance(own) <= own.distance(&reference, self.largest);
+        let is_joined =
+            |cycle: &Vec<Key>| self.since.is_multiple_of(cycle.len() as u64) && cycle.iter().any(comes);
+        let known = self.known.iter().position(is_joined)?;
+        Some(Repeats { known: Some(known), touches: self.known[known].len() as u64, distance: JOINS })
     }
 }
 
@@ -142,4 +172,44 @@ pub(crate) fn is_near(cycle: &[Key], key: &Key) -> bool {
 
 fn most_of(one: [f64; PARTS], other: [f64; PARTS]) -> [f64; PARTS] {
     core::array::from_fn(|part| one[part].max(other[part].abs()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn key(velocity: f64) -> Key {
+        let phase = Phase::new(1.0).expect("legal");
+        Key::new(phase, [velocity, 0.0, 0.0], [[0.0; 2]; MODES])
+    }
+
+    /// How many touches of a motion with these velocities are followed, and what it is found to repeat.
+    fn followed(velocities: impl Iterator<Item = f64>, cycle: &[Key]) -> (usize, Option<Repeats>) {
+        let mut recurrence = Recurrence::default();
+        recurrence.know(&[&[key(7.0)], cycle]);
+        let mut touches = 0;
+        for velocity in velocities {
+            touches += 1;
+            if let Some(repeats) = recurrence.add(Touch::At(key(velocity)), 6.0) {
+                return (touches, Some(repeats));
+            }
+        }
+        (touches, None)
+    }
+
+    #[test]
+    fn a_motion_that_comes_to_a_known_cycle_is_followed_until_it_is_near() {
+        let comes = |to: f64| (0..2_000).map(move |n| to + 0.98_f64.powi(n));
+        let (touches, repeats) = followed(comes(2.0), &[key(2.0)]);
+        let (longer, alone) = followed(comes(3.0), &[key(2.0)]);
+        assert_eq!(repeats.and_then(|own| own.known), Some(1));
+        assert_eq!(alone.map(|own| own.known), Some(None));
+        assert!(touches > 500 && longer > 1_000, "{touches} {longer}");
+    }
+
+    #[test]
+    fn a_motion_that_leaves_a_known_cycle_does_not_stay_on_it() {
+        let leaves = (0..400).map(|n| 2.0 + 1.0e-6 * 1.002_f64.powi(n));
+        assert_eq!(followed(leaves, &[key(2.0)]), (400, None));
+    }
 }

@@ -11,7 +11,7 @@ use bouncing_disk_core::sweep::{InstructionSet, LaneRunner};
 
 use super::Tape;
 use super::cycle::Cycle;
-use super::recurrence::{Recurrence, Repeats};
+use super::recurrence::{Key, Recurrence, Repeats};
 use super::replay::{Done, Replay, Rotors};
 use super::source::Source;
 use super::window::{AxialWindow, RotorWindow, SAMPLES, Speeds, Window};
@@ -202,8 +202,13 @@ impl Taped {
         Cycle::record(&mut self.source, repeats, self.tape.twists(), work).map(Some)
     }
 
-    pub(crate) const fn repeats(&self) -> bool {
-        self.repeats.is_some()
+    pub(crate) const fn repeats(&self) -> Option<Repeats> {
+        self.repeats
+    }
+
+    /// Other members have come to cycles with these touches.
+    pub(crate) fn know(&mut self, cycles: &[&[Key]]) {
+        self.recurrence.know(cycles);
     }
 
     /// The rotors of this cycle in the order of this member's, at the speeds that they repeat.
@@ -261,7 +266,8 @@ impl Taped {
             self.repeats = self.recurrence.add(touch, self.tape.axial.duration - before);
             let (now, done) = (&self.tape.axial, axial.impacts + self.tape.axial.impacts);
             let lasts = axial.duration + now.duration >= duration;
-            let is_enough = self.repeats() || lasts && done >= *impacts.start() || done >= *impacts.end();
+            let is_enough =
+                self.repeats.is_some() || lasts && done >= *impacts.start() || done >= *impacts.end();
             if is_enough || self.tape.knots.len() > BLOCK {
                 work.spend((self.tape.knots.len() * self.rotors.len() / 32) as u64)?;
                 self.replay(axial.duration, &mut due, &mut samples);
