@@ -183,6 +183,10 @@ mod tests {
         Key::new(phase, [velocity, 0.0, 0.0], [[0.0; 2]; MODES])
     }
 
+    fn powers(of: f64) -> impl Iterator<Item = f64> {
+        std::iter::successors(Some(1.0), move |power| Some(power * of))
+    }
+
     /// How many touches of a motion with these velocities are followed, and what it is found to repeat.
     fn followed(velocities: impl Iterator<Item = f64>, cycle: &[Key]) -> (usize, Option<Repeats>) {
         let mut recurrence = Recurrence::default();
@@ -199,7 +203,7 @@ mod tests {
 
     #[test]
     fn a_motion_that_comes_to_a_known_cycle_is_followed_until_it_is_near() {
-        let comes = |to: f64| (0..2_000).map(move |n| to + 0.98_f64.powi(n));
+        let comes = |to: f64| powers(0.98).map(move |power| to + power).take(2_000);
         let (touches, repeats) = followed(comes(2.0), &[key(2.0)]);
         let (longer, alone) = followed(comes(3.0), &[key(2.0)]);
         assert_eq!(repeats.and_then(|own| own.known), Some(1));
@@ -209,7 +213,7 @@ mod tests {
 
     #[test]
     fn a_motion_that_leaves_a_known_cycle_does_not_stay_on_it() {
-        let leaves = (0..400).map(|n| 2.0 + 1.0e-6 * 1.002_f64.powi(n));
+        let leaves = powers(1.002).map(|power| 2.0 + 1.0e-6 * power).take(400);
         assert_eq!(followed(leaves, &[key(2.0)]), (400, None));
     }
 }
