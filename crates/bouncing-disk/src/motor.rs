@@ -50,7 +50,7 @@ pub use data_sheet::regime::MotorRegime;
 pub use data_sheet::report::{MotorReport, StatorReport};
 pub use data_sheet::traps::{TrapVerdict, low_period_traps};
 pub use data_sheet::warning::MotorWarning;
-pub use impulse::{ImpulseBalance, ImpulseTrain, MAX_IMPULSES, NormalImpulses, PhasedImpulse};
+pub use impulse::{ImpulseBalance, NormalImpulses, PhasedImpulse};
 pub use operation::best_phase_lag::BestPhaseLag;
 pub use operation::of_motor::operations;
 pub use operation::point::{

@@ -7,7 +7,7 @@ mod draw;
 mod trends;
 
 use bouncing_disk::core::ChatterPolicy;
-use bouncing_disk::motor::TransientSettings;
+use bouncing_disk::motor::{OperatingSettings, TransientSettings};
 use bouncing_disk_plot::Figure;
 
 pub use self::data::Fig11Data;
@@ -32,7 +32,7 @@ impl Experiment for Fig11 {
             ("preloads", compute::PRELOAD_SEED),
             ("ensembles", TransientSettings::default().seed),
             ("bouncing motors that print alike", compute::BOUNCING_SEED),
-            ("runs to stall", super::shared::stall::SEED),
+            ("runs to stall", OperatingSettings::default().seed),
         ]
     }
 

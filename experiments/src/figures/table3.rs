@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
+use bouncing_disk::Unobserved;
 use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk::motor::{Estimate, InputSpread, InputTolerance, OperatingSettings, TransientSettings};
-use bouncing_disk::{Motor, Unobserved};
 use bouncing_disk_plot::{Figure, Label, ruled_table};
 use serde::{Deserialize, Serialize};
 
@@ -33,7 +33,7 @@ impl Experiment for Table3 {
     fn seeds() -> Vec<(&'static str, u64)> {
         vec![
             ("drops of the ball", DROP_SEED),
-            ("runs to stall", super::shared::stall::SEED),
+            ("runs to stall", OperatingSettings::default().seed),
             ("ensembles", TransientSettings::default().seed),
         ]
     }
@@ -43,7 +43,7 @@ impl Experiment for Table3 {
             "The default motor. Sec. V A announces {} inputs, the table prints {}: a column for ω is missing, and its \
              last column can be read in two ways, both computed here: g = {} m/s² as printed, or ω/2π = {} kHz with \
              gravity for g. ω is 2π × {} kHz in both. Below the nine inputs: what follows from \
-             them. The load torque that stalls the motor is found by bisection on the sign of the mean speed, {} members over {} rise times each; the paper takes \
+             them. The load torque that stalls the motor is that at which the mean speed of {} members is zero; the paper takes \
              α̇_ss/t_c for it.",
             data.inputs.len(),
             data.printed_inputs,
@@ -51,7 +51,6 @@ impl Experiment for Table3 {
             data.frequency_khz,
             data.frequency_khz,
             data.stalls[1].members,
-            data.stalls[1].rises,
         )
     }
 
@@ -278,8 +277,7 @@ fn speed(
     quality: Quality,
     tolerance: Option<InputTolerance>,
 ) -> Result<Speed, ExperimentError> {
-    let motor = Motor::paper_70_khz()
-        .with(|sheet| sheet.preload_acceleration = Some(case.preload_acceleration_m_per_s2))?;
+    let motor = case.motor()?;
     let settings = OperatingSettings { members: quality.choose(4, 16), ..OperatingSettings::default() };
     let over_inputs = |spread: Option<InputSpread>, unit: f64| {
         let quantity = || "spread over the inputs".to_owned();
@@ -423,7 +421,7 @@ fn derived(
             r"stall $T/m a_g^2$",
             "rad/s²",
             "load torque $T$ with mean speed 0",
-            stalls.map(|stall| stall.load_rad_per_s2.mean),
+            stalls.map(|stall| stall.load_rad_per_s2.value),
         ),
         row(
             "stall $T$",
@@ -431,7 +429,7 @@ fn derived(
             "",
             [0, 1].map(|index| {
                 let radius = cases[index].gyration_radius_m;
-                1e6 * mass * radius * radius * stalls[index].load_rad_per_s2.mean
+                1e6 * mass * radius * radius * stalls[index].load_rad_per_s2.value
             }),
         ),
         row(

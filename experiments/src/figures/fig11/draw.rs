@@ -111,7 +111,7 @@ pub(super) fn draw(data: &Fig11Data) -> Figure {
             .stalls
             .iter()
             .filter(|at| at.frequency_hz.total_cmp(&frequency).is_eq())
-            .map(|at| (at.preload_mn, at.stall.load_rad_per_s2.mean))
+            .map(|at| (at.preload_mn, at.stall.load_rad_per_s2.value))
             .collect();
         let label = [
             Text::at_axes(0.12, 0.93, format!("${}$ kHz", frequency / 1e3)),

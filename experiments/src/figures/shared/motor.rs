@@ -78,6 +78,22 @@ impl MotorCase {
         build().map_err(ExperimentError::model)
     }
 
+    /// Its data sheet, with the paper's rotor mass.
+    pub(crate) fn motor(&self) -> Result<Motor, ExperimentError> {
+        let motor = Motor::paper_70_khz().with(|sheet| {
+            sheet.drive_frequency = self.frequency_hz;
+            sheet.amplitude = Some(self.amplitude_m);
+            sheet.peak_angular_speed = Some(self.peak_angular_speed_rad_per_s);
+            sheet.phase_lag = self.phase_lag_rad;
+            sheet.contact_radius = self.contact_radius_m;
+            sheet.gyration_radius = Some(self.gyration_radius_m);
+            sheet.preload_acceleration = Some(self.preload_acceleration_m_per_s2);
+            sheet.friction = self.friction;
+            sheet.restitution = self.restitution;
+        });
+        motor.map_err(ExperimentError::model)
+    }
+
     const fn rotor(&self) -> DiskParameters {
         DiskParameters {
             contact_radius: self.contact_radius_m,

@@ -1,20 +1,16 @@
 //! The load at which a motor stalls.
 //!
-//! The model's [`ImpulseTrain`] finds it; beside it stands the prediction of the balance of the normal
+//! The model finds it ([`Motor::stall_load`]); beside it stands the prediction of the balance of the normal
 //! impulse ([`NormalImpulses`]).
 
 use bouncing_disk::core::Unobserved;
 use bouncing_disk::core::run::in_parallel;
 use bouncing_disk::estimate::{ExponentialFit, Spread};
-use bouncing_disk::motor::{ImpulseTrain, NormalImpulses};
+use bouncing_disk::motor::{Estimate, NormalImpulses, OperatingSettings};
 use serde::{Deserialize, Serialize};
 
 use super::motor::MotorCase;
 use crate::experiment::ExperimentError;
-
-/// Duration of a run in rise times ωΦ a_g²/(μ a_e g): a dozen relaxation times of the speed, so that where it
-/// starts does not matter.
-const RISES: f64 = 12.0;
 
 /// Duration of the transients for α̇_ss/t_c, as in Fig. 11.
 const TRANSIENT_RISES: f64 = 6.0;
@@ -25,18 +21,13 @@ const PREDICTED_POINTS: u32 = 240;
 /// Impacts of each orbit for the balance of the normal impulse.
 const BALANCED_IMPACTS: usize = 6_000;
 
-/// Seed of the relaunches.
-pub(crate) const SEED: u64 = 11;
-
 /// The stall of one motor, as accelerations (rad/s²): times m a_g² they are torques.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Stall {
     pub(crate) members: usize,
-    /// Duration of each run, in rise times.
-    pub(crate) rises: f64,
     pub(crate) relaunch_perturbation: f64,
-    /// The load at which the mean speed is zero, over the members.
-    pub(crate) load_rad_per_s2: Spread,
+    /// The load at which the mean speed is zero.
+    pub(crate) load_rad_per_s2: Estimate,
     /// (μ a_e g/a_g²) S(0): the mean acceleration of a rotor held at rest, over orbits with other relaunches.
     pub(crate) balance_rad_per_s2: Spread,
     /// The paper's estimate α̇_ss/t_c of the same motor without load, over the members.
@@ -63,15 +54,13 @@ impl Stall {
         relaunch_perturbation: f64,
     ) -> Result<Self, ExperimentError> {
         let system = case.system()?;
-        let without_units = system.dimensionless();
-        let (map, limit) = (without_units.map(), case.largest_acceleration());
-        // Per radian, friction with the mean normal force gives this share of the stator's largest speed.
-        let grip = without_units.friction() / without_units.twist_speed();
-        let shares = in_parallel(members, |member| -> Result<f64, ExperimentError> {
-            let seed = SEED + member as u64;
-            let train = ImpulseTrain::new(without_units, RISES / grip, relaunch_perturbation, seed)?;
-            Ok(train.stall_share())
-        });
+        let (map, limit) = (system.dimensionless().map(), case.largest_acceleration());
+        let settings = OperatingSettings { members, relaunch_perturbation, ..OperatingSettings::default() };
+        let motor = case.motor()?;
+        let stall = motor.stall_load(&settings, &Unobserved)?.torque;
+        let inertia = motor.mass() * case.gyration_radius_m * case.gyration_radius_m;
+        let [value, standard_error] = [stall.value, stall.standard_error].map(|torque| torque / inertia);
+        let load_rad_per_s2 = Estimate { value, standard_error };
         let orbits = in_parallel(members, |member| -> Result<(f64, f64), ExperimentError> {
             // A slightly smaller perturbation is another orbit.
             let smaller = 1.0 - 0.5 * member as f64 / members as f64;
@@ -84,35 +73,29 @@ impl Stall {
         let orbits = orbits.into_iter().collect::<Result<Vec<_>, _>>()?;
         let mean = |of: fn(&(f64, f64)) -> f64| orbits.iter().map(of).sum::<f64>();
         let predicted_off = mean(|orbit| orbit.1) / mean(|orbit| orbit.0) - 1.0;
-        let balance = orbits.iter().map(|orbit| Ok(orbit.0)).collect();
-        let load_rad_per_s2 = spread(shares, limit)?;
+        let balance: Vec<f64> = orbits.iter().map(|orbit| limit * orbit.0).collect();
         let statistics = case.statistics(TRANSIENT_RISES, members, relaunch_perturbation)?;
         let estimate_rad_per_s2 = statistics.stall_acceleration_rad_per_s2.ok_or_else(|| {
             ExperimentError::NoData { quantity: "stall torque from a transient".to_owned() }
         })?;
-        let ratio = estimate_rad_per_s2.mean / load_rad_per_s2.mean;
-        let relative = |spread: Spread| spread.standard_error / spread.mean;
-        let (one, other) = (relative(estimate_rad_per_s2), relative(load_rad_per_s2));
+        let ratio = estimate_rad_per_s2.mean / value;
+        let one = estimate_rad_per_s2.standard_error / estimate_rad_per_s2.mean;
+        let other = standard_error / value;
+        let without_units = system.dimensionless();
+        let grip = without_units.friction() / without_units.twist_speed();
         Ok(Self {
+            hold_share: grip * (1.0 + without_units.peak_acceleration()),
             members,
-            rises: RISES,
             relaunch_perturbation,
             load_rad_per_s2,
-            balance_rad_per_s2: spread(balance, limit)?,
+            balance_rad_per_s2: Spread::of(&balance).map_err(ExperimentError::model)?,
             estimate_rad_per_s2,
             limit_rad_per_s2: limit,
             estimate_off: ratio - 1.0,
             predicted_off,
             estimate_off_error: ratio.abs() * (one * one + other * other).sqrt(),
-            hold_share: grip * (1.0 + without_units.peak_acceleration()),
         })
     }
-}
-
-fn spread(shares: Vec<Result<f64, ExperimentError>>, limit: f64) -> Result<Spread, ExperimentError> {
-    let loads: Vec<f64> =
-        shares.into_iter().map(|share| share.map(|share| limit * share)).collect::<Result<_, _>>()?;
-    Spread::of(&loads).map_err(ExperimentError::model)
 }
 
 /// S(0): the share of the normal impulse that pushes a rotor held at rest forwards, minus the rest.
@@ -170,21 +153,20 @@ mod tests {
         speeds.sum::<f64>() / 4.0
     }
 
-    /// The engine integrates flights, impacts, chattering and contact with the load, without the list of
-    /// impulses.
+    /// The engine integrates flights, impacts, chattering and contact with the load, without a tape.
     #[test]
     fn the_engine_stands_still_on_average_at_the_stall_load_and_turns_with_less_or_more() {
         let case = MotorCase::table_three().expect("reads");
         let stall = Stall::of(&case, 8, PERTURBATION).expect("no failure");
-        let load = stall.load_rad_per_s2.mean;
+        let load = stall.load_rad_per_s2.value;
         let [less, still, more] = [0.8, 1.0, 1.2].map(|share| engine_speed(&case, share * load, 6.0));
         assert!(less > 0.0 && more < 0.0, "{less} {still} {more}");
         assert!(still.abs() < 0.25 * less.min(-more), "{less} {still} {more}");
         assert!(load < stall.limit_rad_per_s2, "{stall:?}");
         let (found, balance) = (stall.load_rad_per_s2, stall.balance_rad_per_s2);
+        assert!(stall.hold_share < 1e-2, "{stall:?}");
         let error_squared =
             found.standard_error * found.standard_error + balance.standard_error * balance.standard_error;
-        assert!((found.mean - balance.mean).abs() < 4.0 * error_squared.sqrt(), "{stall:?}");
-        assert!(stall.hold_share < 1e-2, "{stall:?}");
+        assert!((found.value - balance.mean).abs() < 4.0 * error_squared.sqrt(), "{stall:?}");
     }
 }
