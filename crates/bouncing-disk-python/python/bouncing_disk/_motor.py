@@ -367,7 +367,7 @@ def torque_speed_curve(
 
     Args:
         load_torques: load torques (N m) in place of that of the data sheet, and on top of its ``load``, shape (n,).
-        relative_error: requested standard error of the mean speed, relative to the speed without load,
+        relative_error: requested standard error of the mean speed, relative to the larger of the speed without load and itself,
             in [1e-6, 0.5].
         members: vertical motions to average over, in [4, 4096].
         most_impacts: most impacts of all members together, in [1, 1e15].

@@ -14,7 +14,7 @@ use bouncing_disk_plot::rounded;
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Accuracy")]
 pub(super) struct SettingsArgs {
-    /// Standard error of the mean speed that is asked for, relative to the speed without load
+    /// Standard error of the mean speed that is asked for, relative to the larger of the speed without load and itself
     #[arg(long, allow_hyphen_values = true, value_name = "SHARE", default_value_t = OperatingSettings::default().relative_error)]
     relative_error: f64,
     /// Vertical motions that are averaged over

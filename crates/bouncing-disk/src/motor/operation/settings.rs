@@ -13,8 +13,8 @@ const MEMBERS: std::ops::RangeInclusive<usize> = 4..=4096;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedSettings"))]
 pub struct OperatingSettings {
-    /// The requested standard error of the mean speed, as a share of the motor's speed without load, in
-    /// [1e-6, 0.5]. Default 0.01.
+    /// The requested standard error of the mean speed, as a share of the motor's speed without load, or of its own if that
+    /// is larger, in [1e-6, 0.5]. Default 0.01.
     ///
     /// Motors that are computed together on one vertical motion have one reference speed: the largest speed
     /// of those without load, or, if all have a load, the speed of the first one without its load; a law of

@@ -336,9 +336,9 @@ struct SteadyRun<'a> {
     most_impacts: u64,
     /// The speed (rad/s) that errors are relative to, if it is known already.
     reference: Option<f64>,
-    /// What each rotor still lacks, and the requested error (rad/s).
+    /// What each rotor still lacks, and its requested error (rad/s).
     shortfalls: Vec<Option<Shortfall>>,
-    wanted: f64,
+    wanted: Vec<f64>,
 }
 
 impl<'a> SteadyRun<'a> {
@@ -411,7 +411,7 @@ impl<'a> SteadyRun<'a> {
             most_impacts,
             reference: None,
             shortfalls,
-            wanted: 0.0,
+            wanted: vec![0.0; asked],
         };
         for surveyed in survey.into_iter().flat_map(|survey| &survey.cycles) {
             let member = run.member(0, Some(&surveyed.source))?.on(surveyed.repeats);
@@ -510,6 +510,7 @@ impl<'a> SteadyRun<'a> {
                 stators: self.stators.clone(),
                 quicker: self.quicker.clone(),
                 shortfalls: self.shortfalls.clone(),
+                wanted: self.wanted.clone(),
                 held: self.held.clone(),
                 most_begun: self.begun,
                 reference,

@@ -56,7 +56,11 @@ impl SteadyRun<'_> {
             self.shortfalls.fill((!self.members.is_empty()).then_some(NOTHING_YET));
             return;
         }
-        self.wanted = self.settings.relative_error * self.reference.unwrap_or_else(|| self.scale());
+        let scale = self.reference.unwrap_or_else(|| self.scale());
+        // Of a rotor that is driven faster, or back, a share of its own speed is wanted.
+        let speed = |motor| mean(&self.speeds(motor)[0].iter().map(|own| mean(own)).collect::<Vec<_>>());
+        let wanted = |motor| self.settings.relative_error * scale.max(f64::abs(speed(motor)));
+        self.wanted = (0..self.asked).map(wanted).collect();
         self.shortfalls = (0..self.asked)
             .map(|motor| {
                 let [middle, above] = &self.speeds(motor);
@@ -64,7 +68,7 @@ impl SteadyRun<'_> {
                     return self.unbalanced(motor);
                 }
                 self.undecided(motor, middle)
-                    .or_else(|| shortfall(middle, above, self.are_perturbed(), self.wanted))
+                    .or_else(|| shortfall(middle, above, self.are_perturbed(), self.wanted[motor]))
                     .or_else(|| self.drifting_amplitude(motor, middle))
                     .or_else(|| self.inaccurate(motor))
                     .or_else(|| self.unbalanced(motor))
@@ -86,10 +90,11 @@ impl SteadyRun<'_> {
                 middle.iter().zip(above).map(|(middle, above)| 2.0 * middle - above).collect()
             })
             .collect();
-        let settled = |speeds: &[Vec<f64>]| shortfall(speeds, speeds, are_perturbed, self.wanted).is_none();
+        let settled =
+            |speeds: &[Vec<f64>]| shortfall(speeds, speeds, are_perturbed, self.wanted[motor]).is_none();
         let of_all =
             |speeds: &[Vec<f64>]| mean(&speeds.iter().map(|windows| mean(windows)).collect::<Vec<_>>());
-        settled(&below) && settled(&above) && of_all(&above) - of_all(&below) > PARTED * self.wanted
+        settled(&below) && settled(&above) && of_all(&above) - of_all(&below) > PARTED * self.wanted[motor]
     }
 
     /// The amplitude of a stator that yields, if it still drifts, as the speed would drift that follows it.
@@ -155,7 +160,7 @@ impl SteadyRun<'_> {
         let spread = self.apart(motor, speeds);
         let means: Vec<f64> = speeds.iter().map(|windows| mean(windows)).collect();
         let standard_error = error_of_mean(&means);
-        (standard_error + spread / NORMAL_975 > self.wanted && spread > 0.0)
+        (standard_error + spread / NORMAL_975 > self.wanted[motor] && spread > 0.0)
             .then_some(Shortfall::Start { spread, standard_error })
     }
 
@@ -239,14 +244,14 @@ impl SteadyRun<'_> {
     /// Whether the inertia that is left out matters more than the requested error allows.
     pub(super) fn is_too_quick(&self) -> bool {
         let bias = |index| self.with_bias(index).map_or(0.0, |(_, [bias, _])| bias);
-        self.is_quicker() && (0..self.asked).any(|index| bias(index) > INERTIA_SHARE * self.wanted)
+        self.is_quicker() && (0..self.asked).any(|index| bias(index) > INERTIA_SHARE * self.wanted[index])
     }
 
     /// An error that is too large with the inertia that is left out and what the perturbation changes, if a longer run can
     /// help.
     fn inaccurate(&self, index: usize) -> Option<Shortfall> {
         let (known, [bias, change]) = self.with_bias(index)?;
-        let (standard_error, wanted) = (known.standard_error, self.wanted);
+        let (standard_error, wanted) = (known.standard_error, self.wanted[index]);
         let scatter = (standard_error * standard_error - change * change).max(0.0).sqrt();
         let helps =
             standard_error > wanted && bias <= INERTIA_SHARE * wanted && scatter > SCATTER_SHARE * wanted;

@@ -51,7 +51,7 @@ impl SteadyRun<'_> {
             let others = beside.filter(|_| !is_parted).map(|beside| self.pairs(beside));
             let others = others.as_ref().map(Averages::Members);
             let point = self.point(index, &Averages::Members(pairs), others.as_ref())?;
-            let (standard_error, wanted) = (point.speed.standard_error, self.wanted);
+            let (standard_error, wanted) = (point.speed.standard_error, self.wanted[index]);
             let too_large =
                 (standard_error > 1.01 * wanted).then_some(Shortfall::Error { standard_error, wanted });
             let operation = match self.shortfalls[index].or(too_large) {

@@ -206,7 +206,8 @@ fn the_speed_without_load_is_that_of_the_transients() {
 
 #[test]
 fn a_spent_budget_is_said() {
-    let motor = loaded(&motor(1e-8, 0.0), 0.2);
+    let system = motor(1e-8, 0.0);
+    let motor = loaded(&system, 0.2);
     let settings =
         OperatingSettings { relative_error: 1e-4, most_impacts: 1_000_000, ..OperatingSettings::default() };
     let operation = operated(&[motor], &settings)[0];
@@ -218,6 +219,14 @@ fn a_spent_budget_is_said() {
     assert!((standard_error - point.speed.standard_error).abs() <= 0.01 * standard_error);
     assert_eq!(operation.steady(), None);
     assert_eq!(operation.point(), Some(&point));
+    // Of a rotor that the load drives back faster than it turns without one, the error is a share of its own speed.
+    let motor = loaded(&system, 0.97);
+    let operation = operated(&[motor], &OperatingSettings { members: 4, ..settings })[0];
+    let Operation::Unsettled(point, Shortfall::Error { wanted, .. }) = operation else {
+        panic!("{operation:?}")
+    };
+    assert!(point.speed.value < -25.0, "{point:?}");
+    assert!((wanted / (1e-4 * point.speed.value.abs()) - 1.0).abs() < 0.05, "{operation:?}");
 }
 
 #[test]
