@@ -188,6 +188,10 @@ impl Display for Motor {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let system = self.system();
         write_forcing(f, system.axial_forcing(), system.angular_forcing(), system.peak_acceleration())?;
+        if self.stator().is_some() {
+            // A rotor slows its stator down.
+            f.write_str(" (without rotor)")?;
+        }
         let (deflection, bound) = (self.static_deflection(), self.preload_change_bound());
         write_torque_and_spring(f, self.largest_torque(), deflection, bound)?;
         write_warnings(f, &self.warnings())
