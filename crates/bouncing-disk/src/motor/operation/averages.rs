@@ -122,9 +122,15 @@ impl Averages<'_> {
         if count < 2 || pairs.samples.iter().map(Vec::len).sum::<usize>() < LEAST_SAMPLES {
             return None;
         }
+        let samples = || pairs.samples.iter().enumerate();
+        let mut sorted: Vec<(usize, f64)> =
+            samples().flat_map(|(member, own)| own.iter().map(move |speed| (member, *speed))).collect();
+        sorted.sort_by(|one, other| one.1.total_cmp(&other.1));
         let without = |left_out: usize| {
-            let kept = pairs.samples.iter().enumerate().filter(|(member, _)| *member != left_out);
-            middle_of(kept.flat_map(|(_, samples)| samples).copied().collect(), quicker)
+            let kept = samples().filter(|(member, _)| *member != left_out);
+            let about = mean(&kept.flat_map(|(_, own)| own).copied().collect::<Vec<_>>());
+            let kept = sorted.iter().filter(|(member, _)| *member != left_out);
+            middle_of(&kept.map(|(_, speed)| *speed).collect::<Vec<_>>(), about, quicker)
         };
         // Each member is left out in turn: the jackknife.
         let all: Vec<[f64; 2]> = (0..count).map(without).collect();
@@ -177,11 +183,9 @@ impl Averages<'_> {
 /// Least samples of a speed from whose order a range is taken.
 const LEAST_SAMPLES: usize = 160;
 
-/// The ends of the middle 95 % of speeds, each so much nearer to their mean as the swing of a rotor with its whole inertia
-/// is smaller.
-fn middle_of(mut speeds: Vec<f64>, quicker: f64) -> [f64; 2] {
-    let about = mean(&speeds);
-    speeds.sort_by(f64::total_cmp);
+/// The ends of the middle 95 % of speeds in their order, each so much nearer to their mean as the swing of a rotor with its
+/// whole inertia is smaller.
+fn middle_of(speeds: &[f64], about: f64, quicker: f64) -> [f64; 2] {
     [0.025, 0.975].map(|share| {
         let place = share * (speeds.len() - 1) as f64;
         let (index, part) = (place as usize, place.fract());
