@@ -228,6 +228,6 @@ fn events_on_stators_are_the_recorded_ones() -> Result<(), Error> {
         }
     }
     assert!(events > 3_000, "{events}");
-    assert_eq!(format!("{:#018x}", digest.value()), "0x91c52c2acecbf453");
+    assert_eq!(format!("{:#018x}", digest.value()), "0x75d893fc13e8fd66");
     Ok(())
 }
