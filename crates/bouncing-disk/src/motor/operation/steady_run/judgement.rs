@@ -58,12 +58,14 @@ impl SteadyRun<'_> {
         }
         let scale = self.reference.unwrap_or_else(|| self.scale());
         // Of a rotor that is driven faster, or back, a share of its own speed is wanted.
-        let speed = |motor| mean(&self.speeds(motor)[0].iter().map(|own| mean(own)).collect::<Vec<_>>());
-        let wanted = |motor| self.settings.relative_error * scale.max(f64::abs(speed(motor)));
-        self.wanted = (0..self.asked).map(wanted).collect();
-        self.shortfalls = (0..self.asked)
-            .map(|motor| {
-                let [middle, above] = &self.speeds(motor);
+        let speeds: Vec<_> = (0..self.asked).map(|motor| self.speeds(motor)).collect();
+        let wanted = |[middle, _]: &[Vec<Vec<f64>>; 2]| {
+            let means: Vec<f64> = middle.iter().map(|windows| mean(windows)).collect();
+            self.settings.relative_error * scale.max(mean(&means).abs())
+        };
+        self.wanted = speeds.iter().map(wanted).collect();
+        self.shortfalls = (speeds.iter().enumerate())
+            .map(|(motor, [middle, above])| {
                 if self.is_parted(motor) {
                     return self.unbalanced(motor);
                 }
@@ -203,16 +205,20 @@ impl SteadyRun<'_> {
         let [below, above] = rotors.map(|rotor| -> Vec<Sum> {
             averaged.iter().map(|windows| Sum::of(windows.iter().copied(), rotor)).collect()
         });
-        let quickest = Vec::new();
-        let samples = |windows: &Vec<&Window>| {
-            let of = |rotor: usize| windows.iter().flat_map(move |own| own.rotors[rotor].speeds.samples());
-            rotors.into_iter().flat_map(of).collect()
-        };
-        let samples = averaged.iter().map(samples).collect();
+        let (quickest, samples) = (Vec::new(), Vec::new());
         let are_perturbed = self.are_perturbed();
         let is_pressed = below.iter().any(|sum| sum.axial.pressed > 0.0);
         let steps = if is_pressed { error_of_steps(resolution(self.settings.relative_error)) } else { 0.0 };
         Pairs { below, above, quickest, samples, are_perturbed, steps }
+    }
+
+    /// The speeds of two rotors that were noted in each member after the start-up.
+    pub(super) fn samples_of(&self, rotors: [usize; 2]) -> Vec<Vec<f64>> {
+        let samples = |windows: &Vec<&Window>| {
+            let of = |rotor: usize| windows.iter().flat_map(move |own| own.rotors[rotor].speeds.samples());
+            rotors.into_iter().flat_map(of).collect()
+        };
+        self.averaged().iter().map(samples).collect()
     }
 
     /// Whether members have perturbations of two sizes, each at its place.

@@ -43,8 +43,10 @@ impl SteadyRun<'_> {
         let from_above = self.rotor_from_above(index);
         let all = match (pairs.below.is_empty(), is_parted) {
             (true, _) => Vec::new(),
-            (false, true) => vec![self.pairs_of([index; 2]), self.pairs_of([from_above; 2])],
-            (false, false) => vec![pairs],
+            (false, true) => [[index; 2], [from_above; 2]]
+                .map(|rotors| Pairs { samples: self.samples_of(rotors), ..self.pairs_of(rotors) })
+                .into(),
+            (false, false) => vec![Pairs { samples: self.samples_of([index, from_above]), ..pairs }],
         };
         let beside = self.beside(index);
         for pairs in &all {
