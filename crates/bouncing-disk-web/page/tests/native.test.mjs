@@ -12,7 +12,7 @@ import { asker, sourceOf } from "./module.mjs";
 const native = process.env.NATIVE_RESPOND;
 const tables = JSON.parse(readFileSync(new URL("../src/tables.json", import.meta.url), "utf8"));
 /** How long (ms) a state may take until all that its view asks for is answered. */
-const PATIENCE = 60_000;
+const PATIENCE = 180_000;
 
 /** Keeps what every worker is asked and what it answers, before the page begins. */
 function listen() {
