@@ -22,8 +22,8 @@ use crate::motor::operation::point::OperatingRow;
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::parameter_sweep::axis::{SweepAxis, cells, check_axes, sheet_of_cell};
 
-/// Impacts of a rotor that acts back on its stator take so many times longer than those on a sine: a cell has so many
-/// times fewer, or a map of two hundred cells would take an hour for the few that never settle.
+/// An impact of a rotor that acts back on its stator takes so many times longer than an impact on a sine. A cell has so many
+/// times fewer impacts: otherwise the few cells that never settle would take most of an hour.
 const SHARE_OF_CELL: u64 = 100;
 
 /// A motor in steady operation over one or two parameters: curves and maps of speed, power and efficiency.
@@ -137,7 +137,7 @@ impl MotorSweep {
         each.collect()
     }
 
-    /// A rotor that acts back on its stator may have [`SHARE_OF_CELL`] of the impacts.
+    /// The settings with [`SHARE_OF_CELL`] times fewer impacts for rotors that act back on their stator.
     fn settings_of(&self, motors: &[Motor]) -> OperatingSettings {
         let most_impacts = if motors.iter().any(|motor| motor.stator_motion().acts_back()) {
             (self.settings.most_impacts / SHARE_OF_CELL).max(1)

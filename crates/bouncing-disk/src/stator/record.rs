@@ -11,8 +11,8 @@ use crate::motion::phase_time::{PhaseSpan, PhaseTime};
 use crate::motion::state::{DiskState, LongSum, SlipDirection};
 use crate::motion::stator_ledger::StatorLedger;
 
-/// A rebound after which the chatter would last for less than this (rad) ends at once, with its momentum: what the disk and the
-/// stator do until then differs by the square of it, what they do after it by the third power.
+/// A chatter that would last for less than this (rad) ends at once, and the momentum is kept. During that time the positions are
+/// off by its square, and after it the states are off by its third power.
 pub(super) const CHATTER: f64 = 1.0e-7;
 
 /// Rounding of a functional at an event, in units of the sizes of its terms.

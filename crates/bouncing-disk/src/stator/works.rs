@@ -15,7 +15,7 @@ use crate::motion::gauss::EIGHT_POINTS;
 use crate::motion::state::Mode;
 use crate::motion::stator_ledger::StatorLedger;
 
-/// Most functionals: of the disk, and of each mode.
+/// Most functionals: eight of the disk and its load, and three of each mode.
 const MOST: usize = 8 + 3 * MODES;
 
 /// A value at each point of the rule.
@@ -32,7 +32,7 @@ enum Work {
     Slip,
     /// Against a load that changes with the speed.
     Load,
-    /// Of the drive on a mode, the loss in its damping, and what it gives the disk.
+    /// Of the drive on a mode, the loss in its damping, and its work on the disk.
     Drive(usize),
     Damping(usize),
     Given(usize),
@@ -52,8 +52,8 @@ pub(super) struct Works {
 }
 
 impl Works {
-    /// Of a way to move, with these functionals of force, torque of friction and slip, and that of a load that changes
-    /// with the speed.
+    /// Of a way to move, with its functionals of the force, of the torque of friction and of the slip. The load is a fourth one
+    /// if it changes with the speed.
     pub(super) fn new(
         system: &StatorSystem,
         mode: Mode,

@@ -1,7 +1,6 @@
 //! The load at which a motor stalls.
 //!
-//! The model finds it ([`Motor::stall_load`]); beside it stands the prediction of the balance of the normal
-//! impulse ([`NormalImpulses`]).
+//! The model finds it ([`bouncing_disk::Motor::stall_load`]). The balance of the normal impulse ([`NormalImpulses`]) predicts it.
 
 use bouncing_disk::core::Unobserved;
 use bouncing_disk::core::run::in_parallel;

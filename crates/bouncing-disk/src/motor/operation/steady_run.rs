@@ -73,7 +73,7 @@ const GROWTH: f64 = 3.0;
 /// needed.
 const MARGIN: f64 = 1.15;
 
-/// Members of which the first cycles are known.
+/// The members that run first. The others join the cycles of these.
 const PILOTS: usize = 2;
 
 /// Members begin, in place of others that repeat themselves, until there were so many times those of the settings.
@@ -562,7 +562,7 @@ impl<'a> SteadyRun<'a> {
     /// that begins.
     fn extend(&mut self, target: usize, watch: &Watch<'_>) -> Result<(), Error> {
         if self.windows() == 0 && self.stators[0].yields() && self.members.len() > PILOTS {
-            // Others are soon seen to come to the cycles that these take long to be followed to.
+            // The others stop early where they come to a cycle of the first ones.
             let others = self.members.split_off(PILOTS);
             self.extend_all(target, watch)?;
             self.take_repeated(watch)?;
@@ -639,7 +639,7 @@ impl<'a> SteadyRun<'a> {
         if let Some(known) = self.repeated.iter().position(|known| known.cycle.is_same(&cycle)) {
             return Ok(Some(known));
         }
-        // A disk that just touches the stator does so more or less often in what is one motion all the same.
+        // A disk that just touches the stator may touch it more or less often in the same motion.
         let windows = member.on_cycle(&cycle, largest);
         let alike = |known: &Repeated| known.windows[0].is_like(&windows[0], largest);
         let known = self.repeated.iter().position(alike).unwrap_or(self.repeated.len());

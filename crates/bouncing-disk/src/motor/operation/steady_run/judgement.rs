@@ -57,7 +57,7 @@ impl SteadyRun<'_> {
             return;
         }
         let scale = self.reference.unwrap_or_else(|| self.scale());
-        // Of a rotor that is driven faster, or back, a share of its own speed is wanted.
+        // A load may drive a rotor faster than it turns without one: the error is then a share of its own speed.
         let speeds: Vec<_> = (0..self.asked).map(|motor| self.speeds(motor)).collect();
         let wanted = |[middle, _]: &[Vec<Vec<f64>>; 2]| {
             let means: Vec<f64> = middle.iter().map(|windows| mean(windows)).collect();
