@@ -111,13 +111,13 @@ impl<D: Described> SourceArgs<D> {
 /// The end of a template.
 const DRIVE: &str = "\
 # How the platform moves in place of the sine, for toss, diagram, orbits, basins, and motor transient, curve, stall,
-# phase-lag and sweep.
+# best and sweep.
 # Shapes: sine, triangle, parabolas, cubics, { sawtooth = 0.3 }, { fourier = [[1.0, 0.0], [0.1, 1.5]] }, { sampled = [...] }
 # [drive]
 # height = \"triangle\"
 # angle = \"sine\"
 
-# How long an impact lasts (s), for toss and motor transient, curve, stall, phase-lag and sweep; or what reports estimate
+# How long an impact lasts (s), for toss and motor transient, curve, stall, best and sweep; or what reports estimate
 # it from, while impacts are rigid: geometries plane, ring, layer.
 # [contact]
 # time = 1e-5

@@ -1,9 +1,10 @@
 //! Motors: data sheets, operating points, stall, sweeps, traps and sensitivities.
 
 use bouncing_disk::motor::{
-    AxialMotion, Estimate, InputSpread, InputTolerance, Life, MotorField, MotorRegime, MotorSweep,
-    OperatingPoint, OperatingRow, OperatingSettings, Operation, SensitivityMethod, SensitivityParameter,
-    SensitivityQuantity, SensitivitySettings, Shortfall, StallLoad, SweepAxis, SweepQuantity, TrapVerdict,
+    AxialMotion, BestSearch, Estimate, InputSpread, InputTolerance, Life, MotorField, MotorRegime,
+    MotorSweep, OperatingPoint, OperatingRow, OperatingSettings, Operation, SearchRange, SensitivityMethod,
+    SensitivityParameter, SensitivityQuantity, SensitivitySettings, Shortfall, StallLoad, SweepAxis,
+    SweepQuantity, TrapVerdict, UnknownMotorField,
 };
 use numpy::PyArray1;
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -251,20 +252,48 @@ pub(crate) fn input_spreads(a: Arguments<'_>) -> PyResult<Vec<Option<Bound<'_, P
         .collect()
 }
 
-/// The phase lag at which a motor turns fastest.
+/// The best of a quantity over one or two fields of the data sheet.
 #[pyfunction]
-pub(crate) fn best_phase_lag(a: Arguments<'_>) -> Made<'_> {
-    let (motor, settings) = (a.motor()?, settings(&a)?);
-    let motor = a.moved(&motor)?;
-    let best = a.run(|observer| motor.best_phase_lag(&settings, observer))?;
+pub(crate) fn best(a: Arguments<'_>) -> Made<'_> {
+    let (motor, settings, py) = (a.motor()?, settings(&a)?, a.py());
+    let refused = |name: &str, why: String| PyValueError::new_err(format!("{name}: {why}"));
+    let mut ranges = Vec::new();
+    for (name, given) in a.entries("over")? {
+        let field =
+            name.parse().map_err(|unknown: UnknownMotorField| refused("over", unknown.to_string()))?;
+        let ends = row(&given, &name)?;
+        let &[low, high] = &ends[..] else {
+            return Err(refused("over", format!("{name} has {} ends, and needs two", ends.len())));
+        };
+        ranges.push(SearchRange { field, low, high });
+    }
+    let objective = a.of::<String>("of")?.parse().map_err(|why| refused("of", why))?;
+    let bounds = a.of::<Vec<String>>("where")?;
+    let bounds = bounds.iter().map(|bound| bound.parse().map_err(|why| refused("where", why)));
+    let sought = BestSearch { objective, ranges, bounds: bounds.collect::<PyResult<_>>()? };
+    let best = a.run(|observer| motor.best(&sought, &settings, observer))?;
+    let [values, errors, good] = [(); 3].map(|()| PyDict::new(py));
+    for own in &best.values {
+        let name = own.field.name();
+        values.set_item(name, own.value.value)?;
+        errors.set_item(name, own.value.standard_error)?;
+        good.set_item(name, own.good_from_to.map(|[low, high]| (low, high)))?;
+    }
+    let at_end: Vec<&str> =
+        best.values.iter().filter(|own| own.is_at_end).map(|own| own.field.name()).collect();
+    let bounds: Vec<(f64, f64)> = best.bounds.iter().map(|own| (own.value, own.standard_error)).collect();
     make!(
-        a.py(),
-        "BestPhaseLag",
-        best.phase_lag.value,
-        best.phase_lag.standard_error,
-        best.speed.value,
-        best.speed.standard_error,
-        (best.good_from_to[0], best.good_from_to[1]),
+        py,
+        "Best",
+        objective.name(),
+        best.value.value,
+        best.value.standard_error,
+        values,
+        errors,
+        good,
+        at_end,
+        bounds,
+        best.row.branches.len(),
     )
 }
 

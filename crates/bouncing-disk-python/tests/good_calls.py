@@ -124,7 +124,7 @@ def good() -> list[tuple[Callable[..., Any], list[Any], dict[str, Any]]]:
         (bd.torque_speed_curve, [MOTOR], quick | {"load_torques": [0.0, 1e-9]}),
         (bd.stall_load, [MOTOR], quick),
         (bd.input_spreads, [MOTOR], quick | {"load_torques": [0.0], "tolerance": 0.01, "draws": 8}),
-        (bd.best_phase_lag, [MOTOR], quick),
+        (bd.best, [MOTOR], quick | {"of": "speed", "over": {"phase_lag": (-1.0, 1.0)}, "where": ["power >= 0"]}),
         (bd.low_period_traps, [MOTOR], {"preload_accelerations": [9.8, 10.0], "progress": None}),
         (bd.nearest_trap, [bd.Motor.paper_70_khz()], {"relative_range": 0.01, "progress": None}),
         (bd.rotary_response, [TOSS, toss_orbit], {}),

@@ -437,7 +437,7 @@ def test_what_is_no_real_number_is_a_type_error(value: Any) -> None:
         lambda: MAP.step(impact_phase=value, axial_impact_velocity=-1.0),
         lambda: bd.simulate(TOSS, gap=value),
         lambda: bd.ensemble(TOSS, members=3, duration=value),
-        lambda: bd.best_phase_lag(MOTOR, relative_error=value),
+        lambda: bd.best(MOTOR, over={"phase_lag": (0.0, 1.0)}, relative_error=value),
         lambda: bd.basins(MAP, phase_range=(0.0, value)),
         lambda: bd.System.from_dict({**TOSS.to_dict(), "disk": {**TOSS.to_dict()["disk"], "friction": value}}),
         lambda: bd.basins(MAP, known_orbits=[(ORBIT, value)]),

@@ -110,7 +110,6 @@ def test_a_contact_time_changes_tosses_and_motors_and_a_tiny_one_nothing() -> No
         (lambda: bd.Drive.sampled([0.0, 1.0]), "samples = 2"),
         (lambda: bd.Drive.sawtooth(1.0), "rise = 1"),
         (lambda: bd.stall_load(bd.Motor.paper_70_khz(), contact_time=-1.0), "contact_time = -1"),
-        (lambda: bd.best_phase_lag(bd.Motor.paper_70_khz(), contact_time=0.0), "contact_time = 0"),
         (lambda: diagram(bd.Drive(start_phase=1.0)), "start_phase"),
         (lambda: bd.basins(BOUNCING, known_orbits=[], drive=bd.Drive(start_phase=0.0)), "start_phase"),
     ],

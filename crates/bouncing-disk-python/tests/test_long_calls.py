@@ -38,7 +38,7 @@ ENDLESS = {
     " most_impacts=10**15)",
     "stall load": "bd.stall_load(MOTOR, relative_error=1e-6, most_impacts=10**15)",
     "spreads": "bd.input_spreads(MOTOR, relative_error=1e-6, most_impacts=10**15)",
-    "best lag": "bd.best_phase_lag(MOTOR, relative_error=1e-6, most_impacts=10**15)",
+    "best": "bd.best(MOTOR, over={'phase_lag': (0.0, 6.3)}, relative_error=1e-6, most_impacts=10**15)",
     "exponents": "bd.lyapunov_exponents(axial_forcing=0.56, impacts=2**32 - 1, **STARTS)",
     "settled orbit": "bd.ImpactMap(axial_forcing=0.56, restitution=0.5).settled_orbit("
     "impact_phase=1.2, normalised_speed=1.3, transient=2**32 - 1)",

@@ -117,11 +117,28 @@ def test_fits_find_what_made_the_runs() -> None:
 
 
 def test_the_best_lag_turns_the_motor_fastest() -> None:
-    best = bd.best_phase_lag(MOTOR, relative_error=0.05)
-    assert best.good_from_to[0] < best.phase_lag < best.good_from_to[1]
-    sheet = MOTOR.replace(phase_lag=best.phase_lag)
+    best = bd.best(MOTOR, over={"phase_lag": (0.0, 2 * np.pi)}, relative_error=0.05)
+    sheet = MOTOR.replace(**best.values)
     there = bd.torque_speed_curve(sheet, load_torques=[0.0], relative_error=0.05)
-    assert there.speed == pytest.approx(best.speed, rel=0.2)
+    assert there.speed == pytest.approx(best.value, rel=0.2) and best.at_end == [] and best.bounds == []
+
+
+@pytest.mark.parametrize(
+    ("wrong", "told"),
+    [
+        ({"of": "sped"}, "of: there is no quantity"),
+        ({"where": ["speed > 5"]}, "where: a bound is"),
+        ({"over": {"phase": (0.0, 1.0)}}, "phase"),
+        ({"over": {"phase_lag": (0.0,)}}, "1 ends"),
+        ({"over": {"phase_lag": (1.0, 0.0)}}, "above its lower end"),
+        ({"over": {}}, "number of axes"),
+        ({"where": ["speed >= 1e3"]}, "nowhere in the ranges is speed surely >= 1000"),
+    ],
+)
+def test_searches_that_are_none_are_refused_by_name(wrong: dict[str, Any], told: str) -> None:
+    legal: dict[str, Any] = {"over": {"friction": (0.1, 0.2)}, "relative_error": 0.2}
+    with pytest.raises(ValueError, match=told):
+        bd.best(MOTOR, **(legal | wrong))
 
 
 def test_one_transient_alone_has_no_error() -> None:

@@ -5,9 +5,11 @@
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
 
 use bouncing_disk::core::Unobserved;
-use std::f64::consts::FRAC_PI_6;
+use std::f64::consts::{FRAC_PI_6, TAU};
 
-use bouncing_disk::motor::{OperatingSettings, Operation};
+use bouncing_disk::motor::{
+    BestSearch, MotorField, OperatingSettings, Operation, SearchRange, SweepQuantity,
+};
 use bouncing_disk::{Error, Motor};
 
 fn main() -> Result<(), Error> {
@@ -57,11 +59,16 @@ fn main() -> Result<(), Error> {
         1e3 * stall.torque.standard_error,
         stall.share
     );
-    let best = motor.best_phase_lag(&settings, &Unobserved)?;
-    let [low, high] = best.good_from_to;
+    let turn = SearchRange { field: MotorField::PhaseLag, low: 0.0, high: TAU };
+    let sought = BestSearch { objective: SweepQuantity::Speed, ranges: vec![turn], bounds: vec![] };
+    let best = motor.best(&sought, &settings, &Unobserved)?;
+    let lag = &best.values[0];
     println!(
-        "fastest at a lag of {:.2} +- {:.2} rad: {:.2} rad/s, within 1 % of it from {low:.2} to {high:.2} rad",
-        best.phase_lag.value, best.phase_lag.standard_error, best.speed.value
+        "fastest at a lag of {:.2} +- {:.2} rad: {:.2} +- {:.2} rad/s",
+        lag.value.value, lag.value.standard_error, best.value.value, best.value.standard_error
     );
+    if let Some([low, high]) = lag.good_from_to {
+        println!("within 1 % of it from {low:.2} to {high:.2} rad");
+    }
     Ok(())
 }

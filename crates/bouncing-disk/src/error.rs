@@ -69,6 +69,26 @@ pub enum Error {
         /// Load torque in units of m g a_e.
         load: f64,
     },
+    /// No place of the ranges that were searched keeps the bounds.
+    #[error("nowhere in the ranges is {quantity} surely {} {bound:?}: the nearest is {nearest:?}", if *is_least { ">=" } else { "<=" })]
+    NotKept {
+        /// The quantity whose bound fails where the most is kept.
+        quantity: &'static str,
+        /// Whether the bound is its least value.
+        is_least: bool,
+        /// The bound.
+        bound: f64,
+        /// The quantity there.
+        nearest: f64,
+    },
+    /// A quantity whose largest value is sought is nowhere positive, as far as it is known.
+    #[error("{quantity} is nowhere surely positive in the ranges: its best value is {value:?}")]
+    NotPositive {
+        /// The quantity.
+        quantity: &'static str,
+        /// Its best value; NaN where there is none, as of a runaway.
+        value: f64,
+    },
     /// The given orbit is not a periodic orbit of this system.
     #[error("{}", bouncing_disk_core::Error::NotAnOrbit { impact: *impact, distance: *distance })]
     NotAnOrbit {
@@ -173,27 +193,27 @@ pub enum Error {
     #[error(
         "this analysis holds for the sine of Eq. (1) only, and the table [drive] gives another motion: remove the table, or use \
          one of the analyses that accept any drive: tosses, orbit diagrams, periodic orbits, basins, motor transients, \
-         torque-speed curves, stall, best phase lag and sweeps"
+         torque-speed curves, stall, best values and sweeps"
     )]
     DriveNotSine,
     /// A contact that takes time where only rigid impacts can be computed.
     #[error(
         "this analysis holds for rigid impacts only, and the table [contact] has a time: remove the time, or use one of \
-         the analyses that accept it: single tosses, motor transients, torque-speed curves, stall, best phase lag, \
+         the analyses that accept it: single tosses, motor transients, torque-speed curves, stall, best values, \
          sweeps and fits of parameters"
     )]
     SoftContact,
     /// A stator whose motion the rotor changes where only a prescribed motion can be computed.
     #[error(
         "this analysis holds for a stator whose motion is prescribed only, and the table [stator] makes it yield: remove the \
-         table, or use one of the analyses that accept it: motor transients, torque-speed curves, stall, best phase lag \
+         table, or use one of the analyses that accept it: motor transients, torque-speed curves, stall, best values \
          and sweeps"
     )]
     YieldingStator,
     /// A load that varies where only a constant torque can be computed.
     #[error(
         "this analysis holds for a constant load only: replace the table [load] by load_torque, or use one of the analyses \
-         that accept it: motor transients, torque-speed curves, stall, best phase lag, sweeps and fits of rated points"
+         that accept it: motor transients, torque-speed curves, stall, best values, sweeps and fits of rated points"
     )]
     LoadLaw,
     /// A load that varies in time where only a steady operation is computed.

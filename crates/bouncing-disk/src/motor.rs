@@ -28,6 +28,7 @@
 //! the speeds: docs/numerics/motors.md.
 
 pub(crate) mod batch;
+pub(crate) mod best;
 pub mod circular;
 pub(crate) mod data_sheet;
 pub(crate) mod impulse;
@@ -42,6 +43,7 @@ pub(crate) mod tape;
 
 pub use batch::members::{MAX_MEMBERS, MAX_SPEEDS, TransientMember};
 pub use batch::transients::transients;
+pub use best::{Best, BestSearch, BestValue, QuantityBound, SearchRange};
 #[cfg(any(feature = "json", feature = "toml"))]
 pub use data_sheet::file::MotorFileError;
 pub use data_sheet::motor_field::{MotorField, UnknownMotorField};
@@ -51,7 +53,6 @@ pub use data_sheet::report::{MotorReport, StatorReport};
 pub use data_sheet::traps::{TrapVerdict, low_period_traps};
 pub use data_sheet::warning::MotorWarning;
 pub use impulse::{ImpulseBalance, NormalImpulses, PhasedImpulse};
-pub use operation::best_phase_lag::BestPhaseLag;
 pub use operation::of_motor::operations;
 pub use operation::point::{
     AxialMotion, Estimate, Life, OperatingPoint, OperatingRow, Operation, Shortfall, StatorPoint,

@@ -90,7 +90,7 @@ fn a_wrong_output_is_seen() {
 #[test]
 fn every_command_has_an_example_in_its_help() {
     let folder = Folder::new();
-    let motors = ["report", "transient", "curve", "stall", "phase-lag", "traps", "sweep"]
+    let motors = ["report", "transient", "curve", "stall", "best", "traps", "sweep"]
         .map(|name| format!("motor {name}"));
     let others = ["toss", "orbits", "diagram", "verdicts", "basins", "doublings", "fit", "merge"];
     for command in motors.into_iter().chain(others.map(str::to_owned)) {
@@ -149,7 +149,7 @@ fn completions_and_manual_pages_know_the_commands() {
     let folder = Folder::new();
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
         let text = folder.done(&format!("completions {shell}"));
-        assert!(text.contains("verdicts") && text.contains("phase-lag"), "{shell}");
+        assert!(text.contains("verdicts") && text.contains("--over"), "{shell}");
     }
     // The cases of the function are those that it looks for.
     let bash = folder.done("completions bash");

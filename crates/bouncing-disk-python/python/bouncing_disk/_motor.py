@@ -3,7 +3,7 @@
 # mypy: disable-error-code="no-any-return"
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal
 
@@ -12,7 +12,7 @@ from bouncing_disk._base import *
 from bouncing_disk._system import Drive, System
 
 __all__ = [
-    "BestPhaseLag",
+    "Best",
     "InputSpread",
     "LocalSensitivities",
     "LowPeriodTraps",
@@ -23,7 +23,7 @@ __all__ = [
     "OperatingPoints",
     "StallLoad",
     "TorqueSpeedCurve",
-    "best_phase_lag",
+    "best",
     "input_spreads",
     "local_sensitivities",
     "low_period_traps",
@@ -488,40 +488,63 @@ def input_spreads(
 
 
 @dataclass(frozen=True)
-class BestPhaseLag:
-    """The phase lag at which a motor turns fastest.
+class Best:
+    """The best of a quantity over one or two fields of a data sheet.
 
     Attributes:
-        phase_lag, phase_lag_error: the lag and its standard error (rad).
-        speed, speed_error: the mean speed there and its standard error (rad/s).
-        good_from_to: the range of lags (rad) with at least 99 % of that speed.
+        of: the quantity.
+        value, error: the quantity, measured at this place, and its standard error, which also holds what a better place
+            nearby may bring.
+        values, value_errors: the fields there, by name, and their standard errors.
+        good_from_to: for each field the range around it with at least 99 % of the value, in which the bounds are kept; None where
+            the curve is too rough to tell.
+        at_end: the fields whose best value is at an end of their range.
+        bounds: the quantities of ``where``, each with its standard error.
+        branches: how many motions coexist there; all numbers are those of the first.
     """
 
-    phase_lag: float
-    phase_lag_error: float
-    speed: float
-    speed_error: float
-    good_from_to: tuple[float, float]
+    of: str
+    value: float
+    error: float
+    values: dict[str, float]
+    value_errors: dict[str, float]
+    good_from_to: dict[str, tuple[float, float] | None]
+    at_end: list[str]
+    bounds: list[tuple[float, float]]
+    branches: int
 
 
-def best_phase_lag(
+def best(
     motor: Motor,
+    of: str = "speed",
     *,
+    over: Mapping[str, ArrayLike],
+    where: Sequence[str] = (),
     relative_error: Float = 0.01,
     members: Int = 16,
     most_impacts: Int = 20_000_000,
     relaunch_perturbation: Float = 0.001,
     seed: Int = 1,
-    contact_time: Float | None = None,
     progress: Progress = None,
-) -> BestPhaseLag:
-    """The phase lag at which a motor turns fastest.
+) -> Best:
+    """The best speed, torque, power or efficiency over one or two fields of the data sheet.
+
+    All other fields are those of the motor, its load among them. For the largest torque at a speed, let ``load_torque``
+    vary and bound the speed.
 
     Args:
-        relative_error, members, most_impacts, relaunch_perturbation, seed, contact_time: as of
-            :func:`torque_speed_curve`.
+        of: the quantity whose largest value is sought: ``speed``, ``torque``, ``power``, ``efficiency``, ...
+        over: one or two arguments of :class:`Motor`, each with its least and its largest value (SI). A ``phase_lag`` over a
+            whole turn has no ends.
+        where: bounds on quantities of the same operation, at most two: ``"speed >= 5"``.
+        relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`torque_speed_curve`.
+
+    >>> import bouncing_disk as bd
+    >>> found = bd.best(bd.Motor.paper_70_khz(), "speed", over={"phase_lag": (-1.0, 1.0)}, relative_error=0.05)
+    >>> abs(found.values["phase_lag"]) < 0.4, found.at_end
+    (True, [])
     """
-    return native.best_phase_lag(locals())
+    return native.best(locals())
 
 
 @dataclass(frozen=True, eq=False, repr=False)

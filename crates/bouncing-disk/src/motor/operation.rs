@@ -7,7 +7,6 @@
 //! docs/numerics/motors.md.
 
 mod averages;
-pub(crate) mod best_phase_lag;
 pub(crate) mod coupled;
 mod crossing;
 pub(crate) mod loaded_motor;

@@ -7,7 +7,7 @@
 pub(crate) mod axis;
 #[cfg(feature = "csv")]
 mod csv_table;
-mod groups;
+pub(crate) mod groups;
 pub(crate) mod quantity;
 pub(crate) mod result;
 mod run;
@@ -21,10 +21,6 @@ use crate::motor::operation::of_motor::operations;
 use crate::motor::operation::point::OperatingRow;
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::parameter_sweep::axis::{SweepAxis, cells, check_axes, sheet_of_cell};
-
-/// An impact of a rotor that acts back on its stator takes so many times longer than an impact on a sine. A cell has so many
-/// times fewer impacts: otherwise the few cells that never settle would take most of an hour.
-const SHARE_OF_CELL: u64 = 100;
 
 /// A motor in steady operation over one or two parameters: curves and maps of speed, power and efficiency.
 ///
@@ -124,7 +120,7 @@ impl MotorSweep {
     pub fn operations(&self, group: usize, observer: &dyn Observer) -> Result<Vec<OperatingRow>, Error> {
         let cells = self.groups.get(group).map_or(&[][..], |cells| cells);
         let motors = cells.iter().map(|cell| self.motor_of(*cell)).collect::<Result<Vec<_>, Error>>()?;
-        let settings = self.settings_of(&motors);
+        let settings = groups::settings_of_each(&motors, &self.settings);
         if !self.continued {
             return operations(&motors, &settings, observer);
         }
@@ -135,16 +131,6 @@ impl MotorSweep {
             Ok(operation)
         });
         each.collect()
-    }
-
-    /// The settings with [`SHARE_OF_CELL`] times fewer impacts for rotors that act back on their stator.
-    fn settings_of(&self, motors: &[Motor]) -> OperatingSettings {
-        let most_impacts = if motors.iter().any(|motor| motor.stator_motion().acts_back()) {
-            (self.settings.most_impacts / SHARE_OF_CELL).max(1)
-        } else {
-            self.settings.most_impacts
-        };
-        OperatingSettings { most_impacts, ..self.settings }
     }
 
     /// The motor that is varied.

@@ -1,11 +1,14 @@
-//! `bouncing-disk motor stall`, `motor phase-lag` and `motor traps`: the load that stops the motor, the
-//! phase lag at which it turns fastest, and the preloads at which it is locked on a short cycle.
+//! `bouncing-disk motor stall`, `motor best` and `motor traps`: the load that stops the motor, the best of a quantity, and the
+//! preloads at which the motor is locked on a short cycle.
 
 use bouncing_disk::Motor;
-use bouncing_disk::motor::{LEAST_TRAP_WIDTH, OperatingSettings, StallLoad, TrapRange};
+use bouncing_disk::motor::{
+    BestSearch, Estimate, LEAST_TRAP_WIDTH, MotorField, OperatingSettings, QuantityBound, SearchRange,
+    StallLoad, SweepQuantity, TrapRange,
+};
 use serde_json::Value;
 
-use super::settings::{SettingsArgs, SpreadArgs, lock_note, named, state, warn};
+use super::settings::{SettingsArgs, SpreadArgs, lock_note, motion, named, state, warn};
 use crate::commands::prelude::*;
 
 /// The arguments of a command that looks for one operation of a motor.
@@ -112,36 +115,91 @@ fn needs_friction(motor: &Motor, sought: &str) -> Result<()> {
     Ok(())
 }
 
-/// The phase lag at which the motor turns fastest
+/// The best speed, torque, power or efficiency over one or two fields of the data sheet
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Under the load of the data sheet; the other direction is best half a circle away. Errors are standard errors. See \
-docs/designing-a-motor.md.
+All other fields are those of the data sheet, the load among them: for the largest torque at a speed, let load_torque vary and \
+bound the speed. Where motions coexist, quantities are those of the motion that most rotors reach from rest. The value is \
+measured at the optimum; its error holds what a better place nearby may bring. The range within 1 % is one in which the \
+curve itself is within 1 % of its best, and is left out where the curve is too rough to tell. \
+See docs/designing-a-motor.md.
 
-Example:
-  bouncing-disk motor phase-lag motor.toml --set load_torque=1e-5")]
-pub(crate) struct LagArgs {
+Examples:
+  bouncing-disk motor best motor.toml --of speed --over phase_lag
+  bouncing-disk motor best motor.toml --of efficiency --over preload_force=2:10 --over load_torque=0:3e-3 --where 'speed >= 5'")]
+pub(crate) struct BestArgs {
     #[command(flatten)]
     operation: OperationArgs,
+    /// The quantity whose largest value is sought: speed, torque, power, efficiency, or another of `motor sweep`
+    #[arg(help_heading = OWN, long, value_name = "QUANTITY", default_value = "speed")]
+    of: SweepQuantity,
+    /// A field of the data sheet and its range, FIELD=LOW:HIGH, one or two of them; a phase_lag alone is a whole turn
+    #[arg(help_heading = OWN, long, value_name = "FIELD=RANGE", required_unless_present = "template", value_parser = search_range)]
+    over: Vec<SearchRange>,
+    /// A bound, QUANTITY >= NUMBER or QUANTITY <= NUMBER, at most two of them
+    #[arg(help_heading = OWN, long = "where", value_name = "BOUND")]
+    bounds: Vec<QuantityBound>,
 }
 
-pub(super) fn phase_lag(args: &LagArgs, context: Context) -> Result<()> {
+fn search_range(text: &str) -> Result<SearchRange, String> {
+    let form = || format!("a range is FIELD=LOW:HIGH, such as preload_force=2:10, not {text:?}");
+    let (name, ends) = text.split_once('=').map_or((text, None), |(name, ends)| (name, Some(ends)));
+    let field = name.trim().parse::<MotorField>().map_err(|unknown| unknown.to_string())?;
+    let number = |text: &str| text.trim().parse::<f64>().map_err(|_| form());
+    match ends.map(|ends| ends.split_once(':')) {
+        None if field == MotorField::PhaseLag => {
+            Ok(SearchRange { field, low: 0.0, high: std::f64::consts::TAU })
+        }
+        Some(Some((low, high))) => Ok(SearchRange { field, low: number(low)?, high: number(high)? }),
+        _ => Err(form()),
+    }
+}
+
+pub(super) fn best(args: &BestArgs, context: Context) -> Result<()> {
     let Some(motor) = args.operation.begin(context)? else { return Ok(()) };
     let settings = args.operation.settings.settings();
-    needs_friction(&motor, "best phase lag")?;
-    let best = motor.best_phase_lag(&settings, &context.watch("motor phase-lag"))?;
+    let sought = BestSearch { objective: args.of, ranges: args.over.clone(), bounds: args.bounds.clone() };
+    let best = motor.best(&sought, &settings, &context.watch("motor best"))?;
     let mut list = Quantities::default();
-    list.push("best_phase_lag", best.phase_lag.value, "rad");
-    list.push("best_phase_lag_error", best.phase_lag.standard_error, "rad");
-    list.push("speed", best.speed.value, "rad/s");
-    list.push("speed_error", best.speed.standard_error, "rad/s");
-    list.push("within_1_percent_from", best.good_from_to[0], "rad");
-    list.push("within_1_percent_to", best.good_from_to[1], "rad");
+    for own in &best.values {
+        let (name, unit) = (own.field.name(), own.field.unit());
+        list.push(name, own.value.value, unit);
+        list.push(&format!("{name}_error"), own.value.standard_error, unit);
+        if let Some([low, high]) = own.good_from_to {
+            list.push(&format!("{name}_within_1_percent_from"), low, unit);
+            list.push(&format!("{name}_within_1_percent_to"), high, unit);
+        }
+    }
+    let mut push = |quantity: SweepQuantity, value: Estimate| {
+        list.push(quantity.name(), value.value, quantity.unit());
+        list.push(&format!("{}_error", quantity.name()), value.standard_error, quantity.unit());
+    };
+    push(args.of, best.value);
+    for (bound, value) in args.bounds.iter().zip(&best.bounds) {
+        push(bound.quantity, *value);
+    }
+    list.push("motion", motion(best.row.operation()), "1");
+    list.push("state", state(best.row.operation()), "1");
+    let mut note = String::new();
+    for own in &best.values {
+        let name = own.field.name();
+        if own.is_at_end {
+            note += &format!("the best {name} is at an end of its range: a wider one may have a better\n");
+        }
+        if own.good_from_to.is_none() {
+            note += &format!("along {name} the curve is too rough for a range within 1 %\n");
+        }
+    }
+    if best.row.branches.len() > 1 {
+        note += "other motions coexist there: `motor curve` lists them\n";
+    }
+    let mut job = OperationArgs::job(&motor, &settings);
+    job["sought"] = json!(sought);
     let report = Report {
-        provenance: provenance("bouncing-disk motor phase-lag", &OperationArgs::job(&motor, &settings))?,
-        text: list.to_text(),
+        provenance: provenance("bouncing-disk motor best", &job)?,
+        text: list.to_text() + &note,
         table: list.into_csv(),
-        data: vec![("best_phase_lag", stored(&best)?)],
+        data: vec![("best", stored(&best)?)],
         figure: None,
     };
     report.deliver(&args.operation.output, context)

@@ -107,7 +107,9 @@ impl Averages<'_> {
     pub(super) fn speed_range(&self, quicker: f64) -> Option<[Estimate; 2]> {
         let pairs = match self {
             Self::Cycle { sums, .. } => {
-                let [Speeds::Within(fine), Speeds::Within(coarse)] = sums.map(|sum| sum.rotor.speeds) else {
+                let [Speeds::Within(fine), Speeds::Within(coarse)] =
+                    sums.each_ref().map(|sum| sum.rotor.speeds)
+                else {
                     return None;
                 };
                 return Some([0, 1].map(|end| {
@@ -163,8 +165,8 @@ impl Averages<'_> {
     /// One of the sums.
     pub(super) fn first(&self) -> Sum {
         match self {
-            Self::Members(pairs) => pairs.below.first().copied().unwrap_or_default(),
-            Self::Cycle { sums: [fine, _], .. } => *fine,
+            Self::Members(pairs) => pairs.below.first().cloned().unwrap_or_default(),
+            Self::Cycle { sums: [fine, _], .. } => fine.clone(),
         }
     }
 
@@ -221,7 +223,7 @@ impl Units {
 }
 
 /// Windows of one member, or of all, added up.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Sum {
     pub(super) axial: AxialWindow,
     pub(super) rotor: RotorWindow,
@@ -237,13 +239,13 @@ impl Sum {
 
     fn add(&mut self, window: &Window, rotor: usize) {
         let rotor = &window.rotors[rotor];
-        self.axial.add(rotor.stator.as_ref().map_or(&window.axial, |(_, own)| own));
+        self.axial.add(rotor.stator.as_ref().map_or(&window.axial, |own| &own.1));
         self.rotor.add(rotor);
     }
 
     /// The energies of a stator that yields.
     pub(super) fn stator(&self) -> StatorLedger {
-        self.rotor.stator.map(|(ledger, _)| ledger).unwrap_or_default()
+        self.rotor.stator.as_ref().map(|own| own.0).unwrap_or_default()
     }
 
     /// The energy that came in; where less came in than the disks of all members have at their start, that:

@@ -243,7 +243,7 @@ impl Coupled {
                 * change(|totals| totals.angular_speed)
                 * (now.angular_speed + before.angular_speed),
             speeds: Speeds::Unknown,
-            stator: Some((ledger, axial)),
+            stator: Some(Box::new((ledger, axial))),
         };
         Window { axial, rotors: vec![rotor] }
     }

@@ -94,12 +94,6 @@ impl LoadedMotor<'_> {
         Ok(Self { system: System::new(*self.system.platform(), disk.build()?)?, load_torque, ..*self })
     }
 
-    /// The same motor with another phase lag (rad).
-    pub(crate) fn with_phase_lag(&self, phase_lag: f64) -> Result<Self, Error> {
-        let system = self.system.with_platform(|platform| platform.phase_lag = phase_lag)?;
-        Ok(Self { system, ..*self })
-    }
-
     /// The load torque in units of m g a_e.
     pub(crate) const fn load(&self) -> f64 {
         self.system.dimensionless().load()

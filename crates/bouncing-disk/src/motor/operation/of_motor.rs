@@ -1,12 +1,10 @@
-//! A designer's questions about a motor in steady operation: operating point, torque-speed curve, stall load,
-//! best phase lag.
+//! A designer's questions about a motor in steady operation: operating point, torque-speed curve, stall load.
 
 use bouncing_disk_core::{Observer, Progress, Unobserved};
 
 use crate::error::{Error, check};
 use crate::motor::batch::shared_orbit::is_shared;
 use crate::motor::data_sheet::Motor;
-use crate::motor::operation::best_phase_lag::{BestPhaseLag, best_phase_lag};
 use crate::motor::operation::loaded_motor::{LargestSpeeds, LoadedMotor};
 use crate::motor::operation::point::{Estimate, OperatingRow, Operation, Shortfall};
 use crate::motor::operation::settings::OperatingSettings;
@@ -126,26 +124,6 @@ impl Motor {
         stall_load(&LoadedMotor { stator: &bare, ..self.loaded()? }, settings, observer)
     }
 
-    /// The phase lag at which the motor turns fastest under the load of its data sheet, and its tolerance.
-    ///
-    /// The items of `observer` are the impacts that its two searches may spend.
-    ///
-    /// # Errors
-    /// Those of [`Self::operating_point`]; [`Error::DoesNotTurn`] for a motor that does not turn at any lag,
-    /// [`Error::Overpowered`] where the load is more than friction can hold, [`Error::BothGiven`] where the one mode of a
-    /// stator moves both height and angle.
-    pub fn best_phase_lag(
-        &self,
-        settings: &OperatingSettings,
-        observer: &dyn Observer,
-    ) -> Result<BestPhaseLag, Error> {
-        if self.stator().is_some_and(|stator| stator.modes()[0].angle != 0.0) {
-            let one = "a stator of the kind axial_twist";
-            return Err(Error::BothGiven { one, other: "a phase lag to be found" });
-        }
-        best_phase_lag(&self.loaded()?, settings, observer)
-    }
-
     /// Under the load of its sheet, from where another motor was left, and where it is left.
     pub(crate) fn continued(
         &self,
@@ -179,10 +157,25 @@ impl Motor {
     }
 }
 
+/// Whether one vertical motion carries the rotors of both.
+fn share_height(one: &Motor, other: &Motor) -> bool {
+    let (sheet, another) = (one.parameters(), other.parameters());
+    is_shared(one.system(), other.system())
+        && match (one.stator_motion(), other.stator_motion()) {
+            (Stator::Sine, Stator::Sine) => true,
+            (Stator::Driven(_), Stator::Driven(_)) => sheet.drive == another.drive,
+            (Stator::Yielding(own), Stator::Yielding(_)) => {
+                let is_same = (sheet.stator, sheet.load) == (another.stator, another.load);
+                !own.twists() && is_same && one.mass().to_bits() == other.mass().to_bits()
+            }
+            _ => false,
+        }
+}
+
 /// The steady operation of many motors, each under the load of its data sheet, in their order: maps of
 /// efficiency over lag and load, preload and amplitude, or anything else. Consecutive motors with the same
 /// vertical motion (they differ only in load, friction, lag, twist, radii or mass) share one orbit: list them
-/// together. Motors with a drive, a contact time, a stator that yields or a table `[load]` are computed one by one.
+/// together. Rotors that act back on their stator are computed one by one.
 ///
 /// The items of `observer` are the motors.
 ///
@@ -196,18 +189,9 @@ pub fn operations(
     check(!motors.is_empty(), "number of motors", 0.0, "[1, 1000000]")?;
     let (total, mut all) = (motors.len() as u64, Vec::with_capacity(motors.len()));
     let most = (MAX_OPERATED_ROTORS / settings.members.max(1)).max(1);
-    let is_sine = |motor: &Motor| matches!(motor.stator_motion(), Stator::Sine);
-    let groups = motors
-        .chunk_by(|one, other| is_sine(one) && is_sine(other) && is_shared(one.system(), other.system()));
-    for group in groups.flat_map(|group| group.chunks(most)) {
+    for group in motors.chunk_by(share_height).flat_map(|group| group.chunks(most)) {
         let done = all.len() as u64;
         let observer = |_: Progress| observer.observe(Progress { done, total });
-        if !is_sine(&group[0]) {
-            for motor in group {
-                all.extend(motor.torque_speed_curve(&[motor.load_torque()], settings, &observer)?);
-            }
-            continue;
-        }
         let loaded: Vec<_> = group.iter().map(Motor::loaded).collect::<Result<_, _>>()?;
         all.extend(operate(&loaded, settings, &observer)?.rows);
     }

@@ -2,11 +2,22 @@
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use bouncing_disk_core::run::{Watch, in_parallel, threads};
+use bouncing_disk_core::{Observer, Progress};
 
 use crate::error::Error;
 use crate::motor::batch::shared_orbit::vertical_key;
 use crate::motor::data_sheet::Motor;
+use crate::motor::operation::of_motor::operations;
+use crate::motor::operation::point::OperatingRow;
 use crate::motor::operation::settings::OperatingSettings;
+
+/// An impact of a rotor that acts back on its stator takes so many times longer than an impact on a sine. A cell has so many
+/// times fewer impacts: otherwise the few cells that never settle would take most of an hour.
+const SHARE_OF_CELL: u64 = 100;
 
 /// Most cells of a group. Far fewer would not use a vertical motion well; with far more, much would be lost
 /// when a run is stopped.
@@ -42,6 +53,76 @@ pub(crate) fn of(
         groups[group].push(index);
     }
     Ok(groups)
+}
+
+/// The settings of each of many motors, with [`SHARE_OF_CELL`] times fewer impacts for rotors that act back on their stator.
+pub(crate) fn settings_of_each(motors: &[Motor], settings: &OperatingSettings) -> OperatingSettings {
+    let most_impacts = if motors.iter().any(|motor| motor.stator_motion().acts_back()) {
+        (settings.most_impacts / SHARE_OF_CELL).max(1)
+    } else {
+        settings.most_impacts
+    };
+    OperatingSettings { most_impacts, ..*settings }
+}
+
+/// What is computed of each of so many groups, in their order; fewer where the watch stops. The items of the watch are
+/// the cells, `size` of each group.
+pub(crate) fn over_groups<T: Send>(
+    count: usize,
+    size: impl Fn(usize) -> usize + Sync,
+    watch: &Watch<'_>,
+    compute: impl Fn(usize, &dyn Observer) -> Result<T, Error> + Sync,
+) -> Vec<(usize, Result<T, Error>)> {
+    let next = AtomicUsize::new(0);
+    let ask = |_: Progress| match watch.ask() {
+        Ok(()) => ControlFlow::Continue(()),
+        Err(_) => ControlFlow::Break(()),
+    };
+    let worker = || {
+        let mut outcomes = Vec::new();
+        while !watch.is_stopped() {
+            let group = next.fetch_add(1, Ordering::Relaxed);
+            if group >= count {
+                break;
+            }
+            let outcome = compute(group, &ask);
+            if outcome.is_ok() {
+                watch.finish(size(group) as u64);
+            }
+            outcomes.push((group, outcome));
+        }
+        outcomes
+    };
+    // The members of a group are spread over the threads, too, but end at different times.
+    let workers = threads().min(count);
+    let mut outcomes: Vec<_> = in_parallel(workers, |_| worker()).into_iter().flatten().collect();
+    outcomes.sort_by_key(|(group, _)| *group);
+    outcomes
+}
+
+/// The operations of many motors in any order, those of one vertical motion together; the failure of a motor that cannot be
+/// followed is that of all in its group.
+pub(crate) fn operations_in_groups(
+    motors: &[Motor],
+    settings: &OperatingSettings,
+    watch: &Watch<'_>,
+) -> Result<Vec<Result<OperatingRow, Error>>, Error> {
+    let groups = of(motors.iter().cloned().map(Ok), most_cells(settings))?;
+    let compute = |group: usize, observer: &dyn Observer| {
+        let motors: Vec<Motor> = groups[group].iter().map(|index| motors[*index].clone()).collect();
+        operations(&motors, &settings_of_each(&motors, settings), observer)
+    };
+    let outcomes = over_groups(groups.len(), |group| groups[group].len(), watch, compute);
+    watch.ask()?;
+    let mut all: Vec<(usize, Result<OperatingRow, Error>)> = Vec::with_capacity(motors.len());
+    for ((_, outcome), cells) in outcomes.into_iter().zip(&groups) {
+        match outcome {
+            Ok(rows) => all.extend(cells.iter().copied().zip(rows.into_iter().map(Ok))),
+            Err(failure) => all.extend(cells.iter().map(|cell| (*cell, Err(failure)))),
+        }
+    }
+    all.sort_by_key(|(cell, _)| *cell);
+    Ok(all.into_iter().map(|(_, row)| row).collect())
 }
 
 #[cfg(test)]

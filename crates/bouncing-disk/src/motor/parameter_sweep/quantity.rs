@@ -1,5 +1,7 @@
 //! The quantities that a sweep computes in each cell.
 
+use std::str::FromStr;
+
 use crate::motor::operation::point::{Estimate, OperatingRow, Operation};
 
 /// A quantity of an operating point that is an estimate with a standard error.
@@ -9,6 +11,8 @@ use crate::motor::operation::point::{Estimate, OperatingRow, Operation};
 pub enum SweepQuantity {
     /// Mean angular speed (rad/s).
     Speed,
+    /// Mean torque that the load takes (N m): that of the row itself, so not in [`Self::ALL`].
+    Torque,
     /// Load torque times mean speed (W).
     MechanicalPower,
     /// Power that the platform puts in (W).
@@ -82,6 +86,7 @@ impl SweepQuantity {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Speed => "speed",
+            Self::Torque => "torque",
             Self::MechanicalPower => "mechanical_power",
             Self::InputPower => "input_power",
             Self::RestitutionLoss => "restitution_loss",
@@ -108,7 +113,7 @@ impl SweepQuantity {
                 "rad/s"
             }
             Self::TimeConstant => "s",
-            Self::BlockedTorque => "N m",
+            Self::Torque | Self::BlockedTorque => "N m",
             Self::StatorAmplitude => "m",
             Self::Efficiency | Self::ElectricalEfficiency => "1",
             _ => "W",
@@ -123,6 +128,9 @@ impl SweepQuantity {
         let point = operation.point()?;
         match self {
             Self::Speed => Some(point.speed),
+            Self::Torque => {
+                Some(Estimate { value: point.load_torque, standard_error: point.load_torque_error })
+            }
             Self::MechanicalPower => Some(point.mechanical_power),
             Self::InputPower => Some(point.input_power),
             Self::RestitutionLoss => Some(point.restitution_loss),
@@ -139,5 +147,20 @@ impl SweepQuantity {
             Self::DampingLoss => Some(point.stator?.damping_loss),
             Self::ElectricalEfficiency => point.stator?.efficiency,
         }
+    }
+}
+
+impl FromStr for SweepQuantity {
+    type Err = String;
+
+    /// By its name, or with hyphens: `mechanical-power`; `power` is that, too.
+    fn from_str(name: &str) -> Result<Self, String> {
+        let plain = name.trim().replace('-', "_");
+        let plain = if plain == "power" { "mechanical_power" } else { &plain };
+        let all = || std::iter::once(Self::Torque).chain(Self::WITH_STATOR);
+        all().find(|own| own.name() == plain).ok_or_else(|| {
+            let names: Vec<&str> = all().map(Self::name).collect();
+            format!("there is no quantity {:?}; there are {}", name.trim(), names.join(", "))
+        })
     }
 }

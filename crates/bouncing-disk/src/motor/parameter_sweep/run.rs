@@ -1,14 +1,12 @@
 //! All cells of a sweep: its groups over the threads, and the result that their operations make.
 
-use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicUsize, Ordering};
-
-use bouncing_disk_core::run::{Watch, in_parallel, threads};
-use bouncing_disk_core::{Observer, Progress};
+use bouncing_disk_core::Observer;
+use bouncing_disk_core::run::Watch;
 
 use crate::error::Error;
 use crate::motor::operation::point::OperatingRow;
 use crate::motor::parameter_sweep::MotorSweep;
+use crate::motor::parameter_sweep::groups::over_groups;
 use crate::motor::parameter_sweep::result::MotorSweepResult;
 
 impl MotorSweep {
@@ -22,25 +20,12 @@ impl MotorSweep {
     /// ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the observer breaks.
     pub fn run(&self, observer: &dyn Observer) -> Result<MotorSweepResult, Error> {
         let watch = Watch::begin(observer, 0, self.cells() as u64)?;
-        let next = AtomicUsize::new(0);
-        let worker = || {
-            let mut outcomes = Vec::new();
-            while !watch.is_stopped() {
-                let group = next.fetch_add(1, Ordering::Relaxed);
-                let Some(cells) = self.groups().get(group) else { break };
-                let outcome = operations_of(self, group, &watch);
-                if outcome.is_ok() {
-                    watch.finish(cells.len() as u64);
-                }
-                outcomes.push((group, outcome));
-            }
-            outcomes
-        };
-        // The members of a group are spread over the threads themselves.
-        let workers = (GROUPS_PER_SHARE * threads()).div_ceil(self.settings().members);
-        let workers = workers.min(threads()).min(self.groups().len());
-        let mut outcomes: Vec<_> = in_parallel(workers, |_| worker()).into_iter().flatten().collect();
-        outcomes.sort_by_key(|(group, _)| *group);
+        let outcomes = over_groups(
+            self.groups().len(),
+            |group| self.groups()[group].len(),
+            &watch,
+            |group, observer| self.operations(group, observer),
+        );
         let done: u64 = outcomes.iter().flat_map(|(_, own)| own).map(|cells| cells.len() as u64).sum();
         if done < self.cells() as u64 && watch.is_stopped() {
             return Err(bouncing_disk_core::Error::Stopped { done, total: self.cells() as u64 }.into());
@@ -72,15 +57,3 @@ impl MotorSweep {
         Ok(MotorSweepResult::new(self.motor().clone(), *self.settings(), self.axes().to_vec(), cells))
     }
 }
-
-fn operations_of(sweep: &MotorSweep, group: usize, watch: &Watch<'_>) -> Result<Vec<OperatingRow>, Error> {
-    let ask = |_: Progress| match watch.ask() {
-        Ok(()) => ControlFlow::Continue(()),
-        Err(_) => ControlFlow::Break(()),
-    };
-    sweep.operations(group, &ask)
-}
-
-/// Groups under way for each thread that their members alone would leave idle: members end at different
-/// times.
-const GROUPS_PER_SHARE: usize = 4;

@@ -90,7 +90,7 @@ impl Rotors {
             load_impulse: inertia * (load * duration + done.law_impulse[own]),
             kinetic_change: inertia * (0.5 * (after - before) * (after + before)),
             speeds: Speeds::Unknown,
-            stator,
+            stator: stator.map(Box::new),
         }
     }
 

@@ -35,7 +35,7 @@ impl Speeds {
 }
 
 /// The motion of a rotor in a window of time, without units.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct RotorWindow {
     /// Angle turned.
     pub(crate) angle: f64,
@@ -53,8 +53,9 @@ pub(crate) struct RotorWindow {
     /// Change of the kinetic energy.
     pub(crate) kinetic_change: f64,
     pub(crate) speeds: Speeds,
-    /// On a stator that yields: its energies, and the rotor's own vertical motion.
-    pub(crate) stator: Option<(StatorLedger, AxialWindow)>,
+    /// On a stator that yields: its energies, and the rotor's own vertical motion. Most stators do not, and there are many
+    /// windows.
+    pub(crate) stator: Option<Box<(StatorLedger, AxialWindow)>>,
 }
 
 /// The vertical motion that all rotors share in a window of time, without units.
@@ -93,10 +94,10 @@ impl RotorWindow {
         self.load_impulse += next.load_impulse;
         self.kinetic_change += next.kinetic_change;
         self.speeds = self.speeds.with(next.speeds);
-        if let Some((ledger, axial)) = &next.stator {
-            let (own, known) = self.stator.get_or_insert_default();
-            *own += *ledger;
-            known.add(axial);
+        if let Some(next) = &next.stator {
+            let own = self.stator.get_or_insert_default();
+            own.0 += next.0;
+            own.1.add(&next.1);
         }
     }
 }

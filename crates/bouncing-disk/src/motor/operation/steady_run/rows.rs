@@ -239,7 +239,7 @@ impl SteadyRun<'_> {
                 } else {
                     AxialMotion::Periodic { periods, impacts }
                 };
-                (motion, 0.0, *fine, 1)
+                (motion, 0.0, fine.clone(), 1)
             }
         };
         let (duration, impacts) = averages.duration_and_impacts();

@@ -82,13 +82,11 @@ fn half_a_circle_of_lag_turns_the_motor_round() {
     let settings = OperatingSettings { relative_error: 0.1, members: 4, ..OperatingSettings::default() };
     for base in [motor(1e-8, 0.0), tried_motor()] {
         for share in [0.0, 0.35] {
-            let (one, other) = (loaded(&base, share), loaded(&base, -share));
-            let lags = [0.0, 0.7, 2.0];
-            let motors: Vec<LoadedMotor<'_>> = lags
-                .iter()
-                .flat_map(|&lag| [one.with_phase_lag(lag), other.with_phase_lag(lag + PI)])
-                .collect::<Result<_, _>>()
-                .expect("legal");
+            let at = |lag: f64, share: f64| {
+                loaded(&base.with_platform(|stator| stator.phase_lag = lag).expect("legal"), share)
+            };
+            let motors: Vec<LoadedMotor<'_>> =
+                [0.0, 0.7, 2.0].iter().flat_map(|&lag| [at(lag, share), at(lag + PI, -share)]).collect();
             for pair in operated(&motors, &settings).chunks(2) {
                 let speed = |index: usize| pair[index].point().expect("none runs away").speed.value;
                 let scale = base.platform().peak_angular_speed();
@@ -289,7 +287,6 @@ fn platforms_of_every_strength_are_judged() {
 
 mod searches {
     use super::*;
-    use crate::motor::operation::best_phase_lag::best_phase_lag;
     use crate::motor::operation::stall_load::stall_load;
 
     /// Under the stall load the motor stands still; a little less and it turns, a little more and it is
@@ -298,12 +295,9 @@ mod searches {
     fn the_stall_load_is_bracketed_by_what_turns_and_what_does_not() {
         let settings = OperatingSettings::default();
         for (system, sign) in [(motor(1e-8, 0.0), 1.0), (tried_motor(), 1.0), (tried_motor(), -1.0)] {
-            let motor = loaded(&system, 0.0);
-            let motor = if sign > 0.0 {
-                motor
-            } else {
-                motor.with_phase_lag(motor.system.platform().phase_lag() + PI).expect("legal")
-            };
+            let turned = if sign > 0.0 { 0.0 } else { PI };
+            let motor =
+                loaded(&system.with_platform(|stator| stator.phase_lag += turned).expect("legal"), 0.0);
             let stall = stall_load(&motor, &settings, &Unobserved).expect("it turns");
             assert!(sign * stall.torque.value > 0.0, "{stall:?}");
             assert!((stall.share * motor.largest_torque() / stall.torque.value - 1.0).abs() < 1e-12);
@@ -348,7 +342,7 @@ mod searches {
     }
 
     #[test]
-    fn a_motor_that_does_not_turn_has_neither_stall_nor_best_lag() {
+    fn a_motor_that_does_not_turn_has_no_stall() {
         let settings =
             OperatingSettings { members: 4, most_impacts: 300_000, ..OperatingSettings::default() };
         let still = tried_motor().with_platform(|stator| stator.twist_amplitude = 0.0).expect("legal");
@@ -357,29 +351,7 @@ mod searches {
             let motor = LoadedMotor::on_sine(system, MASS, 0.0);
             let error = stall_load(&motor, &settings, &Unobserved).expect_err("it does not turn");
             assert!(matches!(error, Error::DoesNotTurn { .. }), "{error}");
-            let error = best_phase_lag(&motor, &settings, &Unobserved).expect_err("it does not turn");
-            assert!(matches!(error, Error::DoesNotTurn { .. }), "{error}");
         }
-        let overpowered = loaded(&tried_motor(), 1.2);
-        let error = best_phase_lag(&overpowered, &settings, &Unobserved).expect_err("it runs away");
-        assert!(matches!(error, Error::Overpowered { .. }), "{error}");
-    }
-
-    /// No lag of a fine comb is faster, beyond the errors.
-    #[test]
-    fn no_lag_is_faster_than_the_best_one() {
-        let settings = OperatingSettings::default();
-        let motor = loaded(&tried_motor(), 0.2);
-        let best = best_phase_lag(&motor, &settings, &Unobserved).expect("it turns");
-        let lags: Vec<f64> = (0..90).map(|k| TAU * f64::from(k) / 90.0).collect();
-        let motors: Vec<LoadedMotor<'_>> =
-            lags.iter().map(|&lag| motor.with_phase_lag(lag).expect("legal")).collect();
-        for operation in operated(&motors, &settings) {
-            let speed = operation.point().expect("no runaway").speed;
-            assert!(speed.value <= best.speed.value + 4.0 * best.speed.standard_error, "{best:?} {speed:?}");
-        }
-        let [low, high] = best.good_from_to;
-        assert!(low <= best.phase_lag.value && best.phase_lag.value <= high, "{best:?}");
     }
 }
 

@@ -77,7 +77,7 @@ impl Pair {
         (self.taps, self.decided) = (self.taps + 1, self.decided + u64::from(decided));
         let (end, rotor) = (engine.state(), &tapped.rotors[0]);
         if decided {
-            let (done, own) = (rotor.done, rotor.speed);
+            let (done, own) = (rotor.done.clone(), rotor.speed);
             let launched = engine.flight().expect("the engine releases the disk, too");
             let duration = engine.time().since(&time).radians();
             let fastest = 1.0 + case.twist + speed.abs() + case.load.abs() * duration;

@@ -1,0 +1,728 @@
+//! The best of a quantity over one or two fields of a data sheet, within bounds on other quantities.
+//!
+//! A grid of places is computed roughly; those that may be the best are computed again with smaller errors, and finer grids lie
+//! about the best one. Lines through it show how wide the optimum is and where its top lies; the value is measured there, with
+//! other perturbations than those that chose the place. docs/numerics/motors.md, "The best of a quantity".
+
+mod line;
+
+use std::f64::consts::TAU;
+use std::fmt::{self, Display, Formatter};
+use std::str::FromStr;
+
+use bouncing_disk_core::Observer;
+use bouncing_disk_core::numerics::statistics::NORMAL_975;
+use bouncing_disk_core::run::Watch;
+
+use self::line::Cubic;
+use crate::error::{Error, check, finite};
+use crate::motor::data_sheet::Motor;
+use crate::motor::data_sheet::motor_field::MotorField;
+use crate::motor::operation::point::{Estimate, OperatingRow, Operation, Shortfall};
+use crate::motor::operation::settings::OperatingSettings;
+use crate::motor::parameter_sweep::axis::{SweepAxis, check_axes};
+use crate::motor::parameter_sweep::groups::operations_in_groups;
+use crate::motor::parameter_sweep::quantity::SweepQuantity;
+use crate::motor::stator::Stator;
+
+/// Places along one field, and along each of two: of rigid impacts on a sine, where each takes milliseconds; of all else; and of
+/// stators that yield, where each takes a tenth of a second and more.
+const CHEAP_PLACES: [usize; 2] = [400, 32];
+const PLACES: [usize; 2] = [200, 16];
+const DEAR_PLACES: [usize; 2] = [64, 10];
+
+/// The first grid is at most so accurate, and each further pass over what may be the best so many times more.
+const ROUGH: f64 = 0.1;
+const FINER: f64 = 3.0;
+
+/// Impacts that any place may have.
+const LEAST_IMPACTS: f64 = 1e5;
+
+/// Finer grids about the best place, each so many times finer than the one before, up to so many of its steps on either side.
+const GRIDS: usize = 2;
+const PARTS: f64 = 3.0;
+const STEPS: i32 = 2;
+
+/// Places on either side of a line, of a first look and of the fit; its values are so many times more accurate than asked for.
+const LOOK: i32 = 4;
+const SIDE: i32 = 16;
+const DEAR_SIDE: i32 = 8;
+const SURER: f64 = 2.0;
+
+/// Most looks at one line, each with another length, and by how much that changes.
+const LOOKS: usize = 6;
+const LENGTHEN: f64 = 3.0;
+
+/// A value beyond this share of the best one is good.
+const GOOD: f64 = 0.99;
+
+/// Places of a cubic among which its top is taken.
+const FINE: i32 = 500;
+
+/// A line whose values scatter by more than this share of the best one, and so many times their own errors, is too rough for a
+/// range.
+const ROUGHEST: f64 = 0.25 * (1.0 - GOOD);
+const EXPLAINED: f64 = 1.5;
+
+/// No value of a smooth line is so many times the scatter off.
+const OUTLIER: f64 = 4.0;
+
+/// A line between a field's ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct SearchRange {
+    /// The field of the data sheet.
+    pub field: MotorField,
+    /// Its least and largest value, in the unit of the field. A phase lag over a whole turn has no ends.
+    pub low: f64,
+    /// The largest.
+    pub high: f64,
+}
+
+/// A bound that an optimum has to keep.
+///
+/// ```
+/// use bouncing_disk::motor::QuantityBound;
+///
+/// let bound: QuantityBound = "speed >= 5".parse()?;
+/// assert_eq!(bound.to_string(), "speed >= 5");
+/// assert!("speed > 5".parse::<QuantityBound>().is_err());
+/// # Ok::<(), String>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct QuantityBound {
+    /// The quantity.
+    pub quantity: SweepQuantity,
+    /// Whether the bound is its least value; otherwise it is the largest.
+    pub is_least: bool,
+    /// The bound, in the unit of the quantity.
+    pub value: f64,
+}
+
+impl QuantityBound {
+    /// By how much a value keeps the bound; negative where it does not.
+    fn margin(&self, value: f64) -> f64 {
+        if self.is_least { value - self.value } else { self.value - value }
+    }
+}
+
+impl Display for QuantityBound {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        let sign = if self.is_least { ">=" } else { "<=" };
+        write!(formatter, "{} {sign} {}", self.quantity.name(), self.value)
+    }
+}
+
+impl FromStr for QuantityBound {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let form = || {
+            format!("a bound is QUANTITY >= NUMBER or QUANTITY <= NUMBER, such as speed >= 5, not {text:?}")
+        };
+        let signs = [(">=", true), ("<=", false)];
+        let parts = signs.iter().find_map(|(sign, is_least)| Some((text.split_once(sign)?, *is_least)));
+        let ((name, value), is_least) = parts.ok_or_else(form)?;
+        let value = value.trim().parse::<f64>().ok().filter(|value| value.is_finite()).ok_or_else(form)?;
+        Ok(Self { quantity: name.parse()?, is_least, value })
+    }
+}
+
+/// What is sought.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct BestSearch {
+    /// The quantity whose largest value is sought.
+    pub objective: SweepQuantity,
+    /// The fields that may vary: one or two. All else is taken from the data sheet.
+    pub ranges: Vec<SearchRange>,
+    /// Bounds on quantities of the same operating point: at most two.
+    pub bounds: Vec<QuantityBound>,
+}
+
+/// A field at the optimum.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct BestValue {
+    /// The field.
+    pub field: MotorField,
+    /// Its value, in the unit of the field, with its standard error.
+    pub value: Estimate,
+    /// The range around it, with the other field as it is at the optimum, in which the quantity has at least 99 % of its best
+    /// value and the bounds are kept. `None` where the curve is too rough to tell, as next to a locked motion. That of a phase
+    /// lag may reach beyond the circle.
+    pub good_from_to: Option<[f64; 2]>,
+    /// Whether the optimum lies at an end of the range that was searched.
+    pub is_at_end: bool,
+}
+
+/// The best of a quantity.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Best {
+    /// The fields, in their order.
+    pub values: Vec<BestValue>,
+    /// The quantity, measured at this place. Its error also holds what a better place nearby may bring.
+    pub value: Estimate,
+    /// The motor in operation there.
+    pub row: OperatingRow,
+    /// The quantities of the bounds, in their order.
+    pub bounds: Vec<Estimate>,
+    /// Places that were computed.
+    pub places: usize,
+}
+
+/// What is known of a place.
+#[derive(Debug, Clone)]
+struct Found {
+    value: Estimate,
+    bounds: Vec<Estimate>,
+    /// Whether it drifts no more, so that its errors hold.
+    is_settled: bool,
+}
+
+/// A place, each coordinate in [0, 1], or anywhere on a circle.
+#[derive(Debug, Clone)]
+struct Place {
+    at: Vec<f64>,
+    found: Option<Found>,
+}
+
+struct Search<'a> {
+    motor: &'a Motor,
+    sought: &'a BestSearch,
+    settings: &'a OperatingSettings,
+    watch: &'a Watch<'a>,
+    /// Why a motor could not be followed.
+    failure: Option<Error>,
+    /// Places on either side of a line.
+    side: i32,
+    /// [`narrow_peak`] of grid and scans.
+    peak: f64,
+    places: usize,
+}
+
+/// A line through the best place: along it the value and the quantities of the bounds, if they are smooth.
+struct Line {
+    best: f64,
+    /// Between which values the optimum lies.
+    top: [f64; 2],
+    good: Option<[f64; 2]>,
+    /// How much more a place beside the best one may bring.
+    beside: f64,
+}
+
+impl Motor {
+    /// The best of a quantity over one or two fields of the data sheet, under bounds on others. Where motions coexist, it is
+    /// that of the first branch of a row.
+    ///
+    /// The items of `observer` are the places that are computed; their number is estimated before.
+    ///
+    /// ```
+    /// use bouncing_disk::core::Unobserved;
+    /// use bouncing_disk::Motor;
+    /// use bouncing_disk::motor::{BestSearch, MotorField, OperatingSettings, SearchRange, SweepQuantity};
+    ///
+    /// // The lag at which the paper's motor turns fastest.
+    /// let turn = SearchRange { field: MotorField::PhaseLag, low: 0.0, high: std::f64::consts::TAU };
+    /// let sought = BestSearch { objective: SweepQuantity::Speed, ranges: vec![turn], bounds: vec![] };
+    /// let settings = OperatingSettings { relative_error: 0.05, ..OperatingSettings::default() };
+    /// let best = Motor::paper_70_khz().best(&sought, &settings, &Unobserved)?;
+    /// let from_to = best.values[0].good_from_to.expect("a smooth curve");
+    /// assert!(from_to[0] < best.values[0].value.value && best.values[0].value.value < from_to[1]);
+    /// # Ok::<(), bouncing_disk::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for illegal ranges, bounds and settings, and those of
+    /// [`MotorParameters::build`](crate::motor::MotorParameters::build) at the ends of the ranges; [`Error::NotKept`] where no
+    /// place keeps the bounds; [`Error::NotPositive`] where the quantity is nowhere positive, or not surely so; those of
+    /// [`operations`](crate::motor::operations) where no motor can be followed.
+    pub fn best(
+        &self,
+        sought: &BestSearch,
+        settings: &OperatingSettings,
+        observer: &dyn Observer,
+    ) -> Result<Best, Error> {
+        sought.check(self)?;
+        settings.check()?;
+        let stator = self.stator_motion();
+        let (places, on_side) = match stator {
+            Stator::Sine => (CHEAP_PLACES, SIDE),
+            _ if stator.yields() => (DEAR_PLACES, DEAR_SIDE),
+            _ => (PLACES, SIDE),
+        };
+        let side = places[sought.ranges.len() - 1];
+        let (fields, looks) = (sought.ranges.len(), 2 * (LOOK + on_side) as usize);
+        let coarse = side.pow(fields as u32);
+        let watch = Watch::begin(observer, 0, (coarse + coarse / 4 + fields * looks) as u64)?;
+        let mut search = Search {
+            motor: self,
+            sought,
+            settings,
+            watch: &watch,
+            failure: None,
+            side: on_side,
+            peak: 0.0,
+            places: 0,
+        };
+        let best = search.run(side)?;
+        watch.end();
+        Ok(best)
+    }
+}
+
+impl BestSearch {
+    fn check(&self, motor: &Motor) -> Result<(), Error> {
+        let axes: Vec<SweepAxis> = self
+            .ranges
+            .iter()
+            .map(|range| SweepAxis::new(range.field, vec![range.low, range.high]))
+            .collect();
+        check_axes(&axes)?;
+        check(self.bounds.len() <= 2, "number of bounds", self.bounds.len() as f64, "[0, 2]")?;
+        for bound in &self.bounds {
+            finite(bound.quantity.name(), bound.value)?;
+        }
+        for range in &self.ranges {
+            check(range.low < range.high, "upper end of a range", range.high, "above its lower end")?;
+        }
+        let twists = motor.stator().is_some_and(|stator| stator.modes()[0].angle != 0.0);
+        if twists && self.ranges.iter().any(|range| range.field == MotorField::PhaseLag) {
+            let one = "a stator of the kind axial_twist";
+            return Err(Error::BothGiven { one, other: "a phase lag to be found" });
+        }
+        for corner in [0.0, 1.0] {
+            self.motor_at(motor, &vec![corner; self.ranges.len()])?;
+        }
+        Ok(())
+    }
+
+    fn motor_at(&self, motor: &Motor, at: &[f64]) -> Result<Motor, Error> {
+        let mut sheet = motor.parameters().clone();
+        for (range, at) in self.ranges.iter().zip(at) {
+            range.field.set(&mut sheet, range.value(*at));
+        }
+        sheet.build()
+    }
+}
+
+impl SearchRange {
+    fn value(&self, at: f64) -> f64 {
+        self.low + (self.high - self.low) * at
+    }
+
+    /// Whether it is a whole turn, which has no ends.
+    fn is_turn(&self) -> bool {
+        self.field == MotorField::PhaseLag && self.high - self.low >= TAU * (1.0 - 1e-9)
+    }
+}
+
+impl Found {
+    fn of(sought: &BestSearch, operation: &Operation) -> Option<Self> {
+        let known = |quantity: SweepQuantity| {
+            quantity.of(operation).filter(|own| own.value.is_finite() && own.standard_error.is_finite())
+        };
+        let bounds = sought.bounds.iter().map(|bound| known(bound.quantity)).collect::<Option<_>>()?;
+        let drifts = matches!(
+            operation,
+            Operation::Unsettled(_, Shortfall::Drift { .. } | Shortfall::PowerBalance { .. })
+        );
+        Some(Self { value: known(sought.objective)?, bounds, is_settled: !drifts })
+    }
+
+    /// The least margin of the bounds, in standard errors; how far a place keeps all of them.
+    fn margin(&self, sought: &BestSearch) -> f64 {
+        let own = sought.bounds.iter().zip(&self.bounds);
+        let margins = own.map(|(bound, own)| {
+            let margin = bound.margin(own.value);
+            if own.standard_error > 0.0 {
+                margin / own.standard_error
+            } else {
+                f64::INFINITY.copysign(margin)
+            }
+        });
+        margins.fold(f64::INFINITY, f64::min)
+    }
+
+    /// The ends of its interval; open where it still drifts.
+    fn at_least(&self) -> f64 {
+        if self.is_settled {
+            self.value.value - NORMAL_975 * self.value.standard_error
+        } else {
+            f64::NEG_INFINITY
+        }
+    }
+
+    fn at_most(&self) -> f64 {
+        if self.is_settled {
+            self.value.value + NORMAL_975 * self.value.standard_error
+        } else {
+            f64::INFINITY
+        }
+    }
+}
+
+impl Search<'_> {
+    fn run(&mut self, side: usize) -> Result<Best, Error> {
+        let mut all = self.grid(side);
+        let wanted = self.settings.relative_error;
+        let mut error = wanted.max(ROUGH);
+        let mut open: Vec<usize> = (0..all.len()).collect();
+        loop {
+            self.measure(&mut all, &open, error)?;
+            if error <= wanted {
+                break;
+            }
+            open = self.possible(&all, open);
+            error = (error / FINER).max(wanted);
+        }
+        self.peak = narrow_peak(&all, side, self.sought.ranges.len());
+        let mut step: Vec<f64> = self.sought.ranges.iter().map(|range| self.step(range, side)).collect();
+        for _ in 0..GRIDS {
+            let middle = all[self.best_of(&all)?].at.clone();
+            step.iter_mut().for_each(|step| *step /= PARTS);
+            let first = all.len();
+            all.extend(self.around(&middle, &step));
+            let new: Vec<usize> = (first..all.len()).collect();
+            self.measure(&mut all, &new, wanted)?;
+        }
+        if step.len() > 1 && matches!(self.motor.stator_motion(), Stator::Sine) {
+            for field in 0..step.len() {
+                self.scan(field, &mut all)?;
+            }
+        }
+        let mut place = all[self.best_of(&all)?].clone();
+        let mut lines = Vec::new();
+        for (field, step) in step.into_iter().enumerate() {
+            let line = self.line(&mut place, field, step, &mut all)?;
+            lines.push(line);
+        }
+        self.result(&place, &lines, &all)
+    }
+
+    fn step(&self, range: &SearchRange, side: usize) -> f64 {
+        1.0 / (side - usize::from(!range.is_turn())) as f64
+    }
+
+    fn grid(&self, side: usize) -> Vec<Place> {
+        let lines = self.sought.ranges.iter().map(|range| {
+            let step = self.step(range, side);
+            (0..side).map(|k| (k as f64 * step).min(1.0)).collect::<Vec<f64>>()
+        });
+        let mut all: Vec<Vec<f64>> = vec![Vec::new()];
+        for line in lines {
+            all = all
+                .iter()
+                .flat_map(|at| line.iter().map(|own| at.iter().copied().chain([*own]).collect()))
+                .collect();
+        }
+        all.into_iter().map(|at| Place { at, found: None }).collect()
+    }
+
+    /// Goes along a whole field through the best place: motions lock on cycles in windows that a grid over two fields misses.
+    fn scan(&mut self, field: usize, all: &mut Vec<Place>) -> Result<(), Error> {
+        let (middle, side) = (all[self.best_of(all)?].at.clone(), CHEAP_PLACES[0]);
+        let step = self.step(&self.sought.ranges[field], side);
+        let along = (0..side).map(|k| {
+            let mut at = middle.clone();
+            at[field] = (k as f64 * step).min(1.0);
+            Place { at, found: None }
+        });
+        let first = all.len();
+        all.extend(along);
+        let new: Vec<usize> = (first..all.len()).collect();
+        self.measure(all, &new, self.settings.relative_error.max(ROUGH))?;
+        self.peak = self.peak.max(narrow_peak(&all[first..], side, 1));
+        let open = self.possible(all, new);
+        self.measure(all, &open, self.settings.relative_error)
+    }
+
+    /// A finer grid about a place.
+    fn around(&self, middle: &[f64], step: &[f64]) -> Vec<Place> {
+        let mut all: Vec<Vec<f64>> = vec![Vec::new()];
+        for ((middle, step), range) in middle.iter().zip(step).zip(&self.sought.ranges) {
+            let own = (-STEPS..=STEPS).map(|k| middle + f64::from(k) * step);
+            let own: Vec<f64> = own.filter(|at| range.is_turn() || (0.0..=1.0).contains(at)).collect();
+            all = all
+                .iter()
+                .flat_map(|at| own.iter().map(|own| at.iter().copied().chain([*own]).collect()))
+                .collect();
+        }
+        all.into_iter().map(|at| Place { at, found: None }).collect()
+    }
+
+    /// Computes some of the places.
+    fn measure(&mut self, all: &mut [Place], which: &[usize], error: f64) -> Result<(), Error> {
+        // An error takes impacts as its inverse square: a place that needs more is not known better, and stays open.
+        let share = (self.settings.relative_error / error).min(1.0);
+        let most_impacts = (self.settings.most_impacts as f64 * (share * share)).max(LEAST_IMPACTS) as u64;
+        let most_impacts = most_impacts.min(self.settings.most_impacts);
+        let settings = OperatingSettings { relative_error: error, most_impacts, ..*self.settings };
+        let motors = which.iter().map(|index| self.sought.motor_at(self.motor, &all[*index].at));
+        // What is legal at the ends may not be between them, such as a quality below a half: no place.
+        let (mut legal, mut motors_of) = (Vec::new(), Vec::new());
+        for (index, motor) in which.iter().zip(motors) {
+            match motor {
+                Ok(motor) => {
+                    legal.push(*index);
+                    motors_of.push(motor);
+                }
+                Err(failure) => self.failure = Some(failure),
+            }
+        }
+        self.places += legal.len();
+        let rows = operations_in_groups(&motors_of, &settings, self.watch)?;
+        for (index, row) in legal.into_iter().zip(rows) {
+            match row {
+                Ok(row) => all[index].found = Found::of(self.sought, row.operation()),
+                Err(failure) => self.failure = Some(failure),
+            }
+        }
+        Ok(())
+    }
+
+    /// Which of the places may be the best.
+    fn possible(&self, all: &[Place], open: Vec<usize>) -> Vec<usize> {
+        let keeping = open.iter().filter_map(|index| all[*index].found.as_ref());
+        let keeping = keeping.filter(|found| found.margin(self.sought) >= 1.0);
+        let least = keeping.map(Found::at_least).fold(f64::NEG_INFINITY, f64::max);
+        let may = |found: &Found| found.at_most() >= least && found.margin(self.sought) >= -NORMAL_975;
+        let kept: Vec<usize> =
+            open.iter().copied().filter(|index| all[*index].found.as_ref().is_some_and(&may)).collect();
+        if kept.is_empty() { open } else { kept }
+    }
+
+    /// The best of the places that keep the bounds.
+    fn best_of(&self, all: &[Place]) -> Result<usize, Error> {
+        let known = || all.iter().enumerate().filter_map(|(index, own)| Some((index, own.found.as_ref()?)));
+        let keeping = known().filter(|(_, found)| found.is_settled && found.margin(self.sought) >= 1.0);
+        let best = keeping.max_by(|one, other| one.1.value.value.total_cmp(&other.1.value.value));
+        let Some((index, found)) = best else {
+            let nearest = known()
+                .max_by(|one, other| one.1.margin(self.sought).total_cmp(&other.1.margin(self.sought)));
+            let Some((_, found)) = nearest else {
+                let quantity = self.sought.objective.name();
+                return Err(self.failure.unwrap_or(Error::NotPositive { quantity, value: f64::NAN }));
+            };
+            let failing = self.sought.bounds.iter().zip(&found.bounds).min_by(|one, other| {
+                let margin = |(bound, own): &(&QuantityBound, &Estimate)| bound.margin(own.value);
+                margin(one).total_cmp(&margin(other))
+            });
+            return Err(failing.map_or(Error::LoadInTime, |(bound, own)| Error::NotKept {
+                quantity: bound.quantity.name(),
+                is_least: bound.is_least,
+                bound: bound.value,
+                nearest: own.value,
+            }));
+        };
+        if found.at_least() <= 0.0 {
+            return Err(Error::NotPositive {
+                quantity: self.sought.objective.name(),
+                value: found.value.value,
+            });
+        }
+        Ok(index)
+    }
+
+    /// Looks along a field through the best place, and moves it to the top if the line is smooth.
+    fn line(
+        &mut self,
+        place: &mut Place,
+        field: usize,
+        step: f64,
+        all: &mut Vec<Place>,
+    ) -> Result<Line, Error> {
+        let range = self.sought.ranges[field];
+        let along = |place: &Place, half: f64, side: i32| -> Vec<Place> {
+            let offsets = (-side..=side).map(|k| half * f64::from(k) / f64::from(side));
+            let ats = offsets.map(|offset| place.at[field] + offset);
+            // The end of the range belongs to the line.
+            let inside = |at: &f64| range.is_turn() || (0.0..=1.0).contains(at);
+            let mut ats: Vec<f64> = ats.filter(inside).collect();
+            for end in [0.0, 1.0] {
+                if !range.is_turn() && (place.at[field] - end).abs() < half && !ats.contains(&end) {
+                    ats.push(end);
+                }
+            }
+            ats.sort_by(f64::total_cmp);
+            let of = |at: f64| {
+                let mut own = place.at.clone();
+                own[field] = at;
+                Place { at: own, found: None }
+            };
+            ats.into_iter().map(of).collect()
+        };
+        let (mut half, mut lengthened) = (2.0 * step, None);
+        for _ in 0..LOOKS {
+            let first = all.len();
+            all.extend(along(place, half, LOOK));
+            let new: Vec<usize> = (first..all.len()).collect();
+            self.measure(all, &new, self.settings.relative_error)?;
+            if let Ok(better) = self.best_of(&all[first..])
+                && all[first + better].found.as_ref().map(|found| found.value.value)
+                    > place.found.as_ref().map(|found| found.value.value)
+            {
+                *place = all[first + better].clone();
+            }
+            let top = place.found.as_ref().map_or(0.0, |found| found.value.value);
+            let near =
+                new.iter().filter_map(|index| Some((all[*index].at[field], all[*index].found.as_ref()?)));
+            let (good, bad): (Vec<_>, Vec<_>) = near.partition(|(_, found)| found.value.value >= GOOD * top);
+            let sides = [-1.0, 1.0].map(|sign| {
+                let end = if sign < 0.0 { place.at[field] } else { 1.0 - place.at[field] };
+                let has_end = !range.is_turn() && end < half;
+                has_end || bad.iter().any(|(at, _)| sign * (at - place.at[field]) > 0.0)
+            });
+            let too_short = sides != [true; 2] && half < 0.5;
+            let too_long = good.len() < LOOK as usize && half > step / LENGTHEN;
+            // Where it is too long and then too short it is rough.
+            if !(too_short || too_long) || lengthened == Some(!too_short) {
+                break;
+            }
+            lengthened = Some(too_short);
+            half = if too_short { (half * LENGTHEN).min(0.5) } else { half / LENGTHEN };
+        }
+        let first = all.len();
+        all.extend(along(place, half, self.side));
+        let new: Vec<usize> = (first..all.len()).collect();
+        self.measure(all, &new, self.settings.relative_error / SURER)?;
+        let known: Vec<(f64, &Found)> = new
+            .iter()
+            .filter_map(|index| {
+                Some(((all[*index].at[field] - place.at[field]) / half, all[*index].found.as_ref()?))
+            })
+            .collect();
+        Ok(self.fitted(place, field, half, &known, new.len()))
+    }
+
+    /// The line through a place, by its values at offsets in [-1, 1].
+    fn fitted(
+        &self,
+        place: &mut Place,
+        field: usize,
+        half: f64,
+        known: &[(f64, &Found)],
+        asked: usize,
+    ) -> Line {
+        let at = place.at[field];
+        let part = half / f64::from(self.side);
+        let values: Vec<(f64, f64)> = known.iter().map(|(x, found)| (*x, found.value.value)).collect();
+        let best = values.iter().fold(0.0, |most: f64, (_, value)| most.max(*value));
+        let bounds = (0..self.sought.bounds.len()).map(|bound| {
+            let own: Vec<(f64, f64)> =
+                known.iter().map(|(x, found)| (*x, found.bounds[bound].value)).collect();
+            Cubic::through(&own)
+        });
+        let bounds: Option<Vec<Cubic>> = bounds.collect();
+        let squares: f64 =
+            known.iter().map(|(_, found)| found.value.standard_error * found.value.standard_error).sum();
+        let explained = EXPLAINED * (squares / known.len() as f64).sqrt();
+        let smooth = Cubic::through(&values).filter(|cubic| {
+            known.len() == asked
+                && cubic.scatter <= explained.max(ROUGHEST * best)
+                && cubic.largest <= OUTLIER * cubic.scatter.max(1e-12 * best)
+        });
+        let (Some(cubic), Some(bounds)) = (smooth, bounds) else {
+            let scatter = Cubic::through(&values).map_or(0.0, |cubic| cubic.scatter);
+            return Line {
+                best: at,
+                top: [at - part, at + part],
+                good: None,
+                beside: NORMAL_975 * scatter.min(best),
+            };
+        };
+        let keeps = |x: f64| {
+            let own = self.sought.bounds.iter().zip(&bounds);
+            own.into_iter().all(|(bound, cubic)| bound.margin(cubic.at(x).0) >= 0.0)
+        };
+        let [low, high] = [values[0].0, values[values.len() - 1].0];
+        let x = |k: i32| low + (high - low) * f64::from(k) / f64::from(FINE);
+        let keeping = (0..=FINE).filter(|k| keeps(x(*k)));
+        let top = keeping.max_by(|one, other| cubic.at(x(*one)).0.total_cmp(&cubic.at(x(*other)).0));
+        let Some(top) = top else {
+            return Line { best: at, top: [at - part, at + part], good: None, beside: 0.0 };
+        };
+        let (value, error) = cubic.at(x(top));
+        let reach = |least: f64, errors: f64| {
+            let is_in = |k: &i32| {
+                let (value, error) = cubic.at(x(*k));
+                value + errors * error >= least && keeps(x(*k))
+            };
+            let up = (top..=FINE).take_while(is_in).last();
+            let down = (0..=top).rev().take_while(is_in).last();
+            Some([down?, up?].map(|k| at + half * x(k)))
+        };
+        let good = reach(GOOD * (value + error), -NORMAL_975);
+        let top_in = reach(value - error, 1.0).unwrap_or([at, at]);
+        let best = at + half * x(top);
+        place.at[field] = best;
+        Line { best, top: top_in, good, beside: 0.0 }
+    }
+
+    /// The value at the best place, with other perturbations.
+    fn result(&mut self, place: &Place, lines: &[Line], all: &[Place]) -> Result<Best, Error> {
+        let motor = self.sought.motor_at(self.motor, &place.at)?;
+        let settings = OperatingSettings { seed: self.settings.seed.wrapping_add(1), ..*self.settings };
+        // As many as motors.
+        let row = operations_in_groups(&[motor], &settings, self.watch)?.swap_remove(0)?;
+        let Some(found) = Found::of(self.sought, row.operation()) else {
+            return Err(Error::NotPositive { quantity: self.sought.objective.name(), value: f64::NAN });
+        };
+        // What surely was better elsewhere, within the bounds as far as they are known.
+        let elsewhere = all.iter().filter_map(|place| place.found.as_ref());
+        let elsewhere = elsewhere.filter(|found| found.margin(self.sought) >= -1.0);
+        let better = elsewhere.map(Found::at_least).fold(found.value.value, f64::max) - found.value.value;
+        let beside = lines.iter().map(|line| line.beside).fold(self.peak, f64::max);
+        let value = Estimate {
+            standard_error: found.value.standard_error + (better + beside) / NORMAL_975,
+            ..found.value
+        };
+        let values = self.sought.ranges.iter().zip(lines).map(|(range, line)| {
+            let value = range.value(line.best);
+            let turn = if range.is_turn() { -TAU * ((value + 0.5 * TAU) / TAU).floor() } else { 0.0 };
+            let width = (range.high - range.low) * (line.top[1] - line.top[0]);
+            let end = [0.0, 1.0].iter().any(|end| (line.best - end).abs() < 1e-9);
+            BestValue {
+                field: range.field,
+                value: Estimate { value: value + turn, standard_error: 0.5 * width },
+                good_from_to: line.good.map(|ends| ends.map(|end| range.value(end) + turn)),
+                is_at_end: end && !range.is_turn(),
+            }
+        });
+        Ok(Best { values: values.collect(), value, row, bounds: found.bounds, places: self.places })
+    }
+}
+
+/// By how much a place surely exceeds the two beside it along a field, beyond what these fall on: the height of a peak that is
+/// narrower than the grid, as of a locked motion. Others like it may lie between the places.
+fn narrow_peak(all: &[Place], side: usize, fields: usize) -> f64 {
+    let settled = |index: usize| all[index].found.as_ref().filter(|found| found.is_settled);
+    let value = |index: usize| settled(index).map(|found| found.value);
+    let best = all.iter().filter_map(|place| place.found.as_ref()).map(|found| found.value.value);
+    let best = best.fold(0.0, f64::max);
+    let mut highest = 0.0_f64;
+    for field in 0..fields {
+        let stride = side.pow((fields - 1 - field) as u32);
+        for index in 0..all.len() {
+            let along = index / stride % side;
+            if along < 2 || along + 2 >= side {
+                continue;
+            }
+            let near = [index - 2 * stride, index - stride, index, index + stride, index + 2 * stride];
+            let [Some(a), Some(b), Some(own), Some(c), Some(d)] = near.map(value) else { continue };
+            // A smooth top falls off ever faster.
+            let beside = [b, c].map(|near| near.value + NORMAL_975 * near.standard_error);
+            let falls = (a.value - b.value).abs().max((c.value - d.value).abs());
+            let height = own.value - NORMAL_975 * own.standard_error - beside[0].max(beside[1]) - falls;
+            if own.value >= 0.5 * best {
+                highest = highest.max(height);
+            }
+        }
+    }
+    highest
+}
+
+#[cfg(test)]
+mod tests;
