@@ -125,8 +125,8 @@ curve itself is within 1 % of its best, and is left out where the curve is too r
 See docs/designing-a-motor.md.
 
 Examples:
-  bouncing-disk motor best motor.toml --of speed --over phase_lag
-  bouncing-disk motor best motor.toml --of efficiency --over preload_force=2:10 --over load_torque=0:3e-3 --where 'speed >= 5'")]
+  bouncing-disk motor best motor.toml --of speed --over preload_force=2:10 --over phase_lag
+  bouncing-disk motor best motor.toml --of torque --over load_torque=0:3e-3 --where 'speed>=5'")]
 pub(crate) struct BestArgs {
     #[command(flatten)]
     operation: OperationArgs,
