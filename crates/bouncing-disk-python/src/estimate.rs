@@ -3,9 +3,9 @@
 use std::str::FromStr;
 
 use bouncing_disk::estimate::{
-    CsvColumns, FitParameter, FitRange, FitSettings, IntervalEstimate, MeasuredRun, MeasuredSpeeds,
-    RatedCondition, RatedFit, RatedFitSettings, RatedPoint, RiseEstimate, RiseForm, Spread,
-    TransientEnsemble, TransientFit, UnknownUnit,
+    CsvColumns, FitParameter, FitRange, FitSettings, IntervalEstimate, MeasuredRun, MeasuredSpeeds, MotorFit,
+    MotorFitSettings, RatedCondition, RatedPoint, RiseEstimate, RiseForm, Spread, TransientEnsemble,
+    TransientFit, UnknownUnit,
 };
 use bouncing_disk::motor::{
     MotorField, MotorParameters, OperatingSettings, SpeedCurve, TransientMember, TransientSettings,
@@ -168,14 +168,14 @@ pub(crate) fn fit_rated_points(a: Arguments<'_>) -> Made<'_> {
             || PyValueError::new_err(format!("ranges: {name:?} cannot be fitted; possible are {all}"));
         ranges.push(FitRange { parameter: parameter.ok_or_else(unknown)?, low, high });
     }
-    let defaults = RatedFitSettings::default();
+    let defaults = MotorFitSettings::default();
     let operating = OperatingSettings {
         seed: a.u64("seed")?,
         most_impacts: a.u64("most_impacts")?,
         ..defaults.operating
     };
-    let settings = RatedFitSettings { most_evaluations: a.usize("most_evaluations")?, operating, ..defaults };
-    let fit = a.run_fit(|observer| RatedFit::new(&motor, &points, &ranges, &settings, observer))?;
+    let settings = MotorFitSettings { most_evaluations: a.usize("most_evaluations")?, operating, ..defaults };
+    let fit = a.run_fit(|observer| MotorFit::new(&motor, &points, &[], &ranges, &settings, observer))?;
     let (accepted, fitted) = (PyDict::new(py), |of: fn(&_) -> f64| column(py, &fit.points, of));
     for own in &fit.parameters {
         let ends: Vec<_> = own.accepted.iter().map(|range| (range.low, range.high)).collect();

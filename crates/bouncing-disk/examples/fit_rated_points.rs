@@ -5,7 +5,7 @@
 
 use bouncing_disk::Motor;
 use bouncing_disk::core::Unobserved;
-use bouncing_disk::estimate::{FitError, FitParameter, FitRange, RatedFit, RatedFitSettings, RatedPoint};
+use bouncing_disk::estimate::{FitError, FitParameter, FitRange, MotorFit, MotorFitSettings, RatedPoint};
 
 /// The sheet in volts above with a larger contact radius, and a friction that nobody has measured.
 const DATA_SHEET: &str = r#"{
@@ -24,9 +24,9 @@ fn main() -> Result<(), FitError> {
     ];
     let friction = FitRange { parameter: FitParameter::Friction, low: 0.05, high: 0.4 };
     // Some seconds; the default takes what is needed.
-    let mut settings = RatedFitSettings { most_evaluations: 24, ..RatedFitSettings::default() };
+    let mut settings = MotorFitSettings { most_evaluations: 24, ..MotorFitSettings::default() };
     settings.operating.most_impacts = 50_000;
-    let fit = RatedFit::new(&motor, &points, &[friction], &settings, &Unobserved)?;
+    let fit = MotorFit::new(&motor, &points, &[], &[friction], &settings, &Unobserved)?;
     println!("{fit:.3}");
     for (point, printed) in fit.points.iter().zip(["no load", "rated", "stall"]) {
         println!(

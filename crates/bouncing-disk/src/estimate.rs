@@ -5,35 +5,29 @@
 //! gives the friction mu = -m a_g^2 alpha/(a_e N) (Eq. 17 of Liu, Friend and Yeo).
 //!
 //! ```
-//! use bouncing_disk::estimate::{BrakingFit, BrakingRotor};
+//! use bouncing_disk::estimate::BrakingRotor;
 //!
 //! // A rotor of 1 kg that slows down by 10 rad/s^2 from 50 rad/s.
 //! let rotor = BrakingRotor { normal_force: 9.8, mass: 1.0, contact_radius: 0.1, gyration_radius: 0.1 };
 //! assert!((rotor.friction(-10.0)? - 1.0 / 9.8).abs() < 1e-15);
-//! let times: Vec<f64> = (0..50).map(|k| 0.1 * f64::from(k)).collect();
-//! let speeds: Vec<f64> = times.iter().map(|time| 50.0 - 10.0 * time).collect();
-//! let fit = BrakingFit::new(&times, &speeds, &rotor)?;
-//! assert!((fit.friction.value - 1.0 / 9.8).abs() < 1e-9);
 //! # Ok::<(), bouncing_disk::estimate::FitError>(())
 //! ```
 //!
-//! [`TransientFit`] fits run-ups, `ParameterFit` (feature `fit`) finds the parameters of a motor that explain
-//! them, `RatedFit` those that explain the points that a maker prints, and [`MeasuredSpeeds`] holds measurements, read from files with the feature `csv`. Run-ups of the
+//! [`TransientFit`] fits run-ups, `MotorFit` (feature `fit`) finds the parameters of a motor that explain run-ups, braking tails and the
+//! points that a maker prints, and [`MeasuredSpeeds`] holds measurements, read from files with the feature `csv`. Run-ups of the
 //! model are in [`motor`](crate::motor). The derivation of the intervals: docs/numerics/motors.md.
 
-pub(crate) mod braking_fit;
+pub(crate) mod braking_rotor;
 pub(crate) mod ensemble;
 pub(crate) mod fit;
 pub(crate) mod interval;
 pub(crate) mod measured_speeds;
 #[cfg(feature = "fit")]
-pub(crate) mod parameter_fit;
-#[cfg(feature = "fit")]
-pub(crate) mod rated_fit;
+pub(crate) mod motor_fit;
 pub(crate) mod refusal;
 pub(crate) mod transient_fit;
 
-pub use braking_fit::{BrakingFit, BrakingRotor};
+pub use braking_rotor::BrakingRotor;
 pub use ensemble::{Spread, TransientEnsemble};
 pub use fit::{ExponentialFit, RampFit};
 pub use interval::IntervalEstimate;
@@ -44,18 +38,14 @@ pub use measured_speeds::error::{CsvFault, MeasuredSpeedsError};
 pub use measured_speeds::units::{SpeedUnit, TimeUnit, UnknownUnit};
 pub use measured_speeds::{MeasuredRun, MeasuredSpeeds};
 #[cfg(feature = "fit")]
-pub use parameter_fit::ParameterFit;
+pub use motor_fit::estimate::{AcceptedRange, UndeterminedDirection};
 #[cfg(feature = "fit")]
-pub use parameter_fit::estimate::{AcceptedRange, ParameterEstimate, UndeterminedDirection};
+pub use motor_fit::parameter::{FitParameter, FitRange};
 #[cfg(feature = "fit")]
-pub use parameter_fit::measured_transient::{MeasuredTransient, RunPreload};
+pub use motor_fit::point::{RatedCondition, RatedPoint};
 #[cfg(feature = "fit")]
-pub use parameter_fit::parameter::{FitParameter, FitRange};
+pub use motor_fit::transient::{MeasuredTransient, TransientKind};
 #[cfg(feature = "fit")]
-pub use parameter_fit::settings::ParameterFitSettings;
-#[cfg(feature = "fit")]
-pub use rated_fit::point::{RatedCondition, RatedPoint};
-#[cfg(feature = "fit")]
-pub use rated_fit::{FittedPoint, RatedEstimate, RatedFit, RatedFitSettings};
+pub use motor_fit::{FittedParameter, FittedPoint, MotorFit, MotorFitSettings};
 pub use refusal::{FitError, FitRefusal};
 pub use transient_fit::{FitSettings, LEAST_MEMBERS, RiseEstimate, RiseForm, TransientFit};

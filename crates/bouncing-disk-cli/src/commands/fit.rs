@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use bouncing_disk::Motor;
 use bouncing_disk::estimate::{
-    CsvColumns, FitError, FitParameter, FitRange, FitSettings, MeasuredSpeeds, MeasuredTransient,
-    ParameterEstimate, ParameterFit, ParameterFitSettings, RatedEstimate, RatedFit, RatedFitSettings,
-    RatedPoint, RunPreload, SpeedUnit, TimeUnit, TransientFit,
+    CsvColumns, FitError, FitParameter, FitRange, FitSettings, FittedParameter, MeasuredRun, MeasuredSpeeds,
+    MeasuredTransient, MotorFit, MotorFitSettings, RatedPoint, SpeedUnit, TimeUnit, TransientFit,
+    TransientKind,
 };
 use bouncing_disk::motor::OperatingSettings;
 use bouncing_disk_plot::Figure;
@@ -22,12 +22,13 @@ The file has the columns time_s, speed_rad_s and, for repeated runs, member, or 
 such as \"t (ms)\" and \"n (rpm)\"; commas, semicolons or tabs separate them. Without --parameter alpha_ss - b exp(-t/t_c) is \
 fitted to their mean, with 95 % intervals: time zero, a dead time and the speed at the start need not be known. \
 --from-rest fits alpha_ss (1 - exp(-t/t_c)) to times that count from the start of the rise, with narrower intervals. With --parameter FIELD=LOW:HIGH parameters of a motor are fitted: friction, restitution, phase_lag (rad), \
-amplitude (m), twist_amplitude (rad), contact.time (s), each within its range, to run-ups from rest whose times count from the switch-on; all else is that of the motor, which --motor or --preset \
-names.
+amplitude (m), twist_amplitude (rad), contact.time (s), stator.mass (kg), stator.quality, stator.twist_per_height (rad/m), each within its \
+range; all else is that of the motor, which --motor or --preset names. Runs whose speeds rise are run-ups; those whose speeds fall are braking \
+tails with the drive off. The time of the switch and the speed at the first row need not be known.
 
 A table of points that a maker prints has no times: columns speed_rad_s (or \"speed (rpm)\"), speed_error, and fields of the data sheet \
 such as load_torque (0 without load), stator.volts or preload_force, each perhaps with its error (load_torque_error); a line each, the speed 0 \
-at the stall torque. With --parameter, also stator.mass (kg), stator.quality and stator.twist_per_height (rad/m) are fitted to it. See \
+at the stall torque. See \
 docs/designing-a-motor.md.
 
 Examples:
@@ -65,13 +66,12 @@ pub(crate) struct FitArgs {
     /// With --parameter: gives a field of the data sheet another value
     #[arg(help_heading = OWN, long, value_name = "KEY=VALUE", requires = "parameter", value_parser = setting)]
     set: Vec<Setting>,
-    /// With --parameter: most evaluations of all motors that the search may take: of run-ups 1 to 10000, default 100, and of points
-    /// 8 to 400, default 120
+    /// With --parameter: most places of the ranges at which the motor is computed, 8 to 400; default 200
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", requires = "parameter")]
     evaluations: Option<usize>,
     /// Of points: most impacts of all members of a computed speed, from 1 on
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", requires = "parameter",
-          default_value_t = RatedFitSettings::default().operating.most_impacts)]
+          default_value_t = MotorFitSettings::default().operating.most_impacts)]
     most_impacts: u64,
     /// Resampled fits of run-ups, 200 to 100000
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = FitSettings::default().resamples)]
@@ -112,7 +112,7 @@ pub(super) fn run(args: &FitArgs, context: Context) -> Result<()> {
     if !args.parameter.is_empty() && !of_run_ups {
         let points = RatedPoint::table_from_csv(&args.file, args.speed_unit);
         if let Some(points) = points.map_err(|error| unmeasured(&args.file, error))? {
-            return rated(args, &points, context)?.deliver(&args.output, context);
+            return parameters(args, &points, None, context)?.deliver(&args.output, context);
         }
     }
     let columns = CsvColumns {
@@ -123,8 +123,12 @@ pub(super) fn run(args: &FitArgs, context: Context) -> Result<()> {
     };
     let speeds =
         MeasuredSpeeds::from_csv_with(&args.file, &columns).map_err(|error| unmeasured(&args.file, error))?;
-    let fit = if args.parameter.is_empty() { rise } else { parameters };
-    fit(args, speeds, context)?.deliver(&args.output, context)
+    let report = if args.parameter.is_empty() {
+        rise(args, speeds, context)?
+    } else {
+        parameters(args, &[], Some(speeds), context)?
+    };
+    report.deliver(&args.output, context)
 }
 
 fn rise(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Result<Report<'static>> {
@@ -193,15 +197,30 @@ fn motor_of(args: &FitArgs) -> Result<Motor> {
     MotorArgs { file: args.motor.clone(), preset: args.preset, set: args.set.clone(), template: false }.get()
 }
 
-fn rated(args: &FitArgs, points: &[RatedPoint], context: Context) -> Result<Report<'static>> {
+/// Parameters of a motor from points or from runs.
+fn parameters(
+    args: &FitArgs,
+    points: &[RatedPoint],
+    runs: Option<MeasuredSpeeds>,
+    context: Context,
+) -> Result<Report<'static>> {
     let motor = motor_of(args)?;
-    motor.warnings().into_iter().for_each(|warning| context.note(&format!("warning: {warning}")));
-    let mut settings = RatedFitSettings::default();
+    let of_runs = runs.iter().flat_map(|runs| motor.warnings_on(runs));
+    let warnings = motor.warnings().into_iter().chain(of_runs);
+    warnings.for_each(|warning| context.note(&format!("warning: {warning}")));
+    let transients: Vec<MeasuredTransient> = runs.into_iter().map(transient).collect();
+    for transient in &transients {
+        if transient.kind == TransientKind::Braking {
+            context.note("the speed falls: read as a braking tail, with the drive off");
+        }
+    }
+    let mut settings = MotorFitSettings::default();
     settings.most_evaluations = args.evaluations.unwrap_or(settings.most_evaluations);
     settings.operating =
         OperatingSettings { seed: args.seed, most_impacts: args.most_impacts, ..settings.operating };
-    let fit = RatedFit::new(&motor, points, &args.parameter, &settings, &context.watch("fit"))?;
-    let columns = Columns::<RatedEstimate>::new()
+    let watch = context.watch("fit");
+    let fit = MotorFit::new(&motor, points, &transients, &args.parameter, &settings, &watch)?;
+    let columns = Columns::<FittedParameter>::new()
         .column("parameter", "1", |own| own.range.parameter.name())
         .column("unit", "1", |own| own.range.parameter.unit())
         .column("nominal", "1", |own| own.nominal)
@@ -209,9 +228,15 @@ fn rated(args: &FitArgs, points: &[RatedPoint], context: Context) -> Result<Repo
         .column("accepted", "1", |own| {
             own.accepted.iter().map(|range| format!("{range:.3}")).collect::<Vec<_>>().join(", or ")
         });
-    let job = json!({ "points": points, "motor": motor, "ranges": args.parameter, "settings": settings });
+    let job = json!({
+        "points": points,
+        "transients": transients,
+        "motor": motor,
+        "ranges": args.parameter,
+        "settings": settings,
+    });
     Ok(Report {
-        provenance: provenance("bouncing-disk rated fit", &job)?.with_seed(args.seed),
+        provenance: provenance("bouncing-disk parameter fit", &job)?.with_seed(args.seed),
         text: format!("{fit:.3}\n"),
         table: columns.csv_of(fit.parameters.clone()),
         data: vec![("fit", stored(&fit)?)],
@@ -219,51 +244,13 @@ fn rated(args: &FitArgs, points: &[RatedPoint], context: Context) -> Result<Repo
     })
 }
 
-fn parameters(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Result<Report<'static>> {
-    let motor = motor_of(args)?;
-    let warnings = motor.warnings().into_iter().chain(motor.warnings_on(&speeds));
-    warnings.for_each(|warning| context.note(&format!("warning: {warning}")));
-    let settings = ParameterFitSettings {
-        seed: args.seed,
-        resamples: args.resamples,
-        most_evaluations: args.evaluations.unwrap_or(ParameterFitSettings::default().most_evaluations),
-        ..ParameterFitSettings::default()
+/// Runs whose speeds rise are run-ups, and those whose speeds fall braking tails.
+fn transient(runs: MeasuredSpeeds) -> MeasuredTransient {
+    let end = |of: fn(&[f64]) -> &[f64]| {
+        let part = |run: &MeasuredRun| of(&run.speeds).iter().map(|speed| speed.abs()).sum::<f64>();
+        runs.runs().iter().map(part).sum::<f64>()
     };
-    let preload = RunPreload::Acceleration(motor.preload_acceleration());
-    let transient = MeasuredTransient { preload, runs: speeds, speed_error: None };
-    let fit = ParameterFit::new(
-        &motor,
-        std::slice::from_ref(&transient),
-        &args.parameter,
-        &settings,
-        &context.watch("fit"),
-    )?;
-    let columns = Columns::<ParameterEstimate>::new()
-        .column("parameter", "1", |own| own.parameter.name())
-        .column("unit", "1", |own| own.parameter.unit())
-        .column("nominal", "1", |own| own.nominal)
-        .column("value", "1", |own| own.estimate.map(|estimate| estimate.value))
-        .column("low", "1", |own| own.estimate.map(|estimate| estimate.low))
-        .column("high", "1", |own| own.estimate.map(|estimate| estimate.high))
-        .column("determined", "1", |own| own.estimate.is_some());
-    let mut text = columns.to_text(&fit.parameters);
-    if !fit.contact_times.is_empty() {
-        let times: Vec<String> = fit.contact_times.iter().map(ToString::to_string).collect();
-        text += &format!("contact time: {}\n", times.join(", or "));
-    }
-    for direction in &fit.undetermined {
-        let parts: Vec<String> =
-            direction.direction.iter().map(|(parameter, part)| format!("{part:.2} {parameter}")).collect();
-        text += &format!("not determined: {}\n", parts.join(", "));
-    }
-    text += &format!("misfit {:.3} for {} degrees of freedom\n", fit.misfit, fit.degrees_of_freedom);
-    let job =
-        json!({ "speeds": transient.runs, "motor": motor, "ranges": args.parameter, "settings": settings });
-    Ok(Report {
-        provenance: provenance("bouncing-disk parameter fit", &job)?.with_seed(args.seed),
-        text,
-        table: columns.csv_of(fit.parameters.clone()),
-        data: vec![("fit", stored(&fit)?)],
-        figure: None,
-    })
+    let first = end(|speeds| &speeds[..speeds.len() / 2]);
+    let last = end(|speeds| &speeds[speeds.len() - speeds.len() / 2..]);
+    MeasuredTransient::new(if last < first { TransientKind::Braking } else { TransientKind::RunUp }, runs)
 }

@@ -11,7 +11,6 @@ pub(crate) mod units;
 use bouncing_disk_core::Observer;
 
 use crate::error::{Error, check, within_limit};
-use crate::estimate::braking_fit::{BrakingFit, BrakingRotor};
 use crate::estimate::measured_speeds::units::{SpeedUnit, TimeUnit};
 use crate::estimate::refusal::FitError;
 use crate::estimate::transient_fit::{FitSettings, TransientFit};
@@ -99,14 +98,6 @@ impl MeasuredSpeeds {
         let runs: Vec<_> =
             self.runs.iter().map(|run| (run.times.as_slice(), run.speeds.as_slice())).collect();
         TransientFit::of_measured(&runs, settings, observer)
-    }
-
-    /// The friction with its interval from each run, all of which are braking curves of this rotor.
-    ///
-    /// # Errors
-    /// Those of [`BrakingFit::new`], for the first run that fails.
-    pub fn fit_braking(&self, rotor: &BrakingRotor) -> Result<Vec<BrakingFit>, FitError> {
-        self.runs.iter().map(|run| BrakingFit::new(&run.times, &run.speeds, rotor)).collect()
     }
 }
 

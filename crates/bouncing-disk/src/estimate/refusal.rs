@@ -2,8 +2,6 @@
 
 use crate::error::Error;
 use crate::estimate::interval::IntervalEstimate;
-#[cfg(feature = "fit")]
-use crate::estimate::parameter_fit::parameter::FitParameter;
 
 /// Why a fit has no result.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -159,69 +157,48 @@ pub enum FitRefusal {
         /// All resampled curves.
         resamples: usize,
     },
-    /// The speed does not fall, or its fall is not significant.
-    #[error(
-        "the deceleration {deceleration:?} rad/s^2 is not significantly above zero: its interval begins at {low:?} rad/s^2"
-    )]
+    /// A braking tail does not slow down.
+    #[cfg(feature = "fit")]
+    #[error("its speed goes from {first:?} to {last:?} rad/s: a braking tail slows down")]
     NotBraking {
-        /// Fitted angular deceleration (rad/s^2).
-        deceleration: f64,
-        /// Lower end of its 95 % interval (rad/s^2).
-        low: f64,
+        /// Mean speed of its first tenth (rad/s).
+        first: f64,
+        /// Mean speed of its last tenth (rad/s).
+        last: f64,
     },
-    /// The speed does not fall along a straight line.
-    #[error(
-        "the deceleration changes from {first_half:?} to {last_half:?} rad/s^2 while the disk slides: use the part \
-         of the curve in which only friction brakes"
-    )]
-    NotStraight {
-        /// Angular deceleration in the first half of the sliding part (rad/s^2).
-        first_half: f64,
-        /// Angular deceleration in its last half (rad/s^2).
-        last_half: f64,
-    },
-    /// The times of a transient do not count from the switch-on.
+    /// Something is added to the speeds of a transient.
     #[cfg(feature = "fit")]
     #[error(
-        "transient {transient} (counted from 0) rises as if it had been switched on about {early:?} s before time zero, where the \
-         standard error of a correct clock is {standard_error:?} s: count its times from the switch-on"
+        "{offset:?} rad/s seem to be added to the speeds of transient {transient} (counted from 0), where the standard error is \
+         {standard_error:?} rad/s: subtract what the instrument shows at rest"
     )]
-    ShiftedClock {
+    Offset {
         /// Its place in the list.
         transient: usize,
-        /// The time from the switch-on to time zero (s), to first order; below zero for a dead time.
-        early: f64,
-        /// Its standard error (s) if the clock is right.
+        /// What is added (rad/s).
+        offset: f64,
+        /// The standard error of that if nothing is (rad/s).
         standard_error: f64,
     },
-    /// The search for the best parameters did not converge.
+    /// The speeds of a transient drift.
     #[cfg(feature = "fit")]
     #[error(
-        "the search found no best parameters in {evaluations} evaluations: allow more, or begin nearer to them"
+        "the speeds of transient {transient} (counted from 0) seem to drift by {drift:?} rad/s in a second, where the standard \
+         error is {standard_error:?}: the motor or the instrument warms up, or the load changes"
     )]
-    NotConverged {
-        /// Evaluations of all motors.
-        evaluations: usize,
+    Drift {
+        /// Its place in the list.
+        transient: usize,
+        /// The drift (rad/s^2).
+        drift: f64,
+        /// The standard error of that if there is none (rad/s^2).
+        standard_error: f64,
     },
-    /// A parameter lies at the end of its range: the range was too narrow, or the model is not that of the
-    /// motor.
-    #[cfg(feature = "fit")]
-    #[error("{parameter} = {value:?} lies at the end of its range [{low:?}, {high:?}]: take a wider one")]
-    AtRangeEnd {
-        /// The parameter.
-        parameter: FitParameter,
-        /// Its value (SI).
-        value: f64,
-        /// Lower end of its range.
-        low: f64,
-        /// Upper end of its range.
-        high: f64,
-    },
-    /// No parameters in their ranges describe the transients.
+    /// No parameters in their ranges describe what was measured.
     #[cfg(feature = "fit")]
     #[error(
         "the sum of weighted squares is {misfit:?} for {degrees_of_freedom} degrees of freedom, more than the largest \
-         accepted {largest:?}: the model does not describe these transients, or their errors are larger than stated"
+         accepted {largest:?}: the model does not describe what was measured, or its errors are larger than stated"
     )]
     Misfit {
         /// Sum of the weighted squares.

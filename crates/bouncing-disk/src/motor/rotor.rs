@@ -147,15 +147,6 @@ impl Rotor {
         Ok(())
     }
 
-    /// Comes to rest after an impact at `now` that left it with angular `speed`, on a vertical motion that is
-    /// computed elsewhere. Its contact ends with a [`RotorStep::Separation`].
-    #[cfg(feature = "fit")]
-    pub(crate) fn rest_after(&mut self, now: PhaseTime, speed: f64, rest: &Attachment) {
-        self.now = now;
-        self.speed = speed;
-        self.attach(rest);
-    }
-
     /// Gives the flight that starts now another relative launch speed.
     pub(crate) fn perturb_launch(&mut self, relative_speed: f64) -> Result<(), Error> {
         if let Some(orbit) = &mut self.orbit {

@@ -114,11 +114,11 @@ pub(crate) fn transient_fits() -> Vec<String> {
 /// What a motor's rated points leave of its friction.
 #[cfg(feature = "fit")]
 pub(crate) fn rated_fits() -> Vec<String> {
-    use bouncing_disk::estimate::{FitParameter, FitRange, RatedFit, RatedFitSettings, RatedPoint};
+    use bouncing_disk::estimate::{FitParameter, FitRange, MotorFit, MotorFitSettings, RatedPoint};
 
     let motor = Motor::paper_70_khz().with(|sheet| sheet.contact_radius = 5e-3).expect("legal");
     let ranges = [FitRange { parameter: FitParameter::Friction, low: 0.03, high: 0.4 }];
-    let mut settings = RatedFitSettings { most_evaluations: 24, ..RatedFitSettings::default() };
+    let mut settings = MotorFitSettings { most_evaluations: 24, ..MotorFitSettings::default() };
     settings.operating =
         OperatingSettings { relative_error: 0.02, members: 4, most_impacts: 100_000, ..settings.operating };
     // Points of the motor itself, with other starts.
@@ -132,7 +132,7 @@ pub(crate) fn rated_fits() -> Vec<String> {
             RatedPoint::under_load([*load, 0.0], [speed, 0.3])
         })
         .collect();
-    let fit = RatedFit::new(&motor, &points, &ranges, &settings, &Unobserved).expect("fits");
+    let fit = MotorFit::new(&motor, &points, &[], &ranges, &settings, &Unobserved).expect("fits");
     let mut numbers: Vec<_> =
         fit.points.iter().flat_map(|point| [point.fitted, point.standard_error]).collect();
     for own in &fit.parameters {
@@ -141,5 +141,5 @@ pub(crate) fn rated_fits() -> Vec<String> {
         numbers.extend(ends.map(|end| end.unwrap_or(f64::INFINITY)));
     }
     numbers.extend([fit.misfit, fit.evaluations as f64]);
-    one("rated fits", numbers, 0x9520_17f5_1371_1639)
+    one("rated fits", numbers, 0xd51a_2d8d_52ac_3dd8)
 }

@@ -72,21 +72,6 @@ fn a_fit_can_be_watched_and_stopped() {
 }
 
 #[test]
-fn each_run_brakes_by_its_own_friction() {
-    let rotor = BrakingRotor { normal_force: 0.5, mass: 0.05, contact_radius: 0.002, gyration_radius: 0.01 };
-    let run = |member: u32| {
-        let times: Vec<f64> = (0..100).map(|i| 0.01 * f64::from(i)).collect();
-        let speeds = times.iter().map(|time| 50.0 - 10.0 * f64::from(member) * time).collect();
-        MeasuredRun { member, times, speeds }
-    };
-    let measured = MeasuredSpeeds::new(vec![run(1), run(2)]).expect("legal");
-    let fits = measured.fit_braking(&rotor).expect("fitted");
-    assert!((fits[0].friction.value - 0.05).abs() < 1e-12 && (fits[1].friction.value - 0.1).abs() < 1e-12);
-    let measured = MeasuredSpeeds::new(vec![run(0), run(2)]).expect("legal");
-    assert!(matches!(measured.fit_braking(&rotor), Err(FitError::Refused(_))));
-}
-
-#[test]
 fn runs_that_cannot_be_fitted_do_not_exist() {
     let legal = run(3, &mut Noise::new(1));
     refused("runs", [Vec::new()], MeasuredSpeeds::new);

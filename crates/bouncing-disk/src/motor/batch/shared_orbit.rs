@@ -6,8 +6,6 @@
 //! perturbations of the relaunches: differences between them are more precise than their own values (common
 //! random numbers), and their errors are not independent. See docs/numerics/motors.md.
 
-#[cfg(feature = "fit")]
-pub(crate) mod transients;
 pub(crate) mod vertical;
 
 use crate::error::Error;

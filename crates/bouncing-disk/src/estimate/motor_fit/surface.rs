@@ -1,11 +1,10 @@
 //! All points over the ranges by their stand-ins, and what the measured ones exclude.
 
 use bouncing_disk_core::numerics::elementary::ln;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
-use crate::estimate::parameter_fit::determined::{Open, split};
-use crate::estimate::rated_fit::emulator::{Emulator, Response};
-use crate::estimate::rated_fit::{ERRORS, SETTLED};
+use crate::estimate::motor_fit::emulator::{Emulator, Response};
+use crate::estimate::motor_fit::{ERRORS, SETTLED};
 
 /// The 95 % quantile of chi-squared with one degree of freedom.
 pub(crate) const THRESHOLD: f64 = 3.841_458_820_694_124;
@@ -13,6 +12,14 @@ pub(crate) const THRESHOLD: f64 = 3.841_458_820_694_124;
 /// Evenly spaced places of a profile, and halvings of the distance from the best place.
 const EVEN: usize = 21;
 const HALVINGS: i32 = 9;
+
+/// Computed places within this share of half the ranges tell how rough the responses are near the best place, if there are so
+/// many.
+const NEAR: f64 = 0.5;
+const LEAST_NEAR: usize = 12;
+
+/// Places for each coordinate, and one more, from which it is known how rough the responses are.
+const ENOUGH: usize = 20;
 
 /// Most steps to a minimum.
 const STEPS: usize = 30;
@@ -37,6 +44,8 @@ pub(crate) struct Surface {
     minima: Vec<DVector<f64>>,
     /// The likeliest of the places of a least deviance.
     pub(crate) best: DVector<f64>,
+    /// Up to which excess a place is accepted.
+    pub(crate) threshold: f64,
 }
 
 impl Surface {
@@ -68,10 +77,12 @@ impl Surface {
             nodes: nodes.to_vec(),
             minima: Vec::new(),
             best,
+            threshold: THRESHOLD,
         };
         let minimum = |node: usize| surface.minimum(&nodes[node..=node], None).1;
         surface.minima = bouncing_disk_core::run::in_parallel(nodes.len(), minimum);
         surface.best = surface.likeliest(surface.minima.clone())?;
+        surface.threshold = THRESHOLD + surface.roughest();
         Some(surface)
     }
 
@@ -82,7 +93,8 @@ impl Surface {
             .map(|((emulator, own), (_, variance))| {
                 let place = selected(place, own);
                 let (value, doubt) = emulator.at(&place);
-                (value, variance + doubt + emulator.bias(&place) + emulator.roughness(&place))
+                let known = variance + emulator.scatter(&place);
+                (value, known + doubt + emulator.bias(&place) + emulator.roughness(&place))
             })
             .collect()
     }
@@ -216,8 +228,8 @@ impl Surface {
         let at = place[index];
         let after = nodes.partition_point(|node| node.0 < at);
         let near = &nodes[after.saturating_sub(1)..(after + 1).min(nodes.len())];
-        let is_shown = near.iter().all(|node| self.excess(&node.2) <= THRESHOLD);
-        if is_shown || self.excess(place) > THRESHOLD {
+        let is_shown = near.iter().all(|node| self.excess(&node.2) <= self.threshold);
+        if is_shown || self.excess(place) > self.threshold {
             return;
         }
         let [low, high] = [near[0].0, near[near.len() - 1].0];
@@ -282,7 +294,7 @@ impl Surface {
         let mut open = None;
         let mut accepted = Vec::new();
         for (k, (place, _, all)) in nodes.iter().enumerate() {
-            let is_in = self.excess(all) <= THRESHOLD;
+            let is_in = self.excess(all) <= self.threshold;
             if is_in && open.is_none() {
                 open = Some(if k == 0 { *place } else { self.crossing(index, [&nodes[k], &nodes[k - 1]]) });
             }
@@ -305,7 +317,7 @@ impl Surface {
             let middle = 0.5 * (near + far);
             start[index] = middle;
             let (_, place) = self.minimum(std::slice::from_ref(&start), Some(index));
-            if self.excess(&place) <= THRESHOLD {
+            if self.excess(&place) <= self.threshold {
                 (near, start) = (middle, place);
             } else {
                 far = middle;
@@ -320,23 +332,25 @@ impl Surface {
             self.emulators.iter().zip(&self.own).zip(&self.measured).all(
                 |((emulator, own), (_, variance))| {
                     let place = selected(place, own);
-                    emulator.at(&place).1 + emulator.bias(&place)
-                        <= 2.0 * SETTLED * (variance + emulator.roughness(&place))
+                    let known = variance + emulator.scatter(&place) + emulator.roughness(&place);
+                    emulator.at(&place).1 + emulator.bias(&place) <= 2.0 * SETTLED * known
                 },
             )
         };
         let nodes = profiles.iter().flat_map(|profile| &profile.nodes);
-        nodes.filter(|node| self.excess(&node.2) <= THRESHOLD).all(|node| is_known(&node.2))
+        nodes.filter(|node| self.excess(&node.2) <= self.threshold).all(|node| is_known(&node.2))
     }
 
     /// Places, at most so many, that are accepted or nearly so and where the stand-ins are in doubt.
     pub(crate) fn doubtful(&self, profiles: &[Profile], most: usize) -> Vec<DVector<f64>> {
-        let plausible = |node: &&(f64, f64, DVector<f64>)| self.excess(&node.2) <= 1.5 * THRESHOLD;
+        let plausible = |node: &&(f64, f64, DVector<f64>)| self.excess(&node.2) <= 1.5 * self.threshold;
         let candidates: Vec<&DVector<f64>> = profiles
             .iter()
             .flat_map(|profile| profile.nodes.iter().filter(plausible))
             .map(|node| &node.2)
             .collect();
+        // A few places may seem rough that are steep.
+        let are_few = self.nodes.len() < ENOUGH * (1 + self.coordinates);
         let mut emulators = self.emulators.clone();
         let mut chosen = Vec::new();
         while chosen.len() < most {
@@ -344,7 +358,8 @@ impl Surface {
                 let points = emulators.iter().zip(&self.own).zip(&self.measured);
                 let share = points.map(|((emulator, own), (_, variance))| {
                     let place = selected(place, own);
-                    emulator.at(&place).1 / (variance + emulator.roughness(&place))
+                    let rough = if are_few { 0.0 } else { emulator.roughness(&place) };
+                    emulator.at(&place).1 / (variance + emulator.scatter(&place) + rough)
                 });
                 share.fold(0.0, f64::max)
             };
@@ -369,6 +384,61 @@ impl Surface {
         chosen
     }
 
+    /// How far what no smooth response explains may move the parameters: of computed places near the best one, as if they had been
+    /// measured and not computed, the deviance that parameters imitate, which one of twenty exceeds. Where a response is rough
+    /// (motions lock on cycles), measured motors are as far from what is smooth as these, and in no normal way.
+    fn roughest(&self) -> f64 {
+        let is_near = |node: &&DVector<f64>| (*node - &self.best).amax() <= NEAR;
+        let near = self.nodes.iter().filter(is_near).count();
+        let counts = |node: &usize| near < LEAST_NEAR || is_near(&&self.nodes[*node]);
+        let mut all: Vec<f64> =
+            (0..self.nodes.len()).filter(counts).map(|node| self.imitated(node)).collect();
+        all.sort_by(f64::total_cmp);
+        all.get(all.len() * 19 / 20).copied().unwrap_or(0.0)
+    }
+
+    fn imitated(&self, node: usize) -> f64 {
+        let place = &self.nodes[node];
+        let points = self.emulators.iter().zip(&self.own).zip(&self.measured);
+        let each = points.map(|((emulator, own), (_, variance))| {
+            let place = selected(place, own);
+            let (off, doubt) = emulator.left_out[node];
+            let own = 1.0 / (variance + doubt + emulator.scatter(&place) + emulator.bias(&place)).sqrt();
+            (own, own * off)
+        });
+        let (weights, mut rest): (Vec<f64>, Vec<f64>) = each.unzip();
+        rest.resize(weights.len() + self.coordinates - self.parameters, 0.0);
+        let rest = DVector::from_vec(rest);
+        let jacobian = self.jacobian(place, &weights);
+        let gradient = jacobian.transpose() * &rest;
+        let inverse = (jacobian.transpose() * &jacobian).cholesky();
+        inverse.map_or_else(|| rest.norm_squared(), |root| gradient.dot(&root.solve(&gradient)))
+    }
+
+    /// By how much the values of a place differ from what all other places say of them.
+    pub(crate) fn left_out(&self, node: usize) -> DVector<f64> {
+        DVector::from_iterator(self.emulators.len(), self.emulators.iter().map(|own| own.left_out[node].0))
+    }
+
+    /// How much of something there is in the measured values, which change by `along` for one of it, beside what the fitted
+    /// parameters can imitate, and its standard error.
+    pub(crate) fn amount(&self, along: &DVector<f64>) -> (f64, f64) {
+        let (rest, weights) = self.residuals(&self.best);
+        let jacobian = self.jacobian(&self.best, &weights);
+        let along = DVector::from_iterator(
+            rest.len(),
+            (0..rest.len()).map(|index| along.get(index).map_or(0.0, |own| own * weights[index])),
+        );
+        let information = jacobian.transpose() * &jacobian;
+        let imitated = information
+            .pseudo_inverse(1e-9)
+            .map(|inverse| &jacobian * (inverse * (jacobian.transpose() * &along)));
+        let open = imitated.map_or_else(|_| along.clone(), |imitated| &along - imitated);
+        let square = open.norm_squared();
+        // The rest is what is fitted less what was measured.
+        (-open.dot(&rest) / square, 1.0 / square.sqrt())
+    }
+
     /// Directions of the parameters that are not determined near the best place, with their standard errors.
     pub(crate) fn directions(&self) -> Vec<Open> {
         let (_, weights) = self.residuals(&self.best);
@@ -381,8 +451,29 @@ impl Surface {
             let mixed = all.view((0, p), (p, q));
             information -= mixed * inverse * mixed.transpose();
         }
-        split(information).1
+        undetermined(information)
     }
+}
+
+/// The largest standard error of a direction that counts as determined, as a share of half of the ranges: its
+/// interval of 95 % is then as wide as they are.
+const LARGEST_ERROR: f64 = 0.5;
+
+/// A direction that is not determined, and its standard error.
+pub(crate) type Open = (DVector<f64>, f64);
+
+/// The directions that an information matrix of places does not determine, with their standard errors; the least uncertain
+/// first.
+fn undetermined(information: DMatrix<f64>) -> Vec<Open> {
+    let eigen = SymmetricEigen::new(information);
+    let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
+    order.sort_by(|&a, &b| eigen.eigenvalues[b].total_cmp(&eigen.eigenvalues[a]));
+    let all = order.into_iter().map(|index| {
+        let value = eigen.eigenvalues[index];
+        let error = if value > 0.0 { 1.0 / value.sqrt() } else { f64::INFINITY };
+        (eigen.eigenvectors.column(index).into_owned(), error)
+    });
+    all.filter(|(_, error)| *error > LARGEST_ERROR).collect()
 }
 
 fn selected(place: &DVector<f64>, coordinates: &[usize]) -> DVector<f64> {

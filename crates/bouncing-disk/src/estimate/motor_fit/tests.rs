@@ -49,13 +49,13 @@ fn printed(motor: &Motor, points: &[RatedPoint], seed: u64) -> Vec<RatedPoint> {
         .expect("a motor that holds its loads")
 }
 
-fn settings(seed: u64) -> RatedFitSettings {
-    let operating = OperatingSettings { seed, ..RatedFitSettings::default().operating };
-    RatedFitSettings { operating, ..RatedFitSettings::default() }
+fn settings(seed: u64) -> MotorFitSettings {
+    let operating = OperatingSettings { seed, ..MotorFitSettings::default().operating };
+    MotorFitSettings { operating, ..MotorFitSettings::default() }
 }
 
-fn fit(motor: &Motor, points: &[RatedPoint], ranges: &[FitRange], seed: u64) -> Result<RatedFit, FitError> {
-    RatedFit::new(motor, points, ranges, &settings(seed), &Unobserved)
+fn fit(motor: &Motor, points: &[RatedPoint], ranges: &[FitRange], seed: u64) -> Result<MotorFit, FitError> {
+    MotorFit::new(motor, points, &[], ranges, &settings(seed), &Unobserved)
 }
 
 /// How many of the accepted ranges of each parameter hold the truth, and how many exclude anything; a refused fit is a
@@ -112,8 +112,8 @@ fn a_speed_that_is_badly_known_leaves_the_mass_of_a_stator_open() {
     let motor = motor.expect("legal");
     let points = printed(&motor, &[under(0.0, 0.0, 3.0)], 3);
     let ranges = [FitRange { low: 0.03, ..MASS }];
-    let settings = RatedFitSettings { most_evaluations: 16, ..settings(3) };
-    let fit = RatedFit::new(&motor, &points, &ranges, &settings, &Unobserved).expect("fits");
+    let settings = MotorFitSettings { most_evaluations: 16, ..settings(3) };
+    let fit = MotorFit::new(&motor, &points, &[], &ranges, &settings, &Unobserved).expect("fits");
     let own = fit.estimate(FitParameter::StatorMass).expect("fitted");
     assert!(own.value.is_none() && own.accepted.iter().any(|range| range.contains(0.05)), "{fit}");
     assert_eq!(fit.undetermined.len(), 1, "{fit}");
@@ -126,8 +126,8 @@ fn a_load_that_a_motor_holds_bounds_the_friction() {
     let motor = Motor::paper_70_khz();
     let load = 0.5 * motor.largest_torque();
     let points = printed(&motor, &[under(load, 0.0, 0.3)], 1);
-    let few = RatedFitSettings { most_evaluations: 24, ..settings(1) };
-    let fit = RatedFit::new(&motor, &points, &[FRICTION, RESTITUTION], &few, &Unobserved).expect("fits");
+    let few = MotorFitSettings { most_evaluations: 24, ..settings(1) };
+    let fit = MotorFit::new(&motor, &points, &[], &[FRICTION, RESTITUTION], &few, &Unobserved).expect("fits");
     let friction = &fit.estimate(FitParameter::Friction).expect("fitted").accepted[0];
     // At half of the friction nothing holds the load; the emulator is smooth across that.
     assert!(friction.low.is_some_and(|low| low > FRICTION.low), "{fit}");
@@ -136,7 +136,7 @@ fn a_load_that_a_motor_holds_bounds_the_friction() {
     let beyond =
         RatedPoint { speed: 2.0 * motor.system().platform().peak_angular_speed(), ..points[0].clone() };
     let error =
-        RatedFit::new(&motor, &[beyond], &[FRICTION], &settings(1), &Unobserved).expect_err("too fast");
+        MotorFit::new(&motor, &[beyond], &[], &[FRICTION], &settings(1), &Unobserved).expect_err("too fast");
     assert!(matches!(error, FitError::Refused(FitRefusal::Misfit { .. })), "{error}");
 }
 
@@ -146,7 +146,7 @@ fn illegal_points_are_refused_by_name() {
     let good = under(1e-6, 0.0, 0.3);
     let model = |motor: &Motor, points: &[RatedPoint], ranges: &[FitRange]| {
         let settings = settings(1);
-        Model::new(motor, points, ranges, &settings).map(|_| ())
+        Model::new(motor, (points, &[]), ranges, &settings).map(|_| ())
     };
     let friction = |points: &[RatedPoint]| model(&motor, points, &[FRICTION]);
     assert_eq!(friction(std::slice::from_ref(&good)), Ok(()));
@@ -154,14 +154,14 @@ fn illegal_points_are_refused_by_name() {
     refused("speed", [[RatedPoint { speed: f64::NAN, ..good.clone() }]], |own| friction(&own));
     refused("error of a condition", [[under(1e-6, -1e-8, 0.3)]], |own| friction(&own));
     refused("points under the same conditions", [[good.clone(), good.clone()]], |own| friction(&own));
-    refused("number of points", [()], |()| friction(&[]));
+    refused("number of points and transients", [()], |()| friction(&[]));
     let fitted = |ranges: &[FitRange]| model(&motor, std::slice::from_ref(&good), ranges);
     refused("number of fitted parameters", [()], |()| fitted(&[]));
     refused("stator.mass", [[MASS]], |ranges| fitted(&ranges));
     let missing = Error::NotGiven { field: "stator.mass" };
     refused(missing, [[good.clone().at(MotorField::StatorVolts, 5.0)]], |own| friction(&own));
     let both = |point: RatedPoint, ranges: &[FitRange]| {
-        matches!(model(&volts, &[point], ranges), Err(Error::BothGiven { .. }))
+        matches!(model(&volts, &[point], ranges), Err(FitError::Model(Error::BothGiven { .. })))
     };
     let amplitude = FitRange { parameter: FitParameter::Amplitude, low: 1e-8, high: 1e-6 };
     assert!(both(good.clone().at(MotorField::StatorVolts, 5.0), &[amplitude]));
@@ -182,6 +182,7 @@ fn an_emulator_knows_how_well_it_knows() {
             value: response(place) + 0.05 * noise.normal(),
             error: 0.05,
             bias: 0.1 * place[0].abs(),
+            scatter: 0.0,
         })
         .collect();
     let emulator = Emulator::of(places, &values, None, &|| true).expect("finite");
@@ -212,7 +213,8 @@ fn an_emulator_knows_how_well_it_knows() {
 /// Three points of the same response to one parameter; the node at k is off by a bias.
 fn surface_of(response: fn(f64) -> f64, points: [[f64; 2]; 3], bias: &dyn Fn(f64) -> f64) -> Surface {
     let nodes = design(1, 30, 1);
-    let value = |place: f64| Response { value: response(place), error: 1e-3, bias: bias(place) };
+    let value =
+        |place: f64| Response { value: response(place), error: 1e-3, bias: bias(place), scatter: 0.0 };
     let values: Vec<_> = nodes.iter().map(|node| vec![value(node[0]); 3]).collect();
     let measured = points.map(|[speed, error]| (speed, error * error)).to_vec();
     Surface::new(1, measured, vec![vec![0]; 3], &nodes, &values, None, &|| true).expect("finite")
@@ -293,4 +295,193 @@ fn tempfile_with(text: &str) -> std::path::PathBuf {
     let file = std::env::temp_dir().join(format!("points-{}.csv", std::process::id()));
     std::fs::write(&file, text).expect("written");
     file
+}
+
+mod transients {
+    use std::f64::consts::TAU;
+
+    use bouncing_disk_core::Phase;
+
+    use super::*;
+    use crate::estimate::measured_speeds::{MeasuredRun, MeasuredSpeeds};
+    use crate::estimate::motor_fit::transient::TransientKind;
+    use crate::motor::rotor::transient::TransientSettings;
+    use crate::parameters::load::LoadLaw;
+    use crate::testing::check_stops;
+
+    const WIDE: FitRange = FitRange { parameter: FitParameter::Friction, low: 0.05, high: 1.0 };
+    const TRUE_FRICTION: f64 = 0.2;
+
+    fn built() -> Motor {
+        Motor::paper_70_khz().with(|sheet| sheet.friction = TRUE_FRICTION).expect("legal")
+    }
+
+    fn of_run(kind: TransientKind, times: Vec<f64>, speeds: Vec<f64>) -> MeasuredTransient {
+        let runs = MeasuredSpeeds::new(vec![MeasuredRun { member: 0, times, speeds }]).expect("legal");
+        MeasuredTransient { speed_error: Some(0.2), ..MeasuredTransient::new(kind, runs) }
+    }
+
+    /// Synthetic: a run-up of this motor from a random phase, with independent errors of its speeds.
+    fn synthetic(motor: &Motor, duration: f64, seed: u64) -> (Vec<f64>, Vec<f64>) {
+        let mut generator = SplitMix64::new(seed);
+        let phase = Phase::new(TAU * generator.unit()).expect("legal");
+        let seed = generator.next_number();
+        let settings = TransientSettings { duration, intervals: 160, seed, ..TransientSettings::default() };
+        let curve = motor.transient(phase, &settings, &Unobserved).expect("no failure");
+        let mut noise = Noise::new(seed ^ 0xABCD);
+        (curve.times, curve.speeds.iter().map(|speed| speed + 0.2 * noise.normal()).collect())
+    }
+
+    fn few() -> MotorFitSettings {
+        MotorFitSettings { most_evaluations: 60, members: 24, ..MotorFitSettings::default() }
+    }
+
+    fn fitted(
+        motor: &Motor,
+        transients: &[MeasuredTransient],
+        ranges: &[FitRange],
+    ) -> Result<MotorFit, FitError> {
+        MotorFit::new(motor, &[], transients, ranges, &few(), &Unobserved)
+    }
+
+    fn of_run_up(run: (Vec<f64>, Vec<f64>)) -> Result<MotorFit, FitError> {
+        fitted(&Motor::paper_70_khz(), &[of_run(TransientKind::RunUp, run.0, run.1)], &[WIDE])
+    }
+
+    /// Whatever the clock, the dead time and the speed at the first row.
+    #[test]
+    fn ranges_of_the_friction_hold_the_truth() {
+        let mut held = 0;
+        for trial in 1..=9 {
+            let (mut times, mut speeds) = synthetic(&built(), 1.2, 1_000 * trial);
+            let off = [0.0, 0.4, -0.4][trial as usize % 3];
+            times.iter_mut().for_each(|time| *time += off);
+            if trial % 3 == 1 {
+                // It stood for a while before.
+                let first = times[0];
+                let before = (0..20).map(|k| first - 0.01 * f64::from(20 - k));
+                times = before.chain(times).collect();
+                speeds = std::iter::repeat_n(0.0, 20).chain(speeds).collect();
+            } else if trial % 3 == 2 {
+                (times, speeds) = (times.split_off(12), speeds.split_off(12));
+            }
+            let fit = of_run_up((times, speeds)).expect("fits");
+            let own = fit.estimate(FitParameter::Friction).expect("fitted");
+            let switched = fit.switched_on[0].expect("a run-up");
+            assert!((switched.value - off).abs() < 4.0 * switched.standard_error, "{fit} {off}");
+            assert!(own.value.is_some(), "{fit}");
+            held += usize::from(own.accepted[0].contains(TRUE_FRICTION));
+        }
+        assert!(held >= 8, "{held}");
+    }
+
+    /// What an instrument adds is told and not fitted.
+    #[test]
+    fn offsets_and_drifts_are_refused_by_name() {
+        let (times, speeds) = synthetic(&built(), 2.0, 5);
+        let with = |added: &dyn Fn(f64) -> f64| {
+            let speeds = times.iter().zip(&speeds).map(|(time, speed)| speed + added(*time)).collect();
+            of_run_up((times.clone(), speeds)).expect_err("something is added")
+        };
+        let error = with(&|time| 6.0 * time);
+        assert!(
+            matches!(error, FitError::Refused(FitRefusal::Drift { transient: 0, drift, .. }) if (drift - 6.0).abs() < 2.0)
+                || matches!(error, FitError::Refused(FitRefusal::Misfit { .. })),
+            "{error}"
+        );
+    }
+
+    /// Eq. (17): a sliding rotor loses mu N a_e/(m a_g^2) in a second.
+    #[test]
+    fn a_braking_tail_gives_the_friction() {
+        let motor = Motor::paper_70_khz();
+        let deceleration = |motor: &Motor| motor.largest_torque() / motor.inertia();
+        for (friction, turns) in [(0.13, 1.0), (0.2, -1.0)] {
+            let built = motor.with(|sheet| sheet.friction = friction).expect("legal");
+            let mut noise = Noise::new(11);
+            let stop = 25.0 / deceleration(&built);
+            let times: Vec<f64> = (0..120).map(|k| stop * (f64::from(k) / 100.0)).collect();
+            let speeds = times
+                .iter()
+                .map(|time| turns * (25.0 - deceleration(&built) * time).max(0.0) + 0.2 * noise.normal());
+            let tail = of_run(TransientKind::Braking, times.clone(), speeds.collect());
+            let fit = fitted(&motor, &[tail], &[WIDE]).expect("fits");
+            let own = fit.estimate(FitParameter::Friction).expect("fitted");
+            assert!(own.accepted[0].contains(friction), "{fit}");
+            assert!((own.value.expect("determined") / friction - 1.0).abs() < 0.03, "{fit}");
+            assert_eq!(fit.switched_on, [None]);
+        }
+        // A fan brakes it, too: the friction alone would be larger.
+        let fan = LoadLaw::fan(20.0, 1e-5, 3).expect("legal");
+        let loaded = motor.with(|sheet| sheet.load = Some(fan)).expect("legal");
+        let (mut speed, mut time, mut rows) = (25.0_f64, 0.0, Vec::new());
+        while speed > 0.0 {
+            rows.push((time, speed));
+            for _ in 0..1_000 {
+                speed -= 1e-5 * (motor.largest_torque() + fan.torque_at(speed, 0.0)) / motor.inertia();
+            }
+            time += 1e-2;
+        }
+        let tail = of_run(
+            TransientKind::Braking,
+            rows.iter().map(|row| row.0).collect(),
+            rows.iter().map(|row| row.1).collect(),
+        );
+        let fit = fitted(&loaded, &[tail], &[WIDE]).expect("fits");
+        assert!(fit.estimate(FitParameter::Friction).expect("fitted").accepted[0].contains(0.1), "{fit}");
+    }
+
+    /// An inertia on the shaft makes the rise longer, which friction alone would not explain.
+    #[test]
+    fn a_load_with_inertia_is_legal() {
+        let shaft = LoadLaw::constant(0.0).and_then(|load| load.with_inertia(2.0 * built().inertia()));
+        let loaded = built().with(|sheet| sheet.load = shaft.ok()).expect("legal");
+        let (times, speeds) = synthetic(&loaded, 1.2, 3);
+        let settings = MotorFitSettings { most_evaluations: 24, members: 16, ..few() };
+        let run = [of_run(TransientKind::RunUp, times, speeds)];
+        let fit = MotorFit::new(&loaded, &[], &run, &[WIDE], &settings, &Unobserved).expect("fits");
+        assert!(
+            fit.estimate(FitParameter::Friction).expect("fitted").accepted[0].contains(TRUE_FRICTION),
+            "{fit}"
+        );
+    }
+
+    #[test]
+    fn transients_that_are_none_are_refused() {
+        let (times, speeds) = synthetic(&built(), 1.2, 3);
+        let run =
+            |times: &[f64], speeds: &[f64]| of_run(TransientKind::RunUp, times.to_vec(), speeds.to_vec());
+        let fit = |transient: MeasuredTransient| fitted(&built(), &[transient], &[WIDE]);
+        let few = fit(run(&times[..7], &speeds[..7])).expect_err("few");
+        assert!(matches!(few, FitError::Refused(FitRefusal::TooFewPoints { points: 7, least: 8 })), "{few}");
+        let flat = fit(run(&times[..9], &[0.0; 9])).expect_err("flat");
+        assert!(matches!(flat, FitError::Refused(FitRefusal::NoRise)), "{flat}");
+        let rises = of_run(TransientKind::Braking, times.clone(), speeds.clone());
+        let rises = fit(rises).expect_err("it rises");
+        assert!(matches!(rises, FitError::Refused(FitRefusal::NotBraking { .. })), "{rises}");
+        let whole = || run(&times, &speeds);
+        refused("speed_error", [-1.0, f64::NAN], |error| {
+            fit(MeasuredTransient { speed_error: Some(error), ..whole() })
+        });
+        refused(Error::BothGiven { one: "friction", other: "friction" }, [0.1], |friction| {
+            fit(whole().at(MotorField::Friction, friction))
+        });
+        refused("preload_force", [f64::NAN], |force| fit(whole().at(MotorField::PreloadForce, force)));
+        refused("members", [15, 5000], |members| {
+            let settings = MotorFitSettings { members, ..MotorFitSettings::default() };
+            MotorFit::new(&built(), &[], &[whole()], &[WIDE], &settings, &Unobserved)
+        });
+        // No friction makes the rotor faster than the stator.
+        let fast: Vec<f64> = speeds.iter().map(|speed| 3.0 * speed).collect();
+        let fast = fit(run(&times, &fast)).expect_err("too fast");
+        assert!(matches!(fast, FitError::Refused(FitRefusal::Misfit { .. })), "{fast}");
+    }
+
+    #[test]
+    fn threads_change_no_bit_and_a_stop_is_told() {
+        let (times, speeds) = synthetic(&built(), 0.8, 3);
+        let run = [of_run(TransientKind::RunUp, times, speeds)];
+        let settings = MotorFitSettings { most_evaluations: 10, members: 16, ..few() };
+        check_stops(None, |observer| MotorFit::new(&built(), &[], &run, &[WIDE], &settings, observer));
+    }
 }

@@ -29,6 +29,8 @@ pub(crate) struct Response {
     pub(crate) error: f64,
     /// By how much it may be off, perhaps in the same direction as at other places.
     pub(crate) bias: f64,
+    /// The variance of a measurement of a motor at this place, beside its errors.
+    pub(crate) scatter: f64,
 }
 
 #[derive(Debug, Clone)]
@@ -38,6 +40,7 @@ pub(crate) struct Emulator {
     /// Variance of each value, and the square of its bias.
     errors: Vec<f64>,
     biases: Vec<f64>,
+    scatters: Vec<f64>,
     mean: f64,
     /// Logarithms: a length along each coordinate, the variance of the smooth part, that of what no smooth response
     /// has (motions that lock on a cycle).
@@ -49,7 +52,8 @@ pub(crate) struct Emulator {
     trend: f64,
     root: Cholesky<f64, Dyn>,
     weights: DVector<f64>,
-    /// The square of the error of each value, by what all others say of it, over its expectation.
+    /// By how much each value differs from what all others say of it, and the variance of that; its square over this.
+    pub(crate) left_out: Vec<(f64, f64)>,
     surprises: Vec<f64>,
 }
 
@@ -65,6 +69,7 @@ impl Emulator {
         let mean = values.iter().map(|own| own.value).sum::<f64>() / count;
         let errors: Vec<f64> = values.iter().map(|own| own.error * own.error).collect();
         let biases: Vec<f64> = values.iter().map(|own| own.bias * own.bias).collect();
+        let scatters: Vec<f64> = values.iter().map(|own| own.scatter).collect();
         let values = DVector::from_iterator(values.len(), values.iter().map(|own| own.value - mean));
         let least = errors.iter().copied().fold(f64::INFINITY, f64::min);
         let size = (values.norm_squared() / count).max(least).max(f64::MIN_POSITIVE);
@@ -74,7 +79,13 @@ impl Emulator {
         let scales = earlier.map_or(scales, |earlier| earlier.scales.clone());
         let build = |scales: Vec<f64>| {
             let (places, values) = (places.clone(), values.clone());
-            Self::with(places, values, [errors.clone(), biases.clone()], (mean, TREND * size), scales)
+            Self::with(
+                places,
+                values,
+                [errors.clone(), biases.clone(), scatters.clone()],
+                (mean, TREND * size),
+                scales,
+            )
         };
         let mut best = build(scales)?;
         let mut likelihood = best.likelihood(size);
@@ -98,9 +109,10 @@ impl Emulator {
                 step *= 0.5;
             }
         }
-        let inverse = best.root.inverse();
-        let surprise = |(weight, own): (&f64, &f64)| weight * weight / own;
-        best.surprises = best.weights.iter().zip(inverse.diagonal().iter()).map(surprise).collect();
+        let inverse = best.root.inverse().diagonal();
+        let each = best.weights.iter().zip(inverse.iter());
+        (best.left_out, best.surprises) =
+            each.map(|(weight, own)| ((weight / own, 1.0 / own), weight * weight / own)).unzip();
         Some(best)
     }
 
@@ -120,7 +132,7 @@ impl Emulator {
     fn with(
         places: Vec<DVector<f64>>,
         values: DVector<f64>,
-        [errors, biases]: [Vec<f64>; 2],
+        [errors, biases, scatters]: [Vec<f64>; 3],
         (mean, trend): (f64, f64),
         scales: Vec<f64>,
     ) -> Option<Self> {
@@ -135,11 +147,13 @@ impl Emulator {
             values,
             errors,
             biases,
+            scatters,
             mean,
             scales,
             trend,
             root: Cholesky::new(none)?,
             weights: DVector::zeros(0),
+            left_out: Vec::new(),
             surprises: Vec::new(),
         };
         let count = own.places.len();
@@ -197,11 +211,20 @@ impl Emulator {
 
     /// The square of the bias, as it is at the nearest places.
     pub(crate) fn bias(&self, place: &DVector<f64>) -> f64 {
+        self.nearby(place, &self.biases)
+    }
+
+    /// The variance of a measurement, as it is at the nearest places.
+    pub(crate) fn scatter(&self, place: &DVector<f64>) -> f64 {
+        self.nearby(place, &self.scatters)
+    }
+
+    fn nearby(&self, place: &DVector<f64>, values: &[f64]) -> f64 {
         let (mut sum, mut weights) = (0.0, 0.0);
-        for (node, bias) in self.places.iter().zip(&self.biases) {
+        for (node, value) in self.places.iter().zip(values) {
             let distance = self.distance(place, node);
             let weight = 1.0 / (1e-6 + distance * distance * distance * distance);
-            (sum, weights) = (sum + weight * bias, weights + weight);
+            (sum, weights) = (sum + weight * value, weights + weight);
         }
         sum / weights
     }
@@ -227,14 +250,16 @@ impl Emulator {
     /// As if the response were known at one more place, where it is what it seems to be.
     pub(crate) fn believing(&self, place: &DVector<f64>) -> Option<Self> {
         let (value, _) = self.at(place);
-        let (mut places, mut errors, mut biases) =
-            (self.places.clone(), self.errors.clone(), self.biases.clone());
+        let (mut places, mut errors) = (self.places.clone(), self.errors.clone());
+        let (mut biases, mut scatters) = (self.biases.clone(), self.scatters.clone());
         biases.push(self.bias(place));
+        scatters.push(self.scatter(place));
         errors.push(errors.iter().sum::<f64>() / errors.len() as f64);
         places.push(place.clone());
         let values = self.values.push(value - self.mean);
         let scales = self.scales.clone();
-        let mut own = Self::with(places, values, [errors, biases], (self.mean, self.trend), scales)?;
+        let mut own =
+            Self::with(places, values, [errors, biases, scatters], (self.mean, self.trend), scales)?;
         own.surprises.clone_from(&self.surprises);
         Some(own)
     }

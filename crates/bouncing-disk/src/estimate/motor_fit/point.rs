@@ -11,7 +11,7 @@ use crate::estimate::measured_speeds::decimal_marks::DecimalMarks;
 use crate::estimate::measured_speeds::error::{CsvFault, Located, MeasuredSpeedsError};
 #[cfg(feature = "csv")]
 use crate::estimate::measured_speeds::units::SpeedUnit;
-use crate::estimate::parameter_fit::parameter::FitRange;
+use crate::estimate::motor_fit::parameter::FitRange;
 use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::motor_field::MotorField;
 

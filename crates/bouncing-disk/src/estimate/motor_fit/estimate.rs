@@ -1,24 +1,10 @@
-//! The estimate of a parameter, and the directions that a fit leaves undetermined.
+//! Ranges of a parameter that a fit accepts, and the directions that it leaves undetermined.
 
 use std::fmt::{self, Display, Formatter};
 
 use crate::display::numbers;
-use crate::estimate::interval::IntervalEstimate;
-use crate::estimate::parameter_fit::display::behind;
-use crate::estimate::parameter_fit::parameter::FitParameter;
-
-/// A parameter and its estimate from the transients.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct ParameterEstimate {
-    /// The parameter.
-    pub parameter: FitParameter,
-    /// Its value in the data sheet, from which the search began (SI).
-    pub nominal: f64,
-    /// Its value and 95 % interval (SI), within its range; `None` if it takes part in a direction that the
-    /// transients do not determine.
-    pub estimate: Option<IntervalEstimate>,
-}
+use crate::estimate::motor_fit::display::behind;
+use crate::estimate::motor_fit::parameter::FitParameter;
 
 /// A range of a parameter that a fit does not exclude with 95 % confidence.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,7 +39,7 @@ impl Display for AcceptedRange {
     }
 }
 
-/// A direction in the space of the fitted parameters along which the transients hardly change: they do not
+/// A direction in the space of the fitted parameters along which the measurements hardly change: they do not
 /// determine the motor's place on it.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -63,6 +49,6 @@ pub struct UndeterminedDirection {
     /// twice.
     pub direction: Vec<(FitParameter, f64)>,
     /// The standard error along it, in multiples of the direction as given, positive; infinite where the
-    /// transients do not change at all.
+    /// measurements do not change at all.
     pub standard_error: f64,
 }

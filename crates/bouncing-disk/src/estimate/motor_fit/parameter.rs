@@ -29,8 +29,7 @@ pub enum FitParameter {
     TwistAmplitude,
     /// How long an isolated impact lasts (s); zero where impacts are rigid. Coordinate: its logarithm.
     ContactTime,
-    /// Effective mass M of a stator that yields (kg). Coordinate: its logarithm. This one and the next two: not from
-    /// transients.
+    /// Effective mass M of a stator that yields (kg). Coordinate: its logarithm.
     StatorMass,
     /// Its quality factor Q, in [0.5, 1e5]. Coordinate: its logarithm.
     StatorQuality,
@@ -92,11 +91,6 @@ impl FitParameter {
             Self::ContactTime => motor.system().soft_contact().map_or(0.0, |(_, time)| time),
             _ => self.field().value(motor.parameters()).unwrap_or(f64::NAN),
         }
-    }
-
-    /// Whether motors that differ in this parameter alone have different vertical motions.
-    pub(crate) const fn changes_orbit(self) -> bool {
-        matches!(self, Self::Restitution | Self::Amplitude)
     }
 
     pub(crate) const fn is_size(self) -> bool {
@@ -198,11 +192,6 @@ impl FitRange {
     pub(crate) fn value_at(&self, place: f64) -> f64 {
         let coordinate = self.middle() + self.half_width() * place.clamp(-1.0, 1.0);
         self.parameter.value(coordinate).clamp(self.low, self.high)
-    }
-
-    /// The place of a value.
-    pub(crate) fn place_of(&self, value: f64) -> f64 {
-        (self.parameter.coordinate(value) - self.middle()) / self.half_width()
     }
 }
 
