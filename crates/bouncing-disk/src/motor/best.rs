@@ -53,6 +53,9 @@ const SURER: f64 = 2.0;
 const LOOKS: usize = 6;
 const LENGTHEN: f64 = 3.0;
 
+/// A speed below this share of the stator's is none.
+const ROUNDING: f64 = 1e-6;
+
 /// A value beyond this share of the best one is good.
 const GOOD: f64 = 0.99;
 
@@ -517,7 +520,11 @@ impl Search<'_> {
                 nearest: own.value,
             }));
         };
-        if found.at_least() <= 0.0 {
+        // A speed that friction does not give is that of rounding.
+        let fastest = self.motor.system().platform().peak_angular_speed();
+        let is_rounding =
+            self.sought.objective == SweepQuantity::Speed && found.value.value <= ROUNDING * fastest;
+        if found.at_least() <= 0.0 || is_rounding {
             return Err(Error::NotPositive {
                 quantity: self.sought.objective.name(),
                 value: found.value.value,

@@ -131,13 +131,13 @@ pub(crate) struct BestArgs {
     #[command(flatten)]
     operation: OperationArgs,
     /// The quantity whose largest value is sought: speed, torque, power, efficiency, or another of `motor sweep`
-    #[arg(help_heading = OWN, long, value_name = "QUANTITY", default_value = "speed")]
+    #[arg(help_heading = OWN, long, value_name = "NAME", default_value = "speed")]
     of: SweepQuantity,
     /// A field of the data sheet and its range, FIELD=LOW:HIGH, one or two of them; a phase_lag alone is a whole turn
     #[arg(help_heading = OWN, long, value_name = "FIELD=RANGE", required_unless_present = "template", value_parser = search_range)]
     over: Vec<SearchRange>,
     /// A bound, QUANTITY >= NUMBER or QUANTITY <= NUMBER, at most two of them
-    #[arg(help_heading = OWN, long = "where", value_name = "BOUND")]
+    #[arg(help_heading = OWN, long = "where", value_name = "NAME>=NUMBER")]
     bounds: Vec<QuantityBound>,
 }
 
