@@ -38,8 +38,9 @@ impl Context {
         {
             bar.set_style(style.progress_chars("=> "));
         }
-        let last_line = (!self.quiet && !stderr().is_terminal()).then(|| Mutex::new(Instant::now()));
-        Watcher { bar, last_line }
+        let writes_lines = !self.quiet && !stderr().is_terminal();
+        let next_line = writes_lines.then(|| Mutex::new(Instant::now() + FIRST_LINE));
+        Watcher { bar, began: Instant::now(), next_line }
     }
 
     /// Prints a note beside the result, unless notes are unwanted.
@@ -50,7 +51,8 @@ impl Context {
     }
 }
 
-/// Time between two lines where there is no terminal: a log of an hour has some hundred of them.
+/// Time to the first line where there is no terminal, and between two: a log of an hour has some hundred of them.
+const FIRST_LINE: Duration = Duration::from_secs(5);
 const BETWEEN_LINES: Duration = Duration::from_secs(30);
 
 const STEPS: u64 = 1_000;
@@ -59,8 +61,9 @@ const STEPS: u64 = 1_000;
 #[derive(Debug)]
 pub(crate) struct Watcher {
     bar: ProgressBar,
-    /// When the last line was written; `None` where none is to be.
-    last_line: Option<Mutex<Instant>>,
+    began: Instant,
+    /// When the next line is due; `None` where none is to be.
+    next_line: Option<Mutex<Instant>>,
 }
 
 impl Watcher {
@@ -77,12 +80,16 @@ impl Watcher {
         }
         let share = share.min(1.0);
         self.bar.set_position((share * STEPS as f64) as u64);
-        if let Some(last) = &self.last_line
-            && let Ok(mut last) = last.try_lock()
-            && last.elapsed() >= BETWEEN_LINES
+        if let Some(next) = &self.next_line
+            && let Ok(mut next) = next.try_lock()
+            && Instant::now() >= *next
         {
-            *last = Instant::now();
-            complain(&format!("{}: {:.0} %", self.bar.message(), 100.0 * share));
+            *next = Instant::now() + BETWEEN_LINES;
+            let done = format!("{}: {:.0} %", self.bar.message(), 100.0 * share);
+            // Less than a hundredth tells nothing.
+            let left = self.began.elapsed().as_secs_f64() * (1.0 / share - 1.0);
+            let left = if share >= 0.01 { format!(", some {left:.0} s left") } else { String::new() };
+            complain(&format!("{done}{left}"));
         }
         ControlFlow::Continue(())
     }

@@ -22,6 +22,9 @@ pub(crate) trait Described: Clone + Debug + Send + Sync + 'static {
     /// Those of the paper; the first are the default ones.
     const PRESETS: Words<fn() -> Self>;
 
+    /// Whether files may have a table `[load]`.
+    const HAS_LOAD: bool = false;
+
     /// Reads a file; the settings take the place of what it says before anything is checked, so that they can
     /// put a wrong file right.
     fn read(text: &str, format: Format, settings: &[Setting]) -> Result<Self, String>;
@@ -92,7 +95,8 @@ impl<D: Described> SourceArgs<D> {
                 let copy = format!("--template writes no table {table}: copy that of the file");
                 return Err(Failure::Usage(copy));
             }
-            output.write_template(&format!("{}\n{DRIVE}", parameters.template()), context.quiet)?;
+            let load = if D::HAS_LOAD { LOAD } else { "" };
+            output.write_template(&format!("{}\n{DRIVE}{load}", parameters.template()), context.quiet)?;
             return Ok(None);
         }
         parameters.drive().warnings().for_each(|warning| context.note(&format!("warning: {warning}")));
@@ -127,6 +131,16 @@ const DRIVE: &str = "\
 # geometry = \"ring\"
 # ball_radius = 0.01
 # ring_radius = 0.00125
+";
+
+/// The end of a motor's template.
+const LOAD: &str = "
+# A load that is no constant torque, in place of load_torque: torques (N m) at rising speeds (rad/s), with lines between
+# them that go on beyond both ends. This is a fan of 18e-6 N m at 20 rad/s, to 1 % of that.
+# [load]
+# speeds = [-20, -16, -12, -8, -4, 0, 4, 8, 12, 16, 20]
+# torques = [-18e-6, -11.52e-6, -6.48e-6, -2.88e-6, -0.72e-6, 0, 0.72e-6, 2.88e-6, 6.48e-6, 11.52e-6, 18e-6]
+# inertia = 1e-9 # of what turns with the rotor (kg m^2)
 ";
 
 /// A key and the number that it is given on the command line. Whether there is such a key, and whether the

@@ -23,6 +23,8 @@ impl Described for Motor {
         ("paper-184-khz", "The same at its second operating frequency, 184 kHz", Self::paper_184_khz),
     ];
 
+    const HAS_LOAD: bool = true;
+
     fn read(text: &str, format: Format, settings: &[Setting]) -> Result<Self, String> {
         let changes = changes(settings)?;
         let read = match format {

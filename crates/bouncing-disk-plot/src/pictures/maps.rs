@@ -8,6 +8,7 @@ use crate::colour::Colour;
 use crate::figure::{DOUBLE_COLUMN, Figure, SINGLE_COLUMN};
 use crate::frame::Rect;
 use crate::label::Label;
+use crate::line::Line;
 use crate::numbers::{extent, in_math};
 use crate::panel::Panel;
 use crate::raster::Raster;
@@ -161,12 +162,14 @@ impl Regimes<'_> {
 const LEVELS: usize = 24;
 
 /// A quantity over two parameters that have equal distances, row by row, as a map with a bar of its colours;
-/// a cell that is not finite is grey. Cells have their marks, which a key below the map explains.
+/// a cell that is not finite is grey. Cells have their marks, which a key below the map explains. Where `bound` is named, a line
+/// runs between the cells that keep it and the others.
 pub fn heat_map(
     columns: &Quantity<'_>,
     rows: &Quantity<'_>,
     cells: &Quantity<'_>,
     cell_marks: &[CellMarks],
+    bound: Option<&str>,
 ) -> Figure {
     const WIDTH: f64 = 156.0;
     const HEIGHT: f64 = 150.0;
@@ -203,6 +206,15 @@ pub fn heat_map(
         .y(Axis::linear(y_ends.0, y_ends.1).label(y_label))
         .layer(Raster::new(x.len(), y.len(), cells, &palette, x_ends, y_ends))
         .layers(marks::of_map((&x, &y), cell_marks, sides));
+    let map = match bound {
+        Some(bound) => {
+            let keeps: Vec<bool> = cell_marks.iter().map(|own| own.keeps == Some(true)).collect();
+            let edges = edges(&keeps, (x.len(), y.len()), (x_ends, y_ends));
+            let line = |colour, width| Line::new(edges.iter().copied()).colour(colour).width(width);
+            map.title(bound).layer(line(Colour::WHITE, 2.4)).layer(line(Colour::VERMILION, 1.2))
+        }
+        None => map,
+    };
     let bar = (1..=LEVELS as u8).collect();
     let bar = Panel::new(Rect::new(212.0, 12.0, 8.0, HEIGHT))
         .x(Axis::linear(0.0, 1.0).ticks(Ticks::none()))
@@ -212,6 +224,34 @@ pub fn heat_map(
     let key = marks::key(cell_marks, 48.0, 198.0);
     let height = 202.0 + key.as_ref().map_or(0.0, |(_, height)| height + 2.0);
     Figure::new(SINGLE_COLUMN + 30.0, height).panels([map, bar]).panels(key.map(|(key, _)| key))
+}
+
+/// The lines between the cells of a map that keep a bound and those that do not, with gaps between them.
+fn edges(
+    keeps: &[bool],
+    (columns, rows): (usize, usize),
+    (x, y): ((f64, f64), (f64, f64)),
+) -> Vec<(f64, f64)> {
+    let at = |column: usize, row: usize| {
+        let share = |(low, high): (f64, f64), index: usize, count: usize| {
+            low + (high - low) * index as f64 / count.max(1) as f64
+        };
+        (share(x, column, columns), share(y, row, rows))
+    };
+    let keeps = |column: usize, row: usize| keeps.get(row * columns + column).copied();
+    let mut lines = Vec::new();
+    for row in 0..rows {
+        for column in 0..columns {
+            let own = keeps(column, row);
+            if column + 1 < columns && own != keeps(column + 1, row) {
+                lines.extend([at(column + 1, row), at(column + 1, row + 1), (f64::NAN, f64::NAN)]);
+            }
+            if row + 1 < rows && own != keeps(column, row + 1) {
+                lines.extend([at(column, row + 1), at(column + 1, row + 1), (f64::NAN, f64::NAN)]);
+            }
+        }
+    }
+    lines
 }
 
 /// The outer ends of equal cells with these middles.

@@ -16,6 +16,12 @@ pub struct CellMarks {
     pub periodic: bool,
     /// The value is not known to the accuracy that was asked for.
     pub unsettled: bool,
+    /// There is no steady motion: the load overpowers the motor.
+    pub runaway: bool,
+    /// A motor with rigid impacts is locked on a short cycle.
+    pub locked: bool,
+    /// A bound is kept; `None` without a bound, or where that is not known.
+    pub keeps: Option<bool>,
 }
 
 /// A mark: its words in the key, its marker, its place in the cell of a map, in shares of the cell from the middle, its size
@@ -28,7 +34,7 @@ struct Mark {
     of: fn(&CellMarks) -> bool,
 }
 
-const MARKS: [Mark; 3] = [
+const MARKS: [Mark; 5] = [
     Mark {
         words: "several motions, value of the one from rest",
         marker: Marker::Diamond,
@@ -49,6 +55,20 @@ const MARKS: [Mark; 3] = [
         place: (-0.3, -0.3),
         around_point: 4.4,
         of: |cell| cell.periodic,
+    },
+    Mark {
+        words: "locked on a short cycle: holds at exactly these inputs",
+        marker: Marker::Square,
+        place: (0.3, -0.3),
+        around_point: 8.4,
+        of: |cell| cell.locked,
+    },
+    Mark {
+        words: "no steady motion: overpowered",
+        marker: Marker::Cross,
+        place: (0.0, 0.0),
+        around_point: 4.4,
+        of: |cell| cell.runaway,
     },
 ];
 
@@ -111,18 +131,26 @@ mod tests {
     use super::*;
     use crate::pictures::{Quantity, heat_map, swept_curve};
 
-    const PLAIN: CellMarks = CellMarks { coexisting: false, periodic: false, unsettled: false };
+    const PLAIN: CellMarks = CellMarks {
+        coexisting: false,
+        periodic: false,
+        unsettled: false,
+        runaway: false,
+        locked: false,
+        keeps: None,
+    };
 
     #[test]
     fn only_marks_that_are_there_are_drawn_and_in_the_key() {
         let quantity = |name, values| Quantity { name, unit: "1", values };
         let (two, four) = (&[0.0, 1.0][..], &[1.0, 2.0, 3.0, 4.0][..]);
         let map = |cells: &[CellMarks]| {
-            let figure = heat_map(&quantity("x", two), &quantity("y", two), &quantity("z", four), cells);
+            let figure =
+                heat_map(&quantity("x", two), &quantity("y", two), &quantity("z", four), cells, None);
             figure.to_svg().expect("drawn")
         };
         let curve = |cells: &[CellMarks]| {
-            let figure = swept_curve(&quantity("x", four), &quantity("z", four), &[0.1; 4], cells, &[]);
+            let figure = swept_curve(&quantity("x", four), &quantity("z", four), &[0.1; 4], cells, &[], None);
             figure.to_svg().expect("drawn")
         };
         let several = CellMarks { coexisting: true, ..PLAIN };
@@ -133,7 +161,7 @@ mod tests {
             assert!(MARKS.iter().all(|mark| !none.contains(mark.words)));
             let both = draw(&[PLAIN, several, rough, PLAIN]);
             let there: Vec<bool> = MARKS.iter().map(|mark| both.contains(mark.words)).collect();
-            assert_eq!(there, [true, true, false]);
+            assert_eq!(there, [true, true, false, false, false]);
             assert!(draw(&[PLAIN, CellMarks { periodic: true, ..PLAIN }]).contains("periodic motion"));
         }
     }

@@ -68,12 +68,15 @@ pub fn interval_curve(points: &[Point], colour: Colour, band: Fill, name: Option
 /// A quantity, with the half widths of its intervals, over one parameter. `coexisting` has values and half widths of further
 /// motions with their marks, not finite where there is none: where there are several motions, their points are not joined.
 /// A key below the curve explains the marks.
+///
+/// Of a sweep whose values go up to the cell `turns_at` and down again, both ways are curves of their own.
 pub fn swept_curve(
     along: &Quantity<'_>,
     quantity: &Quantity<'_>,
     half_widths: &[f64],
     cell_marks: &[CellMarks],
     coexisting: &[Vec<(f64, f64, CellMarks)>],
+    turns_at: Option<usize>,
 ) -> Figure {
     let ((places, place_label), (values, label)) = (along.shown(), quantity.shown());
     let scale = quantity.prefixed().0;
@@ -96,7 +99,25 @@ pub fn swept_curve(
     let panel = Panel::new(Rect::new(48.0, 12.0, 186.0, 150.0))
         .x(Axis::around(places.iter().copied()).label(place_label))
         .y(Axis::around(ends).label(label));
-    let panel = if others.is_empty() {
+    let legend = || Legend::at(Corner::BottomLeft).without_frame().inset(4.0);
+    let panel = if let Some(turns_at) = turns_at {
+        // Open circles on the way up, in which the dots of the way down are seen.
+        let way = |points: &[Point], colour: Colour, name: &str| {
+            let line = || points.iter().map(|(x, y, _)| (*x, *y));
+            let dots = Scatter::new(line().filter(|(_, y)| y.is_finite())).colour(colour).name(name);
+            let is_up = name == "up";
+            let dots = if is_up { dots.marker(Marker::Circle).size(4.2) } else { dots.size(2.2) };
+            [Layer::from(Line::new(line()).width(0.8).colour(colour)), dots.into()]
+        };
+        let down = &points[turns_at.min(points.len())..];
+        let rest = Scatter::new(others.iter().map(|(x, y, _)| (*x, *y))).size(2.0).colour(Colour::GREY);
+        let rest = (!others.is_empty()).then(|| rest.name("coexisting"));
+        panel
+            .layers(way(&points[..=turns_at.min(points.len() - 1)], Colour::BLUE, "up"))
+            .layers(way(down, Colour::VERMILION, "down"))
+            .layers(rest)
+            .legend(legend())
+    } else if others.is_empty() {
         panel.layers(interval_curve(&points, Colour::BLUE, Fill::new(Colour::LIGHT_GREY, 0.8), None))
     } else {
         let known: Vec<Point> = points.into_iter().filter(|(_, y, _)| y.is_finite()).collect();
@@ -108,7 +129,7 @@ pub fn swept_curve(
         panel
             .layer(dots(&known, Colour::BLUE, "reached from rest"))
             .layer(dots(&others, Colour::VERMILION, "coexisting"))
-            .legend(Legend::at(Corner::BottomLeft).without_frame().inset(4.0))
+            .legend(legend())
     };
     let cells: Vec<CellMarks> = marked.iter().map(|(_, marks)| *marks).collect();
     let marked: Vec<(f64, f64)> = marked.iter().map(|((x, y, _), _)| (*x, *y)).collect();
@@ -128,12 +149,18 @@ pub struct LoadPoint {
     pub speed: Option<(f64, f64)>,
     /// The ends of the range of the speed (rad/s) over motors within the tolerance of their inputs.
     pub spread: Option<[f64; 2]>,
+    /// The same without the slowest and the fastest of these motors.
+    pub most: Option<[f64; 2]>,
     /// The power that the stator puts in (W).
     pub input_power: Option<(f64, f64)>,
     /// The mechanical power (W).
     pub mechanical_power: Option<(f64, f64)>,
     /// The share of the power put in that becomes mechanical.
     pub efficiency: Option<(f64, f64)>,
+    /// Of a stator that yields: its amplitude (m), and the share of the drive's power that becomes mechanical.
+    pub amplitude: Option<(f64, f64)>,
+    /// The latter.
+    pub electrical_efficiency: Option<(f64, f64)>,
 }
 
 /// The share of the lower panel that the legend leaves to the curves.
@@ -142,13 +169,15 @@ const UNDER_LEGEND: f64 = 0.68;
 /// The distance of the foot of a rotated name from its rule (points): room for what is below its line.
 const NEXT_TO_RULE: f64 = 3.0;
 
-/// Two panels over the load: speed with its spread over motors, and powers with the efficiency. Beyond
+/// Two panels over the load: speed with its spread over motors, and powers with the efficiency; of a stator that yields a third
+/// one with its amplitude. Beyond
 /// `largest_torque` (N m) the load overpowers the motor. The upper panel also shows the speeds of motions that coexist
 /// with these, each as a curve of its own.
 pub fn torque_speed(largest_torque: f64, found: &[LoadPoint], coexisting: &[Vec<LoadPoint>]) -> Figure {
-    const HEIGHT: f64 = 338.0;
+    let yields = found.iter().any(|own| own.amplitude.is_some());
+    let (height, panels) = if yields { (490.0, 3) } else { (338.0, 2) };
     let margins = Margins { left: 46.0, right: 44.0, top: 14.0, bottom: 34.0 };
-    let grid = Grid::new(SINGLE_COLUMN + 30.0, HEIGHT, 2, 1).margins(margins).gaps(10.0, 16.0);
+    let grid = Grid::new(SINGLE_COLUMN + 30.0, height, panels, 1).margins(margins).gaps(10.0, 16.0);
     let loads: Vec<f64> = found.iter().map(|own| own.load_torque).collect();
     let loads = Quantity { name: "load torque $T$", unit: "N m", values: &loads };
     let (torque, torque_unit) = loads.prefixed();
@@ -168,8 +197,11 @@ pub fn torque_speed(largest_torque: f64, found: &[LoadPoint], coexisting: &[Vec<
             speeds.map(|(load, (value, half))| (load, value, half)).collect()
         })
         .collect();
-    let spread = found.iter().zip(&loads).filter_map(|(own, load)| Some((*load, own.spread?)));
-    let spread: Vec<Point> = spread.map(|(load, [from, to])| (load, from, to)).collect();
+    let ranges = |of: fn(&LoadPoint) -> Option<[f64; 2]>| -> Vec<Point> {
+        let own = found.iter().zip(&loads).filter_map(|(own, load)| Some((*load, of(own)?)));
+        own.map(|(load, [from, to])| (load, from, to)).collect()
+    };
+    let (spread, most) = (ranges(|own| own.spread), ranges(|own| own.most));
     let (first, last) = Axis::ends_around(loads.iter().copied());
     let x = || Axis::spanned(first, last);
     // Beyond the requested loads there is nothing to see.
@@ -178,8 +210,14 @@ pub fn torque_speed(largest_torque: f64, found: &[LoadPoint], coexisting: &[Vec<
         speeds.iter().chain(others.iter().flatten()).flat_map(|point| [point.1 - point.2, point.1 + point.2]);
     let ends = ends.chain(spread.iter().flat_map(|(_, from, to)| [*from, *to]));
     let (slowest, fastest) = Axis::ends_around(ends.chain([0.0]));
-    let spread = (spread.len() > 1).then(|| Band::new(spread).colour(Colour::BLUE).opacity(0.15));
-    let spread = spread.map(|spread| spread.name("spread of motors"));
+    let has_spread = spread.len() > 1;
+    let band = has_spread.then(|| Band::new(most).colour(Colour::BLUE).opacity(0.15).name("9 in 10 motors"));
+    let extreme = |end: fn(&Point) -> f64, name: Option<&str>| {
+        let line = Line::new(spread.iter().map(|point| (point.0, end(point)))).width(0.4);
+        name.map_or_else(|| line.clone(), |name| line.clone().name(name)).colour(Colour::BLUE)
+    };
+    let extremes = [extreme(|point| point.1, Some("slowest, fastest drawn")), extreme(|point| point.2, None)];
+    let extremes = extremes.into_iter().filter(|_| has_spread);
     // To the left of a rule, where nothing but the curve is: at the upper end, or in the middle of what is
     // below zero.
     let beside = |load: f64, label: String, below_zero: bool| {
@@ -210,7 +248,8 @@ pub fn torque_speed(largest_torque: f64, found: &[LoadPoint], coexisting: &[Vec<
         .title("(a)")
         .layer(Rule::horizontal(0.0).stroke(Stroke::new(Colour::GREY, 0.5)))
         .layers(rules.clone())
-        .layers(spread)
+        .layers(band)
+        .layers(extremes)
         .layers(curve(&speeds, Colour::BLUE, coexisting.first().map(|_| "reached from rest")))
         .layers(others.iter().enumerate().flat_map(|(index, speeds)| {
             curve(speeds, Colour::VERMILION, (index == 0).then_some("coexisting"))
@@ -232,21 +271,38 @@ pub fn torque_speed(largest_torque: f64, found: &[LoadPoint], coexisting: &[Vec<
     let low = 1.1 * low;
     let high = low + (or_one(high) - low) / UNDER_LEGEND;
     let below = -low / high;
-    let best = 1.1 * or_one(extent(efficiency.iter().map(|point| point.1).chain([0.0])).1)
-        / (UNDER_LEGEND - (1.0 - UNDER_LEGEND) * below).max(0.2);
+    let electrical = points(|own| own.electrical_efficiency, 100.0);
+    let shares = efficiency.iter().chain(&electrical).map(|point| point.1);
+    let best =
+        1.1 * or_one(extent(shares.chain([0.0])).1) / (UNDER_LEGEND - (1.0 - UNDER_LEGEND) * below).max(0.2);
+    let last_x = || x().label(load_label.clone());
     let lower = Panel::new(grid.cell(1, 0))
-        .x(x().label(load_label))
+        .x(if yields { x().without_numbers() } else { last_x() })
         .y(Axis::spanned(low, high).label(power_label))
         .right(Axis::spanned(low / high * best, best).label("efficiency (%)"))
         .title("(b)")
-        .layers(rules)
+        .layers(rules.clone())
         .layers(curve(&input, Colour::GREY, Some("put in")))
         .layers(curve(&output, Colour::BLUE, Some("mechanical")));
     let efficiency = curve(&efficiency, Colour::VERMILION, Some("efficiency"));
     let lower = efficiency.into_iter().fold(lower, Panel::layer_right);
+    let electrical = curve(&electrical, Colour::GREEN, Some("of the drive's power")).into_iter();
+    let lower = electrical.filter(|_| yields).fold(lower, Panel::layer_right);
     let legend = Legend::at(Corner::TopLeft).without_frame().inset(4.0);
     let lower = if speeds.is_empty() { lower } else { lower.legend(legend) };
-    Figure::new(SINGLE_COLUMN + 30.0, HEIGHT).panels([upper, lower])
+    let amplitudes: Vec<f64> = found.iter().filter_map(|own| Some(own.amplitude?.0)).collect();
+    let amplitude = Quantity { name: "amplitude under load", unit: "m", values: &amplitudes };
+    let third = yields.then(|| {
+        let own = points(|own| own.amplitude, amplitude.prefixed().0);
+        let ends = own.iter().flat_map(|point| [point.1 - point.2, point.1 + point.2]);
+        Panel::new(grid.cell(2, 0))
+            .x(last_x())
+            .y(Axis::around(ends.chain([0.0])).label(amplitude.shown().1))
+            .title("(c)")
+            .layers(rules)
+            .layers(curve(&own, Colour::BLUE, None))
+    });
+    Figure::new(SINGLE_COLUMN + 30.0, height).panels([upper, lower]).panels(third)
 }
 
 /// The load at which the motor stops, on the straight line between the two loads (each with its speed and the

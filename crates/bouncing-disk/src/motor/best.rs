@@ -104,6 +104,12 @@ pub struct QuantityBound {
 }
 
 impl QuantityBound {
+    /// Whether an operation keeps the bound, as far as its quantity is known at all.
+    #[must_use]
+    pub fn is_kept(&self, operation: &Operation) -> Option<bool> {
+        Some(self.margin(self.quantity.of(operation)?.value) >= 0.0)
+    }
+
     /// By how much a value keeps the bound; negative where it does not.
     fn margin(&self, value: f64) -> f64 {
         if self.is_least { value - self.value } else { self.value - value }

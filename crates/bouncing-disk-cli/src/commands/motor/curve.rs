@@ -101,9 +101,12 @@ fn draw(largest_torque: f64, found: &[OperatingRow], spreads: &[Option<InputSpre
             load_torque: operation.load_torque(),
             speed: of(SweepQuantity::Speed),
             spread: spread.map(|spread| spread.from_to),
+            most: spread.map(|spread| spread.most_from_to),
             input_power: of(SweepQuantity::InputPower),
             mechanical_power: of(SweepQuantity::MechanicalPower),
             efficiency: of(SweepQuantity::Efficiency),
+            amplitude: of(SweepQuantity::StatorAmplitude),
+            electrical_efficiency: of(SweepQuantity::ElectricalEfficiency),
         }
     };
     let first: Vec<_> =

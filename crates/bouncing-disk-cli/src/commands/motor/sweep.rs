@@ -1,8 +1,9 @@
 //! `bouncing-disk motor sweep`: a motor over one or two fields of its data sheet.
 
+use bouncing_disk::core::Unobserved;
 use bouncing_disk::motor::{
     AxialMotion, MotorField, MotorSweep, MotorSweepResult, OperatingPoint, OperatingRow, OperatingSettings,
-    Operation, SweepAxis, SweepQuantity,
+    Operation, QuantityBound, SweepAxis, SweepQuantity,
 };
 use bouncing_disk::{Motor, Observer};
 use bouncing_disk_plot::{Figure, SINGLE_COLUMN, rounded};
@@ -39,6 +40,9 @@ pub(crate) struct SweepArgs {
     /// The quantity of a picture
     #[arg(help_heading = OWN, long, value_name = "QUANTITY", default_value = "speed", value_parser = one_of(PICTURES))]
     picture: SweepQuantity,
+    /// A bound that the picture of a map draws, as of `motor best`: a line between the cells that keep it and the others
+    #[arg(help_heading = OWN, long = "where", value_name = "NAME>=NUMBER")]
+    bound: Option<QuantityBound>,
     #[command(flatten)]
     settings: SettingsArgs,
     #[command(flatten)]
@@ -96,6 +100,7 @@ pub(super) fn run(args: &SweepArgs, context: Context) -> Result<()> {
         up_and_down: args.up_and_down,
         settings: args.settings.settings(),
         picture: args.picture.name().to_owned(),
+        bound: args.bound.map(|bound| bound.to_string()),
         groups: 0,
     };
     let sweep = job.sweep()?;
@@ -114,6 +119,8 @@ pub(crate) struct SweepJob {
     up_and_down: bool,
     settings: OperatingSettings,
     picture: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    bound: Option<String>,
     /// Number of vertical motions, which are the rows.
     groups: usize,
 }
@@ -179,12 +186,15 @@ impl GridJob for SweepJob {
 
     fn report<'a>(&'a self, sweep: &'a MotorSweep, rows: &'a [Vec<OperatingRow>]) -> Result<Report<'a>> {
         let result = sweep.result(rows)?;
-        type Row = (Vec<f64>, Operation, usize);
+        type Row = (Vec<f64>, Operation, usize, &'static str);
         let of = |row: &Row, quantity: SweepQuantity| quantity.of(&row.1);
         let coexist = result.cells().iter().any(|row| row.branches.len() > 1);
         let mut columns = Columns::<Row>::new();
         for (index, axis) in result.axes().iter().enumerate() {
             columns = columns.column(axis.parameter.name(), axis.parameter.unit(), move |row| row.0[index]);
+        }
+        if self.up_and_down {
+            columns = columns.column("way", "1", |row| row.3);
         }
         if coexist {
             columns = columns.column("branch", "1", |row| row.2);
@@ -201,40 +211,72 @@ impl GridJob for SweepJob {
             .column("efficiency", "%", move |row| {
                 of(row, SweepQuantity::Efficiency).map(|own| 100.0 * own.value)
             });
-        let branches = |(values, row): (Vec<(MotorField, f64)>, &OperatingRow)| {
+        let mut rows: Vec<Row> = Vec::new();
+        for (cell, (values, row)) in result.iter().enumerate() {
             let values: Vec<f64> = values.into_iter().map(|(_, value)| value).collect();
-            let all = row.branches.clone().into_iter().zip(1..);
-            all.map(move |(operation, branch)| (values.clone(), operation, branch))
-        };
-        let rows: Vec<Row> = result.iter().flat_map(branches).collect();
+            let way = if cell <= result.cells().len() / 2 { "up" } else { "down" };
+            let all = row.branches.iter().copied().zip(1..);
+            rows.extend(all.map(|(operation, branch)| (values.clone(), operation, branch, way)));
+        }
         let csv = result.to_csv();
         let Some(quantity) = SweepQuantity::WITH_STATOR.into_iter().find(|own| own.name() == self.picture)
         else {
             return Err(Failure::Usage(format!("there is no quantity {}", self.picture)));
         };
+        let bound = self.bound.as_ref().map(|bound| bound.parse::<QuantityBound>());
+        let bound = bound.transpose().map_err(Failure::Usage)?;
+        let locked = locked(sweep)?;
+        let turns_at = self.up_and_down.then(|| result.cells().len() / 2);
         Ok(Report {
             provenance: provenance("bouncing-disk motor sweep", self)?,
             text: self.held(&sweep.replaced())
                 + &with_details(columns, result.cells(), |row| &row.1).to_text(&rows),
             table: Box::new(move |to| to.write_all(csv.as_bytes())),
             data: vec![("axes", stored(result.axes())?), ("cells", stored(result.cells())?)],
-            figure: Some(Box::new(move || draw(&result, quantity))),
+            figure: Some(Box::new(move || draw(&result, quantity, bound, turns_at, &locked))),
         })
     }
 }
 
+/// Most vertical motions of which it is told whether they lock.
+const MOST_REGIMES: usize = 2_000;
+
+/// Which cells have a motor with rigid impacts that locks on a short cycle; those of a group share their vertical motion.
+fn locked(sweep: &MotorSweep) -> Result<Vec<bool>> {
+    let mut locked = vec![false; sweep.cells()];
+    if sweep.motor().rigid_sine().is_err() || sweep.groups().len() > MOST_REGIMES {
+        return Ok(locked);
+    }
+    for group in sweep.groups() {
+        let motor = sweep.motor_of(group[0])?;
+        if motor.rigid_sine().is_ok() && motor.report(&Unobserved)?.regime.is_locked() {
+            group.iter().for_each(|cell| locked[*cell] = true);
+        }
+    }
+    Ok(locked)
+}
+
 /// What the picture says of an operation beside its value.
-fn marks(operation: &Operation, coexisting: bool) -> pictures::CellMarks {
+fn marks(operation: &Operation, coexisting: bool, bound: Option<QuantityBound>) -> pictures::CellMarks {
     let repeats = |point: &OperatingPoint| matches!(point.motion, AxialMotion::Periodic { .. });
     pictures::CellMarks {
         coexisting,
         periodic: operation.point().is_some_and(repeats),
         unsettled: matches!(operation, Operation::Unsettled(..)),
+        runaway: matches!(operation, Operation::Runaway { .. }),
+        locked: false,
+        keeps: bound.and_then(|bound| bound.is_kept(operation)),
     }
 }
 
 /// The quantity over the axes. A missing value is a gap in a curve, and grey in a map.
-fn draw<'a>(result: &'a MotorSweepResult, quantity: SweepQuantity) -> Figure {
+fn draw<'a>(
+    result: &'a MotorSweepResult,
+    quantity: SweepQuantity,
+    bound: Option<QuantityBound>,
+    turns_at: Option<usize>,
+    locked: &[bool],
+) -> Figure {
     let (name, (unit, scale)) = (quantity.name(), shown_unit(quantity));
     let estimates = result
         .cells()
@@ -244,15 +286,16 @@ fn draw<'a>(result: &'a MotorSweepResult, quantity: SweepQuantity) -> Figure {
         estimates.map(|(value, half)| (scale * value, scale * half)).unzip();
     // A curve shows all branches, a map the first one.
     let is_map = result.axes().len() > 1;
-    let of_first = |row: &OperatingRow| marks(row.operation(), is_map && row.branches.len() > 1);
-    let cell_marks: Vec<_> = result.cells().iter().map(of_first).collect();
+    let of_first = |row: &OperatingRow| marks(row.operation(), is_map && row.branches.len() > 1, bound);
+    let mut cell_marks: Vec<_> = result.cells().iter().map(of_first).collect();
+    cell_marks.iter_mut().zip(locked).for_each(|(marks, locked)| marks.locked = *locked);
     let most = result.cells().iter().map(|row| row.branches.len()).max().unwrap_or(0);
     let others: Vec<Vec<(f64, f64, pictures::CellMarks)>> = (1..most)
         .map(|branch| {
             let of = |row: &OperatingRow| {
                 let operation = row.branches.get(branch)?;
                 let (value, half) = quantity.of(operation).map(interval)?;
-                Some((scale * value, scale * half, marks(operation, false)))
+                Some((scale * value, scale * half, marks(operation, false, bound)))
             };
             let none = (f64::NAN, f64::NAN, pictures::CellMarks::default());
             result.cells().iter().map(|row| of(row).unwrap_or(none)).collect()
@@ -265,8 +308,11 @@ fn draw<'a>(result: &'a MotorSweepResult, quantity: SweepQuantity) -> Figure {
         values: &axis.values,
     };
     match result.axes() {
-        [rows, columns, ..] => pictures::heat_map(&along(columns), &along(rows), &cells, &cell_marks),
-        [only] => pictures::swept_curve(&along(only), &cells, &halves, &cell_marks, &others),
+        [rows, columns, ..] => {
+            let words = bound.map(|bound| bound.to_string());
+            pictures::heat_map(&along(columns), &along(rows), &cells, &cell_marks, words.as_deref())
+        }
+        [only] => pictures::swept_curve(&along(only), &cells, &halves, &cell_marks, &others, turns_at),
         [] => Figure::new(SINGLE_COLUMN, SINGLE_COLUMN),
     }
 }

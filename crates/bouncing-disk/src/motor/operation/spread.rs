@@ -113,6 +113,9 @@ pub struct InputSpread {
     /// by statistical errors. With n draws, a further one lies between them with the probability (n - 1)/(n +
     /// 1), 95 % for 39.
     pub from_to: [f64; 2],
+    /// The same without the smallest and the largest draw, so that one locked motor does not stretch it: a further draw lies
+    /// between them with the probability (n - 3)/(n + 1), 90 % for 39.
+    pub most_from_to: [f64; 2],
     /// Draws that have a value, over which these statistics are taken.
     pub draws: usize,
     /// Draws that have no value, because the load overpowers the motor.
@@ -176,12 +179,14 @@ impl InputSpread {
         // shrink to a point.
         let real = if observed > 0.0 { (most / observed).min(1.0) } else { 0.0 };
         let at = |value: f64| centre.value + real * (value - centre.value);
-        let least = values.iter().copied().fold(f64::INFINITY, f64::min);
-        let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let mut values = values;
+        values.sort_by(f64::total_cmp);
+        let last = values.len() - 1;
         Ok(Some(Self {
             mean: centre,
             standard_deviation: Estimate { value: deviation, standard_error },
-            from_to: [at(least), at(largest)],
+            from_to: [at(values[0]), at(values[last])],
+            most_from_to: [at(values[1]), at(values[last - 1])],
             draws: known.len(),
             without: draws.len() - known.len(),
             unsettled: known.iter().filter(|draw| draw.start_up > most).count(),

@@ -9,7 +9,7 @@ impl MotorSweepResult {
     /// The cells as comma-separated text: a header, then for each cell, row by row, one line for each branch. The header
     /// has units in the names; numbers are written so that reading them back is exact.
     ///
-    /// The columns: the axes; `load_torque_n_m`, unless an axis is that; `branch`, 1 for the one
+    /// The columns: the axes; `load_torque_n_m`, unless an axis is that; `way` of a continued sweep, `up` or `down`; `branch`, 1 for the one
     /// that most rotors reach from rest; `motion`, which is `irregular`, `periodic` or `contact`; `life_s`, the mean life of
     /// an irregular one, if some were seen to end; `state`, which is `steady`,
     /// `unsettled` or `runaway`; `shortfall` of an unsettled cell: `error`, `drift` or `power-balance`; each
@@ -22,11 +22,14 @@ impl MotorSweepResult {
         let quantities = SweepQuantity::of_table(self.cells());
         // Writing to memory does not fail, and all lines have as many fields.
         let _ = writer.write_record(self.header(quantities));
-        for (values, row) in self.iter() {
+        for (cell, (values, row)) in self.iter().enumerate() {
             for (branch, operation) in row.branches.iter().enumerate() {
                 let mut fields: Vec<String> = values.iter().map(|(_, value)| written(*value)).collect();
                 if !self.varies_load() {
                     fields.push(written(operation.load_torque()));
+                }
+                if let Some(way) = self.way(cell) {
+                    fields.push(way.to_owned());
                 }
                 fields.push((branch + 1).to_string());
                 fields.extend(of_operation(operation, quantities));
@@ -47,6 +50,7 @@ impl MotorSweepResult {
         if !self.varies_load() {
             names.push(of_field(MotorField::LoadTorque));
         }
+        names.extend(self.way(0).map(|_| "way".to_owned()));
         names.extend(["branch", "motion", "life_s", "state", "shortfall"].map(str::to_owned));
         for quantity in quantities {
             names.push(column(quantity.name(), quantity.unit()));

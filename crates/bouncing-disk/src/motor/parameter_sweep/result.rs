@@ -16,6 +16,8 @@ pub struct MotorSweepResult {
     settings: OperatingSettings,
     axes: Vec<SweepAxis>,
     cells: Vec<OperatingRow>,
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "std::ops::Not::not"))]
+    continued: bool,
 }
 
 impl MotorSweepResult {
@@ -24,8 +26,17 @@ impl MotorSweepResult {
         settings: OperatingSettings,
         axes: Vec<SweepAxis>,
         cells: Vec<OperatingRow>,
+        continued: bool,
     ) -> Self {
-        Self { motor, settings, axes, cells }
+        Self { motor, settings, axes, cells, continued }
+    }
+
+    /// Whether the values of a continued sweep went up or down to this cell; the first one goes with the second.
+    #[cfg(feature = "csv")]
+    pub(crate) fn way(&self, cell: usize) -> Option<&'static str> {
+        let values = &self.axes.first().filter(|_| self.continued)?.values;
+        let [before, own] = [cell.max(1) - 1, cell.max(1)].map(|cell| values.get(cell));
+        Some(if own < before { "down" } else { "up" })
     }
 
     /// The motor that was varied.

@@ -54,6 +54,12 @@ impl MotorSweep {
         }
         all.sort_by_key(|(cell, _)| *cell);
         let cells = all.into_iter().map(|(_, operation)| operation).collect();
-        Ok(MotorSweepResult::new(self.motor().clone(), *self.settings(), self.axes().to_vec(), cells))
+        Ok(MotorSweepResult::new(
+            self.motor().clone(),
+            *self.settings(),
+            self.axes().to_vec(),
+            cells,
+            self.continued,
+        ))
     }
 }
