@@ -162,7 +162,8 @@ fn rise(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Result<Repo
 }
 
 pub(super) fn estimates(fit: &TransientFit, list: &mut Quantities) {
-    list.push_interval("steady_speed", fit.steady_speed(), "rad/s");
+    // That of the form that fits: the other one may go on rising beyond every speed of the run.
+    list.push_interval("steady_speed", fit.better().steady_speed, "rad/s");
     list.push_interval("time_constant", fit.time_constant(), "s");
     list.push_interval("stall_acceleration", fit.stall_acceleration(), "rad/s^2");
     list.push("residual", fit.exponential.residual, "rad/s");
@@ -171,8 +172,8 @@ pub(super) fn estimates(fit: &TransientFit, list: &mut Quantities) {
 
 /// A fit as it is drawn, up to a time (s).
 pub(super) fn fitted_curve(fit: &TransientFit, end: f64) -> pictures::FittedCurve {
-    let numbers = (fit.steady_speed().value, fit.time_constant().value);
-    pictures::FittedCurve::new(numbers, (fit.start_time, end), |time| fit.speed(time))
+    let numbers = (fit.better().steady_speed.value, fit.time_constant().value);
+    pictures::FittedCurve::new(numbers, (fit.start_time, end), |time| fit.better_speed(time))
 }
 
 /// Measured runs and their fit; of runs with times of their own the first one.

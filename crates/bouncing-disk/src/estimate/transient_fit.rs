@@ -199,6 +199,27 @@ impl TransientFit {
         self.exponential.stall_acceleration
     }
 
+    /// The fit of the form that leaves the smaller residual. Where that is the ramp, the exponential may go on rising to a steady
+    /// speed that no motor reaches.
+    #[must_use]
+    pub fn better(&self) -> &RiseEstimate {
+        self.ramp.as_ref().filter(|_| self.form == RiseForm::Ramp).unwrap_or(&self.exponential)
+    }
+
+    /// The better form (rad/s) at `time` (s), not before [`Self::start_time`].
+    #[must_use]
+    pub fn better_speed(&self, time: f64) -> f64 {
+        let own = self.better();
+        let start = own.start_speed.map_or(0.0, |start| start.value);
+        let rise = own.steady_speed.value - start;
+        // The ramp's time is that of a rise from rest.
+        let (shape, constant): (fn(f64) -> f64, f64) = match self.form {
+            RiseForm::Exponential => (exponential, own.constant.value),
+            RiseForm::Ramp => (ramp, own.constant.value * (rise / own.steady_speed.value)),
+        };
+        start + rise * shape((time - self.start_time) / constant)
+    }
+
     /// The fitted exponential (rad/s) at `time` (s), not before [`Self::start_time`].
     #[must_use]
     pub fn speed(&self, time: f64) -> f64 {

@@ -84,7 +84,7 @@ fn ranges_hold_the_truth() {
 }
 
 /// Hours on one core; the figures, and what has not been run to its end, are in docs/numerics/motors.md, "Parameters from
-/// rated points".
+/// measurements".
 #[test]
 #[ignore = "takes hours"]
 fn ninety_of_a_hundred_ranges_hold_the_truth() {

@@ -272,6 +272,13 @@ fn a_ramp_is_told_from_an_exponential() {
         let ramp = fit.ramp.expect("fitted");
         assert!(ramp.constant.contains(1.1) && ramp.steady_speed.contains(STEADY), "{ramp:?}");
         assert!(ramp.stall_acceleration.contains(STEADY / 1.1), "{ramp:?}");
+        // What is stated and drawn is the form that fits, which no more than the curve rises beyond its plateau.
+        assert_eq!(fit.better(), &ramp);
+        for time in times.iter().filter(|time| **time >= fit.start_time) {
+            let own = STEADY * (time / 1.1).min(1.0);
+            assert!((fit.better_speed(*time) - own).abs() < 0.3, "{time}");
+        }
+        assert!(fit.exponential.steady_speed.low > STEADY, "{:?}", fit.exponential);
     }
 }
 

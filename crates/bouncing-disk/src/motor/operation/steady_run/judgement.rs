@@ -13,8 +13,8 @@ use crate::motor::tape::window::Window;
 /// Rotors with half the inertia may differ by this share of the requested error.
 const INERTIA_SHARE: f64 = 0.6;
 
-/// If the scatter is less than this share of the requested error, or of what the perturbation changes, a longer run does not
-/// help.
+/// If the scatter is less than this share of the requested error, a longer run does not help: the rest is what the
+/// perturbation changes.
 const SCATTER_SHARE: f64 = 0.5;
 
 /// Rotors from below and from above that are farther apart than so many requested errors stay so.
@@ -259,9 +259,8 @@ impl SteadyRun<'_> {
         let (known, [bias, change]) = self.with_bias(index)?;
         let (standard_error, wanted) = (known.standard_error, self.wanted[index]);
         let scatter = (standard_error * standard_error - change * change).max(0.0).sqrt();
-        let helps = standard_error > wanted
-            && bias <= INERTIA_SHARE * wanted
-            && scatter > SCATTER_SHARE * wanted.max(change);
+        let helps =
+            standard_error > wanted && bias <= INERTIA_SHARE * wanted && scatter > SCATTER_SHARE * wanted;
         helps.then_some(Shortfall::Error { standard_error, wanted })
     }
 }
