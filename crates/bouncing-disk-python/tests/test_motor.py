@@ -132,13 +132,17 @@ def test_the_best_lag_turns_the_motor_fastest() -> None:
         ({"over": {"phase_lag": (0.0,)}}, "1 ends"),
         ({"over": {"phase_lag": (1.0, 0.0)}}, "above its lower end"),
         ({"over": {}}, "number of axes"),
-        ({"where": ["speed >= 1e3"]}, "nowhere in the ranges is speed surely >= 1000"),
     ],
 )
 def test_searches_that_are_none_are_refused_by_name(wrong: dict[str, Any], told: str) -> None:
     legal: dict[str, Any] = {"over": {"friction": (0.1, 0.2)}, "relative_error": 0.2}
     with pytest.raises(ValueError, match=told):
         bd.best(MOTOR, **(legal | wrong))
+
+
+def test_a_bound_that_nothing_keeps_is_told() -> None:
+    with pytest.raises(bd.ComputationError, match="nowhere in the ranges is speed surely >= 1000"):
+        bd.best(MOTOR, over={"friction": (0.1, 0.2)}, where=["speed >= 1e3"], relative_error=0.2)
 
 
 def test_one_transient_alone_has_no_error() -> None:

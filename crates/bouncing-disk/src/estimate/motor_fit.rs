@@ -37,6 +37,9 @@ use crate::motor::operation::settings::OperatingSettings;
 /// Places that are computed at once, on machines with any number of threads: what is found depends on it.
 const BATCH: usize = 2;
 
+/// The same of transients.
+const BATCH_OF_TRANSIENTS: usize = 20;
+
 /// Most points of a fit.
 const MOST_POINTS: usize = 100;
 
@@ -239,7 +242,10 @@ impl MotorFit {
             let profiles = surface.profiles(&|| watch.ask().is_ok());
             watch.ask()?;
             let left = settings.most_evaluations - nodes.len();
-            let more = surface.doubtful(&profiles, BATCH.max(1 + coordinates / 2).min(left));
+            // A place of transients takes less time than the search for it.
+            let batch =
+                if transients.is_empty() { BATCH.max(1 + coordinates / 2) } else { BATCH_OF_TRANSIENTS };
+            let more = surface.doubtful(&profiles, batch.min(left));
             if more.is_empty() {
                 let settled = surface.is_settled(&profiles);
                 break (profiles, settled);

@@ -10,12 +10,13 @@ use std::f64::consts::TAU;
 use std::fmt::{self, Display, Formatter};
 use std::str::FromStr;
 
-use bouncing_disk_core::Observer;
 use bouncing_disk_core::numerics::statistics::NORMAL_975;
 use bouncing_disk_core::run::Watch;
+use bouncing_disk_core::{Observer, Progress};
 
 use self::line::Cubic;
 use crate::error::{Error, check, finite};
+use crate::motor::batch::shared_orbit::is_shared;
 use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::motor_field::MotorField;
 use crate::motor::operation::point::{Estimate, OperatingRow, Operation, Shortfall};
@@ -30,6 +31,9 @@ use crate::motor::stator::Stator;
 const CHEAP_PLACES: [usize; 2] = [400, 32];
 const PLACES: [usize; 2] = [200, 16];
 const DEAR_PLACES: [usize; 2] = [64, 10];
+
+/// Places along a field that leaves the vertical motion as it is, such as load or lag: no motion locks between them.
+const SMOOTH_PLACES: usize = 64;
 
 /// The first grid is at most so accurate, and each further pass over what may be the best so many times more.
 const ROUGH: f64 = 0.1;
@@ -262,10 +266,16 @@ impl Motor {
             _ if stator.yields() => (DEAR_PLACES, DEAR_SIDE),
             _ => (PLACES, SIDE),
         };
+        let is_smooth = sought.ranges.len() == 1 && sought.leaves_height(self, 0)?;
         let side = places[sought.ranges.len() - 1];
+        let side = if is_smooth { side.min(SMOOTH_PLACES) } else { side };
         let (fields, looks) = (sought.ranges.len(), 2 * (LOOK + on_side) as usize);
         let coarse = side.pow(fields as u32);
-        let watch = Watch::begin(observer, 0, (coarse + coarse / 4 + fields * looks) as u64)?;
+        // How many places are looked at again is not known before.
+        let capped = |progress: Progress| {
+            observer.observe(Progress { done: progress.done.min(progress.total), ..progress })
+        };
+        let watch = Watch::begin(&capped, 0, (coarse + coarse / 4 + fields * looks) as u64)?;
         let mut search = Search {
             motor: self,
             sought,
@@ -306,6 +316,17 @@ impl BestSearch {
             self.motor_at(motor, &vec![corner; self.ranges.len()])?;
         }
         Ok(())
+    }
+
+    /// Whether all motors along a field share one vertical motion.
+    fn leaves_height(&self, motor: &Motor, field: usize) -> Result<bool, Error> {
+        let end = |at: f64| {
+            let mut own = vec![0.0; self.ranges.len()];
+            own[field] = at;
+            self.motor_at(motor, &own)
+        };
+        let (low, high) = (end(0.0)?, end(1.0)?);
+        Ok(!motor.stator_motion().acts_back() && is_shared(low.system(), high.system()))
     }
 
     fn motor_at(&self, motor: &Motor, at: &[f64]) -> Result<Motor, Error> {
@@ -399,7 +420,9 @@ impl Search<'_> {
         }
         if step.len() > 1 && matches!(self.motor.stator_motion(), Stator::Sine) {
             for field in 0..step.len() {
-                self.scan(field, &mut all)?;
+                if !self.sought.leaves_height(self.motor, field)? {
+                    self.scan(field, &mut all)?;
+                }
             }
         }
         let mut place = all[self.best_of(&all)?].clone();
@@ -607,7 +630,7 @@ impl Search<'_> {
                 Some(((all[*index].at[field] - place.at[field]) / half, all[*index].found.as_ref()?))
             })
             .collect();
-        Ok(self.fitted(place, field, half, &known, new.len()))
+        Ok(self.fitted(place, field, half, &known, (all, new.len())))
     }
 
     /// The line through a place, by its values at offsets in [-1, 1].
@@ -617,7 +640,7 @@ impl Search<'_> {
         field: usize,
         half: f64,
         known: &[(f64, &Found)],
-        asked: usize,
+        (all, asked): (&[Place], usize),
     ) -> Line {
         let at = place.at[field];
         let part = half / f64::from(self.side);
@@ -639,12 +662,19 @@ impl Search<'_> {
         });
         let (Some(cubic), Some(bounds)) = (smooth, bounds) else {
             let scatter = Cubic::through(&values).map_or(0.0, |cubic| cubic.scatter);
-            return Line {
-                best: at,
-                top: [at - part, at + part],
-                good: None,
-                beside: NORMAL_975 * scatter.min(best),
-            };
+            // Wherever a place may be as good.
+            let least = place.found.as_ref().map_or(f64::NEG_INFINITY, Found::at_least);
+            let may = all.iter().filter(|own| {
+                let beside = own.at.iter().zip(&place.at).enumerate();
+                let is_on_line = beside
+                    .into_iter()
+                    .all(|(index, (own, best))| index == field || own.total_cmp(best).is_eq());
+                is_on_line && own.found.as_ref().is_some_and(|found| found.at_most() >= least)
+            });
+            let top = may.fold([at - part, at + part], |[low, high], own| {
+                [low.min(own.at[field]), high.max(own.at[field])]
+            });
+            return Line { best: at, top, good: None, beside: NORMAL_975 * scatter.min(best) };
         };
         let keeps = |x: f64| {
             let own = self.sought.bounds.iter().zip(&bounds);

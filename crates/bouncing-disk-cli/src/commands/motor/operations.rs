@@ -2,8 +2,9 @@
 //! preloads at which the motor is locked on a short cycle.
 
 use bouncing_disk::Motor;
+use bouncing_disk::core::Unobserved;
 use bouncing_disk::motor::{
-    BestSearch, Estimate, LEAST_TRAP_WIDTH, MotorField, OperatingSettings, QuantityBound, SearchRange,
+    Best, BestSearch, Estimate, LEAST_TRAP_WIDTH, MotorField, OperatingSettings, QuantityBound, SearchRange,
     StallLoad, SweepQuantity, TrapRange,
 };
 use serde_json::Value;
@@ -190,6 +191,12 @@ pub(super) fn best(args: &BestArgs, context: Context) -> Result<()> {
             note += &format!("along {name} the curve is too rough for a range within 1 %\n");
         }
     }
+    if let Some(share) = trap_beside(&motor, &best)? {
+        note += &format!(
+            "a preload or amplitude {:.2} % away locks the motor on a short cycle: `motor traps` lists these\n",
+            100.0 * share
+        );
+    }
     if best.row.branches.len() > 1 {
         note += "other motions coexist there: `motor curve` lists them\n";
     }
@@ -203,6 +210,20 @@ pub(super) fn best(args: &BestArgs, context: Context) -> Result<()> {
         figure: None,
     };
     report.deliver(&args.operation.output, context)
+}
+
+/// How well preload and amplitude of a motor are usually known.
+const USUALLY_KNOWN: f64 = 0.01;
+
+/// How far the nearest trap is from an optimum, if inputs that are usually known may reach it; not known but for rigid impacts
+/// on a sine.
+fn trap_beside(motor: &Motor, best: &Best) -> Result<Option<f64>> {
+    let best =
+        motor.with(|sheet| best.values.iter().for_each(|own| own.field.set(sheet, own.value.value)))?;
+    if best.rigid_sine().is_err() {
+        return Ok(None);
+    }
+    Ok(best.nearest_trap(USUALLY_KNOWN, &Unobserved)?.map(|trap| trap.relative_distance.abs()))
 }
 
 /// Ranges of the preload that trap the motor, with the speed inside

@@ -2,6 +2,8 @@
 
 use std::fmt::{self, Display, Formatter};
 
+use bouncing_disk_core::numerics::statistics::NORMAL_975;
+
 use crate::display::numbers;
 use crate::estimate::motor_fit::estimate::UndeterminedDirection;
 use crate::estimate::motor_fit::parameter::{FitParameter, FitRange};
@@ -68,8 +70,13 @@ impl Display for MotorFit {
             direction.fmt(f)?;
         }
         for switched in self.switched_on.iter().flatten() {
-            let (value, error) = (numbers(f)(switched.value), numbers(f)(switched.standard_error));
-            write!(f, "\nthe motor was switched on at {value} +- {error} s of the measured times")?;
+            let half = NORMAL_975 * switched.standard_error;
+            let [value, low, high] =
+                [switched.value, switched.value - half, switched.value + half].map(|time| numbers(f)(time));
+            write!(
+                f,
+                "\nthe motor was switched on at {value} s of the measured times (95 %: {low} to {high})"
+            )?;
         }
         if !self.settled {
             f.write_str("\nmore evaluations, or more impacts of each, would narrow these ranges")?;

@@ -21,6 +21,9 @@ const LEAST_NEAR: usize = 12;
 /// Places for each coordinate, and one more, from which it is known how rough the responses are.
 const ENOUGH: usize = 20;
 
+/// Accepted ranges nearer to each other than this share of half the range are one.
+const GAP: f64 = 0.05;
+
 /// Most steps to a minimum.
 const STEPS: usize = 30;
 
@@ -306,6 +309,14 @@ impl Surface {
         if let (Some(from), Some((last, ..))) = (open, nodes.last()) {
             accepted.push([from, *last]);
         }
+        // What parts two ranges of a rough response is no wider than its grains.
+        accepted.dedup_by(|next, own| {
+            let is_near = next[0] - own[1] < GAP;
+            if is_near {
+                own[1] = next[1];
+            }
+            is_near
+        });
         profile.accepted = accepted;
         profile
     }
