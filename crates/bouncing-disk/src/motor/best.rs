@@ -10,9 +10,9 @@ use std::f64::consts::TAU;
 use std::fmt::{self, Display, Formatter};
 use std::str::FromStr;
 
+use bouncing_disk_core::Observer;
 use bouncing_disk_core::numerics::statistics::NORMAL_975;
 use bouncing_disk_core::run::Watch;
-use bouncing_disk_core::{Observer, Progress};
 
 use self::line::Cubic;
 use crate::error::{Error, check, finite};
@@ -230,7 +230,7 @@ impl Motor {
     /// The best of a quantity over one or two fields of the data sheet, under bounds on others. Where motions coexist, it is
     /// that of the first branch of a row.
     ///
-    /// The items of `observer` are the places that are computed; their number is estimated before.
+    /// The items of `observer` are the places that are computed, at most.
     ///
     /// ```
     /// use bouncing_disk::core::Unobserved;
@@ -269,13 +269,13 @@ impl Motor {
         let is_smooth = sought.ranges.len() == 1 && sought.leaves_height(self, 0)?;
         let side = places[sought.ranges.len() - 1];
         let side = if is_smooth { side.min(SMOOTH_PLACES) } else { side };
-        let (fields, looks) = (sought.ranges.len(), 2 * (LOOK + on_side) as usize);
+        let fields = sought.ranges.len();
         let coarse = side.pow(fields as u32);
-        // How many places are looked at again is not known before.
-        let capped = |progress: Progress| {
-            observer.observe(Progress { done: progress.done.min(progress.total), ..progress })
-        };
-        let watch = Watch::begin(&capped, 0, (coarse + coarse / 4 + fields * looks) as u64)?;
+        let on_line = LOOKS * (2 * LOOK + 3) as usize + (2 * on_side + 3) as usize;
+        let around = GRIDS * ((2 * STEPS + 1) as usize).pow(fields as u32);
+        let scanned = if fields > 1 && matches!(stator, Stator::Sine) { 2 * CHEAP_PLACES[0] } else { 0 };
+        let most = passes(settings.relative_error) * coarse + around + fields * on_line + 2 * scanned + 1;
+        let watch = Watch::begin(observer, 0, most as u64)?;
         let mut search = Search {
             motor: self,
             sought,
@@ -406,6 +406,8 @@ impl Search<'_> {
                 break;
             }
             open = self.possible(&all, open);
+            // The others need no further look.
+            self.watch.finish((all.len() - open.len()) as u64);
             error = (error / FINER).max(wanted);
         }
         self.peak = narrow_peak(&all, side, self.sought.ranges.len());
@@ -765,6 +767,17 @@ fn narrow_peak(all: &[Place], side: usize, fields: usize) -> f64 {
         }
     }
     highest
+}
+
+/// Passes over the first grid until its errors are these.
+fn passes(wanted: f64) -> usize {
+    let mut error = wanted.max(ROUGH);
+    let mut passes = 1;
+    while error > wanted {
+        error = (error / FINER).max(wanted);
+        passes += 1;
+    }
+    passes
 }
 
 #[cfg(test)]
