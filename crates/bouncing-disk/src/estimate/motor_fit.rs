@@ -487,8 +487,9 @@ impl<'a> Model<'a> {
         surface.ok_or(Error::OutOfRange { field: "measured speeds", value: f64::NAN, legal: "finite" })
     }
 
-    /// Refuses transients with an offset or a drift of their speeds: the fitted parameters would explain a part of it.
-    fn check_speeds(&self, surface: &Surface) -> Result<(), FitError> {
+    /// Refuses transients with an offset or a drift of their speeds that explains so much of the squares: the fitted parameters
+    /// would explain a part of it.
+    fn check_speeds(&self, surface: &Surface, least: f64) -> Result<(), FitError> {
         let mut first = self.points.len();
         for (transient, ((own, observed), basis)) in
             self.transients.iter().zip(&self.observed).zip(&self.bases).enumerate()
@@ -499,13 +500,16 @@ impl<'a> Model<'a> {
                 along.rows_mut(first, own.len()).copy_from(&own);
                 surface.amount(&along)
             };
-            let (offset, standard_error) = along(&|_| 1.0);
-            if offset.abs() > SIGNIFICANT * standard_error {
-                return refused(FitRefusal::Offset { transient, offset, standard_error });
-            }
-            let (drift, standard_error) = along(&|time| time);
-            if drift.abs() > SIGNIFICANT * standard_error {
-                return refused(FitRefusal::Drift { transient, drift, standard_error });
+            let least = least.max(SIGNIFICANT * SIGNIFICANT);
+            let squares = |(amount, error): (f64, f64)| (amount / error) * (amount / error);
+            let (added, drifting) = (along(&|_| 1.0), along(&|time| time));
+            if squares(added).max(squares(drifting)) > least {
+                let ((offset, of_offset), (drift, of_drift)) = (added, drifting);
+                return refused(if squares(added) > squares(drifting) {
+                    FitRefusal::Offset { transient, offset, standard_error: of_offset }
+                } else {
+                    FitRefusal::Drift { transient, drift, standard_error: of_drift }
+                });
             }
             first += observed.means.len();
         }
@@ -544,9 +548,11 @@ impl<'a> Model<'a> {
         let least =
             profiles.iter().flat_map(|profile| &profile.nodes).map(|node| node.1).fold(misfit, f64::min);
         if least > largest {
+            // An offset or a drift that explains what is too much is named.
+            self.check_speeds(surface, least - largest)?;
             return refused(FitRefusal::Misfit { misfit: least, degrees_of_freedom, largest });
         }
-        self.check_speeds(surface)?;
+        self.check_speeds(surface, 0.0)?;
         let rigid = 0.1 / self.nominal.parameters().drive_frequency;
         let parameters = self.ranges.iter().zip(profiles).enumerate().map(|(index, (range, profile))| {
             let accepted: Vec<AcceptedRange> = profile
