@@ -53,7 +53,7 @@ pub(crate) const ERRORS: f64 = 3.0;
 /// No speed counts as known better than this share of the stator's largest one.
 const RESOLUTION: f64 = 1e-3;
 
-/// Most transients, more than any experiment has, and most points of all measurements together.
+/// Most transients of a fit.
 const MOST_TRANSIENTS: usize = 100;
 
 /// The error of a computed curve between its points, as a share of the largest mean: no mean counts as known better.

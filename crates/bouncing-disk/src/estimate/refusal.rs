@@ -184,7 +184,7 @@ pub enum FitRefusal {
     #[cfg(feature = "fit")]
     #[error(
         "the speeds of transient {transient} (counted from 0) seem to drift by {drift:?} rad/s in a second, where the standard \
-         error is {standard_error:?}: the motor or the instrument warms up, or the load changes"
+         error is {standard_error:?}: the motor or the instrument warms up, the load changes, or the instrument adds something"
     )]
     Drift {
         /// Its place in the list.

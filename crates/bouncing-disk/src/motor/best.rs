@@ -544,12 +544,16 @@ impl Search<'_> {
                 let margin = |(bound, own): &(&QuantityBound, &Estimate)| bound.margin(own.value);
                 margin(one).total_cmp(&margin(other))
             });
-            return Err(failing.map_or(Error::LoadInTime, |(bound, own)| Error::NotKept {
-                quantity: bound.quantity.name(),
-                is_least: bound.is_least,
-                bound: bound.value,
-                nearest: own.value,
-            }));
+            return Err(match failing {
+                Some((bound, own)) if found.is_settled => Error::NotKept {
+                    quantity: bound.quantity.name(),
+                    is_least: bound.is_least,
+                    bound: bound.value,
+                    nearest: own.value,
+                },
+                // All that there is still drifts.
+                _ => Error::NotPositive { quantity: self.sought.objective.name(), value: found.value.value },
+            });
         };
         // A speed that friction does not give is that of rounding.
         let fastest = self.motor.system().platform().peak_angular_speed();

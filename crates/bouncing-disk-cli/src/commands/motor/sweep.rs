@@ -186,7 +186,7 @@ impl GridJob for SweepJob {
 
     fn report<'a>(&'a self, sweep: &'a MotorSweep, rows: &'a [Vec<OperatingRow>]) -> Result<Report<'a>> {
         let result = sweep.result(rows)?;
-        type Row = (Vec<f64>, Operation, usize, &'static str);
+        type Row = (Vec<f64>, Operation, usize, Option<&'static str>);
         let of = |row: &Row, quantity: SweepQuantity| quantity.of(&row.1);
         let coexist = result.cells().iter().any(|row| row.branches.len() > 1);
         let mut columns = Columns::<Row>::new();
@@ -214,7 +214,7 @@ impl GridJob for SweepJob {
         let mut rows: Vec<Row> = Vec::new();
         for (cell, (values, row)) in result.iter().enumerate() {
             let values: Vec<f64> = values.into_iter().map(|(_, value)| value).collect();
-            let way = if cell <= result.cells().len() / 2 { "up" } else { "down" };
+            let way = result.way(cell);
             let all = row.branches.iter().copied().zip(1..);
             rows.extend(all.map(|(operation, branch)| (values.clone(), operation, branch, way)));
         }
@@ -238,10 +238,10 @@ impl GridJob for SweepJob {
     }
 }
 
-/// Most vertical motions of which it is told whether they lock.
+/// Maps of more vertical motions do not mark locked cells.
 const MOST_REGIMES: usize = 2_000;
 
-/// Which cells have a motor with rigid impacts that locks on a short cycle; those of a group share their vertical motion.
+/// Whether the motor of each cell locks on a short cycle. The cells of a group share their vertical motion.
 fn locked(sweep: &MotorSweep) -> Result<Vec<bool>> {
     let mut locked = vec![false; sweep.cells()];
     if sweep.motor().rigid_sine().is_err() || sweep.groups().len() > MOST_REGIMES {

@@ -31,9 +31,10 @@ impl MotorSweepResult {
         Self { motor, settings, axes, cells, continued }
     }
 
-    /// Whether the values of a continued sweep went up or down to this cell; the first one goes with the second.
-    #[cfg(feature = "csv")]
-    pub(crate) fn way(&self, cell: usize) -> Option<&'static str> {
+    /// `up` or `down`: how the value of a continued sweep changed before this cell; the first cell has the way of the second.
+    /// `None` for other sweeps.
+    #[must_use]
+    pub fn way(&self, cell: usize) -> Option<&'static str> {
         let values = &self.axes.first().filter(|_| self.continued)?.values;
         let [before, own] = [cell.max(1) - 1, cell.max(1)].map(|cell| values.get(cell));
         Some(if own < before { "down" } else { "up" })
