@@ -25,6 +25,7 @@ use crate::motor::parameter_sweep::axis::{SweepAxis, check_axes};
 use crate::motor::parameter_sweep::groups::operations_in_groups;
 use crate::motor::parameter_sweep::quantity::SweepQuantity;
 use crate::motor::stator::Stator;
+use crate::statistics::student_quantile;
 
 /// Places along one field, and along each of two: of rigid impacts on a sine, where each takes milliseconds; of all else; and of
 /// stators that yield, where each takes a tenth of a second and more.
@@ -53,6 +54,12 @@ const SIDE: i32 = 16;
 const DEAR_SIDE: i32 = 8;
 const SURER: f64 = 2.0;
 
+/// Seeds of a line, in turn along it: places of one seed may share a vertical motion, and with it their errors.
+const SEEDS: usize = 8;
+
+/// Least places of a line.
+const LEAST: usize = 8;
+
 /// Most looks at one line, each with another length, and by how much that changes.
 const LOOKS: usize = 6;
 const LENGTHEN: f64 = 3.0;
@@ -63,6 +70,9 @@ const ROUNDING: f64 = 1e-6;
 /// A value beyond this share of the best one is good.
 const GOOD: f64 = 0.99;
 
+/// The part of a line that says how wide its top is: values beyond this share of the best one.
+const NEAR: f64 = 2.0 * GOOD - 1.0;
+
 /// Places of a cubic among which its top is taken.
 const FINE: i32 = 500;
 
@@ -70,6 +80,9 @@ const FINE: i32 = 500;
 /// range.
 const ROUGHEST: f64 = 0.25 * (1.0 - GOOD);
 const EXPLAINED: f64 = 1.5;
+
+/// Values with errors below this share of the best one say a range by themselves.
+const EXACT: f64 = 0.1 * (1.0 - GOOD);
 
 /// No value of a smooth line is so many times the scatter off.
 const OUTLIER: f64 = 4.0;
@@ -489,11 +502,21 @@ impl Search<'_> {
 
     /// Computes some of the places.
     fn measure(&mut self, all: &mut [Place], which: &[usize], error: f64) -> Result<(), Error> {
+        self.measure_with(all, which, error, self.settings.seed)
+    }
+
+    fn measure_with(
+        &mut self,
+        all: &mut [Place],
+        which: &[usize],
+        error: f64,
+        seed: u64,
+    ) -> Result<(), Error> {
         // An error takes impacts as its inverse square: a place that needs more is not known better, and stays open.
         let share = (self.settings.relative_error / error).min(1.0);
         let most_impacts = (self.settings.most_impacts as f64 * (share * share)).max(LEAST_IMPACTS) as u64;
         let most_impacts = most_impacts.min(self.settings.most_impacts);
-        let settings = OperatingSettings { relative_error: error, most_impacts, ..*self.settings };
+        let settings = OperatingSettings { relative_error: error, most_impacts, seed, ..*self.settings };
         let motors = which.iter().map(|index| self.sought.motor_at(self.motor, &all[*index].at));
         // What is legal at the ends may not be between them, such as a quality below a half: no place.
         let (mut legal, mut motors_of) = (Vec::new(), Vec::new());
@@ -608,10 +631,11 @@ impl Search<'_> {
             {
                 *place = all[first + better].clone();
             }
-            let top = place.found.as_ref().map_or(0.0, |found| found.value.value);
             let near =
                 new.iter().filter_map(|index| Some((all[*index].at[field], all[*index].found.as_ref()?)));
-            let (good, bad): (Vec<_>, Vec<_>) = near.partition(|(_, found)| found.value.value >= GOOD * top);
+            // Of this look: an earlier value of the same place may be off by its error.
+            let top = near.clone().fold(0.0, |most: f64, (_, found)| most.max(value(found)));
+            let (good, bad): (Vec<_>, Vec<_>) = near.partition(|(_, found)| value(found) >= GOOD * top);
             let sides = [-1.0, 1.0].map(|sign| {
                 let end = if sign < 0.0 { place.at[field] } else { 1.0 - place.at[field] };
                 let has_end = !range.is_turn() && end < half;
@@ -629,91 +653,157 @@ impl Search<'_> {
         let first = all.len();
         all.extend(along(place, half, self.side));
         let new: Vec<usize> = (first..all.len()).collect();
-        self.measure(all, &new, self.settings.relative_error / SURER)?;
+        let error = self.settings.relative_error / SURER;
+        for seed in 0..SEEDS {
+            let own: Vec<usize> = new.iter().copied().skip(seed).step_by(SEEDS).collect();
+            self.measure_with(all, &own, error, self.settings.seed.wrapping_add(1 + seed as u64))?;
+        }
         let known: Vec<(f64, &Found)> = new
             .iter()
             .filter_map(|index| {
                 Some(((all[*index].at[field] - place.at[field]) / half, all[*index].found.as_ref()?))
             })
             .collect();
-        Ok(self.fitted(place, field, half, &known, (all, new.len())))
+        if known.len() == new.len() {
+            let exact = self.exact_line(place, field, half, &known);
+            if let Some(line) = exact.or_else(|| self.smooth_line(place, field, half, &known)) {
+                return Ok(line);
+            }
+        }
+        Ok(self.rough_line(place, field, half, &known, all))
     }
 
-    /// The line through a place, by its values at offsets in [-1, 1].
-    fn fitted(
+    /// The line through a place where values are so well known that they say top and range by themselves, even across a kink;
+    /// moves the place to the best of them. `None` where bounds part the line: their places lie between.
+    fn exact_line(
         &self,
         place: &mut Place,
         field: usize,
         half: f64,
         known: &[(f64, &Found)],
-        (all, asked): (&[Place], usize),
-    ) -> Line {
-        let at = place.at[field];
-        let part = half / f64::from(self.side);
-        let values: Vec<(f64, f64)> = known.iter().map(|(x, found)| (*x, found.value.value)).collect();
-        let best = values.iter().fold(0.0, |most: f64, (_, value)| most.max(*value));
-        let bounds = (0..self.sought.bounds.len()).map(|bound| {
-            let own: Vec<(f64, f64)> =
-                known.iter().map(|(x, found)| (*x, found.bounds[bound].value)).collect();
-            Cubic::through(&own)
-        });
-        let bounds: Option<Vec<Cubic>> = bounds.collect();
+    ) -> Option<Line> {
+        let (top, best) = known
+            .iter()
+            .enumerate()
+            .max_by(|(_, one), (_, other)| value(one.1).total_cmp(&value(other.1)))?;
+        let largest = known.iter().map(|(_, found)| found.value.standard_error).fold(0.0, f64::max);
+        let keeps = |own: &(f64, &Found)| own.1.is_settled && own.1.margin(self.sought) >= 1.0;
+        if largest > EXACT * value(best.1) || !known.iter().all(keeps) {
+            return None;
+        }
+        let is_good = |own: &&(f64, &Found)| own.1.at_least() >= GOOD * best.1.at_most();
+        let up = known[top..].iter().take_while(is_good).last().unwrap_or(best);
+        let down = known[..=top].iter().rev().take_while(is_good).last().unwrap_or(best);
+        let beside = [known[top.saturating_sub(1)], known[(top + 1).min(known.len() - 1)]];
+        let (middle, error) = (place.at[field], 0.5 * half * (beside[1].0 - beside[0].0) / NORMAL_975);
+        let at = |own: &(f64, &Found)| middle + half * own.0;
+        place.at[field] = at(best);
+        // A kink between two places lies no higher than the slope beside it says.
+        let beside = value(best.1) - value(beside[0].1).min(value(beside[1].1));
+        let (best, good) = (at(best), Some([at(down), at(up)]));
+        Some(Line { best, top: [best - error, best + error], good, beside })
+    }
+
+    /// The line through a place where a cubic explains its values at offsets in [-1, 1]; moves the place to its top. The errors
+    /// of top and ends are those of the jackknife over the seeds.
+    fn smooth_line(
+        &self,
+        place: &mut Place,
+        field: usize,
+        half: f64,
+        known: &[(f64, &Found)],
+    ) -> Option<Line> {
+        let best = known.iter().map(|(_, found)| value(found)).fold(0.0, f64::max);
         let squares: f64 =
             known.iter().map(|(_, found)| found.value.standard_error * found.value.standard_error).sum();
         let explained = EXPLAINED * (squares / known.len() as f64).sqrt();
-        let smooth = Cubic::through(&values).filter(|cubic| {
-            known.len() == asked
+        let whole = Cubic::of(known.iter().copied(), value).filter(|cubic| {
+            known.len() >= LEAST
                 && cubic.scatter <= explained.max(ROUGHEST * best)
                 && cubic.largest <= OUTLIER * cubic.scatter.max(1e-12 * best)
-        });
-        let (Some(cubic), Some(bounds)) = (smooth, bounds) else {
-            let scatter = Cubic::through(&values).map_or(0.0, |cubic| cubic.scatter);
-            // Wherever a place may be as good.
-            let least = place.found.as_ref().map_or(f64::NEG_INFINITY, Found::at_least);
-            let may = all.iter().filter(|own| {
-                let beside = own.at.iter().zip(&place.at).enumerate();
-                let is_on_line = beside
-                    .into_iter()
-                    .all(|(index, (own, best))| index == field || own.total_cmp(best).is_eq());
-                is_on_line && own.found.as_ref().is_some_and(|found| found.at_most() >= least)
-            });
-            let top = may.fold([at - part, at + part], |[low, high], own| {
-                [low.min(own.at[field]), high.max(own.at[field])]
-            });
-            return Line { best: at, top, good: None, beside: NORMAL_975 * scatter.min(best) };
+        })?;
+        // A cubic holds near the top: what lies far below it says nothing of the range.
+        let is_near = |(x, _): &(f64, &Found)| whole.at(*x) >= NEAR * best;
+        let takes_near = known.iter().filter(|own| is_near(own)).count() >= LEAST;
+        let own = known.iter().copied().enumerate().filter(|(_, own)| !takes_near || is_near(own));
+        let own: Vec<(usize, (f64, &Found))> = own.collect();
+        let middle = place.at[field];
+        let Some([top, low, high]) = self.top_and_ends(&own, |_| true)? else {
+            let part = half / f64::from(self.side);
+            return Some(Line { best: middle, top: [middle - part, middle + part], good: None, beside: 0.0 });
         };
+        let without = (0..SEEDS).map(|seed| self.top_and_ends(&own, |index| index % SEEDS != seed));
+        let without = without.collect::<Option<Option<Vec<[f64; 3]>>>>()?;
+        let errors = without.map(|without| [0, 1, 2].map(|which| jackknife(&without, which)));
+        let at = |x: f64| middle + half * x;
+        let best = at(top);
+        place.at[field] = best;
+        let Some([top, at_low, at_high]) = errors else {
+            return Some(Line { best, top: [at(-1.0), at(1.0)], good: None, beside: 0.0 });
+        };
+        let good = [at(low + NORMAL_975 * at_low).min(best), at(high - NORMAL_975 * at_high).max(best)];
+        Some(Line { best, top: [best - half * top, best + half * top], good: Some(good), beside: 0.0 })
+    }
+
+    /// Where the cubic through some places has its top within the bounds, and between which offsets it is good; `None` within
+    /// where it keeps the bounds nowhere, and where there are too few places.
+    fn top_and_ends(
+        &self,
+        places: &[(usize, (f64, &Found))],
+        is_of: impl Fn(usize) -> bool,
+    ) -> Option<Option<[f64; 3]>> {
+        let own = || places.iter().filter(|(index, _)| is_of(*index)).map(|(_, own)| *own);
+        let cubic = Cubic::of(own(), value)?;
+        let bounds = (0..self.sought.bounds.len())
+            .map(|bound| Cubic::of(own(), |found| found.bounds[bound].value))
+            .collect::<Option<Vec<Cubic>>>()?;
         let keeps = |x: f64| {
             let own = self.sought.bounds.iter().zip(&bounds);
-            own.into_iter().all(|(bound, cubic)| bound.margin(cubic.at(x).0) >= 0.0)
+            own.into_iter().all(|(bound, cubic)| bound.margin(cubic.at(x)) >= 0.0)
         };
-        let [low, high] = [values[0].0, values[values.len() - 1].0];
+        let [low, high] = [places[0].1.0, places[places.len() - 1].1.0];
         let x = |k: i32| low + (high - low) * f64::from(k) / f64::from(FINE);
         let keeping = (0..=FINE).filter(|k| keeps(x(*k)));
-        let top = keeping.max_by(|one, other| cubic.at(x(*one)).0.total_cmp(&cubic.at(x(*other)).0));
-        let Some(top) = top else {
-            return Line { best: at, top: [at - part, at + part], good: None, beside: 0.0 };
-        };
-        let (value, error) = cubic.at(x(top));
-        let reach = |least: f64, errors: f64| {
-            let is_in = |k: &i32| {
-                let (value, error) = cubic.at(x(*k));
-                value + errors * error >= least && keeps(x(*k))
-            };
-            let up = (top..=FINE).take_while(is_in).last();
-            let down = (0..=top).rev().take_while(is_in).last();
-            Some([down?, up?].map(|k| at + half * x(k)))
-        };
-        let good = reach(GOOD * (value + error), -NORMAL_975);
-        let top_in = reach(value - error, 1.0).unwrap_or([at, at]);
-        let best = at + half * x(top);
-        place.at[field] = best;
-        Line { best, top: top_in, good, beside: 0.0 }
+        let top = keeping.max_by(|one, other| cubic.at(x(*one)).total_cmp(&cubic.at(x(*other))));
+        Some(top.map(|top| {
+            let least = GOOD * cubic.at(x(top));
+            let is_good = |k: &i32| cubic.at(x(*k)) >= least && keeps(x(*k));
+            let up = (top..=FINE).take_while(is_good).last().unwrap_or(top);
+            let down = (0..=top).rev().take_while(is_good).last().unwrap_or(top);
+            [top, down, up].map(x)
+        }))
+    }
+
+    /// The line through a place where values jump, by the places on it that may be as good.
+    fn rough_line(
+        &self,
+        place: &Place,
+        field: usize,
+        half: f64,
+        known: &[(f64, &Found)],
+        all: &[Place],
+    ) -> Line {
+        let (middle, part) = (place.at[field], half / f64::from(self.side));
+        let best = known.iter().map(|(_, found)| found.value.value).fold(0.0, f64::max);
+        let scatter = Cubic::of(known.iter().copied(), value).map_or(0.0, |cubic| cubic.scatter);
+        let least = place.found.as_ref().map_or(f64::NEG_INFINITY, Found::at_least);
+        let may = all.iter().filter(|own| {
+            let beside = own.at.iter().zip(&place.at).enumerate();
+            let is_on_line =
+                beside.into_iter().all(|(index, (own, best))| index == field || own.total_cmp(best).is_eq());
+            is_on_line && own.found.as_ref().is_some_and(|found| found.at_most() >= least)
+        });
+        let top = may.fold([middle - part, middle + part], |[low, high], own| {
+            [low.min(own.at[field]), high.max(own.at[field])]
+        });
+        Line { best: middle, top, good: None, beside: NORMAL_975 * scatter.min(best) }
     }
 
     /// The value at the best place, with other perturbations.
     fn result(&mut self, place: &Place, lines: &[Line], all: &[Place]) -> Result<Best, Error> {
         let motor = self.sought.motor_at(self.motor, &place.at)?;
-        let settings = OperatingSettings { seed: self.settings.seed.wrapping_add(1), ..*self.settings };
+        let settings =
+            OperatingSettings { seed: self.settings.seed.wrapping_add(1 + SEEDS as u64), ..*self.settings };
         // As many as motors.
         let row = operations_in_groups(&[motor], &settings, self.watch)?.swap_remove(0)?;
         let Some(found) = Found::of(self.sought, row.operation()) else {
@@ -742,6 +832,18 @@ impl Search<'_> {
         });
         Ok(Best { values: values.collect(), value, row, bounds: found.bounds, places: self.places })
     }
+}
+
+fn value(found: &Found) -> f64 {
+    found.value.value
+}
+
+/// The standard error of one of three numbers, each computed without each of [`SEEDS`] in turn, as large as few seeds make it.
+fn jackknife(without: &[[f64; 3]], which: usize) -> f64 {
+    let count = without.len() as f64;
+    let mean = without.iter().map(|own| own[which]).sum::<f64>() / count;
+    let squares: f64 = without.iter().map(|own| (own[which] - mean) * (own[which] - mean)).sum();
+    (squares * (count - 1.0) / count).sqrt() * student_quantile(count - 1.0) / NORMAL_975
 }
 
 /// By how much a place surely exceeds the two beside it along a field, beyond what these fall on: the height of a peak that is

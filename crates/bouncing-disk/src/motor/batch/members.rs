@@ -76,6 +76,13 @@ pub(crate) fn starting_phase(seed: u64, index: usize, members: usize) -> Result<
     Ok(Phase::new(TAU * (index as f64 + step) / members as f64)?)
 }
 
+/// Turns that the seed selects for phases that are spread by [`golden_share`], none for the seed 1.
+pub(crate) fn turn_of_seed(seed: u64) -> f64 {
+    /// 2^64 (sqrt(2) - 1): no step of the golden ratio.
+    const SILVER: u64 = 0x6a09_e667_f3bc_c908;
+    (seed.wrapping_sub(1).wrapping_mul(SILVER) >> 11) as f64 / (1_u64 << 53) as f64
+}
+
 /// Numbers that fill (0, 1) evenly.
 pub(crate) fn golden_share(index: usize) -> f64 {
     (index as f64 * 0.618_033_988_749_894_8).fract()

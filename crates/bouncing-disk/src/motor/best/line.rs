@@ -1,9 +1,8 @@
 //! Values along a line as a cubic, with what it does not explain.
 
-/// A least-squares cubic through values that are known with errors of one size.
+/// A least-squares cubic through values.
 ///
-/// Its terms are made orthogonal on the places by their recurrence (Forsythe 1957), so that each coefficient and its error
-/// stands by itself.
+/// Its terms are made orthogonal on the places by their recurrence (Forsythe 1957), so that none depends on the others.
 #[derive(Debug)]
 pub(super) struct Cubic {
     terms: Vec<Term>,
@@ -26,13 +25,18 @@ struct Term {
 /// Terms of a cubic.
 const TERMS: usize = 4;
 
-/// Least values, of which the scatter is known at all.
-pub(super) const LEAST: usize = TERMS + 4;
-
 impl Cubic {
-    /// Through values at different places; `None` for fewer than [`LEAST`].
+    /// Through a value of each of several places.
+    pub(super) fn of<'a, T: 'a>(
+        places: impl Iterator<Item = (f64, &'a T)>,
+        value: impl Fn(&T) -> f64,
+    ) -> Option<Self> {
+        Self::through(&places.map(|(x, own)| (x, value(own))).collect::<Vec<_>>())
+    }
+
+    /// Through values at different places; `None` for too few to know a scatter.
     pub(super) fn through(values: &[(f64, f64)]) -> Option<Self> {
-        if values.len() < LEAST {
+        if values.len() <= TERMS {
             return None;
         }
         let mut terms: Vec<Term> = Vec::with_capacity(TERMS);
@@ -60,16 +64,14 @@ impl Cubic {
         Some(Self { terms, scatter, largest })
     }
 
-    /// Its value at a place, and the standard error of that.
-    pub(super) fn at(&self, x: f64) -> (f64, f64) {
-        let (mut own, mut before) = (1.0, 0.0);
-        let (mut value, mut leverage) = (0.0, 0.0);
+    /// Its value at a place.
+    pub(super) fn at(&self, x: f64) -> f64 {
+        let (mut own, mut before, mut value) = (1.0, 0.0, 0.0);
         for term in &self.terms {
             value += term.coefficient * own;
-            leverage += own * own / term.square;
             (own, before) = ((x - term.shift) * own - term.back * before, own);
         }
-        (value, self.scatter * leverage.sqrt())
+        value
     }
 }
 
@@ -85,22 +87,18 @@ mod tests {
             let values: Vec<(f64, f64)> = places.map(|x| (x, cubic(x))).collect();
             let found = Cubic::through(&values).expect("enough");
             for x in [-1.0, -0.3, 0.0, 0.77, 1.5] {
-                assert!((found.at(x).0 - cubic(x)).abs() < 1e-11, "{x} {found:?}");
+                assert!((found.at(x) - cubic(x)).abs() < 1e-11, "{x} {found:?}");
             }
             assert!(found.largest < 1e-12 && found.scatter < 1e-12);
         }
-        assert!(Cubic::through(&[(0.0, 1.0); LEAST - 1]).is_none());
+        assert!(Cubic::through(&[(0.0, 1.0); TERMS]).is_none());
     }
 
-    /// Against the textbook's errors of a mean and of a straight line's slope, by values that alternate.
     #[test]
-    fn its_error_is_that_of_the_scatter() {
+    fn its_scatter_is_that_of_the_values() {
         let values: Vec<(f64, f64)> =
             (-20..=20).map(|k| (0.05 * f64::from(k), if k % 2 == 0 { 0.1 } else { -0.1 })).collect();
         let found = Cubic::through(&values).expect("enough");
         assert!((found.scatter - 0.1).abs() < 0.01 && found.largest < 0.12);
-        // In the middle of many even places 9/4 of that of a mean.
-        let (_, error) = found.at(0.0);
-        assert!((error / (found.scatter * (2.25_f64 / 41.0).sqrt()) - 1.0).abs() < 0.05, "{error}");
     }
 }

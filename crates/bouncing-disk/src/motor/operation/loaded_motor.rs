@@ -81,11 +81,11 @@ impl LoadedMotor<'_> {
     }
 
     /// Its vertical motions; `None` as for [`Survey::of`].
-    pub(super) fn survey(&self, watch: &Watch<'_>) -> Result<Option<Survey>, Error> {
+    pub(super) fn survey(&self, seed: u64, watch: &Watch<'_>) -> Result<Option<Survey>, Error> {
         if self.stator.acts_back() {
             return Ok(None);
         }
-        Survey::of(&self.stator.for_motor(&self.system)?, &self.dimensionless()?, watch)
+        Survey::of(&self.stator.for_motor(&self.system)?, &self.dimensionless()?, seed, watch)
     }
 
     /// The same motor under another load torque (N m).

@@ -72,7 +72,7 @@ pub(crate) fn stall_load(
     settings: &OperatingSettings,
     observer: &dyn Observer,
 ) -> Result<StallLoad, Error> {
-    let survey = motor.survey(&Watch::begin(observer, 0, settings.most_impacts)?)?;
+    let survey = motor.survey(settings.seed, &Watch::begin(observer, 0, settings.most_impacts)?)?;
     let motor = &LoadedMotor { surveyed: survey.as_ref(), first_only: motor.stator.acts_back(), ..*motor };
     let unloaded = operate(&[motor.with_load(0.0)?], settings, observer)?;
     let unloaded = &unloaded.rows[0];

@@ -190,7 +190,8 @@ fn operate_from(
     let (is_timed, length_of_all) = (length.is_some(), length.unwrap_or(SHORTEST).0);
     if asked > 0 {
         let watch = Watch::begin(observer, 0, settings.most_impacts)?;
-        survey = if carried[0].surveyed.is_some() { None } else { carried[0].survey(&watch)? };
+        survey =
+            if carried[0].surveyed.is_some() { None } else { carried[0].survey(settings.seed, &watch)? };
         carried.iter_mut().for_each(|motor| motor.surveyed = motor.surveyed.or(survey.as_ref()));
         let run = |motors: Vec<LoadedMotor<'_>>, asked: usize, reference: Option<f64>| {
             let (length, mut slower) = length.unwrap_or(SHORTEST);

@@ -10,7 +10,7 @@ use bouncing_disk_core::Phase;
 use bouncing_disk_core::run::{Watch, WorkCount, in_parallel};
 
 use crate::error::Error;
-use crate::motor::batch::members::golden_share;
+use crate::motor::batch::members::{golden_share, turn_of_seed};
 use crate::motor::operation::member::{is_thrown, thrown};
 use crate::motor::stator::Stator;
 use crate::motor::tape::Tape;
@@ -82,17 +82,18 @@ impl Lived {
 }
 
 impl Survey {
-    /// The motions of a disk of this system; `None` on a stator that yields, and for rigid impacts on one with kinks.
+    /// The motions of a disk of this system, from phases that the seed turns; `None` on a stator that yields, and for rigid impacts on one with kinks.
     pub(crate) fn of(
         stator: &Stator,
         system: &DimensionlessSystem,
+        seed: u64,
         watch: &Watch<'_>,
     ) -> Result<Option<Self>, Error> {
         if stator.yields() || !stator.takes_time() && stator.has_kinks() {
             return Ok(None);
         }
         let start = |index: usize| {
-            let phase = Phase::new(TAU * golden_share(index))?;
+            let phase = Phase::new(TAU * (golden_share(index) + turn_of_seed(seed)))?;
             Source::new(stator, system, (phase, thrown(index)), (0.0, 0))
         };
         let mut found = Self { cycles: Vec::new(), irregular: None, from_rest: 0, life: Lived::default() };
