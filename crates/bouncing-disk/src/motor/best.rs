@@ -31,7 +31,7 @@ use crate::statistics::student_quantile;
 /// stators that yield, where each takes a tenth of a second and more.
 const CHEAP_PLACES: [usize; 2] = [400, 32];
 const PLACES: [usize; 2] = [200, 16];
-const DEAR_PLACES: [usize; 2] = [64, 10];
+const DEAR_PLACES: [usize; 2] = [64, 8];
 
 /// Places along a field that leaves the vertical motion as it is, such as load or lag: no motion locks between them.
 const SMOOTH_PLACES: usize = 64;
@@ -39,6 +39,10 @@ const SMOOTH_PLACES: usize = 64;
 /// The first grid is at most so accurate, and each further pass over what may be the best so many times more.
 const ROUGH: f64 = 0.1;
 const FINER: f64 = 3.0;
+
+/// The share of the settings' most impacts that a place may have on the way to the optimum: few places that do not settle would
+/// take most of the time.
+const SHARE_OF_PLACE: f64 = 0.125;
 
 /// Impacts that any place may have.
 const LEAST_IMPACTS: f64 = 1e5;
@@ -53,6 +57,9 @@ const LOOK: i32 = 4;
 const SIDE: i32 = 16;
 const DEAR_SIDE: i32 = 8;
 const SURER: f64 = 2.0;
+
+/// The largest error that may be asked for.
+const LEAST_KNOWN: f64 = 0.5;
 
 /// Seeds of a line, in turn along it: places of one seed may share a vertical motion, and with it their errors.
 const SEEDS: usize = 8;
@@ -351,6 +358,14 @@ impl BestSearch {
     }
 }
 
+impl OperatingSettings {
+    /// The same with a share of the impacts.
+    fn with_share(self, share: f64) -> Self {
+        let most_impacts = (self.most_impacts as f64 * share).max(LEAST_IMPACTS) as u64;
+        Self { most_impacts: most_impacts.min(self.most_impacts), ..self }
+    }
+}
+
 impl SearchRange {
     fn value(&self, at: f64) -> f64 {
         self.low + (self.high - self.low) * at
@@ -502,21 +517,18 @@ impl Search<'_> {
 
     /// Computes some of the places.
     fn measure(&mut self, all: &mut [Place], which: &[usize], error: f64) -> Result<(), Error> {
-        self.measure_with(all, which, error, self.settings.seed)
+        let settings = OperatingSettings { relative_error: error, ..*self.settings };
+        // An error takes impacts as its inverse square: a place that needs more is not known better, and stays open.
+        let share = (self.settings.relative_error / error).min(1.0);
+        self.measure_with(all, which, &settings.with_share(share * share * SHARE_OF_PLACE))
     }
 
     fn measure_with(
         &mut self,
         all: &mut [Place],
         which: &[usize],
-        error: f64,
-        seed: u64,
+        settings: &OperatingSettings,
     ) -> Result<(), Error> {
-        // An error takes impacts as its inverse square: a place that needs more is not known better, and stays open.
-        let share = (self.settings.relative_error / error).min(1.0);
-        let most_impacts = (self.settings.most_impacts as f64 * (share * share)).max(LEAST_IMPACTS) as u64;
-        let most_impacts = most_impacts.min(self.settings.most_impacts);
-        let settings = OperatingSettings { relative_error: error, most_impacts, seed, ..*self.settings };
         let motors = which.iter().map(|index| self.sought.motor_at(self.motor, &all[*index].at));
         // What is legal at the ends may not be between them, such as a quality below a half: no place.
         let (mut legal, mut motors_of) = (Vec::new(), Vec::new());
@@ -530,7 +542,7 @@ impl Search<'_> {
             }
         }
         self.places += legal.len();
-        let rows = operations_in_groups(&motors_of, &settings, self.watch)?;
+        let rows = operations_in_groups(&motors_of, settings, self.watch)?;
         for (index, row) in legal.into_iter().zip(rows) {
             match row {
                 Ok(row) => all[index].found = Found::of(self.sought, row.operation()),
@@ -653,10 +665,17 @@ impl Search<'_> {
         let first = all.len();
         all.extend(along(place, half, self.side));
         let new: Vec<usize> = (first..all.len()).collect();
-        let error = self.settings.relative_error / SURER;
+        let relative_error = self.settings.relative_error / SURER;
+        let settings = OperatingSettings { relative_error, ..*self.settings };
+        let mut settings = settings.with_share(SHARE_OF_PLACE);
+        // One motion for the whole line becomes eight that are together as long.
+        if self.sought.leaves_height(self.motor, field)? {
+            settings.relative_error = (relative_error * (SEEDS as f64).sqrt()).min(LEAST_KNOWN);
+        }
         for seed in 0..SEEDS {
             let own: Vec<usize> = new.iter().copied().skip(seed).step_by(SEEDS).collect();
-            self.measure_with(all, &own, error, self.settings.seed.wrapping_add(1 + seed as u64))?;
+            settings.seed = self.settings.seed.wrapping_add(1 + seed as u64);
+            self.measure_with(all, &own, &settings)?;
         }
         let known: Vec<(f64, &Found)> = new
             .iter()
