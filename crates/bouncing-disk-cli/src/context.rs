@@ -81,6 +81,7 @@ impl Watcher {
         let share = share.min(1.0);
         self.bar.set_position((share * STEPS as f64) as u64);
         if let Some(next) = &self.next_line
+            && share < 1.0
             && let Ok(mut next) = next.try_lock()
             && Instant::now() >= *next
         {

@@ -22,7 +22,12 @@ fn printed(folder: &Folder, command: &str) -> Vec<String> {
         .output()
         .unwrap();
     let text = String::from_utf8(output.stdout).unwrap();
-    text.lines().map(|line| line.trim_end().to_owned()).collect()
+    text.lines().map(|line| line.trim_end().to_owned()).filter(|line| !is_progress(line)).collect()
+}
+
+/// Whether a line says how long a call will take, as after five seconds on a slow machine: "motor stall: 40 %, some 9 s left".
+fn is_progress(line: &str) -> bool {
+    line.split_once(": ").is_some_and(|(_, rest)| rest.ends_with(" %") || rest.contains(" %, some "))
 }
 
 /// The text with what its commands print now.
@@ -84,6 +89,8 @@ fn the_page_of_the_crate_prints_what_it_says() {
 fn a_wrong_output_is_seen() {
     let text = "```console\n$ echo one; echo two >&2\none\n```\n```sh\n$ exit 1\n```\n";
     assert_eq!(renewed(text), "```console\n$ echo one; echo two >&2\none\ntwo\n```\n```sh\n$ exit 1\n```\n");
+    let slow = "```console\n$ echo 'motor best: 2 %, some 9 s left'; echo 'motor best: 0 %'; echo speed: 2\nspeed: 2\n```\n";
+    assert_eq!(renewed(slow), slow);
 }
 
 /// The help of each command says what it computes, shows an example, and its examples are legal lines.
