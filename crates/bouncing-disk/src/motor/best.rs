@@ -58,8 +58,8 @@ const SIDE: i32 = 16;
 const DEAR_SIDE: i32 = 8;
 const SURER: f64 = 2.0;
 
-/// The largest error that may be asked for.
-const LEAST_KNOWN: f64 = 0.5;
+/// The largest relative error that settings may ask for.
+const LARGEST_ERROR: f64 = 0.5;
 
 /// Seeds of a line, in turn along it: places of one seed may share a vertical motion, and with it their errors.
 const SEEDS: usize = 8;
@@ -670,7 +670,7 @@ impl Search<'_> {
         let mut settings = settings.with_share(SHARE_OF_PLACE);
         // One motion for the whole line becomes eight that are together as long.
         if self.sought.leaves_height(self.motor, field)? {
-            settings.relative_error = (relative_error * (SEEDS as f64).sqrt()).min(LEAST_KNOWN);
+            settings.relative_error = (relative_error * (SEEDS as f64).sqrt()).min(LARGEST_ERROR);
         }
         for seed in 0..SEEDS {
             let own: Vec<usize> = new.iter().copied().skip(seed).step_by(SEEDS).collect();
@@ -717,14 +717,14 @@ impl Search<'_> {
         let (middle, error) = (place.at[field], 0.5 * half * (beside[1].0 - beside[0].0) / NORMAL_975);
         let at = |own: &(f64, &Found)| middle + half * own.0;
         place.at[field] = at(best);
-        // A kink between two places lies no higher than the slope beside it says.
+        // The slope on the lower side bounds how high a kink between two places rises.
         let beside = value(best.1) - value(beside[0].1).min(value(beside[1].1));
         let (best, good) = (at(best), Some([at(down), at(up)]));
         Some(Line { best, top: [best - error, best + error], good, beside })
     }
 
-    /// The line through a place where a cubic explains its values at offsets in [-1, 1]; moves the place to its top. The errors
-    /// of top and ends are those of the jackknife over the seeds.
+    /// The line through a place where a cubic explains its values at offsets in [-1, 1]; moves the place to its top. The jackknife
+    /// over the seeds gives the errors of top and ends.
     fn smooth_line(
         &self,
         place: &mut Place,
@@ -741,7 +741,7 @@ impl Search<'_> {
                 && cubic.scatter <= explained.max(ROUGHEST * best)
                 && cubic.largest <= OUTLIER * cubic.scatter.max(1e-12 * best)
         })?;
-        // A cubic holds near the top: what lies far below it says nothing of the range.
+        // A cubic describes the line well near its top only.
         let is_near = |(x, _): &(f64, &Found)| whole.at(*x) >= NEAR * best;
         let takes_near = known.iter().filter(|own| is_near(own)).count() >= LEAST;
         let own = known.iter().copied().enumerate().filter(|(_, own)| !takes_near || is_near(own));
@@ -760,8 +760,9 @@ impl Search<'_> {
         let Some([top, at_low, at_high]) = errors else {
             return Some(Line { best, top: [at(-1.0), at(1.0)], good: None, beside: 0.0 });
         };
-        let good = [at(low + NORMAL_975 * at_low).min(best), at(high - NORMAL_975 * at_high).max(best)];
-        Some(Line { best, top: [best - half * top, best + half * top], good: Some(good), beside: 0.0 })
+        let good = [at(low + NORMAL_975 * at_low), at(high - NORMAL_975 * at_high)];
+        let good = (good[0] <= best && best <= good[1]).then_some(good);
+        Some(Line { best, top: [best - half * top, best + half * top], good, beside: 0.0 })
     }
 
     /// Where the cubic through some places has its top within the bounds, and between which offsets it is good; `None` within

@@ -147,3 +147,31 @@ fn threads_change_no_bit_and_a_stop_is_told() {
         sought(SweepQuantity::Speed, &[range(MotorField::Friction, 0.1, 0.3)], &["input_power >= 0"]);
     check_stops(None, |observer| motor.best(&sought, &quick(), observer));
 }
+
+/// Contacts of 0.28 periods whose motion is irregular. All seeds gave the same bits.
+#[test]
+fn seeds_tell_the_error_of_irregular_contacts() {
+    let motor = tapped().with(|sheet| sheet.contact = Some(Contact::lasting(7e-6))).expect("legal");
+    let speeds: Vec<Estimate> = (1..=12)
+        .map(|seed| {
+            let settings = OperatingSettings { seed, ..quick() };
+            let row = motor.operating_point(0.0, &settings, &Unobserved).expect("no failure");
+            SweepQuantity::Speed.of(row.operation()).expect("known")
+        })
+        .collect();
+    let mean = speeds.iter().map(|own| own.value).sum::<f64>() / 12.0;
+    let squares: f64 = speeds.iter().map(|own| (own.value - mean) * (own.value - mean)).sum();
+    let stated: f64 = speeds.iter().map(|own| own.standard_error * own.standard_error).sum::<f64>() / 12.0;
+    let ratio = (squares / 11.0 / stated).sqrt();
+    assert!(ratio > 0.3 && ratio < 1.7, "{ratio} {speeds:?}");
+}
+
+/// Against the closed form of a mean: Student's error with the scatter of the values.
+#[test]
+fn the_jackknife_of_a_mean_is_its_error() {
+    let values = [1.0, 4.0, 2.0, 8.0, 5.0, 7.0, 3.0, 6.0];
+    let sum: f64 = values.iter().sum();
+    let without: Vec<[f64; 3]> = values.iter().map(|own| [0.0, (sum - own) / 7.0, 0.0]).collect();
+    let expected = crate::motor::operation::point::error_of_mean(&values);
+    assert!((jackknife(&without, 1) - expected).abs() < 1e-14);
+}
