@@ -104,13 +104,9 @@ def run(program: str, timeout: float = 60.0) -> str:
 @pytest.mark.parametrize("kind", ENDLESS)
 def test_ctrl_c_ends_a_call_soon(kind: str) -> None:
     program = INTERRUPTED.replace("TESTS", repr(str(Path(__file__).parent)))
-    # Best of three: the machine may be busy.
-    times = []
-    for _ in range(3):
-        times.append(float(run(program.replace("CALL", ENDLESS[kind]))))
-        if times[-1] < 0.2:
-            break
-    assert min(times) < 0.2, times
+    # It takes 0.05 to 0.2 s on an idle machine. On a busy one a second still tells a call that looks for an interrupt from
+    # one that goes on for minutes.
+    assert float(run(program.replace("CALL", ENDLESS[kind]))) < 1.0
 
 
 def test_progress_is_told_by_the_calling_thread_and_ends_at_the_total() -> None:
