@@ -12,5 +12,5 @@ pub(crate) mod paper;
 pub mod printed;
 
 pub use catalogue::Class;
-pub use claim::{Claim, Computed, SingleOrbits, Source, all, any};
+pub use claim::{Claim, Computed, SingleOrbits, all, any};
 pub use judging::{Cases, Kind, Verdict};

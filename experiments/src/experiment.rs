@@ -1,20 +1,20 @@
-//! The parts of a figure or table of the paper: data, drawing, claims.
+//! Figures and tables of the paper: what their functions record, and the files that are made of it.
 
 use std::fmt;
 use std::str::FromStr;
 
 use bouncing_disk::core::ChatterPolicy;
-use bouncing_disk::store::{Format, Provenance, StorageError};
+use bouncing_disk::store::{Provenance, StorageError};
 use bouncing_disk_plot::{DrawError, Figure};
-use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
+use serde_json::{Map, Value};
 
 use crate::claims::catalogue::CatalogueError;
 use crate::claims::{Claim, answers};
 use crate::json::{self, FiniteError};
 use crate::progress::Progress;
-use crate::provenance;
+use crate::report::{self, TemplateError};
+use crate::{output, provenance};
 
 /// How finely an experiment samples its parameters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -82,6 +82,9 @@ pub enum ExperimentError {
     /// The figure could not be drawn.
     #[error("the figure could not be drawn")]
     Draw(#[from] DrawError),
+    /// The function of the figure ended without a drawing.
+    #[error("nothing was drawn")]
+    NoDrawing,
     /// The data cannot be stored: a number is infinite or not a number.
     #[error("the data cannot be stored")]
     Data(#[from] FiniteError),
@@ -94,6 +97,9 @@ pub enum ExperimentError {
     /// A number printed in the paper could not be read.
     #[error("the catalogue of printed numbers failed")]
     Catalogue(#[from] CatalogueError),
+    /// The discussion refers to a number that no claim has.
+    #[error("the discussion cannot be filled in")]
+    Discussion(#[from] TemplateError),
     /// A number or statement has no data to be judged by.
     #[error("\"{quantity}\" has no data to be judged by")]
     NoData {
@@ -152,191 +158,224 @@ pub fn chain(error: &dyn std::error::Error) -> String {
     text
 }
 
-/// One figure or table of the paper.
-///
-/// Everything is an associated function: an experiment has no state besides its data.
-pub trait Experiment: Sync + Send + 'static {
-    /// The computed numbers: plain, serialisable, units in the field names. A number that does not exist is
-    /// an `Option`, never a NaN: storing a number that is not finite is an error.
-    type Data: Serialize + DeserializeOwned + Send + Sync + 'static;
-
+/// A figure or table of the paper: one function, which computes and records.
+#[derive(Debug, Clone, Copy)]
+pub struct Experiment {
     /// `fig01` ... `fig14`, `table1` ... `table3`.
-    const ID: &'static str;
-
+    pub id: &'static str,
     /// A short title for the gallery and for lists.
-    const TITLE: &'static str;
+    pub title: &'static str,
+    /// A description of the figure, in a paragraph for `docs/results.md`. `{{ claims["section4.merging"] }}` stands for the
+    /// computed number of the claim that answers this entry of the [catalogue](crate::claims::catalogue).
+    pub discussion: &'static str,
+    /// Computes and records all that belongs to the figure. Deterministic: the same bits on every machine and with every
+    /// number of threads.
+    pub make: fn(&mut Paper<'_>) -> Result<(), ExperimentError>,
+}
 
-    /// A description of the figure, in a paragraph for `docs/results.md`. `{section4.merging}` stands for the computed number of the claim that answers this entry of the
-    /// [catalogue](crate::claims::catalogue).
-    const DISCUSSION: &'static str = "";
-    /// How a chattering sequence ends in the picture, if it shows one. A figure that compares both policies
-    /// says so in its data.
-    const CHATTER_POLICY: Option<ChatterPolicy> = None;
+/// What a figure's function records.
+pub struct Paper<'a> {
+    /// How finely to sample.
+    pub quality: Quality,
+    /// Where to report how far it is.
+    pub progress: &'a dyn Progress,
+    seeds: Vec<(&'static str, u64)>,
+    chatter_policy: Option<ChatterPolicy>,
+    caption: String,
+    parameters: Vec<(String, String)>,
+    claims: Vec<Claim>,
+    data: Map<String, Value>,
+    figure: Option<Figure>,
+}
 
-    /// The random draws and their seeds; the first is *the* seed of the figure.
-    fn seeds() -> Vec<(&'static str, u64)> {
-        Vec::new()
-    }
-
-    /// The caption, plain text with Unicode Greek.
-    fn caption(data: &Self::Data) -> String;
-
-    /// Computes the data. Deterministic: the same bits on every machine and with every number of threads.
-    fn compute(quality: Quality, progress: &dyn Progress) -> Result<Self::Data, ExperimentError>;
-
-    /// Draws the data.
-    fn draw(data: &Self::Data) -> Result<Figure, ExperimentError>;
-
-    /// Every number and statement the paper prints about this figure, compared with the data, each taken from
-    /// the [catalogue](crate::claims::catalogue) by its key. Entries of the catalogue that have a reason why
-    /// nothing can be computed are added by the framework.
-    fn claims(_data: &Self::Data) -> Vec<Claim> {
-        Vec::new()
-    }
-
-    /// Name and value with unit, for the gallery.
-    fn parameters(_data: &Self::Data) -> Vec<(String, String)> {
-        Vec::new()
+impl fmt::Debug for Paper<'_> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.debug_struct("Paper").field("caption", &self.caption).finish_non_exhaustive()
     }
 }
 
-/// [`Experiment::parameters`] of known names.
+impl Paper<'_> {
+    /// The seed of some random draws. The first is *the* seed of the figure.
+    pub fn seed(&mut self, draws: &'static str, seed: u64) -> u64 {
+        self.seeds.push((draws, seed));
+        seed
+    }
+
+    /// How a chattering sequence ends in the picture, if it shows one. A figure that compares both policies says so in its
+    /// data.
+    pub fn chattering(&mut self, policy: ChatterPolicy) {
+        self.chatter_policy = Some(policy);
+    }
+
+    /// The caption, plain text with Unicode Greek.
+    pub fn caption(&mut self, text: impl Into<String>) {
+        self.caption = text.into();
+    }
+
+    /// A parameter for the gallery: its name, and its value with unit.
+    pub fn parameter(&mut self, name: impl Into<String>, value: impl ToString) {
+        self.parameters.push((name.into(), value.to_string()));
+    }
+
+    /// Parameters whose names are computed.
+    pub fn parameters(&mut self, rows: impl IntoIterator<Item = (String, String)>) {
+        self.parameters.extend(rows);
+    }
+
+    /// A number or statement that the paper prints, compared with the data; taken from the
+    /// [catalogue](crate::claims::catalogue) by its key. Entries of the catalogue that have a reason why nothing can be
+    /// computed are added by themselves.
+    pub fn claim(&mut self, claim: Claim) {
+        self.claims.push(claim);
+    }
+
+    /// Several of them.
+    pub fn claims(&mut self, claims: impl IntoIterator<Item = Claim>) {
+        self.claims.extend(claims);
+    }
+
+    /// The computed numbers: fields with their units in the names. A number that does not exist is an `Option`, never a NaN.
+    ///
+    /// # Errors
+    /// [`ExperimentError::Data`] for a number that is not finite.
+    pub fn data(&mut self, data: &impl Serialize) -> Result<(), ExperimentError> {
+        if let Value::Object(fields) = json::to_value(data)? {
+            self.data.extend(fields);
+        }
+        Ok(())
+    }
+
+    /// The drawing.
+    pub fn draw(&mut self, figure: Figure) {
+        self.figure = Some(figure);
+    }
+}
+
+/// [`Paper::parameters`] of known names.
 pub(crate) fn named<const N: usize>(parameters: [(&str, String); N]) -> Vec<(String, String)> {
     parameters.map(|(name, value)| (name.to_owned(), value)).to_vec()
 }
 
-/// Data of an experiment, whatever their type, and all that is made from them.
+/// The contents of `ID.json`: all that was recorded but the drawing.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Record {
+    /// The first part of a file of any format version to be read.
+    pub provenance: Provenance,
+    /// See [`Experiment::id`].
+    pub id: String,
+    /// See [`Experiment::title`].
+    pub title: String,
+    /// How finely it was sampled.
+    pub quality: Quality,
+    /// See [`Paper::caption`].
+    pub caption: String,
+    /// [`Experiment::discussion`] with its numbers.
+    pub discussion: String,
+    /// See [`Paper::parameter`].
+    pub parameters: Vec<(String, String)>,
+    /// See [`Paper::claim`]; with those of entries that nothing can be computed for.
+    pub claims: Vec<Claim>,
+    /// See [`Paper::data`].
+    pub data: Value,
+}
+
+/// A figure that was computed.
 #[derive(Debug)]
 pub struct Made {
-    /// The data as JSON.
-    pub data: Value,
-    /// See [`Experiment::caption`].
-    pub caption: String,
-    /// See [`Experiment::parameters`].
-    pub parameters: Vec<(String, String)>,
-    /// See [`Experiment::claims`]; with those of entries that nothing can be computed for.
-    pub claims: Vec<Claim>,
-    /// See [`Experiment::draw`].
+    /// All but the drawing.
+    pub record: Record,
+    /// See [`Paper::draw`].
     pub figure: Figure,
 }
 
-impl Made {
-    fn of<E: Experiment>(data: &E::Data) -> Result<Self, ExperimentError> {
-        let mut claims = E::claims(data);
-        claims.extend(answers::not_computable(E::ID));
+impl Experiment {
+    /// Runs the experiment.
+    ///
+    /// # Errors
+    /// Those of its function, and where it records a claim without data.
+    pub fn compute(&self, quality: Quality, progress: &dyn Progress) -> Result<Made, ExperimentError> {
+        let mut paper = Paper {
+            quality,
+            progress,
+            seeds: Vec::new(),
+            chatter_policy: None,
+            caption: String::new(),
+            parameters: Vec::new(),
+            claims: Vec::new(),
+            data: Map::new(),
+            figure: None,
+        };
+        (self.make)(&mut paper)?;
+        let mut claims = std::mem::take(&mut paper.claims);
+        claims.extend(answers::not_computable(self.id));
         if let Some(claim) = claims.iter().find(|claim| claim.lacks_data()) {
             return Err(ExperimentError::NoData { quantity: claim.quantity.clone() });
         }
-        Ok(Self {
-            data: json::to_value(data)?,
-            caption: E::caption(data),
-            parameters: E::parameters(data),
+        let record = Record {
+            provenance: self.provenance(&paper)?,
+            id: self.id.to_owned(),
+            title: self.title.to_owned(),
+            quality,
+            caption: paper.caption,
+            discussion: report::discussion(self, &claims)?,
+            parameters: paper.parameters,
             claims,
-            figure: E::draw(data)?,
-        })
-    }
-}
-
-/// An experiment whose data type is erased, so that a list can hold all of them.
-#[derive(Debug)]
-pub struct RegisteredExperiment {
-    /// See [`Experiment::ID`].
-    pub id: &'static str,
-    /// See [`Experiment::TITLE`].
-    pub title: &'static str,
-    /// See [`Experiment::DISCUSSION`].
-    pub discussion: &'static str,
-    /// See [`Experiment::seeds`].
-    pub seeds: Vec<(&'static str, u64)>,
-    /// See [`Experiment::CHATTER_POLICY`].
-    pub chatter_policy: Option<ChatterPolicy>,
-    compute: fn(Quality, &dyn Progress) -> Result<Made, ExperimentError>,
-    read: fn(&[u8]) -> Result<Stored, ExperimentError>,
-}
-
-/// The type-erased form of the experiment `E`.
-pub fn entry<E: Experiment>() -> RegisteredExperiment {
-    RegisteredExperiment {
-        id: E::ID,
-        title: E::TITLE,
-        discussion: E::DISCUSSION,
-        seeds: E::seeds(),
-        chatter_policy: E::CHATTER_POLICY,
-        compute: |quality, progress| Made::of::<E>(&E::compute(quality, progress)?),
-        read: |bytes| {
-            let record: Record<E::Data> = serde_json::from_slice(bytes).map_err(ExperimentError::Stored)?;
-            Ok((Made::of::<E>(&record.data)?, record.quality, record.provenance))
-        },
-    }
-}
-
-/// The name and content of a file.
-pub type File = (String, Vec<u8>);
-
-/// What is made from stored data, and their quality and origin.
-pub type Stored = (Made, Quality, Provenance);
-
-/// The part of `ID.json` that every version has.
-#[derive(Deserialize)]
-struct Origin {
-    provenance: Option<Value>,
-}
-
-/// The contents of `ID.json`.
-#[derive(Serialize, Deserialize)]
-struct Record<Data> {
-    /// The first part of a file of any format version to be read.
-    provenance: Provenance,
-    id: String,
-    title: String,
-    quality: Quality,
-    caption: String,
-    parameters: Vec<(String, String)>,
-    data: Data,
-}
-
-impl RegisteredExperiment {
-    /// Runs the experiment.
-    pub fn compute(&self, quality: Quality, progress: &dyn Progress) -> Result<Made, ExperimentError> {
-        (self.compute)(quality, progress)
+            data: Value::Object(paper.data),
+        };
+        Ok(Made { record, figure: paper.figure.ok_or(ExperimentError::NoDrawing)? })
     }
 
-    /// The origin of a file of this format. Where the experiment has several seeds, the first is *the* seed,
-    /// and all of them are among the parameters, by the names of their draws.
-    pub fn provenance(&self, format: Format, quality: Quality) -> Result<Provenance, StorageError> {
-        let mut provenance = provenance::new(format).with("figure", self.id)?.with("quality", &quality)?;
-        if let Some((_, first)) = self.seeds.first() {
+    /// The origin of its files. Where it has several seeds, the first is *the* seed, and all of them are among the
+    /// parameters, by the names of their draws.
+    fn provenance(&self, paper: &Paper<'_>) -> Result<Provenance, StorageError> {
+        let new = provenance::new(provenance::FIGURE);
+        let mut provenance = new.with("figure", self.id)?.with("quality", &paper.quality)?;
+        if let Some((_, first)) = paper.seeds.first() {
             provenance = provenance.with_seed(*first);
         }
-        if self.seeds.len() > 1 {
-            provenance = provenance.with("seeds", &self.seeds)?;
+        if paper.seeds.len() > 1 {
+            provenance = provenance.with("seeds", &paper.seeds)?;
         }
-        if let Some(policy) = self.chatter_policy {
+        if let Some(policy) = paper.chatter_policy {
             provenance = provenance.with_chatter_policy(policy);
         }
-        Ok(provenance)
+        provenance.with("values", &paper.parameters)
     }
+}
 
-    /// Runs the experiment and makes its files, `ID.json` and `ID.svg`, which say where they come from ([`provenance`]), and
-    /// `ID.png`.
-    pub fn files(&self, quality: Quality, progress: &dyn Progress) -> Result<Vec<File>, ExperimentError> {
-        let Made { data, caption, parameters, figure, .. } = self.compute(quality, progress)?;
-        let provenance = self.provenance(provenance::FIGURE, quality)?.with("values", &parameters)?;
-        let png = figure.to_png()?;
-        let svg = provenance::in_svg(&provenance, &figure.to_svg()?).into_bytes();
-        let (id, title) = (self.id.to_owned(), self.title.to_owned());
-        let record = Record { provenance, id, title, quality, caption, parameters, data };
-        let json = json::to_text(&json::to_value(&record)?).into_bytes();
-        let id = self.id;
-        Ok(vec![(format!("{id}.png"), png), (format!("{id}.svg"), svg), (format!("{id}.json"), json)])
+impl Made {
+    /// Its files: `ID.json` and `ID.svg`, which say where they come from ([`provenance`]), and `ID.png`.
+    ///
+    /// # Errors
+    /// [`ExperimentError::Draw`].
+    pub fn files(&self) -> Result<Vec<output::File>, ExperimentError> {
+        let Self { record, figure } = self;
+        let svg = provenance::in_svg(&record.provenance, &figure.to_svg()?).into_bytes();
+        let json = json::to_text(&json::to_value(record)?).into_bytes();
+        let id = &record.id;
+        Ok(vec![
+            (format!("{id}.png"), figure.to_png()?),
+            (format!("{id}.svg"), svg),
+            (format!("{id}.json"), json),
+        ])
     }
+}
 
-    /// Reads the data that [`Self::files`] stored in `ID.json`, and the quality and origin of these.
-    pub fn read(&self, bytes: &[u8]) -> Result<Stored, ExperimentError> {
+impl Record {
+    /// Reads the content of an `ID.json`.
+    ///
+    /// # Errors
+    /// [`ExperimentError::Provenance`] for one of a newer format, [`ExperimentError::Stored`] for one of another form.
+    pub fn read(id: &str, bytes: &[u8]) -> Result<Self, ExperimentError> {
+        /// The part that every version has.
+        #[derive(Deserialize)]
+        struct Origin {
+            provenance: Option<Value>,
+        }
         // Before anything else: a newer one may have any other form.
         let Origin { provenance } = serde_json::from_slice(bytes).map_err(ExperimentError::Stored)?;
-        provenance::refuse_newer(provenance::FIGURE, provenance.as_ref(), &format!("{}.json", self.id))?;
-        (self.read)(bytes)
+        provenance::refuse_newer(provenance::FIGURE, provenance.as_ref(), &format!("{id}.json"))?;
+        serde_json::from_slice(bytes).map_err(ExperimentError::Stored)
     }
 }
 
@@ -351,40 +390,31 @@ mod tests {
     #[test]
     fn files_are_the_same_bytes_on_every_run_say_their_origin_and_read_back() {
         let demo = &demo_entries()[0];
-        let make = || demo.files(Quality::Draft, &Silent).expect("works");
+        let make = || demo.compute(Quality::Draft, &Silent).and_then(|made| made.files()).expect("works");
         let files = make();
         assert_eq!(files, make());
         let names: Vec<_> = files.iter().map(|(name, _)| name.as_str()).collect();
         assert_eq!(names, ["demo.png", "demo.svg", "demo.json"]);
-        let (made, quality, origin) = demo.read(&files[2].1).expect("fits");
-        assert_eq!((quality, made.claims.len()), (Quality::Draft, 1));
-        let parameters = origin.parameters();
-        assert_eq!((&parameters["figure"], &parameters["quality"]), (&"demo".into(), &"draft".into()));
-        assert_eq!(parameters["values"], serde_json::json!([["restitution ε", "0.5"]]));
-        assert_eq!((origin.seed(), origin.chatter_policy()), (Some(3), Some(ChatterPolicy::Complete)));
-        let svg = provenance::in_svg(&origin, &made.figure.to_svg().expect("draws"));
-        assert_eq!(svg.into_bytes(), files[1].1);
-    }
-
-    #[test]
-    fn a_figure_says_what_was_computed() {
-        let entries = demo_entries();
-        let stored = json!(entries[0].provenance(provenance::FIGURE, Quality::Draft).expect("storable"));
+        let record = Record::read("demo", &files[2].1).expect("fits");
+        assert_eq!(record.quality, Quality::Draft);
+        let stored = json!(record.provenance);
         assert_eq!(stored["program"], "bouncing-disk-experiments");
         assert_eq!(stored["version"], env!("CARGO_PKG_VERSION"));
         assert_eq!(stored["format_version"], provenance::FIGURE.version);
         let seeds = json!([["points", 3], ["others", 4]]);
-        assert_eq!(stored["parameters"], json!({"figure": "demo", "quality": "draft", "seeds": seeds}));
+        let values = json!([["restitution ε", "0.5"]]);
+        let parameters = json!({"figure": "demo", "quality": "draft", "seeds": seeds, "values": values});
+        assert_eq!(stored["parameters"], parameters);
         assert_eq!((&stored["seed"], &stored["chatter_policy"]), (&json!(3), &json!("Complete")));
-        // Without seed or policy, too, both are there.
-        let none = json!(entries[1].provenance(provenance::CLAIM, Quality::Paper).expect("storable"));
-        assert!(none.as_object().is_some_and(|members| members.len() == 7) && none["seed"].is_null());
+        let made = demo.compute(Quality::Draft, &Silent).expect("works");
+        assert_eq!(json!(record), json!(made.record));
+        let svg = provenance::in_svg(&record.provenance, &made.figure.to_svg().expect("draws"));
+        assert_eq!(svg.into_bytes(), files[1].1);
     }
 
     #[test]
     fn what_cannot_be_stored_or_read_is_named() {
-        let entries = demo_entries();
-        let error = entries[1].files(Quality::Draft, &Silent).expect_err("holds a NaN");
+        let error = demo_entries()[1].compute(Quality::Draft, &Silent).expect_err("holds a NaN");
         let text = chain(&error);
         assert!(text.starts_with("the data cannot be stored: speed_m_per_s[1] is NaN"), "{text}");
         for (stored, expected) in [
@@ -394,12 +424,12 @@ mod tests {
             ),
             (
                 r#"{"id": 3, "provenance": {"program": "bouncing-disk-experiments", "version": "7.0.0",
-                    "format": "bouncing-disk figure", "format_version": 2}}"#,
-                "\"demo.json\" has version 2 of the format \"bouncing-disk figure\" (written by \
-                 \"bouncing-disk-experiments 7.0.0\"), newer than version 1, the newest that bouncing-disk",
+                    "format": "bouncing-disk figure", "format_version": 3}}"#,
+                "\"demo.json\" has version 3 of the format \"bouncing-disk figure\" (written by \
+                 \"bouncing-disk-experiments 7.0.0\"), newer than version 2, the newest that bouncing-disk",
             ),
         ] {
-            let text = chain(&entries[0].read(stored.as_bytes()).expect_err("of another form"));
+            let text = chain(&Record::read("demo", stored.as_bytes()).expect_err("of another form"));
             assert!(text.starts_with(expected), "{text}");
         }
     }

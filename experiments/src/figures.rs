@@ -2,21 +2,21 @@
 //!
 //! A new module is declared here and listed once in [`crate::registry::all`].
 
-pub mod fig01;
-pub mod fig02;
-pub mod fig03;
-pub mod fig04;
-pub mod fig05;
-pub mod fig06;
-pub mod fig07;
-pub mod fig08;
-pub mod fig09;
-pub mod fig10;
-pub mod fig11;
-pub mod fig12;
-pub mod fig13;
-pub mod fig14;
+pub(crate) mod fig01;
+pub(crate) mod fig02;
+pub(crate) mod fig03;
+pub(crate) mod fig04;
+pub(crate) mod fig05;
+pub(crate) mod fig06;
+pub(crate) mod fig07;
+pub(crate) mod fig08;
+pub(crate) mod fig09;
+pub(crate) mod fig10;
+pub(crate) mod fig11;
+pub(crate) mod fig12;
+pub(crate) mod fig13;
+pub(crate) mod fig14;
 mod shared;
-pub mod table1;
-pub mod table2;
-pub mod table3;
+pub(crate) mod table1;
+pub(crate) mod table2;
+pub(crate) mod table3;

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use tempfile::{Builder, NamedTempFile};
 
-use crate::experiment;
+/// The name and content of a file.
+pub type File = (String, Vec<u8>);
 
 /// An operation that the system refuses.
 #[derive(Debug, thiserror::Error)]
@@ -55,8 +56,8 @@ impl OutputFolder {
     }
 
     /// Writes several files; none gets its name before all are on the disk.
-    pub fn write_all(&self, files: &[experiment::File]) -> Result<(), OutputError> {
-        let partial = |(name, bytes): &experiment::File| {
+    pub fn write_all(&self, files: &[File]) -> Result<(), OutputError> {
+        let partial = |(name, bytes): &File| {
             let path = self.path.join(name);
             match partial(&self.path, bytes) {
                 Ok(partial) => Ok((path, partial)),

@@ -17,8 +17,8 @@ use std::path::Path;
 pub use bouncing_disk::store::{Format, Provenance, StorageError};
 use serde_json::Value;
 
-/// The format of `ID.json` and `ID.svg`.
-pub const FIGURE: Format = Format { name: "bouncing-disk figure", version: 1, oldest: 1 };
+/// The format of `ID.json` and `ID.svg`; version 1 had no claims.
+pub const FIGURE: Format = Format { name: "bouncing-disk figure", version: 2, oldest: 2 };
 /// The format of the claims in `claims.json`.
 pub const CLAIM: Format = Format { name: "bouncing-disk claim", version: 1, oldest: 1 };
 /// The format of `index.html`.
@@ -26,6 +26,21 @@ pub const GALLERY: Format = Format { name: "bouncing-disk gallery", version: 1, 
 /// The format of `digests.json`; version 1 had the digests of pictures with what they say of their origin
 /// taken out.
 pub const DIGESTS: Format = Format { name: "bouncing-disk digests", version: 2, oldest: 2 };
+
+/// The origin of a claim of a figure with this origin: without the values of all parameters.
+pub(crate) fn of_claim(figure: &Provenance) -> Result<Provenance, StorageError> {
+    let mut claim = new(CLAIM);
+    for (name, value) in figure.parameters().iter().filter(|(name, _)| *name != "values") {
+        claim = claim.with(name, value)?;
+    }
+    if let Some(seed) = figure.seed() {
+        claim = claim.with_seed(seed);
+    }
+    Ok(match figure.chatter_policy() {
+        Some(policy) => claim.with_chatter_policy(policy),
+        None => claim,
+    })
+}
 
 /// Of a file that this version of the experiments writes.
 pub fn new(format: Format) -> Provenance {
@@ -68,10 +83,10 @@ mod tests {
                 && drawing.contains("&lt;of&gt; &amp; ")
         );
         assert!(drawing.ends_with("}</metadata>\n<rect/>\n</svg>\n"), "{drawing}");
-        let newer = json!(new(Format { version: 2, ..FIGURE }));
+        let newer = json!(new(Format { version: 3, ..FIGURE }));
         let error = refuse_newer(FIGURE, Some(&newer), "fig06.json").expect_err("newer").to_string();
         assert!(
-            error.starts_with("\"fig06.json\" has version 2 of the format \"bouncing-disk figure\""),
+            error.starts_with("\"fig06.json\" has version 3 of the format \"bouncing-disk figure\""),
             "{error}"
         );
         for stored in

@@ -1,33 +1,41 @@
 //! The list of all experiments.
 
-use crate::experiment::{RegisteredExperiment, entry};
-use crate::figures::{
-    fig01, fig02, fig03, fig04, fig05, fig06, fig07, fig08, fig09, fig10, fig11, fig12, fig13, fig14, table1,
-    table2, table3,
-};
+use crate::experiment::Experiment;
+use crate::figures;
+
+/// A list of figures: their module, which has a function of the same name and `discussion.md` in its folder, and their title.
+macro_rules! experiments {
+    ($($id:ident: $title:literal,)*) => {
+        vec![$(Experiment {
+            id: stringify!($id),
+            title: $title,
+            discussion: include_str!(concat!("figures/", stringify!($id), "/discussion.md")),
+            make: figures::$id::$id,
+        }),*]
+    };
+}
 
 /// The figures and tables of the paper, in its order.
-pub fn all() -> Vec<RegisteredExperiment> {
-    // One line per module of `figures`: `entry::<fig06::Fig06>(),`
-    vec![
-        entry::<fig01::Fig01>(),
-        entry::<fig02::Fig02>(),
-        entry::<fig03::Fig03>(),
-        entry::<fig04::Fig04>(),
-        entry::<fig05::Fig05>(),
-        entry::<fig06::Fig06>(),
-        entry::<fig07::Fig07>(),
-        entry::<fig08::Fig08>(),
-        entry::<fig09::Fig09>(),
-        entry::<fig10::Fig10>(),
-        entry::<fig11::Fig11>(),
-        entry::<fig12::Fig12>(),
-        entry::<fig13::Fig13>(),
-        entry::<fig14::Fig14>(),
-        entry::<table1::Table1>(),
-        entry::<table2::Table2>(),
-        entry::<table3::Table3>(),
-    ]
+pub fn all() -> Vec<Experiment> {
+    experiments! {
+        fig01: "The displacement variables of the bouncing disk",
+        fig02: "Trajectories of tossing hands and stators",
+        fig03: "Flow chart of the simulation",
+        fig04: "The performance of single tosses",
+        fig05: "Hand motions and the resulting dough trajectories",
+        fig06: "Bifurcation diagrams",
+        fig07: "Basins of attraction",
+        fig08: "Geometric details of the ultrasonic motor",
+        fig09: "Coefficient of friction from the rotor's deceleration",
+        fig10: "Transient speed curves of the ultrasonic motor",
+        fig11: "Effect of preload on steady-state speed and stall torque",
+        fig12: "Speed transients of long-period and low-period chattering",
+        fig13: "Effect of the estimated parameters on steady-state speed and stall torque",
+        fig14: "Growth of the dough over multiple tosses",
+        table1: "Full specification of a single toss",
+        table2: "Effects of input parameter uncertainties",
+        table3: "Default values for the dimensional parameters",
+    }
 }
 
 /// An identifier that no experiment has.
@@ -41,15 +49,12 @@ pub struct UnknownId {
 }
 
 /// The entries called `ids`, each once, in the order of `entries`; all of them when `ids` is empty.
-pub fn select<'a>(
-    entries: &'a [RegisteredExperiment],
-    ids: &[String],
-) -> Result<Vec<&'a RegisteredExperiment>, UnknownId> {
+pub fn select<'a>(entries: &'a [Experiment], ids: &[String]) -> Result<Vec<&'a Experiment>, UnknownId> {
     if let Some(given) = ids.iter().find(|given| !entries.iter().any(|entry| entry.id == **given)) {
         let known = entries.iter().map(|entry| entry.id).collect();
         return Err(UnknownId { given: given.clone(), known });
     }
-    let asked = |entry: &&RegisteredExperiment| ids.is_empty() || ids.iter().any(|given| given == entry.id);
+    let asked = |entry: &&Experiment| ids.is_empty() || ids.iter().any(|given| given == entry.id);
     Ok(entries.iter().filter(asked).collect())
 }
 

@@ -8,12 +8,14 @@ pub mod gallery;
 pub mod pages;
 mod schema;
 
+use std::collections::BTreeMap;
+
 use minijinja::{Environment, ErrorKind, UndefinedBehavior, Value, context};
 use serde::Serialize;
 
 use crate::claims::printed::is_multiple_of_pi;
-use crate::claims::{Claim, Class, Computed, Source, Verdict};
-use crate::experiment::{Made, RegisteredExperiment};
+use crate::claims::{Claim, Class, Computed, Verdict};
+use crate::experiment::{Experiment, Record};
 
 /// A template that needs what is not there, or a number of a discussion that no claim has.
 pub use minijinja::Error as TemplateError;
@@ -79,7 +81,7 @@ fn verdict_words(claim: &Claim) -> String {
         (_, Verdict::Differs) => "does not agree",
     };
     let mut text = words(claim.verdict).to_owned();
-    if let Some(cause) = claim.cause {
+    if let Some(cause) = &claim.cause {
         text.push_str(&format!(" ({cause})"));
     }
     if let Some(single) = claim.single_orbits {
@@ -93,13 +95,23 @@ fn verdict_words(claim: &Claim) -> String {
     text
 }
 
+/// The discussion of an experiment with the numbers of its claims.
+pub(crate) fn discussion(experiment: &Experiment, claims: &[Claim]) -> Result<String, TemplateError> {
+    let numbers = claims.iter().filter_map(|claim| match (&claim.key, &claim.computed) {
+        (Some(key), Computed::Number(number)) => Some((key.clone(), like(&claim.printed, *number, 4))),
+        _ => None,
+    });
+    let claims: BTreeMap<_, _> = numbers.collect();
+    environment().render_named_str(experiment.id, experiment.discussion.trim(), context! { claims })
+}
+
 /// One figure as one reads it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 struct Section {
-    id: &'static str,
+    id: String,
     /// "Fig. 6" for `fig06`, "Table II" for `table2`, the identifier for anything else.
     name: String,
-    title: &'static str,
+    title: String,
     caption: String,
     discussion: String,
     parameters: Vec<(String, String)>,
@@ -107,25 +119,16 @@ struct Section {
 }
 
 impl Section {
-    fn of(entry: &RegisteredExperiment, made: &Made) -> Result<Self, TemplateError> {
-        let numbers = made.claims.iter().filter_map(|claim| match (&claim.source, &claim.computed) {
-            (Source::Entry(key), Computed::Number(number)) => {
-                Some((key.clone(), like(&claim.printed, *number, 4)))
-            }
-            _ => None,
-        });
-        let claims: std::collections::BTreeMap<_, _> = numbers.collect();
-        let discussion =
-            environment().render_named_str(entry.id, entry.discussion.trim(), context! { claims })?;
-        Ok(Self {
-            id: entry.id,
-            name: name(entry.id),
-            title: entry.title,
-            caption: made.caption.clone(),
-            discussion,
-            parameters: made.parameters.clone(),
-            rows: made.claims.iter().map(Row::of).collect(),
-        })
+    fn of(record: &Record) -> Self {
+        Self {
+            id: record.id.clone(),
+            name: name(&record.id),
+            title: record.title.clone(),
+            caption: record.caption.clone(),
+            discussion: record.discussion.clone(),
+            parameters: record.parameters.clone(),
+            rows: record.claims.iter().map(Row::of).collect(),
+        }
     }
 }
 
@@ -289,15 +292,10 @@ mod tests {
     #[test]
     fn a_discussion_takes_its_numbers_from_the_claims() {
         let mut demo = crate::testing::demo_entries().remove(0);
-        let made = demo.compute(crate::Quality::Draft, &crate::Silent);
-        let made =
-            Made { claims: vec![Claim::printed("section4.merging", 0.560_750_7)], ..made.expect("works") };
-        let mut section = |discussion| {
-            demo.discussion = discussion;
-            Section::of(&demo, &made)
-        };
-        let text = section("Lost at {{ claims[\"section4.merging\"] }}, for good.").expect("answered");
-        assert_eq!(text.discussion, "Lost at 0.5608, for good.");
-        section("{{ claims[\"section4.doubling_1\"] }}").expect_err("not answered");
+        let claims = [Claim::printed("section4.merging", 0.560_750_7)];
+        demo.discussion = "Lost at {{ claims[\"section4.merging\"] }}, for good.\n";
+        assert_eq!(discussion(&demo, &claims).ok().as_deref(), Some("Lost at 0.5608, for good."));
+        demo.discussion = "{{ claims[\"section4.doubling_1\"] }}";
+        discussion(&demo, &claims).expect_err("not answered");
     }
 }

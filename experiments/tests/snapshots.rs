@@ -12,7 +12,7 @@
 use std::collections::BTreeSet;
 
 use bouncing_disk_experiments::claims::answers;
-use bouncing_disk_experiments::experiment::{Quality, RegisteredExperiment, chain};
+use bouncing_disk_experiments::experiment::{Experiment, Quality, Record, chain};
 use bouncing_disk_experiments::{Silent, registry};
 use insta::internals::SnapshotContents;
 use insta::{Comparator, Settings, Snapshot};
@@ -45,15 +45,21 @@ const LONGEST_LIST: usize = 40;
 const LONGEST_TEXT: usize = 4000;
 
 /// All that an experiment makes, except for pictures.
-fn product(entry: &RegisteredExperiment) -> Map<String, Value> {
+fn product(entry: &Experiment) -> Map<String, Value> {
     let made = || {
         let made = entry.compute(Quality::Draft, &Silent)?;
         // A figure that cannot be drawn is a failure, too.
         made.figure.to_svg()?;
-        let faults = answers::faults(entry.id, &made.claims);
+        let Record { caption, parameters, claims, data, .. } = made.record;
+        let faults = answers::faults(entry.id, &claims);
         assert!(faults.is_empty(), "claims of {} against data/paper: {}", entry.id, faults.join("; "));
-        let product = json!({"title": entry.title, "caption": made.caption, "parameters": made.parameters,
-            "claims": made.claims, "data": made.data});
+        let mut claims = json!(claims);
+        // Lines of code move.
+        for claim in claims.as_array_mut().into_iter().flatten() {
+            claim.as_object_mut().map(|members| members.remove("code"));
+        }
+        let product = json!({"title": entry.title, "caption": caption, "parameters": parameters,
+            "claims": claims, "data": data});
         Ok(product.as_object().cloned().unwrap_or_default())
     };
     made().unwrap_or_else(|error: bouncing_disk_experiments::ExperimentError| {

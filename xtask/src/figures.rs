@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use anyhow::Context as _;
 use bouncing_disk_experiments::Quality;
-use bouncing_disk_experiments::experiment::{File, RegisteredExperiment};
+use bouncing_disk_experiments::experiment::{Experiment, Made};
 use bouncing_disk_experiments::output::OutputFolder;
 use bouncing_disk_experiments::registry;
 use bouncing_disk_experiments::report::gallery::Summary;
@@ -93,7 +93,7 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
         return run.check();
     }
     let folder = OutputFolder::create(options.folder())?;
-    if options.docs { run.write_docs(&folder) } else { run.make(options.quality, &folder) }
+    if options.docs { run.write_docs(&folder) } else { Ok(run.make(options.quality, &folder)?.0) }
 }
 
 /// The width of the column of the identifiers.
@@ -104,44 +104,38 @@ fn width_of_ids<'a>(ids: impl Iterator<Item = &'a str>) -> usize {
 /// What is to be made.
 struct Run<'a> {
     options: &'a Options,
-    entries: &'a [RegisteredExperiment],
-    selected: &'a [&'a RegisteredExperiment],
+    entries: &'a [Experiment],
+    selected: &'a [&'a Experiment],
 }
 
 impl Run<'_> {
     /// Makes all figures in both qualities and the documentation from them.
     fn write_docs(&self, folder: &OutputFolder) -> anyhow::Result<ExitCode> {
         let drafts = OutputFolder::create(folder.path().join(DRAFTS_FOLDER))?;
-        for (quality, folder) in [(Quality::Draft, &drafts), (Quality::Paper, folder)] {
-            let code = self.make(quality, folder)?;
-            if code != ExitCode::SUCCESS {
-                say!("the documentation is left as it was")?;
-                return Ok(code);
-            }
+        let (code, draft) = self.make(Quality::Draft, &drafts)?;
+        if code != ExitCode::SUCCESS {
+            say!("the documentation is left as it was")?;
+            return Ok(code);
+        }
+        let (code, paper) = self.make(Quality::Paper, folder)?;
+        if code != ExitCode::SUCCESS {
+            say!("the documentation is left as it was")?;
+            return Ok(code);
         }
         let docs = OutputFolder::create(in_workspace(DOCS_FOLDER))?;
-        pages::write(self.selected, folder, &drafts, &docs).context("the documentation cannot be written")?;
+        pages::write(&paper, &draft, &docs).context("the documentation cannot be written")?;
         say!("{} is up to date", docs.path().display())?;
         Ok(ExitCode::SUCCESS)
     }
 
     fn check(&self) -> anyhow::Result<ExitCode> {
-        let quality = self.options.quality;
-        let data = |files: Vec<File>| {
-            let data = files.into_iter().find(|(name, _)| name.ends_with(".json"));
-            data.map(|(_, bytes)| bytes).context("a figure has data")
-        };
-        let finished = self.finished(quality, data);
+        let finished = self.finished(self.options.quality, Ok);
         if say_failures(&finished)? > 0 {
             return Ok(ExitCode::FAILURE);
         }
-        let mut figures = Vec::new();
-        for figure in finished {
-            let entry = self.selected.iter().find(|entry| entry.id == figure.id);
-            figures.push((*entry.context("it was selected")?, figure.result?));
-        }
+        let figures: Vec<Made> = finished.into_iter().filter_map(|figure| figure.result.ok()).collect();
         let docs = OutputFolder::existing(in_workspace(DOCS_FOLDER));
-        let outdated = pages::outdated(&figures, quality, &docs)?;
+        let outdated = pages::outdated(&figures, &docs)?;
         for name in &outdated {
             say!("{DOCS_FOLDER}/{name}: missing or out of date")?;
         }
@@ -156,7 +150,7 @@ impl Run<'_> {
     fn finished<T: Send>(
         &self,
         quality: Quality,
-        keep: impl Fn(Vec<File>) -> anyhow::Result<T> + Sync,
+        keep: impl Fn(Made) -> anyhow::Result<T> + Sync,
     ) -> Vec<Finished<T>> {
         let report = Report::new();
         let finished = work::make_all(self.selected, quality, self.options.threads(), &report, keep);
@@ -164,8 +158,13 @@ impl Run<'_> {
         finished
     }
 
-    fn make(&self, quality: Quality, folder: &OutputFolder) -> anyhow::Result<ExitCode> {
-        let finished = self.finished(quality, |files| Ok(folder.write_all(&files)?));
+    /// Makes the figures and writes their files and the gallery; gives them in the order of the list.
+    fn make(&self, quality: Quality, folder: &OutputFolder) -> anyhow::Result<(ExitCode, Vec<Made>)> {
+        let keep = |made: Made| {
+            folder.write_all(&made.files()?)?;
+            Ok(made)
+        };
+        let finished = self.finished(quality, keep);
         let summary = match Summary::update(self.entries, folder) {
             Ok(summary) => summary,
             Err(error) => {
@@ -190,7 +189,10 @@ impl Run<'_> {
         say!("{}", summary.counts.headline())?;
         say!("{}", summary.counts.beside())?;
         let failures = say_failures(&finished)?;
-        Ok(if failures == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+        let code = if failures == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE };
+        let mut figures: Vec<Made> = finished.into_iter().filter_map(|figure| figure.result.ok()).collect();
+        figures.sort_by_key(|made| self.entries.iter().position(|entry| entry.id == made.record.id));
+        Ok((code, figures))
     }
 }
 

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, anyhow};
 use bouncing_disk_experiments::Quality;
-use bouncing_disk_experiments::experiment::{File, RegisteredExperiment};
+use bouncing_disk_experiments::experiment::{Experiment, Made};
 
 use crate::report::Report;
 
@@ -20,7 +20,7 @@ pub(crate) struct Finished<T> {
     pub(crate) result: anyhow::Result<T>,
 }
 
-/// Makes all entries, at most `threads` at a time, and gives the files of each to `keep`. A figure that fails does
+/// Makes all figures, at most `threads` at a time, and gives each to `keep`. A figure that fails does
 /// not stop the others.
 ///
 /// The figures are taken by threads of their own and only their parallel parts run in the pool of computing
@@ -28,20 +28,20 @@ pub(crate) struct Finished<T> {
 /// time would count for both. (It does where a figure runs searches side by side in the pool, as Figs. 6 and
 /// 7 do.)
 pub(crate) fn make_all<T: Send>(
-    entries: &[&RegisteredExperiment],
+    experiments: &[&Experiment],
     quality: Quality,
     threads: usize,
     report: &Report,
-    keep: impl Fn(Vec<File>) -> anyhow::Result<T> + Sync,
+    keep: impl Fn(Made) -> anyhow::Result<T> + Sync,
 ) -> Vec<Finished<T>> {
-    let make = |entry: &RegisteredExperiment| {
-        let id = entry.id;
+    let make = |experiment: &Experiment| {
+        let id = experiment.id;
         let progress = report.begin(id);
         let start = Instant::now();
-        let made = panic::catch_unwind(AssertUnwindSafe(|| entry.files(quality, &progress)));
+        let made = panic::catch_unwind(AssertUnwindSafe(|| experiment.compute(quality, &progress)));
         let run_time = start.elapsed();
         let result = match made {
-            Ok(Ok(files)) => keep(files),
+            Ok(Ok(made)) => keep(made),
             Ok(Err(error)) => Err(error).with_context(|| format!("{quality} quality")),
             Err(payload) => Err(anyhow!("panicked: {}", message(&*payload))),
         };
@@ -52,13 +52,13 @@ pub(crate) fn make_all<T: Send>(
     let finished = Mutex::new(Vec::new());
     thread::scope(|scope| {
         let work = || {
-            while let Some(entry) = entries.get(next.fetch_add(1, Ordering::Relaxed)) {
-                let figure = make(entry);
+            while let Some(experiment) = experiments.get(next.fetch_add(1, Ordering::Relaxed)) {
+                let figure = make(experiment);
                 // A poisoned lock holds intact results: a push is the only thing done under it.
                 finished.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).push(figure);
             }
         };
-        for _ in 1..threads.min(entries.len()) {
+        for _ in 1..threads.min(experiments.len()) {
             // A system that gives no more threads makes it slower, no more.
             if thread::Builder::new().spawn_scoped(scope, work).is_err() {
                 break;
@@ -77,41 +77,27 @@ fn message(payload: &(dyn std::any::Any + Send)) -> &str {
 
 #[cfg(test)]
 mod tests {
-    use bouncing_disk_experiments::experiment::{Experiment, ExperimentError, entry};
-    use bouncing_disk_experiments::{FiniteError, Progress};
-    use bouncing_disk_plot::Figure;
+    use bouncing_disk_experiments::FiniteError;
+    use bouncing_disk_experiments::experiment::{ExperimentError, Paper};
 
     use super::*;
 
-    /// Panics or fails.
-    struct Failing<const PANICS: bool>;
+    fn panics(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
+        fig.progress.start(2, "steps");
+        fig.progress.advance(1);
+        panic!("index {} out of range", 7)
+    }
 
-    impl<const PANICS: bool> Experiment for Failing<PANICS> {
-        type Data = f64;
-        const ID: &'static str = if PANICS { "a" } else { "b" };
-        const TITLE: &'static str = "fails";
-
-        fn caption(_: &f64) -> String {
-            String::new()
-        }
-
-        fn compute(_: Quality, progress: &dyn Progress) -> Result<f64, ExperimentError> {
-            progress.start(2, "steps");
-            progress.advance(1);
-            assert!(!PANICS, "index {} out of range", 7);
-            let place = "speed_m_per_s[3]".to_owned();
-            Err(ExperimentError::Data(FiniteError::NotFinite { place, number: f64::NAN }))
-        }
-
-        fn draw(_: &f64) -> Result<Figure, ExperimentError> {
-            Ok(Figure::new(10.0, 10.0))
-        }
+    fn fails(_: &mut Paper<'_>) -> Result<(), ExperimentError> {
+        let place = "speed_m_per_s[3]".to_owned();
+        Err(ExperimentError::Data(FiniteError::NotFinite { place, number: f64::NAN }))
     }
 
     #[test]
     fn one_failure_does_not_stop_the_others() {
-        let entries = [entry::<Failing<true>>(), entry::<Failing<false>>(), entry::<Failing<true>>()];
-        let entries: Vec<&RegisteredExperiment> = entries.iter().collect();
+        let entries = [("a", panics as fn(&mut Paper<'_>) -> _), ("b", fails), ("a", panics)]
+            .map(|(id, make)| Experiment { id, title: "fails", discussion: "", make });
+        let entries: Vec<&Experiment> = entries.iter().collect();
         let mut finished = make_all(&entries, Quality::Draft, 2, &Report::Lines, |_| Ok(()));
         finished.sort_by_key(|figure| figure.id);
         let errors: Vec<_> =

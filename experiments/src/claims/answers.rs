@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::catalogue::{Class, entries, find};
-use super::claim::{Claim, Computed, Source};
+use super::claim::{Claim, Computed};
 use super::judging::{Kind, Verdict};
 
 /// The claims of a figure or table that nothing can be computed for.
@@ -26,7 +26,7 @@ pub fn faults(figure: &str, claims: &[Claim]) -> Vec<String> {
     let own: BTreeSet<&str> =
         entries.iter().filter(|entry| entry.figure == figure).map(|entry| entry.key.as_str()).collect();
     let unanswered = own.iter().filter_map(|key| {
-        let answers = claims.iter().filter(|claim| matches!(&claim.source, Source::Entry(of) if of == key));
+        let answers = claims.iter().filter(|claim| claim.key.as_deref() == Some(*key));
         let count = answers.count();
         // A statement that is true by construction needs no answer.
         let optional = count == 0 && find(key).is_ok_and(|entry| entry.class == Class::Identity);
@@ -35,18 +35,16 @@ pub fn faults(figure: &str, claims: &[Claim]) -> Vec<String> {
     let of_claims = claims.iter().flat_map(|claim| {
         let of_paper = claim.class == Class::Paper;
         let differs = claim.verdict == Verdict::Differs;
-        let answers_paper = match &claim.source {
-            Source::Entry(key) => find(key).is_ok_and(|entry| entry.class == Class::Paper),
-            _ => false,
-        };
+        let entry = claim.key.as_deref().and_then(|key| find(key).ok());
+        let answers_paper = entry.is_some_and(|entry| entry.class == Class::Paper);
         let misjudged = match claim.kind {
             Some(Kind::Motor) => claim.single_orbits.is_none(),
             Some(Kind::Measured) => of_paper && claim.share.is_none(),
             _ => false,
         };
-        let foreign = match &claim.source {
-            Source::Entry(key) => !own.contains(key.as_str()),
-            Source::ThisWork => !matches!(claim.computed, Computed::Boolean(_)) && claim.share.is_none(),
+        let foreign = match &claim.key {
+            Some(key) => !own.contains(key.as_str()),
+            None => !matches!(claim.computed, Computed::Boolean(_)) && claim.share.is_none(),
         };
         let faults = [
             (claim.lacks_data(), "has no data to be judged by"),

@@ -8,38 +8,31 @@
 //! Only statements of the paper itself count for or against it: the [`Class`] of a claim separates them from
 //! inputs, from what was fitted, from what is true by construction, and from what this work adds.
 
-use serde::{Serialize, Serializer};
+use std::borrow::Cow;
+use std::panic::Location;
+
+use serde::{Deserialize, Serialize};
 
 use super::catalogue::{self, Class, PrintedEntry};
 use super::judging::{Cases, Kind, LARGEST_ACCEPTED, LINE_WIDTH, Verdict};
 use super::printed::PrintedNumber;
 
 /// Our value.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
 pub enum Computed {
-    /// A finite number, in the unit of the claim.
-    Number(f64),
     /// Whether a statement holds.
     Boolean(bool),
+    /// A finite number, in the unit of the claim.
+    Number(f64),
     /// A label, or the name of a number that is not finite.
     Text(String),
     /// Nothing could be computed.
     Nothing,
 }
 
-impl Serialize for Computed {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Self::Number(number) => serializer.serialize_f64(*number),
-            Self::Boolean(boolean) => serializer.serialize_bool(*boolean),
-            Self::Text(text) => serializer.serialize_str(text),
-            Self::Nothing => serializer.serialize_none(),
-        }
-    }
-}
-
 /// One printed number or statement and its comparison with ours; one object of `claims.json`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[must_use]
 pub struct Claim {
     /// The figure or table.
@@ -62,7 +55,7 @@ pub struct Claim {
     pub(crate) kind: Option<Kind>,
     /// Why it differs, in few words: rows with the same cause differ for one reason.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) cause: Option<&'static str>,
+    pub(crate) cause: Option<Cow<'static, str>>,
     /// The share of the inputs that print alike for which it holds; `None` where it does not depend on
     /// unprinted digits.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -71,28 +64,21 @@ pub struct Claim {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) single_orbits: Option<SingleOrbits>,
     pub(crate) note: String,
-    #[serde(skip)]
-    pub(crate) source: Source,
+    /// The entry of the [catalogue] that it answers; `None` for a check of this work, in words.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) key: Option<String>,
+    /// File and line of the code that states it.
+    pub(crate) code: String,
 }
 
 /// The verdict of single orbits that nothing perturbs, on a statement that is judged by the mean of an
 /// ensemble.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SingleOrbits {
     /// The verdict.
     pub verdict: Verdict,
     /// The inputs over which it is taken.
     pub cases: Cases,
-}
-
-/// Where the printed side of a claim comes from.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub enum Source {
-    /// Not printed: a check of this work, in words.
-    #[default]
-    ThisWork,
-    /// The answer to an entry of the [catalogue].
-    Entry(String),
 }
 
 impl Claim {
@@ -101,6 +87,7 @@ impl Claim {
     /// every number.
     ///
     /// An unknown key, or an entry that is no number, gives a claim that differs and says so in its note.
+    #[track_caller]
     pub fn printed(key: &str, computed: f64) -> Self {
         Self::of_entry(key, |entry| {
             let printed = entry.printed.as_deref().unwrap_or_default();
@@ -113,6 +100,7 @@ impl Claim {
     ///
     /// `None` says that there are no data to judge it by ([`all`], [`any`] of nothing), which is a
     /// [fault](Self::lacks_data).
+    #[track_caller]
     pub fn printed_statement(key: &str, cases: impl Into<Cases>, evidence: impl Into<String>) -> Self {
         let cases = cases.into();
         Self::of_entry(key, |entry| {
@@ -196,7 +184,7 @@ impl Claim {
 
     /// Names the cause for which it differs, if it does.
     pub fn cause(mut self, cause: &'static str) -> Self {
-        self.cause = (self.verdict == Verdict::Differs).then_some(cause);
+        self.cause = (self.verdict == Verdict::Differs).then_some(Cow::Borrowed(cause));
         self
     }
 
@@ -207,13 +195,15 @@ impl Claim {
         Self { class: Class::Fitted, ..self }.note(note)
     }
 
+    #[track_caller]
     fn of_entry(key: &str, make: impl FnOnce(&PrintedEntry) -> Self) -> Self {
         let claim = match catalogue::find(key) {
             Ok(entry) => Self { class: entry.class, kind: entry.kind, ..make(entry) },
             // The key at least says which file was meant.
             Err(error) => Self::statement("", key, "", false, error.to_string()),
         };
-        Self { source: Source::Entry(key.to_owned()), ..claim }
+        // A closure has no caller: not where the claim was made, but where it was asked for.
+        Self { key: Some(key.to_owned()), code: caller(), ..claim }
     }
 
     /// The claim of an entry that nothing can be computed for, for the reason given there.
@@ -221,14 +211,16 @@ impl Claim {
         let names = [&entry.figure, &entry.place, &entry.quantity, &entry.unit].map(String::as_str);
         let printed = entry.printed.as_deref().unwrap_or("true");
         Self {
-            source: Source::Entry(entry.key.clone()),
+            key: Some(entry.key.clone()),
             class: entry.class,
             note: reason.to_owned(),
+            code: String::new(),
             ..Self::without_value(names, printed)
         }
     }
 
     /// Nothing computed yet; the names are those of figure, place, quantity and unit.
+    #[track_caller]
     fn without_value([id, place, quantity, unit]: [&str; 4], printed: &str) -> Self {
         Self {
             id: id.to_owned(),
@@ -245,7 +237,8 @@ impl Claim {
             share: None,
             single_orbits: None,
             note: String::new(),
-            source: Source::default(),
+            key: None,
+            code: caller(),
         }
     }
 
@@ -258,6 +251,7 @@ impl Claim {
     /// number.
     ///
     /// A printed text that is not a number gives a claim that differs and says so in its note.
+    #[track_caller]
     pub(crate) fn number(names: [&str; 4], printed: &str, computed: f64) -> Self {
         let claim = Self {
             computed: match computed {
@@ -283,6 +277,7 @@ impl Claim {
     ///
     /// `quantity` is the statement, `holds` whether our data agree (`None`: there are none), `evidence` the
     /// numbers that show it.
+    #[track_caller]
     pub fn statement(
         id: &str,
         place: &str,
@@ -315,12 +310,17 @@ impl Claim {
     /// Whether it should have been judged by data, but no data exist. Such a claim is no finding but a fault
     /// of the experiment.
     pub fn lacks_data(&self) -> bool {
-        let reasoned = match &self.source {
-            Source::Entry(key) => catalogue::find(key).is_ok_and(|entry| entry.reason.is_some()),
-            _ => false,
-        };
+        let entry = self.key.as_deref().and_then(|key| catalogue::find(key).ok());
+        let reasoned = entry.is_some_and(|entry| entry.reason.is_some());
         matches!(self.computed, Computed::Nothing) && !reasoned
     }
+}
+
+/// File and line of the code that asks for a claim.
+#[track_caller]
+fn caller() -> String {
+    let place = Location::caller();
+    format!("{}:{}", place.file(), place.line())
 }
 
 /// Whether a test holds for all of the data; `None` if there are none.
@@ -423,7 +423,7 @@ mod tests {
         let claim = Claim::number(["fig06", "Fig. 6 caption", "ratio", ""], "4.891", f64::NAN);
         let json = serde_json::to_value(&claim).expect("plain data");
         let keys: Vec<_> = json.as_object().expect("an object").keys().map(String::as_str).collect();
-        let agreed = "class computed id note place printed quantity tolerance unit verdict";
+        let agreed = "class code computed id note place printed quantity tolerance unit verdict";
         assert_eq!(keys.join(" "), agreed);
         assert_eq!((&json["computed"], &json["verdict"]), (&"NaN".into(), &"differs".into()));
         let shared = Claim::statement("fig10", "", "", None, "").judged_over(Cases { holding: 3, tried: 4 });

@@ -9,7 +9,7 @@ use std::iter::Sum;
 use serde::{Deserialize, Serialize};
 
 /// The outcome of a comparison.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
     /// Our value agrees within the tolerance, or the statement holds.

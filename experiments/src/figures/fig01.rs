@@ -10,107 +10,95 @@ use bouncing_disk_plot::{
     Anchor, Camera, Colour, DOUBLE_COLUMN, Dash, Drawing, Figure, Path, Rect, Stroke, TextStyle,
 };
 use glam::DVec3;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::shared::cylinder::{Cylinder, HandPath, Look, arc, circle, curve, faint, polar};
 use super::shared::toss::TossCase;
 use crate::claims::paper::TableOne;
-use crate::experiment::{Experiment, ExperimentError, Quality, named};
-use crate::progress::Progress;
+use crate::experiment::{ExperimentError, Paper, named};
 
 /// Fig. 1.
-#[derive(Debug)]
-pub struct Fig01;
+pub(crate) fn fig01(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
+    fig.chattering(ChatterPolicy::Complete);
+    let (quality, progress) = (fig.quality, fig.progress);
+    progress.start(1, "toss");
+    let table_i = crate::claims::paper::table_one()?;
+    let case = TossCase::from(&table_i).at_lag(PHASE_LAG);
+    let system = case.system()?;
+    let scales = system.scales();
+    let trajectory = toss_trajectory(&system, InitialSpin::AbsoluteRest)?;
+    let flight = trajectory.records().iter().find(|record| matches!(record.event, Event::Impact { .. }));
+    let Some(flight) = flight else {
+        let peak_acceleration = system.peak_acceleration();
+        return Err(ExperimentError::model(bouncing_disk::Error::NeverLeaves { peak_acceleration }));
+    };
+    let instant = flight.evaluate(system.dimensionless(), SHARE_OF_FLIGHT);
+    let disk = scales.state(&instant.disk);
+    let platform = system.platform();
+    let path = HandPath::new(platform, quality.choose(120, 720))?;
+    progress.advance(1);
+    let data = &Fig01Data {
+        phase_lag_rad: PHASE_LAG,
+        contact_radius_m: case.contact_radius_m,
+        disk_radius_m: SQRT_2 * case.gyration_radius_m,
+        amplitude_m: platform.amplitude(),
+        twist_amplitude_rad: platform.twist_amplitude(),
+        phase_rad: instant.time.phase.angle(),
+        platform_height_m: platform.height(instant.time.phase),
+        platform_angle_rad: platform.angle(instant.time.phase),
+        disk_height_m: disk.height,
+        disk_angle_rad: disk.angle,
+        path,
+        table_i,
+    };
+    fig.caption(format!(
+        "The displacement variables of the bouncing-disk system and of pizza tossing, (a) and (c) drawn in perspective and to \
+         scale from a computed toss. (a) The disk (x, α) above the oscillating platform (s, β) at the phase τ = {:.3} \
+         rad, {:.0} % of its flight after the separation: x = {:.3} m, s = {:.3} m, α = {:.2} rad, β = {:.2} rad. \
+         Heights are measured from the platform's mean height, angles from the line on which the \
+         platform's mark lies when β = 0; the disk's mark lay over it at the start. (b) A sketch, not to scale: a dough above \
+         the hand that tosses it, with the same four variables. (c) The path of a point of the platform at the contact radius a_e, Eq. (1): a \
+         closed curve on the surface of a cylinder, with the amplitudes A and a_e Φ; the dot is the point at the \
+         instant of (a), the arrows show the sense of the motion, what lies behind the cylinder is dotted. \
+         Parameters of Table I except for θ = −π/4, chosen here because the path for θ = 0 encloses no area; the \
+         radius of disk and platform, √2 a_g, is that of a uniform disk, their thickness is not to scale.",
+        data.phase_rad,
+        100.0 * SHARE_OF_FLIGHT,
+        data.disk_height_m,
+        data.platform_height_m,
+        data.disk_angle_rad,
+        data.platform_angle_rad,
+    ));
+    fig.parameters(parameters(data));
+    fig.draw(draw(data)?);
+    fig.data(data)
+}
 
-impl Experiment for Fig01 {
-    type Data = Fig01Data;
+fn parameters(data: &Fig01Data) -> Vec<(String, String)> {
+    let table = &data.table_i;
+    named([
+        ("phase lag θ", format!("{:.2}π (Table I: {})", data.phase_lag_rad / PI, table.phase_lag_rad)),
+        ("amplitude angle φ_L", format!("{} rad", table.amplitude_angle_rad.value)),
+        ("stroke c", format!("{} m", table.stroke_m.value)),
+        ("angular frequency ω", format!("{} rad/s", table.angular_frequency_rad_per_s.value)),
+        ("contact radius a_e", format!("{} m", table.contact_radius_m.value)),
+        ("radius of gyration a_g", format!("{} m", table.gyration_radius_m.value)),
+        ("friction μ", table.friction.value.to_string()),
+        ("start", "lowest point of the hand, dough at rest".to_owned()),
+    ])
+}
 
-    const ID: &'static str = "fig01";
-
-    const TITLE: &'static str = "The displacement variables of the bouncing disk";
-    const DISCUSSION: &str = include_str!("fig01/discussion.md");
-    const CHATTER_POLICY: Option<ChatterPolicy> = Some(ChatterPolicy::Complete);
-
-    fn caption(data: &Fig01Data) -> String {
-        format!(
-            "The displacement variables of the bouncing-disk system and of pizza tossing, (a) and (c) drawn in perspective and to \
-             scale from a computed toss. (a) The disk (x, α) above the oscillating platform (s, β) at the phase τ = {:.3} \
-             rad, {:.0} % of its flight after the separation: x = {:.3} m, s = {:.3} m, α = {:.2} rad, β = {:.2} rad. \
-             Heights are measured from the platform's mean height, angles from the line on which the \
-             platform's mark lies when β = 0; the disk's mark lay over it at the start. (b) A sketch, not to scale: a dough above \
-             the hand that tosses it, with the same four variables. (c) The path of a point of the platform at the contact radius a_e, Eq. (1): a \
-             closed curve on the surface of a cylinder, with the amplitudes A and a_e Φ; the dot is the point at the \
-             instant of (a), the arrows show the sense of the motion, what lies behind the cylinder is dotted. \
-             Parameters of Table I except for θ = −π/4, chosen here because the path for θ = 0 encloses no area; the \
-             radius of disk and platform, √2 a_g, is that of a uniform disk, their thickness is not to scale.",
-            data.phase_rad,
-            100.0 * SHARE_OF_FLIGHT,
-            data.disk_height_m,
-            data.platform_height_m,
-            data.disk_angle_rad,
-            data.platform_angle_rad,
-        )
-    }
-
-    fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig01Data, ExperimentError> {
-        progress.start(1, "toss");
-        let table_i = crate::claims::paper::table_one()?;
-        let case = TossCase::from(&table_i).at_lag(PHASE_LAG);
-        let system = case.system()?;
-        let scales = system.scales();
-        let trajectory = toss_trajectory(&system, InitialSpin::AbsoluteRest)?;
-        let flight = trajectory.records().iter().find(|record| matches!(record.event, Event::Impact { .. }));
-        let Some(flight) = flight else {
-            let peak_acceleration = system.peak_acceleration();
-            return Err(ExperimentError::model(bouncing_disk::Error::NeverLeaves { peak_acceleration }));
-        };
-        let instant = flight.evaluate(system.dimensionless(), SHARE_OF_FLIGHT);
-        let disk = scales.state(&instant.disk);
-        let platform = system.platform();
-        let path = HandPath::new(platform, quality.choose(120, 720))?;
-        progress.advance(1);
-        Ok(Fig01Data {
-            phase_lag_rad: PHASE_LAG,
-            contact_radius_m: case.contact_radius_m,
-            disk_radius_m: SQRT_2 * case.gyration_radius_m,
-            amplitude_m: platform.amplitude(),
-            twist_amplitude_rad: platform.twist_amplitude(),
-            phase_rad: instant.time.phase.angle(),
-            platform_height_m: platform.height(instant.time.phase),
-            platform_angle_rad: platform.angle(instant.time.phase),
-            disk_height_m: disk.height,
-            disk_angle_rad: disk.angle,
-            path,
-            table_i,
-        })
-    }
-
-    fn draw(data: &Fig01Data) -> Result<Figure, ExperimentError> {
-        let high = HEIGHT - 8.0;
-        Ok(Figure::new(WIDTH, HEIGHT)
-            .drawing(system(data, Rect::new(4.0, 4.0, 172.0, high)))
-            .drawing(sketch(data, Rect::new(191.0, 4.0, 184.0, high)))
-            .drawing(path(data, Rect::new(380.0, 4.0, WIDTH - 384.0, high))))
-    }
-
-    fn parameters(data: &Fig01Data) -> Vec<(String, String)> {
-        let table = &data.table_i;
-        named([
-            ("phase lag θ", format!("{:.2}π (Table I: {})", data.phase_lag_rad / PI, table.phase_lag_rad)),
-            ("amplitude angle φ_L", format!("{} rad", table.amplitude_angle_rad.value)),
-            ("stroke c", format!("{} m", table.stroke_m.value)),
-            ("angular frequency ω", format!("{} rad/s", table.angular_frequency_rad_per_s.value)),
-            ("contact radius a_e", format!("{} m", table.contact_radius_m.value)),
-            ("radius of gyration a_g", format!("{} m", table.gyration_radius_m.value)),
-            ("friction μ", table.friction.value.to_string()),
-            ("start", "lowest point of the hand, dough at rest".to_owned()),
-        ])
-    }
+fn draw(data: &Fig01Data) -> Result<Figure, ExperimentError> {
+    let high = HEIGHT - 8.0;
+    Ok(Figure::new(WIDTH, HEIGHT)
+        .drawing(system(data, Rect::new(4.0, 4.0, 172.0, high)))
+        .drawing(sketch(data, Rect::new(191.0, 4.0, 184.0, high)))
+        .drawing(path(data, Rect::new(380.0, 4.0, WIDTH - 384.0, high))))
 }
 
 /// The data of Fig. 1: the toss of Table I with another phase lag, and one instant of it.
-#[derive(Debug, Serialize, Deserialize)]
-pub struct Fig01Data {
+#[derive(Debug, Serialize)]
+pub(crate) struct Fig01Data {
     table_i: TableOne,
     phase_lag_rad: f64,
     contact_radius_m: f64,

@@ -8,88 +8,73 @@ use bouncing_disk_plot::{
     Anchor, Camera, Colour, Dash, Drawing, Figure, Grid, Margins, Path, Rect, Stroke, TextStyle,
 };
 use glam::DVec3;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::shared::cylinder::{Cylinder, HandPath, Look, curve, faint, polar};
 use crate::claims::paper;
-use crate::experiment::{Experiment, ExperimentError, Quality, named};
-use crate::progress::Progress;
+use crate::experiment::{ExperimentError, Paper, named};
 
 /// Fig. 2.
-#[derive(Debug)]
-pub struct Fig02;
-
-impl Experiment for Fig02 {
-    type Data = Fig02Data;
-
-    const ID: &'static str = "fig02";
-
-    const TITLE: &'static str = "Trajectories of tossing hands and stators";
-    const DISCUSSION: &str = include_str!("fig02/discussion.md");
-
-    fn caption(data: &Fig02Data) -> String {
-        format!(
-            "Potential dough-tossing motions and stator trajectories, Eq. (1) on the cylinder of radius a_e in \
-             perspective: (a)–(c) the effect of the phase lag θ with φ_L = π/4, and (d)–(f) the effect of the amplitude \
-             ratio L = tan φ_L with θ = −π/4. The dot is the point at τ = 0, the arrowheads show the sense of the motion; \
-             what lies behind the cylinder is lighter and dotted; thin lines: mean height and β = 0. The text gives θ only \
-             for (a), −π/2 (elliptical, Sec. IV A), and for (c), 0 (linear, Sec. III B); −π/4 for the semielliptical (b), \
-             φ_L = 0.05π, 0.25π and 0.45π for (d)–(f), and the stroke c = {} a_e are choices made here. (b) and (e) show the same motion: the paper's \
-             caption gives φ_L = π/4 to the upper row and θ = −π/4 to the lower one, and the middle panels of both rows have these two.",
-            data.stroke_over_contact_radius
-        )
+pub(crate) fn fig02(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
+    let (quality, progress) = (fig.quality, fig.progress);
+    let intervals = quality.choose(120, 720);
+    let printed_angle = paper::value("section1.amplitude_angle_of_fig2_abc")?;
+    let printed_lag = paper::value("section1.phase_lag_of_fig2_def")?;
+    let lags = PHASE_LAGS.map(|lag| (lag, printed_angle));
+    let ratios = AMPLITUDE_ANGLES.map(|angle| (printed_lag, angle));
+    progress.start((lags.len() + ratios.len()) as u64, "trajectories");
+    let mut panels = Vec::new();
+    for (lag, angle) in lags.into_iter().chain(ratios) {
+        panels.push(Trajectory::new(lag, angle, intervals)?);
+        progress.advance(1);
     }
+    let data = &Fig02Data { stroke_over_contact_radius: STROKE / CONTACT_RADIUS, panels };
+    fig.caption(format!(
+        "Potential dough-tossing motions and stator trajectories, Eq. (1) on the cylinder of radius a_e in \
+         perspective: (a)–(c) the effect of the phase lag θ with φ_L = π/4, and (d)–(f) the effect of the amplitude \
+         ratio L = tan φ_L with θ = −π/4. The dot is the point at τ = 0, the arrowheads show the sense of the motion; \
+         what lies behind the cylinder is lighter and dotted; thin lines: mean height and β = 0. The text gives θ only \
+         for (a), −π/2 (elliptical, Sec. IV A), and for (c), 0 (linear, Sec. III B); −π/4 for the semielliptical (b), \
+         φ_L = 0.05π, 0.25π and 0.45π for (d)–(f), and the stroke c = {} a_e are choices made here. (b) and (e) show the same motion: the paper's \
+         caption gives φ_L = π/4 to the upper row and θ = −π/4 to the lower one, and the middle panels of both rows have these two.",
+        data.stroke_over_contact_radius
+    ));
+    fig.parameters(parameters(data));
+    fig.draw(draw(data)?);
+    fig.data(data)
+}
 
-    fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig02Data, ExperimentError> {
-        let intervals = quality.choose(120, 720);
-        let printed_angle = paper::value("section1.amplitude_angle_of_fig2_abc")?;
-        let printed_lag = paper::value("section1.phase_lag_of_fig2_def")?;
-        let lags = PHASE_LAGS.map(|lag| (lag, printed_angle));
-        let ratios = AMPLITUDE_ANGLES.map(|angle| (printed_lag, angle));
-        progress.start((lags.len() + ratios.len()) as u64, "trajectories");
-        let mut panels = Vec::new();
-        for (lag, angle) in lags.into_iter().chain(ratios) {
-            panels.push(Trajectory::new(lag, angle, intervals)?);
-            progress.advance(1);
-        }
-        Ok(Fig02Data { stroke_over_contact_radius: STROKE / CONTACT_RADIUS, panels })
-    }
+fn parameters(data: &Fig02Data) -> Vec<(String, String)> {
+    let list = |values: &mut dyn Iterator<Item = f64>| {
+        values.map(|angle| format!("{:.2}π", angle / PI)).collect::<Vec<_>>().join(", ")
+    };
+    let panels = &data.panels;
+    named([
+        ("phase lag θ of (a)–(f)", list(&mut panels.iter().map(|panel| panel.phase_lag_rad))),
+        ("amplitude angle φ_L of (a)–(f)", list(&mut panels.iter().map(|panel| panel.amplitude_angle_rad))),
+        ("stroke c", format!("{} a_e", data.stroke_over_contact_radius)),
+    ])
+}
 
-    fn draw(data: &Fig02Data) -> Result<Figure, ExperimentError> {
-        let margins = Margins { left: 2.0, right: 2.0, top: 4.0, bottom: 2.0 };
-        let grid = Grid::new(WIDTH, HEIGHT, 2, 3).margins(margins).gaps(2.0, 6.0);
-        let letters = ["a", "b", "c", "d", "e", "f"];
-        let panels = data.panels.iter().zip(letters.into_iter().zip(NAMES)).enumerate();
-        Ok(panels.fold(Figure::new(WIDTH, HEIGHT), |figure, (index, (trajectory, (letter, name)))| {
-            figure.drawing(panel(trajectory, letter, name, grid.cell(index / 3, index % 3)))
-        }))
-    }
-
-    fn parameters(data: &Fig02Data) -> Vec<(String, String)> {
-        let list = |values: &mut dyn Iterator<Item = f64>| {
-            values.map(|angle| format!("{:.2}π", angle / PI)).collect::<Vec<_>>().join(", ")
-        };
-        let panels = &data.panels;
-        named([
-            ("phase lag θ of (a)–(f)", list(&mut panels.iter().map(|panel| panel.phase_lag_rad))),
-            (
-                "amplitude angle φ_L of (a)–(f)",
-                list(&mut panels.iter().map(|panel| panel.amplitude_angle_rad)),
-            ),
-            ("stroke c", format!("{} a_e", data.stroke_over_contact_radius)),
-        ])
-    }
+fn draw(data: &Fig02Data) -> Result<Figure, ExperimentError> {
+    let margins = Margins { left: 2.0, right: 2.0, top: 4.0, bottom: 2.0 };
+    let grid = Grid::new(WIDTH, HEIGHT, 2, 3).margins(margins).gaps(2.0, 6.0);
+    let letters = ["a", "b", "c", "d", "e", "f"];
+    let panels = data.panels.iter().zip(letters.into_iter().zip(NAMES)).enumerate();
+    Ok(panels.fold(Figure::new(WIDTH, HEIGHT), |figure, (index, (trajectory, (letter, name)))| {
+        figure.drawing(panel(trajectory, letter, name, grid.cell(index / 3, index % 3)))
+    }))
 }
 
 /// The data of Fig. 2; lengths in units of the contact radius.
-#[derive(Debug, Serialize, Deserialize)]
-pub struct Fig02Data {
+#[derive(Debug, Serialize)]
+pub(crate) struct Fig02Data {
     stroke_over_contact_radius: f64,
     panels: Vec<Trajectory>,
 }
 
 /// One trajectory.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 struct Trajectory {
     phase_lag_rad: f64,
     amplitude_angle_rad: f64,

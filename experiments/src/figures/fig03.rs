@@ -5,80 +5,64 @@ mod draw;
 mod sprung;
 
 use bouncing_disk::core::ChatterPolicy;
-use bouncing_disk_plot::Figure;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use self::census::{Census, ChatteringCycle, census, cycle};
 use self::sprung::{Sprung, sprung};
 use crate::claims::{self as claim, Claim};
-use crate::experiment::{Experiment, ExperimentError, Quality, named};
-use crate::progress::Progress;
+use crate::experiment::{ExperimentError, Paper, named};
 
 /// Fig. 3.
-#[derive(Debug)]
-pub struct Fig03;
+pub(crate) fn fig03(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
+    fig.chattering(ChatterPolicy::Complete);
+    let (quality, progress) = (fig.quality, fig.progress);
+    let census = census(quality, progress)?;
+    let cycle = cycle(quality)?;
+    let sprung = sprung(quality)?;
+    let data = &Fig03Data { census, cycle, sprung };
+    fig.caption(caption(data));
+    fig.parameters(parameters(data));
+    fig.claims(vec![sprung_rotor(data), cap(&data.census)]);
+    fig.draw(draw::draw(&data.census, &data.cycle));
+    fig.data(data)
+}
 
-impl Experiment for Fig03 {
-    type Data = Fig03Data;
+fn caption(data: &Fig03Data) -> String {
+    let (census, cycle) = (&data.census, &data.cycle);
+    format!(
+        "Model simulation flow chart: the modes flight, sticking and sliding (boxes), the impact, which is an instant \
+         (rounded), and the events between them. Every arrow is a transition that the engine was seen to make: {} \
+         events of {} systems and starts were counted, and only the {} transitions drawn occurred \
+         (rebound and attachments share the collision). At the arrows: their conditions; β̈_env = μ a_e N/(m a_g²) is what static friction can give. A cycle \
+         starts with the collision. The inset shows a computed trajectory of the disk (dashed line) and of the platform (solid line), time from the collision, \
+         for one cycle of the simulation, starting with collision (c), attachment (a) after infinitely many impacts, and ending with \
+         separation (s), for Γ = {}, ε = {}; the flight before the collision is lighter.",
+        census.events,
+        census.motions,
+        census.transitions.len(),
+        cycle.axial_forcing,
+        cycle.restitution
+    )
+}
 
-    const ID: &'static str = "fig03";
-
-    const TITLE: &'static str = "Flow chart of the simulation";
-    const DISCUSSION: &str = include_str!("fig03/discussion.md");
-    const CHATTER_POLICY: Option<ChatterPolicy> = Some(ChatterPolicy::Complete);
-
-    fn caption(data: &Fig03Data) -> String {
-        let (census, cycle) = (&data.census, &data.cycle);
-        format!(
-            "Model simulation flow chart: the modes flight, sticking and sliding (boxes), the impact, which is an instant \
-             (rounded), and the events between them. Every arrow is a transition that the engine was seen to make: {} \
-             events of {} systems and starts were counted, and only the {} transitions drawn occurred \
-             (rebound and attachments share the collision). At the arrows: their conditions; β̈_env = μ a_e N/(m a_g²) is what static friction can give. A cycle \
-             starts with the collision. The inset shows a computed trajectory of the disk (dashed line) and of the platform (solid line), time from the collision, \
-             for one cycle of the simulation, starting with collision (c), attachment (a) after infinitely many impacts, and ending with \
-             separation (s), for Γ = {}, ε = {}; the flight before the collision is lighter.",
-            census.events,
-            census.motions,
-            census.transitions.len(),
-            cycle.axial_forcing,
-            cycle.restitution
-        )
-    }
-
-    fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig03Data, ExperimentError> {
-        let census = census(quality, progress)?;
-        let cycle = cycle(quality)?;
-        let sprung = sprung(quality)?;
-        Ok(Fig03Data { census, cycle, sprung })
-    }
-
-    fn draw(data: &Fig03Data) -> Result<Figure, ExperimentError> {
-        Ok(draw::draw(&data.census, &data.cycle))
-    }
-
-    fn claims(data: &Fig03Data) -> Vec<Claim> {
-        vec![sprung_rotor(data), cap(&data.census)]
-    }
-
-    fn parameters(data: &Fig03Data) -> Vec<(String, String)> {
-        let (census, cycle) = (&data.census, &data.cycle);
-        let list = |values: &[f64]| values.iter().map(f64::to_string).collect::<Vec<_>>().join(", ");
-        named([
-            ("peak acceleration Aω²/g", list(&census.peak_accelerations)),
-            ("largest platform speed, in g a_e/(a_g² ω)", list(&census.twist_speeds)),
-            ("phase lag θ (rad)", list(&census.phase_lags_rad)),
-            ("friction μ", list(&census.frictions)),
-            ("restitution ε", list(&census.restitutions)),
-            ("load torque, in m g a_e", list(&census.loads)),
-            ("events of a motion", format!("at most {}", census.longest_motion)),
-            ("inset", format!("Γ = {}, ε = {}, complete chattering", cycle.axial_forcing, cycle.restitution)),
-        ])
-    }
+fn parameters(data: &Fig03Data) -> Vec<(String, String)> {
+    let (census, cycle) = (&data.census, &data.cycle);
+    let list = |values: &[f64]| values.iter().map(f64::to_string).collect::<Vec<_>>().join(", ");
+    named([
+        ("peak acceleration Aω²/g", list(&census.peak_accelerations)),
+        ("largest platform speed, in g a_e/(a_g² ω)", list(&census.twist_speeds)),
+        ("phase lag θ (rad)", list(&census.phase_lags_rad)),
+        ("friction μ", list(&census.frictions)),
+        ("restitution ε", list(&census.restitutions)),
+        ("load torque, in m g a_e", list(&census.loads)),
+        ("events of a motion", format!("at most {}", census.longest_motion)),
+        ("inset", format!("Γ = {}, ε = {}, complete chattering", cycle.axial_forcing, cycle.restitution)),
+    ])
 }
 
 /// The data of Fig. 3.
-#[derive(Debug, Serialize, Deserialize)]
-pub struct Fig03Data {
+#[derive(Debug, Serialize)]
+pub(crate) struct Fig03Data {
     census: Census,
     cycle: ChatteringCycle,
     sprung: Sprung,
@@ -137,8 +121,8 @@ mod tests {
 
     #[test]
     fn the_arrows_drawn_are_the_transitions_seen() {
-        let data = Fig03::compute(Quality::Draft, &Silent).expect("runs");
-        let seen = &data.census.transitions;
+        let census = census(crate::Quality::Draft, &Silent).expect("runs");
+        let seen = &census.transitions;
         assert!(seen.iter().eq(&std::collections::BTreeSet::from(Transition::LEGAL)));
         assert!(seen.iter().all(|transition| draw::arrow(*transition).is_some()));
     }

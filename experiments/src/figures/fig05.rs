@@ -10,127 +10,115 @@ use bouncing_disk_plot::{
     Anchor, Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Legend, Line, Margins, Panel,
     Rule, Stroke, Text, Ticks,
 };
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::shared::toss::{AngleGrid, TossCase, launch_case, printed_angles, unreadable};
 use crate::claims::paper::{self, SectionThree, TableOne};
 use crate::claims::printed::PrintedNumber;
 use crate::claims::{self as claim, Claim};
-use crate::experiment::{Experiment, ExperimentError, Quality, named};
-use crate::progress::Progress;
+use crate::experiment::{ExperimentError, Paper, named};
 
 /// Fig. 5.
-#[derive(Debug)]
-pub struct Fig05;
-
-impl Experiment for Fig05 {
-    type Data = Fig05Data;
-
-    const ID: &'static str = "fig05";
-
-    const TITLE: &'static str = "Hand motions and the resulting dough trajectories";
-    const DISCUSSION: &str = include_str!("fig05/discussion.md");
-    const CHATTER_POLICY: Option<ChatterPolicy> = Some(ChatterPolicy::Complete);
-
-    fn caption(data: &Fig05Data) -> String {
-        format!(
-            "Details of various hand motions (dashed curves) and the resulting dough trajectories (solid curves): height, \
-             angle and angular speed in single tosses with Table I's parameters, for the amplitude ratios φ_L = {}. Two phase \
-             lags, θ_1 = 0 (blue) and θ_2 = π/2 (vermilion), which have the same heights. Time runs from the hand's lowest point, \
-             where the dough is at rest; shaded: dough and hand in contact, up to the separation at t_sep, at the phase τ_sep = ωt_sep − π/2. Heights are \
-             shown up to the landing, angles and speeds in and after the contact. The effects of a suboptimal φ_L are seen \
-             in the speeds at θ_1: slip at the separation at high φ_L, a low hand speed ωΦ at low φ_L.",
-            data.columns.iter().map(|column| column.printed.as_str()).collect::<Vec<_>>().join(", ")
-        )
-    }
-
-    fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig05Data, ExperimentError> {
-        let points = quality.choose(60, 240);
-        let table_i = paper::table_one()?;
-        let printed = paper::section_three()?;
-        let table = TossCase::from(&table_i);
-        let angles = [
-            &printed.amplitude_angle_of_largest_speed_ratio_rad,
-            &printed.optimal_amplitude_angle_rad,
-            &printed.amplitude_angle_of_fig5c_rad,
-        ];
-        let phase_lags = [FIRST_PHASE_LAG, paper::value("section3.second_phase_lag_of_fig5")?];
-        progress.start(angles.len() as u64 + 1, "columns");
-        let mut columns = Vec::new();
-        let mut optimum = table;
-        for (index, text) in angles.into_iter().enumerate() {
-            let Some(angle) = PrintedNumber::read(text) else { continue };
-            let case = table.at_angle(angle.value);
-            if index == 1 {
-                optimum = case;
-            }
-            columns.push(Column::new(text, &case, phase_lags, points)?);
-            progress.advance(1);
+pub(crate) fn fig05(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
+    fig.chattering(ChatterPolicy::Complete);
+    let (quality, progress) = (fig.quality, fig.progress);
+    let points = quality.choose(60, 240);
+    let table_i = paper::table_one()?;
+    let printed = paper::section_three()?;
+    let table = TossCase::from(&table_i);
+    let angles = [
+        &printed.amplitude_angle_of_largest_speed_ratio_rad,
+        &printed.optimal_amplitude_angle_rad,
+        &printed.amplitude_angle_of_fig5c_rad,
+    ];
+    let phase_lags = [FIRST_PHASE_LAG, paper::value("section3.second_phase_lag_of_fig5")?];
+    progress.start(angles.len() as u64 + 1, "columns");
+    let mut columns = Vec::new();
+    let mut optimum = table;
+    for (index, text) in angles.into_iter().enumerate() {
+        let Some(angle) = PrintedNumber::read(text) else { continue };
+        let case = table.at_angle(angle.value);
+        if index == 1 {
+            optimum = case;
         }
-        let lags = PHASE_LAGS_NEAR_ZERO
-            .into_iter()
-            .map(|lag| {
-                let toss = Toss::new(&optimum.at_lag(lag), points)?;
-                Ok::<_, ExperimentError>(Dependence {
-                    phase_lag_rad: lag,
-                    lowest_speed_rad_per_s: toss.lowest_speed_rad_per_s,
-                    late_gain_rad_per_s: toss.late_gain_rad_per_s,
-                })
-            })
-            .collect::<Result<Vec<_>, _>>()?;
-        let firm_grip = FRICTION_FACTORS
-            .into_iter()
-            .map(|factor| Grip::new(&table, factor, &columns))
-            .collect::<Result<Vec<_>, _>>()?;
-        let grid_point = GridPoint::new(&table_i, &printed)?;
+        columns.push(Column::new(text, &case, phase_lags, points)?);
         progress.advance(1);
-        Ok(Fig05Data { table_i, printed, columns, lags, firm_grip, grid_point })
     }
+    let lags = PHASE_LAGS_NEAR_ZERO
+        .into_iter()
+        .map(|lag| {
+            let toss = Toss::new(&optimum.at_lag(lag), points)?;
+            Ok::<_, ExperimentError>(Dependence {
+                phase_lag_rad: lag,
+                lowest_speed_rad_per_s: toss.lowest_speed_rad_per_s,
+                late_gain_rad_per_s: toss.late_gain_rad_per_s,
+            })
+        })
+        .collect::<Result<Vec<_>, _>>()?;
+    let firm_grip = FRICTION_FACTORS
+        .into_iter()
+        .map(|factor| Grip::new(&table, factor, &columns))
+        .collect::<Result<Vec<_>, _>>()?;
+    let grid_point = GridPoint::new(&table_i, &printed)?;
+    progress.advance(1);
+    let data = &Fig05Data { table_i, printed, columns, lags, firm_grip, grid_point };
+    fig.caption(format!(
+        "Details of various hand motions (dashed curves) and the resulting dough trajectories (solid curves): height, \
+         angle and angular speed in single tosses with Table I's parameters, for the amplitude ratios φ_L = {}. Two phase \
+         lags, θ_1 = 0 (blue) and θ_2 = π/2 (vermilion), which have the same heights. Time runs from the hand's lowest point, \
+         where the dough is at rest; shaded: dough and hand in contact, up to the separation at t_sep, at the phase τ_sep = ωt_sep − π/2. Heights are \
+         shown up to the landing, angles and speeds in and after the contact. The effects of a suboptimal φ_L are seen \
+         in the speeds at θ_1: slip at the separation at high φ_L, a low hand speed ωΦ at low φ_L.",
+        data.columns.iter().map(|column| column.printed.as_str()).collect::<Vec<_>>().join(", ")
+    ));
+    fig.parameters(parameters(data));
+    fig.claims(claims(data));
+    fig.draw(draw(data)?);
+    fig.data(data)
+}
 
-    fn draw(data: &Fig05Data) -> Result<Figure, ExperimentError> {
-        let grid = Grid::new(DOUBLE_COLUMN, HEIGHT, 3, 3)
-            .margins(Margins { left: 40.0, right: 10.0, top: 18.0, bottom: 30.0 })
-            .gaps(10.0, 36.0);
-        let mut figure = Figure::new(DOUBLE_COLUMN, HEIGHT);
-        for (index, row) in rows().iter().enumerate() {
-            for (letter, column) in data.columns.iter().enumerate() {
-                figure =
-                    figure.panel(panel(Panel::new(grid.cell(index, letter)), column, row, index, letter));
-            }
+fn parameters(data: &Fig05Data) -> Vec<(String, String)> {
+    let table = &data.table_i;
+    let angles: Vec<_> = data.columns.iter().map(|column| column.printed.as_str()).collect();
+    let lags = data.columns.first().map_or(String::new(), |column| {
+        column.tosses.iter().map(|toss| pi(toss.phase_lag_rad)).collect::<Vec<_>>().join(", ")
+    });
+    named([
+        ("amplitude angle φ_L", angles.join(", ")),
+        ("phase lag θ", lags),
+        ("stroke c", format!("{} m", table.stroke_m.value)),
+        ("angular frequency ω", format!("{} rad/s", table.angular_frequency_rad_per_s.value)),
+        ("contact radius a_e", format!("{} m", table.contact_radius_m.value)),
+        ("radius of gyration a_g", format!("{} m", table.gyration_radius_m.value)),
+        ("friction μ", table.friction.value.to_string()),
+        ("gravity g", format!("{} m/s²", table.preload_acceleration_m_per_s2)),
+        ("start", "lowest point of the hand, τ = 3π/2; dough at rest".to_owned()),
+    ])
+}
+
+fn claims(data: &Fig05Data) -> Vec<Claim> {
+    let mut claims = amplitude_ratio(data);
+    claims.push(no_slip(data));
+    claims.extend(phase_lag(data));
+    claims
+}
+
+fn draw(data: &Fig05Data) -> Result<Figure, ExperimentError> {
+    let grid = Grid::new(DOUBLE_COLUMN, HEIGHT, 3, 3)
+        .margins(Margins { left: 40.0, right: 10.0, top: 18.0, bottom: 30.0 })
+        .gaps(10.0, 36.0);
+    let mut figure = Figure::new(DOUBLE_COLUMN, HEIGHT);
+    for (index, row) in rows().iter().enumerate() {
+        for (letter, column) in data.columns.iter().enumerate() {
+            figure = figure.panel(panel(Panel::new(grid.cell(index, letter)), column, row, index, letter));
         }
-        Ok(figure)
     }
-
-    fn claims(data: &Fig05Data) -> Vec<Claim> {
-        let mut claims = amplitude_ratio(data);
-        claims.push(no_slip(data));
-        claims.extend(phase_lag(data));
-        claims
-    }
-
-    fn parameters(data: &Fig05Data) -> Vec<(String, String)> {
-        let table = &data.table_i;
-        let angles: Vec<_> = data.columns.iter().map(|column| column.printed.as_str()).collect();
-        let lags = data.columns.first().map_or(String::new(), |column| {
-            column.tosses.iter().map(|toss| pi(toss.phase_lag_rad)).collect::<Vec<_>>().join(", ")
-        });
-        named([
-            ("amplitude angle φ_L", angles.join(", ")),
-            ("phase lag θ", lags),
-            ("stroke c", format!("{} m", table.stroke_m.value)),
-            ("angular frequency ω", format!("{} rad/s", table.angular_frequency_rad_per_s.value)),
-            ("contact radius a_e", format!("{} m", table.contact_radius_m.value)),
-            ("radius of gyration a_g", format!("{} m", table.gyration_radius_m.value)),
-            ("friction μ", table.friction.value.to_string()),
-            ("gravity g", format!("{} m/s²", table.preload_acceleration_m_per_s2)),
-            ("start", "lowest point of the hand, τ = 3π/2; dough at rest".to_owned()),
-        ])
-    }
+    Ok(figure)
 }
 
 /// The data of Fig. 5.
-#[derive(Debug, Serialize, Deserialize)]
-pub struct Fig05Data {
+#[derive(Debug, Serialize)]
+pub(crate) struct Fig05Data {
     table_i: TableOne,
     printed: SectionThree,
     columns: Vec<Column>,
@@ -141,7 +129,7 @@ pub struct Fig05Data {
 }
 
 /// The φ_L of panel (c) as a point of the even grid on which the three printed angles lie.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 struct GridPoint {
     /// ω of Eq. (14), not rounded.
     angular_frequency_rad_per_s: f64,
@@ -152,7 +140,7 @@ struct GridPoint {
 }
 
 /// One amplitude ratio.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 struct Column {
     /// φ_L as printed.
     printed: String,
@@ -165,7 +153,7 @@ struct Column {
 
 /// One toss, from the lowest point of the hand until the dough lands. Time runs from the start, heights from
 /// the hand's mean height.
-#[derive(Debug, Default, Serialize, Deserialize)]
+#[derive(Debug, Default, Serialize)]
 struct Toss {
     phase_lag_rad: f64,
     time_s: Vec<f64>,
@@ -190,7 +178,7 @@ struct Toss {
 }
 
 /// The effect of a phase lag on the toss.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 struct Dependence {
     phase_lag_rad: f64,
     lowest_speed_rad_per_s: f64,
@@ -198,7 +186,7 @@ struct Dependence {
 }
 
 /// The tosses of the three columns at θ_1 with more friction.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 struct Grip {
     friction: f64,
     /// 1 minus airborne speed over hand speed at the separation, by column.

@@ -7,65 +7,47 @@ use bouncing_disk_plot::{
     Anchor, Camera, Colour, Dash, Drawing, Figure, Fill, Path, Rect, SINGLE_COLUMN, Stroke, Style, TextStyle,
 };
 use glam::DVec3;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::shared::cylinder::{Cylinder, Look, arc, polar};
 use crate::claims::paper::{self, TableThree};
-use crate::experiment::{Experiment, ExperimentError, Quality, named};
-use crate::progress::Progress;
+use crate::experiment::{ExperimentError, Paper};
 
 /// Fig. 8.
-#[derive(Debug)]
-pub struct Fig08;
+pub(crate) fn fig08(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
+    let progress = fig.progress;
+    progress.start(1, "dimensions");
+    let table_iii = paper::table_three()?;
+    let ball_diameter_mm = 1e3 * paper::section_five()?.rotor_diameter_m;
+    let (radius, contact) = (0.5 * ball_diameter_mm, table_iii.contact_radius_mm);
+    let contact_depth_mm = radius - (radius * radius - contact * contact).sqrt();
+    progress.advance(1);
+    let data = &Fig08Data { table_iii, ball_diameter_mm, contact_depth_mm };
+    fig.caption(format!(
+        "Geometric details of the ultrasonic motor (not to scale), with the dimensions that the text gives: the rotor, a \
+         steel ball of {} mm diameter with radius of gyration a_g = {} mm; the stator, a pretwisted beam glued to an \
+         axially poled piezoelectric transducer, which the ball touches along a circle of radius a_e = {} mm (enlarged at \
+         the right). A sinusoidal voltage at a resonance makes the stator's tip vibrate as Eq. (1) describes, s up and \
+         down and β about the axis; the arrow in the transducer is its poling. The preload mg is the weight of the ball, reduced by a magnet above it: g is the \
+         acceleration that is left. All other \
+         dimensions of the drawing are made up: the paper's drawing is not in its text.",
+        data.ball_diameter_mm, data.table_iii.gyration_radius_mm, data.table_iii.contact_radius_mm
+    ));
+    fig.parameter("ball diameter", format!("{} mm", data.ball_diameter_mm));
+    fig.parameter("contact radius a_e", format!("{} mm", data.table_iii.contact_radius_mm));
+    fig.parameter("radius of gyration a_g", format!("{} mm", data.table_iii.gyration_radius_mm));
+    fig.draw(draw(data)?);
+    fig.data(data)
+}
 
-impl Experiment for Fig08 {
-    type Data = Fig08Data;
-
-    const ID: &'static str = "fig08";
-
-    const TITLE: &'static str = "Geometric details of the ultrasonic motor";
-    const DISCUSSION: &str = include_str!("fig08/discussion.md");
-
-    fn caption(data: &Fig08Data) -> String {
-        format!(
-            "Geometric details of the ultrasonic motor (not to scale), with the dimensions that the text gives: the rotor, a \
-             steel ball of {} mm diameter with radius of gyration a_g = {} mm; the stator, a pretwisted beam glued to an \
-             axially poled piezoelectric transducer, which the ball touches along a circle of radius a_e = {} mm (enlarged at \
-             the right). A sinusoidal voltage at a resonance makes the stator's tip vibrate as Eq. (1) describes, s up and \
-             down and β about the axis; the arrow in the transducer is its poling. The preload mg is the weight of the ball, reduced by a magnet above it: g is the \
-             acceleration that is left. All other \
-             dimensions of the drawing are made up: the paper's drawing is not in its text.",
-            data.ball_diameter_mm, data.table_iii.gyration_radius_mm, data.table_iii.contact_radius_mm
-        )
-    }
-
-    fn compute(_quality: Quality, progress: &dyn Progress) -> Result<Fig08Data, ExperimentError> {
-        progress.start(1, "dimensions");
-        let table_iii = paper::table_three()?;
-        let ball_diameter_mm = 1e3 * paper::section_five()?.rotor_diameter_m;
-        let (radius, contact) = (0.5 * ball_diameter_mm, table_iii.contact_radius_mm);
-        let contact_depth_mm = radius - (radius * radius - contact * contact).sqrt();
-        progress.advance(1);
-        Ok(Fig08Data { table_iii, ball_diameter_mm, contact_depth_mm })
-    }
-
-    fn draw(data: &Fig08Data) -> Result<Figure, ExperimentError> {
-        let shown = Rect::new(2.0, 2.0, SINGLE_COLUMN - 4.0, HEIGHT - 4.0);
-        Ok(Figure::new(SINGLE_COLUMN, HEIGHT).drawing(motor(data, shown)).drawing(contact(data, CONTACT)))
-    }
-
-    fn parameters(data: &Fig08Data) -> Vec<(String, String)> {
-        named([
-            ("ball diameter", format!("{} mm", data.ball_diameter_mm)),
-            ("contact radius a_e", format!("{} mm", data.table_iii.contact_radius_mm)),
-            ("radius of gyration a_g", format!("{} mm", data.table_iii.gyration_radius_mm)),
-        ])
-    }
+fn draw(data: &Fig08Data) -> Result<Figure, ExperimentError> {
+    let shown = Rect::new(2.0, 2.0, SINGLE_COLUMN - 4.0, HEIGHT - 4.0);
+    Ok(Figure::new(SINGLE_COLUMN, HEIGHT).drawing(motor(data, shown)).drawing(contact(data, CONTACT)))
 }
 
 /// The data of Fig. 8.
-#[derive(Debug, Serialize, Deserialize)]
-pub struct Fig08Data {
+#[derive(Debug, Serialize)]
+pub(crate) struct Fig08Data {
     table_iii: TableThree,
     ball_diameter_mm: f64,
     /// How far the ball reaches into the circle of contact.

@@ -7,113 +7,94 @@ use bouncing_disk_plot::{
     Axis, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Legend, Line, Margins, Marker, Panel, Rect,
     Rule, Scatter, Ticks,
 };
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::shared::motor::MotorCase;
 use super::shared::numbers::{Noise, StraightLine};
 use crate::claims::paper;
-use crate::experiment::{Experiment, ExperimentError, Quality, named};
-use crate::progress::Progress;
+use crate::experiment::{ExperimentError, Paper};
 
 /// Fig. 9.
-#[derive(Debug)]
-pub struct Fig09;
-
-impl Experiment for Fig09 {
-    type Data = Fig09Data;
-    const ID: &'static str = "fig09";
-    const TITLE: &'static str = "Coefficient of friction from the rotor's deceleration";
-    const DISCUSSION: &str = include_str!("fig09/discussion.md");
-    const CHATTER_POLICY: Option<ChatterPolicy> = Some(ChatterPolicy::Complete);
-
-    fn seeds() -> Vec<(&'static str, u64)> {
-        vec![("readings of the friction", SEED)]
-    }
-
-    fn caption(data: &Fig09Data) -> String {
-        format!(
-            "Determining the coefficient of friction between rotor and stator. (a) Speed of the model's rotor after the \
-             motor is switched off at {} rad/s, at the lowest, the middle and the highest preload of Sec. V B, with the fitted \
-             line −α̈_brake (t − t_c) (dashed) from which Eq. (17) gives μ; a residual vibration of the stator is not \
-             modelled. (b) μ against preload: circles, recovered from the model's curves; dots, a synthetic record, not \
-             measured, drawn from the log-normal distribution with the printed mean {} and standard deviation {} (seed {}); \
-             line, the printed mean. The paper's points are not in its text.",
-            data.first_speed_rad_per_s, data.printed_mean, data.printed_deviation, SEED
-        )
-    }
-
-    fn compute(_: Quality, progress: &dyn Progress) -> Result<Fig09Data, ExperimentError> {
-        progress.start(u64::from(PRELOADS), "preloads");
-        let section = paper::section_five()?;
-        let case = MotorCase::table_three()?;
-        let [lowest, highest] = paper::preloads()?.measured_range_n;
-        let rotor_mass_kg = section.rotor_mass_kg();
-        let first_speed_rad_per_s = case.peak_angular_speed_rad_per_s;
-        let share = |k: u32, count: u32| f64::from(k) / f64::from(count - 1);
-        let curves = (0..PRELOADS)
-            .map(|k| {
-                let preload = lowest + share(k, PRELOADS) * (highest - lowest);
-                progress.advance(1);
-                curve(&case, rotor_mass_kg, preload, first_speed_rad_per_s)
-            })
-            .collect::<Result<Vec<_>, _>>()?;
-        let printed_mean = paper::value("section5.mean_friction")?;
-        let printed_deviation = paper::value("section5.friction_deviation")?;
-        let mut noise = Noise::new(SEED);
-        let synthetic: Vec<(f64, f64)> = (0..SYNTHETIC)
-            .map(|k| {
-                let friction = noise.log_normal(printed_mean, printed_deviation);
-                (lowest + share(k, SYNTHETIC) * (highest - lowest), friction)
-            })
-            .collect();
-        let frictions: Vec<f64> = synthetic.iter().map(|point| point.1).collect();
-        let line = StraightLine::through(&synthetic);
-        Ok(Fig09Data {
-            case,
-            rotor_mass_kg,
-            first_speed_rad_per_s,
-            curves,
-            printed_mean,
-            printed_deviation,
-            synthetic_spread: Spread::of(&frictions)?,
-            synthetic_slope_per_n: line.map_or(0.0, |line| line.slope),
-            synthetic_slope_error_per_n: line.map_or(0.0, |line| line.slope_error),
-            synthetic,
+pub(crate) fn fig09(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
+    fig.chattering(ChatterPolicy::Complete);
+    fig.seed("readings of the friction", SEED);
+    let progress = fig.progress;
+    progress.start(u64::from(PRELOADS), "preloads");
+    let section = paper::section_five()?;
+    let case = MotorCase::table_three()?;
+    let [lowest, highest] = paper::preloads()?.measured_range_n;
+    let rotor_mass_kg = section.rotor_mass_kg();
+    let first_speed_rad_per_s = case.peak_angular_speed_rad_per_s;
+    let share = |k: u32, count: u32| f64::from(k) / f64::from(count - 1);
+    let curves = (0..PRELOADS)
+        .map(|k| {
+            let preload = lowest + share(k, PRELOADS) * (highest - lowest);
+            progress.advance(1);
+            curve(&case, rotor_mass_kg, preload, first_speed_rad_per_s)
         })
-    }
+        .collect::<Result<Vec<_>, _>>()?;
+    let printed_mean = paper::value("section5.mean_friction")?;
+    let printed_deviation = paper::value("section5.friction_deviation")?;
+    let mut noise = Noise::new(SEED);
+    let synthetic: Vec<(f64, f64)> = (0..SYNTHETIC)
+        .map(|k| {
+            let friction = noise.log_normal(printed_mean, printed_deviation);
+            (lowest + share(k, SYNTHETIC) * (highest - lowest), friction)
+        })
+        .collect();
+    let frictions: Vec<f64> = synthetic.iter().map(|point| point.1).collect();
+    let line = StraightLine::through(&synthetic);
+    let data = &Fig09Data {
+        case,
+        rotor_mass_kg,
+        first_speed_rad_per_s,
+        curves,
+        printed_mean,
+        printed_deviation,
+        synthetic_spread: Spread::of(&frictions)?,
+        synthetic_slope_per_n: line.map_or(0.0, |line| line.slope),
+        synthetic_slope_error_per_n: line.map_or(0.0, |line| line.slope_error),
+        synthetic,
+    };
+    fig.caption(format!(
+        "Determining the coefficient of friction between rotor and stator. (a) Speed of the model's rotor after the \
+         motor is switched off at {} rad/s, at the lowest, the middle and the highest preload of Sec. V B, with the fitted \
+         line −α̈_brake (t − t_c) (dashed) from which Eq. (17) gives μ; a residual vibration of the stator is not \
+         modelled. (b) μ against preload: circles, recovered from the model's curves; dots, a synthetic record, not \
+         measured, drawn from the log-normal distribution with the printed mean {} and standard deviation {} (seed {}); \
+         line, the printed mean. The paper's points are not in its text.",
+        data.first_speed_rad_per_s, data.printed_mean, data.printed_deviation, SEED
+    ));
+    fig.parameter("coefficient of friction μ of the model", data.case.friction);
+    fig.parameter("contact radius a_e", format!("{} m", data.case.contact_radius_m));
+    fig.parameter("radius of gyration a_g", format!("{} m", data.case.gyration_radius_m));
+    fig.parameter("mass of the rotor", format!("{:.4} kg", data.rotor_mass_kg));
+    fig.parameter(
+        "synthetic record",
+        format!(
+            "mean {:.3}, standard deviation {:.3}, slope {:.2} ± {:.2} 1/N",
+            data.synthetic_spread.mean,
+            data.synthetic_spread.deviation,
+            data.synthetic_slope_per_n,
+            data.synthetic_slope_error_per_n
+        ),
+    );
+    fig.draw(draw(data)?);
+    fig.data(data)
+}
 
-    fn draw(data: &Fig09Data) -> Result<Figure, ExperimentError> {
-        const HEIGHT: f64 = 200.0;
-        let margins = Margins { left: 40.0, right: 10.0, top: 8.0, bottom: 34.0 };
-        let grid = Grid::new(DOUBLE_COLUMN, HEIGHT, 1, 2).margins(margins).gaps(52.0, 20.0);
-        Ok(Figure::new(DOUBLE_COLUMN, HEIGHT)
-            .panel(speeds(grid.cell(0, 0), data))
-            .panel(frictions(grid.cell(0, 1), data)))
-    }
-
-    fn parameters(data: &Fig09Data) -> Vec<(String, String)> {
-        named([
-            ("coefficient of friction μ of the model", data.case.friction.to_string()),
-            ("contact radius a_e", format!("{} m", data.case.contact_radius_m)),
-            ("radius of gyration a_g", format!("{} m", data.case.gyration_radius_m)),
-            ("mass of the rotor", format!("{:.4} kg", data.rotor_mass_kg)),
-            (
-                "synthetic record",
-                format!(
-                    "mean {:.3}, standard deviation {:.3}, slope {:.2} ± {:.2} 1/N",
-                    data.synthetic_spread.mean,
-                    data.synthetic_spread.deviation,
-                    data.synthetic_slope_per_n,
-                    data.synthetic_slope_error_per_n
-                ),
-            ),
-        ])
-    }
+fn draw(data: &Fig09Data) -> Result<Figure, ExperimentError> {
+    const HEIGHT: f64 = 200.0;
+    let margins = Margins { left: 40.0, right: 10.0, top: 8.0, bottom: 34.0 };
+    let grid = Grid::new(DOUBLE_COLUMN, HEIGHT, 1, 2).margins(margins).gaps(52.0, 20.0);
+    Ok(Figure::new(DOUBLE_COLUMN, HEIGHT)
+        .panel(speeds(grid.cell(0, 0), data))
+        .panel(frictions(grid.cell(0, 1), data)))
 }
 
 /// Braking curves of the model, and a synthetic record.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Fig09Data {
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub(crate) struct Fig09Data {
     case: MotorCase,
     rotor_mass_kg: f64,
     /// The rotor's speed as the motor is switched off (rad/s): ωΦ, the most it can have.
@@ -130,7 +111,7 @@ pub struct Fig09Data {
 }
 
 /// A braking curve and its straight line, α̇ = −α̈_brake (t − t_c).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 struct Curve {
     preload_n: f64,
     time_s: Vec<f64>,

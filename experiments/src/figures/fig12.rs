@@ -5,80 +5,62 @@ mod data;
 mod draw;
 
 use bouncing_disk::core::ChatterPolicy;
-use bouncing_disk_plot::Figure;
 
-pub use self::data::Fig12Data;
+pub(crate) use self::data::Fig12Data;
 use self::data::{Lines, LowPeriod};
 use super::shared::alike::AlikeMotor;
 use super::shared::motor::{DEFINITIONS, LOW_PERIOD_FLIGHTS, RobustCycle, by_definition_words};
 use crate::claims::{Cases, Claim, Verdict};
-use crate::experiment::{Experiment, ExperimentError, Quality, named};
-use crate::progress::Progress;
+use crate::experiment::{ExperimentError, Paper, named};
 
 /// Fig. 12.
-#[derive(Debug)]
-pub struct Fig12;
+pub(crate) fn fig12(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
+    fig.chattering(ChatterPolicy::Complete);
+    fig.seed("motors that print alike", compute::SEED);
+    let data = &compute::compute(fig.quality, fig.progress)?;
+    fig.caption(caption(data));
+    fig.parameters(parameters(data));
+    fig.claims(vec![
+        case(data, 0, "section5.long_period_case"),
+        case(data, 1, "section5.low_period_case"),
+        exponential(data),
+        linear(data),
+        abrupt(data),
+        lines(data),
+    ]);
+    fig.draw(draw::draw(data));
+    fig.data(data)
+}
 
-impl Experiment for Fig12 {
-    type Data = Fig12Data;
-    const ID: &'static str = "fig12";
-    const TITLE: &'static str = "Speed transients of long-period and low-period chattering";
-    const DISCUSSION: &str = include_str!("fig12/discussion.md");
-    const CHATTER_POLICY: Option<ChatterPolicy> = Some(ChatterPolicy::Complete);
+fn caption(data: &Fig12Data) -> String {
+    let (long, low) = (&data.long_period, &data.low_period);
+    format!(
+        "Speed transients of the motor of Table III that nothing perturbs. (a)–(c) A = {:e} m, g = {} m/s²: long-period \
+         chattering, one orbit of many between which the last places of the inputs choose; (d)–(f) g = {} m/s² and the amplitude that stands in (d), {:.1e} of the printed one \
+         away from it, the nearest that was found with a low-period cycle of more than one flight which they do not choose ({}). (a), (d) Speed during each \
+         flight; dashed: exponential fit, and what the impulses of one cycle predict. (b) Speed and (c), (f) height of the rotor in the blue windows, (f) over \
+         three cycles; (e) speed during each flight of ten cycles, dots of one colour for the same flight of every cycle, which form lines. At the printed \
+         amplitude itself the length of the cycle is a matter of rounding.",
+        data.cases.amplitudes_m[0],
+        long.motor.preload_acceleration_m_per_s2,
+        low.motor.preload_acceleration_m_per_s2,
+        low.amplitude_offset.abs(),
+        low.robust_cycle.map_or_else(String::new, RobustCycle::words),
+    )
+}
 
-    fn seeds() -> Vec<(&'static str, u64)> {
-        vec![("motors that print alike", compute::SEED)]
-    }
-
-    fn caption(data: &Fig12Data) -> String {
-        let (long, low) = (&data.long_period, &data.low_period);
-        format!(
-            "Speed transients of the motor of Table III that nothing perturbs. (a)–(c) A = {:e} m, g = {} m/s²: long-period \
-             chattering, one orbit of many between which the last places of the inputs choose; (d)–(f) g = {} m/s² and the amplitude that stands in (d), {:.1e} of the printed one \
-             away from it, the nearest that was found with a low-period cycle of more than one flight which they do not choose ({}). (a), (d) Speed during each \
-             flight; dashed: exponential fit, and what the impulses of one cycle predict. (b) Speed and (c), (f) height of the rotor in the blue windows, (f) over \
-             three cycles; (e) speed during each flight of ten cycles, dots of one colour for the same flight of every cycle, which form lines. At the printed \
-             amplitude itself the length of the cycle is a matter of rounding.",
-            data.cases.amplitudes_m[0],
-            long.motor.preload_acceleration_m_per_s2,
-            low.motor.preload_acceleration_m_per_s2,
-            low.amplitude_offset.abs(),
-            low.robust_cycle.map_or_else(String::new, RobustCycle::words),
-        )
-    }
-
-    fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig12Data, ExperimentError> {
-        compute::compute(quality, progress)
-    }
-
-    fn draw(data: &Fig12Data) -> Result<Figure, ExperimentError> {
-        Ok(draw::draw(data))
-    }
-
-    fn claims(data: &Fig12Data) -> Vec<Claim> {
-        vec![
-            case(data, 0, "section5.long_period_case"),
-            case(data, 1, "section5.low_period_case"),
-            exponential(data),
-            linear(data),
-            abrupt(data),
-            lines(data),
-        ]
-    }
-
-    fn parameters(data: &Fig12Data) -> Vec<(String, String)> {
-        let motor = &data.long_period.motor;
-        let own = [
-            ("ω/2π", format!("{} Hz", motor.frequency_hz)),
-            ("Γ of (a)–(c)", format!("{:.2}", data.long_period.axial_forcing)),
-            ("Γ of (d)–(f)", format!("{:.2}", data.low_period.axial_forcing)),
-            ("low period", format!("at most {} long flights from rest to rest", data.low_period_flights)),
-            ("relaunch perturbation", "none".to_owned()),
-            ("orbits judged for (a)–(c)", data.alike[0].inputs.clone()),
-            ("orbits judged for (d)–(f)", data.alike[1].inputs.clone()),
-        ];
-        [motor.shared_inputs(), named(own)].concat()
-    }
+fn parameters(data: &Fig12Data) -> Vec<(String, String)> {
+    let motor = &data.long_period.motor;
+    let own = [
+        ("ω/2π", format!("{} Hz", motor.frequency_hz)),
+        ("Γ of (a)–(c)", format!("{:.2}", data.long_period.axial_forcing)),
+        ("Γ of (d)–(f)", format!("{:.2}", data.low_period.axial_forcing)),
+        ("low period", format!("at most {} long flights from rest to rest", data.low_period_flights)),
+        ("relaunch perturbation", "none".to_owned()),
+        ("orbits judged for (a)–(c)", data.alike[0].inputs.clone()),
+        ("orbits judged for (d)–(f)", data.alike[1].inputs.clone()),
+    ];
+    [motor.shared_inputs(), named(own)].concat()
 }
 
 /// So many orbits are enough for a verdict under another definition.

@@ -7,7 +7,7 @@ use bouncing_disk::core::{ChatterPolicy, Phase};
 use bouncing_disk::parameters::{LaunchSpeeds, Stroke};
 use bouncing_disk::{Platform, System};
 use bouncing_disk_plot::{Figure, Label, ruled_table};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::shared::alike::{DRAWN, agreement, draws};
 use super::shared::cylinder::HandPath;
@@ -17,135 +17,122 @@ use crate::claims::{
     Cases, Claim, catalogue,
     paper::{self, SectionThree, TableOne, Uncertain},
 };
-use crate::experiment::{Experiment, ExperimentError, Quality, named};
-use crate::progress::Progress;
+use crate::experiment::{ExperimentError, Paper, named};
 
 /// Table I.
-#[derive(Debug)]
-pub struct Table1;
+pub(crate) fn table1(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
+    fig.chattering(ChatterPolicy::Complete);
+    fig.seed("launches and slopes that print alike", SEED);
+    let table_i = paper::table_one()?;
+    let section = paper::section_three()?;
+    let slip_slope_deg = slip_slope()?;
+    let computed_entries = computed_entries(&table_i, &section, slip_slope_deg)?;
+    let uncorrected = computed_entries.angular_frequency_rad_per_s.value;
+    let separation = at_separation(&table_i, &section, uncorrected)?;
+    let rows = rows(&table_i, &computed_entries, &separation)?;
+    let case = TossCase::from(&table_i);
+    let system = case.system()?;
+    let platform = system.platform();
+    let data = &Table1Data {
+        arc: arc(&case, platform)?,
+        alike: alike(slip_slope_deg.uncertainty)?,
+        table_i,
+        section,
+        slip_slope_deg,
+        rows,
+        computed_entries,
+        separation,
+    };
+    fig.caption(format!(
+        "The single toss as printed, the entries that the paper computes (φ_L, ω, μ) computed again, and the \
+         quantities that follow from the printed entries. Uncertainties are sums of the effects of the inputs of \
+         a row, each half the difference of both ends. Eq. (14) takes the hand's largest speeds for those at \
+         separation; with the factor cos τ_sep that it leaves out, ω is {:.2} rad/s.",
+        data.separation.corrected_angular_frequency_rad_per_s.value
+    ));
+    fig.parameters(parameters(data));
+    fig.claims(claims(data));
+    fig.draw(draw(data)?);
+    fig.data(data)
+}
 
-impl Experiment for Table1 {
-    type Data = Table1Data;
-    const ID: &'static str = "table1";
-    const TITLE: &'static str = "Full specification of a single toss";
-    const DISCUSSION: &str = include_str!("table1/discussion.md");
-    const CHATTER_POLICY: Option<ChatterPolicy> = Some(ChatterPolicy::Complete);
+fn parameters(data: &Table1Data) -> Vec<(String, String)> {
+    let table = &data.table_i;
+    named([
+        ("launch speed", format!("{} m/s", data.section.launch_speed_m_per_s)),
+        ("launch angular speed", format!("{} rad/s", data.section.launch_angular_speed_rad_per_s)),
+        ("slope of slip", format!("{}°", data.slip_slope_deg)),
+        ("c", format!("{} m", table.stroke_m)),
+        ("a_e", format!("{} m", table.contact_radius_m)),
+        ("a_g", format!("{} m", table.gyration_radius_m)),
+        ("g", format!("{} m/s²", table.preload_acceleration_m_per_s2)),
+    ])
+}
 
-    fn seeds() -> Vec<(&'static str, u64)> {
-        vec![("launches and slopes that print alike", SEED)]
-    }
-
-    fn caption(data: &Table1Data) -> String {
-        format!(
-            "The single toss as printed, the entries that the paper computes (φ_L, ω, μ) computed again, and the \
-             quantities that follow from the printed entries. Uncertainties are sums of the effects of the inputs of \
-             a row, each half the difference of both ends. Eq. (14) takes the hand's largest speeds for those at \
-             separation; with the factor cos τ_sep that it leaves out, ω is {:.2} rad/s.",
-            data.separation.corrected_angular_frequency_rad_per_s.value
+fn claims(data: &Table1Data) -> Vec<Claim> {
+    let entries = &data.computed_entries;
+    let arc = &data.arc;
+    let (frequency, angle, friction) =
+        ("table1.angular_frequency", "table1.amplitude_angle", "table1.friction");
+    vec![
+        over_alike(angle, entries.amplitude_angle_rad.value, data.alike.amplitude_angle),
+        combined("table1.amplitude_angle_uncertainty", &entries.amplitude_angle_rad)
+            .note("the effects of a_e and the launch speeds"),
+        over_alike(frequency, entries.angular_frequency_rad_per_s.value, data.alike.angular_frequency),
+        combined("table1.angular_frequency_uncertainty", &entries.angular_frequency_rad_per_s)
+            .note("the effects of c, a_e and the launch speeds"),
+        over_alike(friction, entries.friction.value, data.alike.friction)
+            .note(format!("tan({}°)", data.slip_slope_deg.value)),
+        over_alike("table1.friction_uncertainty", entries.friction.sum, data.alike.friction_uncertainty)
+            .note(format!("half the difference of the tangents at the ends of {}°", data.slip_slope_deg)),
+        Claim::printed_statement(
+            "section3.arc_length",
+            (arc.length_m / arc.half_m - 1.0).abs() <= LENGTH,
+            format!(
+                "the path of Table I's toss, a straight line on the unrolled cylinder, is {:.4} m long from end to end, {:.4} times \
+                 sqrt(A² + (a_e Φ)²) = {:.4} m, which is the distance from its middle to an end; in a period the hand moves {:.4} m. \
+                 c is half of the arc",
+                arc.length_m,
+                arc.length_m / arc.half_m,
+                arc.half_m,
+                arc.per_period_m
+            ),
         )
-    }
+        .cause("half of the arc called the arc"),
+        launch_without_slip(data),
+    ]
+}
 
-    fn compute(_: Quality, _: &dyn Progress) -> Result<Table1Data, ExperimentError> {
-        let table_i = paper::table_one()?;
-        let section = paper::section_three()?;
-        let slip_slope_deg = slip_slope()?;
-        let computed_entries = computed_entries(&table_i, &section, slip_slope_deg)?;
-        let uncorrected = computed_entries.angular_frequency_rad_per_s.value;
-        let separation = at_separation(&table_i, &section, uncorrected)?;
-        let rows = rows(&table_i, &computed_entries, &separation)?;
-        let case = TossCase::from(&table_i);
-        let system = case.system()?;
-        let platform = system.platform();
-        Ok(Table1Data {
-            arc: arc(&case, platform)?,
-            alike: alike(slip_slope_deg.uncertainty)?,
-            table_i,
-            section,
-            slip_slope_deg,
-            rows,
-            computed_entries,
-            separation,
+fn draw(data: &Table1Data) -> Result<Figure, ExperimentError> {
+    let header = ["", "printed", "computed", "from"].map(Label::new);
+    let rows: Vec<Vec<Label>> = data
+        .rows
+        .iter()
+        .map(|row| {
+            let unit = if row.unit.is_empty() { String::new() } else { format!(" {}", row.unit) };
+            let digits = row.decimals;
+            let uncertainty = row
+                .uncertainty
+                .as_ref()
+                .map_or_else(String::new, |uncertainty| format!(" ± {:.digits$}", uncertainty.sum));
+            let computed = row
+                .computed
+                .map_or_else(String::new, |computed| format!("{computed:.digits$}{uncertainty}{unit}"));
+            let printed = row.printed.as_ref().map_or_else(String::new, |text| format!("{text}{unit}"));
+            vec![
+                Label::new(&row.label),
+                Label::plain(&printed),
+                Label::plain(&computed),
+                Label::new(&row.origin),
+            ]
         })
-    }
-
-    fn draw(data: &Table1Data) -> Result<Figure, ExperimentError> {
-        let header = ["", "printed", "computed", "from"].map(Label::new);
-        let rows: Vec<Vec<Label>> = data
-            .rows
-            .iter()
-            .map(|row| {
-                let unit = if row.unit.is_empty() { String::new() } else { format!(" {}", row.unit) };
-                let digits = row.decimals;
-                let uncertainty = row
-                    .uncertainty
-                    .as_ref()
-                    .map_or_else(String::new, |uncertainty| format!(" ± {:.digits$}", uncertainty.sum));
-                let computed = row
-                    .computed
-                    .map_or_else(String::new, |computed| format!("{computed:.digits$}{uncertainty}{unit}"));
-                let printed = row.printed.as_ref().map_or_else(String::new, |text| format!("{text}{unit}"));
-                vec![
-                    Label::new(&row.label),
-                    Label::plain(&printed),
-                    Label::plain(&computed),
-                    Label::new(&row.origin),
-                ]
-            })
-            .collect();
-        Ok(ruled_table(&header, &rows))
-    }
-
-    fn claims(data: &Table1Data) -> Vec<Claim> {
-        let entries = &data.computed_entries;
-        let arc = &data.arc;
-        let (frequency, angle, friction) =
-            ("table1.angular_frequency", "table1.amplitude_angle", "table1.friction");
-        vec![
-            over_alike(angle, entries.amplitude_angle_rad.value, data.alike.amplitude_angle),
-            combined("table1.amplitude_angle_uncertainty", &entries.amplitude_angle_rad)
-                .note("the effects of a_e and the launch speeds"),
-            over_alike(frequency, entries.angular_frequency_rad_per_s.value, data.alike.angular_frequency),
-            combined("table1.angular_frequency_uncertainty", &entries.angular_frequency_rad_per_s)
-                .note("the effects of c, a_e and the launch speeds"),
-            over_alike(friction, entries.friction.value, data.alike.friction)
-                .note(format!("tan({}°)", data.slip_slope_deg.value)),
-            over_alike("table1.friction_uncertainty", entries.friction.sum, data.alike.friction_uncertainty)
-                .note(format!("half the difference of the tangents at the ends of {}°", data.slip_slope_deg)),
-            Claim::printed_statement(
-                "section3.arc_length",
-                (arc.length_m / arc.half_m - 1.0).abs() <= LENGTH,
-                format!(
-                    "the path of Table I's toss, a straight line on the unrolled cylinder, is {:.4} m long from end to end, {:.4} times \
-                     sqrt(A² + (a_e Φ)²) = {:.4} m, which is the distance from its middle to an end; in a period the hand moves {:.4} m. \
-                     c is half of the arc",
-                    arc.length_m,
-                    arc.length_m / arc.half_m,
-                    arc.half_m,
-                    arc.per_period_m
-                ),
-            )
-            .cause("half of the arc called the arc"),
-            launch_without_slip(data),
-        ]
-    }
-
-    fn parameters(data: &Table1Data) -> Vec<(String, String)> {
-        let table = &data.table_i;
-        named([
-            ("launch speed", format!("{} m/s", data.section.launch_speed_m_per_s)),
-            ("launch angular speed", format!("{} rad/s", data.section.launch_angular_speed_rad_per_s)),
-            ("slope of slip", format!("{}°", data.slip_slope_deg)),
-            ("c", format!("{} m", table.stroke_m)),
-            ("a_e", format!("{} m", table.contact_radius_m)),
-            ("a_g", format!("{} m", table.gyration_radius_m)),
-            ("g", format!("{} m/s²", table.preload_acceleration_m_per_s2)),
-        ])
-    }
+        .collect();
+    Ok(ruled_table(&header, &rows))
 }
 
 /// The data of Table I.
-#[derive(Debug, Serialize, Deserialize)]
-pub struct Table1Data {
+#[derive(Debug, Serialize)]
+pub(crate) struct Table1Data {
     table_i: TableOne,
     section: SectionThree,
     slip_slope_deg: Uncertain,
@@ -157,7 +144,7 @@ pub struct Table1Data {
 }
 
 /// How many inputs that all print alike give the printed entries.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Serialize)]
 struct Alike {
     angular_frequency: Cases,
     amplitude_angle: Cases,
@@ -167,7 +154,7 @@ struct Alike {
 
 /// The path of a point of the hand at the contact radius in Table I's toss, a straight line on the unrolled
 /// cylinder.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 struct Arc {
     /// Its length from one end to the other, along a polygon of points of the path.
     length_m: f64,
@@ -178,7 +165,7 @@ struct Arc {
 }
 
 /// One line of the table.
-#[derive(Debug, Default, Serialize, Deserialize)]
+#[derive(Debug, Default, Serialize)]
 struct Row {
     /// The symbol as it is set in print.
     label: String,
@@ -194,7 +181,7 @@ struct Row {
 }
 
 /// The entries of Table I that the paper computes from measurements.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 struct ComputedEntries {
     angular_frequency_rad_per_s: Propagated,
     amplitude_angle_rad: Propagated,
@@ -202,7 +189,7 @@ struct ComputedEntries {
 }
 
 /// The hand of Table I as the dough leaves it, θ = 0, without slip.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 struct AtSeparation {
     /// cos τ_sep: both speeds over their largest values, which Eq. (14) takes instead.
     speed_share: f64,

@@ -3,7 +3,7 @@
 use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk::parameters::{LaunchSpeeds, Stroke};
 use bouncing_disk_plot::{Figure, Label, ruled_table};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::shared::numbers::Propagated;
 use super::shared::toss::TossCase;
@@ -11,114 +11,102 @@ use crate::claims::{
     Claim,
     paper::{self, SectionThree, TableOne, Uncertain},
 };
-use crate::experiment::{Experiment, ExperimentError, Quality};
-use crate::progress::Progress;
+use crate::experiment::{ExperimentError, Paper};
 
 /// Table II.
-#[derive(Debug)]
-pub struct Table2;
-
-impl Experiment for Table2 {
-    type Data = Table2Data;
-    const ID: &'static str = "table2";
-    const TITLE: &'static str = "Effects of input parameter uncertainties";
-    const DISCUSSION: &str = include_str!("table2/discussion.md");
-    const CHATTER_POLICY: Option<ChatterPolicy> = Some(ChatterPolicy::Complete);
-
-    fn caption(data: &Table2Data) -> String {
-        format!(
-            "Airborne rotation speed of the toss of Table I and its uncertainties due to each input: half the \
-             difference of the speeds at both ends of the input's range, the changes at the ends, and the printed \
-             value. Together {:.1} rad/s as a root sum of squares.",
-            data.combined.root_sum_of_squares_rad_per_s
-        )
+pub(crate) fn table2(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
+    fig.chattering(ChatterPolicy::Complete);
+    let progress = fig.progress;
+    let table_i = paper::table_one()?;
+    let section = paper::section_three()?;
+    let table = TossCase::from(&table_i);
+    progress.start(INPUTS.len() as u64, "inputs");
+    let mut effects = Vec::new();
+    for input in INPUTS {
+        effects.push(effect(&table_i, input)?);
+        progress.advance(1);
     }
+    let data = &Table2Data {
+        airborne_speed_rad_per_s: table.airborne_speed()?,
+        combined: combined(&effects),
+        uncertainty_from_launch_speeds_rad_per_s: from_launch_speeds(&table_i, &section)?,
+        effects,
+        table_i,
+        section,
+    };
+    fig.caption(format!(
+        "Airborne rotation speed of the toss of Table I and its uncertainties due to each input: half the \
+         difference of the speeds at both ends of the input's range, the changes at the ends, and the printed \
+         value. Together {:.1} rad/s as a root sum of squares.",
+        data.combined.root_sum_of_squares_rad_per_s
+    ));
+    fig.parameters(parameters(data));
+    fig.claims(claims(data));
+    fig.draw(draw(data)?);
+    fig.data(data)
+}
 
-    fn compute(_: Quality, progress: &dyn Progress) -> Result<Table2Data, ExperimentError> {
-        let table_i = paper::table_one()?;
-        let section = paper::section_three()?;
-        let table = TossCase::from(&table_i);
-        progress.start(INPUTS.len() as u64, "inputs");
-        let mut effects = Vec::new();
-        for input in INPUTS {
-            effects.push(effect(&table_i, input)?);
-            progress.advance(1);
-        }
-        Ok(Table2Data {
-            airborne_speed_rad_per_s: table.airborne_speed()?,
-            combined: combined(&effects),
-            uncertainty_from_launch_speeds_rad_per_s: from_launch_speeds(&table_i, &section)?,
-            effects,
-            table_i,
-            section,
-        })
+fn parameters(data: &Table2Data) -> Vec<(String, String)> {
+    let mut parameters = vec![("phase lag θ".to_owned(), format!("{} rad", data.table_i.phase_lag_rad))];
+    parameters.extend(data.effects.iter().map(|effect| {
+        let value = format!("{} ± {} {}", effect.value, effect.uncertainty, effect.unit);
+        (effect.input.clone(), value.trim_end().to_owned())
+    }));
+    parameters.push(("g".to_owned(), format!("{} m/s²", data.table_i.preload_acceleration_m_per_s2)));
+    parameters
+}
+
+fn claims(data: &Table2Data) -> Vec<Claim> {
+    let mut claims = Vec::new();
+    for effect in &data.effects {
+        let claim = Claim::printed(&effect.key, effect.central_rad_per_s.abs());
+        claims.push(claim.note(format!(
+            "half the difference of the speeds at both ends; changes at the upper end {:+.3}, at the lower end {:+.3}",
+            effect.upper_rad_per_s, effect.lower_rad_per_s
+        )));
     }
+    claims.push(together(data));
+    claims
+}
 
-    fn draw(data: &Table2Data) -> Result<Figure, ExperimentError> {
-        let header = [
-            "input",
-            "value",
-            r"effect on $\dot{\alpha}_f$ (rad/s)",
-            "at the upper end",
-            "at the lower end",
-            "printed",
-        ]
-        .map(Label::new);
-        let mut rows: Vec<Vec<Label>> = Vec::new();
-        for effect in &data.effects {
-            // As many decimals as the printed entry, and one or two more.
-            let decimals = if effect.printed_rad_per_s < 1.0 { 4 } else { 2 };
-            let unit = if effect.unit.is_empty() { String::new() } else { format!(" {}", effect.unit) };
-            rows.push(vec![
-                Label::new(&effect.label),
-                Label::plain(&format!("{} ± {}{unit}", effect.value, effect.uncertainty)),
-                Label::plain(&format!("± {:.decimals$}", effect.central_rad_per_s.abs())),
-                Label::plain(&signed(effect.upper_rad_per_s, decimals)),
-                Label::plain(&signed(effect.lower_rad_per_s, decimals)),
-                Label::plain(&format!("± {}", effect.printed_rad_per_s)),
-            ]);
-        }
+fn draw(data: &Table2Data) -> Result<Figure, ExperimentError> {
+    let header = [
+        "input",
+        "value",
+        r"effect on $\dot{\alpha}_f$ (rad/s)",
+        "at the upper end",
+        "at the lower end",
+        "printed",
+    ]
+    .map(Label::new);
+    let mut rows: Vec<Vec<Label>> = Vec::new();
+    for effect in &data.effects {
+        // As many decimals as the printed entry, and one or two more.
+        let decimals = if effect.printed_rad_per_s < 1.0 { 4 } else { 2 };
+        let unit = if effect.unit.is_empty() { String::new() } else { format!(" {}", effect.unit) };
         rows.push(vec![
-            Label::new(r"$\dot{\alpha}_f$"),
-            Label::plain(&format!("{:.2} rad/s", data.airborne_speed_rad_per_s)),
-            Label::plain(&format!(
-                "± {:.2} (root sum of squares)",
-                data.combined.root_sum_of_squares_rad_per_s
-            )),
-            Label::plain(""),
-            Label::plain(""),
-            Label::plain(&data.section.predicted_airborne_speed_rad_per_s),
+            Label::new(&effect.label),
+            Label::plain(&format!("{} ± {}{unit}", effect.value, effect.uncertainty)),
+            Label::plain(&format!("± {:.decimals$}", effect.central_rad_per_s.abs())),
+            Label::plain(&signed(effect.upper_rad_per_s, decimals)),
+            Label::plain(&signed(effect.lower_rad_per_s, decimals)),
+            Label::plain(&format!("± {}", effect.printed_rad_per_s)),
         ]);
-        Ok(ruled_table(&header, &rows))
     }
-
-    fn claims(data: &Table2Data) -> Vec<Claim> {
-        let mut claims = Vec::new();
-        for effect in &data.effects {
-            let claim = Claim::printed(&effect.key, effect.central_rad_per_s.abs());
-            claims.push(claim.note(format!(
-                "half the difference of the speeds at both ends; changes at the upper end {:+.3}, at the lower end {:+.3}",
-                effect.upper_rad_per_s, effect.lower_rad_per_s
-            )));
-        }
-        claims.push(together(data));
-        claims
-    }
-
-    fn parameters(data: &Table2Data) -> Vec<(String, String)> {
-        let mut parameters = vec![("phase lag θ".to_owned(), format!("{} rad", data.table_i.phase_lag_rad))];
-        parameters.extend(data.effects.iter().map(|effect| {
-            let value = format!("{} ± {} {}", effect.value, effect.uncertainty, effect.unit);
-            (effect.input.clone(), value.trim_end().to_owned())
-        }));
-        parameters.push(("g".to_owned(), format!("{} m/s²", data.table_i.preload_acceleration_m_per_s2)));
-        parameters
-    }
+    rows.push(vec![
+        Label::new(r"$\dot{\alpha}_f$"),
+        Label::plain(&format!("{:.2} rad/s", data.airborne_speed_rad_per_s)),
+        Label::plain(&format!("± {:.2} (root sum of squares)", data.combined.root_sum_of_squares_rad_per_s)),
+        Label::plain(""),
+        Label::plain(""),
+        Label::plain(&data.section.predicted_airborne_speed_rad_per_s),
+    ]);
+    Ok(ruled_table(&header, &rows))
 }
 
 /// The data of Table II.
-#[derive(Debug, Serialize, Deserialize)]
-pub struct Table2Data {
+#[derive(Debug, Serialize)]
+pub(crate) struct Table2Data {
     table_i: TableOne,
     section: SectionThree,
     airborne_speed_rad_per_s: f64,
@@ -130,7 +118,7 @@ pub struct Table2Data {
 }
 
 /// The effect of one input's uncertainty on the airborne speed, in rad/s.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 struct Effect {
     input: String,
     /// The entry of the catalogue.
@@ -150,7 +138,7 @@ struct Effect {
 }
 
 /// The effects of all inputs together, in rad/s, from central effects.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 struct Combined {
     root_sum_of_squares_rad_per_s: f64,
     sum_rad_per_s: f64,

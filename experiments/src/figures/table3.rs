@@ -6,7 +6,7 @@ use bouncing_disk::Unobserved;
 use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk::motor::{Estimate, InputSpread, InputTolerance, OperatingSettings, TransientSettings};
 use bouncing_disk_plot::{Figure, Label, ruled_table};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::shared::alike::DRAWN;
 use super::shared::motor::MotorCase;
@@ -16,167 +16,150 @@ use crate::claims::{
     Cases, Claim, catalogue,
     paper::{self, BallDrop, SectionFive, Uncertain},
 };
-use crate::experiment::{Experiment, ExperimentError, Quality};
-use crate::progress::Progress;
+use crate::experiment::{ExperimentError, Paper, Quality};
 
 /// Table III.
-#[derive(Debug)]
-pub struct Table3;
+pub(crate) fn table3(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
+    fig.chattering(ChatterPolicy::Complete);
+    fig.seed("drops of the ball", DROP_SEED);
+    fig.seed("runs to stall", OperatingSettings::default().seed);
+    fig.seed("ensembles", TransientSettings::default().seed);
+    let quality = fig.quality;
+    let table = paper::table_three()?;
+    let section = paper::section_five()?;
+    let as_frequency = MotorCase::table_three()?;
+    let as_printed =
+        MotorCase { preload_acceleration_m_per_s2: table.preload_acceleration_m_per_s2, ..as_frequency };
+    let cases = [as_printed, as_frequency];
+    let mass = section.rotor_mass_kg();
+    let stall = |case: &MotorCase| {
+        Stall::of(case, quality.choose(4, 16), TransientSettings::default().relaunch_perturbation)
+    };
+    let tolerance = InputTolerance { draws: quality.choose(8, 39), ..InputTolerance::default() };
+    let stalls = [stall(&as_printed)?, stall(&as_frequency)?];
+    let speeds = [speed(&as_printed, quality, None)?, speed(&as_frequency, quality, Some(tolerance))?];
+    let data = &Table3Data {
+        inputs: inputs(&cases)?,
+        printed_inputs: paper::printed_inputs(),
+        printed_preload_acceleration_m_per_s2: table.preload_acceleration_m_per_s2,
+        frequency_khz: 1e-3 * section.default_frequency_hz,
+        gravity_m_per_s2: section.gravity_m_per_s2,
+        preloads_n: cases.map(|case| mass * case.preload_acceleration_m_per_s2),
+        varied_m_per_s2: paper::preloads()?.preload_accelerations_m_per_s2,
+        derived: derived(&cases, &stalls, &speeds, mass)?,
+        stalls,
+        speeds,
+        drop: ball_drop(&section)?,
+        ball_gyration_radius_mm: 1e3 * ball_gyration_radius(&section),
+    };
+    fig.caption(format!(
+        "The default motor. Sec. V A announces {} inputs, the table prints {}: a column for ω is missing, and its \
+         last column can be read in two ways, both computed here: g = {} m/s² as printed, or ω/2π = {} kHz with \
+         gravity for g. ω is 2π × {} kHz in both. Below the nine inputs: what follows from \
+         them. The load torque that stalls the motor is that at which the mean speed of {} members is zero; the paper takes \
+         α̇_ss/t_c for it.",
+        data.inputs.len(),
+        data.printed_inputs,
+        data.printed_preload_acceleration_m_per_s2,
+        data.frequency_khz,
+        data.frequency_khz,
+        data.stalls[1].members,
+    ));
+    fig.parameters(parameters(data));
+    fig.claims(claims(data));
+    fig.draw(draw(data)?);
+    fig.data(data)
+}
 
-impl Experiment for Table3 {
-    type Data = Table3Data;
-    const ID: &'static str = "table3";
-    const TITLE: &'static str = "Default values for the dimensional parameters";
-    const DISCUSSION: &str = include_str!("table3/discussion.md");
-    const CHATTER_POLICY: Option<ChatterPolicy> = Some(ChatterPolicy::Complete);
-
-    fn seeds() -> Vec<(&'static str, u64)> {
-        vec![
-            ("drops of the ball", DROP_SEED),
-            ("runs to stall", OperatingSettings::default().seed),
-            ("ensembles", TransientSettings::default().seed),
-        ]
-    }
-
-    fn caption(data: &Table3Data) -> String {
-        format!(
-            "The default motor. Sec. V A announces {} inputs, the table prints {}: a column for ω is missing, and its \
-             last column can be read in two ways, both computed here: g = {} m/s² as printed, or ω/2π = {} kHz with \
-             gravity for g. ω is 2π × {} kHz in both. Below the nine inputs: what follows from \
-             them. The load torque that stalls the motor is that at which the mean speed of {} members is zero; the paper takes \
-             α̇_ss/t_c for it.",
-            data.inputs.len(),
-            data.printed_inputs,
-            data.printed_preload_acceleration_m_per_s2,
-            data.frequency_khz,
-            data.frequency_khz,
-            data.stalls[1].members,
-        )
-    }
-
-    fn compute(quality: Quality, _: &dyn Progress) -> Result<Table3Data, ExperimentError> {
-        let table = paper::table_three()?;
-        let section = paper::section_five()?;
-        let as_frequency = MotorCase::table_three()?;
-        let as_printed =
-            MotorCase { preload_acceleration_m_per_s2: table.preload_acceleration_m_per_s2, ..as_frequency };
-        let cases = [as_printed, as_frequency];
-        let mass = section.rotor_mass_kg();
-        let stall = |case: &MotorCase| {
-            Stall::of(case, quality.choose(4, 16), TransientSettings::default().relaunch_perturbation)
-        };
-        let tolerance = InputTolerance { draws: quality.choose(8, 39), ..InputTolerance::default() };
-        let stalls = [stall(&as_printed)?, stall(&as_frequency)?];
-        let speeds = [speed(&as_printed, quality, None)?, speed(&as_frequency, quality, Some(tolerance))?];
-        Ok(Table3Data {
-            inputs: inputs(&cases)?,
-            printed_inputs: paper::printed_inputs(),
-            printed_preload_acceleration_m_per_s2: table.preload_acceleration_m_per_s2,
-            frequency_khz: 1e-3 * section.default_frequency_hz,
-            gravity_m_per_s2: section.gravity_m_per_s2,
-            preloads_n: cases.map(|case| mass * case.preload_acceleration_m_per_s2),
-            varied_m_per_s2: paper::preloads()?.preload_accelerations_m_per_s2,
-            derived: derived(&cases, &stalls, &speeds, mass)?,
-            stalls,
-            speeds,
-            drop: ball_drop(&section)?,
-            ball_gyration_radius_mm: 1e3 * ball_gyration_radius(&section),
+fn parameters(data: &Table3Data) -> Vec<(String, String)> {
+    let drop = &data.drop;
+    let mut parameters: Vec<_> = data
+        .inputs
+        .iter()
+        .map(|input| {
+            (input.symbol.clone(), format!("{} {}", shown(input.values[1]), input.unit).trim_end().to_owned())
         })
-    }
+        .collect();
+    parameters.push(("height of the drop".to_owned(), format!("{} m", drop.heights.drop_height_m)));
+    parameters.push(("height of the rebound".to_owned(), format!("{} m", drop.heights.rebound_height_m)));
+    parameters.push(MotorCase::contact_row(MotorCase::table_three()));
+    parameters
+}
 
-    fn draw(data: &Table3Data) -> Result<Figure, ExperimentError> {
-        let header =
-            ["", "unit", "printed", r"$g$ as printed", r"70 is $\omega/2\pi$ in kHz", "from"].map(Label::new);
-        let inputs = data.inputs.iter().map(|input| {
-            vec![
-                Label::new(&input.label),
-                Label::plain(&input.unit),
-                Label::plain(&input.printed),
-                Label::plain(&shown(input.values[0])),
-                Label::plain(&shown(input.values[1])),
-                Label::plain(if input.known { "known input" } else { "estimated input" }),
-            ]
-        });
-        let derived = data.derived.iter().map(|row| {
-            vec![
-                Label::new(&row.label),
-                Label::plain(&row.unit),
-                Label::plain(""),
-                Label::plain(&row.values[0].map_or_else(String::new, shown)),
-                Label::plain(&row.values[1].map_or_else(String::new, shown)),
-                Label::new(&row.origin),
-            ]
-        });
-        let rows: Vec<Vec<Label>> = inputs.chain(derived).collect();
-        Ok(ruled_table(&header, &rows))
-    }
-
-    fn claims(data: &Table3Data) -> Vec<Claim> {
-        let missing: Vec<_> = data
-            .inputs
-            .iter()
-            .filter(|input| input.printed.is_empty())
-            .map(|input| input.symbol.clone())
-            .collect();
-        let drop = &data.drop;
-        let [slowest, fastest] = drop.impact_speed_range_m_per_s;
-        vec![
-            Claim::printed("section5.announced_inputs", data.inputs.len() as f64).note(format!(
-                "all are needed to build the model's platform and disk; Table III prints {}: {} is missing",
-                data.printed_inputs,
-                missing.join(", ")
+fn claims(data: &Table3Data) -> Vec<Claim> {
+    let missing: Vec<_> = data
+        .inputs
+        .iter()
+        .filter(|input| input.printed.is_empty())
+        .map(|input| input.symbol.clone())
+        .collect();
+    let drop = &data.drop;
+    let [slowest, fastest] = drop.impact_speed_range_m_per_s;
+    vec![
+        Claim::printed("section5.announced_inputs", data.inputs.len() as f64).note(format!(
+            "all are needed to build the model's platform and disk; Table III prints {}: {} is missing",
+            data.printed_inputs,
+            missing.join(", ")
+        )),
+        Claim::printed("table3.gyration_radius", data.ball_gyration_radius_mm)
+            .note("a_g of a solid ball is √(2/5) of its radius"),
+        preload(data),
+        Claim::printed("section5.estimated_restitution", drop.restitution.value)
+            .judged_over(drop.restitution_agreement)
+            .note(format!(
+                "square root of rebound height over drop height. Heights that round to the printed ones give {:.3} to {:.3}, {} in {} of them an ε that \
+                 rounds to the printed one",
+                drop.restitution_range[0],
+                drop.restitution_range[1],
+                drop.restitution_agreement.holding,
+                drop.restitution_agreement.tried,
             )),
-            Claim::printed("table3.gyration_radius", data.ball_gyration_radius_mm)
-                .note("a_g of a solid ball is √(2/5) of its radius"),
-            preload(data),
-            Claim::printed("section5.estimated_restitution", drop.restitution.value)
-                .judged_over(drop.restitution_agreement)
-                .note(format!(
-                    "square root of rebound height over drop height. Heights that round to the printed ones give {:.3} to {:.3}, {} in {} of them an ε that \
-                     rounds to the printed one",
-                    drop.restitution_range[0],
-                    drop.restitution_range[1],
-                    drop.restitution_agreement.holding,
-                    drop.restitution_agreement.tried,
-                )),
-            Claim::printed("section5.drop_speed", drop.impact_speed_m_per_s).judged_over(drop.agreement).note(format!(
-                "heights that round to {:.1} cm give {slowest:.3} to {fastest:.3} m/s with g = {} m/s²; of heights and g that round to the printed ones {} in {} give the \
-                 printed speed, with g up to the {} m/s² of the motor's full preload {} in {}",
-                100.0 * drop.heights.drop_height_m,
-                data.gravity_m_per_s2,
-                drop.agreement.holding,
-                drop.agreement.tried,
-                drop.highest_varied_m_per_s2,
-                drop.agreement_to_highest.holding,
-                drop.agreement_to_highest.tried,
-            ))
-            .cause("a fall with another gravitational acceleration"),
-            drop_gravity(data),
-        ]
-    }
+        Claim::printed("section5.drop_speed", drop.impact_speed_m_per_s).judged_over(drop.agreement).note(format!(
+            "heights that round to {:.1} cm give {slowest:.3} to {fastest:.3} m/s with g = {} m/s²; of heights and g that round to the printed ones {} in {} give the \
+             printed speed, with g up to the {} m/s² of the motor's full preload {} in {}",
+            100.0 * drop.heights.drop_height_m,
+            data.gravity_m_per_s2,
+            drop.agreement.holding,
+            drop.agreement.tried,
+            drop.highest_varied_m_per_s2,
+            drop.agreement_to_highest.holding,
+            drop.agreement_to_highest.tried,
+        ))
+        .cause("a fall with another gravitational acceleration"),
+        drop_gravity(data),
+    ]
+}
 
-    fn parameters(data: &Table3Data) -> Vec<(String, String)> {
-        let drop = &data.drop;
-        let mut parameters: Vec<_> = data
-            .inputs
-            .iter()
-            .map(|input| {
-                (
-                    input.symbol.clone(),
-                    format!("{} {}", shown(input.values[1]), input.unit).trim_end().to_owned(),
-                )
-            })
-            .collect();
-        parameters.push(("height of the drop".to_owned(), format!("{} m", drop.heights.drop_height_m)));
-        parameters.push(("height of the rebound".to_owned(), format!("{} m", drop.heights.rebound_height_m)));
-        parameters.push(MotorCase::contact_row(MotorCase::table_three()));
-        parameters
-    }
+fn draw(data: &Table3Data) -> Result<Figure, ExperimentError> {
+    let header =
+        ["", "unit", "printed", r"$g$ as printed", r"70 is $\omega/2\pi$ in kHz", "from"].map(Label::new);
+    let inputs = data.inputs.iter().map(|input| {
+        vec![
+            Label::new(&input.label),
+            Label::plain(&input.unit),
+            Label::plain(&input.printed),
+            Label::plain(&shown(input.values[0])),
+            Label::plain(&shown(input.values[1])),
+            Label::plain(if input.known { "known input" } else { "estimated input" }),
+        ]
+    });
+    let derived = data.derived.iter().map(|row| {
+        vec![
+            Label::new(&row.label),
+            Label::plain(&row.unit),
+            Label::plain(""),
+            Label::plain(&row.values[0].map_or_else(String::new, shown)),
+            Label::plain(&row.values[1].map_or_else(String::new, shown)),
+            Label::new(&row.origin),
+        ]
+    });
+    let rows: Vec<Vec<Label>> = inputs.chain(derived).collect();
+    Ok(ruled_table(&header, &rows))
 }
 
 /// The data of Table III.
-#[derive(Debug, Serialize, Deserialize)]
-pub struct Table3Data {
+#[derive(Debug, Serialize)]
+pub(crate) struct Table3Data {
     inputs: Vec<Input>,
     /// How many of the inputs the table prints.
     printed_inputs: usize,
@@ -199,7 +182,7 @@ pub struct Table3Data {
 
 /// The steady speed of a motor without load, and what the tolerances of its inputs make of it and of the
 /// stall load.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Serialize)]
 struct Speed {
     speed_rad_per_s: f64,
     standard_error_rad_per_s: f64,
@@ -210,7 +193,7 @@ struct Speed {
 
 /// A number of motors that are drawn: preload and amplitude within a tolerance, the relaunch perturbation
 /// within a decade.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Serialize)]
 struct OverInputs {
     /// The least and the largest.
     from_to: [f64; 2],
@@ -219,7 +202,7 @@ struct OverInputs {
 }
 
 /// An input of a simulation, for both readings.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 struct Input {
     symbol: String,
     /// The symbol as it is set in print.
@@ -233,7 +216,7 @@ struct Input {
 }
 
 /// A quantity that follows from the inputs, for both readings.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 struct Following {
     label: String,
     unit: String,
@@ -242,7 +225,7 @@ struct Following {
 }
 
 /// The drop of the steel ball.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 struct Drop {
     heights: BallDrop,
     restitution: Propagated,

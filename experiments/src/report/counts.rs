@@ -12,7 +12,7 @@ use crate::claims::{Claim, Class, Verdict};
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
     claims: [[usize; Verdict::ALL.len()]; Class::ALL.len()],
-    causes: BTreeSet<&'static str>,
+    causes: BTreeSet<String>,
     single_orbits: [usize; Verdict::ALL.len()],
 }
 
@@ -23,7 +23,7 @@ impl Counts {
         for claim in claims {
             counts.claims[claim.class as usize][claim.verdict as usize] += 1;
             if claim.class == Class::Paper {
-                counts.causes.extend(claim.cause);
+                counts.causes.extend(claim.cause.as_deref().map(str::to_owned));
                 if let Some(single) = claim.single_orbits {
                     counts.single_orbits[single.verdict as usize] += 1;
                 }

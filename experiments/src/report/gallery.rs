@@ -9,7 +9,7 @@ use super::counts::Counts;
 use super::schema::schema;
 use super::{Section, environment};
 use crate::claims::Claim;
-use crate::experiment::{Quality, RegisteredExperiment, chain};
+use crate::experiment::{Experiment, Quality, Record, chain};
 use crate::output::{OutputError, OutputFolder};
 use crate::provenance::Provenance;
 use crate::{json, provenance};
@@ -48,37 +48,30 @@ struct Page {
 
 impl Summary {
     /// Collects all figures whose results lie in the folder.
-    pub fn of(entries: &[RegisteredExperiment], folder: &OutputFolder) -> Result<Self, OutputError> {
+    pub fn of(experiments: &[Experiment], folder: &OutputFolder) -> Result<Self, OutputError> {
         let (mut pages, mut origins) = (Vec::new(), Vec::new());
         let (mut all_claims, mut stored_claims) = (Vec::new(), Vec::new());
         let mut left_out = Vec::new();
-        for entry in entries {
-            let id = entry.id;
+        for Experiment { id, .. } in experiments {
             let Some(bytes) = folder.read(&format!("{id}.json"))? else { continue };
-            let (made, quality, origin) = match entry.read(&bytes) {
-                Ok(stored) => stored,
+            let record = match Record::read(id, &bytes) {
+                Ok(record) => record,
                 Err(error) => {
-                    left_out.push((id.to_owned(), chain(&error)));
-                    continue;
-                }
-            };
-            let section = match Section::of(entry, &made) {
-                Ok(section) => section,
-                Err(error) => {
-                    left_out.push((id.to_owned(), chain(&error)));
+                    left_out.push(((*id).to_owned(), chain(&error)));
                     continue;
                 }
             };
             let width = folder.read(&format!("{id}.png"))?.as_deref().and_then(png_width);
             pages.push(Page {
-                section,
-                quality,
+                section: Section::of(&record),
+                quality: record.quality,
                 // Four pixels are a point; 1.9 pixels per point make a double column fill the page.
                 width: width.map(|pixels| pixels * 19 / 40),
             });
-            stored_claims.extend(made.claims.iter().map(|claim| claim_of(claim, entry, quality)));
-            all_claims.extend(made.claims);
-            origins.push(origin);
+            let origin = provenance::of_claim(&record.provenance).ok();
+            stored_claims.extend(record.claims.iter().map(|claim| claim_of(claim, origin.as_ref())));
+            all_claims.extend(record.claims);
+            origins.push(record.provenance);
         }
         let counts = Counts::of(&all_claims);
         let schema = json::to_text(&schema());
@@ -87,8 +80,8 @@ impl Summary {
     }
 
     /// Collects all figures whose results lie in the folder and writes the common files.
-    pub fn update(entries: &[RegisteredExperiment], folder: &OutputFolder) -> Result<Self, OutputError> {
-        let summary = Self::of(entries, folder)?;
+    pub fn update(experiments: &[Experiment], folder: &OutputFolder) -> Result<Self, OutputError> {
+        let summary = Self::of(experiments, folder)?;
         let Self { claims, schema, page, .. } = &summary;
         let files = [(CLAIMS_FILE, claims), (SCHEMA_FILE, schema), (PAGE_FILE, page)];
         folder.write_all(&files.map(|(name, text)| (name.to_owned(), text.clone().into_bytes())))?;
@@ -98,10 +91,10 @@ impl Summary {
 
 /// A claim as it is stored, with what it says of its origin: `claims.json` is an array and has no other place
 /// for that, and the figures may have been made in different qualities.
-fn claim_of(claim: &Claim, entry: &RegisteredExperiment, quality: Quality) -> Value {
+fn claim_of(claim: &Claim, origin: Option<&Provenance>) -> Value {
     // Claims hold strings, booleans and finite numbers only, so that this cannot fail.
     let mut stored = serde_json::to_value(claim).unwrap_or_default();
-    if let Ok(origin) = entry.provenance(provenance::CLAIM, quality) {
+    if let Some(origin) = origin {
         stored["provenance"] = serde_json::to_value(origin).unwrap_or_default();
     }
     stored
@@ -143,7 +136,8 @@ mod tests {
         let entries = demo_entries();
         let summary = || Summary::of(&entries, &folder).expect("readable");
         assert_eq!(summary().claims, "[]\n");
-        folder.write_all(&entries[0].files(Quality::Draft, &Silent).expect("works")).expect("writable");
+        let made = entries[0].compute(Quality::Draft, &Silent).expect("works");
+        folder.write_all(&made.files().expect("draws")).expect("writable");
         let first = summary();
         assert!(first.claims.contains("\"verdict\": \"reproduced\""), "{}", first.claims);
         let page = &first.page;

@@ -16,7 +16,7 @@ pub(super) fn schema() -> Value {
         "type": "array",
         "items": {"type": "object", "additionalProperties": false,
             "required": ["id", "place", "quantity", "unit", "printed", "computed", "tolerance", "verdict", "class",
-                "note", "provenance"],
+                "note", "code", "provenance"],
             "properties": {
                 "id": {"type": "string", "description": "The figure or table that answers it."},
                 "place": {"type": "string", "description": "Where the paper prints it."},
@@ -36,6 +36,8 @@ pub(super) fn schema() -> Value {
                     "description": "The second verdict on a motor.",
                     "properties": {"verdict": verdict, "cases": cases}},
                 "note": {"type": "string", "description": "Evidence and remarks."},
+                "key": {"type": "string", "description": "The printed text: the entry NAME of data/paper/FILE.json, as FILE.NAME."},
+                "code": {"type": "string", "description": "File and line of the code that states the claim."},
                 "provenance": {"type": "object", "required": ["program", "version", "parameters"],
                     "description": "The program that computed it, and the quality of the figure."},
             },

@@ -9,13 +9,13 @@ use bouncing_disk::motion::{EventKind, PhaseTime, Transition};
 use bouncing_disk::parameters::{DimensionlessParameters, DimensionlessSystem, ForcingParameters};
 use bouncing_disk::toss::TOSS_START;
 use bouncing_disk::{Engine, Event, EventRecord, InitialCondition, Trajectory};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::experiment::{ExperimentError, Quality};
 use crate::progress::Progress;
 
 /// The transitions of many motions.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct Census {
     pub(super) peak_accelerations: Vec<f64>,
     pub(super) twist_speeds: Vec<f64>,
@@ -36,7 +36,7 @@ pub(super) struct Census {
 
 /// From one separation to the next; time in periods from the first collision between them, heights in
 /// amplitudes of the platform.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct ChatteringCycle {
     pub(super) axial_forcing: f64,
     pub(super) restitution: f64,

@@ -13,14 +13,14 @@ use bouncing_disk::core::{ChatterPolicy, Phase};
 use bouncing_disk::motion::EventKind;
 use bouncing_disk::toss::TOSS_START;
 use bouncing_disk::{Engine, EventRecord, System};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::claims::paper;
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::shared::motor::MotorCase;
 
 /// Springs under the motors of Fig. 10.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct Sprung {
     /// See `deflection_for_share_m`.
     pub(super) preload_share: f64,
@@ -28,7 +28,7 @@ pub(super) struct Sprung {
 }
 
 /// A motor of Table III with an amplitude.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct SprungMotor {
     pub(super) amplitude_m: f64,
     pub(super) axial_forcing: f64,
@@ -43,7 +43,7 @@ pub(super) struct SprungMotor {
 }
 
 /// The first flight of a rotor at rest with a spring, against that under constant preload.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Serialize)]
 pub(super) struct SprungFlight {
     /// The static deflection over the travel.
     pub(super) deflection_over_travel: f64,

@@ -1,14 +1,14 @@
 //! The numbers of Fig. 4.
 
 use bouncing_disk::toss::InitialSpin;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::claims::paper::{SectionThree, TableOne};
 use crate::figures::shared::toss::TossCase;
 
 /// The data of Fig. 4.
-#[derive(Debug, Serialize, Deserialize)]
-pub struct Fig04Data {
+#[derive(Debug, Serialize)]
+pub(crate) struct Fig04Data {
     pub(super) table_i: TableOne,
     pub(super) printed: SectionThree,
     /// acos(g/(c ω²)).
@@ -40,7 +40,7 @@ pub struct Fig04Data {
 }
 
 /// The performance measures of one toss.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Serialize)]
 pub(super) struct TossPoint {
     pub(super) amplitude_angle_rad: f64,
     pub(super) airborne_speed_rad_per_s: f64,
@@ -50,14 +50,14 @@ pub(super) struct TossPoint {
 }
 
 /// The curves of one initial state.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct Family {
     pub(super) initial_state: InitialSpin,
     pub(super) curves: Vec<LagCurve>,
 }
 
 /// The performance against the amplitude angle at one phase lag, θ = n π/8.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct LagCurve {
     pub(super) n: u32,
     pub(super) phase_lag_rad: f64,
@@ -72,7 +72,7 @@ pub(super) struct LagCurve {
 }
 
 /// The airborne speed against the phase of separation.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct Separation {
     /// The first and last phase that occur, from the first and the last amplitude angle.
     pub(super) lowest_rad: f64,
@@ -82,7 +82,7 @@ pub(super) struct Separation {
 }
 
 /// A curve of panel (d).
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct SeparationCurve {
     pub(super) n: u32,
     pub(super) phase_lag_rad: f64,
@@ -90,7 +90,7 @@ pub(super) struct SeparationCurve {
 }
 
 /// A curve of panel (e).
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct FrictionCurve {
     pub(super) friction: f64,
     pub(super) airborne_speed_rad_per_s: Vec<f64>,
@@ -98,14 +98,14 @@ pub(super) struct FrictionCurve {
 }
 
 /// The fastest toss at a friction coefficient.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct FrictionOptimum {
     pub(super) friction: f64,
     pub(super) fastest: TossPoint,
 }
 
 /// The fastest and the most efficient toss of all phase lags in [-π/2, π/2] and all amplitude angles.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct Best {
     pub(super) initial_state: InitialSpin,
     pub(super) fastest_phase_lag_rad: f64,
@@ -115,7 +115,7 @@ pub(super) struct Best {
 }
 
 /// Amplitude angles about the fastest toss, at θ = 0.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct Compromise {
     /// Where the speed ratio is largest.
     pub(super) least_slip_angle_rad: f64,
@@ -126,7 +126,7 @@ pub(super) struct Compromise {
 }
 
 /// Which parameter sets give the numbers that the paper prints for θ = 0.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct Consistency {
     /// The results of Table I as printed.
     pub(super) as_printed: Reading,
@@ -139,7 +139,7 @@ pub(super) struct Consistency {
 
 /// The hand's largest speed ωΦ at the printed optimum, from Table I's c, ω and a_e and from the printed speed
 /// and ratio.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct HandSpeed {
     /// The least that Table I gives for an angle that rounds to the printed one.
     pub(super) least_rad_per_s: f64,
@@ -148,21 +148,21 @@ pub(super) struct HandSpeed {
 }
 
 /// A curve of panel (f).
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct SpeedCurve {
     pub(super) amplitude_angle_rad: Vec<f64>,
     pub(super) airborne_speed_rad_per_s: Vec<f64>,
 }
 
 /// A parameter set and what it gives in place of the printed numbers.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct Reading {
     pub(super) parameters: TossCase,
     pub(super) numbers: Vec<Comparison>,
 }
 
 /// A printed number and ours.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize)]
 pub(super) struct Comparison {
     pub(super) quantity: String,
     /// In the unit of the printed number; angles in rad.
@@ -170,7 +170,7 @@ pub(super) struct Comparison {
 }
 
 /// The reading in which maxima are the best points of an even grid of amplitude angles.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct CoarseGrid {
     /// ω and φ_L that Eq. (14) gives, not rounded.
     pub(super) angular_frequency_rad_per_s: f64,

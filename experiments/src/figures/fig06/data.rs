@@ -1,12 +1,12 @@
 //! The numbers of Fig. 6.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::claims::Cases;
 
 /// Data of Fig. 6.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Fig06Data {
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub(crate) struct Fig06Data {
     pub(super) restitution: f64,
     pub(super) axial_forcing_range: (f64, f64),
     pub(super) basin_axial_forcings: [f64; 5],
@@ -68,7 +68,7 @@ pub struct Fig06Data {
 }
 
 /// A disk from rest that bounces for ever.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub(super) struct Bouncing {
     pub(super) axial_forcing: f64,
     /// Impacts in one round of the periodic orbit that it has settled on; `None` if it is on none.
@@ -76,7 +76,7 @@ pub(super) struct Bouncing {
 }
 
 /// The impact phases at one Γ.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct Column {
     pub(super) axial_forcing: f64,
     /// τ_imp/2π, each once, to six decimals.
@@ -84,7 +84,7 @@ pub(super) struct Column {
 }
 
 /// The rotation of period-1 orbits, from many starts and for many motions of the platform.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct PeriodOne {
     /// Orbits: of one impact every one, two or three periods of the platform, by Γ, θ, Γ_T and the speed of
     /// the disk at first.
@@ -97,7 +97,7 @@ pub(super) struct PeriodOne {
 }
 
 /// The steady speeds of one period-1 orbit against the phase lag.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub(super) struct LagScan {
     pub(super) axial_forcing: f64,
     pub(super) impact_phase_rad: f64,
@@ -112,7 +112,7 @@ pub(super) struct LagScan {
 }
 
 /// A long motion.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub(super) struct Motion {
     pub(super) axial_forcing: f64,
     pub(super) restitution: f64,
@@ -126,7 +126,7 @@ pub(super) struct Motion {
 }
 
 /// How many numbers the next collision depends on, if w_A is in units of ωA and w_T in units of ωΦ.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct Dimension {
     /// Parameters of the system in SI units that are changed one by one.
     pub(super) parameters: Vec<String>,
@@ -137,7 +137,7 @@ pub(super) struct Dimension {
 }
 
 /// Γ_T beside the torques.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct TorqueRatio {
     pub(super) system: String,
     pub(super) angular_forcing: f64,
@@ -147,7 +147,7 @@ pub(super) struct TorqueRatio {
 }
 
 /// The angular impulses of an orbit, by size, and what of them is transferred in impacts.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub(super) struct Transfer {
     pub(super) axial_forcing: f64,
     pub(super) angular_forcing: f64,
@@ -158,7 +158,7 @@ pub(super) struct Transfer {
 }
 
 /// The part of the plane of phase and speed that orbits visit.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct Visited {
     pub(super) axial_forcing: f64,
     pub(super) impacts: usize,
@@ -171,7 +171,7 @@ pub(super) struct Visited {
 }
 
 /// The widening at the crisis, and the shadow that the attractor leaves.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct Explored {
     /// The attractor just before the crisis.
     pub(super) before: Visited,
@@ -185,7 +185,7 @@ pub(super) struct Explored {
 }
 
 /// How many impacts of an orbit lie near the chaotic saddle at the same Γ.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub(super) struct Shadow {
     pub(super) axial_forcing: f64,
     /// Share of the impacts within a hundredth or two of the saddle, in periods and in |w_A Γ/(ωA)|.
@@ -196,7 +196,7 @@ pub(super) struct Shadow {
 
 /// The phase lag with the highest mean speed at one Γ, of the followed attractor or, beyond it, of a disk
 /// from rest.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub(super) struct BestLag {
     pub(super) axial_forcing: f64,
     pub(super) angular_forcing: f64,
@@ -210,7 +210,7 @@ pub(super) struct BestLag {
 
 /// Where one impact of the cycle of a disk from rest has most of the impulse: a motor with the lag that is
 /// best for this impact turns at ωΦ.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct OneImpactDecides {
     /// Smallest and largest Γ, and how many were tried.
     pub(super) axial_forcing_range: (f64, f64),
@@ -222,7 +222,7 @@ pub(super) struct OneImpactDecides {
 }
 
 /// Phase lag and angular forcing.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub(super) struct Twist {
     pub(super) phase_lag_rad: f64,
     pub(super) angular_forcing: f64,
@@ -230,7 +230,7 @@ pub(super) struct Twist {
 
 /// The last impacts of a disk from rest before it comes to rest again: those that end flights of less than
 /// half a period.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub(super) struct Chatter {
     pub(super) axial_forcing: f64,
     /// Impacts up to the paper's cut.
@@ -245,7 +245,7 @@ pub(super) struct Chatter {
 }
 
 /// By how much the angular speeds of the impacts vary more at the small Γ_T than at the large one.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub(super) struct ForcingEffect {
     pub(super) axial_forcing: f64,
     /// Difference of the standard deviations, as shares of ωΦ, with the phase lags of (c) and of (d).
@@ -253,7 +253,7 @@ pub(super) struct ForcingEffect {
 }
 
 /// The impacts at one Γ. Coordinates are rounded to 1e-6, far below the resolution of the picture.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct Slice {
     pub(super) axial_forcing: f64,
     /// Impacts in one round of a periodic orbit or from one rest to the next of a chattering one, if it
@@ -272,7 +272,7 @@ pub(super) struct Slice {
 }
 
 /// The crisis in which the followed attractor is lost to chattering.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct Merging {
     /// Impacts that an orbit has to survive without attaching.
     pub(super) impacts: usize,
@@ -305,7 +305,7 @@ impl Merging {
 }
 
 /// The end of the single-toss pattern of the chattering orbit.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct SingleTosses {
     /// Largest Γ of the bisection with one cycle per period of the platform.
     pub(super) last: f64,

@@ -2,11 +2,11 @@
 
 use bouncing_disk::core::attractors::{ATTACHED, FIRST_ORBIT, Label, UNDECIDED};
 use bouncing_disk::core::numerics::elementary::ln;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// Data of Fig. 7.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Fig07Data {
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub(crate) struct Fig07Data {
     pub(super) restitution: f64,
     /// Top of the window of |w_A Γ/(ωA)|; it starts at 0, and τ_imp/2π runs from 0 to 1.
     pub(super) window_top: f64,
@@ -23,14 +23,14 @@ pub struct Fig07Data {
 }
 
 /// How large the basins are at one Γ of the period-1 window.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct Easiness {
     pub(super) axial_forcing: f64,
     pub(super) shares: Vec<TopShares>,
 }
 
 /// Shares of the window [0, top].
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub(super) struct TopShares {
     pub(super) top: f64,
     pub(super) period_one: f64,
@@ -38,7 +38,7 @@ pub(super) struct TopShares {
 }
 
 /// The starts at one Γ beyond the merging.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub(super) struct Beyond {
     pub(super) axial_forcing: f64,
     /// Starts, on a square grid over the window.
@@ -51,7 +51,7 @@ pub(super) struct Beyond {
 }
 
 /// Disks at rest on the platform, let go at phases where it falls away.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub(super) struct Rest {
     pub(super) axial_forcing: f64,
     pub(super) starts: usize,
@@ -59,7 +59,7 @@ pub(super) struct Rest {
 }
 
 /// An attractor followed in Γ.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub(super) struct Traced {
     pub(super) step: f64,
     /// Lowest Γ to which it can be followed.
@@ -73,7 +73,7 @@ pub(super) struct Traced {
 }
 
 /// The basins at one Γ.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct Panel {
     pub(super) axial_forcing: f64,
     /// Impacts after which a start that has neither come to rest nor reached a known orbit counts as undecided.
@@ -99,7 +99,7 @@ pub(super) struct Panel {
 }
 
 /// Shares of the cells of a panel.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub(super) struct Shares {
     pub(super) chattering: f64,
     /// End on the attractor of the period-doubling route.
@@ -112,7 +112,7 @@ pub(super) struct Shares {
 pub(super) type Spot = (f64, f64);
 
 /// A periodic attractor outside the period-doubling route.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct Other {
     pub(super) impacts: Vec<Spot>,
     pub(super) platform_periods: u64,
@@ -121,7 +121,7 @@ pub(super) struct Other {
 }
 
 /// Fractions against the window, at the Γ of (a) and (b).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct Windows {
     pub(super) grid: (usize, usize),
     /// The printed shares of the period-1 orbit in (a) and (b).
@@ -139,7 +139,7 @@ pub(super) struct Windows {
 }
 
 /// One window.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub(super) struct CurvePoint {
     pub(super) top: f64,
     /// Share of the period-1 orbit at the Γ of (a).

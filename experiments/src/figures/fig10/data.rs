@@ -1,15 +1,15 @@
 //! The numbers of Fig. 10.
 
 use bouncing_disk::estimate::{ExponentialFit, Spread};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::claims::Cases;
 use crate::figures::shared::alike::{AlikeMotor, SpeedBand};
 use crate::figures::shared::motor::{Cycle, MotorCase, MotorStatistics, RobustCycle};
 
 /// The data of Fig. 10.
-#[derive(Debug, Serialize, Deserialize)]
-pub struct Fig10Data {
+#[derive(Debug, Serialize)]
+pub(crate) struct Fig10Data {
     pub(super) motor: MotorCase,
     pub(super) members: usize,
     pub(super) relaunch_perturbation: f64,
@@ -26,7 +26,7 @@ pub struct Fig10Data {
 }
 
 /// One reading of Table III.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct Reading {
     pub(super) preload_acceleration_m_per_s2: f64,
     pub(super) duration_s: f64,
@@ -34,7 +34,7 @@ pub(super) struct Reading {
 }
 
 /// One amplitude: a member with its fit, and the ensemble.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct Transient {
     pub(super) amplitude_m: f64,
     pub(super) axial_forcing: f64,
@@ -59,7 +59,7 @@ pub(super) struct Transient {
 }
 
 /// The robust low-period cycle at A = 1 nm and exactly g = 9.8 m/s², and how narrow it is.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct Exception {
     pub(super) amplitude_m: f64,
     pub(super) preload_acceleration_m_per_s2: f64,
@@ -77,7 +77,7 @@ pub(super) struct Exception {
 }
 
 /// The growth of a small perturbation of a motor's vertical motion between two rests.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct BetweenRests {
     pub(super) amplitude_m: f64,
     /// How many motors it grows in for certain, by the measure of a chaotic attractor.
@@ -89,7 +89,7 @@ pub(super) struct BetweenRests {
 }
 
 /// Motors whose inputs all print like the paper's: the same draws at the three amplitudes.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct Alike {
     /// The ranges drawn from.
     pub(super) inputs: String,
@@ -109,7 +109,7 @@ impl Alike {
 }
 
 /// Steady speed and stall acceleration for one size of the relaunch perturbation.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub(super) struct PerturbationEffect {
     /// In units of g/ω.
     pub(super) relaunch_perturbation: f64,

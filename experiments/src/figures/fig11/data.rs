@@ -1,7 +1,7 @@
 //! The numbers of Fig. 11.
 
 use bouncing_disk::estimate::Spread;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::claims::Cases;
 use crate::claims::paper::Preloads;
@@ -9,8 +9,8 @@ use crate::figures::shared::motor::{MotorCase, MotorStatistics};
 use crate::figures::shared::stall::Stall;
 
 /// The data of Fig. 11.
-#[derive(Debug, Serialize, Deserialize)]
-pub struct Fig11Data {
+#[derive(Debug, Serialize)]
+pub(crate) struct Fig11Data {
     pub(super) motor: MotorCase,
     pub(super) printed: Preloads,
     /// Mass of the rotor, a solid steel ball.
@@ -41,7 +41,7 @@ pub struct Fig11Data {
 }
 
 /// One amplitude at one frequency.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct Curve {
     pub(super) frequency_hz: f64,
     pub(super) amplitude_m: f64,
@@ -52,7 +52,7 @@ pub(super) struct Curve {
 }
 
 /// One preload.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Serialize)]
 pub(super) struct Point {
     pub(super) preload_acceleration_m_per_s2: f64,
     pub(super) preload_mn: f64,
@@ -67,7 +67,7 @@ pub(super) struct Point {
 }
 
 /// The stall load at one preload.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Serialize)]
 pub(super) struct StallAt {
     pub(super) frequency_hz: f64,
     pub(super) preload_mn: f64,
@@ -75,7 +75,7 @@ pub(super) struct StallAt {
 }
 
 /// A motor whose stator twists less.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct ReducedTwist {
     /// ωΦ (rad/s), printed and reduced.
     pub(super) peak_angular_speeds_rad_per_s: [f64; 2],
@@ -103,7 +103,7 @@ pub(super) fn trend_mn(printed: &Preloads) -> [f64; 2] {
 }
 
 /// One curve: the behaviour of its motors inside the preloads of the measured trends, and beside them.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct Trend {
     pub(super) frequency_hz: f64,
     pub(super) amplitude_m: f64,
@@ -132,7 +132,7 @@ pub(super) struct Trend {
 }
 
 /// The motors on a low-period cycle, and what those of a single flight do.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct Holes {
     pub(super) motors: usize,
     pub(super) low_period: usize,
@@ -146,7 +146,7 @@ pub(super) struct Holes {
 }
 
 /// The fate of bouncing rotors at Γ < 1/π.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct EndOfBouncing {
     /// What still prints as the ε of Table III.
     pub(super) restitutions: [f64; 2],
@@ -158,7 +158,7 @@ pub(super) struct EndOfBouncing {
 }
 
 /// A rotor that is launched on the period-1 orbit below Γ = 1/π.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct Coexisting {
     pub(super) restitution: f64,
     pub(super) axial_forcing: f64,

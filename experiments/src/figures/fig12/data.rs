@@ -1,15 +1,15 @@
 //! The numbers of Fig. 12.
 
 use bouncing_disk::estimate::ExponentialFit;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::claims::paper::ChatteringCases;
 use crate::figures::shared::alike::AlikeMotor;
 use crate::figures::shared::motor::{MotorCase, RobustCycle};
 
 /// The data of Fig. 12.
-#[derive(Debug, Serialize, Deserialize)]
-pub struct Fig12Data {
+#[derive(Debug, Serialize)]
+pub(crate) struct Fig12Data {
     pub(super) cases: ChatteringCases,
     /// The printed long-period case.
     pub(super) long_period: Shown,
@@ -27,7 +27,7 @@ pub struct Fig12Data {
 }
 
 /// Motors whose inputs all print like the paper's.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct Alike {
     /// The ranges drawn from.
     pub(super) inputs: String,
@@ -35,7 +35,7 @@ pub(super) struct Alike {
 }
 
 /// The first motors of low period of a longer sequence of those that print alike.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct LowPeriod {
     /// Motors drawn to find them.
     pub(super) drawn: usize,
@@ -46,7 +46,7 @@ pub(super) struct LowPeriod {
 
 /// The lines on which the speeds of the flights of a low-period cycle lie while the rotor is slow: one for
 /// each flight of the cycle.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub(super) struct Lines {
     pub(super) flights: usize,
     /// Largest distance of neighbouring lines, over what the speed gains in a cycle.
@@ -56,7 +56,7 @@ pub(super) struct Lines {
 }
 
 /// A motor whose transient is drawn. Nothing perturbs it.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct Shown {
     pub(super) motor: MotorCase,
     /// Amplitude over the printed one minus 1.
@@ -76,7 +76,7 @@ pub(super) struct Shown {
 }
 
 /// The two forms fitted to the same curve.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct Fits {
     pub(super) exponential: ExponentialFit,
     pub(super) ramp_residual_rad_per_s: f64,
@@ -92,7 +92,7 @@ pub(super) struct Fits {
 }
 
 /// Straight pieces from the impulses of one cycle (module `impulse`).
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct Prediction {
     /// μ a_e g/a_g² S(0), S(0) the net share of the normal impulse that pushes a slow rotor forwards.
     pub(super) slope_rad_per_s2: f64,
@@ -104,7 +104,7 @@ pub(super) struct Prediction {
 }
 
 /// A short part of the rise. Of the low-period case the flights of many cycles, which form its lines.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct Zoom {
     pub(super) time_s: Vec<f64>,
     pub(super) speed_rad_per_s: Vec<f64>,

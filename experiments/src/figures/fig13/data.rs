@@ -1,7 +1,7 @@
 //! The numbers of Fig. 13, and what is read off its sweeps.
 
 use bouncing_disk::core::numerics::elementary::{cos, ln};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::claims::Cases;
 use crate::figures::shared::motor::{MotorCase, MotorStatistics};
@@ -12,8 +12,8 @@ use crate::figures::shared::numbers::{Concentration, StraightLine};
 pub(super) const ID: &str = "fig13";
 
 /// The data of Fig. 13.
-#[derive(Debug, Serialize, Deserialize)]
-pub struct Fig13Data {
+#[derive(Debug, Serialize)]
+pub(crate) struct Fig13Data {
     pub(super) motor: MotorCase,
     pub(super) members: usize,
     pub(super) rises: f64,
@@ -30,7 +30,7 @@ pub struct Fig13Data {
 }
 
 /// A parameter of Fig. 13.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Parameter {
     Friction,
@@ -90,14 +90,14 @@ impl Parameter {
 }
 
 /// One panel.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct Sweep {
     pub(super) parameter: Parameter,
     pub(super) points: Vec<SweepPoint>,
 }
 
 /// One value of the parameter.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct SweepPoint {
     pub(super) value: f64,
     pub(super) peak_angular_speed_rad_per_s: f64,
@@ -122,7 +122,7 @@ impl SweepPoint {
 }
 
 /// Normal impulse by phase.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct ImpulsePhases {
     pub(super) restitution: f64,
     /// Shares in equal parts of the cycle from τ = −π to π.
@@ -134,7 +134,7 @@ pub(super) struct ImpulsePhases {
 
 /// Motors whose inputs all print like Table III's, at some values of ε: the same draws of the other inputs at
 /// each. Nothing perturbs them.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct AlikeMotors {
     /// The ranges drawn from.
     pub(super) inputs: String,
@@ -149,7 +149,7 @@ pub(super) struct AlikeMotors {
 }
 
 /// The middle nine tenths of these motors with other values of one parameter.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct AlikeRange {
     pub(super) parameter: Parameter,
     pub(super) values: Vec<f64>,
@@ -159,7 +159,7 @@ pub(super) struct AlikeRange {
 }
 
 /// The cycles of these motors at one ε.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct Prevalence {
     pub(super) restitution: f64,
     /// Share of motors of low period.
@@ -175,7 +175,7 @@ pub(super) struct Prevalence {
 }
 
 /// One draw of the inputs other than ε.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(super) struct Draw {
     /// Slopes of the straight lines through steady speed over ωΦ, and through α̇_ss/t_c over the limit,
     /// against ε.
@@ -194,7 +194,7 @@ pub(super) struct Draw {
 
 /// The effect of a parameter on a motor that nothing perturbs: by the trend over the range, a straight line
 /// in the parameter (of A in its logarithm, of θ a cosine), relative to the motor as printed.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Serialize)]
 pub(super) struct Sensitivity {
     pub(super) parameter: Parameter,
     /// Change of the steady speed and of α̇_ss/t_c from one end of the range to the other.

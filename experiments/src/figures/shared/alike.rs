@@ -11,7 +11,7 @@ use bouncing_disk::core::run::in_parallel;
 use bouncing_disk::core::{ChatterPolicy, Phase, Unobserved};
 use bouncing_disk::estimate::{ExponentialFit, RampFit, Spread};
 use bouncing_disk::motor::{SpeedCurve, TransientMember, TransientSettings, transients};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::motor::{Cycle, LARGEST_CONSTANT, LARGEST_RESIDUAL, MotorCase};
 use super::numbers::{Noise, StraightLine, middle_range};
@@ -24,7 +24,7 @@ pub(crate) const INTERVALS: usize = 120;
 
 /// One motor of those that print alike. Nothing perturbs it, as nothing did in the paper's program: which of
 /// them it is, is chance enough.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub(crate) struct AlikeMotor {
     pub(crate) restitution: f64,
     pub(crate) amplitude_m: f64,
@@ -128,7 +128,7 @@ fn turn(curve: &SpeedCurve) -> Option<f64> {
 }
 
 /// The middle nine tenths of the speeds of motors that print alike, against time.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub(crate) struct SpeedBand {
     pub(crate) time_s: Vec<f64>,
     pub(crate) low_rad_per_s: Vec<f64>,

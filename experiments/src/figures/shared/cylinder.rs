@@ -7,7 +7,7 @@ use bouncing_disk::core::Phase;
 use bouncing_disk::core::numerics::elementary::{acos, atan2, sin_cos};
 use bouncing_disk_plot::{Camera, Colour, Dash, Drawing, Path, Stroke};
 use glam::DVec3;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::experiment::ExperimentError;
 
@@ -136,7 +136,7 @@ pub(crate) fn curve(mut drawing: Drawing, runs: Vec<Run>, stroke: Stroke) -> Dra
 
 /// One period of the motion of a point of the platform. The last point is the first one, computed again one period
 /// later.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize)]
 pub(crate) struct HandPath {
     pub(crate) phase_rad: Vec<f64>,
     pub(crate) angle_rad: Vec<f64>,

@@ -5,7 +5,7 @@ use bouncing_disk::core::{
     numerics::elementary::{exp, ln},
     numerics::random::SplitMix64,
 };
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::claims::paper::Uncertain;
 
@@ -131,7 +131,7 @@ impl Noise {
 
 /// A result and its uncertainty. The effect of an input is half the difference of the results at both ends of
 /// its range.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub(crate) struct Propagated {
     pub(crate) value: f64,
     /// Sum of the effects of all inputs: none of them need be independent.

@@ -6,7 +6,7 @@ use bouncing_disk::core::Unobserved;
 use bouncing_disk::core::run::in_parallel;
 use bouncing_disk::estimate::{ExponentialFit, Spread};
 use bouncing_disk::motor::{Estimate, NormalImpulses, OperatingSettings};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use super::motor::MotorCase;
 use crate::experiment::ExperimentError;
@@ -21,7 +21,7 @@ const PREDICTED_POINTS: u32 = 240;
 const BALANCED_IMPACTS: usize = 6_000;
 
 /// The stall of one motor, as accelerations (rad/s²): times m a_g² they are torques.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub(crate) struct Stall {
     pub(crate) members: usize,
     pub(crate) relaunch_perturbation: f64,

@@ -8,14 +8,14 @@ use bouncing_disk::core::numerics::roots::golden_section;
 use bouncing_disk::parameters::Stroke;
 use bouncing_disk::toss::{InitialSpin, TossPerformance, single_toss};
 use bouncing_disk::{DiskParameters, Platform, System};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::claims::paper::{SectionThree, TableOne};
 use crate::claims::printed::PrintedNumber;
 use crate::experiment::ExperimentError;
 
 /// The parameters of a single toss, in the paper's order.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub(crate) struct TossCase {
     pub(crate) phase_lag_rad: f64,
     pub(crate) amplitude_angle_rad: f64,
