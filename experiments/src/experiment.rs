@@ -1,5 +1,6 @@
 //! Figures and tables of the paper: what their functions record, and the files that are made of it.
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::str::FromStr;
 
@@ -243,6 +244,14 @@ impl Paper<'_> {
             self.data.extend(fields);
         }
         Ok(())
+    }
+
+    /// One of them, under this name.
+    ///
+    /// # Errors
+    /// Those of [`Self::data`].
+    pub fn record(&mut self, name: &str, value: &impl Serialize) -> Result<(), ExperimentError> {
+        self.data(&BTreeMap::from([(name, value)]))
     }
 
     /// The drawing.

@@ -33,6 +33,9 @@ const CHEAP_PLACES: [usize; 2] = [400, 32];
 const PLACES: [usize; 2] = [200, 16];
 const DEAR_PLACES: [usize; 2] = [64, 8];
 
+/// Members of a place of stators that yield on the first grid.
+const DEAR_MEMBERS: usize = 8;
+
 /// Places along a field that leaves the vertical motion as it is, such as load or lag: no motion locks between them.
 const SMOOTH_PLACES: usize = 64;
 
@@ -47,10 +50,11 @@ const SHARE_OF_PLACE: f64 = 0.125;
 /// Impacts that any place may have.
 const LEAST_IMPACTS: f64 = 1e5;
 
-/// Finer grids about the best place, each so many times finer than the one before, up to so many of its steps on either side.
-const GRIDS: usize = 2;
+/// Finer grids about the best place, each so many times finer than the one before, up to so many of its steps on either side:
+/// of a stator that yields fewer on the second one.
 const PARTS: f64 = 3.0;
-const STEPS: i32 = 2;
+const STEPS: [i32; 2] = [2, 2];
+const DEAR_STEPS: [i32; 2] = [2, 1];
 
 /// Places on either side of a line, of a first look and of the fit; its values are so many times more accurate than asked for.
 const LOOK: i32 = 4;
@@ -61,8 +65,10 @@ const SURER: f64 = 2.0;
 /// The largest relative error that settings may ask for.
 const LARGEST_ERROR: f64 = 0.5;
 
-/// Seeds of a line, in turn along it: places of one seed may share a vertical motion, and with it their errors.
+/// Seeds of a line, in turn along it: places of one seed may share a vertical motion, and with it their errors. There the seeds
+/// have together so many times the impacts of a place that has one motion.
 const SEEDS: usize = 8;
+const SHARED: f64 = 2.0;
 
 /// Least places of a line.
 const LEAST: usize = 8;
@@ -281,10 +287,11 @@ impl Motor {
         sought.check(self)?;
         settings.check()?;
         let stator = self.stator_motion();
-        let (places, on_side) = match stator {
-            Stator::Sine => (CHEAP_PLACES, SIDE),
-            _ if stator.yields() => (DEAR_PLACES, DEAR_SIDE),
-            _ => (PLACES, SIDE),
+        let is_dear = stator.yields();
+        let (places, on_side, steps) = match stator {
+            Stator::Sine => (CHEAP_PLACES, SIDE, STEPS),
+            _ if is_dear => (DEAR_PLACES, DEAR_SIDE, DEAR_STEPS),
+            _ => (PLACES, SIDE, STEPS),
         };
         let is_smooth = sought.ranges.len() == 1 && sought.leaves_height(self, 0)?;
         let side = places[sought.ranges.len() - 1];
@@ -292,7 +299,7 @@ impl Motor {
         let fields = sought.ranges.len();
         let coarse = side.pow(fields as u32);
         let on_line = LOOKS * (2 * LOOK + 3) as usize + (2 * on_side + 3) as usize;
-        let around = GRIDS * ((2 * STEPS + 1) as usize).pow(fields as u32);
+        let around: usize = steps.iter().map(|steps| ((2 * steps + 1) as usize).pow(fields as u32)).sum();
         let scanned = if fields > 1 && matches!(stator, Stator::Sine) { 2 * CHEAP_PLACES[0] } else { 0 };
         let most = passes(settings.relative_error) * coarse + around + fields * on_line + 2 * scanned + 1;
         let watch = Watch::begin(observer, 0, most as u64)?;
@@ -306,7 +313,7 @@ impl Motor {
             peak: 0.0,
             places: 0,
         };
-        let best = search.run(side)?;
+        let best = search.run(side, steps)?;
         watch.end();
         Ok(best)
     }
@@ -423,7 +430,7 @@ impl Found {
 }
 
 impl Search<'_> {
-    fn run(&mut self, side: usize) -> Result<Best, Error> {
+    fn run(&mut self, side: usize, steps: [i32; 2]) -> Result<Best, Error> {
         let mut all = self.grid(side);
         let wanted = self.settings.relative_error;
         let mut error = wanted.max(ROUGH);
@@ -440,11 +447,11 @@ impl Search<'_> {
         }
         self.peak = narrow_peak(&all, side, self.sought.ranges.len());
         let mut step: Vec<f64> = self.sought.ranges.iter().map(|range| self.step(range, side)).collect();
-        for _ in 0..GRIDS {
+        for steps in steps {
             let middle = all[self.best_of(&all)?].at.clone();
             step.iter_mut().for_each(|step| *step /= PARTS);
             let first = all.len();
-            all.extend(self.around(&middle, &step));
+            all.extend(self.around(&middle, steps, &step));
             let new: Vec<usize> = (first..all.len()).collect();
             self.measure(&mut all, &new, wanted)?;
         }
@@ -502,10 +509,10 @@ impl Search<'_> {
     }
 
     /// A finer grid about a place.
-    fn around(&self, middle: &[f64], step: &[f64]) -> Vec<Place> {
+    fn around(&self, middle: &[f64], steps: i32, step: &[f64]) -> Vec<Place> {
         let mut all: Vec<Vec<f64>> = vec![Vec::new()];
         for ((middle, step), range) in middle.iter().zip(step).zip(&self.sought.ranges) {
-            let own = (-STEPS..=STEPS).map(|k| middle + f64::from(k) * step);
+            let own = (-steps..=steps).map(|k| middle + f64::from(k) * step);
             let own: Vec<f64> = own.filter(|at| range.is_turn() || (0.0..=1.0).contains(at)).collect();
             all = all
                 .iter()
@@ -517,7 +524,10 @@ impl Search<'_> {
 
     /// Computes some of the places.
     fn measure(&mut self, all: &mut [Place], which: &[usize], error: f64) -> Result<(), Error> {
-        let settings = OperatingSettings { relative_error: error, ..*self.settings };
+        let mut settings = OperatingSettings { relative_error: error, ..*self.settings };
+        if error >= ROUGH && self.motor.stator_motion().yields() {
+            settings.members = settings.members.min(DEAR_MEMBERS);
+        }
         // An error takes impacts as its inverse square: a place that needs more is not known better, and stays open.
         let share = (self.settings.relative_error / error).min(1.0);
         self.measure_with(all, which, &settings.with_share(share * share * SHARE_OF_PLACE))
@@ -668,9 +678,9 @@ impl Search<'_> {
         let relative_error = self.settings.relative_error / SURER;
         let settings = OperatingSettings { relative_error, ..*self.settings };
         let mut settings = settings.with_share(SHARE_OF_PLACE);
-        // One motion for the whole line becomes eight that are together as long.
+        // One motion for the whole line becomes eight.
         if self.sought.leaves_height(self.motor, field)? {
-            settings.relative_error = (relative_error * (SEEDS as f64).sqrt()).min(LARGEST_ERROR);
+            settings.relative_error = (relative_error * (SEEDS as f64 / SHARED).sqrt()).min(LARGEST_ERROR);
         }
         for seed in 0..SEEDS {
             let own: Vec<usize> = new.iter().copied().skip(seed).step_by(SEEDS).collect();
