@@ -35,6 +35,16 @@ struct Row {
     /// For how many of the inputs that print alike it holds.
     share: String,
     note: String,
+    cause: String,
+    /// Whether it counts against the paper.
+    is_against: bool,
+    /// The entry that has the printed text, and its file in data/paper; empty for what is not printed.
+    key: String,
+    printed_in: String,
+    /// File and line of the code that states it, and apart.
+    code: String,
+    code_file: String,
+    code_line: String,
 }
 
 impl Row {
@@ -43,6 +53,8 @@ impl Row {
         let is_statement =
             claim.printed == "true" || matches!(claim.computed, Computed::Text(_)) && claim.share.is_some();
         let class = claim.class.words();
+        let key = claim.key.as_deref().unwrap_or_default();
+        let (code_file, code_line) = claim.code.rsplit_once(':').unwrap_or_default();
         Self {
             place: claim.place.clone(),
             quantity: claim.quantity.clone(),
@@ -64,30 +76,46 @@ impl Row {
             words: verdict_words(claim),
             share: claim.share.map_or("—".to_owned(), |share| format!("{:.0} %", 100.0 * share)),
             note: claim.note.clone(),
+            cause: claim.cause.as_deref().unwrap_or_default().to_owned(),
+            is_against: claim.class == Class::Paper && claim.verdict == Verdict::Differs,
+            key: key.to_owned(),
+            printed_in: key
+                .split_once('.')
+                .map_or_else(String::new, |(file, _)| format!("data/paper/{file}.json")),
+            code: claim.code.clone(),
+            code_file: code_file.to_owned(),
+            code_line: code_line.to_owned(),
         }
+    }
+}
+
+/// A verdict on the paper in words.
+fn words(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Reproduced => "reproduced",
+        Verdict::Differs => "differs",
+        Verdict::DependsOnUnprintedDigits => "depends on unprinted digits",
+        Verdict::NotComputable => "no data",
     }
 }
 
 /// The verdict of a claim in words, with its cause and the verdict of single orbits. A claim that is not the
 /// paper's is neither reproduced nor does it differ.
 fn verdict_words(claim: &Claim) -> String {
-    let words = |verdict| match (claim.class, verdict) {
+    let own = |verdict| match (claim.class, verdict) {
         (Class::Input, Verdict::NotComputable) => "put in",
-        (_, Verdict::NotComputable) => "no data",
-        (_, Verdict::DependsOnUnprintedDigits) => "depends on unprinted digits",
-        (Class::Paper, Verdict::Reproduced) => "reproduced",
-        (Class::Paper, Verdict::Differs) => "differs",
+        (Class::Paper, _) | (_, Verdict::NotComputable | Verdict::DependsOnUnprintedDigits) => words(verdict),
         (_, Verdict::Reproduced) => "agrees",
         (_, Verdict::Differs) => "does not agree",
     };
-    let mut text = words(claim.verdict).to_owned();
+    let mut text = own(claim.verdict).to_owned();
     if let Some(cause) = &claim.cause {
         text.push_str(&format!(" ({cause})"));
     }
     if let Some(single) = claim.single_orbits {
         let verdict = match single.verdict {
             Verdict::DependsOnUnprintedDigits => "depend on the orbit",
-            other => words(other),
+            other => own(other),
         };
         let cases = single.cases;
         text.push_str(&format!("; single orbits: {verdict} ({} of {})", cases.holding, cases.tried));
@@ -141,9 +169,36 @@ fn environment() -> Environment<'static> {
     environment.set_keep_trailing_newline(true);
     environment
         .add_filter("cell", |text: &str| text.replace('|', "\\|").replace('\n', " ").replace('*', "\\*"));
+    environment.add_filter("symbols", |text: &str| Value::from_safe_string(symbols(text)));
     environment.add_filter("number", number);
     environment.add_filter("near", near);
     environment
+}
+
+/// HTML in which what follows an underscore is set below: `φ_L` as φ<sub>L</sub>. A name in code, such as `impact_phase`, has more
+/// than two letters before it and stays.
+fn symbols(text: &str) -> String {
+    let escaped = text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;");
+    let (mut html, mut letters, mut below) = (String::new(), 0, false);
+    for c in escaped.chars() {
+        // A dot above a letter is a character of its own.
+        let is_mark = ('\u{300}'..='\u{36f}').contains(&c);
+        if below && !(c.is_alphanumeric() || is_mark) {
+            html.push_str("</sub>");
+            below = false;
+        }
+        if c == '_' && (1..=2).contains(&letters) {
+            html.push_str("<sub>");
+            below = true;
+        } else {
+            html.push(c);
+        }
+        letters = if c.is_alphanumeric() { letters + 1 } else { letters * usize::from(is_mark) };
+    }
+    if below {
+        html.push_str("</sub>");
+    }
+    html
 }
 
 /// How a number is written: `.3` with so many decimals, `e1` in powers of ten with so many decimals, `s4`
@@ -258,6 +313,18 @@ mod tests {
         assert_eq!(like("cos(0.26π)", 0.685_9, 6), "0.6859");
         let names = ["fig06", "fig13", "table1", "table3", "demo"].map(name);
         assert_eq!(names, ["Fig. 6", "Fig. 13", "Table I", "Table III", "demo"]);
+    }
+
+    #[test]
+    fn symbols_are_set_and_names_of_code_are_not() {
+        for (text, html) in [
+            ("φ_L = 0.2 & a_e<1", "φ<sub>L</sub> = 0.2 &amp; a<sub>e</sub>&lt;1"),
+            ("α\u{307}_ss/t_c", "α\u{307}<sub>ss</sub>/t<sub>c</sub>"),
+            ("δl_0, τ_imp", "δl<sub>0</sub>, τ<sub>imp</sub>"),
+            ("impact_phase_rad", "impact_phase_rad"),
+        ] {
+            assert_eq!(symbols(text), html);
+        }
     }
 
     #[test]

@@ -1,14 +1,16 @@
 //! The products of all figures in a folder: `claims.json`, its schema, and the gallery, one HTML page without scripts
 //! and without anything from the network.
 
+use std::path::Path;
+
 use minijinja::context;
 use serde::Serialize;
 use serde_json::Value;
 
 use super::counts::Counts;
 use super::schema::schema;
-use super::{Section, environment};
-use crate::claims::Claim;
+use super::{Row, Section, environment};
+use crate::claims::{Claim, Verdict};
 use crate::experiment::{Experiment, Quality, Record, chain};
 use crate::output::{OutputError, OutputFolder};
 use crate::provenance::Provenance;
@@ -34,6 +36,22 @@ pub struct Summary {
     pub counts: Counts,
     /// Identifiers of figures whose stored data could not be used, and why.
     pub left_out: Vec<(String, String)>,
+}
+
+/// Rows that differ for one cause.
+#[derive(Serialize)]
+struct Differences<'a> {
+    cause: &'a str,
+    rows: Vec<Difference<'a>>,
+}
+
+/// A row that differs, and where it stands.
+#[derive(Serialize)]
+struct Difference<'a> {
+    figure: &'a str,
+    anchor: String,
+    #[serde(flatten)]
+    row: &'a Row,
 }
 
 /// One figure of the gallery.
@@ -76,7 +94,9 @@ impl Summary {
         let counts = Counts::of(&all_claims);
         let schema = json::to_text(&schema());
         let claims = json::to_text(&Value::Array(stored_claims));
-        Ok(Self { claims, schema, page: html(&pages, &origins, &counts), counts, left_out })
+        let root = root_of(folder.path());
+        let page = html(&pages, &origins, &counts, root.as_deref());
+        Ok(Self { claims, schema, page, counts, left_out })
     }
 
     /// Collects all figures whose results lie in the folder and writes the common files.
@@ -100,11 +120,15 @@ fn claim_of(claim: &Claim, origin: Option<&Provenance>) -> Value {
     stored
 }
 
-fn html(pages: &[Page], origins: &[Provenance], counts: &Counts) -> String {
+fn html(pages: &[Page], origins: &[Provenance], counts: &Counts, root: Option<&str>) -> String {
     let gallery = provenance::new(provenance::GALLERY);
     let gallery = gallery.clone().with("figures", origins).unwrap_or(gallery);
+    let verdicts = Verdict::ALL.map(|verdict| context! { name => verdict, words => super::words(verdict) });
     let values = context! {
         pages,
+        causes => causes(pages),
+        verdicts,
+        root,
         headline => counts.headline(),
         beside => counts.beside(),
         style => include_str!("gallery.css"),
@@ -115,6 +139,31 @@ fn html(pages: &[Page], origins: &[Provenance], counts: &Counts) -> String {
     environment()
         .render_named_str("gallery.html", include_str!("gallery.html"), values)
         .unwrap_or_else(|error| error.to_string())
+}
+
+/// The rows that count against the paper, by cause.
+fn causes(pages: &[Page]) -> Vec<Differences<'_>> {
+    let mut causes: Vec<Differences<'_>> = Vec::new();
+    for Page { section, .. } in pages {
+        let against = section.rows.iter().enumerate().filter(|(_, row)| row.is_against);
+        for (index, row) in against {
+            let anchor = format!("{}-{}", section.id, index + 1);
+            let row = Difference { figure: &section.name, anchor, row };
+            match causes.iter_mut().find(|own| own.cause == row.row.cause) {
+                Some(own) => own.rows.push(row),
+                None => causes.push(Differences { cause: &row.row.cause, rows: vec![row] }),
+            }
+        }
+    }
+    causes
+}
+
+/// How a page in this folder links files of the workspace, if the folder lies in it.
+fn root_of(folder: &Path) -> Option<String> {
+    let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).parent()?.canonicalize().ok()?;
+    let folder = folder.canonicalize().ok()?;
+    let below = folder.strip_prefix(workspace).ok()?;
+    Some("../".repeat(below.components().count()))
 }
 
 /// The width in pixels that the header of a PNG file states.
@@ -141,7 +190,7 @@ mod tests {
         let first = summary();
         assert!(first.claims.contains("\"verdict\": \"reproduced\""), "{}", first.claims);
         let page = &first.page;
-        assert!(page.contains("τ_imp &amp; Γ &lt; 1") && page.contains("Draft quality."), "{page}");
+        assert!(page.contains("τ<sub>imp</sub> &amp; Γ &lt; 1") && page.contains("Draft quality."), "{page}");
         assert!(page.contains("<td>restitution ε</td><td>0.5</td>"), "{page}");
         assert!(page.contains("class=\"verdict reproduced\""), "{page}");
         let head =
