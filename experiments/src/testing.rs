@@ -1,5 +1,7 @@
 //! Experiments for the tests of this crate.
 
+mod fig15;
+
 use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk_plot::{Axis, DensePoints, Figure, Line, Panel, Rect};
 use serde_json::json;
@@ -52,4 +54,16 @@ pub(crate) fn demo_entries() -> Vec<Experiment> {
         },
         Experiment { id: "broken", title: "An experiment that fails", discussion: "", make: broken },
     ]
+}
+
+/// The example of `docs/adding-a-figure.md` is this code, and it runs. Its entry is not in `data/paper`.
+#[test]
+fn the_example_of_a_figure_is_documented_as_it_is() {
+    let example = Experiment { id: "fig15", title: "", discussion: "", make: fig15::fig15 };
+    let made = example.compute(crate::Quality::Draft, &crate::Silent).expect("runs");
+    assert_eq!(made.record.data["height_m"].as_array().map(Vec::len), Some(6));
+    assert!(made.record.claims[0].note.contains("no entry"), "{:?}", made.record.claims);
+    let page = include_str!("../../docs/adding-a-figure.md");
+    let unindented: Vec<&str> = page.lines().map(|line| line.strip_prefix("    ").unwrap_or(line)).collect();
+    assert!(unindented.join("\n").contains(include_str!("testing/fig15.rs").trim_end()));
 }
