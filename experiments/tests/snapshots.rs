@@ -40,7 +40,13 @@ const RELATIVE_TOLERANCE: f64 = 1e-9;
 /// Two floats agree if they differ by less than this: round-off of quantities of order one.
 const ABSOLUTE_TOLERANCE: f64 = 1e-15;
 /// Arrays of more numbers than this are held as statistics.
-const LONGEST_LIST: usize = 40;
+const LONGEST_LIST: usize = 12;
+/// The same of arrays of integers, labels and verdicts.
+const LONGEST_LABELS: usize = 40;
+/// Lists of more records than this are held by columns.
+const MOST_RECORDS: usize = 4;
+/// What fits into a line is on one.
+const LINE: usize = 130;
 /// Texts of more bytes than this are held as a digest.
 const LONGEST_TEXT: usize = 4000;
 
@@ -53,13 +59,17 @@ fn product(entry: &Experiment) -> Map<String, Value> {
         let Record { caption, parameters, claims, data, .. } = made.record;
         let faults = answers::faults(entry.id, &claims);
         assert!(faults.is_empty(), "claims of {} against data/paper: {}", entry.id, faults.join("; "));
-        let mut claims = json!(claims);
-        // Lines of code move.
-        for claim in claims.as_array_mut().into_iter().flatten() {
-            claim.as_object_mut().map(|members| members.remove("code"));
-        }
+        // The catalogue has the rest of each.
+        let reviewed = ["key", "quantity", "verdict", "computed", "cause", "share", "single_orbits", "note"];
+        let claims = claims.iter().map(|claim| {
+            let mut claim = json!(claim).as_object().cloned().unwrap_or_default();
+            let has_key = claim.contains_key("key");
+            claim.retain(|name, _| reviewed.contains(&name.as_str()) && !(has_key && name == "quantity"));
+            claim
+        });
+        let computed = claims.filter(|claim| !claim["computed"].is_null());
         let product = json!({"title": entry.title, "caption": caption, "parameters": parameters,
-            "claims": claims, "data": data});
+            "claims": computed.collect::<Vec<_>>(), "data": data});
         Ok(product.as_object().cloned().unwrap_or_default())
     };
     made().unwrap_or_else(|error: bouncing_disk_experiments::ExperimentError| {
@@ -75,7 +85,7 @@ fn check(id: &str) {
     let mut product = pool.install(|| product(entry));
     let data = product["data"].take();
     product.insert("data".to_owned(), summary(&data));
-    let text = serde_json::to_string_pretty(&product).expect("plain data");
+    let text = layout(&Value::Object(product), 0);
     let mut settings = Settings::clone_current();
     settings.set_prepend_module_to_snapshot(false);
     settings.set_omit_expression(true);
@@ -87,6 +97,22 @@ fn check(id: &str) {
 /// text has all their bits.
 fn digest(text: &str) -> String {
     bouncing_disk::core::numerics::digest::Digest::of(text.as_bytes()).to_string()
+}
+
+/// JSON in which what fits into a line is on one.
+fn layout(value: &Value, depth: usize) -> String {
+    let flat = value.to_string();
+    let parts: Vec<String> = match value {
+        _ if depth + flat.len() <= LINE => return flat,
+        Value::Object(fields) => {
+            fields.iter().map(|(name, field)| format!("{name:?}: {}", layout(field, depth + 1))).collect()
+        }
+        Value::Array(items) => items.iter().map(|item| layout(item, depth + 1)).collect(),
+        _ => return flat,
+    };
+    let [open, close] = if value.is_object() { ['{', '}'] } else { ['[', ']'] };
+    let indent = " ".repeat(depth);
+    format!("{open}\n {indent}{}\n{indent}{close}", parts.join(&format!(",\n {indent}")))
 }
 
 /// Data made short.
@@ -102,12 +128,15 @@ fn summary(value: &Value) -> Value {
 }
 
 fn summary_of_list(items: &[Value]) -> Value {
-    if let Some(leaves) = leaves(items).filter(|leaves| leaves.len() > LONGEST_LIST) {
-        return statistics(items, &leaves);
+    if let Some(leaves) = leaves(items) {
+        let longest = if leaves.iter().any(|leaf| leaf.is_f64()) { LONGEST_LIST } else { LONGEST_LABELS };
+        if leaves.len() > longest {
+            return statistics(items, &leaves);
+        }
     }
     let rows: Option<Vec<_>> = items.iter().map(Value::as_object).collect();
     match rows {
-        Some(rows) if rows.len() > LONGEST_LIST => columns(&rows),
+        Some(rows) if rows.len() > MOST_RECORDS => columns(&rows),
         _ => items.iter().map(summary).collect(),
     }
 }
