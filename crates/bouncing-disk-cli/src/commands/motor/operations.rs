@@ -179,8 +179,9 @@ pub(super) fn best(args: &BestArgs, context: Context) -> Result<()> {
     for (bound, value) in args.bounds.iter().zip(&best.bounds) {
         push(bound.quantity, *value);
     }
-    list.push("motion", motion(best.row.operation()), "1");
-    list.push("state", state(best.row.operation()), "1");
+    let operation = &best.row.branches[best.branch];
+    list.push("motion", motion(operation), "1");
+    list.push("state", state(operation), "1");
     let mut note = String::new();
     for own in &best.values {
         let name = own.field.name();

@@ -1,104 +1,271 @@
-//! Values along a line as a cubic, with what it does not explain.
+//! Lines through the best place: where the top lies, and how wide it is.
 
-/// A least-squares cubic through values.
-///
-/// Its terms are made orthogonal on the places by their recurrence (Forsythe 1957), so that none depends on the others.
-#[derive(Debug)]
-pub(super) struct Cubic {
-    terms: Vec<Term>,
-    /// Standard deviation of the values about it.
-    pub(super) scatter: f64,
-    /// The largest deviation of a value.
-    pub(super) largest: f64,
+use bouncing_disk_core::numerics::statistics::NORMAL_975;
+
+use super::cubic::Cubic;
+use super::search::SHARE_OF_PLACE;
+use super::{Found, LENGTHEN, LOOK, LOOKS, Place, SEEDS, SHARED, SURER, Search, value};
+use crate::error::Error;
+use crate::motor::operation::settings::OperatingSettings;
+use crate::statistics::student_quantile;
+
+/// The largest relative error that settings may ask for.
+const LARGEST_ERROR: f64 = 0.5;
+
+/// Least places of a line.
+const LEAST: usize = 8;
+
+/// A value beyond this share of the best one is good.
+const GOOD: f64 = 0.99;
+
+/// The part of a line that says how wide its top is: values beyond this share of the best one.
+const NEAR: f64 = 2.0 * GOOD - 1.0;
+
+/// Places of a cubic among which its top is taken.
+const FINE: i32 = 500;
+
+/// A line whose values scatter by more than this share of the best one, and so many times their own errors, is too rough for a
+/// range.
+const ROUGHEST: f64 = 0.25 * (1.0 - GOOD);
+const EXPLAINED: f64 = 1.5;
+
+/// Values with errors below this share of the best one say a range by themselves.
+const EXACT: f64 = 0.1 * (1.0 - GOOD);
+
+/// No value of a smooth line is so many times the scatter off.
+const OUTLIER: f64 = 4.0;
+
+/// A line through the best place: along it the value and the quantities of the bounds, if they are smooth.
+pub(super) struct Line {
+    pub(super) best: f64,
+    /// Between which values the optimum lies.
+    pub(super) top: [f64; 2],
+    pub(super) good: Option<[f64; 2]>,
+    /// How much more a place beside the best one may bring.
+    pub(super) beside: f64,
 }
 
-/// The next term is (x - `shift`) times this one, less `back` times the one before.
-#[derive(Debug)]
-struct Term {
-    shift: f64,
-    back: f64,
-    /// Sum of its squares over the places.
-    square: f64,
-    coefficient: f64,
-}
-
-/// Terms of a cubic.
-const TERMS: usize = 4;
-
-impl Cubic {
-    /// Through a value of each of several places.
-    pub(super) fn of<'a, T: 'a>(
-        places: impl Iterator<Item = (f64, &'a T)>,
-        value: impl Fn(&T) -> f64,
-    ) -> Option<Self> {
-        Self::through(&places.map(|(x, own)| (x, value(own))).collect::<Vec<_>>())
+impl Search<'_> {
+    /// Looks along a field through the best place, and moves it to the top if the line is smooth.
+    pub(super) fn line(
+        &mut self,
+        place: &mut Place,
+        field: usize,
+        step: f64,
+        all: &mut Vec<Place>,
+    ) -> Result<Line, Error> {
+        let range = self.sought.ranges[field];
+        let along = |place: &Place, half: f64, side: i32| -> Vec<Place> {
+            let offsets = (-side..=side).map(|k| half * f64::from(k) / f64::from(side));
+            let ats = offsets.map(|offset| place.at[field] + offset);
+            // The end of the range belongs to the line.
+            let inside = |at: &f64| range.is_turn() || (0.0..=1.0).contains(at);
+            let mut ats: Vec<f64> = ats.filter(inside).collect();
+            for end in [0.0, 1.0] {
+                if !range.is_turn() && (place.at[field] - end).abs() < half && !ats.contains(&end) {
+                    ats.push(end);
+                }
+            }
+            ats.sort_by(f64::total_cmp);
+            let of = |at: f64| {
+                let mut own = place.at.clone();
+                own[field] = at;
+                Place { at: own, found: None }
+            };
+            ats.into_iter().map(of).collect()
+        };
+        let (mut half, mut lengthened) = (2.0 * step, None);
+        for _ in 0..LOOKS {
+            let first = all.len();
+            all.extend(along(place, half, LOOK));
+            let new: Vec<usize> = (first..all.len()).collect();
+            self.measure(all, &new, self.settings.relative_error)?;
+            if let Ok(better) = self.best_of(&all[first..])
+                && all[first + better].found.as_ref().map(value) > place.found.as_ref().map(value)
+            {
+                *place = all[first + better].clone();
+            }
+            let near =
+                new.iter().filter_map(|index| Some((all[*index].at[field], all[*index].found.as_ref()?)));
+            // Of this look: an earlier value of the same place may be off by its error.
+            let top = near.clone().fold(0.0, |most: f64, (_, found)| most.max(value(found)));
+            let (good, bad): (Vec<_>, Vec<_>) = near.partition(|(_, found)| value(found) >= GOOD * top);
+            let sides = [-1.0, 1.0].map(|sign| {
+                let end = if sign < 0.0 { place.at[field] } else { 1.0 - place.at[field] };
+                let has_end = !range.is_turn() && end < half;
+                has_end || bad.iter().any(|(at, _)| sign * (at - place.at[field]) > 0.0)
+            });
+            let too_short = sides != [true; 2] && half < 0.5;
+            let too_long = good.len() < LOOK as usize && half > step / LENGTHEN;
+            // Where it is too long and then too short it is rough.
+            if !(too_short || too_long) || lengthened == Some(!too_short) {
+                break;
+            }
+            lengthened = Some(too_short);
+            half = if too_short { (half * LENGTHEN).min(0.5) } else { half / LENGTHEN };
+        }
+        let first = all.len();
+        all.extend(along(place, half, self.side));
+        let new: Vec<usize> = (first..all.len()).collect();
+        let relative_error = self.settings.relative_error / SURER;
+        let settings = OperatingSettings { relative_error, ..*self.settings };
+        let mut settings = settings.with_share(SHARE_OF_PLACE);
+        // One motion for the whole line becomes eight.
+        if self.sought.leaves_height(self.motor, field)? {
+            settings.relative_error = (relative_error * (SEEDS as f64 / SHARED).sqrt()).min(LARGEST_ERROR);
+        }
+        for seed in 0..SEEDS {
+            let own: Vec<usize> = new.iter().copied().skip(seed).step_by(SEEDS).collect();
+            settings.seed = self.settings.seed.wrapping_add(1 + seed as u64);
+            self.measure_with(all, &own, &settings)?;
+        }
+        let known: Vec<(f64, &Found)> = new
+            .iter()
+            .filter_map(|index| {
+                Some(((all[*index].at[field] - place.at[field]) / half, all[*index].found.as_ref()?))
+            })
+            .collect();
+        if known.len() == new.len() {
+            let exact = self.exact_line(place, field, half, &known);
+            if let Some(line) = exact.or_else(|| self.smooth_line(place, field, half, &known)) {
+                return Ok(line);
+            }
+        }
+        Ok(self.rough_line(place, field, half, &known, all))
     }
 
-    /// Through values at different places; `None` for too few to know a scatter.
-    pub(super) fn through(values: &[(f64, f64)]) -> Option<Self> {
-        if values.len() <= TERMS {
+    /// The line through a place where values are so well known that they say top and range by themselves, even across a kink;
+    /// moves the place to the best of them. `None` where bounds part the line: their places lie between.
+    fn exact_line(
+        &self,
+        place: &mut Place,
+        field: usize,
+        half: f64,
+        known: &[(f64, &Found)],
+    ) -> Option<Line> {
+        let (top, best) = known
+            .iter()
+            .enumerate()
+            .max_by(|(_, one), (_, other)| value(one.1).total_cmp(&value(other.1)))?;
+        let largest = known.iter().map(|(_, found)| found.value.standard_error).fold(0.0, f64::max);
+        let keeps = |own: &(f64, &Found)| own.1.is_settled && own.1.margin(self.sought) >= 1.0;
+        if largest > EXACT * value(best.1) || !known.iter().all(keeps) {
             return None;
         }
-        let mut terms: Vec<Term> = Vec::with_capacity(TERMS);
-        let (mut own, mut before) = (vec![1.0; values.len()], vec![0.0; values.len()]);
-        let mut rest: Vec<f64> = values.iter().map(|(_, y)| *y).collect();
-        for _ in 0..TERMS {
-            let square: f64 = own.iter().map(|own| own * own).sum();
-            let along: f64 = own.iter().zip(&rest).map(|(own, y)| own * y).sum();
-            let shift = values.iter().zip(&own).map(|((x, _), own)| x * own * own).sum::<f64>() / square;
-            let term = Term {
-                shift,
-                back: terms.last().map_or(0.0, |before| square / before.square),
-                square,
-                coefficient: along / square,
-            };
-            rest.iter_mut().zip(&own).for_each(|(y, own)| *y -= term.coefficient * own);
-            let next = values.iter().zip(&own).zip(&before);
-            let next = next.map(|(((x, _), own), before)| (x - shift) * own - term.back * before).collect();
-            before = std::mem::replace(&mut own, next);
-            terms.push(term);
-        }
-        let squares: f64 = rest.iter().map(|y| y * y).sum();
-        let scatter = (squares / (values.len() - TERMS) as f64).sqrt();
-        let largest = rest.iter().fold(0.0, |most: f64, y| most.max(y.abs()));
-        Some(Self { terms, scatter, largest })
+        let is_good = |own: &&(f64, &Found)| own.1.at_least() >= GOOD * best.1.at_most();
+        let up = known[top..].iter().take_while(is_good).last().unwrap_or(best);
+        let down = known[..=top].iter().rev().take_while(is_good).last().unwrap_or(best);
+        let beside = [known[top.saturating_sub(1)], known[(top + 1).min(known.len() - 1)]];
+        let (middle, error) = (place.at[field], 0.5 * half * (beside[1].0 - beside[0].0) / NORMAL_975);
+        let at = |own: &(f64, &Found)| middle + half * own.0;
+        place.at[field] = at(best);
+        // The slope on the lower side bounds how high a kink between two places rises.
+        let beside = value(best.1) - value(beside[0].1).min(value(beside[1].1));
+        let (best, good) = (at(best), Some([at(down), at(up)]));
+        Some(Line { best, top: [best - error, best + error], good, beside })
     }
 
-    /// Its value at a place.
-    pub(super) fn at(&self, x: f64) -> f64 {
-        let (mut own, mut before, mut value) = (1.0, 0.0, 0.0);
-        for term in &self.terms {
-            value += term.coefficient * own;
-            (own, before) = ((x - term.shift) * own - term.back * before, own);
-        }
-        value
+    /// The line through a place where a cubic explains its values at offsets in [-1, 1]; moves the place to its top. The jackknife
+    /// over the seeds gives the errors of top and ends.
+    fn smooth_line(
+        &self,
+        place: &mut Place,
+        field: usize,
+        half: f64,
+        known: &[(f64, &Found)],
+    ) -> Option<Line> {
+        let best = known.iter().map(|(_, found)| value(found)).fold(0.0, f64::max);
+        let squares: f64 =
+            known.iter().map(|(_, found)| found.value.standard_error * found.value.standard_error).sum();
+        let explained = EXPLAINED * (squares / known.len() as f64).sqrt();
+        let whole = Cubic::of(known.iter().copied(), value).filter(|cubic| {
+            known.len() >= LEAST
+                && cubic.scatter <= explained.max(ROUGHEST * best)
+                && cubic.largest <= OUTLIER * cubic.scatter.max(1e-12 * best)
+        })?;
+        // A cubic describes the line well near its top only.
+        let is_near = |(x, _): &(f64, &Found)| whole.at(*x) >= NEAR * best;
+        let takes_near = known.iter().filter(|own| is_near(own)).count() >= LEAST;
+        let own = known.iter().copied().enumerate().filter(|(_, own)| !takes_near || is_near(own));
+        let own: Vec<(usize, (f64, &Found))> = own.collect();
+        let middle = place.at[field];
+        let Some([top, low, high]) = self.top_and_ends(&own, |_| true)? else {
+            let part = half / f64::from(self.side);
+            return Some(Line { best: middle, top: [middle - part, middle + part], good: None, beside: 0.0 });
+        };
+        let without = (0..SEEDS).map(|seed| self.top_and_ends(&own, |index| index % SEEDS != seed));
+        let without = without.collect::<Option<Option<Vec<[f64; 3]>>>>()?;
+        let errors = without.map(|without| [0, 1, 2].map(|which| jackknife(&without, which)));
+        let at = |x: f64| middle + half * x;
+        let best = at(top);
+        place.at[field] = best;
+        let Some([top, at_low, at_high]) = errors else {
+            return Some(Line { best, top: [at(-1.0), at(1.0)], good: None, beside: 0.0 });
+        };
+        let good = [at(low + NORMAL_975 * at_low), at(high - NORMAL_975 * at_high)];
+        let good = (good[0] <= best && best <= good[1]).then_some(good);
+        Some(Line { best, top: [best - half * top, best + half * top], good, beside: 0.0 })
+    }
+
+    /// Where the cubic through some places has its top within the bounds, and between which offsets it is good; `None` within
+    /// where it keeps the bounds nowhere, and where there are too few places.
+    fn top_and_ends(
+        &self,
+        places: &[(usize, (f64, &Found))],
+        is_of: impl Fn(usize) -> bool,
+    ) -> Option<Option<[f64; 3]>> {
+        let own = || places.iter().filter(|(index, _)| is_of(*index)).map(|(_, own)| *own);
+        let cubic = Cubic::of(own(), value)?;
+        let bounds = (0..self.sought.bounds.len())
+            .map(|bound| Cubic::of(own(), |found| found.bounds[bound].value))
+            .collect::<Option<Vec<Cubic>>>()?;
+        let keeps = |x: f64| {
+            let own = self.sought.bounds.iter().zip(&bounds);
+            own.into_iter().all(|(bound, cubic)| bound.margin(cubic.at(x)) >= 0.0)
+        };
+        let [low, high] = [places[0].1.0, places[places.len() - 1].1.0];
+        let x = |k: i32| low + (high - low) * f64::from(k) / f64::from(FINE);
+        let keeping = (0..=FINE).filter(|k| keeps(x(*k)));
+        let top = keeping.max_by(|one, other| cubic.at(x(*one)).total_cmp(&cubic.at(x(*other))));
+        Some(top.map(|top| {
+            let least = GOOD * cubic.at(x(top));
+            let is_good = |k: &i32| cubic.at(x(*k)) >= least && keeps(x(*k));
+            let up = (top..=FINE).take_while(is_good).last().unwrap_or(top);
+            let down = (0..=top).rev().take_while(is_good).last().unwrap_or(top);
+            [top, down, up].map(x)
+        }))
+    }
+
+    /// The line through a place where values jump, by the places on it that may be as good.
+    fn rough_line(
+        &self,
+        place: &Place,
+        field: usize,
+        half: f64,
+        known: &[(f64, &Found)],
+        all: &[Place],
+    ) -> Line {
+        let (middle, part) = (place.at[field], half / f64::from(self.side));
+        let best = known.iter().map(|(_, found)| found.value.value).fold(0.0, f64::max);
+        let scatter = Cubic::of(known.iter().copied(), value).map_or(0.0, |cubic| cubic.scatter);
+        let least = place.found.as_ref().map_or(f64::NEG_INFINITY, Found::at_least);
+        let may = all.iter().filter(|own| {
+            let beside = own.at.iter().zip(&place.at).enumerate();
+            let is_on_line =
+                beside.into_iter().all(|(index, (own, best))| index == field || own.total_cmp(best).is_eq());
+            is_on_line && own.found.as_ref().is_some_and(|found| found.at_most() >= least)
+        });
+        let top = may.fold([middle - part, middle + part], |[low, high], own| {
+            [low.min(own.at[field]), high.max(own.at[field])]
+        });
+        Line { best: middle, top, good: None, beside: NORMAL_975 * scatter.min(best) }
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_cubic_is_found_whatever_the_places() {
-        let cubic = |x: f64| 3.0 - x + 2.0 * x * x - 0.7 * x * x * x;
-        for places in [17, 8, 33] {
-            let places = (0..places).map(|k| f64::from(k) / 11.0 - 0.4 + 0.01 * f64::from(k % 3));
-            let values: Vec<(f64, f64)> = places.map(|x| (x, cubic(x))).collect();
-            let found = Cubic::through(&values).expect("enough");
-            for x in [-1.0, -0.3, 0.0, 0.77, 1.5] {
-                assert!((found.at(x) - cubic(x)).abs() < 1e-11, "{x} {found:?}");
-            }
-            assert!(found.largest < 1e-12 && found.scatter < 1e-12);
-        }
-        assert!(Cubic::through(&[(0.0, 1.0); TERMS]).is_none());
-    }
-
-    #[test]
-    fn its_scatter_is_that_of_the_values() {
-        let values: Vec<(f64, f64)> =
-            (-20..=20).map(|k| (0.05 * f64::from(k), if k % 2 == 0 { 0.1 } else { -0.1 })).collect();
-        let found = Cubic::through(&values).expect("enough");
-        assert!((found.scatter - 0.1).abs() < 0.01 && found.largest < 0.12);
-    }
+/// The standard error of one of three numbers, each computed without each of [`SEEDS`] in turn, as large as few seeds make it.
+pub(super) fn jackknife(without: &[[f64; 3]], which: usize) -> f64 {
+    let count = without.len() as f64;
+    let mean = without.iter().map(|own| own[which]).sum::<f64>() / count;
+    let squares: f64 = without.iter().map(|own| (own[which] - mean) * (own[which] - mean)).sum();
+    (squares * (count - 1.0) / count).sqrt() * student_quantile(count - 1.0) / NORMAL_975
 }

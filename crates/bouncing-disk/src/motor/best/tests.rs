@@ -2,6 +2,7 @@ use std::f64::consts::PI;
 
 use bouncing_disk_core::Unobserved;
 
+use super::line::jackknife;
 use super::*;
 use crate::motor::MotorParameters;
 use crate::parameters::contact::Contact;
@@ -164,6 +165,26 @@ fn seeds_tell_the_error_of_irregular_contacts() {
     let stated: f64 = speeds.iter().map(|own| own.standard_error * own.standard_error).sum::<f64>() / 12.0;
     let ratio = (squares / 11.0 / stated).sqrt();
     assert!(ratio > 0.3 && ratio < 1.7, "{ratio} {speeds:?}");
+}
+
+/// Next to 78 N a cycle of 8.7 rad/s and an irregular motion of 0.2 rad/s coexist, and the seed chooses which comes first: the place
+/// was found for the cycle, and the speed of the other one was stated for it.
+#[test]
+fn of_coexisting_motions_the_one_that_was_found_is_stated() {
+    let sheet = |sheet: &mut MotorParameters| {
+        (sheet.drive_frequency, sheet.amplitude) = (31_911.337_759_061_85, Some(2.436_465_212_058_693e-7));
+        (sheet.peak_angular_speed, sheet.twist_amplitude) = (Some(10.703_530_750_561_804), None);
+        (sheet.mass, sheet.density, sheet.rotor_radius) = (Some(0.012_263_541_983_854_051), None, None);
+        (sheet.contact_radius, sheet.gyration_radius) = (12.5e-3, Some(10e-3));
+        (sheet.preload_force, sheet.preload_acceleration) = (Some(78.0), None);
+        (sheet.friction, sheet.restitution) = (0.279_542_349_134_693, 0.714_411_380_773_895_4);
+        sheet.phase_lag = 6.097_745_439_201_264;
+    };
+    let motor = Motor::paper_70_khz().with(sheet).expect("legal");
+    let preloads = range(MotorField::PreloadForce, 77.9, 78.1);
+    let found = motor.best(&sought(SweepQuantity::Speed, &[preloads], &[]), &quick(), &Unobserved);
+    let found = found.expect("found");
+    assert!(found.value.value > 8.0 && found.row.branches.len() > 1 && found.branch > 0, "{found:?}");
 }
 
 /// Against the closed form of a mean: Student's error with the scatter of the values.
