@@ -6,7 +6,8 @@ use bouncing_disk_plot::{
     Style, Text, TextStyle, Ticks,
 };
 
-use super::census::{Census, ChatteringCycle};
+use super::census::Census;
+use super::cycle::ChatteringCycle;
 
 const CHART_HEIGHT: f64 = 232.0;
 const INSET_HEIGHT: f64 = 150.0;
