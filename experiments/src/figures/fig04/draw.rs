@@ -7,7 +7,8 @@ use bouncing_disk_plot::{
     Panel, Rule, Scatter, Stroke, Text, Ticks,
 };
 
-use super::data::{Family, Fig04Data, FrictionCurve, LagCurve, TossPoint};
+use super::Curves;
+use super::tosses::{Family, LagCurve, TossPoint};
 use crate::claims::printed::PrintedNumber;
 
 const HEIGHT: f64 = 480.0;
@@ -129,7 +130,7 @@ fn zero() -> Rule {
 }
 
 /// A curve per phase lag, numbered with n.
-fn lag_panel(panel: Panel, data: &Fig04Data, family: &Family, measure: &Measure, row: usize) -> Panel {
+fn lag_panel(panel: Panel, data: &Curves, family: &Family, measure: &Measure, row: usize) -> Panel {
     let angles = &data.amplitude_angle_rad;
     let mut panel = panel
         .x(angle_axis())
@@ -169,7 +170,7 @@ fn dash(row: usize) -> Dash {
     if row == 0 { Dash::Solid } else { Dash::Dashed }
 }
 
-fn separation_panel(panel: Panel, data: &Fig04Data) -> Panel {
+fn separation_panel(panel: Panel, data: &Curves) -> Panel {
     let separation = &data.separation;
     let mut panel = panel
         .x(Axis::linear(0.0, FRAC_PI_2).label(r"$\tau_{sep}$ (rad)").ticks(Ticks::pi(1, 8).minor(1)))
@@ -201,7 +202,7 @@ fn separation_panel(panel: Panel, data: &Fig04Data) -> Panel {
     panel.layers(numbers)
 }
 
-fn friction_panel(panel: Panel, data: &Fig04Data) -> Panel {
+fn friction_panel(panel: Panel, data: &Curves) -> Panel {
     let mut panel = panel
         .x(angle_axis())
         .y(Axis::linear(0.0, 26.0)
@@ -220,14 +221,12 @@ fn friction_panel(panel: Panel, data: &Fig04Data) -> Panel {
                 .name(format!(r"$\mu = {}$", curve.friction)),
         );
     }
-    let best =
-        |curve: &FrictionCurve| (curve.fastest.amplitude_angle_rad, curve.fastest.airborne_speed_rad_per_s);
     panel
-        .layer(circle(data.friction_curves.iter().map(best)))
+        .layer(circle(data.friction_curves.iter().map(|curve| curve.fastest.speed())))
         .legend(Legend::at(Corner::BottomRight).without_frame())
 }
 
-fn consistency_panel(panel: Panel, data: &Fig04Data) -> Panel {
+fn consistency_panel(panel: Panel, data: &Curves) -> Panel {
     let consistency = &data.consistency;
     let grid = &consistency.coarse_grid;
     let mut panel = panel
@@ -241,7 +240,7 @@ fn consistency_panel(panel: Panel, data: &Fig04Data) -> Panel {
         let points = points(&data.amplitude_angle_rad, &curve.airborne_speed_rad_per_s);
         panel = panel
             .layer(Line::new(points).colour(Colour::DARK_GREY).width(1.1).name("Table I"))
-            .layer(circle([(curve.fastest.amplitude_angle_rad, curve.fastest.airborne_speed_rad_per_s)]));
+            .layer(circle([curve.fastest.speed()]));
     }
     let curve = &consistency.coarse_grid_curve;
     let line = Line::new(points(&curve.amplitude_angle_rad, &curve.airborne_speed_rad_per_s));
@@ -262,7 +261,7 @@ fn consistency_panel(panel: Panel, data: &Fig04Data) -> Panel {
     panel.legend(Legend::at(Corner::BottomLeft).without_frame().inset(2.0))
 }
 
-pub(super) fn draw(data: &Fig04Data) -> Figure {
+pub(super) fn draw(data: &Curves) -> Figure {
     let grid = Grid::new(DOUBLE_COLUMN, HEIGHT, 3, 3)
         .margins(Margins { left: 40.0, right: 8.0, top: 20.0, bottom: 32.0 })
         .gaps(44.0, 47.0);
