@@ -61,18 +61,13 @@ pub(crate) fn fig01(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
     fig.record("path", &path)?;
 
     fig.caption(format!(
-        "The displacement variables of the bouncing-disk system and of pizza tossing, (a) and (c) drawn in perspective and to \
-         scale from a computed toss. (a) The disk (x, α) above the oscillating platform (s, β) at the phase τ = {:.3} \
-         rad, {:.0} % of its flight after the separation: x = {:.3} m, s = {:.3} m, α = {:.2} rad, β = {:.2} rad. \
-         Heights are measured from the platform's mean height, angles from the line on which the \
-         platform's mark lies when β = 0; the disk's mark lay over it at the start. (b) A sketch, not to scale: a dough above \
-         the hand that tosses it, with the same four variables. (c) The path of a point of the platform at the contact radius a_e, Eq. (1): a \
-         closed curve on the surface of a cylinder, with the amplitudes A and a_e Φ; the dot is the point at the \
-         instant of (a), the arrows show the sense of the motion, what lies behind the cylinder is dotted. \
-         Parameters of Table I except for θ = −π/4, chosen here because the path for θ = 0 encloses no area; the \
-         radius of disk and platform, √2 a_g, is that of a uniform disk, their thickness is not to scale.",
-        phase.angle(),
+        "The displacement variables of the bouncing-disk system and of pizza tossing. (a) Disk (x, α) above the platform (s, β), to \
+         scale, {:.0} % into the flight of a computed toss (τ = {:.3} rad; x, s = {:.3}, {:.3} m; α, β = {:.2}, {:.2} rad). \
+         (b) Dough and hand, a sketch. (c) Path of a point of the platform at the radius a_e, Eq. (1); dot: the instant of \
+         (a); dotted: behind the cylinder. Table I except for θ = −π/4, chosen here because the path for θ = 0 encloses \
+         no area.",
         100.0 * SHARE_OF_FLIGHT,
+        phase.angle(),
         disk.height,
         scene.platform.0,
         disk.angle,

@@ -52,13 +52,10 @@ pub(crate) fn fig02(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
     fig.record("panels", &panels)?;
 
     fig.caption(format!(
-        "Potential dough-tossing motions and stator trajectories, Eq. (1) on the cylinder of radius a_e in \
-         perspective: (a)–(c) the effect of the phase lag θ with φ_L = π/4, and (d)–(f) the effect of the amplitude \
-         ratio L = tan φ_L with θ = −π/4. The dot is the point at τ = 0, the arrowheads show the sense of the motion; \
-         what lies behind the cylinder is lighter and dotted; thin lines: mean height and β = 0. The text gives θ only \
-         for (a), −π/2 (elliptical, Sec. IV A), and for (c), 0 (linear, Sec. III B); −π/4 for the semielliptical (b), \
-         φ_L = 0.05π, 0.25π and 0.45π for (d)–(f), and the stroke c = {} a_e are choices made here. (b) and (e) show the same motion: the paper's \
-         caption gives φ_L = π/4 to the upper row and θ = −π/4 to the lower one, and the middle panels of both rows have these two.",
+        "Potential dough-tossing motions and stator trajectories, Eq. (1) on the cylinder of radius a_e: (a)–(c) the effect of \
+         the phase lag θ with φ_L = π/4, (d)–(f) of the amplitude ratio L = tan φ_L with θ = −π/4. Dot: τ = 0; arrowheads: \
+         sense of the motion; dotted: behind the cylinder. The text gives θ for (a), −π/2, and (c), 0; the θ of \
+         (b), the φ_L of (d)–(f) and the stroke c = {} a_e are chosen here. (b) and (e) show the same motion.",
         STROKE
     ));
     let list = |of: fn(&Trajectory) -> f64| {

@@ -54,37 +54,35 @@ pub(crate) fn fig05(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
         .collect::<Result<Vec<_>, _>>()?;
     fig.record("columns", &columns)?;
     let first = || columns.iter().map(|column| &column.tosses[0]);
-    let listed = |value: &dyn Fn(&Toss) -> String| {
-        let parts = columns
-            .iter()
-            .zip(first())
-            .map(|(column, toss)| format!("φ_L = {}: {}", column.printed, value(toss)));
-        parts.collect::<Vec<_>>().join("; ")
+    let ratios = columns.iter().map(|column| column.printed.as_str()).collect::<Vec<_>>().join(", ");
+    let listed = |values: &[f64], digits: usize| {
+        let texts: Vec<_> = values.iter().map(|value| format!("{value:.digits$}")).collect();
+        format!("at φ_L = {ratios}, θ = 0: {}", texts.join(", "))
     };
 
-    let slips: Vec<f64> = first().map(Toss::slip_share).collect();
-    fig.claim(
-        Claim::printed_statement(
-            "section3.slip_at_high_angle",
-            first().last().is_some_and(|toss| toss.sliding_at_separation) && rises(&slips),
-            listed(&|toss| format!("{:.1} % behind the hand", 100.0 * toss.slip_share())),
-        )
-        .note("θ = 0; at low φ_L the dough slides in the last moments only, where N falls to zero"),
-    );
+    let slips: Vec<f64> = first().map(|toss| 100.0 * toss.slip_share()).collect();
+    fig.claim(Claim::printed_statement(
+        "section3.slip_at_high_angle",
+        first().last().is_some_and(|toss| toss.sliding_at_separation) && rises(&slips),
+        format!(
+            "{} % behind the hand; the first slides only at the very end, where N falls to zero",
+            listed(&slips, 1)
+        ),
+    ));
     let speeds: Vec<f64> = first().map(|toss| toss.airborne_speed_rad_per_s).collect();
-    fig.claim(
-        Claim::printed_statement(
-            "section3.middle_column_is_fastest",
-            speeds[1] > speeds[0] && speeds[1] > speeds[2],
-            listed(&|toss| format!("airborne speed {:.2} rad/s", toss.airborne_speed_rad_per_s)),
-        )
-        .note("θ = 0; the fastest toss with Table I's parameters has another φ_L, see fig04"),
-    );
+    fig.claim(Claim::printed_statement(
+        "section3.middle_column_is_fastest",
+        speeds[1] > speeds[0] && speeds[1] > speeds[2],
+        format!(
+            "{} rad/s; the fastest toss with Table I's parameters is at another φ_L, see fig04",
+            listed(&speeds, 2)
+        ),
+    ));
     let heights: Vec<f64> = first().map(|toss| toss.apex_height_m).collect();
     fig.claim(Claim::printed_statement(
         "section3.height_falls_with_angle",
         falls(&heights),
-        listed(&|toss| format!("apex {:.3} m above the hand's mean height", toss.apex_height_m)),
+        format!("{} m above the hand's mean height", listed(&heights, 3)),
     ));
 
     // The φ_L of panel (c) as a point of the even grid on which the three printed angles lie.
@@ -92,10 +90,9 @@ pub(crate) fn fig05(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
     fig.record("grid_point", &point)?;
     fig.claim(
         Claim::printed("section3.amplitude_angle_of_fig5c", point.amplitude_angle_rad)
-            .fitted("the number of equal intervals of φ_L, the smallest with which all three printed angles are points of the grid")
+            .fitted("the number of intervals, the fewest that hold all three printed angles")
             .note(format!(
-                "computed {:.4}π: point {} of {} equal intervals from 0 to arccos(g/cω²) = {:.4}π with ω = {:.3} rad/s of Eq. (14), see fig04",
-                point.amplitude_angle_rad / PI,
+                "point {} of {} from 0 to arccos(g/cω²) = {:.4}π with ω = {:.3} rad/s of Eq. (14), see fig04",
                 point.index,
                 point.intervals,
                 point.largest_amplitude_angle_rad / PI,
@@ -119,7 +116,7 @@ pub(crate) fn fig05(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
         "section3.no_slip_at_separation",
         fall && most < NEARLY_NOTHING,
         format!(
-            "the share of the hand's speed at τ_sep that the dough lacks, θ = 0, vanishes as μ grows: at most {most:.1e} at μ = {}",
+            "of the hand's speed at separation the dough lacks a share of at most {most:.1e} at μ = {}, θ = 0, and less the larger μ is",
             firmest.friction,
         ),
     ));
@@ -139,35 +136,37 @@ pub(crate) fn fig05(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
     fig.record("lags", &lags)?;
     let at_zero = lags[2].late_gain_rad_per_s;
     let at_rest = ROUNDING * columns.iter().map(|own| own.largest_hand_speed_rad_per_s).fold(0.0, f64::max);
-    let places = format!(
-        "φ_L = {}, θ = {}",
-        printed.optimal_amplitude_angle_rad,
-        PHASE_LAGS_NEAR_ZERO.map(pi).join(", ")
-    );
+    let listed = |of: fn(&Dependence) -> f64| {
+        lags.iter().map(|lag| format!("{:.2}", of(lag))).collect::<Vec<_>>().join(", ")
+    };
+    let places =
+        format!("rad/s at θ = −π/4, −π/8, 0, π/8, π/4, φ_L = {}", printed.optimal_amplitude_angle_rad);
     fig.claim(Claim::printed_statement(
         "section3.positive_lag_torque",
         lags.iter().all(|lag| lag.phase_lag_rad <= 0.0 || lag.late_gain_rad_per_s < at_zero),
-        format!("a positive lag gains less speed in the second half of the contact; {places}"),
+        format!(
+            "gained in the second half of the contact: {} {places}",
+            listed(|lag| lag.late_gain_rad_per_s)
+        ),
     ));
     fig.claim(Claim::printed_statement(
         "section3.negative_lag_torque",
         lags.iter().all(|lag| (lag.phase_lag_rad < 0.0) == (lag.lowest_speed_rad_per_s < -at_rest)),
         format!(
-            "judged by the torque; the phase of the fastest hand is −θ. The dough starts at rest and turns backwards where θ is negative alone; {places}"
+            "lowest speed in contact: {} {places}; the dough starts at rest. The fastest hand is at −θ by definition",
+            listed(|lag| lag.lowest_speed_rad_per_s)
         ),
     ));
 
-    let angles = columns.iter().map(|column| column.printed.as_str()).collect::<Vec<_>>().join(", ");
     fig.caption(format!(
-        "Details of various hand motions (dashed curves) and the resulting dough trajectories (solid curves): height, \
-         angle and angular speed in single tosses with Table I's parameters, for the amplitude ratios φ_L = {}. Two phase \
-         lags, θ_1 = 0 (blue) and θ_2 = π/2 (vermilion), which have the same heights. Time runs from the hand's lowest point, \
-         where the dough is at rest; shaded: dough and hand in contact, up to the separation at t_sep, at the phase τ_sep = ωt_sep − π/2. Heights are \
-         shown up to the landing, angles and speeds in and after the contact. The effects of a suboptimal φ_L are seen \
-         in the speeds at θ_1: slip at the separation at high φ_L, a low hand speed ωΦ at low φ_L.",
-        angles
+        "Hand motions (dashed) and dough trajectories (solid) of single tosses with Table I's parameters at φ_L = {}: height, angle, \
+         angular speed. Phase lags θ_1 = 0 (blue) and θ_2 = π/2 (vermilion), which have the same heights. Time runs \
+         from the hand's lowest point, where the dough is at rest; shaded: contact, up to the separation t_sep. The lower \
+         rows show the time under the bracket of the upper one. A suboptimal φ_L at θ_1: slip at the separation \
+         if high, a slow hand if low.",
+        ratios
     ));
-    fig.parameter("amplitude angle φ_L", angles);
+    fig.parameter("amplitude angle φ_L", ratios);
     fig.parameter("phase lag θ", phase_lags.map(pi).join(", "));
     fig.parameter("stroke c", format!("{} m", table.stroke_m));
     fig.parameter("angular frequency ω", format!("{} rad/s", table.angular_frequency_rad_per_s));

@@ -33,13 +33,10 @@ pub(crate) fn fig08(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
     fig.record("contact_depth_mm", &depth)?;
 
     fig.caption(format!(
-        "Geometric details of the ultrasonic motor (not to scale), with the dimensions that the text gives: the rotor, a \
-         steel ball of {} mm diameter with radius of gyration a_g = {} mm; the stator, a pretwisted beam glued to an \
-         axially poled piezoelectric transducer, which the ball touches along a circle of radius a_e = {} mm (enlarged at \
-         the right). A sinusoidal voltage at a resonance makes the stator's tip vibrate as Eq. (1) describes, s up and \
-         down and β about the axis; the arrow in the transducer is its poling. The preload mg is the weight of the ball, reduced by a magnet above it: g is the \
-         acceleration that is left. All other \
-         dimensions of the drawing are made up: the paper's drawing is not in its text.",
+        "Geometric details of the ultrasonic motor, not to scale. The rotor is a steel ball of {} mm diameter, radius of gyration \
+         a_g = {} mm. The stator, a pretwisted beam on an axially poled piezoelectric transducer, touches it along a circle of \
+         radius a_e = {} mm (enlarged). At a resonance its tip moves as in Eq. (1), s up and down and β about the axis. A magnet \
+         above the ball reduces the preload mg; g is the acceleration that is left. All other dimensions are made up.",
         diameter, gyration_radius, contact_radius
     ));
     fig.parameter("ball diameter", format!("{diameter} mm"));

@@ -56,12 +56,11 @@ pub(crate) fn fig09(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
     fig.record("synthetic_slope_error_per_n", &slope_error)?;
 
     fig.caption(format!(
-        "Determining the coefficient of friction between rotor and stator. (a) Speed of the model's rotor after the \
-         motor is switched off at {} rad/s, at the lowest, the middle and the highest preload of Sec. V B, with the fitted \
-         line −α̈_brake (t − t_c) (dashed) from which Eq. (17) gives μ; a residual vibration of the stator is not \
-         modelled. (b) μ against preload: circles, recovered from the model's curves; dots, a synthetic record, not \
-         measured, drawn from the log-normal distribution with the printed mean {} and standard deviation {} (seed {}); \
-         line, the printed mean. The paper's points are not in its text.",
+        "The coefficient of friction between rotor and stator. (a) Speed of the model's rotor after the motor is switched off at \
+         {} rad/s, at the lowest, middle and highest preload of Sec. V B; dashed: fitted lines −α̈_brake (t − t_c), from which \
+         Eq. (17) gives μ. Residual vibration is not modelled. (b) Circles: μ from the model's curves. Dots: \
+         synthetic, not measured, log-normal with the printed mean {} and standard deviation {} (seed {}). Line: the printed mean. \
+         The paper's points are not in its text.",
         first_speed, mean, deviation, SEED
     ));
     fig.parameter("coefficient of friction μ of the model", case.friction);

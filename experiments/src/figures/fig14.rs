@@ -36,8 +36,9 @@ pub(crate) fn fig14(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
     fig.record("growth_per_toss_inclusive_percent", &(100.0 * growth / f64::from(between + 1)))?;
     fig.record("toss_start_s", &starts)?;
     fig.claim(Claim::printed("appendix.growth_per_toss", growth_per_toss_percent).note(format!(
-        "the printed growth over the {between} tosses from the start of the first to the start of the last; on the printed \
-         line it takes {duration:.2} s, {:.3} s a toss",
+        "{} % over the {between} tosses from the start of toss {first} to that of toss {last}; on the printed line it takes \
+         {duration:.2} s, {:.3} s a toss",
+        100.0 * growth,
         duration / f64::from(between)
     )));
 

@@ -17,32 +17,22 @@ use serde::Serialize;
 use crate::experiment::ExperimentError;
 use crate::figures::shared::motor::MotorCase;
 
-/// The change of the preload, from end to end of the travel, for which a deflection is given.
-pub(super) const SHARE: f64 = 0.01;
-/// Static deflections that are tried, over the rotor's travel.
-const DEFLECTIONS: [f64; 4] = [10.0, 100.0, 1_000.0, 10_000.0];
+/// A spring that is compressed by so many times the rotor's travel is compressed by "much more" than it: the preload changes
+/// by a hundredth from end to end.
+pub(super) const MUCH_GREATER: f64 = 100.0;
 /// Steps of a period in which the impact of a flight on a spring is looked for.
 const STEPS: f64 = 256.0;
 
-/// A motor of Table III with an amplitude.
+/// A motor of Table III with an amplitude, and the first flight of its rotor from rest with such a spring against that under
+/// constant preload.
 #[derive(Debug, Serialize)]
 pub(super) struct SprungMotor {
     pub(super) amplitude_m: f64,
-    axial_forcing: f64,
     /// Events of the motion from rest under constant preload in which the highest point was looked for.
     events: usize,
     /// From the stator's lowest point to the rotor's highest.
     pub(super) travel_m: f64,
-    deflection_for_share_m: f64,
-    /// By the spring, the first flight of a rotor at rest.
-    pub(super) springs: Vec<SprungFlight>,
-}
-
-/// The first flight of a rotor at rest with a spring, against that under constant preload.
-#[derive(Debug, Serialize)]
-pub(super) struct SprungFlight {
-    /// The static deflection over the travel.
-    pub(super) deflection_over_travel: f64,
+    deflection_m: f64,
     /// Duration with the spring over that without, minus 1; then the same for the speed of the fall at the impact.
     pub(super) duration_change: f64,
     pub(super) fall_speed_change: f64,
@@ -128,26 +118,18 @@ impl SprungMotor {
         let (flight, highest) = Flight::first(&system, events)?;
         let low = -flight.peak;
         let travel = highest - low;
-        let never = || bouncing_disk::Error::NeverLeaves { peak_acceleration: flight.peak };
-        let springs = DEFLECTIONS.into_iter().map(|ratio| {
-            let spring = (0.5 * (low + highest), ratio * travel);
-            let (duration, velocity) =
-                flight.impact(spring).ok_or_else(|| ExperimentError::model(never()))?;
-            Ok(SprungFlight {
-                deflection_over_travel: ratio,
-                duration_change: duration / flight.constant.0 - 1.0,
-                fall_speed_change: velocity / flight.constant.1 - 1.0,
-                impact_shift_cycles: (duration - flight.constant.0) / TAU,
-            })
-        });
         let travel_m = travel * system.scales().length;
+        let never = bouncing_disk::Error::NeverLeaves { peak_acceleration: flight.peak };
+        let end = flight.impact((0.5 * (low + highest), MUCH_GREATER * travel));
+        let (duration, velocity) = end.ok_or_else(|| ExperimentError::model(never))?;
         Ok(Self {
             amplitude_m: case.amplitude_m,
-            axial_forcing: system.axial_forcing(),
             events,
             travel_m,
-            deflection_for_share_m: travel_m / SHARE,
-            springs: springs.collect::<Result<_, ExperimentError>>()?,
+            deflection_m: MUCH_GREATER * travel_m,
+            duration_change: duration / flight.constant.0 - 1.0,
+            fall_speed_change: velocity / flight.constant.1 - 1.0,
+            impact_shift_cycles: (duration - flight.constant.0) / TAU,
         })
     }
 }

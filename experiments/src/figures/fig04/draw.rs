@@ -37,6 +37,8 @@ struct Measure {
     values: fn(&LagCurve) -> Vec<f64>,
     value: fn(&TossPoint) -> f64,
     best: fn(&LagCurve) -> &TossPoint,
+    /// Where it says, in each row, what the numbers are.
+    key: [(f64, f64); 2],
     /// The number n of a curve, given its row.
     number: fn(usize, u32) -> NumberPlace,
 }
@@ -66,6 +68,7 @@ fn measures() -> [Measure; 3] {
             values: |curve| curve.airborne_speed_rad_per_s.clone(),
             value: |point| point.airborne_speed_rad_per_s,
             best: |curve| &curve.fastest,
+            key: [(0.02 * PI, -22.0); 2],
             number: |row, n| match (row, n) {
                 (_, 0) => At(0.45, 2.2),
                 (_, 8) => At(0.45, -2.2),
@@ -82,6 +85,7 @@ fn measures() -> [Measure; 3] {
             values: |curve| curve.efficiency.clone(),
             value: |point| point.efficiency,
             best: |curve| &curve.most_efficient,
+            key: [(0.02 * PI, 0.38), (0.02 * PI, 0.57)],
             number: |row, n| match (row, n) {
                 (_, 0) => With("0, 8", 0.87),
                 (_, 8) => Nowhere,
@@ -100,6 +104,7 @@ fn measures() -> [Measure; 3] {
             values: |curve| curve.speed_ratio.iter().map(|ratio| ratio.unwrap_or(f64::NAN)).collect(),
             value: |point| point.speed_ratio.unwrap_or(f64::NAN),
             best: |curve| &curve.largest_speed_ratio,
+            key: [(0.09 * PI, 1.25); 2],
             number: |_, n| match n {
                 7 => At(0.62, 0.0),
                 8 => At(0.40, 0.0),
@@ -123,6 +128,11 @@ fn circle(points: impl IntoIterator<Item = (f64, f64)>) -> Scatter {
 
 fn number((x, y): (f64, f64), raised: f64, label: &str) -> Text {
     Text::at_data(x, y + raised, label).anchor(Anchor::Centre).size(NUMBER_SIZE).halo(Colour::WHITE)
+}
+
+/// What the number at a curve is.
+fn key((x, y): (f64, f64)) -> Text {
+    Text::at_data(x, y, r"$n$, $\theta = n\pi/8$").anchor(Anchor::LeftCentre).size(8.0)
 }
 
 fn zero() -> Rule {
@@ -163,7 +173,7 @@ fn lag_panel(panel: Panel, data: &Curves, family: &Family, measure: &Measure, ro
         let best = (measure.best)(curve);
         (best.amplitude_angle_rad, (measure.value)(best))
     });
-    panel.layers(numbers).layer(circle(linear))
+    panel.layers(numbers).layer(circle(linear)).layer(key(measure.key[row]))
 }
 
 fn dash(row: usize) -> Dash {
@@ -199,7 +209,7 @@ fn separation_panel(panel: Panel, data: &Curves) -> Panel {
         let place = (phases[index], curve.airborne_speed_rad_per_s[index]);
         numbers.push(number(place, raised, &curve.n.to_string()));
     }
-    panel.layers(numbers)
+    panel.layers(numbers).layer(key((0.25 * PI, -22.0)))
 }
 
 fn friction_panel(panel: Panel, data: &Curves) -> Panel {

@@ -1,16 +1,17 @@
 //! What Sec. III B says of the best toss, compared with the curves.
 
+use bouncing_disk::core::numerics::elementary::{atan, tan};
+
 use super::best::{Best, Compromise};
 use super::tosses::LagCurve;
 use super::{Curves, pi};
 use crate::claims::judging::LINE_WIDTH;
-use crate::claims::paper::Uncertain;
 use crate::claims::{Claim, Verdict, catalogue};
 use crate::experiment::{ExperimentError, Paper};
 use crate::figures::shared::numbers;
 
 /// Why the optimum of Table I as printed is another one.
-const OTHER_OPTIMUM: &str = "Table I has its optimum at another φ_L";
+const COARSE_GRID: &str = "ω rounded in Table I, maximum read off a coarse grid of φ_L";
 
 /// A curve of the picture, of which places are read off.
 struct Drawn {
@@ -36,33 +37,37 @@ impl Drawn {
         (self.high - value) / (self.high - self.low)
     }
 
-    /// The angles at which it is lower than its maximum by no more than a line's width: the first and the last, and their
-    /// share.
-    fn accepted(&self) -> (String, f64) {
-        let points = self.angles.iter().zip(&self.values);
-        let as_high = points.filter(|(_, value)| self.high - **value <= LINE_WIDTH * (self.high - self.low));
-        let as_high: Vec<f64> = as_high.map(|(angle, _)| *angle).collect();
-        let (from, to) = numbers::extent(as_high.iter().copied());
-        let share = as_high.len() as f64 / self.angles.len() as f64;
-        (
-            format!(
-                "places from {} to {} are as high, {:.0} % of those drawn",
-                pi(from),
-                pi(to),
-                100.0 * share
-            ),
-            share,
-        )
+    /// The angles, linear between the points, at which it is lower than its maximum by no more than a line's width: the first
+    /// and the last, and their share of the range by its length.
+    fn accepted(&self) -> (f64, f64, f64) {
+        let above = |value: f64| value - (self.high - LINE_WIDTH * (self.high - self.low));
+        let (mut first, mut last, mut length) = (f64::INFINITY, f64::NEG_INFINITY, 0.0);
+        let points = || self.angles.iter().zip(&self.values);
+        for ((from, one), (to, other)) in points().zip(points().skip(1)) {
+            let (one, other) = (above(*one), above(*other));
+            let crossing = from + (to - from) * one / (one - other);
+            let (start, end) = match (one >= 0.0, other >= 0.0) {
+                (true, true) => (*from, *to),
+                (true, false) => (*from, crossing),
+                (false, true) => (crossing, *to),
+                (false, false) => continue,
+            };
+            (first, last, length) = (first.min(start), last.max(end), length + end - start);
+        }
+        let (from, to) = numbers::extent(self.angles.iter().copied());
+        (first, last, length / (to - from))
     }
 }
 
-/// A place of a maximum: also as a multiple of π, as it is printed, and judged on the curve.
-fn place(key: &str, computed: f64, curve: &Drawn) -> Result<Claim, ExperimentError> {
-    let claim = Claim::printed(key, computed);
-    let note = format!("computed {}, printed {}", pi(computed), claim.printed);
-    let (places, share) = curve.accepted();
-    let lower = curve.lower_at(catalogue::number(key, 0)?.value);
-    Ok(claim.note(note).at_printed_place(lower, share).note(places))
+/// A place of a maximum, judged on the curve.
+fn place(key: &str, computed: f64, printed: f64, curve: &Drawn) -> Claim {
+    let (from, to, share) = curve.accepted();
+    Claim::printed(key, computed).at_printed_place(curve.lower_at(printed), share).note(format!(
+        "as high from {} to {}, {:.0} % of the range",
+        pi(from),
+        pi(to),
+        100.0 * share
+    ))
 }
 
 /// `lossless` is the efficiency of the fastest toss if the energy lost in friction is not counted as put in.
@@ -91,8 +96,8 @@ pub(super) fn claims(
         is_linear(|curve| curve.fastest.airborne_speed_rad_per_s.abs())
             && is_linear(|curve| curve.most_efficient.efficiency),
         format!(
-            "dough at rest at the start: of all phase lags and φ_L the fastest toss has θ = {} and the most efficient θ = {} (or π \
-             more). A dough that starts with the hand is fastest, {:.2} rad/s, at θ = {}, φ_L = {}",
+            "of all lags, a dough at rest is thrown fastest at θ = {} and most efficiently at {} (or π more); one that starts with the hand \
+             fastest, {:.2} rad/s, at θ = {}, φ_L = {}",
             pi(absolute.fastest_phase_lag_rad),
             pi(absolute.most_efficient_phase_lag_rad),
             relative.fastest.airborne_speed_rad_per_s,
@@ -103,18 +108,17 @@ pub(super) fn claims(
 
     // The numbers of the best toss, and with which parameters they come out.
     let grid = &data.consistency.coarse_grid;
-    let (case, table) = (&grid.reading.parameters, &data.table_i);
-    let shift = |value: f64, printed: &Uncertain| (value - printed.value) / printed.uncertainty;
+    let case = &grid.reading.parameters;
     let reason = format!(
-        "all printed numbers come out with ω = {:.2} rad/s ({:+.2} of its uncertainty), a_g = {:.4} m ({:+.2} of its uncertainty), if the maximum is the best of {} equal intervals of φ_L",
-        case.angular_frequency_rad_per_s,
-        shift(case.angular_frequency_rad_per_s, &table.angular_frequency_rad_per_s),
-        case.gyration_radius_m,
-        shift(case.gyration_radius_m, &table.gyration_radius_m),
-        grid.intervals
+        "all come out with ω = {:.2} rad/s, a_g = {:.4} m and the best of {} steps of φ_L",
+        case.angular_frequency_rad_per_s, case.gyration_radius_m, grid.intervals
     );
+    let (angle, ratio) =
+        (fastest.amplitude_angle_rad, catalogue::number("section3.optimal_amplitude_ratio", 0)?);
+    let printed_angle = catalogue::number("section3.optimal_amplitude_angle", 0)?.value;
     let numbers = [
-        place("section3.optimal_amplitude_angle", fastest.amplitude_angle_rad, &of_speed)?,
+        place("section3.optimal_amplitude_angle", angle, printed_angle, &of_speed),
+        place("section3.optimal_amplitude_ratio", tan(angle), atan(ratio.value), &of_speed),
         Claim::printed("section3.largest_airborne_speed", fastest.airborne_speed_rad_per_s),
         Claim::printed("section3.largest_efficiency", fastest.efficiency)
             .note(format!("{lossless:.3} if the energy lost in friction is not counted as put in")),
@@ -122,7 +126,7 @@ pub(super) fn claims(
     ];
     fig.claims(numbers.map(|claim| {
         let claim = if claim.verdict == Verdict::Differs { claim.note(&reason) } else { claim };
-        claim.cause(OTHER_OPTIMUM)
+        claim.cause(COARSE_GRID)
     }));
 
     // The paper reads one φ_L for the largest speed and the largest efficiency off its curves.
@@ -131,11 +135,10 @@ pub(super) fn claims(
         "section3.one_optimum",
         lower <= LINE_WIDTH,
         format!(
-            "θ = 0: the airborne speed is largest at φ_L = {}, the efficiency at {}, {} apart. At the first the efficiency is {:.4}, at the \
-             second {:.4}: lower by {:.2} % of what the curve spans",
+            "θ = 0: largest speed at φ_L = {}, largest efficiency at {}; the efficiency is {:.4} at the first and {:.4} at the second, \
+             lower by {:.2} % of its span",
             pi(fastest.amplitude_angle_rad),
             pi(efficient.amplitude_angle_rad),
-            pi((fastest.amplitude_angle_rad - efficient.amplitude_angle_rad).abs()),
             fastest.efficiency,
             efficient.efficiency,
             100.0 * lower,
@@ -155,11 +158,9 @@ pub(super) fn claims(
         Claim::printed("section3.largest_speed_ratio", largest)
             .note(format!("of the curves drawn, θ = nπ/8, that of n = {}", firmest.n)),
     );
-    fig.claim(place(
-        "section3.amplitude_angle_of_largest_speed_ratio",
-        at_zero.amplitude_angle_rad,
-        &of_ratio,
-    )?);
+    let key = "section3.amplitude_angle_of_largest_speed_ratio";
+    let printed_angle = catalogue::number(key, 0)?.value;
+    fig.claim(place(key, at_zero.amplitude_angle_rad, printed_angle, &of_ratio));
     fig.claim(
         Claim::printed("section3.phase_lag_of_largest_speed_ratio", firmest.phase_lag_rad)
             .at_printed_place((largest - at_zero.ratio()).max(0.0), as_high as f64 / drawn.len() as f64),
@@ -173,17 +174,16 @@ pub(super) fn claims(
     fig.claim(
         Claim::printed_statement(
             "section3.speed_ratio_nearly_largest",
-            largest - at_printed_optimum <= negligible,
+            largest - fastest.ratio() <= negligible,
             format!(
-                "{at_printed_optimum:.4} at the printed optimum φ_L = {}, {:.4} at our own, {largest:.4} at most; the paper calls negligible what lies between two ratios \
-                 that print as {} and {}, at most {negligible:.3}",
-                data.printed.optimal_amplitude_angle_rad,
+                "{:.4} at our optimum, {largest:.4} at most; negligible is at most {negligible:.3}, between two ratios that print as {} and {}. \
+                 At the printed φ_L: {at_printed_optimum:.4}",
                 fastest.ratio(),
                 data.printed.speed_ratio_at_optimum,
                 data.printed.largest_speed_ratio,
             ),
         )
-        .cause(OTHER_OPTIMUM),
+        .cause(COARSE_GRID),
     );
     let observed = catalogue::number("section3.observed_amplitude_angle", 0)?;
     let farthest = observed.value + observed.uncertainty.unwrap_or(0.0);
@@ -201,8 +201,8 @@ pub(super) fn claims(
         between.least_slip_angle_rad < between.fastest_toss_angle_rad
             && between.fastest_toss_angle_rad < between.fastest_hand_at_separation_angle_rad,
         format!(
-            "θ = 0: the dough slips least at φ_L = {} and is fastest at {}; the hand is fastest as the dough leaves at {} ({:.2} rad/s), and its largest speed \
-             ωΦ grows up to the end of the range, {}. So there is an optimum without any slip, too, because τ_sep moves away from the hand's fastest moment",
+            "θ = 0: least slip at φ_L = {}, fastest toss at {}, fastest hand at the separation at {} ({:.2} rad/s); its largest speed ωΦ grows to \
+             the end, {}",
             pi(between.least_slip_angle_rad),
             pi(between.fastest_toss_angle_rad),
             pi(between.fastest_hand_at_separation_angle_rad),

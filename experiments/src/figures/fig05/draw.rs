@@ -97,12 +97,18 @@ fn heights(panel: Panel, row: &Row, column: &Column, letter: usize) -> Panel {
     let (low, high) = row.ends;
     let separation = toss.separation_time_s + 0.012 * row.last;
     let name = Text::at_data(separation, low + 0.12 * (high - low), r"$t_{sep}$");
+    // The time that the lower rows show.
+    let (shown, top) = (ROWS[1].last, high - 0.08);
+    let bracket = Line::new([(0.0, top - 0.05), (0.0, top), (shown, top), (shown, top - 0.05)]);
+    let below = Text::at_data(shown + 0.012, top - 0.03, "lower rows");
     let ratio = column.printed.replace('π', r"\pi");
     panel
         .layer(hand.name("hand"))
         .layer(dough.name("dough"))
         .title(format!(r"({}) $\phi_L = {ratio}$", ["a", "b", "c"][letter]))
         .layer(name.anchor(Anchor::LeftCentre).size(8.0))
+        .layer(bracket.colour(Colour::GREY).width(0.8))
+        .layer(below.anchor(Anchor::LeftCentre).size(8.0))
 }
 
 fn rotation(panel: Panel, row: &Row, column: &Column) -> Panel {
