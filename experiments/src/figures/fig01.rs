@@ -61,11 +61,10 @@ pub(crate) fn fig01(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
     fig.record("path", &path)?;
 
     fig.caption(format!(
-        "The displacement variables of the bouncing-disk system and of pizza tossing. (a) Disk (x, α) above the platform (s, β), to \
-         scale, {:.0} % into the flight of a computed toss (τ = {:.3} rad; x, s = {:.3}, {:.3} m; α, β = {:.2}, {:.2} rad). \
-         (b) Dough and hand, a sketch. (c) Path of a point of the platform at the radius a_e, Eq. (1); dot: the instant of \
-         (a); dotted: behind the cylinder. Table I except for θ = −π/4, chosen here because the path for θ = 0 encloses \
-         no area.",
+        "Displacement variables of the bouncing disk and of pizza tossing. (a) Disk (x, α) above the platform (s, β), {:.0} % into \
+         the flight of a computed toss (τ = {:.3} rad; x, s = {:.3}, {:.3} m; α, β = {:.2}, {:.2} rad). (b) Dough and hand, a \
+         sketch. (c) Path of a point of the platform at the radius a_e, Eq. (1); dot: the instant of (a); dotted: behind the \
+         cylinder. Table I except for θ = −π/4, because the path for θ = 0 encloses no area.",
         100.0 * SHARE_OF_FLIGHT,
         phase.angle(),
         disk.height,

@@ -56,14 +56,15 @@ pub(crate) fn fig05(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
     let first = || columns.iter().map(|column| &column.tosses[0]);
     let ratios = columns.iter().map(|column| column.printed.as_str()).collect::<Vec<_>>().join(", ");
     let listed = |values: &[f64], digits: usize| {
-        let texts: Vec<_> = values.iter().map(|value| format!("{value:.digits$}")).collect();
+        let texts: Vec<_> =
+            values.iter().map(|value| format!("{value:.digits$}").replace('-', "−")).collect();
         format!("at φ_L = {ratios}, θ = 0: {}", texts.join(", "))
     };
 
     let slips: Vec<f64> = first().map(|toss| 100.0 * toss.slip_share()).collect();
     fig.claim(Claim::printed_statement(
         "section3.slip_at_high_angle",
-        first().last().is_some_and(|toss| toss.sliding_at_separation) && rises(&slips),
+        columns[2].tosses[0].sliding_at_separation && rises(&slips),
         format!(
             "{} % behind the hand; the first slides only at the very end, where N falls to zero",
             listed(&slips, 1)
@@ -137,7 +138,9 @@ pub(crate) fn fig05(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
     let at_zero = lags[2].late_gain_rad_per_s;
     let at_rest = ROUNDING * columns.iter().map(|own| own.largest_hand_speed_rad_per_s).fold(0.0, f64::max);
     let listed = |of: fn(&Dependence) -> f64| {
-        lags.iter().map(|lag| format!("{:.2}", of(lag))).collect::<Vec<_>>().join(", ")
+        // Without a sign of rounding.
+        let rounded = lags.iter().map(|lag| (100.0 * of(lag)).round() / 100.0 + 0.0);
+        rounded.map(|speed| format!("{speed:.2}").replace('-', "−")).collect::<Vec<_>>().join(", ")
     };
     let places =
         format!("rad/s at θ = −π/4, −π/8, 0, π/8, π/4, φ_L = {}", printed.optimal_amplitude_angle_rad);

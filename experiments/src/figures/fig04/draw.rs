@@ -32,11 +32,10 @@ fn lag_colour(n: u32) -> Colour {
 /// One of the three performance measures, in the two rows.
 struct Measure {
     letters: [&'static str; 2],
-    corner: Corner,
     axes: [Axis; 2],
     values: fn(&LagCurve) -> Vec<f64>,
-    value: fn(&TossPoint) -> f64,
-    best: fn(&LagCurve) -> &TossPoint,
+    /// Angle and value.
+    best: fn(&LagCurve) -> (f64, f64),
     /// Where it says, in each row, what the numbers are.
     key: [(f64, f64); 2],
     /// The number n of a curve, given its row.
@@ -63,11 +62,9 @@ fn measures() -> [Measure; 3] {
     [
         Measure {
             letters: ["a", "a′"],
-            corner: Corner::TopLeft,
             axes: [speed(), speed()],
             values: |curve| curve.airborne_speed_rad_per_s.clone(),
-            value: |point| point.airborne_speed_rad_per_s,
-            best: |curve| &curve.fastest,
+            best: |curve| curve.fastest.speed(),
             key: [(0.02 * PI, -22.0); 2],
             number: |row, n| match (row, n) {
                 (_, 0) => At(0.45, 2.2),
@@ -80,11 +77,9 @@ fn measures() -> [Measure; 3] {
         },
         Measure {
             letters: ["b", "b′"],
-            corner: Corner::TopLeft,
             axes: [efficiency(0.5), efficiency(0.75)],
             values: |curve| curve.efficiency.clone(),
-            value: |point| point.efficiency,
-            best: |curve| &curve.most_efficient,
+            best: |curve| point(&curve.most_efficient, curve.most_efficient.efficiency),
             key: [(0.02 * PI, 0.38), (0.02 * PI, 0.57)],
             number: |row, n| match (row, n) {
                 (_, 0) => With("0, 8", 0.87),
@@ -99,11 +94,12 @@ fn measures() -> [Measure; 3] {
         },
         Measure {
             letters: ["c", "c′"],
-            corner: Corner::TopLeft,
             axes: [ratio(), ratio()],
             values: |curve| curve.speed_ratio.iter().map(|ratio| ratio.unwrap_or(f64::NAN)).collect(),
-            value: |point| point.speed_ratio.unwrap_or(f64::NAN),
-            best: |curve| &curve.largest_speed_ratio,
+            best: |curve| {
+                let best = &curve.largest_speed_ratio;
+                point(best, best.speed_ratio.unwrap_or(f64::NAN))
+            },
             key: [(0.09 * PI, 1.25); 2],
             number: |_, n| match n {
                 7 => At(0.62, 0.0),
@@ -112,6 +108,10 @@ fn measures() -> [Measure; 3] {
             },
         },
     ]
+}
+
+fn point(toss: &TossPoint, value: f64) -> (f64, f64) {
+    (toss.amplitude_angle_rad, value)
 }
 
 fn angle_axis() -> Axis {
@@ -145,7 +145,7 @@ fn lag_panel(panel: Panel, data: &Curves, family: &Family, measure: &Measure, ro
     let mut panel = panel
         .x(angle_axis())
         .y(measure.axes[row].clone().label_distance(26.0))
-        .letter_in(measure.letters[row], measure.corner)
+        .letter_in(measure.letters[row], Corner::TopLeft)
         .layer(zero());
     let mut numbers = Vec::new();
     // The curve of θ = 0 covers that of θ = π where they coincide.
@@ -156,23 +156,17 @@ fn lag_panel(panel: Panel, data: &Curves, family: &Family, measure: &Measure, ro
             let index = index.min(angles.len() - 1);
             (angles[index], values[index])
         };
-        let best = (measure.best)(curve);
         let name = curve.n.to_string();
         match (measure.number)(row, curve.n) {
             NumberPlace::At(share, raised) => numbers.push(number(at(share), raised, &name)),
-            NumberPlace::Best(raised) => {
-                numbers.push(number((best.amplitude_angle_rad, (measure.value)(best)), raised, &name));
-            }
+            NumberPlace::Best(raised) => numbers.push(number((measure.best)(curve), raised, &name)),
             NumberPlace::With(name, share) => numbers.push(number(at(share), 0.0, name)),
             NumberPlace::Nowhere => {}
         }
         panel = panel
             .layer(Line::new(points(angles, &values)).colour(lag_colour(curve.n)).width(1.1).dash(dash(row)));
     }
-    let linear = [family.curves.first(), family.curves.last()].into_iter().flatten().map(|curve| {
-        let best = (measure.best)(curve);
-        (best.amplitude_angle_rad, (measure.value)(best))
-    });
+    let linear = [family.curves.first(), family.curves.last()].into_iter().flatten().map(measure.best);
     panel.layers(numbers).layer(circle(linear)).layer(key(measure.key[row]))
 }
 

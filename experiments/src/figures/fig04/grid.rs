@@ -1,6 +1,8 @@
 //! Table I as printed does not give all numbers that Sec. III B prints for the best toss. Can the printed maxima be points
 //! of an even grid of amplitude angles?
 
+use std::collections::BTreeMap;
+
 use bouncing_disk::core::numerics::elementary::sin;
 use bouncing_disk::toss::InitialSpin;
 use serde::Serialize;
@@ -13,29 +15,22 @@ use crate::figures::shared::toss::{
     AngleGrid, MOST_INTERVALS, TossCase, frequency_of, grid_angle, launch_case, printed_angles, unreadable,
 };
 
-/// The numbers that the paper prints about tosses with θ = 0, in `data/paper/section3.json`, and what they are.
-const NUMBERS: [(&str, &str); 7] = [
-    ("predicted_airborne_speed", "airborne speed of Table I's toss (rad/s)"),
-    ("optimal_amplitude_angle", "φ_L of the fastest toss (rad)"),
-    ("largest_airborne_speed", "airborne speed of the fastest toss (rad/s)"),
-    ("largest_efficiency", "efficiency of the fastest toss"),
-    ("speed_ratio_at_optimum", "speed ratio of the fastest toss"),
-    ("largest_speed_ratio", "largest speed ratio at θ = 0"),
-    ("amplitude_angle_of_largest_speed_ratio", "φ_L of the largest speed ratio at θ = 0 (rad)"),
+/// The numbers that the paper prints about tosses with θ = 0, in `data/paper/section3.json`.
+const NUMBERS: [&str; 7] = [
+    "predicted_airborne_speed",
+    "optimal_amplitude_angle",
+    "largest_airborne_speed",
+    "largest_efficiency",
+    "speed_ratio_at_optimum",
+    "largest_speed_ratio",
+    "amplitude_angle_of_largest_speed_ratio",
 ];
 
-/// A parameter set and what it gives in place of the printed numbers.
+/// A parameter set and what it gives in place of the printed numbers, in their units; angles in rad.
 #[derive(Debug, Serialize)]
 pub(super) struct Reading {
     pub(super) parameters: TossCase,
-    numbers: Vec<Comparison>,
-}
-
-/// Our value of a printed number, in its unit; angles in rad.
-#[derive(Debug, Serialize)]
-struct Comparison {
-    quantity: &'static str,
-    computed: f64,
+    numbers: BTreeMap<&'static str, f64>,
 }
 
 impl Reading {
@@ -49,9 +44,7 @@ impl Reading {
             firmest.speed_ratio.unwrap_or(0.0),
             firmest.amplitude_angle_rad,
         ];
-        let numbers = NUMBERS.into_iter().zip(computed);
-        let numbers = numbers.map(|((_, quantity), computed)| Comparison { quantity, computed }).collect();
-        Ok(Self { parameters: case, numbers })
+        Ok(Self { parameters: case, numbers: NUMBERS.into_iter().zip(computed).collect() })
     }
 
     /// With maxima picked from a grid. At its last angle the dough does not leave the hand.
@@ -67,12 +60,13 @@ impl Reading {
 
     /// Whether all numbers round to the printed ones.
     fn prints_alike(&self) -> Result<bool, ExperimentError> {
-        let off = NUMBERS.iter().zip(&self.numbers).map(|((name, _), number)| {
+        for (name, number) in &self.numbers {
             let printed = catalogue::number(&format!("section3.{name}"), 0)?;
-            Ok(((number.computed - printed.value) / printed.half_unit).abs())
-        });
-        let off = off.collect::<Result<Vec<_>, ExperimentError>>()?;
-        Ok(off.iter().all(|half_units| *half_units <= 1.0))
+            if ((number - printed.value) / printed.half_unit).abs() > 1.0 {
+                return Ok(false);
+            }
+        }
+        Ok(true)
     }
 }
 
@@ -106,9 +100,8 @@ pub(super) struct SpeedCurve {
 /// The grid with the fewest intervals whose points hold all printed angles.
 #[derive(Debug, Serialize)]
 pub(super) struct CoarseGrid {
-    /// ω and φ_L that Eq. (14) gives, not rounded, and acos(g/(c ω²)) with that ω.
+    /// ω that Eq. (14) gives, not rounded, and acos(g/(c ω²)) with it.
     pub(super) angular_frequency_rad_per_s: f64,
-    amplitude_angle_rad: f64,
     largest_amplitude_angle_rad: f64,
     pub(super) intervals: u32,
     /// The index of each printed angle among its points.
@@ -154,7 +147,6 @@ impl CoarseGrid {
             (0..grid.intervals).map(|index| grid_angle(end, index, grid.intervals)).collect();
         Ok(Self {
             angular_frequency_rad_per_s: case.angular_frequency_rad_per_s,
-            amplitude_angle_rad: case.amplitude_angle_rad,
             largest_amplitude_angle_rad: grid.largest,
             share_by_chance: grid.share_by_chance(&printed),
             intervals: grid.intervals,

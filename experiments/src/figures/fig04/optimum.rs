@@ -30,7 +30,7 @@ impl Drawn {
 
     /// By how much it is lower than its maximum at an angle, linear between its points, as a share of what it spans.
     fn lower_at(&self, angle: f64) -> f64 {
-        let next = self.angles[1..].partition_point(|end| *end < angle) + 1;
+        let next = self.angles[1..].partition_point(|end| *end < angle).min(self.angles.len() - 2) + 1;
         let (from, to) = (self.angles[next - 1], self.angles[next]);
         let (one, other) = (self.values[next - 1], self.values[next]);
         let value = one + (other - one) * (angle - from) / (to - from);
@@ -211,4 +211,18 @@ pub(super) fn claims(
         ),
     ));
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_as_high_as_the_maximum_are_measured_by_length_and_not_by_points() {
+        let curve = Drawn::new(&[0.0, 1.0, 2.0, 4.0], vec![0.0, 1.0, 1.0, 0.0]);
+        assert!((curve.lower_at(3.0) - 0.5).abs() < 1e-15 && curve.lower_at(1.5).abs() < 1e-15);
+        let (first, last, share) = curve.accepted();
+        assert!((first - 0.99).abs() < 1e-12 && (last - 2.02).abs() < 1e-12);
+        assert!((share - (last - first) / 4.0).abs() < 1e-12);
+    }
 }

@@ -50,16 +50,18 @@ pub(super) fn draw(columns: &[Column]) -> Figure {
     let grid = Grid::new(DOUBLE_COLUMN, HEIGHT, 3, 3)
         .margins(Margins { left: 40.0, right: 10.0, top: 18.0, bottom: 30.0 })
         .gaps(10.0, 36.0);
-    let legend = || Legend::at(Corner::TopRight).without_frame().inset(2.0);
     let mut figure = Figure::new(DOUBLE_COLUMN, HEIGHT);
     for (index, row) in ROWS.iter().enumerate() {
         for (letter, column) in columns.iter().enumerate() {
             let mut panel = framed(Panel::new(grid.cell(index, letter)), row, &column.tosses[0], letter == 0);
             panel =
                 if index == 0 { heights(panel, row, column, letter) } else { rotation(panel, row, column) };
-            if matches!((index, letter), (0, 2) | (1, 0)) {
-                panel = panel.legend(legend());
-            }
+            let legend = |corner| Legend::at(corner).without_frame().inset(2.0);
+            panel = match (index, letter) {
+                (0, 2) => panel.legend(legend(Corner::BottomRight)),
+                (1, 0) => panel.legend(legend(Corner::TopRight)),
+                _ => panel,
+            };
             figure = figure.panel(panel);
         }
     }
