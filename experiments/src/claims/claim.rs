@@ -168,7 +168,8 @@ impl Claim {
     }
 
     /// A place that is read off a drawn curve: `lower` is by how much the curve there is lower than its
-    /// maximum, as a share of what it spans, `accepted` the share of the drawn places that would agree.
+    /// maximum, as a share of what it spans, `accepted` the share of the drawn range, by its length, or of the drawn
+    /// curves that would agree.
     pub fn at_printed_place(mut self, lower: f64, accepted: f64) -> Self {
         self.tolerance = None;
         self.verdict = match lower <= LINE_WIDTH {
@@ -177,7 +178,7 @@ impl Claim {
             false => Verdict::Differs,
         };
         self.note(format!(
-            "at the printed place the curve is lower than its maximum by {:.2} % of what it spans",
+            "at the printed place lower than the maximum by {:.2} % of the span",
             100.0 * lower
         ))
     }

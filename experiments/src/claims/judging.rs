@@ -36,7 +36,7 @@ pub const AGREED_SHARE: f64 = 0.95;
 /// the width of a line.
 pub const LINE_WIDTH: f64 = 0.01;
 
-/// A place that agrees with more than this share of a curve is no place.
+/// A place that agrees with more than this share of the range of a curve, or of the curves, is no place.
 pub const LARGEST_ACCEPTED: f64 = 0.5;
 
 /// So many inputs are a sample, whose share has a standard error.
@@ -160,7 +160,7 @@ kinds! {
     /// A printed number that the authors computed from rounded measurements.
     Measured = "measured", "Judged over inputs that all round to the printed ones: reproduced for 95 % of them or more, differing for 5 % or less, otherwise dependent on unprinted digits.";
     /// A reading from drawn curves: a maximum, its place, or the coincidence of two maxima.
-    Maximum = "maximum", "Of the drawn curves. A value is judged as a number; a place agrees where the curve there is lower than its maximum by no more than a line's width, a hundredth of what the curve spans. Where more than half of the drawn places would agree, it is no data.";
+    Maximum = "maximum", "Of the drawn curves. A value is judged as a number; a place agrees where the curve there is lower than its maximum by no more than a line's width, a hundredth of what the curve spans. Where more than half of the drawn range, by its length, or of the drawn curves would agree, it is no data.";
     /// A formula with an equality.
     Equation = "equation", "Reproduced where both sides agree but for rounding.";
     /// One thing is larger, slower, negligible, significant.

@@ -4,110 +4,75 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 use bouncing_disk::Platform;
 use bouncing_disk::parameters::Stroke as HandStroke;
-use bouncing_disk_plot::{
-    Anchor, Camera, Colour, Dash, Drawing, Figure, Grid, Margins, Path, Rect, Stroke, TextStyle,
-};
+use bouncing_disk_plot::{Anchor, Camera, Colour, Drawing, Figure, Grid, Margins, Rect, Stroke, TextStyle};
 use glam::DVec3;
 use serde::Serialize;
 
-use super::shared::cylinder::{Cylinder, HandPath, Look, curve, faint, polar};
+use super::shared::cylinder::{Cylinder, HandPath, curve, faint, polar};
 use crate::claims::paper;
-use crate::experiment::{ExperimentError, Paper, named};
+use crate::experiment::{ExperimentError, Paper};
 
-/// Fig. 2.
-pub(crate) fn fig02(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
-    let (quality, progress) = (fig.quality, fig.progress);
-    let intervals = quality.choose(120, 720);
-    let printed_angle = paper::value("section1.amplitude_angle_of_fig2_abc")?;
-    let printed_lag = paper::value("section1.phase_lag_of_fig2_def")?;
-    let lags = PHASE_LAGS.map(|lag| (lag, printed_angle));
-    let ratios = AMPLITUDE_ANGLES.map(|angle| (printed_lag, angle));
-    progress.start((lags.len() + ratios.len()) as u64, "trajectories");
-    let mut panels = Vec::new();
-    for (lag, angle) in lags.into_iter().chain(ratios) {
-        panels.push(Trajectory::new(lag, angle, intervals)?);
-        progress.advance(1);
-    }
-    let data = &Fig02Data { stroke_over_contact_radius: STROKE / CONTACT_RADIUS, panels };
-    fig.caption(format!(
-        "Potential dough-tossing motions and stator trajectories, Eq. (1) on the cylinder of radius a_e in \
-         perspective: (a)–(c) the effect of the phase lag θ with φ_L = π/4, and (d)–(f) the effect of the amplitude \
-         ratio L = tan φ_L with θ = −π/4. The dot is the point at τ = 0, the arrowheads show the sense of the motion; \
-         what lies behind the cylinder is lighter and dotted; thin lines: mean height and β = 0. The text gives θ only \
-         for (a), −π/2 (elliptical, Sec. IV A), and for (c), 0 (linear, Sec. III B); −π/4 for the semielliptical (b), \
-         φ_L = 0.05π, 0.25π and 0.45π for (d)–(f), and the stroke c = {} a_e are choices made here. (b) and (e) show the same motion: the paper's \
-         caption gives φ_L = π/4 to the upper row and θ = −π/4 to the lower one, and the middle panels of both rows have these two.",
-        data.stroke_over_contact_radius
-    ));
-    fig.parameters(parameters(data));
-    fig.draw(draw(data)?);
-    fig.data(data)
-}
-
-fn parameters(data: &Fig02Data) -> Vec<(String, String)> {
-    let list = |values: &mut dyn Iterator<Item = f64>| {
-        values.map(|angle| format!("{:.2}π", angle / PI)).collect::<Vec<_>>().join(", ")
-    };
-    let panels = &data.panels;
-    named([
-        ("phase lag θ of (a)–(f)", list(&mut panels.iter().map(|panel| panel.phase_lag_rad))),
-        ("amplitude angle φ_L of (a)–(f)", list(&mut panels.iter().map(|panel| panel.amplitude_angle_rad))),
-        ("stroke c", format!("{} a_e", data.stroke_over_contact_radius)),
-    ])
-}
-
-fn draw(data: &Fig02Data) -> Result<Figure, ExperimentError> {
-    let margins = Margins { left: 2.0, right: 2.0, top: 4.0, bottom: 2.0 };
-    let grid = Grid::new(WIDTH, HEIGHT, 2, 3).margins(margins).gaps(2.0, 6.0);
-    let letters = ["a", "b", "c", "d", "e", "f"];
-    let panels = data.panels.iter().zip(letters.into_iter().zip(NAMES)).enumerate();
-    Ok(panels.fold(Figure::new(WIDTH, HEIGHT), |figure, (index, (trajectory, (letter, name)))| {
-        figure.drawing(panel(trajectory, letter, name, grid.cell(index / 3, index % 3)))
-    }))
-}
-
-/// The data of Fig. 2; lengths in units of the contact radius.
-#[derive(Debug, Serialize)]
-pub(crate) struct Fig02Data {
-    stroke_over_contact_radius: f64,
-    panels: Vec<Trajectory>,
-}
-
-/// One trajectory.
-#[derive(Debug, Serialize)]
-struct Trajectory {
-    phase_lag_rad: f64,
-    amplitude_angle_rad: f64,
-    /// Lengths of the path are in units of the contact radius.
-    path: HandPath,
-}
-
-/// The shape of a path does not depend on its size: the contact radius is 1 m here, the stroke this many of
-/// it.
-const CONTACT_RADIUS: f64 = 1.0;
+/// The stroke c in contact radii. The shape of a path does not depend on its size.
 const STROKE: f64 = 1.5;
-
-/// Any frequency gives the same path.
-const ANGULAR_FREQUENCY: f64 = 1.0;
 
 /// θ of (a)–(c) and φ_L of (d)–(f): for (a) Sec. IV A names θ, for (c) Sec. III B; the others are not in the
 /// text.
 const PHASE_LAGS: [f64; 3] = [-FRAC_PI_2, -FRAC_PI_4, 0.0];
 const AMPLITUDE_ANGLES: [f64; 3] = [0.05 * PI, 0.25 * PI, 0.45 * PI];
 
-impl Trajectory {
-    fn new(phase_lag: f64, amplitude_angle: f64, intervals: u32) -> Result<Self, ExperimentError> {
+/// One trajectory; lengths are in contact radii.
+#[derive(Debug, Serialize)]
+struct Trajectory {
+    phase_lag_rad: f64,
+    amplitude_angle_rad: f64,
+    path: HandPath,
+}
+
+/// Fig. 2.
+pub(crate) fn fig02(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
+    let intervals = fig.quality.choose(120, 720);
+    let angle_of_upper_row = paper::value("section1.amplitude_angle_of_fig2_abc")?;
+    let lag_of_lower_row = paper::value("section1.phase_lag_of_fig2_def")?;
+    let upper = PHASE_LAGS.map(|lag| (lag, angle_of_upper_row));
+    let lower = AMPLITUDE_ANGLES.map(|angle| (lag_of_lower_row, angle));
+    let trajectories = upper.into_iter().chain(lower).map(|(phase_lag, amplitude_angle)| {
+        // Any contact radius and any frequency give the same path.
         let stroke = HandStroke {
             stroke: STROKE,
             amplitude_angle,
-            contact_radius: CONTACT_RADIUS,
-            angular_frequency: ANGULAR_FREQUENCY,
+            contact_radius: 1.0,
+            angular_frequency: 1.0,
             phase_lag,
         };
-        let platform = Platform::from_stroke(stroke)?;
-        let path = HandPath::new(&platform, intervals)?;
-        Ok(Self { phase_lag_rad: phase_lag, amplitude_angle_rad: amplitude_angle, path })
+        let path = HandPath::new(&Platform::from_stroke(stroke)?, intervals)?;
+        Ok(Trajectory { phase_lag_rad: phase_lag, amplitude_angle_rad: amplitude_angle, path })
+    });
+    let panels = trajectories.collect::<Result<Vec<_>, ExperimentError>>()?;
+    fig.record("stroke_over_contact_radius", &STROKE)?;
+    fig.record("panels", &panels)?;
+
+    fig.caption(format!(
+        "Potential dough-tossing motions and stator trajectories, Eq. (1) on the cylinder of radius a_e: (a)–(c) the effect of \
+         the phase lag θ with φ_L = π/4, (d)–(f) of the amplitude ratio L = tan φ_L with θ = −π/4. Dot: τ = 0; arrowheads: \
+         sense of the motion; dotted: behind the cylinder. The text gives θ for (a), −π/2, and (c), 0; the θ of \
+         (b), the φ_L of (d)–(f) and the stroke c = {} a_e are chosen here. (b) and (e) show the same motion.",
+        STROKE
+    ));
+    let list = |of: fn(&Trajectory) -> f64| {
+        panels.iter().map(|panel| format!("{:.2}π", of(panel) / PI)).collect::<Vec<_>>().join(", ")
+    };
+    fig.parameter("phase lag θ of (a)–(f)", list(|panel| panel.phase_lag_rad));
+    fig.parameter("amplitude angle φ_L of (a)–(f)", list(|panel| panel.amplitude_angle_rad));
+    fig.parameter("stroke c", format!("{STROKE} a_e"));
+
+    let margins = Margins { left: 2.0, right: 2.0, top: 4.0, bottom: 2.0 };
+    let grid = Grid::new(WIDTH, HEIGHT, 2, 3).margins(margins).gaps(2.0, 6.0);
+    let mut figure = Figure::new(WIDTH, HEIGHT);
+    for (index, (trajectory, name)) in panels.iter().zip(NAMES).enumerate() {
+        figure = figure.drawing(panel(trajectory, index, name, grid.cell(index / 3, index % 3)));
     }
+    fig.draw(figure);
+    Ok(())
 }
 
 const WIDTH: f64 = 340.0;
@@ -135,23 +100,11 @@ const NAMES: [Name; 6] = [
     ((0.04, 0.20), Anchor::LeftCentre),
 ];
 
-fn panel(data: &Trajectory, letter: &str, name: Name, area: Rect) -> Drawing {
+fn panel(data: &Trajectory, index: usize, (place, anchor): Name, area: Rect) -> Drawing {
     let camera = Camera::around(DVec3::ZERO, AZIMUTH, ELEVATION, DISTANCE);
     let cylinder = Cylinder { radius: 1.0, bottom: -HALF_LENGTH, top: HALF_LENGTH };
-    let look = Look {
-        side: Colour::PALE_GREY,
-        face: Colour::WHITE,
-        opacity: 0.6,
-        edge: Stroke::new(Colour::GREY, 0.7),
-        through: true,
-    };
-    let thin = Stroke::new(Colour::GREY, 0.6);
-    let mut drawing = Drawing::with_equal_scales(area, (-1.25, 1.25), (-2.5, 2.05));
-    drawing = cylinder.drawn(drawing, &camera, &look);
-    let level = (0..=360).map(|step| (AZIMUTH + f64::from(step).to_radians(), 0.0));
-    drawing = curve(drawing, cylinder.runs(&camera, level), thin);
-    let upright = [-HALF_LENGTH, HALF_LENGTH].map(|height| camera.project(polar(1.0, 0.0, height)));
-    drawing = drawing.stroke(Path::through(upright), thin.dashed(Dash::DashDotted));
+    let drawing = Drawing::with_equal_scales(area, (-1.25, 1.25), (-2.5, 2.05));
+    let mut drawing = cylinder.of_glass(drawing, &camera, 0.6, Stroke::new(Colour::GREY, 0.6));
     let stroke = Stroke::new(Colour::BLUE, 1.5);
     drawing = curve(drawing, cylinder.runs(&camera, data.path.points()), stroke);
     for share in HEADS {
@@ -163,7 +116,6 @@ fn panel(data: &Trajectory, letter: &str, name: Name, area: Rect) -> Drawing {
     if let Some((angle, height)) = data.path.points().next() {
         let at = camera.project(polar(1.0, angle, height));
         let colour = if cylinder.shows(&camera, angle) { Colour::BLACK } else { Colour::GREY };
-        let (place, anchor) = name;
         drawing = drawing.ellipse(at, (0.06, 0.06), colour).text(
             (at.0 + place.0, at.1 + place.1),
             TextStyle::new(anchor).size(8.0),
@@ -181,5 +133,9 @@ fn panel(data: &Trajectory, letter: &str, name: Name, area: Rect) -> Drawing {
         format!(r"$\theta = {},\;\phi_L = {}$", number(data.phase_lag_rad), number(data.amplitude_angle_rad));
     let corner = drawing.local((area.left + 2.0, area.top + 6.0));
     let foot = drawing.local((area.left + 0.5 * area.width, area.bottom() - 4.0));
-    drawing.text(foot, Anchor::Middle, below).text(corner, Anchor::LeftCentre, format!("({letter})").as_str())
+    drawing.text(foot, Anchor::Middle, below).text(
+        corner,
+        Anchor::LeftCentre,
+        ["(a)", "(b)", "(c)", "(d)", "(e)", "(f)"][index],
+    )
 }

@@ -7,119 +7,46 @@ use bouncing_disk_plot::{
     Anchor, Camera, Colour, Dash, Drawing, Figure, Fill, Path, Rect, SINGLE_COLUMN, Stroke, Style, TextStyle,
 };
 use glam::DVec3;
-use serde::Serialize;
 
 use super::shared::cylinder::{Cylinder, Look, arc, polar};
-use crate::claims::paper::{self, TableThree};
+use crate::claims::paper;
 use crate::experiment::{ExperimentError, Paper};
+
+/// The printed dimensions (mm), and how far the ball reaches into the circle of contact.
+#[derive(Clone, Copy, Debug)]
+struct Ball {
+    diameter: f64,
+    radius: f64,
+    contact_radius: f64,
+    depth: f64,
+}
 
 /// Fig. 8.
 pub(crate) fn fig08(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
-    let progress = fig.progress;
-    progress.start(1, "dimensions");
     let table_iii = paper::table_three()?;
-    let ball_diameter_mm = 1e3 * paper::section_five()?.rotor_diameter_m;
-    let (radius, contact) = (0.5 * ball_diameter_mm, table_iii.contact_radius_mm);
-    let contact_depth_mm = radius - (radius * radius - contact * contact).sqrt();
-    progress.advance(1);
-    let data = &Fig08Data { table_iii, ball_diameter_mm, contact_depth_mm };
+    let diameter = 1e3 * paper::section_five()?.rotor_diameter_m;
+    let (radius, contact_radius) = (0.5 * diameter, table_iii.contact_radius_mm);
+    let gyration_radius = table_iii.gyration_radius_mm;
+    let depth = radius - (radius * radius - contact_radius * contact_radius).sqrt();
+    fig.record("table_iii", &table_iii)?;
+    fig.record("ball_diameter_mm", &diameter)?;
+    fig.record("contact_depth_mm", &depth)?;
+
     fig.caption(format!(
-        "Geometric details of the ultrasonic motor (not to scale), with the dimensions that the text gives: the rotor, a \
-         steel ball of {} mm diameter with radius of gyration a_g = {} mm; the stator, a pretwisted beam glued to an \
-         axially poled piezoelectric transducer, which the ball touches along a circle of radius a_e = {} mm (enlarged at \
-         the right). A sinusoidal voltage at a resonance makes the stator's tip vibrate as Eq. (1) describes, s up and \
-         down and β about the axis; the arrow in the transducer is its poling. The preload mg is the weight of the ball, reduced by a magnet above it: g is the \
-         acceleration that is left. All other \
-         dimensions of the drawing are made up: the paper's drawing is not in its text.",
-        data.ball_diameter_mm, data.table_iii.gyration_radius_mm, data.table_iii.contact_radius_mm
+        "Geometric details of the ultrasonic motor, not to scale. The rotor is a steel ball of {} mm diameter, radius of gyration \
+         a_g = {} mm. The stator, a pretwisted beam on an axially poled piezoelectric transducer, touches it along a circle of \
+         radius a_e = {} mm (enlarged). At a resonance its tip moves as in Eq. (1), s up and down and β about the axis. A magnet \
+         above the ball reduces the preload mg; g is the acceleration that is left. All other dimensions are made up.",
+        diameter, gyration_radius, contact_radius
     ));
-    fig.parameter("ball diameter", format!("{} mm", data.ball_diameter_mm));
-    fig.parameter("contact radius a_e", format!("{} mm", data.table_iii.contact_radius_mm));
-    fig.parameter("radius of gyration a_g", format!("{} mm", data.table_iii.gyration_radius_mm));
-    fig.draw(draw(data)?);
-    fig.data(data)
-}
+    fig.parameter("ball diameter", format!("{diameter} mm"));
+    fig.parameter("contact radius a_e", format!("{contact_radius} mm"));
+    fig.parameter("radius of gyration a_g", format!("{gyration_radius} mm"));
 
-fn draw(data: &Fig08Data) -> Result<Figure, ExperimentError> {
+    let ball = Ball { diameter, radius, contact_radius, depth };
     let shown = Rect::new(2.0, 2.0, SINGLE_COLUMN - 4.0, HEIGHT - 4.0);
-    Ok(Figure::new(SINGLE_COLUMN, HEIGHT).drawing(motor(data, shown)).drawing(contact(data, CONTACT)))
-}
-
-/// The data of Fig. 8.
-#[derive(Debug, Serialize)]
-pub(crate) struct Fig08Data {
-    table_iii: TableThree,
-    ball_diameter_mm: f64,
-    /// How far the ball reaches into the circle of contact.
-    contact_depth_mm: f64,
-}
-
-/// A beam of rectangular cross-section whose section turns uniformly with height.
-#[derive(Clone, Copy, Debug)]
-struct Beam {
-    half_width: f64,
-    half_thickness: f64,
-    bottom: f64,
-    top: f64,
-    /// Turn of the section at the bottom, and from there to the top (rad).
-    turned: f64,
-    twist: f64,
-}
-
-const SLICES: u32 = 40;
-
-impl Beam {
-    fn corner(&self, index: usize, share: f64) -> DVec3 {
-        let (across, along) = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)][index % 4];
-        let (across, along) = (across * self.half_width, along * self.half_thickness);
-        let (sine, cosine) = sin_cos(self.turned + share * self.twist);
-        let height = self.bottom + share * (self.top - self.bottom);
-        DVec3::new(cosine * across - sine * along, sine * across + cosine * along, height)
-    }
-
-    /// The faces turned to the eye, slice by slice from below, then their edges and the upper face.
-    fn drawn(&self, mut drawing: Drawing, camera: &Camera, colour: Colour, edge: Stroke) -> Drawing {
-        let share = |slice: u32| f64::from(slice) / f64::from(SLICES);
-        let towards = camera.eye().normalize_or_zero();
-        for slice in 0..SLICES {
-            for side in 0..4 {
-                let (low, high) = (share(slice), share(slice + 1));
-                let corners = [(side, low), (side + 1, low), (side + 1, high), (side, high)]
-                    .map(|(n, s)| self.corner(n, s));
-                let normal = (corners[1] - corners[0]).cross(corners[3] - corners[0]).normalize_or_zero();
-                if !camera.faces(corners[0], normal) {
-                    continue;
-                }
-                let shade = colour.mixed(Colour::WHITE, 0.25 + 0.55 * normal.dot(towards).max(0.0));
-                let face = Path::through(corners.map(|corner| camera.project(corner))).close();
-                // The hairline closes the seam between slices.
-                drawing = drawing.fill(face.clone(), shade, 1.0).stroke(face, Stroke::new(shade, 0.3));
-            }
-        }
-        for index in 0..4 {
-            for slice in 0..SLICES {
-                let (low, high) = (share(slice), share(slice + 1));
-                let seen = [index, index + 3].into_iter().any(|side| {
-                    let normal = (self.corner(side + 1, low) - self.corner(side, low))
-                        .cross(self.corner(side, high) - self.corner(side, low));
-                    camera.faces(self.corner(index, low), normal)
-                });
-                if seen {
-                    let ends = [low, high].map(|share| camera.project(self.corner(index, share)));
-                    drawing = drawing.stroke(Path::through(ends), edge);
-                }
-            }
-        }
-        for side in 0..4 {
-            let (from, to) = (self.corner(side, 0.0), self.corner(side + 1, 0.0));
-            let normal = (to - from).cross(self.corner(side, share(1)) - from);
-            if camera.faces(from, normal) {
-                drawing = drawing.stroke(Path::through([from, to].map(|point| camera.project(point))), edge);
-            }
-        }
-        let top = Path::through((0..4).map(|index| camera.project(self.corner(index, 1.0)))).close();
-        drawing.fill(top.clone(), colour.mixed(Colour::WHITE, 0.7), 1.0).stroke(top, edge)
-    }
+    fig.draw(Figure::new(SINGLE_COLUMN, HEIGHT).drawing(motor(ball, shown)).drawing(contact(ball, CONTACT)));
+    Ok(())
 }
 
 const HEIGHT: f64 = 262.0;
@@ -139,16 +66,17 @@ fn black() -> Stroke {
     Stroke::new(Colour::BLACK, 0.7)
 }
 
-fn small(anchor: Anchor) -> TextStyle {
-    TextStyle::new(anchor).size(8.0)
+/// Leaders and auxiliary lines.
+fn fine() -> Stroke {
+    Stroke::new(Colour::GREY, 0.5)
 }
 
-fn leader(drawing: Drawing, from: (f64, f64), to: (f64, f64), lines: &[&str]) -> Drawing {
-    let drawing = drawing.stroke(Path::through([from, to]), Stroke::new(Colour::GREY, 0.5));
-    lines.iter().enumerate().fold(drawing, |drawing, (index, line)| {
-        let at = (to.0 + 1.0, to.1 - 3.4 * index as f64);
-        drawing.text(at, small(Anchor::LeftCentre), *line)
-    })
+fn chain() -> Stroke {
+    Stroke::new(Colour::DARK_GREY, 0.6).dashed(Dash::DashDotted)
+}
+
+fn small(anchor: Anchor) -> TextStyle {
+    TextStyle::new(anchor).size(8.0)
 }
 
 fn look(colour: Colour) -> Look {
@@ -161,15 +89,77 @@ fn look(colour: Colour) -> Look {
     }
 }
 
-fn motor(data: &Fig08Data, area: Rect) -> Drawing {
+/// A beam of rectangular cross-section whose section turns uniformly with height.
+#[derive(Clone, Copy, Debug)]
+struct Beam {
+    half_width: f64,
+    half_thickness: f64,
+    bottom: f64,
+    top: f64,
+    /// Turn of the section at the bottom, and from there to the top (rad).
+    turned: f64,
+    twist: f64,
+}
+
+impl Beam {
+    const SLICES: u32 = 40;
+
+    fn corner(&self, index: usize, share: f64) -> DVec3 {
+        let (across, along) = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)][index % 4];
+        let (across, along) = (across * self.half_width, along * self.half_thickness);
+        let (sine, cosine) = sin_cos(self.turned + share * self.twist);
+        let height = self.bottom + share * (self.top - self.bottom);
+        DVec3::new(cosine * across - sine * along, sine * across + cosine * along, height)
+    }
+
+    /// The normal of a slice's face, and whether the face is turned to the eye.
+    fn face(&self, camera: &Camera, side: usize, (low, high): (f64, f64)) -> (DVec3, bool) {
+        let from = self.corner(side, low);
+        let normal = (self.corner(side + 1, low) - from).cross(self.corner(side, high) - from);
+        (normal.normalize_or_zero(), camera.faces(from, normal))
+    }
+
+    /// The faces turned to the eye, slice by slice from below, then their edges and the upper face.
+    fn drawn(&self, mut drawing: Drawing, camera: &Camera, colour: Colour, edge: Stroke) -> Drawing {
+        let share = |slice: u32| f64::from(slice) / f64::from(Self::SLICES);
+        let slices = (0..Self::SLICES).map(|slice| (share(slice), share(slice + 1)));
+        let shown = |index: usize, share: f64| camera.project(self.corner(index, share));
+        let towards = camera.eye().normalize_or_zero();
+        for (low, high) in slices.clone() {
+            for side in 0..4 {
+                let (normal, true) = self.face(camera, side, (low, high)) else { continue };
+                let corners = [(side, low), (side + 1, low), (side + 1, high), (side, high)];
+                let shade = colour.mixed(Colour::WHITE, 0.25 + 0.55 * normal.dot(towards).max(0.0));
+                let face = Path::through(corners.map(|(index, share)| shown(index, share))).close();
+                // The hairline closes the seam between slices.
+                drawing = drawing.fill(face.clone(), shade, 1.0).stroke(face, Stroke::new(shade, 0.3));
+            }
+        }
+        for index in 0..4 {
+            for (low, high) in slices.clone() {
+                // An edge belongs to two faces.
+                if [index, index + 3].into_iter().any(|side| self.face(camera, side, (low, high)).1) {
+                    let ends = [low, high].map(|share| shown(index, share));
+                    drawing = drawing.stroke(Path::through(ends), edge);
+                }
+            }
+        }
+        for side in (0..4).filter(|side| self.face(camera, *side, (0.0, share(1))).1) {
+            drawing = drawing.stroke(Path::through([shown(side, 0.0), shown(side + 1, 0.0)]), edge);
+        }
+        let top = Path::through((0..4).map(|index| shown(index, 1.0))).close();
+        drawing.fill(top.clone(), colour.mixed(Colour::WHITE, 0.7), 1.0).stroke(top, edge)
+    }
+}
+
+fn motor(ball: Ball, area: Rect) -> Drawing {
     let camera = Camera::around(DVec3::ZERO, AZIMUTH, ELEVATION, DISTANCE);
-    let radius = 0.5 * data.ball_diameter_mm;
+    let radius = ball.radius;
     // The ball's centre is the origin; the circle of contact lies below it.
-    let tip = data.contact_depth_mm - radius;
+    let tip = ball.depth - radius;
     let foot = tip - BEAM_LENGTH;
     let mut drawing = Drawing::with_equal_scales(area, (-16.5, 33.0), (-51.0, 27.0));
     let at = |height: f64| camera.project(DVec3::new(0.0, 0.0, height));
-    let chain = Stroke::new(Colour::DARK_GREY, 0.6).dashed(Dash::DashDotted);
     let transducer = Cylinder { radius: TRANSDUCER.0, bottom: foot - TRANSDUCER.1, top: foot };
     drawing = transducer.drawn(drawing, &camera, &look(Colour::ORANGE));
     let beam = Beam {
@@ -181,27 +171,23 @@ fn motor(data: &Fig08Data, area: Rect) -> Drawing {
         twist: FRAC_PI_2,
     };
     drawing = beam.drawn(drawing, &camera, Colour::GREY, Stroke::new(Colour::DARK_GREY, 0.6));
-    let ball = Style::from(black()).fill(Colour::SKY.mixed(Colour::WHITE, 0.55));
-    let (x, y) = at(0.0);
-    drawing = drawing.ellipse((x, y), (radius, radius), ball).ellipse(
-        (x - 0.35 * radius, y + 0.4 * radius),
-        (0.22 * radius, 0.16 * radius),
-        Fill::new(Colour::WHITE, 0.8),
-    );
+    // The ball's centre is also that of the picture.
+    let steel = Style::from(black()).fill(Colour::SKY.mixed(Colour::WHITE, 0.55));
+    let gleam = Fill::new(Colour::WHITE, 0.8);
+    drawing = drawing.ellipse((0.0, 0.0), (radius, radius), steel);
+    drawing = drawing.ellipse((-0.35 * radius, 0.4 * radius), (0.22 * radius, 0.16 * radius), gleam);
     let magnet_foot = radius + MAGNET_GAP;
     let magnet = Cylinder { radius: MAGNET.0, bottom: magnet_foot, top: magnet_foot + MAGNET.1 };
-    drawing = drawing.stroke(Path::through([at(magnet.top), at(magnet.top + 5.0)]), chain);
+    drawing = drawing.stroke(Path::through([at(magnet.top), at(magnet.top + 5.0)]), chain());
     drawing = magnet.drawn(drawing, &camera, &look(Colour::VERMILION));
-    drawing = drawing.stroke(Path::through([at(radius), at(magnet.bottom - 1.2)]), chain);
-    // The rotation of the ball.
     let turn = arc(&camera, 0.62 * radius, (AZIMUTH - 1.1, AZIMUTH + 1.1), 0.0);
-    drawing = drawing.arrow(turn, Stroke::new(Colour::BLACK, 0.9));
-    drawing = drawing.text((x, y - 0.47 * radius), Anchor::Centre, r"$\alpha$");
-    // The preload.
-    drawing =
-        drawing.arrow([(x, y + 0.75 * radius), (x, y + 0.04 * radius)], Stroke::new(Colour::VERMILION, 1.4));
-    drawing = sizes(drawing, data, &camera, tip);
-    // Poling and voltage.
+    let preload = [(0.0, 0.75 * radius), (0.0, 0.04 * radius)];
+    drawing = drawing
+        .stroke(Path::through([at(radius), at(magnet.bottom - 1.2)]), chain())
+        .arrow(turn, Stroke::new(Colour::BLACK, 0.9))
+        .text((0.0, -0.47 * radius), Anchor::Centre, r"$\alpha$")
+        .arrow(preload, Stroke::new(Colour::VERMILION, 1.4));
+    drawing = sizes(drawing, ball, &camera, tip);
     let middle = 0.5 * (transducer.top + transducer.bottom);
     let front = |height: f64| camera.project(polar(TRANSDUCER.0, AZIMUTH, height));
     drawing = drawing
@@ -210,70 +196,49 @@ fn motor(data: &Fig08Data, area: Rect) -> Drawing {
     drawing = source(drawing, &camera, &transducer);
     let edge = drawing.local((CONTACT.left + 2.0, CONTACT.top + 0.5 * CONTACT.height));
     drawing = drawing
-        .ellipse((x, at(tip).1), (2.2, 1.6), Stroke::new(Colour::GREY, 0.5))
-        .stroke(Path::through([(x + 2.2, at(tip).1), edge]), Stroke::new(Colour::GREY, 0.5));
-    names(drawing, data, &camera, (foot, magnet.top))
+        .ellipse((0.0, at(tip).1), (2.2, 1.6), fine())
+        .stroke(Path::through([(2.2, at(tip).1), edge]), fine());
+    // The names of the parts: from where, to which height, and the words.
+    let level = |height: f64| at(height).1;
+    let names: [(_, _, &[&str]); 5] = [
+        ((4.0, level(magnet.top - 3.0)), level(magnet.top - 1.0), &["magnet", "(reduces the preload)"]),
+        ((0.7, 0.45 * radius), 10.5, &["preload $mg$"]),
+        ((0.80 * radius, 0.35 * radius), 6.0, &["steel ball (rotor)"]),
+        ((3.0, level(foot + 8.0)), level(foot + 6.0), &["pretwisted beam", "(stator)"]),
+        ((7.5, level(foot - 5.0)), level(foot - 5.0), &["piezoelectric", "transducer,", "axially poled"]),
+    ];
+    for (from, height, lines) in names {
+        drawing = drawing.stroke(Path::through([from, (16.0, height)]), fine());
+        for (index, line) in lines.iter().enumerate() {
+            let at = (17.0, height - 3.4 * index as f64);
+            drawing = drawing.text(at, small(Anchor::LeftCentre), *line);
+        }
+    }
+    drawing
 }
 
 /// The diameter of the ball, and how the tip of the beam moves.
-fn sizes(mut drawing: Drawing, data: &Fig08Data, camera: &Camera, tip: f64) -> Drawing {
-    let radius = 0.5 * data.ball_diameter_mm;
-    let at = |height: f64| camera.project(DVec3::new(0.0, 0.0, height));
-    let (x, y) = at(0.0);
-    // Diameter.
-    let side = x - radius - 3.2;
-    for height in [y - radius, y + radius] {
-        drawing = drawing
-            .stroke(Path::through([(x, height), (side - 1.0, height)]), Stroke::new(Colour::GREY, 0.5));
+fn sizes(mut drawing: Drawing, Ball { diameter, radius, .. }: Ball, camera: &Camera, tip: f64) -> Drawing {
+    let side = -radius - 3.2;
+    for height in [-radius, radius] {
+        drawing = drawing.stroke(Path::through([(0.0, height), (side - 1.0, height)]), fine());
     }
-    drawing = drawing.double_arrow((side, y - radius), (side, y + radius), black()).text(
-        (side - 2.0, y),
-        TextStyle::new(Anchor::Middle).size(8.5).rotated(90.0),
-        format!("{} mm", data.ball_diameter_mm).as_str(),
+    let style = TextStyle::new(Anchor::Middle).size(8.5).rotated(90.0);
+    drawing = drawing.double_arrow((side, -radius), (side, radius), black()).text(
+        (side - 2.0, 0.0),
+        style,
+        format!("{diameter} mm").as_str(),
     );
-    // The motion of the tip.
     let swing = arc(camera, 6.6, (AZIMUTH - 0.75, AZIMUTH + 0.75), tip - 4.0);
-    let middle = swing.get(swing.len() / 2).copied().unwrap_or((x, y));
-    let mut back = swing.clone();
-    back.reverse();
-    drawing = drawing.arrow(swing, black()).arrow(back, black());
-    drawing = drawing.text((middle.0, middle.1 - 2.3), Anchor::Centre, r"$\beta$");
-    let lift = x - 9.0;
-    let level = at(tip).1;
-    drawing.double_arrow((lift, level - 9.0), (lift, level - 3.0), black()).text(
-        (lift - 1.0, level - 6.0),
-        Anchor::RightCentre,
-        "$s$",
-    )
-}
-
-/// The names of the parts.
-fn names(mut drawing: Drawing, data: &Fig08Data, camera: &Camera, (foot, magnet_top): (f64, f64)) -> Drawing {
-    let radius = 0.5 * data.ball_diameter_mm;
-    let at = |height: f64| camera.project(DVec3::new(0.0, 0.0, height));
-    let (x, y) = at(0.0);
-    let right = 16.0;
-    drawing = leader(
-        drawing,
-        (x + 4.0, at(magnet_top - 3.0).1),
-        (right, at(magnet_top - 1.0).1),
-        &["magnet", "(reduces the preload)"],
-    );
-    drawing = leader(drawing, (x + 0.7, y + 0.45 * radius), (right, y + 10.5), &["preload $mg$"]);
-    drawing =
-        leader(drawing, (x + 0.80 * radius, y + 0.35 * radius), (right, y + 6.0), &["steel ball (rotor)"]);
-    drawing = leader(
-        drawing,
-        (x + 3.0, at(foot + 8.0).1),
-        (right, at(foot + 6.0).1),
-        &["pretwisted beam", "(stator)"],
-    );
-    leader(
-        drawing,
-        (x + 7.5, at(foot - 5.0).1),
-        (right, at(foot - 5.0).1),
-        &["piezoelectric", "transducer,", "axially poled"],
-    )
+    let back: Vec<_> = swing.iter().rev().copied().collect();
+    let middle = swing[swing.len() / 2];
+    let (lift, level) = (-9.0, camera.project(DVec3::new(0.0, 0.0, tip)).1);
+    drawing
+        .arrow(swing, black())
+        .arrow(back, black())
+        .text((middle.0, middle.1 - 2.3), Anchor::Centre, r"$\beta$")
+        .double_arrow((lift, level - 9.0), (lift, level - 3.0), black())
+        .text((lift - 1.0, level - 6.0), Anchor::RightCentre, "$s$")
 }
 
 /// A sinusoidal voltage between the faces of the transducer.
@@ -294,15 +259,11 @@ fn source(drawing: Drawing, camera: &Camera, transducer: &Cylinder) -> Drawing {
 }
 
 /// The circle of contact, enlarged: a cut through the axis with the ball above the tip of the stator.
-fn contact(data: &Fig08Data, area: Rect) -> Drawing {
-    let radius = 0.5 * data.ball_diameter_mm;
-    let touch = data.table_iii.contact_radius_mm;
-    let depth = data.contact_depth_mm;
+fn contact(Ball { radius, contact_radius: touch, depth, .. }: Ball, area: Rect) -> Drawing {
     let mut drawing = Drawing::with_equal_scales(area, (-2.9, 2.9), (-2.6, 2.3));
     let rim = (0.0, -0.05);
     let frame = 2.75;
-    let lens = Style::from(Stroke::new(Colour::GREY, 0.5)).fill(Colour::WHITE);
-    drawing = drawing.ellipse(rim, (frame, 2.3), lens);
+    drawing = drawing.ellipse(rim, (frame, 2.3), Style::from(fine()).fill(Colour::WHITE));
     // The ball's outline near the axis; heights from the circle of contact.
     let below = |across: f64| radius - (radius * radius - across * across).sqrt() - depth;
     let outline: Vec<(f64, f64)> =
@@ -318,12 +279,10 @@ fn contact(data: &Fig08Data, area: Rect) -> Drawing {
         let wall = Path::through(wall.map(|(across, up)| (side * across, up))).close();
         drawing = drawing.fill(wall.clone(), Colour::LIGHT_GREY, 1.0).stroke(wall, black());
     }
-    let chain = Stroke::new(Colour::DARK_GREY, 0.6).dashed(Dash::DashDotted);
-    drawing = drawing.stroke(Path::through([(0.0, 1.15), (0.0, -1.3)]), chain);
-    let label = format!("$a_e = {}$ mm", data.table_iii.contact_radius_mm);
     drawing
-        .stroke(Path::through([(touch, -0.95), (touch, -1.3)]), Stroke::new(Colour::GREY, 0.5))
+        .stroke(Path::through([(0.0, 1.15), (0.0, -1.3)]), chain())
+        .stroke(Path::through([(touch, -0.95), (touch, -1.3)]), fine())
         .double_arrow((0.0, -1.17), (touch, -1.17), black())
-        .text((0.0, -1.65), small(Anchor::Centre), label.as_str())
+        .text((0.0, -1.65), small(Anchor::Centre), format!("$a_e = {touch}$ mm").as_str())
         .text((0.0, 1.55), small(Anchor::Centre), "contact")
 }

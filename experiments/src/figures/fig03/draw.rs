@@ -6,7 +6,8 @@ use bouncing_disk_plot::{
     Style, Text, TextStyle, Ticks,
 };
 
-use super::census::{Census, ChatteringCycle};
+use super::census::Census;
+use super::cycle::ChatteringCycle;
 
 const CHART_HEIGHT: f64 = 232.0;
 const INSET_HEIGHT: f64 = 150.0;
@@ -164,7 +165,7 @@ fn inset(cycle: &ChatteringCycle) -> Panel {
     let mut panel = Panel::new(area)
         .x(Axis::linear(-0.56, 0.56).label(r"$\omega (t - t_c)/2\pi$").ticks(Ticks::every(0.25)))
         .y(Axis::linear(-1.4, 2.2).label("$x/A$, $s/A$").ticks(Ticks::every(1.0)))
-        .letter("a")
+        .title("Inset: one cycle")
         .layer(earlier(&cycle.platform_height, Colour::BLACK))
         .layer(earlier(&cycle.disk_height, Colour::VERMILION).dash(Dash::Dashed))
         .layer(curve(&cycle.platform_height).name("platform"))

@@ -7,7 +7,8 @@ use bouncing_disk_plot::{
     Panel, Rule, Scatter, Stroke, Text, Ticks,
 };
 
-use super::data::{Family, Fig04Data, FrictionCurve, LagCurve, TossPoint};
+use super::Curves;
+use super::tosses::{Family, LagCurve, TossPoint};
 use crate::claims::printed::PrintedNumber;
 
 const HEIGHT: f64 = 480.0;
@@ -31,11 +32,12 @@ fn lag_colour(n: u32) -> Colour {
 /// One of the three performance measures, in the two rows.
 struct Measure {
     letters: [&'static str; 2],
-    corner: Corner,
     axes: [Axis; 2],
     values: fn(&LagCurve) -> Vec<f64>,
-    value: fn(&TossPoint) -> f64,
-    best: fn(&LagCurve) -> &TossPoint,
+    /// Angle and value.
+    best: fn(&LagCurve) -> (f64, f64),
+    /// Where it says, in each row, what the numbers are.
+    key: [(f64, f64); 2],
     /// The number n of a curve, given its row.
     number: fn(usize, u32) -> NumberPlace,
 }
@@ -60,11 +62,10 @@ fn measures() -> [Measure; 3] {
     [
         Measure {
             letters: ["a", "a′"],
-            corner: Corner::TopLeft,
             axes: [speed(), speed()],
             values: |curve| curve.airborne_speed_rad_per_s.clone(),
-            value: |point| point.airborne_speed_rad_per_s,
-            best: |curve| &curve.fastest,
+            best: |curve| curve.fastest.speed(),
+            key: [(0.02 * PI, -22.0); 2],
             number: |row, n| match (row, n) {
                 (_, 0) => At(0.45, 2.2),
                 (_, 8) => At(0.45, -2.2),
@@ -76,11 +77,10 @@ fn measures() -> [Measure; 3] {
         },
         Measure {
             letters: ["b", "b′"],
-            corner: Corner::TopLeft,
             axes: [efficiency(0.5), efficiency(0.75)],
             values: |curve| curve.efficiency.clone(),
-            value: |point| point.efficiency,
-            best: |curve| &curve.most_efficient,
+            best: |curve| point(&curve.most_efficient, curve.most_efficient.efficiency),
+            key: [(0.02 * PI, 0.38), (0.02 * PI, 0.57)],
             number: |row, n| match (row, n) {
                 (_, 0) => With("0, 8", 0.87),
                 (_, 8) => Nowhere,
@@ -94,11 +94,13 @@ fn measures() -> [Measure; 3] {
         },
         Measure {
             letters: ["c", "c′"],
-            corner: Corner::TopLeft,
             axes: [ratio(), ratio()],
             values: |curve| curve.speed_ratio.iter().map(|ratio| ratio.unwrap_or(f64::NAN)).collect(),
-            value: |point| point.speed_ratio.unwrap_or(f64::NAN),
-            best: |curve| &curve.largest_speed_ratio,
+            best: |curve| {
+                let best = &curve.largest_speed_ratio;
+                point(best, best.speed_ratio.unwrap_or(f64::NAN))
+            },
+            key: [(0.09 * PI, 1.25); 2],
             number: |_, n| match n {
                 7 => At(0.62, 0.0),
                 8 => At(0.40, 0.0),
@@ -106,6 +108,10 @@ fn measures() -> [Measure; 3] {
             },
         },
     ]
+}
+
+fn point(toss: &TossPoint, value: f64) -> (f64, f64) {
+    (toss.amplitude_angle_rad, value)
 }
 
 fn angle_axis() -> Axis {
@@ -124,17 +130,22 @@ fn number((x, y): (f64, f64), raised: f64, label: &str) -> Text {
     Text::at_data(x, y + raised, label).anchor(Anchor::Centre).size(NUMBER_SIZE).halo(Colour::WHITE)
 }
 
+/// What the number at a curve is.
+fn key((x, y): (f64, f64)) -> Text {
+    Text::at_data(x, y, r"$n$, $\theta = n\pi/8$").anchor(Anchor::LeftCentre).size(8.0)
+}
+
 fn zero() -> Rule {
     Rule::horizontal(0.0).stroke(Stroke::new(Colour::LIGHT_GREY, 0.5))
 }
 
 /// A curve per phase lag, numbered with n.
-fn lag_panel(panel: Panel, data: &Fig04Data, family: &Family, measure: &Measure, row: usize) -> Panel {
+fn lag_panel(panel: Panel, data: &Curves, family: &Family, measure: &Measure, row: usize) -> Panel {
     let angles = &data.amplitude_angle_rad;
     let mut panel = panel
         .x(angle_axis())
         .y(measure.axes[row].clone().label_distance(26.0))
-        .letter_in(measure.letters[row], measure.corner)
+        .letter_in(measure.letters[row], Corner::TopLeft)
         .layer(zero());
     let mut numbers = Vec::new();
     // The curve of θ = 0 covers that of θ = π where they coincide.
@@ -145,31 +156,25 @@ fn lag_panel(panel: Panel, data: &Fig04Data, family: &Family, measure: &Measure,
             let index = index.min(angles.len() - 1);
             (angles[index], values[index])
         };
-        let best = (measure.best)(curve);
         let name = curve.n.to_string();
         match (measure.number)(row, curve.n) {
             NumberPlace::At(share, raised) => numbers.push(number(at(share), raised, &name)),
-            NumberPlace::Best(raised) => {
-                numbers.push(number((best.amplitude_angle_rad, (measure.value)(best)), raised, &name));
-            }
+            NumberPlace::Best(raised) => numbers.push(number((measure.best)(curve), raised, &name)),
             NumberPlace::With(name, share) => numbers.push(number(at(share), 0.0, name)),
             NumberPlace::Nowhere => {}
         }
         panel = panel
             .layer(Line::new(points(angles, &values)).colour(lag_colour(curve.n)).width(1.1).dash(dash(row)));
     }
-    let linear = [family.curves.first(), family.curves.last()].into_iter().flatten().map(|curve| {
-        let best = (measure.best)(curve);
-        (best.amplitude_angle_rad, (measure.value)(best))
-    });
-    panel.layers(numbers).layer(circle(linear))
+    let linear = [family.curves.first(), family.curves.last()].into_iter().flatten().map(measure.best);
+    panel.layers(numbers).layer(circle(linear)).layer(key(measure.key[row]))
 }
 
 fn dash(row: usize) -> Dash {
     if row == 0 { Dash::Solid } else { Dash::Dashed }
 }
 
-fn separation_panel(panel: Panel, data: &Fig04Data) -> Panel {
+fn separation_panel(panel: Panel, data: &Curves) -> Panel {
     let separation = &data.separation;
     let mut panel = panel
         .x(Axis::linear(0.0, FRAC_PI_2).label(r"$\tau_{sep}$ (rad)").ticks(Ticks::pi(1, 8).minor(1)))
@@ -198,10 +203,10 @@ fn separation_panel(panel: Panel, data: &Fig04Data) -> Panel {
         let place = (phases[index], curve.airborne_speed_rad_per_s[index]);
         numbers.push(number(place, raised, &curve.n.to_string()));
     }
-    panel.layers(numbers)
+    panel.layers(numbers).layer(key((0.25 * PI, -22.0)))
 }
 
-fn friction_panel(panel: Panel, data: &Fig04Data) -> Panel {
+fn friction_panel(panel: Panel, data: &Curves) -> Panel {
     let mut panel = panel
         .x(angle_axis())
         .y(Axis::linear(0.0, 26.0)
@@ -220,14 +225,12 @@ fn friction_panel(panel: Panel, data: &Fig04Data) -> Panel {
                 .name(format!(r"$\mu = {}$", curve.friction)),
         );
     }
-    let best =
-        |curve: &FrictionCurve| (curve.fastest.amplitude_angle_rad, curve.fastest.airborne_speed_rad_per_s);
     panel
-        .layer(circle(data.friction_curves.iter().map(best)))
+        .layer(circle(data.friction_curves.iter().map(|curve| curve.fastest.speed())))
         .legend(Legend::at(Corner::BottomRight).without_frame())
 }
 
-fn consistency_panel(panel: Panel, data: &Fig04Data) -> Panel {
+fn consistency_panel(panel: Panel, data: &Curves) -> Panel {
     let consistency = &data.consistency;
     let grid = &consistency.coarse_grid;
     let mut panel = panel
@@ -241,7 +244,7 @@ fn consistency_panel(panel: Panel, data: &Fig04Data) -> Panel {
         let points = points(&data.amplitude_angle_rad, &curve.airborne_speed_rad_per_s);
         panel = panel
             .layer(Line::new(points).colour(Colour::DARK_GREY).width(1.1).name("Table I"))
-            .layer(circle([(curve.fastest.amplitude_angle_rad, curve.fastest.airborne_speed_rad_per_s)]));
+            .layer(circle([curve.fastest.speed()]));
     }
     let curve = &consistency.coarse_grid_curve;
     let line = Line::new(points(&curve.amplitude_angle_rad, &curve.airborne_speed_rad_per_s));
@@ -262,7 +265,7 @@ fn consistency_panel(panel: Panel, data: &Fig04Data) -> Panel {
     panel.legend(Legend::at(Corner::BottomLeft).without_frame().inset(2.0))
 }
 
-pub(super) fn draw(data: &Fig04Data) -> Figure {
+pub(super) fn draw(data: &Curves) -> Figure {
     let grid = Grid::new(DOUBLE_COLUMN, HEIGHT, 3, 3)
         .margins(Margins { left: 40.0, right: 8.0, top: 20.0, bottom: 32.0 })
         .gaps(44.0, 47.0);

@@ -101,6 +101,22 @@ impl Cylinder {
         }
         drawing.stroke(body, look.edge).stroke(face, look.edge)
     }
+
+    /// The body as if of glass, with the circle at height 0 and the line at angle 0.
+    pub(crate) fn of_glass(&self, drawing: Drawing, camera: &Camera, opacity: f64, thin: Stroke) -> Drawing {
+        let look = Look {
+            side: Colour::PALE_GREY,
+            face: Colour::WHITE,
+            opacity,
+            edge: Stroke::new(Colour::GREY, 0.7),
+            through: true,
+        };
+        let (azimuth, _) = self.half_view(camera);
+        let level = (0..=360).map(|step| (azimuth + f64::from(step).to_radians(), 0.0));
+        let upright = [self.bottom, self.top].map(|height| camera.project(polar(self.radius, 0.0, height)));
+        curve(self.drawn(drawing, camera, &look), self.runs(camera, level), thin)
+            .stroke(Path::through(upright), thin.dashed(Dash::DashDotted))
+    }
 }
 
 /// How a cylinder looks.
