@@ -220,8 +220,6 @@ fn derived(
     let end = |of: fn(&Speed) -> Option<OverInputs>, end: usize| {
         speeds.each_ref().map(|speed| of(speed).map(|spread| spread.from_to[end]))
     };
-    let (over_speed, over_stall): (fn(&Speed) -> _, fn(&Speed) -> _) =
-        (|of| of.over_inputs_rad_per_s, |of| of.stall_over_inputs_rad_per_s2);
     let platforms = systems.map(|system| *system.platform());
     let omega = platforms.map(|platform| platform.angular_frequency());
     let forcing = systems.map(|system| system.angular_forcing().unwrap_or(f64::INFINITY));
@@ -281,8 +279,8 @@ fn derived(
             "of the stall load, from a transient",
             stalls.map(|stall| stall.estimate_rad_per_s2.mean),
         ),
-        row_of("least stall load", STALL, "rad/s²", WITHIN, end(over_stall, 0)),
-        row_of("largest stall load", STALL, "rad/s²", WITHIN, end(over_stall, 1)),
+        row_of("least stall load", STALL, "rad/s²", WITHIN, end(|of| of.stall_over_inputs_rad_per_s2, 0)),
+        row_of("largest stall load", STALL, "rad/s²", WITHIN, end(|of| of.stall_over_inputs_rad_per_s2, 1)),
         row(
             "steady speed",
             SPEED,
@@ -290,8 +288,8 @@ fn derived(
             "mean over time, without load",
             speeds.map(|of| of.speed_rad_per_s),
         ),
-        row_of("least steady speed", SPEED, "rad/s", WITHIN, end(over_speed, 0)),
-        row_of("largest steady speed", SPEED, "rad/s", WITHIN, end(over_speed, 1)),
+        row_of("least steady speed", SPEED, "rad/s", WITHIN, end(|of| of.over_inputs_rad_per_s, 0)),
+        row_of("largest steady speed", SPEED, "rad/s", WITHIN, end(|of| of.over_inputs_rad_per_s, 1)),
     ])
 }
 
