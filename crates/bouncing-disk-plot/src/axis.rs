@@ -1,6 +1,7 @@
 //! The axes of a panel.
 
 use crate::builders::builders;
+use crate::colour::Colour;
 use crate::error::DrawError;
 use crate::label::Label;
 use crate::numbers::extent;
@@ -17,6 +18,7 @@ pub struct Axis {
     ticks: Ticks,
     pub(crate) shows_numbers: bool,
     pub(crate) label_distance: Option<f64>,
+    pub(crate) colour: Colour,
 }
 
 builders!(Axis {
@@ -28,6 +30,8 @@ builders!(Axis {
     without_numbers() |own| own.shows_numbers = false;
     /// The distance in points from the frame to the label, to align the labels of several panels.
     label_distance(points: f64) |own| own.label_distance = Some(points);
+    /// The colour of its numbers and its label, where two axes belong to two quantities.
+    colour(colour: Colour) |own| own.colour = colour;
 });
 
 impl Default for Axis {
@@ -47,6 +51,7 @@ impl Axis {
             ticks: Ticks::default(),
             shows_numbers: true,
             label_distance: None,
+            colour: Colour::BLACK,
         }
     }
 

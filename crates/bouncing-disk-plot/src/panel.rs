@@ -245,7 +245,7 @@ impl<'a> Side<'a> {
                 let Some(label) = &tick.label else { continue };
                 widest = widest.max(label.width(size));
                 let place = self.edge.place(area, self.axis.fraction(tick.value)) + shift;
-                svg.label(label, place, TextStyle::new(anchor).size(size))?;
+                svg.label(label, place, TextStyle::new(anchor).size(size).colour(self.axis.colour))?;
             }
             self.render_power(area, svg)?;
         }
@@ -286,6 +286,7 @@ impl<'a> Side<'a> {
             Edge::Top => place.y = place.y.max(TEXT_SIZE),
         }
         let rotation = if level { 0.0 } else { 90.0 };
-        svg.label(&self.axis.label, place, TextStyle::new(Anchor::Middle).rotated(rotation))
+        let style = TextStyle::new(Anchor::Middle).rotated(rotation).colour(self.axis.colour);
+        svg.label(&self.axis.label, place, style)
     }
 }

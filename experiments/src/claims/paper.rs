@@ -65,10 +65,15 @@ impl FromCatalogue for String {
 impl FromCatalogue for Uncertain {
     fn from_catalogue(keys: &Keys) -> Result<Self, CatalogueError> {
         let (key, power) = keys.first().copied().unwrap_or_default();
-        let number = catalogue::number(key, power)?;
-        let uncertainty = number.uncertainty.ok_or_else(|| no_number(key, "value with an uncertainty"))?;
-        Ok(Self { value: number.value, uncertainty })
+        uncertain(key, power)
     }
+}
+
+/// A printed value with its uncertainty, times a power of ten.
+pub(crate) fn uncertain(key: &str, power: i32) -> Result<Uncertain, CatalogueError> {
+    let number = catalogue::number(key, power)?;
+    let uncertainty = number.uncertainty.ok_or_else(|| no_number(key, "value with an uncertainty"))?;
+    Ok(Uncertain { value: number.value, uncertainty })
 }
 
 /// A printed number, in the unit of its entry.

@@ -106,14 +106,8 @@ pub(crate) fn fig04(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
     let predicted = toss_of_table_i.airborne_speed_rad_per_s;
     fig.claim(
         Claim::printed("section3.predicted_airborne_speed", predicted)
-            .note("its printed uncertainty is answered by table2"),
+            .note("its printed uncertainty, and the speed measured in the video, are compared in Table II"),
     );
-    let measured = printed.launch_angular_speed_rad_per_s;
-    fig.claim(Claim::printed_statement(
-        "section3.prediction_agrees",
-        (predicted - measured.value).abs() <= measured.uncertainty,
-        format!("{predicted:.2} rad/s from Table I, {measured} rad/s measured: apart by less than the measured uncertainty"),
-    ));
     fig.record("table_i_toss", &toss_of_table_i)?;
     fig.record("best", &best)?;
     fig.record("held_to_separation_angle_rad", &held_to_separation(&table))?;

@@ -2,6 +2,7 @@
 
 pub(crate) mod alike;
 pub(crate) mod cylinder;
+pub(crate) mod inputs;
 pub(crate) mod motor;
 pub(crate) mod numbers;
 pub(crate) mod stall;

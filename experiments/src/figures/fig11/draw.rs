@@ -1,11 +1,12 @@
 //! The drawing of Fig. 11.
 
 use bouncing_disk_plot::{
-    Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Layer, Legend, Line, Margins, Marker,
-    Panel, Scatter, Text, Ticks,
+    Anchor, Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Layer, Legend, Line, Margins,
+    Marker, Panel, Scatter, Text, Ticks,
 };
 
-use super::data::{Curve, Fig11Data, Point};
+use super::{Curve, Point, StallAt};
+use crate::claims::paper::Preloads;
 use crate::figures::shared::numbers::{exponent, extent, middle_range};
 
 /// Colour and dashes of the three amplitudes, as the caption lists them.
@@ -19,8 +20,8 @@ const SENSES: [&str; 2] = ["clockwise", "anticlockwise"];
 const PARTS: usize = 14;
 
 /// Ends of the axes, speed and stall acceleration, where nothing lies outside.
-const SPEEDS: (f64, f64) = (-9.0, 57.0);
-const STALLS: (f64, f64) = (-4.0, 36.0);
+const SPEEDS: (f64, f64) = (-13.0, 64.0);
+const STALLS: (f64, f64) = (-7.0, 36.0);
 
 /// One dot in so many has a bar, and those of the three amplitudes are not the same: bars at every dot would hide the curves.
 const BAR_EVERY: usize = 12;
@@ -47,7 +48,7 @@ fn stall(point: &Point) -> Option<(f64, f64)> {
 }
 
 /// Points and both ends of the bars of all curves.
-fn shown(data: &Fig11Data, quantity: Quantity) -> impl Iterator<Item = f64> {
+fn shown(data: &Drawn<'_>, quantity: Quantity) -> impl Iterator<Item = f64> {
     data.curves.iter().enumerate().flat_map(move |(index, curve)| {
         let [dots, circles] = [false, true].map(|low_period| curve_points(curve, quantity, low_period));
         let bars = barred(&dots, index);
@@ -70,12 +71,22 @@ fn barred(dots: &[(f64, f64, f64)], index: usize) -> Vec<(f64, f64, f64)> {
     dots.iter().skip(BAR_SHIFT * index).step_by(BAR_EVERY).copied().collect()
 }
 
-pub(super) fn draw(data: &Fig11Data) -> Figure {
+/// What is drawn.
+pub(super) struct Drawn<'a> {
+    pub(super) curves: &'a [Curve],
+    pub(super) stalls: &'a [StallAt],
+    pub(super) printed: &'a Preloads,
+    /// Mass (kg) and moment of inertia (kg m²) of the rotor.
+    pub(super) mass: f64,
+    pub(super) inertia: f64,
+}
+
+pub(super) fn draw(data: &Drawn<'_>) -> Figure {
     const HEIGHT: f64 = 400.0;
     let margins = Margins { left: 42.0, right: 48.0, top: 38.0, bottom: 34.0 };
     let grid = Grid::new(DOUBLE_COLUMN, HEIGHT, 2, 2).margins(margins).gaps(54.0, 14.0);
     let mut figure = Figure::new(DOUBLE_COLUMN, HEIGHT);
-    let to_mn = 1e3 * data.rotor_mass_kg;
+    let to_mn = 1e3 * data.mass;
     let [_, last] = data.printed.preload_accelerations_m_per_s2;
     let preloads = (0.0, 1.03 * last * to_mn);
     // Also the longest bars end within the frame.
@@ -94,7 +105,7 @@ pub(super) fn draw(data: &Fig11Data) -> Figure {
             } else {
                 (x.label("preload (mN)"), top.without_numbers())
             };
-            let [from, to] = data.trend_mn();
+            let [from, to] = data.printed.measured_range_n.map(|preload| 1e3 * preload);
             Panel::new(grid.cell(row, column)).x(x).top(top).y(y).letter(letter).layer(
                 Band::new([from, to].map(|preload| {
                     (preload, speed_ends.0.min(stall_ends.0), speed_ends.1.max(stall_ends.1))
@@ -117,24 +128,23 @@ pub(super) fn draw(data: &Fig11Data) -> Figure {
             Text::at_axes(0.12, 0.93, format!("${}$ kHz", frequency / 1e3)),
             Text::at_axes(0.12, 0.86, SENSES[row]),
         ];
-        // Half of the legend in each row: there is little room above the curves.
-        let (names, keys): (_, Vec<Layer>) = if row == 0 {
-            (Names::Shown, vec![low_period(Vec::new(), Colour::GREY).name("low-period cycle").into()])
-        } else {
-            (Names::Hidden, vec![squares(Vec::new()).name("stall load").into()])
+        let [from, to] = data.printed.measured_range_n.map(|preload| 1e3 * preload);
+        let range = || {
+            let words = format!("measured trends: {from} to {to} mN");
+            Text::at_axes(0.5 * (from + to) / preloads.1, 0.04, words)
+                .anchor(Anchor::Middle)
+                .colour(Colour::DARK_GREY)
+                .size(7.0)
         };
         let orbits = single_orbits(&curves, |point| Some(point.single_speed_rad_per_s));
         let left = frame(0, ["a", "c"][row], speeds)
-            .layer(if row == 0 { orbits } else { orbits.name("single orbits") })
-            .layers(
-                curves
-                    .iter()
-                    .enumerate()
-                    .flat_map(|(index, curve)| layers(curve, index, steady_speed, names)),
-            )
-            .layers(keys)
+            .layer(if row == 0 { orbits.name("single orbits") } else { orbits })
+            .layers(curves.iter().enumerate().flat_map(|(index, curve)| {
+                layers(curve, index, steady_speed, if row == 0 { Names::Shown } else { Names::Hidden })
+            }))
+            .layer(range())
             .layers(label.clone());
-        let torque = 1e6 * data.moment_of_inertia();
+        let torque = 1e6 * data.inertia;
         let right = frame(1, ["b", "d"][row], stalls().label(r"stall $\dot{\alpha}_{ss}/t_c$ (rad/s$^2$)"))
             .right(
                 Axis::linear(torque * stall_ends.0, torque * stall_ends.1)
@@ -148,9 +158,16 @@ pub(super) fn draw(data: &Fig11Data) -> Figure {
                     .enumerate()
                     .flat_map(|(index, curve)| layers(curve, index, stall, Names::Hidden)),
             )
-            .layer(squares(stalls_really))
+            .layer(squares(stalls_really).name("load that stalls"))
+            .layer(range())
             .layers(label);
-        figure = figure.panel(left.legend(Legend::at(Corner::TopRight))).panel(right);
+        let left = if row == 0 {
+            let circles = low_period(Vec::new(), Colour::GREY).name("low-period cycle");
+            left.layer(circles).legend(Legend::at(Corner::TopRight))
+        } else {
+            left
+        };
+        figure = figure.panel(left).panel(right.legend(Legend::at(Corner::TopRight)));
     }
     figure
 }

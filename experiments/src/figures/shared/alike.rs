@@ -220,8 +220,17 @@ impl Range {
         Ok(Self { low: number.value - half, high: number.value + half })
     }
 
-    const fn exactly(value: f64) -> Self {
+    pub(crate) const fn exactly(value: f64) -> Self {
         Self { low: value, high: value }
+    }
+
+    /// From its lowest value to this one.
+    pub(crate) const fn up_to(self, high: f64) -> Self {
+        Self { high, ..self }
+    }
+
+    pub(crate) const fn ends(self) -> [f64; 2] {
+        [self.low, self.high]
     }
 
     fn at(self, share: f64) -> f64 {
@@ -241,10 +250,16 @@ pub(crate) fn draws<const N: usize>(
     count: usize,
     seed: u64,
 ) -> Result<Vec<[f64; N]>, ExperimentError> {
-    let ranges =
-        inputs.iter().map(|(key, power)| Range::printed(key, *power)).collect::<Result<Vec<_>, _>>()?;
-    let mut noise = Noise::new(seed);
-    Ok((0..count).map(|_| std::array::from_fn(|input| ranges[input].at(noise.even()))).collect())
+    let mut ranges = [Range::exactly(0.0); N];
+    for (range, (key, power)) in ranges.iter_mut().zip(inputs) {
+        *range = Range::printed(key, power)?;
+    }
+    Ok(draws_of(ranges, count, &mut Noise::new(seed)))
+}
+
+/// Draws from `N` ranges, each evenly and independently of the others.
+pub(crate) fn draws_of<const N: usize>(ranges: [Range; N], count: usize, noise: &mut Noise) -> Vec<[f64; N]> {
+    (0..count).map(|_| ranges.map(|range| range.at(noise.even()))).collect()
 }
 
 /// How many of some values round to the printed number `key`.
@@ -266,12 +281,11 @@ impl PrintedInputs {
     /// or lies between it and the 10 m/s² up to which Sec. V B varies g.
     pub(crate) fn table_three() -> Result<Self, ExperimentError> {
         let motor = MotorCase::table_three()?;
-        let gravity = Range::printed("table1.preload_acceleration", 0)?;
         let high = catalogue::number("section5.highest_preload_acceleration", 0)?.value;
         Ok(Self {
             motor,
             amplitude_m: Range::exactly(motor.amplitude_m),
-            preload_acceleration_m_per_s2: Range { high, ..gravity },
+            preload_acceleration_m_per_s2: Range::printed("table1.preload_acceleration", 0)?.up_to(high),
         })
     }
 
@@ -288,38 +302,30 @@ impl PrintedInputs {
     /// With the preload acceleration printed as the entry `key`, in m/s². Nothing is left to draw then but the last places of the amplitude, which
     /// decide on a long cycle: all amplitudes that agree to twelve digits.
     pub(crate) fn preload_acceleration(self, key: &str) -> Result<Self, ExperimentError> {
-        let amplitude = self.amplitude_m.low;
+        let ends = [1.0 - LAST_PLACES, 1.0 + LAST_PLACES];
+        let [low, high] = ends.map(|share| self.amplitude_m.low * share);
         Ok(Self {
-            amplitude_m: Range {
-                low: amplitude * (1.0 - LAST_PLACES),
-                high: amplitude * (1.0 + LAST_PLACES),
-            },
+            amplitude_m: Range { low, high },
             preload_acceleration_m_per_s2: Range::exactly(catalogue::number(key, 0)?.value),
             ..self
         })
     }
 
-    /// With exactly this restitution.
-    pub(crate) fn restitution(self, restitution: f64) -> Self {
-        Self { motor: MotorCase { restitution, ..self.motor }, ..self }
-    }
-
     /// The first `count` motors of the seeded sequence, what is drawn evenly and independently of the other.
     pub(crate) fn drawn(&self, count: usize, seed: u64) -> Vec<MotorCase> {
-        let mut noise = Noise::new(seed);
-        let mut draw = |range: Range| range.at(noise.even());
-        (0..count)
-            .map(|_| MotorCase {
-                amplitude_m: draw(self.amplitude_m),
-                preload_acceleration_m_per_s2: draw(self.preload_acceleration_m_per_s2),
-                ..self.motor
-            })
-            .collect()
+        let ranges = [self.amplitude_m, self.preload_acceleration_m_per_s2];
+        let drawn = draws_of(ranges, count, &mut Noise::new(seed)).into_iter();
+        let motor = |[amplitude_m, preload_acceleration_m_per_s2]: [f64; 2]| MotorCase {
+            amplitude_m,
+            preload_acceleration_m_per_s2,
+            ..self.motor
+        };
+        drawn.map(motor).collect()
     }
 
     /// What is drawn, for notes and parameter lists.
     pub(crate) fn words(&self) -> String {
-        let Range { low, high } = self.preload_acceleration_m_per_s2;
+        let [low, high] = self.preload_acceleration_m_per_s2.ends();
         if low < high {
             format!("g {low:.2} to {high:.2} m/s², all else as printed")
         } else {
@@ -364,7 +370,9 @@ mod tests {
 
     #[test]
     fn motors_that_print_alike_may_have_either_form() {
-        let drawn = PrintedInputs::table_three().expect("reads").restitution(0.1).drawn(40, 1);
+        let drawn = PrintedInputs::table_three().expect("reads").drawn(40, 1);
+        let drawn: Vec<MotorCase> =
+            drawn.into_iter().map(|motor| MotorCase { restitution: 0.1, ..motor }).collect();
         let motors = alike(&drawn, 6.0).expect("run");
         assert_eq!(motors.len(), 40);
         // At so small a restitution most are of low period, and most of these rise linearly.
@@ -393,11 +401,11 @@ mod tests {
         let [low, high] = ["section5.amplitude_of_low_period", "section5.preload_acceleration_of_low_period"];
         let printed =
             inputs.amplitude(low).and_then(|inputs| inputs.preload_acceleration(high)).expect("reads");
-        let motors = printed.restitution(0.3).drawn(20, 1);
+        let motors = printed.drawn(20, 1);
         for motor in &motors {
             assert_eq!(
                 [motor.preload_acceleration_m_per_s2, motor.restitution].map(f64::to_bits),
-                [1.0, 0.3].map(f64::to_bits)
+                [1.0, 0.5].map(f64::to_bits)
             );
         }
         assert!(motors.iter().all(|motor| (motor.amplitude_m / 1e-8 - 1.0).abs() <= 1.001 * LAST_PLACES));

@@ -12,7 +12,8 @@ use bouncing_disk::{DiskParameters, Motor, PlatformParameters, System};
 use serde::Serialize;
 
 use crate::claims::{Cases, paper};
-use crate::experiment::{ExperimentError, named};
+use crate::experiment::ExperimentError;
+use crate::figures::shared::inputs::motor as inputs;
 use crate::figures::shared::statistics::{EnsembleStatistics, unperturbed_orbit};
 pub(crate) use crate::figures::shared::statistics::{LARGEST_CONSTANT, LARGEST_RESIDUAL};
 
@@ -107,12 +108,7 @@ impl MotorCase {
 
     /// The parameters that all motors of the figures share, by name and with units, for the gallery.
     pub(crate) fn shared_inputs(&self) -> Vec<(String, String)> {
-        named([
-            ("μ", self.friction.to_string()),
-            ("ε", self.restitution.to_string()),
-            ("θ", format!("{} rad", self.phase_lag_rad)),
-            ("ωΦ", format!("{} rad/s", self.peak_angular_speed_rad_per_s)),
-        ])
+        inputs::SHARED.iter().map(|input| input.row(self)).collect()
     }
 
     /// What the contact of a steel ball with the paper's stator says of rigid impacts, over some motors, for the
@@ -320,6 +316,9 @@ pub(crate) struct MotorStatistics {
     pub(crate) steady_speed_rad_per_s: Spread,
     /// Over the members that can be fitted; `None` where less than half can.
     pub(crate) stall_acceleration_rad_per_s2: Option<Spread>,
+    /// Whether the exponential fits the transients better than a linear rise to a constant.
+    #[serde(skip)]
+    pub(crate) is_exponential: bool,
     /// The cycle without perturbation.
     pub(crate) cycle: Cycle,
     /// Whether the perturbed members repeat that cycle, too.
@@ -331,6 +330,7 @@ impl From<EnsembleStatistics> for MotorStatistics {
         Self {
             steady_speed_rad_per_s: statistics.steady_speed,
             stall_acceleration_rad_per_s2: statistics.stall_acceleration,
+            is_exponential: statistics.is_exponential,
             cycle: statistics.orbit.into(),
             locked: statistics.locked,
         }

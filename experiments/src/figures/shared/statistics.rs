@@ -48,6 +48,8 @@ pub(crate) struct EnsembleStatistics {
     pub(crate) stall_acceleration: Option<Spread>,
     /// The curve that was fitted: the ramp where a cycle survives the perturbation and it fits better.
     form: RiseForm,
+    /// Whether the exponential fits the curves better than the ramp.
+    pub(crate) is_exponential: bool,
     /// Members without a meaningful fit ([`LARGEST_CONSTANT`]).
     unfitted: usize,
     /// The orbit repeated without perturbation ([`unperturbed_orbit`]).
@@ -102,6 +104,7 @@ impl EnsembleStatistics {
             steady_speed: Spread::of(&steady)?,
             stall_acceleration: enough.then(|| Spread::of(&stall)).transpose()?,
             form,
+            is_exponential: exponential < ramp,
             unfitted: fits.len() - fitted.len(),
             orbit,
             locked,
