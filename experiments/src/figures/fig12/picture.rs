@@ -110,21 +110,22 @@ fn lines(area: Rect, shown: &Shown) -> Panel {
     let (first, last) = extent(zoom.flight_time_s.iter().copied());
     let (slowest, fastest) = extent(zoom.flight_speed_rad_per_s.iter().copied());
     let margin = 0.03 * (last - first);
+    // With room for the names at the ends of the lines.
     let mut panel = Panel::new(area)
-        .x(Axis::linear(first - margin, last + margin).label(r"$t$ (s)"))
+        .x(Axis::linear(first - margin, last + 6.5 * margin).label(r"$t$ (s)"))
         .y(speed_axis(slowest, fastest));
     for flight in 0..flights {
         let of_flight: Vec<(f64, f64)> = points.iter().copied().skip(flight).step_by(flights).collect();
         let colour = [Colour::BLUE, Colour::VERMILION, Colour::GREEN, Colour::BLACK][flight % 4];
-        panel = panel.layer(Line::new(of_flight.clone()).colour(colour).width(0.5)).layer(
-            Scatter::new(of_flight)
-                .marker(Marker::Dot)
-                .size(3.0)
-                .colour(colour)
-                .name(format!("flight {} of a cycle", flight + 1)),
-        );
+        if let Some((_, speed)) = of_flight.last() {
+            let name = Text::at_data(last + margin, *speed, format!("flight {}", flight + 1));
+            panel = panel.layer(name.anchor(Anchor::LeftCentre).size(7.5).colour(colour));
+        }
+        panel = panel
+            .layer(Line::new(of_flight.clone()).colour(colour).width(0.5))
+            .layer(Scatter::new(of_flight).marker(Marker::Dot).size(3.0).colour(colour));
     }
-    panel.legend(Legend::at(Corner::TopLeft))
+    panel
 }
 
 /// A round step that divides `range` into at most four parts.
