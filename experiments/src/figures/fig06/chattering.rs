@@ -10,11 +10,12 @@ use bouncing_disk::toss::{ChatteringCycle, LONG_FLIGHT};
 use serde::Serialize;
 
 use super::SAMPLED;
-use super::diagram::{Diagram, LONGEST_CYCLE, cycles, sampled};
+use super::diagram::{Diagram, LONGEST_CYCLE, Slice, cycles, sampled};
+use super::doublings::{in_closed_form, multiplier};
 use crate::claims::judging::trend;
 use crate::claims::{Cases, Claim, all, any, paper};
 use crate::experiment::{ExperimentError, Paper};
-use crate::figures::shared::numbers::extent;
+use crate::figures::shared::numbers::{distance, extent};
 use crate::figures::shared::{map, map_in_parallel};
 
 /// Impacts after which the motion of a disk that has not come to rest is recorded.
@@ -23,6 +24,13 @@ const SETTLING: usize = 20_000;
 const LONGEST_PERIOD: usize = 256;
 /// See [`LONGEST_PERIOD`].
 const REPEATS_WITHIN: f64 = 1.0e-6;
+/// Impacts over which it is then looked at.
+const SETTLED: usize = 1_000;
+/// How well two rounds agree, and an orbit is off another one, that cannot be told apart in the picture: the width of a dot, in
+/// periods.
+const DRAWN_WITHIN: f64 = 3.0e-3;
+/// A restitution and a Γ below 1/π at which a disk goes on bouncing that has been thrown up.
+const BELOW_SEPARATION: (f64, f64) = (0.55, 0.304);
 /// Two times of rest (periods) that differ by less than this are one: the paper's cut leaves out what a disk
 /// of the cut's speed does.
 const SAME_REST: f64 = 1.0e-4;
@@ -41,23 +49,66 @@ pub(super) struct Bouncing {
     axial_forcing: f64,
     /// Impacts in one round of the periodic orbit that it has settled on; `None` if it is on none.
     period: Option<usize>,
+    /// The same if two rounds need to agree only as well as the picture shows.
+    drawn_period: Option<usize>,
+    /// Of all pairs of impacts in runs of flights of less than half a period those whose later one is slower, and whose later
+    /// flight is shorter.
+    slower: Cases,
+    shorter: Cases,
+    /// Whether it is on another attractor than the followed one.
+    separate: bool,
 }
 
-/// The Γ above 1/π where a disk from rest does not come to rest again but ends on another attractor.
+impl Bouncing {
+    /// The key feature of chattering in the paper's words, which does not need a rest: rapid collisions with decaying impact
+    /// velocity and flight duration.
+    fn chatters(&self) -> bool {
+        self.separate && mostly(self.slower) && mostly(self.shorter)
+    }
+}
+
+fn mostly(pairs: Cases) -> bool {
+    2 * pairs.holding > pairs.tried
+}
+
+/// The pairs of flights in which the impact speed, or the duration, falls.
+fn falls(flights: &[(f64, f64)], of: fn(&(f64, f64)) -> f64) -> Cases {
+    trend(flights.iter().enumerate().map(|(impact, flight)| (impact as f64, of(flight))), -1.0)
+}
+
+/// The motion at a Γ above 1/π where a disk from rest does not come to rest again.
+fn bounce(diagram: &Diagram, axial_forcing: f64) -> Result<Option<Bouncing>, ExperimentError> {
+    let map = map(axial_forcing, diagram.inputs.restitution)?;
+    let Some(orbit) = from_rest(&map, PAPER_CHATTER)? else { return Ok(None) };
+    let settled = orbit_diagram(&[orbit], SETTLING, 1, &Unobserved)?.concat();
+    let Some(&state) = settled.first() else { return Ok(None) };
+    let (mut flights, mut orbit) = (Vec::new(), map.orbit(state, PAPER_CHATTER));
+    while flights.len() < SETTLED
+        && let Some(OrbitEvent::Impact(impact)) = orbit.advance()?
+    {
+        flights.push((impact.duration(), -impact.velocity));
+    }
+    let runs = || flights.split(|(duration, _)| *duration > LONG_FLIGHT);
+    let followed =
+        diagram.followed.iter().find(|slice| slice.axial_forcing.to_bits() == axial_forcing.to_bits());
+    let phase = state.phase().cycles();
+    let near = |own: &f64| distance(*own, phase) <= DRAWN_WITHIN;
+    let separate = followed.is_none_or(|slice| !slice.impact_phase_cycles.iter().any(near));
+    Ok(Some(Bouncing {
+        axial_forcing,
+        period: map.period_of(state, LONGEST_PERIOD, REPEATS_WITHIN)?,
+        drawn_period: map.period_of(state, LONGEST_PERIOD, DRAWN_WITHIN)?,
+        slower: runs().map(|run| falls(run, |flight| flight.1)).sum(),
+        shorter: runs().map(|run| falls(run, |flight| flight.0)).sum(),
+        separate,
+    }))
+}
+
+/// The Γ above 1/π where a disk from rest does not come to rest again.
 pub(super) fn bouncing(diagram: &Diagram) -> Result<Vec<Bouncing>, ExperimentError> {
     let restless = diagram.cycles.iter().filter(|(forcing, cycle)| *forcing * PI > 1.0 && cycle.is_none());
     let forcings: Vec<f64> = restless.map(|(forcing, _)| *forcing).collect();
-    map_in_parallel(&forcings, |&axial_forcing| {
-        let map = map(axial_forcing, diagram.inputs.restitution)?;
-        let mut period = None;
-        if let Some(orbit) = from_rest(&map, PAPER_CHATTER)? {
-            let settled = orbit_diagram(&[orbit], SETTLING, 1, &Unobserved)?;
-            if let Some(state) = settled.concat().first() {
-                period = map.period_of(*state, LONGEST_PERIOD, REPEATS_WITHIN)?;
-            }
-        }
-        Ok(Bouncing { axial_forcing, period })
-    })
+    Ok(map_in_parallel(&forcings, |forcing| bounce(diagram, *forcing))?.into_iter().flatten().collect())
 }
 
 /// The durations (radians) and impact speeds of the flights of a disk from rest, and the time of its next rest (radians); `None`
@@ -108,14 +159,11 @@ fn chatter(axial_forcing: f64, restitution: f64) -> Result<Option<Chatter>, Expe
     };
     let long = flights.iter().rposition(|(duration, _)| *duration > LONG_FLIGHT);
     let chatter = &flights[long.map_or(0, |long| long + 1)..];
-    let falls = |of: fn(&(f64, f64)) -> f64| {
-        trend(chatter.iter().enumerate().map(|(impact, flight)| (impact as f64, of(flight))), -1.0)
-    };
     Ok(Some(Chatter {
         axial_forcing,
         impacts: chatter.len(),
-        slower: falls(|flight| flight.1),
-        shorter: falls(|flight| flight.0),
+        slower: falls(chatter, |flight| flight.1),
+        shorter: falls(chatter, |flight| flight.0),
         rests_at_cycles: rests / TAU,
         cut_at_cycles: cut / TAU,
     }))
@@ -172,18 +220,53 @@ pub(super) fn chattering(
     crisis: f64,
 ) -> Result<(), ExperimentError> {
     let section = paper::section_four()?;
-    let alone: Vec<_> = diagram.followed.iter().filter(|slice| !diagram.rests_beside(slice)).collect();
+    let periodic: Vec<&Slice> = diagram.followed.iter().filter(|slice| slice.period.is_some()).collect();
+    let restless = |slice: &Slice| {
+        bouncing.iter().find(|at| at.axial_forcing.to_bits() == slice.axial_forcing.to_bits())
+    };
+    let never: Vec<&Bouncing> = periodic.iter().filter_map(|slice| restless(slice)).collect();
     fig.claim(
         Claim::printed_statement(
             "section4.coexistence",
-            all(&diagram.followed, |slice| diagram.rests_beside(slice)),
+            all(&periodic, |slice| diagram.rests_beside(slice) || restless(slice).is_some_and(Bouncing::chatters)),
             format!(
-                "at {} of {} values of Γ with a followed attractor a disk from rest does not come to rest again",
-                alone.len(),
-                diagram.followed.len(),
+                "at {} Γ with a periodic orbit; at {} of them a disk from rest never rests, and in {} its later rapid collision is slower. Beside chaos it does not chatter at {} Γ",
+                periodic.len(),
+                never.len(),
+                never.iter().map(|at| at.slower).sum::<Cases>().words(),
+                bouncing.iter().filter(|at| !at.chatters()).count(),
             ),
         )
         .cause("a disk from rest that never rests again"),
+    );
+    let chattering = bouncing.iter().filter(|at| at.chatters());
+    let repeats =
+        diagram.chattering.iter().map(|_| true).chain(chattering.map(|at| at.drawn_period.is_some()));
+    let repeats = Cases::of(repeats);
+    fig.claim(
+        Claim::printed_statement(
+            "section4.chattering_is_periodic",
+            repeats,
+            format!(
+                "a rest repeats the cycle for ever; without one up to {LONGEST_PERIOD} impacts may repeat within a dot's width: in all at {} of {} Γ",
+                repeats.holding, repeats.tried,
+            ),
+        )
+        .cause("chattering that neither rests nor repeats"),
+    );
+    let (restitution, axial_forcing) = BELOW_SEPARATION;
+    let radius = multiplier(axial_forcing, restitution)?;
+    fig.claim(
+        Claim::printed_statement(
+            "section1.no_bouncing",
+            radius.map(|radius| axial_forcing * PI >= 1.0 || radius >= 1.0),
+            format!(
+                "at ε = {restitution} and Γ = {axial_forcing} the period-1 orbit attracts (multipliers of modulus {:.2}), as from Γ = {:.3} on: a disk that has been thrown up bounces on",
+                radius.unwrap_or(f64::NAN),
+                in_closed_form(restitution),
+            ),
+        )
+        .cause("bouncing that has begun goes on below Γ = 1/π"),
     );
     fig.record("not_chattering", &bouncing)?;
     fig.claim(
@@ -247,7 +330,6 @@ fn decay(fig: &mut Paper<'_>, diagram: &Diagram) -> Result<(), ExperimentError> 
     }
     let [slower, shorter]: [Cases; 2] =
         [chatters.iter().map(|of| of.slower).sum(), chatters.iter().map(|of| of.shorter).sum()];
-    let mostly = |pairs: Cases| 2 * pairs.holding > pairs.tried;
     fig.claim(Claim::printed_statement(
         "section4.chattering_decays",
         (slower.tried.min(shorter.tried) > 0).then(|| mostly(slower) && mostly(shorter)),

@@ -98,7 +98,7 @@ pub(super) fn in_closed_form(restitution: f64) -> f64 {
 }
 
 /// The spectral radius of the period-1 orbit.
-fn multiplier(axial_forcing: f64, restitution: f64) -> Result<Option<f64>, ExperimentError> {
+pub(super) fn multiplier(axial_forcing: f64, restitution: f64) -> Result<Option<f64>, ExperimentError> {
     let map = map(axial_forcing, restitution)?;
     let orbit = map.period_one(1).and_then(|state| map.refine(&[state]).ok());
     Ok(orbit.map(|orbit| Multipliers::of(orbit.monodromy).spectral_radius()))

@@ -197,6 +197,25 @@ pub(super) fn equation_16(fig: &mut Paper<'_>, diagram: &Diagram) -> Result<(), 
         let pairs = trend(ones.iter().map(|one| (one.axial_forcing, of(one))), sign);
         fig.claim(Claim::printed_statement(key, pairs, format!("in {} of all pairs of Γ", pairs.words())));
     }
+    // The first and the last of the orbits: which of the two motions is the faster.
+    let ends = ones.first().zip(ones.last());
+    fig.claim(Claim::printed_statement(
+        "section4.best_motion_varies",
+        ends.map(|(first, last)| {
+            first.linear_mean > first.semielliptical_mean && last.semielliptical_mean > last.linear_mean
+        }),
+        ends.map_or_else(String::new, |(first, last)| {
+            format!(
+                "θ of (c) gives {:.3} ωΦ and θ of (d) {:.3} ωΦ at Γ = {:.3}, {:.3} and {:.3} ωΦ at Γ = {:.3}",
+                first.linear_mean,
+                first.semielliptical_mean,
+                first.axial_forcing,
+                last.linear_mean,
+                last.semielliptical_mean,
+                last.axial_forcing,
+            )
+        }),
+    ));
     // The birth of the orbit, where τ_imp = 0 and Eq. (16) gives ωΦ cos θ.
     let at_birth = cos(inputs.semielliptical.phase_lag_rad);
     let fastest = extent(ones.iter().map(|one| one.semielliptical_mean)).1;
