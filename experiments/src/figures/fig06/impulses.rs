@@ -312,7 +312,7 @@ pub(super) fn dimension(fig: &mut Paper<'_>, inputs: Inputs) -> Result<(), Exper
             .push(above?.iter().zip(&below?).map(|(above, below)| above - below).collect::<Vec<f64>>());
     }
     let outcomes = derivatives[0].len();
-    let rank = rank(&derivatives);
+    let rank = rank(derivatives);
     fig.claim(Claim::printed("section4.map_parameters", rank as f64).note(format!(
         "rank of the derivatives of {outcomes} numbers of the next collisions by the {} inputs of a system in SI units",
         INPUTS.len(),
@@ -320,13 +320,25 @@ pub(super) fn dimension(fig: &mut Paper<'_>, inputs: Inputs) -> Result<(), Exper
     fig.record("dimension", &Dimension { parameters: INPUTS.map(|(name, _)| name), outcomes, rank })
 }
 
-/// How many rows are independent.
-fn rank(rows: &[Vec<f64>]) -> usize {
-    let matrix = faer::Mat::from_fn(rows[0].len(), rows.len(), |place, row| rows[row][place]);
-    let decomposition = matrix.col_piv_qr();
-    let triangle = decomposition.thin_R();
-    let size = |index| triangle[(index, index)].abs();
-    (0..triangle.nrows()).filter(|index| size(*index) > DEPENDENT * size(0)).count()
+/// How many rows are independent: the largest row is taken out of the others, as in a QR decomposition with exchanges, until
+/// nothing is left.
+fn rank(mut rows: Vec<Vec<f64>>) -> usize {
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let (mut rank, mut first) = (0, None);
+    while let Some((largest, square)) =
+        rows.iter().map(|row| dot(row, row)).enumerate().max_by(|a, b| a.1.total_cmp(&b.1))
+    {
+        if square <= DEPENDENT * DEPENDENT * *first.get_or_insert(square) {
+            break;
+        }
+        let pivot = rows.swap_remove(largest);
+        for row in &mut rows {
+            let along = dot(row, &pivot) / square;
+            row.iter_mut().zip(&pivot).for_each(|(entry, pivot)| *entry -= along * pivot);
+        }
+        rank += 1;
+    }
+    rank
 }
 
 /// How many numbers the next collision depends on.
@@ -342,11 +354,20 @@ struct Dimension {
 
 #[cfg(test)]
 mod tests {
-    use super::rank;
+    use super::{DEPENDENT, rank};
 
     #[test]
-    fn dependent_rows_do_not_count() {
-        let rows = vec![vec![1.0, 0.0, 2.0], vec![0.0, 3.0, 0.0], vec![2.0, 3.0, 4.0], vec![0.0; 3]];
-        assert_eq!((rank(&rows), rank(&rows[..1])), (2, 1));
+    fn the_rank_is_that_of_a_qr_decomposition_with_exchanges() {
+        let dependent = vec![vec![1.0, 0.0, 2.0], vec![0.0, 3.0, 0.0], vec![2.0, 3.0, 4.0]];
+        let independent: Vec<Vec<f64>> =
+            (1..=5).map(|row| (1..=7).map(|place| f64::from(row * place * place % 11)).collect()).collect();
+        for (rows, expected) in [(dependent, 2), (independent, 5)] {
+            let matrix = faer::Mat::from_fn(rows[0].len(), rows.len(), |place, row: usize| rows[row][place]);
+            let decomposition = matrix.col_piv_qr();
+            let triangle = decomposition.thin_R();
+            let size = |index| triangle[(index, index)].abs();
+            let independent = (0..rows.len()).filter(|index| size(*index) > DEPENDENT * size(0)).count();
+            assert_eq!((rank(rows), independent), (expected, expected));
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use bouncing_disk_plot::pictures::FittedCurve;
 use bouncing_disk_plot::{
-    Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Legend, Line, Panel, Ticks,
+    Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Legend, Line, Margins, Panel, Ticks,
 };
 
 use super::alike::Alike;
@@ -11,12 +11,13 @@ use crate::figures::shared::alike::SpeedBand;
 use crate::figures::shared::numbers::exponent;
 
 /// Height of a row.
-const ROW: f64 = 162.0;
+const ROW: f64 = 168.0;
 
 /// The curves of the two readings; the first also has the exceptional motor and the band of single orbits.
 pub(super) fn draw(readings: &[Reading], exception: &Exception, alike: &Alike) -> Figure {
     let height = ROW * 2.0;
-    let grid = Grid::new(DOUBLE_COLUMN, height, 2, 3);
+    let margins = Margins { left: 42.0, right: 10.0, top: 20.0, bottom: 34.0 };
+    let grid = Grid::new(DOUBLE_COLUMN, height, 2, 3).margins(margins).gaps(46.0, 52.0);
     let mut figure = Figure::new(DOUBLE_COLUMN, height);
     // The paper's (d)-(f) are measured curves.
     let letters = [["a", "b", "c"], ["a′", "b′", "c′"]];
@@ -96,6 +97,6 @@ fn curves(panel: Panel, reading: &Reading, transient: &Transient, highest: f64) 
         .y(Axis::linear(0.0, 1.4 * highest).ticks(Ticks::every(10.0)).label(r"$\dot{\alpha}$ (rad/s)"))
         .layer(Line::new(member).colour(Colour::GREY).width(0.6).name("one member"))
         .layer(fitted.line().name("its fit"))
-        .layers(fitted.notes(1, 0.86, 0.08))
+        .layers(fitted.notes(1, 0.80, 0.09))
         .layer(Band::new(band).colour(Colour::BLUE).opacity(0.30).name("ensemble"))
 }

@@ -111,6 +111,7 @@ fn lines(area: Rect, shown: &Shown) -> Panel {
     let (slowest, fastest) = extent(zoom.flight_speed_rad_per_s.iter().copied());
     let margin = 0.03 * (last - first);
     // With room for the names at the ends of the lines.
+    let fastest = fastest + 0.08 * (fastest - slowest);
     let mut panel = Panel::new(area)
         .x(Axis::linear(first - margin, last + 6.5 * margin).label(r"$t$ (s)"))
         .y(speed_axis(slowest, fastest));
