@@ -111,12 +111,11 @@ pub(super) fn bouncing(diagram: &Diagram) -> Result<Vec<Bouncing>, ExperimentErr
     Ok(map_in_parallel(&forcings, |forcing| bounce(diagram, *forcing))?.into_iter().flatten().collect())
 }
 
-/// The durations (radians) and impact speeds of the flights of a disk from rest, and the time of its next rest (radians); `None`
-/// if there is none.
-fn to_rest(
-    map: &ImpactMap,
-    policy: ChatterPolicy,
-) -> Result<Option<(Vec<(f64, f64)>, f64)>, ExperimentError> {
+/// The durations (radians) and impact speeds of flights, and the time of the rest that ends them (radians).
+type ToRest = (Vec<(f64, f64)>, f64);
+
+/// From a rest to the next one; `None` if there is none.
+fn to_rest(map: &ImpactMap, policy: ChatterPolicy) -> Result<Option<ToRest>, ExperimentError> {
     let Some(mut orbit) = from_rest(map, policy)? else { return Ok(None) };
     let (mut flights, mut time) = (Vec::new(), 0.0);
     while flights.len() < LONGEST_CYCLE {

@@ -248,8 +248,10 @@ const DEPENDENT: f64 = 0.5e-6;
 /// which the slip ends (the first and the last) or goes on (the others).
 const IMPACTS: [(f64, f64, f64); 4] =
     [(0.3, -0.9, 0.4), (1.2, -0.5, -6.0), (5.9, -0.6, 5.0), (0.7, -2.3, -2.1)];
-/// The nine inputs of Sec. V A, and how each changes by a share (the phase lag by radians).
-const INPUTS: [(&str, fn(&mut MotorCase, f64)); 9] = [
+/// The name of an input, and how it changes by a share (the phase lag by radians).
+type Input = (&'static str, fn(&mut MotorCase, f64));
+/// The nine inputs of Sec. V A.
+const INPUTS: [Input; 9] = [
     ("a_g", |case, change| case.gyration_radius_m *= 1.0 + change),
     ("a_e", |case, change| case.contact_radius_m *= 1.0 + change),
     ("ω", |case, change| case.frequency_hz *= 1.0 + change),
