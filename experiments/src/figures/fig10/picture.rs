@@ -11,7 +11,7 @@ use crate::figures::shared::alike::SpeedBand;
 use crate::figures::shared::numbers::exponent;
 
 /// Height of a row.
-const ROW: f64 = 168.0;
+const ROW: f64 = 184.0;
 
 /// The curves of the two readings; the first also has the exceptional motor and the band of single orbits.
 pub(super) fn draw(readings: &[Reading], exception: &Exception, alike: &Alike) -> Figure {
