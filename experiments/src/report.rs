@@ -127,6 +127,8 @@ fn verdict_words(claim: &Claim) -> String {
 pub(crate) fn discussion(experiment: &Experiment, claims: &[Claim]) -> Result<String, TemplateError> {
     let numbers = claims.iter().filter_map(|claim| match (&claim.key, &claim.computed) {
         (Some(key), Computed::Number(number)) => Some((key.clone(), like(&claim.printed, *number, 4))),
+        // Not found, as may be with other inputs than the paper's.
+        (Some(key), Computed::Text(_) | Computed::Nothing) => Some((key.clone(), "—".to_owned())),
         _ => None,
     });
     let claims: BTreeMap<_, _> = numbers.collect();

@@ -50,6 +50,10 @@ const LINE: usize = 130;
 /// Texts of more bytes than this are held as a digest.
 const LONGEST_TEXT: usize = 4000;
 
+/// The most words of a caption, and characters of a note.
+const MOST_WORDS: usize = 90;
+const LONGEST_NOTE: usize = 200;
+
 /// All that an experiment makes, except for pictures.
 fn product(entry: &Experiment) -> Map<String, Value> {
     let made = || {
@@ -59,6 +63,11 @@ fn product(entry: &Experiment) -> Map<String, Value> {
         let Record { caption, parameters, claims, data, .. } = made.record;
         let faults = answers::faults(entry.id, &claims);
         assert!(faults.is_empty(), "claims of {} against data/paper: {}", entry.id, faults.join("; "));
+        assert!(caption.split_whitespace().count() <= MOST_WORDS, "the caption of {}", entry.id);
+        for claim in &claims {
+            let note = claim.evidence().chars().count();
+            assert!(note <= LONGEST_NOTE, "{}: a note of {note} characters: {}", entry.id, claim.evidence());
+        }
         // The catalogue has the rest of each.
         let reviewed = ["key", "quantity", "verdict", "computed", "cause", "share", "single_orbits", "note"];
         let claims = claims.iter().map(|claim| {

@@ -133,10 +133,7 @@ impl Claim {
         if !cases.is_close() {
             return self;
         }
-        self.note(format!(
-            "the share, {}, is within two standard errors of a bound of the verdict",
-            cases.words()
-        ))
+        self.note(format!("{} is within two standard errors of a bound", cases.words()))
     }
 
     /// The second verdict on a statement about a motor: that of single orbits.
@@ -160,9 +157,9 @@ impl Claim {
             [false, false] => Verdict::Differs,
         };
         let words = if self.verdict == Verdict::NotComputable {
-            "the paper does not define what decides, and the definitions tried give different verdicts"
+            "the paper does not define what decides: the definitions tried differ"
         } else {
-            "the paper does not define what decides; no definition tried reproduces it, and the kindest counts"
+            "the paper does not define what decides: the kindest definition counts"
         };
         self.note(words)
     }
@@ -297,6 +294,11 @@ impl Claim {
             note: evidence.into(),
             ..Self::without_value([id, place, quantity, ""], "true")
         }
+    }
+
+    /// Evidence and remarks: the numbers that decide.
+    pub fn evidence(&self) -> &str {
+        &self.note
     }
 
     /// Adds a remark. Several remarks are joined by "; ".

@@ -1,127 +1,109 @@
 //! Fig. 7: basins of attraction.
 
-mod claims;
-mod data;
-mod draw;
-mod panels;
-mod scan;
+mod basins;
+mod cells;
+mod picture;
+mod reached;
+mod windows;
 
 use bouncing_disk::core::ChatterPolicy;
 
-pub(crate) use self::data::Fig07Data;
-use self::{panels::WINDOW_TOP, scan::windows};
-use super::shared::map;
-use crate::claims::paper;
-use crate::experiment::{ExperimentError, Paper, Quality, named};
-use crate::figures::shared::map_in_parallel;
-use crate::progress::Progress;
+use self::basins::Panel;
+use self::windows::Windows;
+use super::shared::map_in_parallel;
+use crate::claims::{Claim, all, paper};
+use crate::experiment::{ExperimentError, Paper};
+
+/// Top of the speed window |w_A Γ/(ωA)|. The paper's window is not in its text: this is the round number at which
+/// both shares that it prints come out ([`windows`]).
+const WINDOW_TOP: f64 = 5.0;
+/// The boundary share of a smooth curve falls as the first power of the cell size; a grid finds 0.97 to 1.02
+/// for one.
+const SMOOTH_FROM: f64 = 0.9;
 
 /// Fig. 7.
 pub(crate) fn fig07(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
-    fig.chattering(ChatterPolicy::Complete);
-    let data = &compute(fig.quality, fig.progress)?;
-    fig.caption(caption(data));
-    fig.parameters(parameters(data));
-    fig.claims(claims::claims(data));
-    fig.draw(draw::draw(data));
-    fig.data(data)
-}
-
-fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig07Data, ExperimentError> {
-    let printed = paper::section_four()?;
-    let forcings = printed.axial_forcings_of_fig7;
+    let section = &paper::section_four()?;
+    let (restitution, forcings) = (section.restitution, section.axial_forcings_of_fig7);
+    let (quality, progress) = (fig.quality, fig.progress);
     let cells = quality.choose(150, 1_000);
-    let (rows, columns) = quality.choose((320, 100), (1_600, 400));
-    progress.start(5 * cells as u64 + 2 * rows as u64, "rows");
+    let grid = quality.choose((320, 100), (1_600, 400));
+    fig.chattering(ChatterPolicy::Complete);
+    fig.record("restitution", &restitution)?;
+    fig.record("window_top", &WINDOW_TOP)?;
+    fig.record("cells", &cells)?;
+
+    progress.start(5 * cells as u64 + 2 * grid.0 as u64, "rows");
     // Side by side, for each has parts in which one thing follows from another.
-    let panel = |forcing: &f64| panels::panel(*forcing, printed.restitution, (WINDOW_TOP, cells), progress);
-    let panels = || map_in_parallel(&forcings, panel);
-    let decay = || {
-        let chaotic = map(forcings[3], printed.restitution)?;
-        panels::decay(&chaotic, WINDOW_TOP, quality.choose(60, 150))
-    };
-    let windows = || windows(&printed, (rows, columns), progress);
-    let (panels, (windows, decay)) = rayon::join(panels, || rayon::join(windows, decay));
-    let (panels, windows, decay) = (panels?, windows?, decay?);
-    let [_, b, ..] = &panels[..] else {
+    let panel = |forcing: &f64| basins::panel(*forcing, restitution, cells, progress);
+    let (panels, (windows, decay)) = rayon::join(
+        || map_in_parallel(&forcings, panel),
+        || {
+            let decay = || basins::decay(forcings[3], restitution, quality);
+            rayon::join(|| Windows::of(section, grid, progress), decay)
+        },
+    );
+    let (panels, windows) = (panels?, windows?);
+    fig.record("panels", &panels)?;
+    fig.record("windows", &windows)?;
+    // At the Γ of (d): impacts N, and the share of the window that has not come to rest after N of them.
+    fig.record("decay", &decay?)?;
+    let [a, b, _, d, e] = &panels[..] else {
         return Err(ExperimentError::NoData { quantity: "panels".to_owned() });
     };
-    let traced = match b.others.first() {
-        Some(other) => scan::traced(b.axial_forcing, other, printed.restitution)?,
-        None => None,
+
+    // The printed 11.6 % and 39.1 %.
+    windows::claims(fig, &windows, cells, [a, b]);
+    reached::along_window(fig, section, [a, b])?;
+    reached::from_rest(fig, section, [a, b])?;
+    reached::third_attractor(fig, restitution, b)?;
+    fig.claim(fractal(d, a));
+    reached::beyond(fig, section, cells, e)?;
+
+    let listed = |of: fn(&Panel) -> String| panels.iter().map(of).collect::<Vec<_>>().join(", ");
+    fig.parameter("restitution ε", restitution);
+    fig.parameter("axial forcing Γ", listed(|panel| forcing_text(panel.axial_forcing)));
+    fig.parameter("τ_imp/2π", "0 to 1");
+    fig.parameter("|w_A Γ/(ωA)|", format!("0 to {WINDOW_TOP}"));
+    fig.parameter("cells a panel", format!("{cells} × {cells}"));
+    fig.parameter("impacts followed", listed(|panel| panel.max_impacts.to_string()));
+    fig.parameter("chattering", "summed in closed form (complete)");
+    let [low, high] = windows.printed.map(|share| 100.0 * share);
+    fig.caption(format!(
+        "Basins of attraction, {cells} × {cells} cells a panel, ε = {restitution}. White: the chattering orbit (impacts: \
+         black crosses in (a)–(c), red dots in (d), black dots in (e)). Black: the attractor of the period-doubling route \
+         (white crosses, yellow dots in (d)). Gray: another attractor (red circles). The window is not printed; \
+         it ends at {WINDOW_TOP}, where both printed shares come out. (f) Share of the window [0, top] of the attractors in \
+         (a) and (b) against its top; dashed: the printed {low:.1} % and {high:.1} %.",
+    ));
+    fig.draw(picture::draw(&panels, cells, &windows));
+    Ok(())
+}
+
+/// At least two decimals.
+fn forcing_text(forcing: f64) -> String {
+    let text = forcing.to_string();
+    if text.len() < 4 { format!("{forcing:.2}") } else { text }
+}
+
+/// That the boundary in `panel` is fractal; that in `smooth` is not.
+fn fractal(panel: &Panel, smooth: &Panel) -> Claim {
+    let words = |panel: &Panel| {
+        panel
+            .boundary_exponents
+            .iter()
+            .map(|exponent| format!("{exponent:.2}"))
+            .collect::<Vec<_>>()
+            .join(", ")
     };
-    Ok(Fig07Data {
-        restitution: printed.restitution,
-        window_top: WINDOW_TOP,
-        cells,
-        panels,
-        windows,
-        decay,
-        along_window: scan::along_window(&printed, quality)?,
-        beyond: scan::beyond(&printed, WINDOW_TOP, quality)?,
-        rest: scan::rest(&forcings, printed.restitution)?,
-        traced,
-    })
-}
-
-fn caption(data: &Fig07Data) -> String {
-    let others = data.panels.iter().flat_map(|panel| &panel.others).count();
-    format!(
-        "Basins of attraction in the plane of impact phase and relative axial impact speed, {} × {} cells a panel, \
-         ε = {}: white, the chattering orbit (its impacts: black crosses in (a)–(c), red dots in (d), black dots in (e)); \
-         black, the attractor of the period-doubling route (white crosses in (a)–(c), yellow dots in (d)); gray, {} not in \
-         the paper (red circles). The paper's window is not in its text; here it ends at {}, where both printed fractions come out. (f) Share of the window \
-         [0, top] that belongs to the attractors in (a) and (b) against its top; dashed lines: the printed {:.1} % and {:.1} %.",
-        data.cells,
-        data.cells,
-        data.restitution,
-        match others {
-            0 => "nothing".to_owned(),
-            1 => "a further attractor".to_owned(),
-            more => format!("{more} further attractors"),
-        },
-        data.window_top,
-        100.0 * data.windows.printed[0],
-        100.0 * data.windows.printed[1],
+    Claim::printed_statement(
+        "section4.fractal_boundary",
+        all(&panel.boundary_exponents, |exponent| *exponent < SMOOTH_FROM),
+        format!(
+            "cells at the boundary grow with the power {} of their size, below {SMOOTH_FROM}: a boundary of dimension {:.2}; in (a), where it is smooth, with {}",
+            words(panel),
+            2.0 - panel.boundary_exponent.unwrap_or(f64::NAN),
+            words(smooth),
+        ),
     )
-}
-
-fn parameters(data: &Fig07Data) -> Vec<(String, String)> {
-    let forcings: Vec<String> =
-        data.panels.iter().map(|panel| draw::forcing_text(panel.axial_forcing)).collect();
-    let longest: Vec<String> = data.panels.iter().map(|panel| panel.max_impacts.to_string()).collect();
-    named([
-        ("restitution ε", data.restitution.to_string()),
-        ("axial forcing Γ", forcings.join(", ")),
-        ("τ_imp/2π", "0 to 1".to_owned()),
-        ("|w_A Γ/(ωA)|", format!("0 to {}", data.window_top)),
-        ("cells a panel", format!("{} × {}", data.cells, data.cells)),
-        ("impacts followed", longest.join(", ")),
-        ("chattering", "summed in closed form (complete)".to_owned()),
-    ])
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::claims::{Class, Computed};
-    use crate::progress::Silent;
-
-    #[test]
-    fn no_statement_of_the_paper_holds_without_data() {
-        let mut data = compute(Quality::Draft, &Silent).expect("runs");
-        assert!(claims::claims(&data).iter().all(|claim| !claim.lacks_data()));
-        data.windows.curve.clear();
-        data.along_window.clear();
-        data.beyond.clear();
-        data.panels[3].boundary_exponents.clear();
-        // Claims that the panels themselves decide.
-        let panels =
-            ["section4.chattering_is_easier", "section4.rest_chatters", "section4.basin_fills_plane"];
-        for claim in claims::claims(&data) {
-            let holds = matches!(claim.computed, Computed::Boolean(true));
-            let own = claim.key.as_deref().is_some_and(|key| panels.contains(&key));
-            assert!(!(holds && claim.class == Class::Paper) || own, "{}", claim.quantity);
-        }
-    }
 }

@@ -1,80 +1,122 @@
-//! The chattering orbit: its cycle, and the end of the single tosses.
+//! The chattering orbit: how it comes to rest, beside the followed attractor, and where its single tosses end.
 
 use std::f64::consts::{PI, TAU};
-use std::ops::ControlFlow;
 
 use bouncing_disk::core::numerics::roots::bracket_of_width;
-use bouncing_disk::core::sweep::{SweepEvent, sweep};
-use bouncing_disk::core::{ChatterPolicy, Error, ImpactMap, Launch, OrbitEvent, Unobserved, Vibration};
+use bouncing_disk::core::sweep::orbit_diagram;
+use bouncing_disk::core::{ChatterPolicy, ImpactMap, Launch, Orbit, OrbitEvent, Unobserved};
 use bouncing_disk::motion::PAPER_CHATTER;
-use bouncing_disk::parameters::DimensionlessSystem;
-use bouncing_disk::toss::{ChatteringCycle, LONG_FLIGHT, MultiTossSettings, TossOrbit, multi_toss};
+use bouncing_disk::toss::{ChatteringCycle, LONG_FLIGHT};
+use serde::Serialize;
 
-use super::data::{Chatter, SingleTosses, Slice};
-use super::slices::{Inputs, Systems, slice, start};
+use super::SAMPLED;
+use super::diagram::{Diagram, LONGEST_CYCLE, Slice, cycles, sampled};
+use super::doublings::{in_closed_form, multiplier};
 use crate::claims::judging::trend;
-use crate::claims::paper::SectionFour;
-use crate::experiment::ExperimentError;
-use crate::figures::shared::map;
+use crate::claims::{Cases, Claim, all, any, paper};
+use crate::experiment::{ExperimentError, Paper};
+use crate::figures::shared::numbers::{distance, extent};
+use crate::figures::shared::{map, map_in_parallel};
 
-/// An orbit that has not attached after so many impacts does not chatter.
-const LONGEST_CYCLE: usize = 20_000;
+/// Impacts after which the motion of a disk that has not come to rest is recorded.
+const SETTLING: usize = 20_000;
+/// Longest period (impacts) of an orbit that it may have settled on, and how well two rounds of it agree.
+const LONGEST_PERIOD: usize = 256;
+/// See [`LONGEST_PERIOD`].
+const REPEATS_WITHIN: f64 = 1.0e-6;
+/// Impacts over which it is then looked at.
+const SETTLED: usize = 1_000;
+/// How well two rounds agree, and an orbit is off another one, that cannot be told apart in the picture: the width of a dot, in
+/// periods.
+const DRAWN_WITHIN: f64 = 3.0e-3;
+/// A restitution and a Γ below 1/π at which a disk goes on bouncing that has been thrown up.
+const BELOW_SEPARATION: (f64, f64) = (0.55, 0.304);
+/// Two times of rest (periods) that differ by less than this are one: the paper's cut leaves out what a disk
+/// of the cut's speed does.
+const SAME_REST: f64 = 1.0e-4;
+/// Γ between the end of the single tosses and the printed one at which cycles are taken.
+const BEYOND: u32 = 200;
 
-/// The cycles of a disk that has been at rest, at each Γ; `None` where it never leaves or does not come to
-/// rest again.
-pub(super) fn cycles(
-    forcings: &[f64],
-    restitution: f64,
-    policy: ChatterPolicy,
-) -> Result<Vec<Option<ChatteringCycle>>, Error> {
-    let mut orbits = Vec::new();
-    let mut cycles = vec![None; forcings.len()];
-    let mut leaving = Vec::new();
-    for (index, &forcing) in forcings.iter().enumerate() {
-        let map = ImpactMap::new(Vibration::from_axial_forcing(forcing)?, restitution)?;
-        if let Some(leaves) = map.vibration().separation_phase() {
-            orbits.push(map.orbit_from_launch(Launch::new(leaves, 0.0)?, policy));
-            leaving.push(index);
-        }
-    }
-    let walked = sweep(
-        &orbits,
-        |_| (ChatteringCycle::default(), false),
-        |(cycle, rests), event| match event {
-            SweepEvent::Impact(landing) => {
-                cycle.impacts += 1;
-                cycle.platform_periods += landing.turns;
-                cycle.long_flights += usize::from(landing.duration > LONG_FLIGHT);
-                if cycle.impacts < LONGEST_CYCLE { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-            }
-            SweepEvent::Attachment(rest) => {
-                cycle.platform_periods +=
-                    rest.accumulation.turns + rest.separation.map_or(0, |(_, turns)| turns);
-                *rests = true;
-                ControlFlow::Break(())
-            }
-            _ => ControlFlow::Break(()),
-        },
-        &Unobserved,
-    )?;
-    for (index, (cycle, rests)) in leaving.into_iter().zip(walked) {
-        cycles[index] = rests.then_some(cycle);
-    }
-    Ok(cycles)
-}
-
-/// How a disk that leaves the platform from rest comes to rest again.
-struct ToRest {
-    /// Durations (radians) and impact speeds.
-    flights: Vec<(f64, f64)>,
-    /// The time of rest (radians).
-    time: f64,
-}
-
-/// `None` where the disk does not leave or does not come to rest.
-fn to_rest(map: &ImpactMap, policy: ChatterPolicy) -> Result<Option<ToRest>, ExperimentError> {
+/// The orbit of a disk that leaves the platform from rest; `None` if it does not leave.
+fn from_rest(map: &ImpactMap, policy: ChatterPolicy) -> Result<Option<Orbit>, ExperimentError> {
     let Some(leaves) = map.vibration().separation_phase() else { return Ok(None) };
-    let mut orbit = map.orbit_from_launch(Launch::new(leaves, 0.0)?, policy);
+    Ok(Some(map.orbit_from_launch(Launch::new(leaves, 0.0)?, policy)))
+}
+
+/// A disk from rest that bounces for ever.
+#[derive(Serialize)]
+pub(super) struct Bouncing {
+    axial_forcing: f64,
+    /// Impacts in one round of the periodic orbit that it has settled on; `None` if it is on none.
+    period: Option<usize>,
+    /// The same if two rounds need to agree only as well as the picture shows.
+    drawn_period: Option<usize>,
+    /// Of all pairs of impacts in runs of flights of less than half a period those whose later one is slower, and whose later
+    /// flight is shorter.
+    slower: Cases,
+    shorter: Cases,
+    /// Whether it is on another attractor than the followed one.
+    separate: bool,
+}
+
+impl Bouncing {
+    /// The key feature of chattering in the paper's words, which does not need a rest: rapid collisions with decaying impact
+    /// velocity and flight duration.
+    fn chatters(&self) -> bool {
+        self.separate && mostly(self.slower) && mostly(self.shorter)
+    }
+}
+
+fn mostly(pairs: Cases) -> bool {
+    2 * pairs.holding > pairs.tried
+}
+
+/// The pairs of flights in which the impact speed, or the duration, falls.
+fn falls(flights: &[(f64, f64)], of: fn(&(f64, f64)) -> f64) -> Cases {
+    trend(flights.iter().enumerate().map(|(impact, flight)| (impact as f64, of(flight))), -1.0)
+}
+
+/// The motion at a Γ above 1/π where a disk from rest does not come to rest again.
+fn bounce(diagram: &Diagram, axial_forcing: f64) -> Result<Option<Bouncing>, ExperimentError> {
+    let map = map(axial_forcing, diagram.inputs.restitution)?;
+    let Some(orbit) = from_rest(&map, PAPER_CHATTER)? else { return Ok(None) };
+    let settled = orbit_diagram(&[orbit], SETTLING, 1, &Unobserved)?.concat();
+    let Some(&state) = settled.first() else { return Ok(None) };
+    let (mut flights, mut orbit) = (Vec::new(), map.orbit(state, PAPER_CHATTER));
+    while flights.len() < SETTLED
+        && let Some(OrbitEvent::Impact(impact)) = orbit.advance()?
+    {
+        flights.push((impact.duration(), -impact.velocity));
+    }
+    let runs = || flights.split(|(duration, _)| *duration > LONG_FLIGHT);
+    let followed =
+        diagram.followed.iter().find(|slice| slice.axial_forcing.to_bits() == axial_forcing.to_bits());
+    let phase = state.phase().cycles();
+    let near = |own: &f64| distance(*own, phase) <= DRAWN_WITHIN;
+    let separate = followed.is_none_or(|slice| !slice.impact_phase_cycles.iter().any(near));
+    Ok(Some(Bouncing {
+        axial_forcing,
+        period: map.period_of(state, LONGEST_PERIOD, REPEATS_WITHIN)?,
+        drawn_period: map.period_of(state, LONGEST_PERIOD, DRAWN_WITHIN)?,
+        slower: runs().map(|run| falls(run, |flight| flight.1)).sum(),
+        shorter: runs().map(|run| falls(run, |flight| flight.0)).sum(),
+        separate,
+    }))
+}
+
+/// The Γ above 1/π where a disk from rest does not come to rest again.
+pub(super) fn bouncing(diagram: &Diagram) -> Result<Vec<Bouncing>, ExperimentError> {
+    let restless = diagram.cycles.iter().filter(|(forcing, cycle)| *forcing * PI > 1.0 && cycle.is_none());
+    let forcings: Vec<f64> = restless.map(|(forcing, _)| *forcing).collect();
+    Ok(map_in_parallel(&forcings, |forcing| bounce(diagram, *forcing))?.into_iter().flatten().collect())
+}
+
+/// The durations (radians) and impact speeds of flights, and the time of the rest that ends them (radians).
+type ToRest = (Vec<(f64, f64)>, f64);
+
+/// From a rest to the next one; `None` if there is none.
+fn to_rest(map: &ImpactMap, policy: ChatterPolicy) -> Result<Option<ToRest>, ExperimentError> {
+    let Some(mut orbit) = from_rest(map, policy)? else { return Ok(None) };
     let (mut flights, mut time) = (Vec::new(), 0.0);
     while flights.len() < LONGEST_CYCLE {
         match orbit.advance()? {
@@ -83,7 +125,7 @@ fn to_rest(map: &ImpactMap, policy: ChatterPolicy) -> Result<Option<ToRest>, Exp
                 flights.push((impact.duration(), -impact.velocity));
             }
             Some(OrbitEvent::Attachment(rest)) => {
-                return Ok(Some(ToRest { flights, time: time + rest.accumulation.duration }));
+                return Ok(Some((flights, time + rest.accumulation.duration)));
             }
             _ => return Ok(None),
         }
@@ -91,87 +133,220 @@ fn to_rest(map: &ImpactMap, policy: ChatterPolicy) -> Result<Option<ToRest>, Exp
     Ok(None)
 }
 
-/// How a disk from rest comes to rest at each Γ.
-pub(super) fn chatters(forcings: &[f64], restitution: f64) -> Result<Vec<Chatter>, ExperimentError> {
-    let chatter = |&axial_forcing: &f64| -> Result<Option<Chatter>, ExperimentError> {
-        let map = map(axial_forcing, restitution)?;
-        let (Some(cut), Some(rests)) =
-            (to_rest(&map, PAPER_CHATTER)?, to_rest(&map, ChatterPolicy::Complete)?)
-        else {
-            return Ok(None);
-        };
-        let long = cut.flights.iter().rposition(|(duration, _)| *duration > LONG_FLIGHT);
-        let chatter = &cut.flights[long.map_or(0, |long| long + 1)..];
-        let falls = |of: fn(&(f64, f64)) -> f64| {
-            trend(chatter.iter().enumerate().map(|(impact, flight)| (impact as f64, of(flight))), -1.0)
-        };
-        Ok(Some(Chatter {
-            axial_forcing,
-            impacts: chatter.len(),
-            slower: falls(|flight| flight.1),
-            shorter: falls(|flight| flight.0),
-            rests_at_cycles: rests.time / TAU,
-            cut_at_cycles: cut.time / TAU,
-        }))
-    };
-    forcings.iter().map(chatter).filter_map(Result::transpose).collect()
-}
-
-fn tosses(system: &DimensionlessSystem, settings: MultiTossSettings) -> Result<TossOrbit, ExperimentError> {
-    multi_toss(*system, start(system, None, true)?, settings, &Unobserved).map_err(ExperimentError::model)
-}
-
-/// The impacts of the chattering orbit, if the disk has a chattering `cycle` at this forcing.
-pub(super) fn chattering_slice(
+/// The last impacts of a disk from rest before it comes to rest again: those that end flights of less than
+/// half a period.
+#[derive(Serialize)]
+struct Chatter {
     axial_forcing: f64,
-    cycle: Option<ChatteringCycle>,
-    inputs: Inputs,
-    settings: MultiTossSettings,
-) -> Result<Option<Slice>, ExperimentError> {
-    let Some(cycle) = cycle else {
+    /// Impacts up to the paper's cut.
+    impacts: usize,
+    /// Of all pairs of these, those whose later one is slower, and whose later flight is shorter.
+    slower: Cases,
+    shorter: Cases,
+    /// The time of rest (periods), from the separation on, with infinitely many impacts summed, and with the
+    /// paper's cut.
+    rests_at_cycles: f64,
+    cut_at_cycles: f64,
+}
+
+/// How a disk from rest comes to rest again.
+fn chatter(axial_forcing: f64, restitution: f64) -> Result<Option<Chatter>, ExperimentError> {
+    let map = map(axial_forcing, restitution)?;
+    let cut = to_rest(&map, PAPER_CHATTER)?;
+    let Some(((flights, cut), (_, rests))) = cut.zip(to_rest(&map, ChatterPolicy::Complete)?) else {
         return Ok(None);
     };
-    let systems = Systems::at(axial_forcing, inputs)?;
-    let linear = tosses(&systems.linear, settings)?;
-    let semielliptical = tosses(&systems.semielliptical, settings)?;
-    let slice = slice(axial_forcing, inputs, &linear, &semielliptical);
-    Ok(Some(Slice { period: Some(cycle.impacts), platform_periods: Some(cycle.platform_periods), ..slice }))
+    let long = flights.iter().rposition(|(duration, _)| *duration > LONG_FLIGHT);
+    let chatter = &flights[long.map_or(0, |long| long + 1)..];
+    Ok(Some(Chatter {
+        axial_forcing,
+        impacts: chatter.len(),
+        slower: falls(chatter, |flight| flight.1),
+        shorter: falls(chatter, |flight| flight.0),
+        rests_at_cycles: rests / TAU,
+        cut_at_cycles: cut / TAU,
+    }))
 }
 
-/// Where the chattering orbit stops being a chain of single tosses, looked for on `forcings` with their
-/// cycles and bisected.
-pub(super) fn single_tosses(
-    forcings: &[(f64, Option<ChatteringCycle>)],
-    section: &SectionFour,
-    policy: ChatterPolicy,
-) -> Result<SingleTosses, ExperimentError> {
-    let (restitution, printed_end) = (section.restitution, section.single_tosses_end);
+/// The end of the single-toss pattern of the chattering orbit.
+#[derive(Serialize)]
+pub(super) struct SingleTosses {
+    /// Largest Γ of the bisection with one cycle per period of the platform, smallest without.
+    last: f64,
+    first_other: f64,
+    /// Share of the Γ from there to 0.52 at which the disk comes to rest once in every period.
+    share_beyond: f64,
+    /// Fewest periods of the platform in a cycle from there to 0.52, over the Γ that chatter.
+    periods_beyond: Option<u64>,
+}
+
+/// Where the chattering orbit stops being a chain of single tosses, looked for in the diagram and bisected.
+pub(super) fn single_tosses(diagram: &Diagram) -> Result<Option<SingleTosses>, ExperimentError> {
+    let restitution = diagram.inputs.restitution;
+    let printed_end = paper::section_four()?.single_tosses_end;
     let is_single = |cycle: &Option<ChatteringCycle>| cycle.is_some_and(|cycle| cycle.is_single_toss());
-    let (mut last, mut first_other) = (f64::NAN, printed_end);
-    for (forcing, cycle) in
-        forcings.iter().filter(|(forcing, _)| *forcing * PI > 1.0 && *forcing < printed_end)
-    {
-        if is_single(cycle) {
-            last = *forcing;
-        } else {
-            first_other = *forcing;
-            break;
+    let (mut last, mut first_other) = (None, printed_end);
+    for (forcing, cycle) in &diagram.cycles {
+        if *forcing * PI > 1.0 && *forcing < printed_end {
+            if !is_single(cycle) {
+                first_other = *forcing;
+                break;
+            }
+            last = Some(*forcing);
         }
     }
-    // A NaN (no Γ at all) ends the loop at once.
+    let Some(last) = last else { return Ok(None) };
     let (last, first_other) = bracket_of_width(last, first_other, 1.0e-9, |forcing| {
-        let cycle = cycles(&[forcing], restitution, policy)?;
-        Ok::<_, ExperimentError>(cycle.iter().all(is_single))
+        Ok::<_, ExperimentError>(cycles(&[forcing], restitution)?.iter().all(is_single))
     })?;
-    let beyond: Vec<f64> =
-        (0..200).map(|i| first_other + (printed_end - first_other) * (f64::from(i) + 0.5) / 200.0).collect();
-    let beyond = cycles(&beyond, restitution, policy)?;
-    let periods: Vec<u64> = beyond.iter().flatten().map(|cycle| cycle.platform_periods).collect();
-    let singles = beyond.iter().flatten().filter(|cycle| cycle.is_single_toss()).count();
-    Ok(SingleTosses {
+    let place = |i: u32| first_other + (printed_end - first_other) * (f64::from(i) + 0.5) / f64::from(BEYOND);
+    let beyond = cycles(&(0..BEYOND).map(place).collect::<Vec<_>>(), restitution)?;
+    let singles = beyond.iter().filter(|cycle| is_single(cycle)).count();
+    Ok(Some(SingleTosses {
         last,
         first_other,
         share_beyond: singles as f64 / beyond.len() as f64,
-        periods_beyond: periods.into_iter().min(),
-    })
+        periods_beyond: beyond.iter().flatten().map(|cycle| cycle.platform_periods).min(),
+    }))
+}
+
+/// The statements about the chattering orbit; `crisis` ends the followed attractor.
+pub(super) fn chattering(
+    fig: &mut Paper<'_>,
+    diagram: &Diagram,
+    single: Option<&SingleTosses>,
+    bouncing: &[Bouncing],
+    crisis: f64,
+) -> Result<(), ExperimentError> {
+    let section = paper::section_four()?;
+    let periodic: Vec<&Slice> = diagram.followed.iter().filter(|slice| slice.period.is_some()).collect();
+    let restless = |slice: &Slice| {
+        bouncing.iter().find(|at| at.axial_forcing.to_bits() == slice.axial_forcing.to_bits())
+    };
+    let never: Vec<&Bouncing> = periodic.iter().filter_map(|slice| restless(slice)).collect();
+    fig.claim(
+        Claim::printed_statement(
+            "section4.coexistence",
+            all(&periodic, |slice| diagram.rests_beside(slice) || restless(slice).is_some_and(Bouncing::chatters)),
+            format!(
+                "at {} Γ with a periodic orbit; at {} of them a disk from rest never rests, and in {} its later rapid collision is slower. Beside chaos it does not chatter at {} Γ",
+                periodic.len(),
+                never.len(),
+                never.iter().map(|at| at.slower).sum::<Cases>().words(),
+                bouncing.iter().filter(|at| !at.chatters()).count(),
+            ),
+        )
+        .cause("a disk from rest that never rests again"),
+    );
+    let chattering = bouncing.iter().filter(|at| at.chatters());
+    let repeats =
+        diagram.chattering.iter().map(|_| true).chain(chattering.map(|at| at.drawn_period.is_some()));
+    let repeats = Cases::of(repeats);
+    fig.claim(
+        Claim::printed_statement(
+            "section4.chattering_is_periodic",
+            repeats,
+            format!(
+                "a rest repeats the cycle for ever; without one up to {LONGEST_PERIOD} impacts may repeat within a dot's width: in all at {} of {} Γ",
+                repeats.holding, repeats.tried,
+            ),
+        )
+        .cause("chattering that neither rests nor repeats"),
+    );
+    let (restitution, axial_forcing) = BELOW_SEPARATION;
+    let radius = multiplier(axial_forcing, restitution)?;
+    fig.claim(
+        Claim::printed_statement(
+            "section1.no_bouncing",
+            radius.map(|radius| axial_forcing * PI >= 1.0 || radius >= 1.0),
+            format!(
+                "at ε = {restitution} and Γ = {axial_forcing} the period-1 orbit attracts (multipliers of modulus {:.2}), as from Γ = {:.3} on: a disk that has been thrown up bounces on",
+                radius.unwrap_or(f64::NAN),
+                in_closed_form(restitution),
+            ),
+        )
+        .cause("bouncing that has begun goes on below Γ = 1/π"),
+    );
+    fig.record("not_chattering", &bouncing)?;
+    fig.claim(
+        Claim::printed_statement(
+            "section4.single_tosses_end",
+            single.map(|single| single.first_other >= section.single_tosses_end),
+            single.map_or_else(String::new, |single| {
+                format!(
+                    "a rest in every period up to Γ = {:.6}; from there to {} at {:.0} % of the Γ, and a cycle takes {} periods or more",
+                    single.last,
+                    section.single_tosses_end,
+                    100.0 * single.share_beyond,
+                    single.periods_beyond.map_or("no".to_owned(), |periods| periods.to_string()),
+                )
+            }),
+        )
+        .cause("single tosses end at Γ = 0.5085"),
+    );
+    fig.record("single_tosses", &single)?;
+
+    let ones = diagram.period_ones();
+    fig.claim(Claim::printed_statement(
+        "section4.rest_never_reaches_period_one",
+        all(&ones, |one| diagram.rests_beside(one)),
+        format!(
+            "at {} of {} values of Γ with an attracting period-1 orbit a disk that leaves from rest comes to rest again, and so for ever",
+            ones.iter().filter(|one| diagram.rests_beside(one)).count(),
+            ones.len()
+        ),
+    ));
+    // By rising Γ.
+    let cycles =
+        || diagram.chattering.iter().filter_map(|slice| Some((slice.axial_forcing, slice.platform_periods?)));
+    let grows = trend(cycles().map(|(forcing, periods)| (forcing, periods as f64)), 1.0);
+    fig.claim(Claim::printed_statement(
+        "section4.chattering_grows_complex",
+        grows,
+        format!("of all pairs of Γ the higher one has the longer cycle in {}", grows.words()),
+    ));
+    let low = section.axial_forcings_of_fig7[2];
+    let longest = cycles().filter(|(forcing, _)| *forcing <= low).map(|(_, periods)| periods).max();
+    let after: Vec<u64> =
+        cycles().filter(|(forcing, _)| *forcing > crisis).map(|(_, periods)| periods).collect();
+    fig.claim(Claim::printed_statement(
+        "section4.longer_cycles",
+        all(&after, |periods| longest.is_some_and(|longest| *periods > longest)),
+        format!(
+            "cycles take at most {} periods of the platform up to Γ = {low}, at least {} beyond the merging",
+            longest.unwrap_or_default(),
+            after.iter().min().copied().unwrap_or_default(),
+        ),
+    ));
+    decay(fig, diagram)
+}
+
+/// How the chattering sequences of a disk from rest end.
+fn decay(fig: &mut Paper<'_>, diagram: &Diagram) -> Result<(), ExperimentError> {
+    let mut chatters = Vec::new();
+    for forcing in sampled(SAMPLED, &diagram.resting()) {
+        chatters.extend(chatter(forcing, diagram.inputs.restitution)?);
+    }
+    let [slower, shorter]: [Cases; 2] =
+        [chatters.iter().map(|of| of.slower).sum(), chatters.iter().map(|of| of.shorter).sum()];
+    fig.claim(Claim::printed_statement(
+        "section4.chattering_decays",
+        (slower.tried.min(shorter.tried) > 0).then(|| mostly(slower) && mostly(shorter)),
+        format!(
+            "of all pairs of impacts in the last flights of less than half a period the later one is slower in {}, its flight shorter in {}",
+            slower.words(),
+            shorter.words(),
+        ),
+    ));
+    let off = |of: &Chatter| (of.cut_at_cycles - of.rests_at_cycles).abs();
+    fig.claim(Claim::printed_statement(
+        "section4.rest_in_finite_time",
+        any(&chatters, |of| off(of) < SAME_REST),
+        format!(
+            "infinitely many flights have a finite sum, from which the paper's cut differs by {:.0e} of a period at most at {} values of Γ",
+            extent(chatters.iter().map(off)).1,
+            chatters.len(),
+        ),
+    ));
+    fig.record("chatters", &chatters)
 }

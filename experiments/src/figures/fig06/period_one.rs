@@ -1,22 +1,22 @@
-//! The period-1 orbit: where it begins, and how it turns.
+//! How the period-1 orbit turns: Eq. (16), and the best motion of the platform.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use bouncing_disk::core::numerics::roots::bracket_of_width;
+use bouncing_disk::core::numerics::elementary::cos;
 use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState};
-use bouncing_disk::parameters::{DimensionlessSystem, ForcingParameters};
+use bouncing_disk::parameters::DimensionlessSystem;
 use bouncing_disk::toss::{CollisionEvent, CollisionState, Collisions};
+use serde::Serialize;
 
-use super::data::{LagScan, PeriodOne};
-use super::slices::{Inputs, no_orbit};
-use crate::experiment::ExperimentError;
+use super::diagram::{Diagram, Inputs, Slice, Twist};
+use super::doublings::in_closed_form;
+use super::no_orbit;
+use crate::claims::judging::trend;
+use crate::claims::{Claim, all, catalogue};
+use crate::experiment::{ExperimentError, Paper};
 use crate::figures::shared::map;
+use crate::figures::shared::numbers::{distance, extent};
 
-/// Width at which the bisection on the threshold ends. The orbit is found next to its birth as far as
-/// Newton's iteration goes there; its phase moves with the square root of the distance.
-const BRACKET: f64 = 1.0e-9;
-/// Γ at which there is no such orbit at restitution 0.5, and far from the printed threshold.
-const BELOW_THRESHOLD: f64 = 0.30;
 /// One impact every so many periods of the platform, at most.
 const LONGEST_FLIGHT: u64 = 3;
 /// Places in a window of Γ, as shares of it: away from its ends, where an orbit attracts slowly.
@@ -31,69 +31,61 @@ const FIRST_SPEEDS: [f64; 3] = [-2.0, 0.0, 2.0];
 const IMPACTS: usize = 200;
 /// Lags tried over a whole turn.
 const LAGS_TRIED: u32 = 72;
+/// A speed, as a share of ωΦ, that differs from another one by the rounding of some hundred impacts only.
+const SETTLED: f64 = 1.0e-9;
+/// Rounding of stored phases and speeds (1e-6) seen through the slopes of Eq. (16), and the slow convergence
+/// to the orbit next to a doubling.
+pub(super) const STORED: f64 = 1.0e-5;
 
-/// The lowest Γ at which Newton's iteration finds the orbit.
-pub(super) fn threshold(inputs: Inputs, first: ImpactState) -> Result<f64, ExperimentError> {
-    let mut state = first;
-    let (_, found) = bracket_of_width(BELOW_THRESHOLD, inputs.followed_from, BRACKET, |forcing| {
-        // The same orbit, not another one: one impact in one period of the platform.
-        let refined = map(forcing, inputs.restitution)?.refine(&[state]);
-        let orbit = refined.ok().filter(|orbit| orbit.platform_periods == 1);
-        if let Some(orbit) = &orbit {
-            state = orbit.states[0];
-        }
-        Ok::<_, ExperimentError>(orbit.is_none())
-    })?;
-    Ok(found)
+/// The rotation of period-1 orbits, from many starts and for many motions of the platform.
+#[derive(Serialize)]
+struct PeriodOne {
+    /// Orbits: of one impact every one, two or three periods of the platform, by Γ, θ, Γ_T and the speed of
+    /// the disk at first.
+    orbits: usize,
+    impacts_each: usize,
+    /// The largest |w_T|/(ωΦ) in the last impact of an orbit.
+    largest_tangential_speed: f64,
+    lags: Vec<LagScan>,
 }
 
-fn system(
+/// The steady speeds of one period-1 orbit against the phase lag.
+#[derive(Serialize)]
+struct LagScan {
     axial_forcing: f64,
-    angular_forcing: f64,
-    phase_lag: f64,
-    inputs: Inputs,
-) -> Result<DimensionlessSystem, ExperimentError> {
-    ForcingParameters { axial_forcing, angular_forcing, phase_lag, restitution: inputs.restitution }
-        .build()
-        .map_err(ExperimentError::model)
+    impact_phase_rad: f64,
+    /// Distance between the lags tried (rad), and the one with the highest speed.
+    lag_step_rad: f64,
+    best_lag_rad: f64,
+    /// Speed/(ωΦ) at θ = −τ_imp, and at θ = −π/2.
+    speed_at_impact_phase: f64,
+    speed_of_elliptical: f64,
 }
 
-/// A disk on the period-1 orbit, by its first impacts.
-struct Turning {
-    /// |w_T|/(ωΦ) just before the last impact.
-    slip: f64,
-    /// The disk's speed/(ωΦ) just before it.
-    speed: f64,
-}
-
+/// |w_T|/(ωΦ) and the disk's speed/(ωΦ) just before the last impact on the orbit.
 fn turn(
     system: &DimensionlessSystem,
     orbit: ImpactState,
     first_speed: f64,
-    impacts: usize,
-) -> Result<Turning, ExperimentError> {
+) -> Result<(f64, f64), ExperimentError> {
     let scale = system.twist_speed();
-    let slip = first_speed * scale - system.platform_angular_speed(orbit.phase());
     let mut state = CollisionState {
         phase: orbit.phase(),
         axial_impact_velocity: orbit.velocity(),
-        tangential_impact_velocity: slip,
+        tangential_impact_velocity: first_speed * scale - system.platform_angular_speed(orbit.phase()),
     };
     let mut collisions = Collisions::after(*system, state, ChatterPolicy::Complete)?;
-    for _ in 0..impacts {
+    for _ in 0..IMPACTS {
         let Some(CollisionEvent::Collision(next)) = collisions.advance()? else {
             return Err(no_orbit(system.axial_forcing()));
         };
         state = next.state;
     }
-    Ok(Turning {
-        slip: state.tangential_impact_velocity.abs() / scale,
-        speed: state.angular_speed(system) / scale,
-    })
+    Ok((state.tangential_impact_velocity.abs() / scale, state.angular_speed(system) / scale))
 }
 
-pub(super) fn period_one(inputs: Inputs) -> Result<PeriodOne, ExperimentError> {
-    let threshold = (1.0 - inputs.restitution) / (1.0 + inputs.restitution);
+fn period_one(inputs: Inputs) -> Result<PeriodOne, ExperimentError> {
+    let threshold = in_closed_form(inputs.restitution);
     let first_doubling = ImpactMap::first_doubling_forcing(inputs.restitution);
     let mut result =
         PeriodOne { orbits: 0, impacts_each: IMPACTS, largest_tangential_speed: 0.0, lags: Vec::new() };
@@ -106,15 +98,15 @@ pub(super) fn period_one(inputs: Inputs) -> Result<PeriodOne, ExperimentError> {
         let high = (squared(low) + height).sqrt();
         for place in PLACES {
             let forcing = low + place * (high - low);
-            let orbit =
-                map(forcing, inputs.restitution)?.period_one(flight).ok_or_else(|| no_orbit(forcing))?;
+            let Some(orbit) = map(forcing, inputs.restitution)?.period_one(flight) else { continue };
             for lag in LAGS {
                 for angular_forcing in ANGULAR_FORCINGS {
-                    let system = system(forcing, angular_forcing, PI * lag, inputs)?;
+                    let system =
+                        inputs.system(forcing, Twist { phase_lag_rad: PI * lag, angular_forcing })?;
                     for speed in FIRST_SPEEDS {
-                        let turning = turn(&system, orbit, speed, IMPACTS)?;
+                        let (slip, _) = turn(&system, orbit, speed)?;
                         result.orbits += 1;
-                        result.largest_tangential_speed = result.largest_tangential_speed.max(turning.slip);
+                        result.largest_tangential_speed = result.largest_tangential_speed.max(slip);
                     }
                 }
             }
@@ -128,8 +120,9 @@ pub(super) fn period_one(inputs: Inputs) -> Result<PeriodOne, ExperimentError> {
 
 /// The steady speed against the phase lag, with Γ_T = 1: a few impacts end the slip.
 fn lag_scan(axial_forcing: f64, orbit: ImpactState, inputs: Inputs) -> Result<LagScan, ExperimentError> {
-    let speed = |lag: f64| -> Result<f64, ExperimentError> {
-        Ok(turn(&system(axial_forcing, 1.0, lag, inputs)?, orbit, 0.0, IMPACTS)?.speed)
+    let speed = |phase_lag_rad: f64| -> Result<f64, ExperimentError> {
+        let system = inputs.system(axial_forcing, Twist { phase_lag_rad, angular_forcing: 1.0 })?;
+        Ok(turn(&system, orbit, 0.0)?.1)
     };
     let lag_step_rad = TAU / f64::from(LAGS_TRIED);
     let mut best = (f64::NEG_INFINITY, 0.0);
@@ -148,4 +141,105 @@ fn lag_scan(axial_forcing: f64, orbit: ImpactState, inputs: Inputs) -> Result<La
         speed_at_impact_phase: speed(-orbit.phase().angle())?,
         speed_of_elliptical: speed(-FRAC_PI_2)?,
     })
+}
+
+/// Eq. (16) and what follows from it.
+pub(super) fn equation_16(fig: &mut Paper<'_>, diagram: &Diagram) -> Result<(), ExperimentError> {
+    let inputs = diagram.inputs;
+    let of = period_one(inputs)?;
+    fig.claim(Claim::printed_statement(
+        "section4.slip_vanishes",
+        all(Some(of.largest_tangential_speed).filter(|_| of.orbits > 0), |slip| slip < SETTLED),
+        format!("|w_T| in the last of {IMPACTS} impacts is at most {:.0e} ωΦ", of.largest_tangential_speed),
+    ));
+    fig.claim(Claim::printed_statement(
+        "section4.maximum_speed",
+        all(&of.lags, |scan| {
+            (scan.best_lag_rad + scan.impact_phase_rad).abs() <= 0.5 * scan.lag_step_rad
+                && (scan.speed_at_impact_phase - 1.0).abs() < SETTLED
+        }),
+        "of all lags tried the fastest is next to it",
+    ));
+    let (least, most) = extent(of.lags.iter().map(|scan| scan.speed_of_elliptical));
+    fig.claim(Claim::printed_statement(
+        "section4.elliptical_not_optimal",
+        all(&of.lags, |scan| scan.speed_of_elliptical < scan.speed_at_impact_phase - SETTLED),
+        format!("the disk turns at {least:.3} to {most:.3} ωΦ with θ = −π/2, and at ωΦ with θ = −τ_imp"),
+    ));
+    fig.record("period_one", &of)?;
+
+    let ones = diagram.period_ones();
+    let phase = |one: &Slice| TAU * one.impact_phase_cycles[0];
+    let miss = |one: &Slice| {
+        let linear = one.linear_mean - cos(phase(one) + inputs.linear.phase_lag_rad);
+        let semielliptical = one.semielliptical_mean - cos(phase(one) + inputs.semielliptical.phase_lag_rad);
+        linear.abs().max(semielliptical.abs())
+    };
+    fig.claim(Claim::printed_statement(
+        "section4.period_one_speed",
+        all(&ones, |one| miss(one) < STORED),
+        format!(
+            "largest deviation {:.1e} ωΦ at {} values of Γ in (c) and (d), whose phases are rounded to 1e-6 of a period",
+            extent(ones.iter().map(|one| miss(one))).1,
+            ones.len()
+        ),
+    ));
+    let (low, high) = extent(ones.iter().map(|one| phase(one)));
+    fig.claim(Claim::printed_statement(
+        "section4.impact_phase_not_quarter",
+        all(&ones, |one| distance(phase(one) / TAU, 0.25) > STORED),
+        format!("in period 1 τ_imp/2π runs from {:.4} to {:.4}", low / TAU, high / TAU),
+    ));
+    for (key, of, sign) in [
+        ("section4.linear_falls", (|one| one.linear_mean) as fn(&Slice) -> f64, -1.0),
+        ("section4.semielliptical_rises", |one| one.semielliptical_mean, 1.0),
+    ] {
+        let pairs = trend(ones.iter().map(|one| (one.axial_forcing, of(one))), sign);
+        fig.claim(Claim::printed_statement(key, pairs, format!("in {} of all pairs of Γ", pairs.words())));
+    }
+    // The first and the last of the orbits: which of the two motions is the faster.
+    let ends = ones.first().zip(ones.last());
+    fig.claim(Claim::printed_statement(
+        "section4.best_motion_varies",
+        ends.map(|(first, last)| {
+            first.linear_mean > first.semielliptical_mean && last.semielliptical_mean > last.linear_mean
+        }),
+        ends.map_or_else(String::new, |(first, last)| {
+            format!(
+                "θ of (c) gives {:.3} ωΦ and θ of (d) {:.3} ωΦ at Γ = {:.3}, {:.3} and {:.3} ωΦ at Γ = {:.3}",
+                first.linear_mean,
+                first.semielliptical_mean,
+                first.axial_forcing,
+                last.linear_mean,
+                last.semielliptical_mean,
+                last.axial_forcing,
+            )
+        }),
+    ));
+    // The birth of the orbit, where τ_imp = 0 and Eq. (16) gives ωΦ cos θ.
+    let at_birth = cos(inputs.semielliptical.phase_lag_rad);
+    let fastest = extent(ones.iter().map(|one| one.semielliptical_mean)).1;
+    fig.claim(Claim::printed_statement(
+        "section4.semielliptical_slow_at_birth",
+        all(ones.first(), |first| {
+            at_birth < cos(inputs.linear.phase_lag_rad)
+                && first.semielliptical_mean < fastest.min(first.linear_mean)
+        }),
+        format!("{at_birth:.3} ωΦ at Γ = 1/3 by Eq. (16), against ωΦ with θ = 0"),
+    ));
+    // The effect of half a unit of the last digit of the printed lag on the speed.
+    let printed = catalogue::number("section4.semielliptical_phase_lag", 0)?;
+    let least = cos(printed.half_unit);
+    let last = ones.last();
+    let reached = last.map(|one| one.semielliptical_mean);
+    fig.claim(Claim::printed_statement(
+        "section4.semielliptical_reaches_maximum",
+        all(reached, |speed| speed >= least),
+        format!(
+            "{:.7} ωΦ at the last period-1 orbit of (d), Γ = {:.4}; half a unit of the last digit of 0.26π lets it fall to {least:.7}",
+            reached.unwrap_or(f64::NAN),
+            last.map_or(f64::NAN, |one| one.axial_forcing),
+        ),
+    ));
+    Ok(())
 }

@@ -1,427 +1,325 @@
-//! The statements of the paper about the rotation in Fig. 6: Eq. (16), the two motions, mean speeds.
+//! The rotation beyond period 1: mean speeds and branches in periods 2 and 4, and what Γ_T does to them.
 
 use std::f64::consts::TAU;
 
 use bouncing_disk::core::numerics::elementary::cos;
+use bouncing_disk::estimate::Spread;
+use serde::Serialize;
 
-use super::data::{Fig06Data, Slice};
+use super::diagram::{Diagram, Slice, sampled};
+use super::period_one::STORED;
+use super::{SAMPLED, listed};
 use crate::claims::judging::trend;
-use crate::claims::{self as claim, Cases, Claim, Kind};
-use crate::figures::shared::numbers;
-pub(super) use crate::figures::shared::numbers::extent;
-
-/// Rounding of stored phases and speeds (1e-6) seen through the slopes of Eq. (16), and the slow convergence
-/// to the orbit next to a doubling.
-const STORED: f64 = 1.0e-5;
-
-pub(super) fn claims(data: &Fig06Data) -> Vec<Claim> {
-    let mut claims = map_parameters(data);
-    claims.extend(period_one_turns(data));
-    claims.extend(rotation(data));
-    claims.extend(period_two(data));
-    claims.extend(mean_speeds(data));
-    claims
-}
-
-/// The phase, the angular speeds of (c) and (d) at the period-1 orbits, by rising Γ.
-pub(super) fn period_ones(data: &Fig06Data) -> Vec<(&Slice, f64)> {
-    let ones = data.followed.iter().filter(|slice| slice.period == Some(1));
-    ones.filter_map(|slice| Some((slice, TAU * slice.impact_phase_cycles.first()?))).collect()
-}
-
-/// How far numbers that are no angles extend.
-pub(super) fn width(values: &[f64]) -> f64 {
-    let (low, high) = extent(values.iter().copied());
-    high - low
-}
-
-/// The map and its parameters.
-fn map_parameters(data: &Fig06Data) -> Vec<Claim> {
-    let dimension = &data.dimension;
-    let ratios: Vec<String> = data
-        .torque_ratios
-        .iter()
-        .map(|of| format!("{}: Γ_T = {:.4e}, ratio {:.4e}", of.system, of.angular_forcing, of.ratio))
-        .collect();
-    let (weakest, strongest) = extent(data.transfers.iter().map(|of| of.share_in_impacts));
-    // The attractor transfers all of it in impacts, by its choice: the orbits from rest decide.
-    let from_rest: Vec<f64> =
-        data.transfers.iter().filter(|of| of.from_rest).map(|of| of.share_in_impacts).collect();
-    let mean_from_rest =
-        (!from_rest.is_empty()).then(|| from_rest.iter().sum::<f64>() / from_rest.len() as f64);
-    vec![
-        Claim::printed("section4.map_parameters", dimension.rank as f64).note(format!(
-            "rank of the derivatives of {} numbers of the next collisions by the {} inputs of a system in SI units",
-            dimension.outcomes,
-            dimension.parameters.len(),
-        )),
-        Claim::printed_statement(
-            "section4.meaning_of_angular_forcing",
-            claim::all(&data.torque_ratios, |of| of.ratio.total_cmp(&of.angular_forcing).is_eq()),
-            format!(
-                "the torque for the platform's largest angular acceleration over the frictional torque of the preload is π times Γ_T: {}",
-                ratios.join("; ")
-            ),
-        ),
-        Claim::printed_statement(
-            "section4.transfer_in_impacts",
-            mean_from_rest.map_or_else(Cases::default, Cases::of_share),
-            format!(
-                "of the sizes of all angular impulses, impacts transfer {:.3} on the mean over the orbits of the disk from rest, {weakest:.3} to {strongest:.3} by orbit; \
-                 in the motor of Table III {:.3}",
-                mean_from_rest.unwrap_or(f64::NAN),
-                data.motor_share_in_impacts.unwrap_or(f64::NAN),
-            ),
-        ),
-    ]
-}
-
-/// Eq. (16) and what it rests on.
-fn period_one_turns(data: &Fig06Data) -> Vec<Claim> {
-    let of = &data.period_one;
-    let lags = || of.lags.iter();
-    let (least, most) = extent(lags().map(|scan| scan.speed_of_elliptical));
-    let ones = period_ones(data);
-    let (low, high) = extent(ones.iter().map(|(_, phase)| *phase));
-    let lag = data.semielliptical.phase_lag_rad;
-    let miss = |(slice, phase): &(&Slice, f64)| {
-        let linear = slice.linear_mean - cos(phase + data.linear.phase_lag_rad);
-        linear.abs().max((slice.semielliptical_mean - cos(phase + lag)).abs())
-    };
-    let (_, worst) = extent(ones.iter().map(miss));
-    vec![
-        Claim::printed_statement(
-            "section4.slip_vanishes",
-            claim::all(Some(of.largest_tangential_speed).filter(|_| of.orbits > 0), |slip| slip < SETTLED),
-            format!(
-                "|w_T| in the last of {} impacts is at most {:.0e} ωΦ",
-                of.impacts_each, of.largest_tangential_speed
-            ),
-        ),
-        Claim::printed_statement(
-            "section4.period_one_speed",
-            claim::all(&ones, |one| miss(one) < STORED),
-            format!(
-                "largest deviation {worst:.1e} ωΦ at {} values of Γ, (c) and (d), whose phases are rounded to 1e-6 of a period",
-                ones.len()
-            ),
-        ),
-        Claim::printed_statement(
-            "section4.maximum_speed",
-            claim::all(lags(), |scan| {
-                (scan.best_lag_rad + scan.impact_phase_rad).abs() <= 0.5 * scan.lag_step_rad
-                    && (scan.speed_at_impact_phase - 1.0).abs() < SETTLED
-            }),
-            "of all lags tried the fastest is next to it",
-        ),
-        Claim::printed_statement(
-            "section4.elliptical_not_optimal",
-            claim::all(lags(), |scan| scan.speed_of_elliptical < scan.speed_at_impact_phase - SETTLED),
-            format!("the disk turns with {least:.3} to {most:.3} ωΦ at θ = −π/2, and with ωΦ at θ = −τ_imp"),
-        ),
-        Claim::printed_statement(
-            "section4.impact_phase_not_quarter",
-            claim::all(&ones, |(_, phase)| numbers::distance(phase / TAU, 0.25) > STORED),
-            format!("in period 1 τ_imp/2π runs from {:.4} to {:.4}", low / TAU, high / TAU),
-        ),
-    ]
-}
-
-/// A speed, as a share of ωΦ, that differs from another one by the rounding of some hundred impacts only.
-const SETTLED: f64 = 1.0e-9;
-
-/// How the rotation follows the vertical motion.
-fn rotation(data: &Fig06Data) -> Vec<Claim> {
-    let ones = period_ones(data);
-    let steps = |key: &str, of: fn(&Slice) -> f64, sign: f64| {
-        let pairs = trend(ones.iter().map(|(slice, _)| (slice.axial_forcing, of(slice))), sign);
-        Claim::printed_statement(key, pairs, format!("in {} of all pairs of Γ", pairs.words()))
-    };
-    // The effect of half a unit of the last digit of the printed lag on the speed.
-    let printed = crate::claims::catalogue::number("section4.semielliptical_phase_lag", 0);
-    let least = printed.map_or(f64::NAN, |lag| cos(lag.half_unit));
-    let reached = ones.last().map(|(slice, _)| slice.semielliptical_mean);
-    vec![
-        steps("section4.linear_falls", |slice| slice.linear_mean, -1.0),
-        steps("section4.semielliptical_rises", |slice| slice.semielliptical_mean, 1.0),
-        Claim::printed_statement(
-            "section4.semielliptical_reaches_maximum",
-            claim::all(reached, |speed| speed >= least),
-            format!(
-                "{:.7} ωΦ at the last period-1 orbit of (d), Γ = {:.4}; half a unit of the last digit of 0.26π lets it fall to {least:.7}",
-                reached.unwrap_or(f64::NAN),
-                ones.last().map_or(f64::NAN, |(slice, _)| slice.axial_forcing),
-            ),
-        ),
-        slow_at_birth(data),
-        oscillation(data),
-        increasingly(data),
-        tracking(data),
-    ]
-}
-
-/// θ = −0.26π at the birth of the period-1 orbit, where τ_imp = 0 and Eq. (16) gives ωΦ cos θ.
-fn slow_at_birth(data: &Fig06Data) -> Claim {
-    let ones = period_ones(data);
-    let at_birth = cos(data.semielliptical.phase_lag_rad);
-    let fastest = extent(ones.iter().map(|(slice, _)| slice.semielliptical_mean)).1;
-    Claim::printed_statement(
-        "section4.semielliptical_slow_at_birth",
-        claim::all(ones.first(), |(first, _)| {
-            at_birth < cos(data.linear.phase_lag_rad)
-                && first.semielliptical_mean < fastest.min(first.linear_mean)
-        }),
-        format!("{at_birth:.3} ωΦ at Γ = 1/3 by Eq. (16), against ωΦ with θ = 0"),
-    )
-}
-
-/// How much more the speed varies at the small Γ_T, as Γ grows beyond period 4.
-fn increasingly(data: &Fig06Data) -> Claim {
-    let effects = &data.forcing_effects;
-    let pairs =
-        [0, 1].map(|lag| trend(effects.iter().map(|of| (of.axial_forcing, of.added_variation[lag])), 1.0));
-    let grows = pairs.map(|pairs| Cases::from((pairs.tried > 0).then(|| 2 * pairs.holding > pairs.tried)));
-    Claim::printed_statement(
-        "section4.angular_forcing_matters_more",
-        grows[1],
-        format!(
-            "by how much the standard deviation of the angular speed is larger at Γ_T = {} than at {}, at {} values of Γ from period 4 on: it grows with Γ in {} of all pairs with θ of (c), and in {} with that of (d)",
-            data.semielliptical.angular_forcing,
-            data.linear.angular_forcing,
-            effects.len(),
-            pairs[0].words(),
-            pairs[1].words(),
-        ),
-    )
-    .by_definition(&grows.map(|grows| Kind::Trend.verdict(grows)))
-}
-
-/// The range of angular speeds beyond period 4.
-fn oscillation(data: &Fig06Data) -> Claim {
-    let start = data.doublings.get(1).copied().unwrap_or(f64::NAN);
-    let beyond: Vec<(f64, f64)> = data
-        .followed
-        .iter()
-        .chain(&data.chattering)
-        .filter(|slice| slice.axial_forcing > start)
-        .map(|slice| (width(&slice.linear), width(&slice.semielliptical)))
-        .collect();
-    let (_, widest_linear) = extent(beyond.iter().map(|pair| pair.0));
-    let (narrowest, widest) = extent(beyond.iter().map(|pair| pair.1));
-    Claim::printed_statement(
-        "section4.angular_forcing_steadies",
-        claim::all(&beyond, |(linear, semielliptical)| linear < semielliptical),
-        format!(
-            "the angular speeds of one orbit extend over at most {widest_linear:.3} ωΦ in (c) and over {narrowest:.3} to {widest:.3} ωΦ in (d)"
-        ),
-    )
-}
-
-/// How far the speed after an impact is from that of the platform in the impact, on the mean over consecutive
-/// impacts.
-fn untracked(slice: &Slice, speeds: &[f64], lag: f64) -> Option<f64> {
-    let misses: Vec<f64> = speeds
-        .iter()
-        .skip(1)
-        .zip(&slice.impact_phase_cycles)
-        .map(|(after, phase)| (after - cos(TAU * phase + lag)).abs())
-        .collect();
-    (!misses.is_empty()).then(|| misses.iter().sum::<f64>() / misses.len() as f64)
-}
-
-/// At small Γ_T the disk takes the platform's speed in every impact.
-fn tracking(data: &Fig06Data) -> Claim {
-    let start = data.doublings.get(1).copied().unwrap_or(f64::NAN);
-    let pairs: Vec<(f64, f64)> = data
-        .followed
-        .iter()
-        .filter(|slice| slice.axial_forcing > start)
-        .filter_map(|slice| {
-            let large = untracked(slice, &slice.linear, data.linear.phase_lag_rad)?;
-            Some((large, untracked(slice, &slice.semielliptical, data.semielliptical.phase_lag_rad)?))
-        })
-        .collect();
-    let (least, _) = extent(pairs.iter().map(|pair| pair.0));
-    let (_, most) = extent(pairs.iter().map(|pair| pair.1));
-    Claim::printed_statement(
-        "section4.small_angular_forcing_tracks",
-        claim::all(&pairs, |(large, small)| small < large),
-        format!(
-            "after an impact the disk is off the speed that the platform had in it by at most {most:.0e} ωΦ on the mean in (d), by at least {least:.4} ωΦ in (c)"
-        ),
-    )
-}
-
-/// The two impacts of a period-2 orbit: index of the one of large and of small |w_A|.
-fn large_and_small(slice: &Slice) -> Option<[usize; 2]> {
-    let [one, other] = slice.normalised_impact_speed[..] else { return None };
-    Some(if one > other { [0, 1] } else { [1, 0] })
-}
-
-/// The two impacts of period 2 against the platform, in (c) and (d): |w_T| in the larger of them, and the
-/// distances of the mean speed from the platform's speed in the impact of large and in that of small |w_A|.
-fn two_impacts(data: &Fig06Data, twos: &[(&Slice, [usize; 2])]) -> (Vec<f64>, Vec<(f64, f64)>) {
-    let of_motion = |speeds: &[f64], mean: f64, phases: &[f64], lag: f64, order: [usize; 2]| {
-        let platform = |impact: usize| cos(TAU * phases[impact] + lag);
-        // The larger of the two: Eq. (16) would have to hold in both.
-        let miss = (0..2).map(|impact| (speeds[impact] - platform(impact)).abs()).fold(0.0, f64::max);
-        let [large, small] = order.map(|impact| (mean - platform(impact)).abs());
-        (miss, (large, small))
-    };
-    let all = twos.iter().flat_map(|(slice, order)| {
-        let Slice { linear, linear_mean, semielliptical, semielliptical_mean, .. } = slice;
-        let phases = &slice.impact_phase_cycles;
-        [
-            of_motion(linear, *linear_mean, phases, data.linear.phase_lag_rad, *order),
-            of_motion(
-                semielliptical,
-                *semielliptical_mean,
-                phases,
-                data.semielliptical.phase_lag_rad,
-                *order,
-            ),
-        ]
-    });
-    all.unzip()
-}
-
-/// The statements about the region of period 2.
-fn period_two(data: &Fig06Data) -> Vec<Claim> {
-    let twos: Vec<(&Slice, [usize; 2])> = between(data, 0, 1)
-        .into_iter()
-        .filter(|slice| slice.period == Some(2))
-        .filter_map(|slice| Some((slice, large_and_small(slice)?)))
-        .collect();
-    let phases = |branch: usize| -> Vec<f64> {
-        twos.iter().map(|(slice, order)| slice.impact_phase_cycles[order[branch]]).collect()
-    };
-    let (large, small) = (phases(0), phases(1));
-    // Both branches stay within a quarter of a period, far from the seam at 0.
-    let monotone =
-        |phases: &[f64], sign: f64| claim::all(phases.windows(2), |pair| sign * (pair[1] - pair[0]) > 0.0);
-    let (misses, distances) = two_impacts(data, &twos);
-    let (least, most) = extent(misses.iter().copied());
-    vec![
-        Claim::printed_statement(
-            "section4.period_two_branches",
-            claim::all([monotone(&large, -1.0), monotone(&small, 1.0)].into_iter().flatten(), |holds| holds),
-            format!("from each of {} values of Γ to the next", twos.len()),
-        ),
-        Claim::printed_statement(
-            "section4.eq16_fails_in_period_two",
-            claim::all(&misses, |miss| *miss > STORED),
-            format!("the larger |w_T| of the two impacts is {least:.1e} to {most:.3} ωΦ in (c) and (d)"),
-        ),
-        Claim::printed_statement(
-            "section4.large_branch_dominates",
-            claim::all(&distances, |(large, small)| large < small),
-            format!(
-                "the mean speed against the platform's in the two impacts, at {} values of Γ",
-                twos.len()
-            ),
-        ),
-    ]
-}
-
-/// The slices between two doublings.
-fn between(data: &Fig06Data, low: usize, high: usize) -> Vec<&Slice> {
-    let at = |index: usize| data.doublings.get(index).copied().unwrap_or(f64::NAN);
-    data.followed
-        .iter()
-        .filter(|slice| slice.axial_forcing > at(low) && slice.axial_forcing < at(high))
-        .collect()
-}
-
-fn mean_speeds(data: &Fig06Data) -> Vec<Claim> {
-    let period_two = between(data, 0, 1);
-    let period_four = between(data, 1, 2);
-    let trend = |of: fn(&Slice) -> f64, sign: f64| {
-        let points = |slices: &[&Slice]| {
-            slices.iter().map(|slice| (slice.axial_forcing, of(slice))).collect::<Vec<_>>()
-        };
-        let goes = trend(points(&period_two), sign);
-        // An extremum at the doubling: it has turned in the nearer half of the period-4 region.
-        let turned = trend(points(&period_four[..period_four.len().div_ceil(2)]), -sign);
-        let value = |slice: Option<&&Slice>| slice.map_or(f64::NAN, |slice| of(slice));
-        let slope = |slices: &[&Slice]| match slices {
-            [first, .., last] => (of(last) - of(first)) / (last.axial_forcing - first.axial_forcing),
-            _ => f64::NAN,
-        };
-        let nearest = &period_two[period_two.len().saturating_sub(period_four.len())..];
-        let evidence = format!(
-            "mean speed/(ωΦ) {:.4} just above Γ_1, {:.4} just below Γ_2, {:.4} just below Γ_3; slopes {:+.1} before Γ_2 and {:+.1} after it, \
-             over as wide a range of Γ as period 4 has",
-            value(period_two.first()),
-            value(period_two.last()),
-            value(period_four.last()),
-            slope(nearest),
-            slope(&period_four),
-        );
-        (goes, turned, evidence)
-    };
-    let (rises, rise_ends, rise) = trend(|slice| slice.linear_mean, 1.0);
-    let (falls, fall_ends, fall) = trend(|slice| slice.semielliptical_mean, -1.0);
-    let mut claims = vec![
-        Claim::printed_statement("section4.linear_rises_in_period_two", rises, rise.as_str()),
-        Claim::printed_statement("section4.linear_turns_at_period_four", rise_ends, rise),
-        Claim::printed_statement("section4.semielliptical_falls_in_period_two", falls, fall.as_str()),
-        Claim::printed_statement("section4.semielliptical_turns_at_period_four", fall_ends, fall)
-            .note("where it does not turn it has a kink there: a falling mean falls on, more slowly")
-            .cause("a kink called an extremum"),
-    ];
-    claims.extend(three_branches(data, &period_four));
-    claims
-}
+use crate::claims::{Cases, Claim, Kind, all};
+use crate::experiment::{ExperimentError, Paper};
+use crate::figures::shared::map_in_parallel;
+use crate::figures::shared::numbers::{distance, extent};
 
 /// Angular speeds closer than this share of ωΦ look like one branch: dots of panel (d) are 0.6 points wide,
 /// and ωΦ is 60 points long there.
 const ONE_BRANCH: f64 = 0.01;
 
+/// How far numbers that are no angles extend.
+fn width(values: &[f64]) -> f64 {
+    let (low, high) = extent(values.iter().copied());
+    high - low
+}
+
+/// The statements about periods 2 and 4, and about Γ_T beyond; `crisis` ends the followed attractor.
+pub(super) fn rotation(
+    fig: &mut Paper<'_>,
+    diagram: &Diagram,
+    doublings: &[f64],
+    crisis: f64,
+) -> Result<(), ExperimentError> {
+    let doubling = |n: usize| doublings.get(n - 1).copied().unwrap_or(f64::NAN);
+    let period_two = diagram.between(doubling(1), doubling(2));
+    let period_four = diagram.between(doubling(2), doubling(3));
+    fig.claims(two_impacts(diagram, &period_two));
+    fig.claims(mean_speeds(&period_two, &period_four));
+    let four: Vec<&Slice> = period_four.into_iter().filter(|slice| slice.period == Some(4)).collect();
+    let crossings = branch_crossings(&four);
+    fig.claims(three_branches(&four, &crossings));
+    fig.record("branch_crossings", &crossings)?;
+    fig.claims(oscillation(diagram, doubling(2)));
+    let effects = forcing_effects(diagram, doubling(2), crisis)?;
+    fig.claim(increasingly(&effects));
+    fig.record("forcing_effects", &effects)
+}
+
+/// The statements about the two impacts of period 2, those of large and of small |w_A|.
+fn two_impacts(diagram: &Diagram, period_two: &[&Slice]) -> [Claim; 3] {
+    // Index of the impact of large |w_A|.
+    let twos: Vec<(&Slice, usize)> = period_two
+        .iter()
+        .filter(|slice| slice.period == Some(2) && slice.normalised_impact_speed.len() == 2)
+        .map(|slice| {
+            let speeds = &slice.normalised_impact_speed;
+            (*slice, usize::from(speeds[1] >= speeds[0]))
+        })
+        .collect();
+    // Both branches stay within a quarter of a period, far from the seam at 0.
+    let monotone = |small: usize, sign: f64| {
+        let phase = |(slice, large): &(&Slice, usize)| slice.impact_phase_cycles[large ^ small];
+        all(twos.windows(2), |pair| sign * (phase(&pair[1]) - phase(&pair[0])) > 0.0)
+    };
+    // |w_T| in the larger of them, and the distances of the mean speed from the platform's speed in each.
+    let of_motions = twos.iter().flat_map(|(slice, large)| {
+        let [linear, semielliptical] = diagram.inputs.twists().map(|twist| twist.phase_lag_rad);
+        let motion = |speeds: &[f64], mean: f64, lag: f64| {
+            let platform = |impact: usize| cos(TAU * slice.impact_phase_cycles[impact] + lag);
+            // The larger of the two: Eq. (16) would have to hold in both.
+            let miss = (0..2).map(|impact| (speeds[impact] - platform(impact)).abs()).fold(0.0, f64::max);
+            (miss, [*large, 1 - large].map(|impact| (mean - platform(impact)).abs()))
+        };
+        [
+            motion(&slice.linear, slice.linear_mean, linear),
+            motion(&slice.semielliptical, slice.semielliptical_mean, semielliptical),
+        ]
+    });
+    let (misses, distances): (Vec<f64>, Vec<[f64; 2]>) = of_motions.unzip();
+    let (least, most) = extent(misses.iter().copied());
+    [
+        Claim::printed_statement(
+            "section4.period_two_branches",
+            all([monotone(0, -1.0), monotone(1, 1.0)].into_iter().flatten(), |holds| holds),
+            format!("from each of {} values of Γ to the next", twos.len()),
+        ),
+        Claim::printed_statement(
+            "section4.eq16_fails_in_period_two",
+            all(&misses, |miss| *miss > STORED),
+            format!("the larger |w_T| of the two impacts is {least:.1e} to {most:.3} ωΦ in (c) and (d)"),
+        ),
+        Claim::printed_statement(
+            "section4.large_branch_dominates",
+            all(&distances, |[large, small]| large < small),
+            format!("mean speed against the platform's in the two impacts, at {} values of Γ", twos.len()),
+        ),
+    ]
+}
+
+/// The mean speeds in period 2, and whether they turn at period 4.
+fn mean_speeds(period_two: &[&Slice], period_four: &[&Slice]) -> [Claim; 4] {
+    // An extremum at the doubling: the speed has turned in the nearer half of the period-4 region.
+    let near = &period_four[..period_four.len().div_ceil(2)];
+    let claims = |keys: [&str; 2], of: fn(&Slice) -> f64, sign: f64| {
+        let go = |slices: &[&Slice], sign: f64| {
+            trend(slices.iter().map(|slice| (slice.axial_forcing, of(slice))), sign)
+        };
+        let value = |slice: Option<&&Slice>| slice.map_or(f64::NAN, |slice| of(slice));
+        let slope = |slices: &[&Slice]| match slices {
+            [first, .., last] => (of(last) - of(first)) / (last.axial_forcing - first.axial_forcing),
+            _ => f64::NAN,
+        };
+        let before = &period_two[period_two.len().saturating_sub(period_four.len())..];
+        let speeds = [period_two.first(), period_two.last(), period_four.last()].map(value);
+        let words = format!(
+            "mean speed/(ωΦ) {} from Γ_1 over Γ_2 to Γ_3; slope {:+.1} just before Γ_2, {:+.1} after it",
+            listed(speeds.iter().map(|speed| format!("{speed:.4}"))),
+            slope(before),
+            slope(period_four),
+        );
+        [
+            Claim::printed_statement(keys[0], go(period_two, sign), words.as_str()),
+            Claim::printed_statement(keys[1], go(near, -sign), words),
+        ]
+    };
+    let [rises, rise_ends] = claims(
+        ["section4.linear_rises_in_period_two", "section4.linear_turns_at_period_four"],
+        |slice| slice.linear_mean,
+        1.0,
+    );
+    let [falls, fall_ends] = claims(
+        ["section4.semielliptical_falls_in_period_two", "section4.semielliptical_turns_at_period_four"],
+        |slice| slice.semielliptical_mean,
+        -1.0,
+    );
+    [rises, rise_ends, falls, fall_ends.note("a kink: it falls on").cause("a kink called an extremum")]
+}
+
+/// The Γ at which two branches of the period-4 orbit have the same speed in (d), between two slices each.
+fn branch_crossings(four: &[&Slice]) -> Vec<f64> {
+    let mut crossings = Vec::new();
+    let mut before: Option<(f64, Vec<[f64; 3]>)> = None;
+    for slice in four {
+        let of_impact = |i: usize| {
+            [slice.impact_phase_cycles[i], slice.normalised_impact_speed[i], slice.semielliptical[i]]
+        };
+        let mut impacts: Vec<[f64; 3]> = (0..slice.semielliptical.len()).map(of_impact).collect();
+        if let Some((forcing, last)) = &before {
+            // A round may begin with any of its impacts: the one that continues the branches.
+            let apart = |shift: usize| -> f64 {
+                let pairs = last.iter().zip(impacts.iter().cycle().skip(shift));
+                pairs.map(|(a, b)| distance(a[0], b[0]) + (a[1] - b[1]).abs()).sum()
+            };
+            let shift = (0..impacts.len()).min_by(|a, b| apart(*a).total_cmp(&apart(*b))).unwrap_or_default();
+            impacts.rotate_left(shift);
+            for (one, other) in pairs(impacts.len()) {
+                let was = last[other][2] - last[one][2];
+                let is = impacts[other][2] - impacts[one][2];
+                if (was < 0.0) != (is < 0.0) {
+                    crossings.push(forcing + (slice.axial_forcing - forcing) * was / (was - is));
+                }
+            }
+        }
+        before = Some((slice.axial_forcing, impacts));
+    }
+    crossings
+}
+
+/// All pairs of indices.
+fn pairs(count: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..count).flat_map(|other| (0..other).map(move |one| (one, other)))
+}
+
 /// The two impacts of an orbit with the nearest speeds in (d): their distance there, and in the plane of
-/// phase (periods) and
-/// |w_A Γ/(ωA)|.
+/// phase (periods) and |w_A Γ/(ωA)|.
 fn nearest_speeds(slice: &Slice) -> Option<(f64, f64)> {
-    let speeds = &slice.semielliptical;
-    let pairs = (0..speeds.len()).flat_map(|one| (one + 1..speeds.len()).map(move |other| (one, other)));
-    let (one, other) = pairs
-        .min_by(|a, b| (speeds[a.0] - speeds[a.1]).abs().total_cmp(&(speeds[b.0] - speeds[b.1]).abs()))?;
-    let phases = &slice.impact_phase_cycles;
-    let axial = &slice.normalised_impact_speed;
-    let apart = numbers::distance(phases[one], phases[other]).max((axial[one] - axial[other]).abs());
-    Some(((speeds[one] - speeds[other]).abs(), apart))
+    let (phases, speeds) = (&slice.impact_phase_cycles, &slice.normalised_impact_speed);
+    let gap = |(one, other): (usize, usize)| (slice.semielliptical[one] - slice.semielliptical[other]).abs();
+    let nearest = pairs(slice.semielliptical.len()).min_by(|a, b| gap(*a).total_cmp(&gap(*b)))?;
+    let (one, other) = nearest;
+    Some((gap(nearest), distance(phases[one], phases[other]).max((speeds[one] - speeds[other]).abs())))
 }
 
 /// Two of the four branches of (d) cross or touch.
-fn three_branches(data: &Fig06Data, period_four: &[&Slice]) -> [Claim; 2] {
-    let four: Vec<(f64, f64)> = period_four
-        .iter()
-        .filter(|slice| slice.period == Some(4))
-        .filter_map(|slice| nearest_speeds(slice))
-        .collect();
-    let alike: Vec<&(f64, f64)> = four.iter().filter(|(gap, _)| *gap < ONE_BRANCH).collect();
-    let (nearest, _) = extent(alike.iter().map(|(_, apart)| *apart));
-    let crossings: Vec<String> =
-        data.branch_crossings.iter().map(|forcing| format!("{forcing:.4}")).collect();
+fn three_branches(four: &[&Slice], crossings: &[f64]) -> [Claim; 2] {
+    let nearest: Vec<(f64, f64)> = four.iter().filter_map(|slice| nearest_speeds(slice)).collect();
+    let alike: Vec<&(f64, f64)> = nearest.iter().filter(|(gap, _)| *gap < ONE_BRANCH).collect();
+    let (least, _) = extent(alike.iter().map(|(_, apart)| *apart));
     [
         Claim::printed_statement(
             "section4.three_branches",
             // It appears so over most of the region, not at a point.
-            claim::all(Some(alike.len()).filter(|_| !four.is_empty()), |alike| 2 * alike > four.len()),
+            all(Some(alike.len()).filter(|_| !nearest.is_empty()), |alike| 2 * alike > nearest.len()),
             format!(
-                "two of the four speeds lie within {ONE_BRANCH} ωΦ of each other, which is the width of a dot, at {} of {} values of Γ; two branches \
-                 cross at Γ = {}",
+                "two of the four speeds lie within {ONE_BRANCH} ωΦ, a dot's width, at {} of {} values of Γ; branches cross at Γ = {}",
                 alike.len(),
-                four.len(),
-                if crossings.is_empty() { "none".to_owned() } else { crossings.join(", ") },
+                nearest.len(),
+                listed(crossings.iter().map(|forcing| format!("{forcing:.4}"))),
             ),
         ),
         Claim::printed_statement(
             "section4.projection_hides_branch",
-            claim::all(&alike, |(gap, apart)| *apart > ONE_BRANCH && apart > gap),
+            all(&alike, |(gap, apart)| *apart > ONE_BRANCH && apart > gap),
             format!(
-                "where two of the four speeds look alike, their impacts are at least {nearest:.3} apart in τ_imp/2π or |w_A Γ/(ωA)|; next to the doubling, between these values of Γ, \
-                 both branches of a new pair begin in one impact, and are one without any projection"
+                "impacts whose speeds look alike are at least {least:.3} apart in τ_imp/2π or |w_A Γ/(ωA)|"
             ),
         ),
     ]
+}
+
+/// How far the speed after an impact is from that of the platform in the impact, on the mean over consecutive
+/// impacts.
+fn untracked(slice: &Slice, speeds: &[f64], lag: f64) -> Option<f64> {
+    let impacts = speeds.iter().skip(1).zip(&slice.impact_phase_cycles);
+    let misses: Vec<f64> = impacts.map(|(after, phase)| (after - cos(TAU * phase + lag)).abs()).collect();
+    (!misses.is_empty()).then(|| misses.iter().sum::<f64>() / misses.len() as f64)
+}
+
+/// The range of the angular speeds beyond the second doubling, and how closely they follow the platform.
+fn oscillation(diagram: &Diagram, start: f64) -> [Claim; 2] {
+    let beyond = |slices: &[Slice]| -> Vec<Slice> {
+        slices.iter().filter(|slice| slice.axial_forcing > start).cloned().collect()
+    };
+    let followed = beyond(&diagram.followed);
+    let widths: Vec<(f64, f64)> = followed
+        .iter()
+        .chain(&beyond(&diagram.chattering))
+        .map(|slice| (width(&slice.linear), width(&slice.semielliptical)))
+        .collect();
+    let (narrowest, widest) = extent(widths.iter().map(|pair| pair.1));
+    let [linear, semielliptical] = diagram.inputs.twists().map(|twist| twist.phase_lag_rad);
+    let tracked = |slice: &Slice| {
+        Some((
+            untracked(slice, &slice.linear, linear)?,
+            untracked(slice, &slice.semielliptical, semielliptical)?,
+        ))
+    };
+    let misses: Vec<(f64, f64)> = followed.iter().filter_map(tracked).collect();
+    [
+        Claim::printed_statement(
+            "section4.angular_forcing_steadies",
+            all(&widths, |(linear, semielliptical)| linear < semielliptical),
+            format!(
+                "the speeds of one orbit extend over at most {:.3} ωΦ in (c), {narrowest:.3} to {widest:.3} ωΦ in (d)",
+                extent(widths.iter().map(|pair| pair.0)).1
+            ),
+        ),
+        Claim::printed_statement(
+            "section4.small_angular_forcing_tracks",
+            all(&misses, |(large, small)| small < large),
+            format!(
+                "after an impact the disk is off the platform's speed in it by {:.0e} ωΦ at most in (d), {:.4} ωΦ at least in (c), means of each orbit",
+                extent(misses.iter().map(|pair| pair.1)).1,
+                extent(misses.iter().map(|pair| pair.0)).0,
+            ),
+        ),
+    ]
+}
+
+/// By how much the angular speeds of the impacts vary more at the small Γ_T than at the large one.
+#[derive(Serialize)]
+struct ForcingEffect {
+    axial_forcing: f64,
+    /// Difference of the standard deviations, as shares of ωΦ, with the phase lags of (c) and of (d).
+    added_variation: [f64; 2],
+}
+
+/// From the slice drawn and that of the same vertical motion with the angular forcings of (c) and (d) exchanged.
+fn forcing_effect(drawn: &Slice, exchanged: &Slice) -> Option<ForcingEffect> {
+    let variation = |speeds: &[f64]| Spread::of(speeds).ok().map(|spread| spread.deviation);
+    let (large, small) = (&drawn.linear, &drawn.semielliptical);
+    Some(ForcingEffect {
+        axial_forcing: drawn.axial_forcing,
+        added_variation: [
+            variation(&exchanged.linear)? - variation(large)?,
+            variation(small)? - variation(&exchanged.semielliptical)?,
+        ],
+    })
+}
+
+/// From the period-4 bifurcation on: of the followed attractor, and beyond the crisis of the disk from rest.
+fn forcing_effects(
+    diagram: &Diagram,
+    period_four: f64,
+    crisis: f64,
+) -> Result<Vec<ForcingEffect>, ExperimentError> {
+    let (inputs, settings) = (diagram.inputs.exchanged(), diagram.settings);
+    let followed = diagram.on_attractor().iter().zip(&diagram.followed);
+    let followed: Vec<_> = followed
+        .filter(|(at, _)| at.axial_forcing > period_four)
+        .map(|(at, drawn)| (Some(at.state), drawn))
+        .collect();
+    let beyond: Vec<_> = diagram
+        .chattering
+        .iter()
+        .filter(|slice| slice.axial_forcing > crisis)
+        .map(|drawn| (None, drawn))
+        .collect();
+    let cases = [sampled(SAMPLED, &followed), sampled(SAMPLED, &beyond)].concat();
+    let effects = map_in_parallel(&cases, |(state, drawn)| {
+        let exchanged = Slice::of(drawn.axial_forcing, *state, inputs, settings)?;
+        Ok(exchanged.and_then(|exchanged| forcing_effect(drawn, &exchanged)))
+    })?;
+    Ok(effects.into_iter().flatten().collect())
+}
+
+/// How much more the speed varies at the small Γ_T, as Γ grows beyond period 4.
+fn increasingly(effects: &[ForcingEffect]) -> Claim {
+    let pairs =
+        [0, 1].map(|lag| trend(effects.iter().map(|of| (of.axial_forcing, of.added_variation[lag])), 1.0));
+    let percent =
+        |pairs: Cases| pairs.share().map_or("none".to_owned(), |share| format!("{:.1} %", 100.0 * share));
+    let grows = pairs.map(|pairs| Cases::from((pairs.tried > 0).then(|| 2 * pairs.holding > pairs.tried)));
+    Claim::printed_statement(
+        "section4.angular_forcing_matters_more",
+        grows[1],
+        format!(
+            "a small Γ_T spreads the speed more at the higher Γ in {} of pairs with θ of (c), {} with that of (d)",
+            percent(pairs[0]),
+            percent(pairs[1]),
+        ),
+    )
+    .by_definition(&grows.map(|grows| Kind::Trend.verdict(grows)))
 }

@@ -244,7 +244,7 @@ fn only_reduce(study: &Study, persisting: &[(Input<MotorCase>, f64)]) -> Claim {
         "section5.only_reduce",
         persisting.is_empty(),
         format!(
-            "speeds up to {:.3} ωΦ; exponential transients up to {:.2} of μ a_e g/a_g², above it at and next to {}; not counted: {} that ramps fit better",
+            "speeds up to {:.3} ωΦ; torques up to {:.2} μ a_e g/a_g², above it at and next to {}; {} ramps not counted",
             extent(readings().map(|reading| reading.speed_ratio.abs())).1,
             extent(readings().filter(|reading| reading.is_exponential).filter_map(|reading| reading.stall_over_limit)).1,
             if places.is_empty() { "none".to_owned() } else { places.join(", ") },

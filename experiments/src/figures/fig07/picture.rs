@@ -1,4 +1,4 @@
-//! The drawing of Fig. 7.
+//! The picture of Fig. 7.
 
 use bouncing_disk_plot::pictures::{IMPACT_PHASE, IMPACT_SPEED, crosses};
 use bouncing_disk_plot::{
@@ -6,34 +6,37 @@ use bouncing_disk_plot::{
     Raster, Rect, Rule, Scatter, Stroke, Text, Ticks,
 };
 
-use super::data::{CurvePoint, Fig07Data, Panel as Basins, cells};
+use super::basins::Panel as Basins;
+use super::cells::cells;
+use super::windows::{CurvePoint, Windows};
+use super::{WINDOW_TOP, forcing_text};
 
 /// Chattering, attractor, other attractor, undecided.
 const PALETTE: [Colour; 4] = [Colour::WHITE, Colour::BLACK, Colour::rgb(150, 150, 150), Colour::SKY];
 const RED: Colour = Colour::rgb(214, 39, 40);
 const YELLOW: Colour = Colour::rgb(255, 220, 0);
 
-pub(super) fn draw(data: &Fig07Data) -> Figure {
+pub(super) fn draw(panels: &[Basins], side: usize, windows: &Windows) -> Figure {
     const HEIGHT: f64 = 350.0;
     let margins = Margins { left: 42.0, right: 8.0, top: 18.0, bottom: 34.0 };
     let grid = Grid::new(DOUBLE_COLUMN, HEIGHT, 2, 3).margins(margins).gaps(38.0, 50.0);
     let mut figure = Figure::new(DOUBLE_COLUMN, HEIGHT);
-    for (index, (basins, letter)) in data.panels.iter().zip(["a", "b", "c", "d", "e"]).enumerate() {
-        figure = figure.panel(basin_panel(data, basins, letter, grid.cell(index / 3, index % 3)));
+    for (index, (basins, letter)) in panels.iter().zip(["a", "b", "c", "d", "e"]).enumerate() {
+        figure = figure.panel(basin_panel(basins, side, letter, grid.cell(index / 3, index % 3)));
     }
-    figure.panel(curve_panel(data, grid.cell(1, 2)))
+    figure.panel(curve_panel(windows, grid.cell(1, 2)))
 }
 
-fn basin_panel(data: &Fig07Data, basins: &Basins, letter: &str, area: Rect) -> Panel {
-    let window = (0.0, data.window_top);
+fn basin_panel(basins: &Basins, side: usize, letter: &str, area: Rect) -> Panel {
+    let window = (0.0, WINDOW_TOP);
     let rows: Vec<u8> = basins.rows.iter().flat_map(|row| cells(row)).collect();
-    let raster = Raster::new(data.cells, data.cells, rows, &PALETTE, (0.0, 1.0), window);
+    let raster = Raster::new(side, side, rows, &PALETTE, (0.0, 1.0), window);
     let dots = |spots: &[(f64, f64)], colour: Colour, size: f64| {
         Scatter::new(spots.iter().copied()).marker(Marker::Dot).size(size).colour(colour)
     };
     let panel = Panel::new(area)
         .x(Axis::linear(0.0, 1.0).label(IMPACT_PHASE).ticks(Ticks::every(0.2).minor(2)))
-        .y(Axis::linear(0.0, data.window_top).label(IMPACT_SPEED).ticks(Ticks::every(1.0).minor(5)))
+        .y(Axis::linear(0.0, WINDOW_TOP).label(IMPACT_SPEED).ticks(Ticks::every(1.0).minor(5)))
         .title(format!(r"({letter}) $\Gamma = {}$", forcing_text(basins.axial_forcing)))
         .layer(raster)
         .markers_on_top();
@@ -57,14 +60,7 @@ fn basin_panel(data: &Fig07Data, basins: &Basins, letter: &str, area: Rect) -> P
     }
 }
 
-/// At least two decimals.
-pub(super) fn forcing_text(forcing: f64) -> String {
-    let text = forcing.to_string();
-    if text.len() < 4 { format!("{forcing:.2}") } else { text }
-}
-
-fn curve_panel(data: &Fig07Data, area: Rect) -> Panel {
-    let windows = &data.windows;
+fn curve_panel(windows: &Windows, area: Rect) -> Panel {
     let [share_a, share_b] = windows.printed;
     let curve = |of: fn(&CurvePoint) -> f64| {
         Line::new(windows.curve.iter().map(|point| (point.top, 100.0 * of(point)))).width(1.1)
@@ -89,7 +85,7 @@ fn curve_panel(data: &Fig07Data, area: Rect) -> Panel {
         .layer(printed(share_b))
         .layer(written(share_a, (0.98, -5.0, Anchor::Right)))
         .layer(written(share_b, (0.02, 1.6, Anchor::Left)))
-        .layer(Rule::vertical(data.window_top).stroke(Stroke::new(Colour::GREY, 0.5).dashed(Dash::Dotted)))
+        .layer(Rule::vertical(WINDOW_TOP).stroke(Stroke::new(Colour::GREY, 0.5).dashed(Dash::Dotted)))
         .layer(curve(|point| point.a).colour(Colour::VERMILION).name("(a)"))
         .layer(curve(|point| point.b).colour(Colour::BLUE).name("(b) black"))
         .layer(

@@ -1,21 +1,17 @@
-//! The computation of Fig. 12.
+//! A motor whose transient is drawn: its flights, the two fits, what the impulses of a cycle predict, and a short part of its rise.
 
 use std::f64::consts::PI;
 
 use bouncing_disk::core::{ChatterPolicy, Launch, OrbitEvent, Phase, Unobserved};
-use bouncing_disk::estimate::RampFit;
+use bouncing_disk::estimate::{ExponentialFit, RampFit};
 use bouncing_disk::motor::{NormalImpulses, TransientSettings, transient};
 use bouncing_disk::toss::{CollisionEvent, Collisions, LONG_FLIGHT};
-use bouncing_disk::{Engine, InitialCondition, Trajectory};
+use bouncing_disk::{Engine, Event, InitialCondition, Trajectory};
+use serde::Serialize;
 
-use super::data::{Alike, Fig12Data, Fits, Lines, LowPeriod, Prediction, Shown, Zoom};
-use crate::claims::paper;
-use crate::experiment::{ExperimentError, Quality};
-use crate::figures::shared::alike::{DRAWN, PrintedInputs, alike};
-use crate::figures::shared::map_in_parallel;
-use crate::figures::shared::motor::{Cycle, LOW_PERIOD_FLIGHTS, MotorCase};
+use crate::experiment::ExperimentError;
+use crate::figures::shared::motor::{Cycle, LOW_PERIOD_FLIGHTS, MotorCase, RobustCycle};
 use crate::figures::shared::numbers::StraightLine;
-use crate::progress::Progress;
 
 /// Relative distance of the amplitudes that are tried: a fraction of the width of a robust cycle of two
 /// flights.
@@ -23,7 +19,7 @@ const AMPLITUDE_STEP: f64 = 1e-9;
 /// Most amplitudes tried on each side.
 const MOST_STEPS: u32 = 40_000;
 /// Duration drawn, in rise times ωΦ a_g²/(μ a_e g).
-const LONG_RISES: f64 = 6.0;
+pub(super) const LONG_RISES: f64 = 6.0;
 /// Duration drawn of the low-period case, in predicted times to the steady speed.
 const LOW_RISES: f64 = 1.6;
 /// Impulses for the prediction of a long cycle.
@@ -35,123 +31,91 @@ const ZOOM_FLIGHTS: usize = 12;
 const LINE_CYCLES: usize = 10;
 /// The first slope is that of this share of the rise.
 const FIRST_PART: f64 = 0.1;
-/// Seed of the inputs that print alike, and how many are drawn at most to find those of low period.
-pub(super) const SEED: u64 = 12;
-const MOST_DRAWN: usize = 6_000;
 /// The zoom starts at this share of the time to the steady speed; of the long-period case, of the rise time.
 const ZOOM_AT: f64 = 0.5;
 /// The speed has reached its last value when it differs from it by this share.
 const REACHED_WITHIN: f64 = 0.02;
 
-pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig12Data, ExperimentError> {
-    let cases = paper::chattering_cases()?;
-    let motor = MotorCase::table_three()?;
-    let long = MotorCase {
-        amplitude_m: cases.amplitudes_m[0],
-        preload_acceleration_m_per_s2: cases.preload_accelerations_m_per_s2[0],
-        ..motor
-    };
-    let low = MotorCase {
-        amplitude_m: cases.amplitudes_m[1],
-        preload_acceleration_m_per_s2: cases.preload_accelerations_m_per_s2[1],
-        ..motor
-    };
-    progress.start(4, "cases");
-    let near = nearest_low_period(&low)?;
-    progress.advance(1);
-    let long_period = shown(long, long.amplitude_m)?;
-    progress.advance(1);
-    let low_period = shown(near, low.amplitude_m)?;
-    let drawn_lines = lines(&near, near.cycle(ChatterPolicy::Complete)?)?;
-    progress.advance(1);
-    let count = quality.choose(DRAWN / 10, DRAWN);
-    let inputs = PrintedInputs::table_three()?;
-    let of_case = |amplitude, preload| inputs.amplitude(amplitude)?.preload_acceleration(preload);
-    let both = [
-        of_case("section5.amplitude_of_long_period", "section5.preload_acceleration_of_long_period")?,
-        of_case("section5.amplitude_of_low_period", "section5.preload_acceleration_of_low_period")?,
-    ];
-    let drawn = |inputs: PrintedInputs, count: usize| {
-        let motors = alike(&inputs.drawn(count, SEED), LONG_RISES)?;
-        Ok::<_, ExperimentError>(Alike { inputs: inputs.words(), motors })
-    };
-    let [long_like, low_like] = both.map(|inputs| drawn(inputs, count));
-    let around = both[1].rounded_amplitude("section5.amplitude_of_low_period")?;
-    let alike_of_low_period = first_of_low_period(&around, count)?;
-    progress.advance(1);
-    Ok(Fig12Data {
-        cases,
-        long_period,
-        low_period,
-        low_period_flights: LOW_PERIOD_FLIGHTS,
-        alike: [long_like?, low_like?],
-        drawn_lines,
-        alike_of_low_period,
-    })
+/// A motor whose transient is drawn. Nothing perturbs it.
+#[derive(Serialize)]
+pub(super) struct Shown {
+    pub(super) motor: MotorCase,
+    /// Amplitude over the printed one minus 1.
+    pub(super) amplitude_offset: f64,
+    pub(super) axial_forcing: f64,
+    /// Its cycle, if rounding does not choose it.
+    pub(super) robust_cycle: Option<RobustCycle>,
+    pub(super) duration_s: f64,
+    /// Each flight longer than half a period: its start and the speed during it.
+    pub(super) flight_time_s: Vec<f64>,
+    pub(super) flight_speed_rad_per_s: Vec<f64>,
+    /// The same motor averaged over equal intervals, and its fits.
+    pub(super) fits: Fits,
+    /// The prediction from the impulses of one cycle.
+    pub(super) prediction: Prediction,
+    pub(super) zoom: Zoom,
 }
 
-/// The first `count` motors of low period that are drawn.
-fn first_of_low_period(inputs: &PrintedInputs, count: usize) -> Result<LowPeriod, ExperimentError> {
-    let drawn = inputs.drawn(MOST_DRAWN.min(30 * count), SEED);
-    let cycles = map_in_parallel(&drawn, |motor| motor.cycle(ChatterPolicy::Complete))?;
-    let found: Vec<usize> =
-        (0..drawn.len()).filter(|&index| cycles[index].is_low_period()).take(count).collect();
-    let chosen: Vec<MotorCase> = found.iter().map(|&index| drawn[index]).collect();
-    Ok(LowPeriod {
-        drawn: found.last().map_or(drawn.len(), |last| last + 1),
-        lines: map_in_parallel(&found, |&index| lines(&drawn[index], cycles[index]))?,
-        motors: alike(&chosen, LONG_RISES)?,
-    })
+/// The two forms fitted to the same curve.
+#[derive(Serialize)]
+pub(super) struct Fits {
+    pub(super) exponential: ExponentialFit,
+    pub(super) ramp_residual_rad_per_s: f64,
+    /// Mean over the last fifth.
+    pub(super) last_speed_rad_per_s: f64,
+    /// Straight line through the whole of the rise, and its largest distance from the curve.
+    pub(super) slope_rad_per_s2: f64,
+    pub(super) farthest_from_line_rad_per_s: f64,
+    /// Straight line through the first tenth of the rise.
+    pub(super) first_slope_rad_per_s2: f64,
+    /// First time at which the speed is within 2 % of the last one.
+    pub(super) reached_s: Option<f64>,
 }
 
-/// The lines of a low-period cycle, from two rounds of it right after the start.
-fn lines(motor: &MotorCase, cycle: Cycle) -> Result<Lines, ExperimentError> {
-    let flights = cycle.flights().unwrap_or_default();
-    let flown = flown(motor, 3 * flights, f64::INFINITY)?;
-    // The first round begins with a rest that is not of the cycle.
-    let points: Vec<(f64, f64)> =
-        flown.times_s.iter().copied().zip(flown.speeds_rad_per_s.iter().copied()).skip(flights).collect();
-    let (Some(&(began, first)), Some(&(again, second))) = (points.first(), points.get(flights)) else {
-        return Ok(Lines { flights, gap_over_gain: 0.0, gap_over_peak_angular_speed: 0.0 });
-    };
-    let gain = second - first;
-    let mut offsets: Vec<f64> = points[..flights]
-        .iter()
-        .map(|(time, speed)| speed - gain * (time - began) / (again - began))
-        .collect();
-    offsets.sort_by(f64::total_cmp);
-    let gap = offsets.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
-    // A cycle that drives the rotor neither way gains nothing, and its lines lie level.
-    let gap_over_gain = if gain == 0.0 { 0.0 } else { gap / gain.abs() };
-    Ok(Lines {
-        flights,
-        gap_over_gain,
-        gap_over_peak_angular_speed: gap / motor.peak_angular_speed_rad_per_s,
-    })
+/// Straight pieces from the impulses of one cycle.
+#[derive(Serialize)]
+pub(super) struct Prediction {
+    /// μ a_e g/a_g² S(0), S(0) the net share of the normal impulse that pushes a slow rotor forwards.
+    pub(super) slope_rad_per_s2: f64,
+    pub(super) steady_speed_rad_per_s: f64,
+    /// When the pieces reach it.
+    pub(super) reached_s: f64,
+    pub(super) time_s: Vec<f64>,
+    pub(super) speed_rad_per_s: Vec<f64>,
 }
 
-/// Flights longer than half a period: their starts and the speed during each.
-struct Flown {
-    times_s: Vec<f64>,
-    speeds_rad_per_s: Vec<f64>,
+/// A short part of the rise. Of the low-period case the flights of many cycles, which form its lines.
+#[derive(Serialize)]
+pub(super) struct Zoom {
+    pub(super) time_s: Vec<f64>,
+    pub(super) speed_rad_per_s: Vec<f64>,
+    pub(super) height_m: Vec<f64>,
+    /// Flights of many cycles: their starts and speeds.
+    pub(super) flight_time_s: Vec<f64>,
+    pub(super) flight_speed_rad_per_s: Vec<f64>,
 }
 
-/// The flights of the motor from rest, at most so many and for so long.
-fn flown(motor: &MotorCase, flights: usize, duration_s: f64) -> Result<Flown, ExperimentError> {
+/// The flights of the motor from rest that are longer than half a period, at most so many and for so long: their starts (s) and the
+/// speed (rad/s) during each.
+pub(super) fn flown(
+    motor: &MotorCase,
+    flights: usize,
+    duration_s: f64,
+) -> Result<(Vec<f64>, Vec<f64>), ExperimentError> {
     let system = motor.system()?;
     let scales = system.scales();
     let mut collisions = Collisions::new(system, start()?, ChatterPolicy::Complete)?;
-    let mut flown = Flown { times_s: Vec::new(), speeds_rad_per_s: Vec::new() };
+    let (mut times, mut speeds) = (Vec::new(), Vec::new());
     let mut last = None;
-    while flown.times_s.len() < flights
+    while times.len() < flights
         && let Some(event) = collisions.advance()?
     {
         let time = match event {
             CollisionEvent::Collision(collision) => {
                 let long = |from| collision.time.since(&from).radians() > LONG_FLIGHT;
                 if let Some(from) = last.filter(|from| long(*from)) {
-                    flown.times_s.push(scales.time_seconds(from));
-                    flown.speeds_rad_per_s.push(scales.angular_speed * collision.angular_speed);
+                    times.push(scales.time_seconds(from));
+                    speeds.push(scales.angular_speed * collision.angular_speed);
                 }
                 collision.time
             }
@@ -163,12 +127,7 @@ fn flown(motor: &MotorCase, flights: usize, duration_s: f64) -> Result<Flown, Ex
             break;
         }
     }
-    Ok(flown)
-}
-
-/// The motor at the amplitude `step` relative steps from that of `case`.
-fn beside(case: &MotorCase, step: f64) -> MotorCase {
-    MotorCase { amplitude_m: case.amplitude_m * (1.0 + AMPLITUDE_STEP * step), ..*case }
+    Ok((times, speeds))
 }
 
 /// Whether the rotor, thrown from rest, is at rest again after two flights or a few.
@@ -193,10 +152,11 @@ fn is_short(motor: &MotorCase) -> Result<bool, ExperimentError> {
 
 /// The motor at the amplitude nearest to that of `case` whose unperturbed motion is a robust low-period cycle
 /// of more than one flight.
-fn nearest_low_period(case: &MotorCase) -> Result<MotorCase, ExperimentError> {
+pub(super) fn nearest_low_period(case: &MotorCase) -> Result<MotorCase, ExperimentError> {
     for step in 0..MOST_STEPS {
         for sign in [1.0, -1.0] {
-            let near = beside(case, sign * f64::from(step));
+            let amplitude_m = case.amplitude_m * (1.0 + AMPLITUDE_STEP * (sign * f64::from(step)));
+            let near = MotorCase { amplitude_m, ..*case };
             if is_short(&near)? && near.robust_cycle()?.is_some() {
                 return Ok(near);
             }
@@ -210,15 +170,14 @@ fn start() -> Result<InitialCondition, ExperimentError> {
     Ok(InitialCondition::Contact { phase: Phase::new(1.5 * PI)?, angular_speed: 0.0 })
 }
 
-fn shown(motor: MotorCase, printed_amplitude: f64) -> Result<Shown, ExperimentError> {
+pub(super) fn shown(motor: MotorCase, printed_amplitude: f64) -> Result<Shown, ExperimentError> {
     let system = motor.system()?;
     let cycle = motor.cycle(ChatterPolicy::Complete)?;
     let low = cycle.is_low_period();
     let prediction = predict(&motor, low)?;
     let duration_s = if low { LOW_RISES * prediction.reached_s } else { LONG_RISES * motor.rise_time_s() };
 
-    let Flown { times_s: flight_time_s, speeds_rad_per_s: flight_speed_rad_per_s } =
-        flown(&motor, usize::MAX, duration_s)?;
+    let (flight_time_s, flight_speed_rad_per_s) = flown(&motor, usize::MAX, duration_s)?;
     Ok(Shown {
         amplitude_offset: motor.amplitude_m / printed_amplitude - 1.0,
         axial_forcing: system.axial_forcing(),
@@ -305,7 +264,7 @@ fn zoom(
     let mut started = false;
     while let Some(record) = engine.advance()? {
         started = scales.time_seconds(record.time) >= from_s;
-        if started && record.event == bouncing_disk::Event::Separation {
+        if started && record.event == Event::Separation {
             break;
         }
     }
@@ -314,9 +273,9 @@ fn zoom(
     let flights = low.map_or(ZOOM_FLIGHTS, |flights| 3 * flights);
     let mut seen = 0;
     let record = Trajectory::record(&mut engine, |record| {
-        let flight = matches!(record.event, bouncing_disk::Event::Impact { .. });
+        let flight = matches!(record.event, Event::Impact { .. });
         seen += usize::from(flight && record.span.radians() > PI);
-        seen >= flights && (low.is_none() || record.event == bouncing_disk::Event::Separation)
+        seen >= flights && (low.is_none() || record.event == Event::Separation)
     })?;
     let first = flown.0.partition_point(|time| *time < from_s);
     let many = LINE_CYCLES * cycle.flights().filter(|_| cycle.is_low_period()).unwrap_or_default();
@@ -343,6 +302,7 @@ fn zoom(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::claims::paper;
 
     /// Of what is drawn in (d) to (f) no change of the inputs by some units in the last place alters
     /// anything; of the printed amplitude it does.

@@ -1,26 +1,23 @@
-//! The drawing of Fig. 12.
+//! The picture of Fig. 12.
 
 use bouncing_disk_plot::{
     Anchor, Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Legend, Line, Margins, Marker,
     Panel, Rect, Scatter, Text, Ticks,
 };
 
-use super::data::{Fig12Data, Shown};
-use crate::figures::shared::numbers::exponent;
+use super::shown::Shown;
+use crate::figures::shared::numbers::{exponent, extent};
 
-pub(super) fn draw(data: &Fig12Data) -> Figure {
+pub(super) fn draw(shown: [&Shown; 2], amplitudes_m: [f64; 2]) -> Figure {
     const HEIGHT: f64 = 430.0;
     let margins = Margins { left: 44.0, right: 12.0, top: 20.0, bottom: 34.0 };
     let grid = Grid::new(DOUBLE_COLUMN, HEIGHT, 3, 2)
         .margins(margins)
         .gaps(52.0, 36.0)
         .row_weights(&[1.5, 1.0, 1.0]);
-    let columns = [
-        (&data.long_period, "long-period chattering", data.cases.amplitudes_m[0]),
-        (&data.low_period, "low-period chattering", data.cases.amplitudes_m[1]),
-    ];
+    let titles = ["long-period chattering", "low-period chattering"];
     let mut figure = Figure::new(DOUBLE_COLUMN, HEIGHT);
-    for (column, (shown, title, printed)) in columns.into_iter().enumerate() {
+    for (column, ((shown, title), printed)) in shown.into_iter().zip(titles).zip(amplitudes_m).enumerate() {
         let letters = [["a", "b", "c"], ["d", "e", "f"]][column];
         let top = whole(grid.cell(0, column), shown, printed, column == 1);
         let cell = grid.cell(1, column);
@@ -100,8 +97,7 @@ fn speed_axis(slowest: f64, fastest: f64) -> Axis {
 fn speeds(area: Rect, shown: &Shown) -> Panel {
     let zoom = &shown.zoom;
     let points = zoom.time_s.iter().copied().zip(zoom.speed_rad_per_s.iter().copied());
-    let slowest = zoom.speed_rad_per_s.iter().copied().fold(f64::INFINITY, f64::min);
-    let fastest = zoom.speed_rad_per_s.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let (slowest, fastest) = extent(zoom.speed_rad_per_s.iter().copied());
     zoomed(area, shown).y(speed_axis(slowest, fastest)).layer(Line::new(points).width(0.8))
 }
 
@@ -111,18 +107,21 @@ fn lines(area: Rect, shown: &Shown) -> Panel {
     let points: Vec<(f64, f64)> =
         zoom.flight_time_s.iter().copied().zip(zoom.flight_speed_rad_per_s.iter().copied()).collect();
     let flights = shown.robust_cycle.and_then(|robust| robust.cycle().flights()).unwrap_or(1).max(1);
-    let extent = |of: fn(&(f64, f64)) -> f64| {
-        let values = points.iter().map(of);
-        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
-    };
-    let ((first, last), (slowest, fastest)) = (extent(|point| point.0), extent(|point| point.1));
+    let (first, last) = extent(zoom.flight_time_s.iter().copied());
+    let (slowest, fastest) = extent(zoom.flight_speed_rad_per_s.iter().copied());
     let margin = 0.03 * (last - first);
+    // With room for the names at the ends of the lines.
+    let fastest = fastest + 0.08 * (fastest - slowest);
     let mut panel = Panel::new(area)
-        .x(Axis::linear(first - margin, last + margin).label(r"$t$ (s)"))
+        .x(Axis::linear(first - margin, last + 6.5 * margin).label(r"$t$ (s)"))
         .y(speed_axis(slowest, fastest));
     for flight in 0..flights {
         let of_flight: Vec<(f64, f64)> = points.iter().copied().skip(flight).step_by(flights).collect();
         let colour = [Colour::BLUE, Colour::VERMILION, Colour::GREEN, Colour::BLACK][flight % 4];
+        if let Some((_, speed)) = of_flight.last() {
+            let name = Text::at_data(last + margin, *speed, format!("flight {}", flight + 1));
+            panel = panel.layer(name.anchor(Anchor::LeftCentre).size(7.5).colour(colour));
+        }
         panel = panel
             .layer(Line::new(of_flight.clone()).colour(colour).width(0.5))
             .layer(Scatter::new(of_flight).marker(Marker::Dot).size(3.0).colour(colour));
