@@ -133,7 +133,8 @@ impl Claim {
         if !cases.is_close() {
             return self;
         }
-        self.note(format!("{} is within two standard errors of a bound", cases.words()))
+        let Cases { holding, tried } = cases;
+        self.note(format!("{holding} of {tried} is within two standard errors of a bound"))
     }
 
     /// The second verdict on a statement about a motor: that of single orbits.
@@ -157,9 +158,9 @@ impl Claim {
             [false, false] => Verdict::Differs,
         };
         let words = if self.verdict == Verdict::NotComputable {
-            "the paper does not define what decides: the definitions tried differ"
+            "undefined in the paper, and definitions tried differ"
         } else {
-            "the paper does not define what decides: the kindest definition counts"
+            "undefined in the paper, so that the kindest definition counts"
         };
         self.note(words)
     }
@@ -367,7 +368,7 @@ mod tests {
         assert_eq!(claim(200).by_definition(&[Verdict::Reproduced; 4]).verdict, Verdict::Reproduced);
         let undecided = claim(200).by_definition(&[Verdict::Reproduced, Verdict::Differs]);
         assert_eq!(undecided.verdict, Verdict::NotComputable);
-        assert!(!undecided.lacks_data() && undecided.note.contains("does not define"));
+        assert!(!undecided.lacks_data() && undecided.note.contains("undefined"));
         let never = claim(100).by_definition(&[Verdict::Differs]);
         assert_eq!(never.verdict, Verdict::DependsOnUnprintedDigits);
     }

@@ -86,7 +86,7 @@ pub(crate) fn fig12(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
             "section5.linear_rise",
             of_low_period(|motor| !motor.is_exponential()),
             format!(
-                "a linear rise to a constant fits better than the exponential; {} orbits of low period of {} drawn. In (d) the rise is {:.2} rad/s off one line at most",
+                "a linear rise to a constant fits better than the exponential; {} low-period orbits of {} drawn. In (d) the rise is {:.2} rad/s off one line at most",
                 found.motors.len(),
                 found.drawn,
                 low.fits.farthest_from_line_rad_per_s,

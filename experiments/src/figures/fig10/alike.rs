@@ -114,10 +114,7 @@ pub(super) fn long_period(alike: &Alike) -> Claim {
     Claim::printed_statement(
         "section5.long_period_chattering",
         by_draw(LOW_PERIOD_FLIGHTS),
-        format!(
-            "low period: at most {LOW_PERIOD_FLIGHTS} flights; for other numbers {}",
-            by_definition_words(others),
-        ),
+        format!("low: at most {LOW_PERIOD_FLIGHTS} flights; {}", by_definition_words(others),),
     )
     .by_definition(&others.map(Cases::sampled))
 }
@@ -163,7 +160,7 @@ pub(super) fn long_period_oscillates(alike: &Alike) -> Claim {
         "section5.oscillation_from_long_period",
         by_draw(LOW_PERIOD_FLIGHTS),
         format!(
-            "at every A of long period the speed must vary more than in the middle motor of low period; for other numbers of flights {}",
+            "at every A of long period the speed varies more than in the middle motor of low period; {}",
             by_definition_words(others),
         ),
     )

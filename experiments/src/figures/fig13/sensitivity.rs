@@ -196,7 +196,7 @@ fn most_sensitive(study: &Study, key: &str, change: Change, named: [Input<MotorC
         key,
         are_largest,
         format!(
-            "changes over our ranges: {}; over the printed range of ε {}",
+            "changes: {}; over the printed range of ε {}",
             words.collect::<Vec<_>>().join(", "),
             by_restitution(&over_printed_range(study, &study.mean), change),
         ),
