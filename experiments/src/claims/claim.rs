@@ -9,6 +9,7 @@
 //! inputs, from what was fitted, from what is true by construction, and from what this work adds.
 
 use std::borrow::Cow;
+use std::cmp::Ordering;
 use std::panic::Location;
 
 use serde::{Deserialize, Serialize};
@@ -163,6 +164,24 @@ impl Claim {
             "undefined in the paper, so that the kindest definition counts"
         };
         self.note(words)
+    }
+
+    /// [`Self::by_definition`] of shares: where the kindest definition counts, the claim shows its share.
+    pub fn by_shares(self, by_definition: &[Cases]) -> Self {
+        let (own, is_decided) = (self.share, matches!(self.computed, Computed::Text(_)));
+        let verdicts: Vec<Verdict> = by_definition.iter().map(|cases| cases.sampled()).collect();
+        let claim = self.by_definition(&verdicts);
+        let kindest = by_definition.iter().copied().filter(|cases| cases.share() > own);
+        let kindest =
+            kindest.max_by(|one, other| one.share().partial_cmp(&other.share()).unwrap_or(Ordering::Equal));
+        match kindest {
+            Some(cases) if is_decided && claim.verdict != Verdict::NotComputable => {
+                let Cases { holding, tried } = cases;
+                let computed = Computed::Text(format!("holds for {holding} of {tried} orbits"));
+                Self { computed, share: cases.share(), ..claim }
+            }
+            _ => claim,
+        }
     }
 
     /// A place that is read off a drawn curve: `lower` is by how much the curve there is lower than its
@@ -369,6 +388,10 @@ mod tests {
         let undecided = claim(200).by_definition(&[Verdict::Reproduced, Verdict::Differs]);
         assert_eq!(undecided.verdict, Verdict::NotComputable);
         assert!(!undecided.lacks_data() && undecided.note.contains("undefined"));
+        let few = Claim::printed_statement("section5.low_period_case", Cases { holding: 0, tried: 200 }, "");
+        let kindest = few.by_shares(&[Cases { holding: 112, tried: 200 }, Cases { holding: 12, tried: 200 }]);
+        assert_eq!((kindest.share, kindest.verdict), (Some(0.56), Verdict::DependsOnUnprintedDigits));
+        assert_eq!(kindest.computed, Computed::Text("holds for 112 of 200 orbits".to_owned()));
         let never = claim(100).by_definition(&[Verdict::Differs]);
         assert_eq!(never.verdict, Verdict::DependsOnUnprintedDigits);
     }

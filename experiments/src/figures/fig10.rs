@@ -96,7 +96,7 @@ pub(crate) fn fig10(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
     fig.claim(
         Claim::printed("section1.tsujino_axial_forcing", tsujino)
             .note(format!(
-                "A ω²/g without the factor π is {:.1}, which rounds to the printed value",
+                "A ω²/g, without the factor 1/π, is {:.1}: the printed 70 if that has one digit",
                 PI * tsujino
             ))
             .cause("the π of Γ left out"),

@@ -220,7 +220,7 @@ fn case(orbits: &[Alike; 2], case: usize, key: &str) -> Claim {
         cases(LOW_PERIOD_FLIGHTS),
         format!("low: at most {LOW_PERIOD_FLIGHTS} flights; {}", by_definition_words(others)),
     )
-    .by_definition(&others.map(Cases::sampled))
+    .by_shares(&others)
 }
 
 /// The verdicts on the orbits of a case that are of low period, or not, under the other definitions.

@@ -199,6 +199,18 @@ pub(super) fn equation_16(fig: &mut Paper<'_>, diagram: &Diagram) -> Result<(), 
     }
     // The first and the last of the orbits: which of the two motions is the faster.
     let ends = ones.first().zip(ones.last());
+    let lag = catalogue::number("section4.semielliptical_phase_lag", 0)?;
+    let [least, most] = [1.0, -1.0].map(|sign| cos(lag.value.abs() + sign * lag.half_unit));
+    fig.claim(Claim::printed_statement(
+        "section4.speed_at_doubling",
+        ends.map(|(_, last)| (least..=most).contains(&last.linear_mean)),
+        ends.map_or_else(String::new, |(_, last)| {
+            format!(
+                "{:.4} ωΦ; the cosine is {least:.4} to {most:.4} for what rounds to 0.26π",
+                last.linear_mean
+            )
+        }),
+    ));
     fig.claim(Claim::printed_statement(
         "section4.best_motion_varies",
         ends.map(|(first, last)| {

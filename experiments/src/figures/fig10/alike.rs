@@ -116,7 +116,7 @@ pub(super) fn long_period(alike: &Alike) -> Claim {
         by_draw(LOW_PERIOD_FLIGHTS),
         format!("low: at most {LOW_PERIOD_FLIGHTS} flights; {}", by_definition_words(others),),
     )
-    .by_definition(&others.map(Cases::sampled))
+    .by_shares(&others)
 }
 
 /// Chaos that a rest ends.
@@ -164,5 +164,5 @@ pub(super) fn long_period_oscillates(alike: &Alike) -> Claim {
             by_definition_words(others),
         ),
     )
-    .by_definition(&others.map(Cases::sampled))
+    .by_shares(&others)
 }
