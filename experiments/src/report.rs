@@ -318,6 +318,15 @@ mod tests {
     }
 
     #[test]
+    fn verdicts_are_said_in_words() {
+        let row =
+            |computed: f64| Row::of(&Claim::printed("section4.doubling_2", computed).cause("a misprint"));
+        assert_eq!([row(0.5307), row(0.6)].map(|row| row.words), ["reproduced", "differs (a misprint)"]);
+        let ours = |holds| Row::of(&Claim::statement("fig06", "", "ours", holds, "")).words;
+        assert_eq!([Some(true), Some(false), None].map(ours), ["agrees", "does not agree", "no data"]);
+    }
+
+    #[test]
     fn symbols_are_set_and_names_of_code_are_not() {
         for (text, html) in [
             ("φ_L = 0.2 & a_e<1", "φ<sub>L</sub> = 0.2 &amp; a<sub>e</sub>&lt;1"),

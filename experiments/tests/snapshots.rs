@@ -69,11 +69,26 @@ fn product(entry: &Experiment) -> Map<String, Value> {
             assert!(note <= LONGEST_NOTE, "{}: a note of {note} characters: {}", entry.id, claim.evidence());
         }
         // The catalogue has the rest of each.
-        let reviewed = ["key", "quantity", "verdict", "computed", "cause", "share", "single_orbits", "note"];
+        let reviewed = [
+            "key",
+            "quantity",
+            "verdict",
+            "printed",
+            "unit",
+            "computed",
+            "cause",
+            "share",
+            "single_orbits",
+            "note",
+        ];
         let claims = claims.iter().map(|claim| {
             let mut claim = json!(claim).as_object().cloned().unwrap_or_default();
             let has_key = claim.contains_key("key");
-            claim.retain(|name, _| reviewed.contains(&name.as_str()) && !(has_key && name == "quantity"));
+            claim.retain(|name, value| {
+                reviewed.contains(&name.as_str())
+                    && !(has_key && name == "quantity")
+                    && !["", "true"].contains(&value.as_str().unwrap_or("-"))
+            });
             claim
         });
         let computed = claims.filter(|claim| !claim["computed"].is_null());
