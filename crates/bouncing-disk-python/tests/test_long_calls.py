@@ -104,8 +104,8 @@ def run(program: str, timeout: float = 60.0) -> str:
 @pytest.mark.parametrize("kind", ENDLESS)
 def test_ctrl_c_ends_a_call_soon(kind: str) -> None:
     program = INTERRUPTED.replace("TESTS", repr(str(Path(__file__).parent)))
-    # It takes 0.05 to 0.2 s on an idle machine. On a busy one a second still tells a call that looks for an interrupt from
-    # one that goes on for minutes.
+    # It takes 0.05 to 0.2 s on an idle machine. On a busy one a limit of a second still
+    # fails for a call that ignores the interrupt: it goes on for minutes.
     assert float(run(program.replace("CALL", ENDLESS[kind]))) < 1.0
 
 

@@ -1,4 +1,4 @@
-//! Values along a line as a cubic, with what it does not explain.
+//! A least-squares cubic through values along a line, and their scatter about it.
 
 /// A least-squares cubic through values.
 ///

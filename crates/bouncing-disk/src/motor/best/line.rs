@@ -41,7 +41,7 @@ pub(super) struct Line {
     /// Between which values the optimum lies.
     pub(super) top: [f64; 2],
     pub(super) good: Option<[f64; 2]>,
-    /// How much more a place beside the best one may bring.
+    /// By how much a neighbouring place may be better.
     pub(super) beside: f64,
 }
 

@@ -32,7 +32,7 @@ const CROWD: f64 = 32.0;
 /// Impacts that any place may have.
 const LEAST_IMPACTS: f64 = 1e5;
 
-/// A speed below this share of the stator's is none.
+/// A speed below this share of the stator's largest speed is rounding.
 const ROUNDING: f64 = 1e-6;
 
 impl Search<'_> {
@@ -208,7 +208,7 @@ impl Search<'_> {
                 _ => Error::NotPositive { quantity: self.sought.objective.name(), value: found.value.value },
             });
         };
-        // A speed that friction does not give is that of rounding.
+        // Without friction only rounding turns the rotor.
         let fastest = self.motor.system().platform().peak_angular_speed();
         let is_rounding =
             self.sought.objective == SweepQuantity::Speed && found.value.value <= ROUNDING * fastest;
