@@ -54,6 +54,16 @@ fn attractors() {
 }
 
 #[test]
+fn verdicts_and_exponents() {
+    assert_none(&results::verdicts_and_exponents());
+}
+
+#[test]
+fn periodic_orbits() {
+    assert_none(&results::periodic_orbits());
+}
+
+#[test]
 fn drops() {
     assert_none(&results::drops());
 }

@@ -49,6 +49,8 @@ fn flights_orbits_and_basins_are_the_golden_ones() {
         golden::branches(),
         golden::cascade(),
         golden::attractors(),
+        golden::verdicts_and_exponents(),
+        golden::periodic_orbits(),
         golden::drops(),
     ];
     assert_eq!(differences.concat(), Vec::<String>::new());

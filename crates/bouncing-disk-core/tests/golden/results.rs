@@ -9,12 +9,14 @@
 use std::f64::consts::TAU;
 
 use bouncing_disk_core::attractors::{
-    AttractorKind, AttractorSearch, Axis, BasinSettings, Grid, KnownOrbit, Label,
+    AttractorKind, AttractorSearch, Axis, BasinSettings, Grid, KnownOrbit, Label, VerdictSettings, verdicts,
 };
+use bouncing_disk_core::chaos::lyapunov_spectra;
 use bouncing_disk_core::numerics::double_double::DoubleDouble;
 use bouncing_disk_core::numerics::elementary;
 use bouncing_disk_core::orbits::{
-    BifurcationKind, Branch, BranchPoint, Continuation, ContinuationParameter, doubling_cascade,
+    BifurcationKind, Branch, BranchPoint, Continuation, ContinuationParameter, OrbitSearch, PeriodicOrbit,
+    Stability, doubling_cascade,
 };
 use bouncing_disk_core::sweep::{InstructionSet, OrbitBatch};
 use bouncing_disk_core::{
@@ -426,6 +428,70 @@ pub(crate) fn attractors() -> Vec<String> {
         }
     }
     one("attractors", digest, 0xfff1_90fb_f476_b4e4)
+}
+
+/// Verdicts and both exponents over the forcing.
+pub(crate) fn verdicts_and_exponents() -> Vec<String> {
+    let starts: Vec<_> = (0..400)
+        .map(|k| {
+            let vibration = Vibration::from_axial_forcing(0.25 + 1e-3 * k as f64).expect("legal");
+            let map = ImpactMap::new(vibration, [RESTITUTION, 0.0, 0.8][k as usize % 3]).expect("legal");
+            (map, ImpactState::from_normalised(TAU * first(k), 2.0 * second(k)).expect("legal"))
+        })
+        .collect();
+    let settings = VerdictSettings { transient: 200, impacts: 2_000, ..VerdictSettings::default() };
+    let mut digest = Digest::new();
+    for verdict in verdicts(&starts, settings, &Unobserved).expect("no failure") {
+        digest.bytes(format!("{verdict:?}").as_bytes());
+    }
+    let mut lines = one("verdicts", digest, 0xdf86_442f_9db6_a6b7);
+    let mut digest = Digest::new();
+    for outcome in lyapunov_spectra(&starts, 200, 1_000, &Unobserved).expect("no failure") {
+        digest.bytes(format!("{outcome:?}").as_bytes());
+    }
+    lines.extend(one("Lyapunov spectra", digest, 0x9e66_2940_2077_4384));
+    lines
+}
+
+fn add_orbit(digest: &mut Digest, orbit: &PeriodicOrbit) {
+    orbit.states.iter().for_each(|state| add_state(digest, *state));
+    let errors = [orbit.position_error, orbit.trace_error];
+    errors.into_iter().chain(orbit.monodromy.to_cols_array()).for_each(|number| digest.number(number));
+}
+
+/// Periodic orbits and basins of the sine, of other drives, and of contacts that take time.
+pub(crate) fn periodic_orbits() -> Vec<String> {
+    let search = OrbitSearch::new(3, 3).expect("legal");
+    let mut digest = Digest::new();
+    for forcing in [0.45, 0.486, 0.55] {
+        let vibration = Vibration::from_axial_forcing(forcing).expect("legal");
+        let map = ImpactMap::new(vibration, RESTITUTION).expect("legal");
+        let found = map.periodic_orbits(&search, &Unobserved).expect("no failure");
+        found.orbits.iter().for_each(|orbit| add_orbit(&mut digest, orbit));
+    }
+    let mut lines = one("periodic orbits", digest, 0x2389_edf0_9c63_2317);
+    let drives = [
+        Drive::fourier(&[(1.4, 0.0), (0.2, 1.0), (0.1, 0.5)]),
+        Drive::triangle(2.0),
+        Drive::parabolas(1.5),
+        Drive::cubics(1.5),
+    ];
+    let maps = drives.map(|drive| DrivenMap::new(drive.expect("legal"), RESTITUTION).expect("legal"));
+    let soft = maps[0].clone().with_contact_time(0.3).expect("legal");
+    let (mut orbits, mut labels) = (Digest::new(), Digest::new());
+    let axis = |high| Axis::new(0.0, high, 40).expect("legal");
+    let grid = Grid::new(axis(1.0), axis(2.0)).expect("legal");
+    let settings = BasinSettings { max_impacts: 300, policy: ChatterPolicy::Complete };
+    for map in maps.iter().chain([&soft]) {
+        let found = map.periodic_orbits(&search, &Unobserved).expect("no failure");
+        found.iter().for_each(|orbit| add_orbit(&mut orbits, orbit));
+        let known = found.into_iter().filter(|orbit| orbit.stability() == Stability::Stable);
+        let known: Vec<_> = known.map(|orbit| KnownOrbit::new(orbit, 1.0e-3).expect("legal")).collect();
+        labels.bytes(map.basins(grid, &known, settings, &Unobserved).expect("no failure").labels());
+    }
+    lines.extend(one("periodic orbits on drives", orbits, 0x4455_9a97_4f62_b38d));
+    lines.extend(one("basins on drives", labels, 0xb37e_5db1_4cd5_b151));
+    lines
 }
 
 /// Disks that start in the air, near and far, rising and falling.
