@@ -37,7 +37,7 @@ fn diagrams(fig: &mut Paper<'_>, inputs: Inputs) -> Result<(), ExperimentError> 
     let values = quality.choose(200, 2_000);
     let settings = MultiTossSettings {
         policy: PAPER_CHATTER,
-        transient_impacts: quality.choose(1_000, 3_000),
+        transient_impacts: 1_000,
         examined_impacts: quality.choose(100, 300),
         longest_period: quality.choose(50, 128),
         tolerance: 1.0e-7,
@@ -72,7 +72,7 @@ fn diagrams(fig: &mut Paper<'_>, inputs: Inputs) -> Result<(), ExperimentError> 
     let (merging, (single_tosses, bouncing, enlarged)) = (merging?, others?);
     fig.progress.advance(1);
     fig.record("zoom", &enlarged)?;
-    let crisis = merging.as_ref().map(|of| of.axial_forcing());
+    let crisis = merging.as_ref().map(|of| of.axial_forcing);
 
     doublings::claims(fig, doublings)?;
     doublings::period_one(fig, diagram, doublings)?;

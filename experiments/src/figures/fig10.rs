@@ -13,8 +13,8 @@ use serde::Serialize;
 
 use self::alike::Alike;
 use self::panels::{MEMBER_INTERVALS, Reading, Transient};
-use super::shared::alike::{AlikeMotor, DRAWN, INTERVALS, PrintedInputs};
-use super::shared::motor::{MotorCase, MotorStatistics};
+use super::shared::alike::{AlikeMotor, DRAWN, PrintedInputs};
+use super::shared::motor::{INTERVALS, MotorCase, MotorStatistics};
 use crate::claims::paper::{self, STANDARD_GRAVITY};
 use crate::claims::{Cases, Claim, all, catalogue};
 use crate::experiment::{ExperimentError, Paper};
@@ -41,7 +41,7 @@ pub(crate) fn fig10(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
     let section = paper::section_five()?;
     let case = MotorCase::table_three()?;
     let amplitudes = section.amplitudes_of_fig10_m;
-    let members = fig.quality.choose(4, 32);
+    let members = fig.quality.choose(4, 16);
     let defaults = TransientSettings::default();
     fig.chattering(ChatterPolicy::Complete);
     fig.seed("motors that print alike", SEED);

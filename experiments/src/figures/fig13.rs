@@ -42,8 +42,8 @@ pub(crate) fn fig13(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
     fig.seed("motors that print alike", single_orbits::SEED);
     fig.seed("ensembles", TransientSettings::default().seed);
     let quality = fig.quality;
-    let members = quality.choose(3, 12);
-    let impacts = quality.choose(4_000, 40_000);
+    let members = quality.choose(3, 8);
+    let impacts = quality.choose(4_000, 20_000);
     let perturbation = TransientSettings::default().relaunch_perturbation;
     let motor = MotorCase::table_three()?;
 

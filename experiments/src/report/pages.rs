@@ -34,7 +34,7 @@ pub const LARGEST_VECTOR: usize = 700_000;
 /// Widths of a picture (pixels), from the best on: the first counts whose file is small enough.
 const PICTURE_WIDTHS: [u16; 4] = [1100, 950, 800, 650];
 
-/// The template of the errata. The numbers that it writes out are printed in the paper: a test reads all of them. A number of ours is one of the data of a figure, `{{ fig06.merging.survived|number(".7") }}`, or
+/// The template of the errata. The numbers that it writes out are printed in the paper: a test reads all of them. A number of ours is one of the data of a figure, `{{ fig06.merging.axial_forcing|number(".7") }}`, or
 /// that of the claim that answers an entry of the catalogue, `{{ claims["section4.merging"]|number(".4") }}`:
 /// the computed number, or the share of the inputs that print alike for which it holds.
 const ERRATA: &str = include_str!("errata.md");

@@ -3,58 +3,43 @@
 
 use std::collections::BTreeSet;
 
-use bouncing_disk::core::numerics::roots::bracket_of_width;
-use bouncing_disk::core::orbits::follow_attractor;
+use bouncing_disk::core::chaos::CrisisSearch;
 use bouncing_disk::core::sweep::{orbit_diagram, survival_times};
 use bouncing_disk::core::{ChatterPolicy, ImpactState, Launch, Orbit, Unobserved};
 use bouncing_disk::motion::PAPER_CHATTER;
 use serde::Serialize;
 
-use super::diagram::{Diagram, Slice};
-use super::no_orbit;
+use super::diagram::{Diagram, Slice, sampled};
+use super::{SAMPLED, no_orbit};
 use crate::claims::{Claim, all, paper};
 use crate::experiment::{ExperimentError, Paper, Quality};
 use crate::figures::shared::map;
 use crate::figures::shared::numbers::{extent, occupied_arc};
 
-/// The bisection runs from so far below to so far above the Γ that the paper prints, or about which the diagram loses the attractor.
+/// The search runs from so far below to so far above the Γ that the paper prints, or about which the diagram loses the attractor.
 const SEARCHED: (f64, f64) = (0.0055, 0.0060);
-/// Orbits tried.
-const STARTS: usize = 8;
-/// Width at which the bisection ends.
-const BRACKET: f64 = 1.0e-7;
-/// Values of Γ, a ten-thousandth apart, at which mean lives are taken.
+/// Orbits that the search follows at each Γ.
+const FOLLOWED: u32 = 64;
+/// Values of Γ, a ten-thousandth apart, at which mean lives are taken: of so many orbits, of so many impacts at most.
 const LIVES: u32 = 16;
+/// See [`LIVES`].
+const LIVE_ORBITS: usize = 8;
+/// See [`LIVES`].
+const LONGEST_LIFE: usize = 40_000;
 
 #[derive(Serialize)]
 pub(super) struct Merging {
-    /// Impacts that an orbit has to survive without attaching.
-    impacts: usize,
-    starts: usize,
-    /// Largest Γ of the bisection at which all survived, smallest at which one was lost.
-    survived: f64,
-    lost: f64,
-    /// The same two with a tenth of the impacts.
-    survived_in_a_tenth: f64,
-    lost_in_a_tenth: f64,
-    /// Γ, and the mean number of impacts before the disk attaches (at most `impacts` / 10).
+    /// Γ of the crisis.
+    pub(super) axial_forcing: f64,
+    /// At the first of these orbits on the attractor survive; at the second one comes to rest.
+    bracket: (f64, f64),
+    /// Impacts of the saddle that the attractor touches, if it is known.
+    touched_impacts: Option<usize>,
+    /// Γ, and the mean number of impacts before the disk attaches (at most [`LONGEST_LIFE`]).
     mean_life_impacts: Vec<(f64, f64)>,
     /// A state on the attractor a little below the crisis.
     #[serde(skip)]
     start: ImpactState,
-}
-
-impl Merging {
-    /// Γ of the crisis.
-    pub(super) fn axial_forcing(&self) -> f64 {
-        0.5 * (self.survived + self.lost)
-    }
-
-    /// How far it may be off: the last bracket and what ten times as many impacts change.
-    fn uncertainty(&self) -> f64 {
-        let in_a_tenth = 0.5 * (self.survived_in_a_tenth + self.lost_in_a_tenth);
-        0.5 * (self.lost - self.survived) + (self.axial_forcing() - in_a_tenth).abs()
-    }
 }
 
 /// Rounded to so many decimals: ends of searches that do not depend on the grid of the diagram.
@@ -63,68 +48,40 @@ pub(super) fn rounded(value: f64, decimals: u32) -> f64 {
     (value * unit).round() / unit
 }
 
-/// States on the followed attractor at this Γ.
-fn starts(diagram: &Diagram, axial_forcing: f64) -> Result<Vec<ImpactState>, ExperimentError> {
-    let (from, restitution) = (diagram.inputs.followed_from, diagram.inputs.restitution);
-    let Some(mut state) = diagram.first else { return Ok(Vec::new()) };
-    let forcings = (0..).map(|i| from + 1.0e-4 * f64::from(i)).take_while(|f| *f < axial_forcing);
-    for followed in follow_attractor(restitution, forcings, state, 300, ChatterPolicy::Complete) {
-        state = followed?.state;
-    }
-    let map = map(axial_forcing, restitution)?;
-    let mut states = Vec::new();
-    while states.len() < STARTS {
-        match map.state_after(state, 1_000, ChatterPolicy::Complete, &Unobserved)? {
-            Some(next) => states.push(next),
-            None => break,
-        }
-        state = states[states.len() - 1];
-    }
-    Ok(states)
-}
-
-/// Locates the crisis of the followed attractor by the survival of its orbits; `None` if it is not lost where the diagram ends it.
+/// Locates the crisis of the followed attractor; `None` if it is not lost where the diagram ends it.
 pub(super) fn merging(diagram: &Diagram, quality: Quality) -> Result<Option<Merging>, ExperimentError> {
-    let impacts = quality.choose(40_000, 400_000);
     let restitution = diagram.inputs.restitution;
     let Some(last) = diagram.followed.last() else { return Ok(None) };
     let printed = paper::section_four()?.merging;
     let about = if (last.axial_forcing - printed).abs() < SEARCHED.0 { printed } else { last.axial_forcing };
-    let (safe, gone) = (rounded(about - SEARCHED.0, 4), rounded(about + SEARCHED.1, 4));
-    let starts = starts(diagram, safe)?;
-    let Some(&start) = starts.first() else { return Ok(None) };
-    let lives = |forcings: &[f64], impacts: usize| -> Result<Vec<usize>, ExperimentError> {
-        let mut orbits = Vec::new();
-        for &forcing in forcings {
-            let map = map(forcing, restitution)?;
-            orbits.extend(starts.iter().map(|&start| map.orbit(start, ChatterPolicy::Complete)));
-        }
-        survival_times(&orbits, impacts, &Unobserved).map_err(ExperimentError::model)
-    };
-    // The few orbits are advanced one by one: the next Γ is known only when they are done.
-    let bracket = |impacts: usize| {
-        bracket_of_width(safe, gone, BRACKET, |forcing| {
-            Ok::<_, ExperimentError>(lives(&[forcing], impacts)?.into_iter().all(|lived| lived == impacts))
-        })
-    };
-    let (whole, tenth) = rayon::join(|| bracket(impacts), || bracket(impacts / 10));
-    let ((survived, lost), (survived_in_a_tenth, lost_in_a_tenth)) = (whole?, tenth?);
-    if survived <= safe || lost >= gone {
-        return Ok(None);
-    }
-    let from = (1e3 * lost).floor() / 1e3;
+    let range = (rounded(about - SEARCHED.0, 4), rounded(about + SEARCHED.1, 4));
+    let search = CrisisSearch::new(restitution, range)?;
+    let search = search.with_samples(FOLLOWED, quality.choose(100_000, 400_000))?;
+    let Ok(crisis) = search.crisis(None, &Unobserved)? else { return Ok(None) };
+
+    let below = map(crisis.bracket.0, restitution)?;
+    let from = (1e3 * crisis.bracket.1).floor() / 1e3;
     let forcings: Vec<f64> = (0..LIVES).map(|index| from + 0.0001 * f64::from(index)).collect();
-    let lives = lives(&forcings, impacts / 10)?;
-    let mean = |lives: &[usize]| lives.iter().sum::<usize>() as f64 / lives.len() as f64;
+    let (mut state, mut orbits) = (Some(crisis.attractor), Vec::new());
+    while orbits.len() < LIVE_ORBITS * forcings.len()
+        && let Some(start) = state
+    {
+        for &forcing in &forcings {
+            orbits.push(map(forcing, restitution)?.orbit(start, ChatterPolicy::Complete));
+        }
+        state = below.state_after(start, 1_000, ChatterPolicy::Complete, &Unobserved)?;
+    }
+    let lives = survival_times(&orbits, LONGEST_LIFE, &Unobserved)?;
+    let mean_life_impacts = forcings.iter().enumerate().map(|(index, &forcing)| {
+        let own = lives.iter().skip(index).step_by(forcings.len());
+        (forcing, own.clone().sum::<usize>() as f64 / own.count() as f64)
+    });
     Ok(Some(Merging {
-        impacts,
-        starts: starts.len(),
-        survived,
-        lost,
-        survived_in_a_tenth,
-        lost_in_a_tenth,
-        mean_life_impacts: forcings.into_iter().zip(lives.chunks(starts.len()).map(mean)).collect(),
-        start,
+        axial_forcing: crisis.forcing,
+        bracket: crisis.bracket,
+        touched_impacts: crisis.tangency.ok().map(|tangency| tangency.touched.period()),
+        mean_life_impacts: mean_life_impacts.collect(),
+        start: crisis.attractor,
     }))
 }
 
@@ -220,18 +177,21 @@ pub(super) fn crisis(
     fig.claim(merging.map_or_else(
         || Claim::printed("section4.merging", f64::NAN),
         |of| {
-            Claim::printed("section4.merging", of.axial_forcing()).note(format!(
-                "{} orbits survive {} impacts; uncertainty {:.0e}, and only upwards, by the time that an orbit needs to find a gap",
-                of.starts,
-                of.impacts,
-                of.uncertainty(),
+            let touched = of.touched_impacts.map_or_else(String::new, |impacts| {
+                format!("the attractor touches a saddle of {impacts} impacts; ")
+            });
+            let away = |forcing: f64| (forcing - of.axial_forcing).abs();
+            Claim::printed("section4.merging", of.axial_forcing).note(format!(
+                "{touched}none of {FOLLOWED} orbits on it rests {:.0e} below, one rests {:.0e} above",
+                away(of.bracket.0),
+                away(of.bracket.1),
             ))
         },
     ));
     let mut shadows = Vec::new();
     let mut widths = None;
     if let Some(merging) = merging {
-        let (crisis, restitution) = (merging.axial_forcing(), diagram.inputs.restitution);
+        let (crisis, restitution) = (merging.axial_forcing, diagram.inputs.restitution);
         let orbit = |forcing: f64, start: ImpactState| -> Result<Orbit, ExperimentError> {
             Ok(map(forcing, restitution)?.orbit(start, PAPER_CHATTER))
         };
@@ -242,8 +202,8 @@ pub(super) fn crisis(
         let chattering = from_rest(beside[0], restitution, VISITING)?;
         let [before, after] = [0, 1].map(|side| Visited::of(beside[side], &visited[side]));
         let rows = (CELLS * after.largest_speed) as usize + 1;
-        for slice in diagram.chattering.iter().filter(|slice| slice.axial_forcing > crisis) {
-            let axial_forcing = slice.axial_forcing;
+        let beyond: Vec<f64> = diagram.resting().into_iter().filter(|forcing| *forcing > crisis).collect();
+        for axial_forcing in sampled(SAMPLED, &beyond) {
             let starts = visited[0].iter().take(SADDLE_STARTS);
             let orbits: Vec<Orbit> =
                 starts.map(|state| orbit(axial_forcing, *state)).collect::<Result<_, _>>()?;
@@ -280,7 +240,7 @@ struct Explored {
     before_with_chattering: Visited,
     /// The orbit that starts on that attractor, just after the crisis.
     after: Visited,
-    /// Beyond the crisis, at each Γ at which a disk from rest comes to rest again.
+    /// Beyond the crisis, at some Γ at which a disk from rest comes to rest again.
     shadows: Vec<Shadow>,
 }
 
@@ -314,18 +274,17 @@ fn chaotic<'a>(diagram: &'a Diagram, doublings: &[f64]) -> Vec<&'a Slice> {
 
 /// The orbits beyond the merging follow the chaotic saddle that the attractor has become, each at its own Γ.
 fn shadow(shadows: &[Shadow]) -> Claim {
-    let follows = |of: &&Shadow| of.share_near > of.share_of_plane;
+    let over_plane = extent(shadows.iter().map(|of| of.share_near / of.share_of_plane));
     let mean = |of: fn(&Shadow) -> f64| shadows.iter().map(of).sum::<f64>() / shadows.len().max(1) as f64;
     Claim::printed_statement(
         "section4.orbits_shadow_attractor",
-        all(shadows, |of| follows(&of)),
+        all(shadows, |of| of.share_near > of.share_of_plane),
         format!(
-            "next to the saddle lie {:.3} of the impacts from rest and {:.3} of the plane, on the mean of {} Γ; at {} of them, of short cycles, not more than of the plane",
+            "next to the saddle lie {:.3} of the impacts from rest and {:.3} of the plane, on the mean of {} Γ; {:.1} times as many or more at each",
             mean(|of| of.share_near),
             mean(|of| of.share_of_plane),
             shadows.len(),
-            shadows.iter().filter(|of| !follows(of)).count(),
+            over_plane.0,
         ),
     )
-    .cause("short cycles beyond the merging")
 }

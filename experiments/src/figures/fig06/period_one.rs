@@ -218,7 +218,7 @@ pub(super) fn equation_16(fig: &mut Paper<'_>, diagram: &Diagram) -> Result<(), 
         }),
         ends.map_or_else(String::new, |(first, last)| {
             format!(
-                "θ of (c) gives {:.3} ωΦ and θ of (d) {:.3} ωΦ at Γ = {:.3}, {:.3} and {:.3} ωΦ at Γ = {:.3}",
+                "θ of (c) gives {:.3} ωΦ and θ of (d) {:.3} ωΦ at Γ = {:.4}, {:.3} and {:.3} ωΦ at Γ = {:.4}",
                 first.linear_mean,
                 first.semielliptical_mean,
                 first.axial_forcing,
@@ -240,8 +240,7 @@ pub(super) fn equation_16(fig: &mut Paper<'_>, diagram: &Diagram) -> Result<(), 
         format!("{at_birth:.3} ωΦ at Γ = 1/3 by Eq. (16), against ωΦ with θ = 0"),
     ));
     // The effect of half a unit of the last digit of the printed lag on the speed.
-    let printed = catalogue::number("section4.semielliptical_phase_lag", 0)?;
-    let least = cos(printed.half_unit);
+    let least = cos(lag.half_unit);
     let last = ones.last();
     let reached = last.map(|one| one.semielliptical_mean);
     fig.claim(Claim::printed_statement(

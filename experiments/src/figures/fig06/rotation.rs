@@ -228,7 +228,7 @@ fn oscillation(diagram: &Diagram, start: f64) -> [Claim; 2] {
         .chain(&beyond(&diagram.chattering))
         .map(|slice| (width(&slice.linear), width(&slice.semielliptical)))
         .collect();
-    let (narrowest, widest) = extent(widths.iter().map(|pair| pair.1));
+    let (least, most) = extent(widths.iter().map(|(linear, semielliptical)| semielliptical / linear));
     let [linear, semielliptical] = diagram.inputs.twists().map(|twist| twist.phase_lag_rad);
     let tracked = |slice: &Slice| {
         Some((
@@ -242,8 +242,8 @@ fn oscillation(diagram: &Diagram, start: f64) -> [Claim; 2] {
             "section4.angular_forcing_steadies",
             all(&widths, |(linear, semielliptical)| linear < semielliptical),
             format!(
-                "the speeds of one orbit extend over at most {:.3} ωΦ in (c), {narrowest:.3} to {widest:.3} ωΦ in (d)",
-                extent(widths.iter().map(|pair| pair.0)).1
+                "the speeds of one orbit extend over {least:.1} to {most:.0} times as much in (d) as in (c), at {} orbits",
+                widths.len(),
             ),
         ),
         Claim::printed_statement(

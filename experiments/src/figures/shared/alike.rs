@@ -13,14 +13,11 @@ use bouncing_disk::estimate::{ExponentialFit, RampFit, Spread};
 use bouncing_disk::motor::{SpeedCurve, TransientMember, TransientSettings, transients};
 use serde::Serialize;
 
-use super::motor::{Cycle, LARGEST_CONSTANT, LARGEST_RESIDUAL, MotorCase};
+use super::motor::{Cycle, INTERVALS, LARGEST_CONSTANT, LARGEST_RESIDUAL, MotorCase};
 use super::numbers::{Noise, StraightLine, middle_range};
 use crate::claims::Cases;
 use crate::claims::catalogue::{self, CatalogueError};
 use crate::experiment::ExperimentError;
-
-/// Intervals over which the speed of a transient is averaged.
-pub(crate) const INTERVALS: usize = 120;
 
 /// One motor of those that print alike. Nothing perturbs it, as nothing did in the paper's program: which of
 /// them it is, is chance enough.

@@ -36,6 +36,9 @@ pub(crate) fn by_definition_words(cases: [Cases; 4]) -> String {
     words.collect::<Vec<_>>().join(", ")
 }
 
+/// Intervals over which the speed of a transient is averaged.
+pub(crate) const INTERVALS: usize = 120;
+
 /// The inputs of Sec. V A, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub(crate) struct MotorCase {
@@ -188,7 +191,7 @@ pub(crate) fn statistics(
 ) -> Result<Vec<MotorStatistics>, ExperimentError> {
     let settings = |motor: &MotorCase| TransientSettings {
         duration: rises * motor.rise_time_s(),
-        intervals: 240,
+        intervals: INTERVALS,
         relaunch_perturbation,
         ..TransientSettings::default()
     };
