@@ -33,7 +33,6 @@ pub use basin::entropy::BasinEntropy;
 pub use basin::{
     ATTACHED, Axis, BasinSettings, Basins, FIRST_ORBIT, Grid, KnownOrbit, Label, MAX_CELLS, UNDECIDED,
 };
-pub use driven::driven_diagram;
 pub use search::cells::VisitedCells;
 pub use search::over_forcing::{
     AttractorsAt, BasinFractions, FollowedAttractor, MAX_FORCINGS, basin_fractions_over,

@@ -15,7 +15,7 @@ use bouncing_disk_core::orbits::{
 };
 use bouncing_disk_core::sweep::{MAX_RECORDED, orbit_diagram};
 use bouncing_disk_core::{
-    ChatterCut, ChatterPolicy, Error, ImpactMap, ImpactState, Launch, Phase, Unobserved, Vibration,
+    ChatterCut, ChatterPolicy, Error, ImpactMap, ImpactState, Launch, Orbit, Phase, Unobserved, Vibration,
 };
 
 type Table = Vec<(&'static str, Vec<Option<Error>>)>;
@@ -195,6 +195,6 @@ fn of_chaos_and_laws() {
         let count = 20_u64.saturating_mul(recorded as u64);
         assert_eq!(error, Error::TooLarge { what: "recorded impacts", count, limit: MAX_RECORDED });
     }
-    assert_eq!(orbit_diagram(&[], 0, usize::MAX, &Unobserved), Ok(Vec::new()));
-    assert_eq!(lyapunov_spectra(&[], 0, 16, &Unobserved), Ok(Vec::new()));
+    assert_eq!(orbit_diagram::<Orbit>(&[], 0, usize::MAX, &Unobserved), Ok(Vec::new()));
+    assert_eq!(lyapunov_spectra::<ImpactMap>(&[], 0, 16, &Unobserved), Ok(Vec::new()));
 }

@@ -5,7 +5,7 @@
 use std::fmt::{self, Display, Formatter};
 
 use bouncing_disk::Error;
-use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Orbit, Vibration};
+use bouncing_disk::core::{ImpactMap, ImpactState, Vibration};
 use bouncing_disk::estimate::FitError;
 use numpy::{PyArrayDyn, PyArrayMethods, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::PyClass;
@@ -576,15 +576,5 @@ impl Starts {
         let vibration = Vibration::from_axial_forcing(self.axial_forcing[index])?;
         let map = ImpactMap::new(vibration, self.restitution[index])?;
         Ok((map, first_impact(self.impact_phase.get(index), self.normalised_speed.get(index))?))
-    }
-
-    /// The maps with the first impacts.
-    pub(crate) fn states(&self) -> Result<Vec<(ImpactMap, ImpactState)>, Error> {
-        (0..self.axial_forcing.len()).map(|index| self.state(index)).collect()
-    }
-
-    /// The orbits.
-    pub(crate) fn orbits(&self, policy: ChatterPolicy) -> Result<Vec<Orbit>, Error> {
-        Ok(self.states()?.into_iter().map(|(map, state)| map.orbit(state, policy)).collect())
     }
 }

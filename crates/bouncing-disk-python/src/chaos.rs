@@ -2,7 +2,7 @@
 
 use bouncing_disk::Error;
 use bouncing_disk::core::{
-    attractors::{CycleTrust, UndecidedReason, Verdict, VerdictSettings, driven_diagram, each_verdict},
+    attractors::{CycleTrust, UndecidedReason, Verdict, VerdictSettings, each_verdict},
     chaos::{
         Crisis as CrisisModel, CrisisSearch, LifeAfterRest, LyapunovOutcome, Manifold, ManifoldBranch,
         ManifoldEnd, ManifoldKind, ManifoldSettings, NoCrisis, PieceEnd, Side,
@@ -43,6 +43,25 @@ impl Rows {
     }
 }
 
+/// A call with the map and the first impact of an index: on the sine, or on another platform (`Arguments::shape`).
+macro_rules! on_any_platform {
+    ($starts:expr, $shape:expr, |$start:ident| $call:expr) => {
+        match $shape {
+            None => {
+                let $start = |index: usize| $starts.state(index);
+                $call
+            }
+            Some((shape, contact)) => {
+                let $start = |index: usize| {
+                    let (map, state) = $starts.state(index)?;
+                    Ok::<_, Error>((shape.map(&map, *contact)?, state))
+                };
+                $call
+            }
+        }
+    };
+}
+
 /// The impacts of many orbits after their transients.
 #[pyfunction]
 pub(crate) fn orbit_diagram(a: Arguments<'_>) -> Made<'_> {
@@ -50,19 +69,11 @@ pub(crate) fn orbit_diagram(a: Arguments<'_>) -> Made<'_> {
     let (transient, recorded) = (a.usize("transient")?, a.usize("recorded")?);
     let shape = a.shape()?;
     let rows = a.run(|observer| {
-        let columns = match &shape {
-            None => bouncing_disk::core::sweep::orbit_diagram(
-                &starts.orbits(policy)?,
-                transient,
-                recorded,
-                observer,
-            )?,
-            Some((shape, contact)) => {
-                let orbit = |(map, state)| Ok::<_, Error>(shape.map(&map, *contact)?.orbit(state, policy));
-                let orbits = starts.states()?.into_iter().map(orbit).collect::<Result<Vec<_>, _>>()?;
-                driven_diagram(&orbits, transient, recorded, observer)?
-            }
-        };
+        let columns = on_any_platform!(starts, &shape, |start| {
+            let orbit = |index| start(index).map(|(map, state)| map.orbit(state, policy));
+            let orbits = (0..starts.axial_forcing.len()).map(orbit).collect::<Result<Vec<_>, _>>()?;
+            bouncing_disk::core::sweep::orbit_diagram(&orbits, transient, recorded, observer)?
+        });
         Rows::of(columns.iter().map(Vec::as_slice))
     })?;
     make!(
@@ -80,8 +91,12 @@ pub(crate) fn orbit_diagram(a: Arguments<'_>) -> Made<'_> {
 #[pyfunction]
 pub(crate) fn lyapunov_exponents(a: Arguments<'_>) -> PyResult<Bound<'_, PyArray1<f64>>> {
     let (starts, transient, impacts) = (Starts::of(&a)?, a.usize("transient")?, a.usize("impacts")?);
+    let shape = a.shape()?;
     let exponents = a.run(|observer| {
-        Ok(bouncing_disk::core::chaos::lyapunov_exponents(&starts.states()?, transient, impacts, observer)?)
+        on_any_platform!(starts, &shape, |start| {
+            let all = (0..starts.axial_forcing.len()).map(start).collect::<Result<Vec<_>, _>>()?;
+            Ok(bouncing_disk::core::chaos::lyapunov_exponents(&all, transient, impacts, observer)?)
+        })
     })?;
     Ok(column(a.py(), &exponents, |exponent| exponent.unwrap_or(f64::NAN)))
 }
@@ -107,9 +122,12 @@ fn exponents(outcome: &LyapunovOutcome) -> Exponents {
 #[pyfunction]
 pub(crate) fn lyapunov_spectra(a: Arguments<'_>) -> Made<'_> {
     let (starts, transient, impacts) = (Starts::of(&a)?, a.u64("transient")?, a.u64("impacts")?);
+    let shape = a.shape()?;
     let all = a.run(|observer| {
-        let outcomes =
-            bouncing_disk::core::chaos::lyapunov_spectra(&starts.states()?, transient, impacts, observer)?;
+        let outcomes = on_any_platform!(starts, &shape, |start| {
+            let all = (0..starts.axial_forcing.len()).map(start).collect::<Result<Vec<_>, _>>()?;
+            bouncing_disk::core::chaos::lyapunov_spectra(&all, transient, impacts, observer)?
+        });
         let mut all = room_for(outcomes.len())?;
         all.extend(outcomes.iter().map(exponents));
         Ok(all)
@@ -230,7 +248,7 @@ fn evidence(verdict: &Verdict) -> Evidence {
 /// The long-term motion of the orbit of each start.
 #[pyfunction]
 pub(crate) fn verdicts(a: Arguments<'_>) -> Made<'_> {
-    let (starts, py) = (Starts::of(&a)?, a.py());
+    let (starts, shape, py) = (Starts::of(&a)?, a.shape()?, a.py());
     let settings = VerdictSettings {
         transient: a.u64("transient")?,
         impacts: a.u64("impacts")?,
@@ -240,10 +258,13 @@ pub(crate) fn verdicts(a: Arguments<'_>) -> Made<'_> {
     let all = a.run(|observer| {
         let count = starts.axial_forcing.len();
         let mut all = room_for(count)?;
-        // A start that is not legal is refused before any is followed.
-        (0..count).try_for_each(|index| starts.state(index).map(|_| ()))?;
-        let start = |index: usize| starts.state(index).map(Some);
-        each_verdict(count, start, settings, observer, |verdict| all.extend(verdict.as_ref().map(evidence)))?;
+        on_any_platform!(starts, &shape, |start| {
+            // A start that is not legal is refused before any is followed.
+            (0..count).try_for_each(|index| start(index).map(|_| ()))?;
+            let start = |index: usize| start(index).map(Some);
+            let each = |verdict: Option<Verdict>| all.extend(verdict.as_ref().map(evidence));
+            each_verdict(count, start, settings, observer, each)?;
+        });
         Ok(all)
     })?;
     let multipliers = all.iter().flat_map(|one| one.multipliers).collect();

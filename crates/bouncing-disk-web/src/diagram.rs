@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk::core::attractors::driven_diagram;
+use bouncing_disk::core::map::BouncingOrbit;
 use bouncing_disk::core::sweep::orbit_diagram;
-use bouncing_disk::core::{ChatterPolicy, Error as CoreError, ImpactState, Observer, Unobserved};
+use bouncing_disk::core::{ChatterPolicy, ImpactState, Unobserved};
 use bouncing_disk::parameters::DimensionlessSystem;
 use bouncing_disk::toss::{CollisionEvent, CollisionState, Collisions};
 use bouncing_disk::{InitialCondition, System};
@@ -62,10 +62,10 @@ pub(crate) fn answer(request: &DiagramRequest) -> Result<Reply, Refusal> {
         columns.collect::<Result<Vec<_>, _>>()?
     } else if drive.sine().is_ok() && contact.is_none() {
         let orbits = maps().map(|map| Ok(map?.orbit(start, policy)));
-        vertical(orbits.collect::<Result<_, Refusal>>()?, orbit_diagram, request)?
+        vertical(orbits.collect::<Result<_, Refusal>>()?, request)?
     } else {
         let orbits = maps().map(|map| Ok(drive.map(&map?, contact)?.orbit(start, policy)));
-        vertical(orbits.collect::<Result<_, Refusal>>()?, driven_diagram, request)?
+        vertical(orbits.collect::<Result<_, Refusal>>()?, request)?
     };
     let mut numbers = Vec::with_capacity(4 * request.recorded * columns.len());
     for (forcing, column) in forcings.iter().zip(&columns) {
@@ -81,17 +81,13 @@ pub(crate) fn answer(request: &DiagramRequest) -> Result<Reply, Refusal> {
     Reply::new(&json, numbers, Vec::new())
 }
 
-/// The impacts of orbits, of which so many are left out and so many recorded.
-type Recorded<Orbit> = fn(&[Orbit], usize, usize, &dyn Observer) -> Result<Vec<Vec<ImpactState>>, CoreError>;
-
 /// Columns of the vertical motion; those that have not settled are followed again, for longer.
-fn vertical<Orbit: Clone>(
+fn vertical<Orbit: BouncingOrbit>(
     orbits: Vec<Orbit>,
-    diagram: Recorded<Orbit>,
     request: &DiagramRequest,
 ) -> Result<Vec<Column>, Refusal> {
     let followed = |orbits: &[Orbit], left_out: usize| {
-        let columns = diagram(orbits, left_out, request.recorded, &Unobserved)?;
+        let columns = orbit_diagram(orbits, left_out, request.recorded, &Unobserved)?;
         let columns = columns.into_iter().map(|states| {
             let speeds: Vec<f64> = states.iter().map(ImpactState::normalised_speed).collect();
             let impacts = states.into_iter().map(|state| (state, f64::NAN)).collect();

@@ -1,7 +1,6 @@
 //! `bouncing-disk diagram`: where the disk lands, as the platform shakes harder.
 
 use bouncing_disk::Observer;
-use bouncing_disk::core::attractors::driven_diagram;
 use bouncing_disk::core::numerics::statistics::extent;
 use bouncing_disk::core::{
     ChatterPolicy, DrivenOrbit, ImpactState, Orbit,
@@ -14,8 +13,8 @@ use bouncing_disk_plot::pictures::{OrbitDiagram, OrbitsFrom};
 use serde::{Deserialize, Serialize};
 
 use super::map::{
-    ContactArgs, MapArgs, STARTS, Start, VERTICAL, and_shape, driven_map, is_rigid_sine, is_sine, map, shape,
-    single,
+    ContactArgs, MapArgs, NO_PERIOD_ONE, STARTS, Start, VERTICAL, and_shape, driven_map, is_rigid_sine,
+    is_sine, map, shape, single,
 };
 use super::prelude::*;
 
@@ -81,9 +80,6 @@ pub(super) fn run(args: &DiagramArgs, context: Context) -> Result<()> {
     };
     grid::run(job, &args.map.system.inputs(), &args.grid, &args.output, context)
 }
-
-const NO_PERIOD_ONE: &str =
-    "--start period-1: its closed form is that of rigid impacts on the sine; give rest, rise or PHASE,SPEED";
 
 /// Phases nearer than this count as one (periods).
 const SAME_PHASE: f64 = 1e-6;
@@ -235,7 +231,7 @@ impl GridJob for DiagramJob {
         let found = if is_rigid_sine(&self.drive, self.contact_periods) {
             orbit_diagram(&orbits, transient, recorded, observer)?
         } else {
-            driven_diagram(&driven, transient, recorded, observer)?
+            orbit_diagram(&driven, transient, recorded, observer)?
         };
         let mut columns = vec![vec![None; self.starts.len()]; rows.len()];
         for ((row, start), impacts) in places.into_iter().zip(found) {

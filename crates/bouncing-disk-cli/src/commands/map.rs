@@ -96,6 +96,9 @@ pub(super) fn and_shape(shape: &Waveform, contact_periods: Option<f64>) -> Strin
     shape + &contact_periods.map_or_else(String::new, |periods| format!(", contact time {periods} periods"))
 }
 
+pub(super) const NO_PERIOD_ONE: &str =
+    "--start period-1: its closed form is that of rigid impacts on the sine; give rest, rise or PHASE,SPEED";
+
 /// How far beside the period-1 orbit a start lies, relative to its speed: where the orbit is unstable, the
 /// disk leaves it at once.
 const BESIDE: f64 = 1.01;
@@ -189,7 +192,7 @@ impl From<Start> for String {
 
 #[cfg(test)]
 mod tests {
-    use bouncing_disk::core::{ChatterPolicy, DrivenEvent};
+    use bouncing_disk::core::{ChatterPolicy, OrbitEvent};
 
     use super::*;
 
@@ -215,7 +218,7 @@ mod tests {
             let state = state.unwrap().unwrap();
             let at = driven.drive().at(state.phase().angle());
             let next = driven.orbit(state, ChatterPolicy::Complete).find_map(|event| match event.unwrap() {
-                DrivenEvent::Impact(landing) => Some(landing.impact.velocity),
+                OrbitEvent::Impact(landing) => Some(landing.velocity),
                 _ => None,
             });
             [at.height, at.velocity, state.velocity(), next.unwrap()]

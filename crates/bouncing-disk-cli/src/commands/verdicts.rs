@@ -6,9 +6,13 @@ use bouncing_disk::core::{
     ChatterPolicy,
     attractors::{MAX_CELLS, Verdict, VerdictSettings, each_verdict},
 };
+use bouncing_disk::parameters::Waveform;
 use serde::{Deserialize, Serialize};
 
-use super::map::{MapArgs, STARTS, Start, VERTICAL, map};
+use super::map::{
+    ContactArgs, MapArgs, NO_PERIOD_ONE, STARTS, Start, VERTICAL, driven_map, is_rigid_sine, is_sine, map,
+    shape,
+};
 use super::prelude::*;
 
 const FORCINGS: &str = "0.30:0.62:33";
@@ -30,6 +34,7 @@ docs/studying-the-dynamics.md.
 
 Examples:
   bouncing-disk verdicts --axial-forcing 0.3:0.6:7
+  bouncing-disk verdicts -G 0.3:1:15 --contact-periods 0.1
   bouncing-disk verdicts -G 0:3:300 -r 0:0.95:200 --impacts 20000 --out map.png
   bouncing-disk verdicts -G 0:3:4000 -r 0:0.95:4000 --chunk 17/500 --out part-17.json")]
 pub(crate) struct VerdictsArgs {
@@ -39,6 +44,8 @@ pub(crate) struct VerdictsArgs {
     axial_forcing: Option<Range>,
     #[command(flatten)]
     map: MapArgs,
+    #[command(flatten)]
+    contact: ContactArgs,
     #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "START", default_value_t = Start::Rise, help = format!("How each orbit starts: {STARTS}"))]
     start: Start,
     /// Impacts before the exponent is measured
@@ -65,7 +72,11 @@ pub(crate) struct VerdictsArgs {
 
 pub(super) fn run(args: &VerdictsArgs, context: Context) -> Result<()> {
     let given = args.map.system.unless_template(&args.output, context)?;
-    let Some(system) = given.map(DrivenDisk::sine).transpose()? else { return Ok(()) };
+    let Some((system, drive)) = given.map(DrivenDisk::rigid).transpose()? else { return Ok(()) };
+    let (drive, contact_periods) = (shape(&system, &drive)?, args.contact.contact_periods);
+    if args.start == Start::PeriodOne && !is_rigid_sine(&drive, contact_periods) {
+        return Err(Failure::Usage(NO_PERIOD_ONE.to_owned()));
+    }
     let otherwise = FORCINGS.parse().map_err(Failure::Usage)?;
     let (axial_forcings, restitutions) = args.map.values(&system, args.axial_forcing, otherwise);
     let job = VerdictsJob {
@@ -79,11 +90,13 @@ pub(super) fn run(args: &VerdictsArgs, context: Context) -> Result<()> {
             tolerance: args.tolerance,
         },
         details: args.details || restitutions.count() == 1,
+        drive,
+        contact_periods,
     };
     grid::run(job, &args.map.system.inputs(), &args.grid, &args.output, context)
 }
 
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct VerdictsJob {
     axial_forcings: Range,
@@ -92,6 +105,12 @@ pub(crate) struct VerdictsJob {
     settings: VerdictSettings,
     /// Whether the evidence is kept, or the kinds alone.
     details: bool,
+    /// The shape of the height.
+    #[serde(default, skip_serializing_if = "is_sine")]
+    drive: Waveform,
+    /// How long an impact lasts (periods).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    contact_periods: Option<f64>,
 }
 
 impl GridJob for VerdictsJob {
@@ -111,6 +130,7 @@ impl GridJob for VerdictsJob {
         let ((low, high), (least, largest)) = (self.axial_forcings.ends(), self.restitutions.ends());
         for (forcing, restitution) in [(low, least), (high, largest)] {
             map(forcing, restitution)?;
+            driven_map(&self.drive, self.contact_periods, forcing, restitution)?;
         }
         let cells = (self.rows() as u64).saturating_mul(self.columns() as u64);
         if self.details {
@@ -122,11 +142,7 @@ impl GridJob for VerdictsJob {
 
     fn compute(&self, (): &(), rows: Rows, observer: &dyn Observer) -> Result<Vec<Self::Row>> {
         let columns = self.columns();
-        let start = |index: usize| {
-            let (forcing, restitution) = self.cell(rows.start + index / columns, index % columns);
-            let map = map(forcing, restitution)?;
-            Ok::<_, Failure>(self.start.of(&map, 0.0)?.map(|state| (map, state)))
-        };
+        let cell = |index: usize| self.cell(rows.start + index / columns, index % columns);
         let (mut all, mut seen) = (Vec::new(), 0_usize);
         let each = |cell: Option<Verdict>| {
             if seen.is_multiple_of(columns) {
@@ -139,7 +155,23 @@ impl GridJob for VerdictsJob {
                 None => {}
             }
         };
-        each_verdict(rows.len() * columns, start, self.settings, observer, each)?;
+        let count = rows.len() * columns;
+        if is_rigid_sine(&self.drive, self.contact_periods) {
+            let start = |index: usize| {
+                let (forcing, restitution) = cell(index);
+                let map = map(forcing, restitution)?;
+                Ok::<_, Failure>(self.start.of(&map, 0.0)?.map(|state| (map, state)))
+            };
+            each_verdict(count, start, self.settings, observer, each)?;
+        } else {
+            let start = |index: usize| {
+                let (forcing, restitution) = cell(index);
+                let own = driven_map(&self.drive, self.contact_periods, forcing, restitution)?;
+                let state = self.start.of(&map(forcing, restitution)?, own.drive().fastest_rise_phase())?;
+                Ok::<_, Failure>(state.map(|state| (own, state)))
+            };
+            each_verdict(count, start, self.settings, observer, each)?;
+        }
         Ok(all)
     }
 

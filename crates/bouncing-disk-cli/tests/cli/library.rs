@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use crate::common::Folder;
 use bouncing_disk::core::attractors::{
-    AttractorSearch, Axis, BasinSettings, Grid, VerdictSettings, driven_diagram, verdicts,
+    AttractorSearch, Axis, BasinSettings, Grid, VerdictSettings, verdicts,
 };
 use bouncing_disk::core::orbits::{OrbitSearch, Stability, doubling_cascade};
 use bouncing_disk::core::sweep::orbit_diagram;
@@ -180,7 +180,7 @@ fn diagrams_orbits_and_basins_of_parabolas() {
     let start = ImpactState::new(Phase::new(0.0).unwrap(), -TAU / 1.5).unwrap();
     let orbits: Vec<_> =
         (0..5).map(|index| map(value(0.35, 0.5, 5, index)).orbit(start, ChatterPolicy::Complete)).collect();
-    let columns = driven_diagram(&orbits, 100, 40, &Unobserved).unwrap();
+    let columns = orbit_diagram(&orbits, 100, 40, &Unobserved).unwrap();
     let found = written("diagram a.toml -G 0.35:0.5:5 --transient 100 --recorded 40");
     let of_rise = found["columns"].as_array().unwrap().iter().skip(1).step_by(2);
     for (column, found) in columns.iter().zip(of_rise) {
@@ -217,7 +217,7 @@ fn diagrams_orbits_and_basins_of_contacts_that_take_time() {
     let map = |forcing| Waveform::Sine.map(&map(forcing, 0.5), Some(0.2)).unwrap();
     let start = ImpactState::from_normalised(TAU * 0.1, 1.3).unwrap();
     let orbits = [0.45, 0.55].map(|forcing| map(forcing).orbit(start, ChatterPolicy::Complete));
-    let columns = driven_diagram(&orbits, 100, 40, &Unobserved).unwrap();
+    let columns = orbit_diagram(&orbits, 100, 40, &Unobserved).unwrap();
     let line = "diagram -G 0.45:0.55:2 --start 0.1,1.3 --transient 100 --recorded 40";
     let (rigid, soft) = (written(line), written(&format!("{line} --contact-periods 0.2")));
     for (index, column) in columns.iter().enumerate() {

@@ -377,7 +377,7 @@ impl ImpactMap {
                         return Ok(label);
                     }
                 }
-                Some(OrbitEvent::Attachment(_)) | None => return Ok(ATTACHED),
+                Some(_) | None => return Ok(ATTACHED),
             }
         }
         Ok(UNDECIDED)

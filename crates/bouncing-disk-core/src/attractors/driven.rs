@@ -1,4 +1,4 @@
-//! Orbit diagrams and basins of attraction on drives.
+//! Basins of attraction on drives.
 
 use core::f64::consts::PI;
 use core::ops::Range;
@@ -7,53 +7,10 @@ use super::basin::{
     ATTACHED, BasinSettings, Basins, Grid, KnownOrbit, Label, MAX_CELLS, UNDECIDED, caught, check_known,
 };
 use crate::flight::platform::phase::Phase;
-use crate::map::driven_map::{DrivenEvent, DrivenMap, DrivenOrbit};
-use crate::map::impact_map::ImpactState;
+use crate::map::driven_map::DrivenMap;
+use crate::map::impact_map::{ImpactState, OrbitEvent};
 use crate::numerics::error::Error;
 use crate::run::{Observer, Watch, in_parallel};
-
-/// The columns of an orbit diagram: for each orbit the `recorded` impacts after the first `transient` ones. A
-/// disk that comes to rest continues with its next separation; one that rests for ever has fewer impacts.
-///
-/// The items of `observer` are the orbits.
-///
-/// ```
-/// use bouncing_disk_core::attractors::driven_diagram;
-/// use bouncing_disk_core::{ChatterPolicy, Drive, DrivenMap, ImpactState, Unobserved};
-///
-/// let start = ImpactState::from_normalised(1.0, 1.3)?;
-/// let orbits = [1.2, 1.6].map(|a| {
-///     DrivenMap::new(Drive::triangle(a).unwrap(), 0.5).unwrap().orbit(start, ChatterPolicy::Complete)
-/// });
-/// let columns = driven_diagram(&orbits, 100, 50, &Unobserved)?;
-/// assert_eq!(columns.len(), 2);
-/// # Ok::<(), bouncing_disk_core::Error>(())
-/// ```
-///
-/// # Errors
-/// That of the first orbit that fails; [`Error::Stopped`].
-pub fn driven_diagram(
-    orbits: &[DrivenOrbit],
-    transient: usize,
-    recorded: usize,
-    observer: &dyn Observer,
-) -> Result<Vec<Vec<ImpactState>>, Error> {
-    let watch = Watch::begin(observer, 0, orbits.len() as u64)?;
-    let columns = in_parallel(orbits.len(), |index| {
-        watch.ask()?;
-        let impacts = orbits[index].clone().filter_map(|event| match event {
-            Ok(DrivenEvent::Impact(landing)) => Some(Ok(ImpactState::from(landing.impact))),
-            Ok(_) => None,
-            Err(error) => Some(Err(error)),
-        });
-        let column = impacts.skip(transient).take(recorded).collect::<Result<Vec<_>, _>>();
-        watch.finish(1);
-        column
-    });
-    let columns = columns.into_iter().collect();
-    watch.end();
-    columns
-}
 
 impl DrivenMap {
     /// The labels of all starts of a grid: at rest, or the known orbit within whose radius an impact is the
@@ -123,8 +80,8 @@ impl DrivenMap {
         let mut impacts = 0;
         for event in self.orbit(start, settings.policy) {
             match event? {
-                DrivenEvent::Impact(landing) => {
-                    if let Some(label) = caught(known, landing.impact.into(), speed) {
+                OrbitEvent::Impact(landing) => {
+                    if let Some(label) = caught(known, landing.into(), speed) {
                         return Ok(label);
                     }
                     impacts += 1;
@@ -132,8 +89,8 @@ impl DrivenMap {
                         return Ok(UNDECIDED);
                     }
                 }
-                DrivenEvent::Attachment { .. } => return Ok(ATTACHED),
-                DrivenEvent::Separation(_) | DrivenEvent::Kick(_) => {}
+                OrbitEvent::Attachment(_) => return Ok(ATTACHED),
+                OrbitEvent::Separation(_) | OrbitEvent::Kick(_) => {}
             }
         }
         Ok(ATTACHED)

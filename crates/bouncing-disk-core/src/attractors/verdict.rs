@@ -8,7 +8,9 @@ pub(crate) mod witness;
 
 use crate::chatter::policy::ChatterPolicy;
 use crate::flight::platform::phase::Phase;
-use crate::map::impact_map::{ImpactMap, ImpactState, Orbit};
+use crate::map::bouncing_map::BouncingMap;
+use crate::map::driven_map::DrivenMap;
+use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::error::{Error, finite, not_negative, within};
 use crate::numerics::stored::read_checked;
 use crate::orbits::periodic::{MAX_PERIOD, Multipliers};
@@ -51,7 +53,7 @@ pub enum Verdict {
     },
     /// Small perturbations grow by more than neutral motion, the escape from a periodic orbit and the error
     /// of the exponent can explain ([`LyapunovEstimate::grows`]), over enough impacts for dissipation to act
-    /// ([`ImpactMap::transient_impacts`]). A finite number of impacts cannot distinguish an attractor from a
+    /// ([`BouncingMap::transient_impacts`]). A finite number of impacts cannot distinguish an attractor from a
     /// longer transient.
     Chaotic {
         /// The largest exponent per impact.
@@ -170,7 +172,7 @@ pub enum UndecidedReason {
         exponent: f64,
         /// Its standard error.
         standard_error: f64,
-        /// Impacts needed, with those of the transient ([`ImpactMap::transient_impacts`]).
+        /// Impacts needed, with those of the transient ([`BouncingMap::transient_impacts`]).
         needed: f64,
     },
     /// An impact has no speed, or one so small that the derivative exceeds what a double holds.
@@ -324,9 +326,23 @@ impl ImpactMap {
     /// # Errors
     /// Those of [`verdicts`].
     pub fn verdict(&self, state: ImpactState, settings: VerdictSettings) -> Result<Verdict, Error> {
-        let mut verdicts = verdicts(&[(*self, state)], settings, &Unobserved)?;
-        verdicts.pop().ok_or(Error::Stopped { done: 0, total: 1 })
+        verdict(self, state, settings)
     }
+}
+
+impl DrivenMap {
+    /// The long-term behaviour of the orbit from `state`.
+    ///
+    /// # Errors
+    /// Those of [`verdicts`].
+    pub fn verdict(&self, state: ImpactState, settings: VerdictSettings) -> Result<Verdict, Error> {
+        verdict(self, state, settings)
+    }
+}
+
+fn verdict<M: BouncingMap>(map: &M, state: ImpactState, settings: VerdictSettings) -> Result<Verdict, Error> {
+    let mut verdicts = verdicts(&[(map.clone(), state)], settings, &Unobserved)?;
+    verdicts.pop().ok_or(Error::Stopped { done: 0, total: 1 })
 }
 
 /// The long-term behaviour of the orbit of each of `starts`, in their order. The orbits advance in lockstep,
@@ -354,13 +370,13 @@ impl ImpactMap {
 ///
 /// # Errors
 /// Those of [`VerdictSettings::check`]; those of [`sweep`](crate::sweep::sweep()).
-pub fn verdicts(
-    starts: &[(ImpactMap, ImpactState)],
+pub fn verdicts<M: BouncingMap>(
+    starts: &[(M, ImpactState)],
     settings: VerdictSettings,
     observer: &dyn Observer,
 ) -> Result<Vec<Verdict>, Error> {
     let mut all = Vec::new();
-    let start = |index: usize| Ok::<_, Error>(Some(starts[index]));
+    let start = |index: usize| Ok::<_, Error>(Some(starts[index].clone()));
     each_verdict(starts.len(), start, settings, observer, |verdict| all.extend(verdict))?;
     Ok(all)
 }
@@ -371,9 +387,9 @@ pub fn verdicts(
 ///
 /// # Errors
 /// Those of [`verdicts`] and of `start`; [`Error::Stopped`] if the observer breaks.
-pub fn each_verdict<E: From<Error>>(
+pub fn each_verdict<M: BouncingMap, E: From<Error>>(
     count: usize,
-    mut start: impl FnMut(usize) -> Result<Option<(ImpactMap, ImpactState)>, E>,
+    mut start: impl FnMut(usize) -> Result<Option<(M, ImpactState)>, E>,
     settings: VerdictSettings,
     observer: &dyn Observer,
     mut each: impl FnMut(Option<Verdict>),
@@ -383,14 +399,14 @@ pub fn each_verdict<E: From<Error>>(
     // At least one call of the observer, also of nothing.
     for first in (0..count.max(1)).step_by(TOGETHER) {
         let block: Vec<_> = (first..count.min(first + TOGETHER)).map(&mut start).collect::<Result<_, E>>()?;
-        let starts: Vec<_> = block.iter().flatten().copied().collect();
-        let orbits: Vec<Orbit> =
+        let starts: Vec<_> = block.iter().flatten().collect();
+        let orbits: Vec<M::Orbit> =
             starts.iter().map(|(map, state)| map.orbit(*state, ChatterPolicy::Complete)).collect();
         let done = |done: u64| first as u64 + done;
         let shifted = |progress: Progress| observer.observe(Progress { done: done(progress.done), total });
         let found = sweep_with(
             &orbits,
-            |index| Witness::new(starts[index], settings),
+            |index| Witness::new((&starts[index].0, starts[index].1), settings),
             Witness::see,
             |witness| Ok(witness.verdict()),
             &shifted,
@@ -400,7 +416,7 @@ pub fn each_verdict<E: From<Error>>(
             other => other,
         })?;
         let mut found = found.into_iter();
-        block.iter().for_each(|start| each(start.and_then(|_| found.next())));
+        block.iter().for_each(|start| each(start.as_ref().and_then(|_| found.next())));
     }
     Ok(())
 }

@@ -129,6 +129,7 @@ mod tests {
                     time += stick.accumulation.duration;
                     return (time <= window * (1.0 + 1.0e-12)).then_some(time);
                 }
+                other => panic!("{other:?} on a sine"),
             }
             if time > window {
                 return None;

@@ -10,11 +10,15 @@ use crate::chatter::policy::{AfterImpact, ChatterPolicy, ShortFlightCount};
 use crate::flight::compliance::{Compliance, CompliantPlatform, RelativeState};
 use crate::flight::drive::landing::{DrivenImpact, Start};
 use crate::flight::drive::{Drive, TimeAhead};
+use crate::flight::launch::Impact;
 use crate::flight::platform::phase::Phase;
-use crate::map::impact_map::ImpactState;
+use crate::map::bouncing_map::{BouncingMap, BouncingOrbit};
+use crate::map::impact_map::{Attachment, ContactChange, ImpactState, OrbitEvent};
 use crate::map::release::Cycle;
 use crate::numerics::elementary::wrapped_angle;
 use crate::numerics::error::{Error, within};
+use crate::orbits::periodic::PeriodicOrbit;
+use crate::sweep::SweepEvent;
 
 /// The vertical impact map of a disk with a constant restitution r on a [`Drive`].
 ///
@@ -24,11 +28,11 @@ use crate::numerics::error::{Error, within};
 /// also where it sets in again before the spring is free.
 ///
 /// ```
-/// use bouncing_disk_core::{ChatterPolicy, Drive, DrivenEvent, DrivenMap, ImpactState};
+/// use bouncing_disk_core::{ChatterPolicy, Drive, DrivenMap, ImpactState, OrbitEvent};
 ///
 /// let map = DrivenMap::new(Drive::fourier(&[(1.6, 0.0)])?, 0.5)?;
 /// let start = ImpactState::from_normalised(4.0, 0.01)?;
-/// let rests = |event| matches!(event, Ok(DrivenEvent::Attachment { .. }));
+/// let rests = |event| matches!(event, Ok(OrbitEvent::Attachment(_)));
 /// assert!(map.orbit(start, ChatterPolicy::Complete).take(60).any(rests));
 /// # Ok::<(), bouncing_disk_core::Error>(())
 /// ```
@@ -209,41 +213,47 @@ impl DrivenMap {
     }
 }
 
-/// One event of the vertical motion on a [`Drive`].
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-#[non_exhaustive]
-pub enum DrivenEvent {
-    /// The disk hits the platform.
-    Impact(DrivenImpact),
-    /// A chatter ends: the disk comes to rest on the platform. In a contact that takes time it stays there for
-    /// ever; the error is infinite where only 4096 turns of the spring without a release say so.
-    Attachment {
-        /// When. Under [`ChatterPolicy::Cut`] the last impact itself; the error is infinite where no bound
-        /// proves that the disk stays.
-        accumulation: Accumulation,
-        /// Launch speed after the last impact, in units of g/omega, from which the chatter started.
-        last_speed: f64,
-    },
-    /// The contact force falls to zero, or the velocity of the platform drops: the disk leaves.
-    Separation(ContactChange),
-    /// The velocity of the platform rises: it hits the disk that rests on it, at zero distance.
-    Kick(ContactChange),
+impl BouncingMap for DrivenMap {
+    type Orbit = DrivenOrbit;
+
+    fn restitution(&self) -> f64 {
+        self.restitution
+    }
+
+    fn speed_scale(&self) -> f64 {
+        self.drive.bounds().speed
+    }
+
+    fn step(&self, state: ImpactState) -> Result<Impact, Error> {
+        self.step(state).map(|landing| landing.impact)
+    }
+
+    fn step_with_derivative(&self, state: ImpactState) -> Result<(Impact, DMat2), Error> {
+        self.step_with_derivative(state).map(|(landing, derivative)| (landing.impact, derivative))
+    }
+
+    fn orbit(&self, state: ImpactState, policy: ChatterPolicy) -> DrivenOrbit {
+        self.orbit(state, policy)
+    }
+
+    fn refine(&self, guess: &[ImpactState]) -> Result<PeriodicOrbit, Error> {
+        self.refine(guess)
+    }
+
+    fn chatters_to_rest_after(&self, state: ImpactState) -> bool {
+        matches!(self.orbit(state, ChatterPolicy::Complete).next, Next::Attach(..))
+    }
+
+    /// A contact that takes time does not.
+    fn shrinks_areas_exactly(&self) -> bool {
+        self.compliant.is_none()
+    }
 }
 
-/// The end of a contact as an event.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct ContactChange {
-    /// The time since the disk came to rest, in radians.
-    pub duration: f64,
-    /// When.
-    pub phase: Phase,
-    /// How often the phase passed 0 (mod 2 pi) since the disk came to rest.
-    pub turns: u64,
-    /// The velocity of the disk relative to the platform just after the platform's velocity has jumped,
-    /// before any law of impact: zero or positive for a separation, negative for a kick.
-    pub velocity: f64,
+impl BouncingOrbit for DrivenOrbit {
+    fn next_event(&mut self) -> Result<Option<SweepEvent>, Error> {
+        Ok(self.advance()?.map(|event| SweepEvent::of(None, event)))
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -255,7 +265,7 @@ enum Next {
     End,
 }
 
-/// The lazy sequence of [`DrivenEvent`]s of one orbit. It ends if the disk rests for ever, and after an
+/// The lazy sequence of [`OrbitEvent`]s of one orbit. It ends if the disk rests for ever, and after an
 /// error.
 #[derive(Debug, Clone)]
 pub struct DrivenOrbit {
@@ -298,7 +308,7 @@ impl DrivenOrbit {
     ///
     /// # Errors
     /// Those of [`Drive::first_impact`] and [`Drive::contact_end`]. An error ends the orbit.
-    pub fn advance(&mut self) -> Result<Option<DrivenEvent>, Error> {
+    pub fn advance(&mut self) -> Result<Option<OrbitEvent>, Error> {
         let next = core::mem::replace(&mut self.next, Next::End);
         if self.map.compliant.is_some() {
             return self.advance_compliant(next);
@@ -315,7 +325,7 @@ impl DrivenOrbit {
             Next::Report(landing) => Ok(Some(self.report(landing))),
             Next::Attach(accumulation, last_speed) => {
                 self.next = Next::Contact(accumulation.phase.angle());
-                Ok(Some(DrivenEvent::Attachment { accumulation, last_speed }))
+                Ok(Some(OrbitEvent::Attachment(Attachment { accumulation, last_speed, separation: None })))
             }
             Next::Contact(since) => {
                 let Some(end) = self.map.drive.contact_end(since, f64::INFINITY)? else { return Ok(None) };
@@ -327,18 +337,18 @@ impl DrivenOrbit {
                 };
                 if change.velocity < 0.0 {
                     self.after(end.time, change.velocity, f64::INFINITY);
-                    return Ok(Some(DrivenEvent::Kick(change)));
+                    return Ok(Some(OrbitEvent::Kick(change)));
                 }
                 let separates = change.velocity == 0.0;
                 self.next = Next::Launch { time: end.time, speed: change.velocity, separates };
-                Ok(Some(DrivenEvent::Separation(change)))
+                Ok(Some(OrbitEvent::Separation(change)))
             }
             Next::End => Ok(None),
         }
     }
 
     /// The next event of a contact that takes time.
-    fn advance_compliant(&mut self, next: Next) -> Result<Option<DrivenEvent>, Error> {
+    fn advance_compliant(&mut self, next: Next) -> Result<Option<OrbitEvent>, Error> {
         let Some(platform) = &self.map.compliant else { return Ok(None) };
         let (cycle, last_speed) = match next {
             Next::Launch { time, speed, .. } => {
@@ -347,33 +357,39 @@ impl DrivenOrbit {
             Next::Contact(time) => (platform.press_until_released(platform.resting(time), None)?, 0.0),
             Next::Report(landing) => return Ok(Some(self.report(landing))),
             Next::Attach(accumulation, last_speed) => {
-                return Ok(Some(DrivenEvent::Attachment { accumulation, last_speed }));
+                return Ok(Some(OrbitEvent::Attachment(Attachment {
+                    accumulation,
+                    last_speed,
+                    separation: None,
+                })));
             }
             Next::End => return Ok(None),
         };
         if let Some(accumulation) = cycle.accumulation() {
-            return Ok(Some(DrivenEvent::Attachment { accumulation, last_speed }));
+            return Ok(Some(OrbitEvent::Attachment(Attachment {
+                accumulation,
+                last_speed,
+                separation: None,
+            })));
         }
         let event = self.report(cycle.impact(self.map.restitution));
         Ok(Some(match (next, event) {
-            (Next::Contact(_), DrivenEvent::Impact(DrivenImpact { impact, .. })) => {
-                DrivenEvent::Separation(ContactChange {
-                    duration: impact.duration(),
-                    phase: impact.phase,
-                    turns: impact.turns,
-                    velocity: -self.map.restitution * impact.velocity,
-                })
-            }
+            (Next::Contact(_), OrbitEvent::Impact(impact)) => OrbitEvent::Separation(ContactChange {
+                duration: impact.duration(),
+                phase: impact.phase,
+                turns: impact.turns,
+                velocity: -self.map.restitution * impact.velocity,
+            }),
             (_, event) => event,
         }))
     }
 
-    fn report(&mut self, landing: DrivenImpact) -> DrivenEvent {
+    fn report(&mut self, landing: DrivenImpact) -> OrbitEvent {
         let impact = &landing.impact;
         // Only flights far below one period count as short.
         let duration = if impact.periods == 0 { impact.remainder } else { TAU };
         self.after(impact.phase.angle(), impact.velocity, duration);
-        DrivenEvent::Impact(landing)
+        OrbitEvent::Impact(landing.impact)
     }
 
     /// Decides what follows an impact with relative `velocity` that ends a flight of this duration.
@@ -405,7 +421,7 @@ fn turns(since: f64, end: TimeAhead) -> u64 {
 }
 
 impl Iterator for DrivenOrbit {
-    type Item = Result<DrivenEvent, Error>;
+    type Item = Result<OrbitEvent, Error>;
 
     fn next(&mut self) -> Option<Self::Item> {
         self.advance().transpose()

@@ -8,9 +8,11 @@ use crate::flight::launch::Impact;
 use crate::flight::launch::Launch;
 use crate::flight::platform::phase::Phase;
 use crate::flight::platform::vibration::Vibration;
+use crate::map::bouncing_map::BouncingMap;
 use crate::map::restitution_law::{Constant, Internal, RestitutionLaw, launch_slope, restitution_of};
 use crate::numerics::error::{Error, not_negative, within};
 use crate::numerics::stored::read_checked;
+use crate::orbits::periodic::PeriodicOrbit;
 use crate::run::{FLIGHTS_BETWEEN_CALLS, Observer, Watch};
 
 /// The state of the disk just before an impact: the paper's tau_imp and w_A.
@@ -336,6 +338,49 @@ impl<L: RestitutionLaw> ImpactMap<L> {
     }
 }
 
+impl BouncingMap for ImpactMap {
+    type Orbit = Orbit;
+
+    fn restitution(&self) -> f64 {
+        self.restitution.value()
+    }
+
+    fn speed_scale(&self) -> f64 {
+        self.vibration.peak_acceleration()
+    }
+
+    #[inline]
+    fn step(&self, state: ImpactState) -> Result<Impact, Error> {
+        self.step(state)
+    }
+
+    fn step_with_derivative(&self, state: ImpactState) -> Result<(Impact, DMat2), Error> {
+        self.step_with_derivative(state)
+    }
+
+    fn orbit(&self, state: ImpactState, policy: ChatterPolicy) -> Orbit {
+        self.orbit(state, policy)
+    }
+
+    fn refine(&self, guess: &[ImpactState]) -> Result<PeriodicOrbit, Error> {
+        self.refine(guess)
+    }
+
+    fn chatters_to_rest_after(&self, state: ImpactState) -> bool {
+        self.chatters_to_rest(self.rebound(state))
+    }
+
+    #[inline]
+    fn derivative(&self, from: ImpactState, to: ImpactState, duration: f64) -> DMat2 {
+        self.derivative(from, to, duration)
+    }
+
+    #[inline]
+    fn steps(&self, state: ImpactState, impacts: u64) -> Result<ImpactState, Error> {
+        self.steps(state, impacts)
+    }
+}
+
 /// One event of the vertical motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -343,8 +388,29 @@ impl<L: RestitutionLaw> ImpactMap<L> {
 pub enum OrbitEvent {
     /// The disk hits the platform.
     Impact(Impact),
-    /// The disk comes to rest on the platform and, if the platform ever falls away, separates again.
+    /// The disk comes to rest on the platform. On a sine that falls away from it, it separates again; on a drive the
+    /// separation is an event of its own. In a contact that takes time it stays for ever; the error bound is infinite
+    /// where only 4096 turns of the spring without a release say so.
     Attachment(Attachment),
+    /// On a drive: the contact force falls to zero, or the velocity of the platform drops, and the disk leaves.
+    Separation(ContactChange),
+    /// On a drive: the velocity of the platform rises, which hits the disk that rests on it, at zero distance.
+    Kick(ContactChange),
+}
+
+/// The end of a contact as an event.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct ContactChange {
+    /// The time since the disk came to rest, in radians.
+    pub duration: f64,
+    /// When.
+    pub phase: Phase,
+    /// How often the phase passed 0 (mod 2 pi) since the disk came to rest.
+    pub turns: u64,
+    /// The velocity of the disk relative to the platform just after the platform's velocity has jumped,
+    /// before any law of impact: zero or positive for a separation, negative for a kick.
+    pub velocity: f64,
 }
 
 /// A spell of contact between the end of a chattering sequence and the next separation.
@@ -360,7 +426,7 @@ pub struct Attachment {
     /// Launch speed after the last impact, in units of g/omega, from which the chatter started.
     pub last_speed: f64,
     /// The phase at which it separates, and how often the phase passes 0 (mod 2 pi) from the attachment to
-    /// there; `None` if the disk rests for ever (P <= 1).
+    /// there; `None` on a drive, and if the disk rests for ever (P <= 1).
     pub separation: Option<(Phase, u64)>,
 }
 

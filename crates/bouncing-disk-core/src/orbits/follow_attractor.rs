@@ -99,7 +99,7 @@ impl ImpactMap {
             for _ in 0..chunk {
                 match orbit.advance()? {
                     Some(OrbitEvent::Impact(impact)) => state = impact.into(),
-                    Some(OrbitEvent::Attachment(_)) | None => return Ok(None),
+                    Some(_) | None => return Ok(None),
                 }
             }
             left -= chunk;

@@ -379,7 +379,7 @@ impl ImpactMap {
             tick(1)?;
             match orbit.advance()? {
                 Some(OrbitEvent::Impact(impact)) => states.push(impact.into()),
-                Some(OrbitEvent::Attachment(_)) | None => return Ok(None),
+                Some(_) | None => return Ok(None),
             }
         }
         let near = |a: &ImpactState, b: &ImpactState| {

@@ -6,7 +6,7 @@ use core::f64::consts::TAU;
 use crate::chatter::policy::ChatterPolicy;
 use crate::flight::launch::Impact;
 use crate::flight::platform::phase::Phase;
-use crate::map::impact_map::{Attachment, ImpactState, Orbit, OrbitEvent};
+use crate::map::impact_map::{Attachment, ContactChange, ImpactState, Orbit, OrbitEvent};
 use crate::numerics::error::Error;
 
 /// One event of an orbit of a sweep.
@@ -18,6 +18,23 @@ pub enum SweepEvent {
     Impact(SweepImpact),
     /// The disk comes to rest on the platform and, if the platform ever falls away, separates again.
     Attachment(Attachment),
+    /// On a drive: the disk leaves the platform. See [`OrbitEvent::Separation`].
+    Separation(ContactChange),
+    /// On a drive: the platform hits the disk that rests on it. See [`OrbitEvent::Kick`].
+    Kick(ContactChange),
+}
+
+impl SweepEvent {
+    /// An event of an orbit that is advanced by itself, which left the platform at `from`.
+    #[inline(always)]
+    pub(crate) fn of(from: Option<Phase>, event: OrbitEvent) -> Self {
+        match event {
+            OrbitEvent::Impact(impact) => Self::Impact(SweepImpact::of(from, impact)),
+            OrbitEvent::Attachment(rest) => Self::Attachment(rest),
+            OrbitEvent::Separation(change) => Self::Separation(change),
+            OrbitEvent::Kick(change) => Self::Kick(change),
+        }
+    }
 }
 
 /// An impact of a sweep: an [`Impact`] with less of the flight before it.
@@ -68,8 +85,5 @@ impl SweepImpact {
 #[inline]
 pub(super) fn advance(orbit: &mut Orbit) -> Result<Option<SweepEvent>, Error> {
     let from = orbit.launch().map(|launch| launch.phase());
-    Ok(orbit.advance()?.map(|event| match event {
-        OrbitEvent::Impact(impact) => SweepEvent::Impact(SweepImpact::of(from, impact)),
-        OrbitEvent::Attachment(rest) => SweepEvent::Attachment(rest),
-    }))
+    Ok(orbit.advance()?.map(|event| SweepEvent::of(from, event)))
 }

@@ -7,8 +7,8 @@ use core::ops::ControlFlow;
 use glam::{DMat2, DVec2};
 
 use crate::chatter::policy::ChatterPolicy;
-use crate::map::driven_map::DrivenMap;
-use crate::map::impact_map::{ImpactMap, ImpactState, Orbit};
+use crate::map::bouncing_map::BouncingMap;
+use crate::map::impact_map::ImpactState;
 use crate::numerics::batch_means::BatchMeans;
 use crate::numerics::elementary::{hypot, ln};
 use crate::numerics::error::{Error, finite, not_negative, within};
@@ -104,10 +104,6 @@ const NEUTRAL_POWER: f64 = 2.0;
 /// -ln(2^-52): the growth along an escape from a periodic orbit on which the start was to the last bit.
 const ESCAPE: f64 = 52.0 * core::f64::consts::LN_2;
 
-/// How many times the area of a set of states must have shrunk by e before the behaviour of an orbit counts
-/// as final.
-const DISSIPATION_TIMES: f64 = 10.0;
-
 /// The largest Lyapunov exponent of one orbit as it was measured.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -166,23 +162,6 @@ impl LyapunovEstimate {
     }
 }
 
-impl ImpactMap {
-    /// Impacts after which a transient may be taken as over: each impact shrinks an area of states by
-    /// restitution^2, all of these by e^-10.
-    #[must_use]
-    pub fn transient_impacts(&self) -> f64 {
-        DISSIPATION_TIMES / (-2.0 * ln(self.restitution()))
-    }
-}
-
-impl DrivenMap {
-    /// As [`ImpactMap::transient_impacts`].
-    #[must_use]
-    pub fn transient_impacts(&self) -> f64 {
-        DISSIPATION_TIMES / (-2.0 * ln(self.restitution()))
-    }
-}
-
 /// The state of the computation of an orbit's exponent.
 #[derive(Debug, Clone, Copy)]
 struct Followed {
@@ -201,8 +180,8 @@ struct Followed {
 ///
 /// # Errors
 /// Those of [`sweep`](crate::sweep::sweep()).
-pub fn lyapunov_exponents(
-    starts: &[(ImpactMap, ImpactState)],
+pub fn lyapunov_exponents<M: BouncingMap>(
+    starts: &[(M, ImpactState)],
     transient: usize,
     impacts: usize,
     observer: &dyn Observer,
@@ -210,13 +189,13 @@ pub fn lyapunov_exponents(
     if impacts == 0 {
         return Ok(vec![None; starts.len()]);
     }
-    let orbits: Vec<Orbit> =
+    let orbits: Vec<M::Orbit> =
         starts.iter().map(|(map, state)| map.orbit(*state, ChatterPolicy::Complete)).collect();
     sweep_with(
         &orbits,
         |index| {
-            let (map, state) = starts[index];
-            (map, Followed { state, skipped: 0, growth: TangentGrowth::default(), rested: false })
+            let (map, state) = &starts[index];
+            (map, Followed { state: *state, skipped: 0, growth: TangentGrowth::default(), rested: false })
         },
         |(map, followed), event| {
             let SweepEvent::Impact(SweepImpact { state, duration, .. }) = *event else {

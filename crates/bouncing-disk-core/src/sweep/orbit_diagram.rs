@@ -4,7 +4,8 @@ use core::ops::ControlFlow;
 
 use super::events::SweepEvent;
 use super::run::{sweep, sweep_with};
-use crate::map::impact_map::{ImpactState, Orbit};
+use crate::map::bouncing_map::BouncingOrbit;
+use crate::map::impact_map::ImpactState;
 use crate::numerics::error::Error;
 use crate::run::Observer;
 
@@ -18,7 +19,11 @@ pub const MAX_RECORDED: u64 = 1 << 31;
 ///
 /// # Errors
 /// Those of [`sweep`](super::sweep).
-pub fn survival_times(orbits: &[Orbit], most: usize, observer: &dyn Observer) -> Result<Vec<usize>, Error> {
+pub fn survival_times<O: BouncingOrbit>(
+    orbits: &[O],
+    most: usize,
+    observer: &dyn Observer,
+) -> Result<Vec<usize>, Error> {
     if most == 0 {
         return Ok(vec![0; orbits.len()]);
     }
@@ -30,7 +35,7 @@ pub fn survival_times(orbits: &[Orbit], most: usize, observer: &dyn Observer) ->
                 *lived += 1;
                 if *lived < most { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             }
-            SweepEvent::Attachment(_) => ControlFlow::Break(()),
+            _ => ControlFlow::Break(()),
         },
         observer,
     )
@@ -45,8 +50,8 @@ pub fn survival_times(orbits: &[Orbit], most: usize, observer: &dyn Observer) ->
 /// # Errors
 /// [`Error::TooLarge`] for more than [`MAX_RECORDED`] impacts of all orbits together or than there is memory
 /// for; those of [`sweep`](super::sweep).
-pub fn orbit_diagram(
-    orbits: &[Orbit],
+pub fn orbit_diagram<O: BouncingOrbit>(
+    orbits: &[O],
     transient: usize,
     recorded: usize,
     observer: &dyn Observer,
@@ -74,7 +79,7 @@ pub fn orbit_diagram(
                     }
                     states.push(landing.state);
                 }
-                SweepEvent::Attachment(_) => {}
+                _ => {}
             }
             if states.len() < recorded { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         },

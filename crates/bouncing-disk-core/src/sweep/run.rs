@@ -4,11 +4,10 @@ use core::ops::ControlFlow;
 
 use super::events::SweepEvent;
 use super::runner;
-use crate::map::impact_map::Orbit;
+use crate::map::bouncing_map::BouncingOrbit;
 use crate::numerics::error::Error;
 use crate::numerics::stored::read_checked;
 use crate::run::{Observer, Watch};
-use crate::sweep::lockstep::lanes::InstructionSet;
 
 /// The results of a list of items, as far as they are finished, in the order of the items.
 ///
@@ -123,8 +122,8 @@ impl<T> PartialResults<T> {
 }
 
 /// [`sweep`] with visitors of one kind and results of another, made when an orbit is done.
-pub(crate) fn sweep_with<W: Send, T>(
-    orbits: &[Orbit],
+pub(crate) fn sweep_with<O: BouncingOrbit, W: Send, T>(
+    orbits: &[O],
     start: impl Fn(usize) -> W + Sync,
     visit: impl Fn(&mut W, &SweepEvent) -> ControlFlow<()> + Sync,
     result: impl Fn(W) -> Result<T, Error>,
@@ -133,7 +132,7 @@ pub(crate) fn sweep_with<W: Send, T>(
     let total = orbits.len();
     let watch = Watch::begin(observer, 0, total as u64)?;
     let mut failure = None;
-    let outcomes = runner::run(orbits, &start, &visit, InstructionSet::best(), &watch);
+    let outcomes = O::follow(orbits, &start, &visit, &watch);
     let results: Vec<T> = outcomes
         .into_iter()
         .filter_map(|(_, outcome)| match outcome.and_then(&result) {
@@ -159,7 +158,7 @@ pub(crate) fn sweep_with<W: Send, T>(
 /// visitors' results in the order of the orbits.
 ///
 /// `start` makes the value of the orbit of an index; `visit` is shown the events one by one, those of
-/// [`Orbit::advance`], and breaks where the orbit need not be followed further. With the feature `parallel`
+/// [`Orbit::advance`](crate::Orbit::advance), and breaks where the orbit need not be followed further. With the feature `parallel`
 /// the orbits are spread over the threads of rayon's pool. Neither their number nor the instructions of the
 /// processor change a bit.
 ///
@@ -193,9 +192,9 @@ pub(crate) fn sweep_with<W: Send, T>(
 /// ```
 ///
 /// # Errors
-/// That of the first orbit, in their order, that has no next impact (see [`Orbit::advance`]).
-pub fn sweep<S: Send>(
-    orbits: &[Orbit],
+/// That of the first orbit, in their order, that has no next impact (see [`Orbit::advance`](crate::Orbit::advance)).
+pub fn sweep<O: BouncingOrbit, S: Send>(
+    orbits: &[O],
     start: impl Fn(usize) -> S + Sync,
     visit: impl Fn(&mut S, &SweepEvent) -> ControlFlow<()> + Sync,
     observer: &dyn Observer,

@@ -4,6 +4,7 @@ use core::ops::ControlFlow;
 use core::sync::atomic::{AtomicUsize, Ordering};
 
 use super::events::{SweepEvent, SweepImpact, advance};
+use crate::map::bouncing_map::{BouncingOrbit, OrbitOutcome};
 use crate::map::impact_map::Orbit;
 use crate::numerics::error::Error;
 use crate::run::{Watch, WorkCount, in_parallel, threads};
@@ -17,8 +18,22 @@ const FEWEST: usize = 12;
 /// Batches of lanes of one thread.
 const BATCHES: usize = 8;
 
-/// The outcome of the orbit with an index.
-type Outcome<S> = (usize, Result<S, Error>);
+impl BouncingOrbit for Orbit {
+    #[inline]
+    fn next_event(&mut self) -> Result<Option<SweepEvent>, Error> {
+        advance(self)
+    }
+
+    /// In lanes.
+    fn follow<S: Send>(
+        orbits: &[Self],
+        start: &(impl Fn(usize) -> S + Sync),
+        visit: &(impl Fn(&mut S, &SweepEvent) -> ControlFlow<()> + Sync),
+        watch: &Watch<'_>,
+    ) -> Vec<OrbitOutcome<S>> {
+        run(orbits, start, visit, InstructionSet::best(), watch)
+    }
+}
 
 /// Follows the orbits until they are done or the observer breaks; the outcomes in the order of the orbits.
 pub(super) fn run<S: Send>(
@@ -27,7 +42,7 @@ pub(super) fn run<S: Send>(
     visit: &(impl Fn(&mut S, &SweepEvent) -> ControlFlow<()> + Sync),
     set: InstructionSet,
     watch: &Watch<'_>,
-) -> Vec<Outcome<S>> {
+) -> Vec<OrbitOutcome<S>> {
     let queue = Queue { orbits, next: AtomicUsize::new(0) };
     let threads = threads().min(orbits.len());
     // As many lanes as give every thread its share.
@@ -82,7 +97,7 @@ struct Worker<'a, S, Start, Visit> {
     lanes: usize,
     /// The orbits of the first lanes.
     runs: Vec<Run<S>>,
-    outcomes: Vec<Outcome<S>>,
+    outcomes: Vec<OrbitOutcome<S>>,
     work: WorkCount<'a>,
 }
 
@@ -91,7 +106,7 @@ where
     Start: Fn(usize) -> S,
     Visit: Fn(&mut S, &SweepEvent) -> ControlFlow<()>,
 {
-    fn run(mut self, set: InstructionSet) -> Vec<Outcome<S>> {
+    fn run(mut self, set: InstructionSet) -> Vec<OrbitOutcome<S>> {
         // Once the observer has broken, what is under way is dropped: it is not finished.
         let _ = self.follow_all(set);
         self.outcomes

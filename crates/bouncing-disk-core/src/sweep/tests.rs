@@ -59,6 +59,7 @@ fn bits(event: &SweepEvent) -> Vec<u64> {
             bits.extend([stick.accumulation.duration.to_bits(), stick.last_speed.to_bits()]);
             bits
         }
+        other => panic!("{other:?} on a sine"),
     }
 }
 

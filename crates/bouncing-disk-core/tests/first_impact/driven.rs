@@ -2,11 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::attractors::{Axis, BasinSettings, Grid, KnownOrbit, driven_diagram};
+use bouncing_disk_core::attractors::{Axis, BasinSettings, Grid, KnownOrbit};
 use bouncing_disk_core::orbits::OrbitSearch;
 use bouncing_disk_core::sweep::orbit_diagram;
 use bouncing_disk_core::{
-    ChatterCut, ChatterPolicy, Drive, DrivenEvent, DrivenMap, Error, ImpactMap, ImpactState, Launch,
+    Attachment, ChatterCut, ChatterPolicy, Drive, DrivenMap, Error, ImpactMap, ImpactState, Launch,
     OrbitEvent, Phase, Unobserved, Vibration,
 };
 
@@ -29,8 +29,8 @@ fn a_drive_that_stands_still_is_a_floor() {
         let mut time = 0.0;
         for event in map.of_flight(0.0, 1.0, 0.0, ChatterPolicy::Complete).unwrap() {
             time += match event.unwrap() {
-                DrivenEvent::Impact(landing) => landing.impact.duration(),
-                DrivenEvent::Attachment { accumulation, .. } => accumulation.duration,
+                OrbitEvent::Impact(landing) => landing.duration(),
+                OrbitEvent::Attachment(Attachment { accumulation, .. }) => accumulation.duration,
                 other => panic!("{other:?}"),
             };
         }
@@ -53,13 +53,13 @@ fn a_sine_as_a_fourier_sum_gives_the_events_of_the_sine() {
                     // The chatter as a whole, from the impact after which the sine's was summed.
                     let mut orbit = map.orbit(state, ChatterPolicy::Complete);
                     let end = orbit.find_map(|event| match event.unwrap() {
-                        DrivenEvent::Attachment { accumulation, .. } => Some(accumulation),
+                        OrbitEvent::Attachment(Attachment { accumulation, .. }) => Some(accumulation),
                         _ => None,
                     });
                     let apart = (end.unwrap().phase.angle() - attachment.accumulation.phase.angle()).abs();
                     assert!(apart.min((TAU - apart).abs()) < 1e-12, "{forcing} {restitution}: {apart:e}");
                     let separation = orbit.next().map(|event| match event.unwrap() {
-                        DrivenEvent::Separation(change) => change.phase.angle(),
+                        OrbitEvent::Separation(change) => change.phase.angle(),
                         other => panic!("{other:?}"),
                     });
                     let expected = attachment.separation.map(|(phase, _)| phase.angle());
@@ -67,10 +67,10 @@ fn a_sine_as_a_fourier_sum_gives_the_events_of_the_sine() {
                     if let (Some(found), Some(expected)) = (separation, expected) {
                         assert!((found - expected).abs() < 1e-13);
                         let next = orbit.next().unwrap().unwrap();
-                        let DrivenEvent::Impact(landing) = next else { panic!("{next:?}") };
+                        let OrbitEvent::Impact(landing) = next else { panic!("{next:?}") };
                         let launch = Launch::new(Phase::new(expected).unwrap(), 0.0).unwrap();
                         let impact = sine.vibration().first_impact(launch).unwrap();
-                        assert!((landing.impact.duration() - impact.duration()).abs() < 1e-12);
+                        assert!((landing.duration() - impact.duration()).abs() < 1e-12);
                     }
                     if expected.is_none() {
                         break;
@@ -236,7 +236,7 @@ fn basins_and_diagrams_of_a_sum_are_those_of_the_sine() {
     let found = map.basins(grid, &known, settings, &Unobserved).unwrap();
     assert_eq!(found.labels(), expected.labels());
     let start = ImpactState::from_normalised(1.0, 1.3).unwrap();
-    let columns = driven_diagram(&[map.orbit(start, ChatterPolicy::Complete)], 500, 4, &Unobserved).unwrap();
+    let columns = orbit_diagram(&[map.orbit(start, ChatterPolicy::Complete)], 500, 4, &Unobserved).unwrap();
     let column = orbit_diagram(&[sine.orbit(start, ChatterPolicy::Complete)], 500, 4, &Unobserved).unwrap();
     for (a, b) in columns[0].iter().zip(&column[0]) {
         assert!((a.phase().angle() - b.phase().angle()).abs() < 1e-9);
@@ -252,19 +252,19 @@ fn a_triangle_leaves_the_disk_behind_and_hits_it() {
     let drop = 4.0 / (0.5 * TAU);
     let map = DrivenMap::new(drive, 0.0).unwrap();
     let mut orbit = map.of_contact(0.3, ChatterPolicy::Complete);
-    let Some(Ok(DrivenEvent::Separation(crest))) = orbit.next() else { panic!("leaves at the crest") };
+    let Some(Ok(OrbitEvent::Separation(crest))) = orbit.next() else { panic!("leaves at the crest") };
     assert_eq!(crest.phase.angle().to_bits(), (0.25 * TAU).to_bits());
     assert!((crest.velocity - drop).abs() < 1e-15 && (crest.duration - (0.25 * TAU - 0.3)).abs() < 1e-15);
-    let Some(Ok(DrivenEvent::Impact(landing))) = orbit.next() else { panic!("lands") };
-    assert!((landing.impact.duration() - 2.0 * drop).abs() < 1e-14);
+    let Some(Ok(OrbitEvent::Impact(landing))) = orbit.next() else { panic!("lands") };
+    assert!((landing.duration() - 2.0 * drop).abs() < 1e-14);
     // On the falling slope it stays until the trough hits it, and then sticks (r = 0) until the next crest.
-    let Some(Ok(DrivenEvent::Attachment { .. })) = orbit.next() else { panic!("attaches") };
-    let Some(Ok(DrivenEvent::Kick(trough))) = orbit.next() else { panic!("is hit") };
+    let Some(Ok(OrbitEvent::Attachment(_))) = orbit.next() else { panic!("attaches") };
+    let Some(Ok(OrbitEvent::Kick(trough))) = orbit.next() else { panic!("is hit") };
     assert!(
         (trough.velocity + drop).abs() < 1e-15 && trough.phase.angle().to_bits() == (0.75 * TAU).to_bits()
     );
-    let Some(Ok(DrivenEvent::Attachment { .. })) = orbit.next() else { panic!("attaches") };
-    let Some(Ok(DrivenEvent::Separation(again))) = orbit.next() else { panic!("leaves again") };
+    let Some(Ok(OrbitEvent::Attachment(_))) = orbit.next() else { panic!("attaches") };
+    let Some(Ok(OrbitEvent::Separation(again))) = orbit.next() else { panic!("leaves again") };
     assert!(again.turns == 1 && (again.duration - 0.5 * TAU).abs() < 1e-14);
     // An impact on the kink has no derivative.
     let on_kink = ImpactState::new(Phase::new(0.25 * TAU).unwrap(), -1.0).unwrap();
@@ -287,8 +287,8 @@ fn the_sum_of_a_chatter_is_where_it_ends() {
         let mut elapsed = 0.0;
         while elapsed < 2.0 * sum.duration {
             match orbit.next() {
-                Some(Ok(DrivenEvent::Impact(landing))) if -landing.impact.velocity > 1e-30 => {
-                    elapsed += landing.impact.remainder;
+                Some(Ok(OrbitEvent::Impact(landing))) if -landing.velocity > 1e-30 => {
+                    elapsed += landing.remainder;
                 }
                 _ => break,
             }
@@ -313,15 +313,15 @@ fn a_disk_that_separates_flies() {
         let mut orbit = map.of_contact(random.angle(), ChatterPolicy::Complete);
         let Some(event) = orbit.next() else { continue };
         let next = match event.unwrap() {
-            DrivenEvent::Separation(change) => {
+            OrbitEvent::Separation(change) => {
                 assert!(change.velocity >= 0.0);
                 orbit.next().unwrap().unwrap()
             }
-            DrivenEvent::Kick(_) => continue,
+            OrbitEvent::Kick(_) => continue,
             other => panic!("{other:?}"),
         };
-        let DrivenEvent::Impact(landing) = next else { panic!("{next:?}") };
-        assert!(landing.impact.duration() > 1e-6, "{landing:?} on {:?}", map.drive());
+        let OrbitEvent::Impact(landing) = next else { panic!("{next:?}") };
+        assert!(landing.duration() > 1e-6, "{landing:?} on {:?}", map.drive());
         separated += 1;
     }
 }
@@ -368,11 +368,11 @@ fn a_contact_and_a_flight_do_not_alternate_at_one_time() {
             for _ in 0..60 {
                 let from = orbit.launch();
                 match orbit.next() {
-                    Some(Ok(DrivenEvent::Impact(landing))) => {
+                    Some(Ok(OrbitEvent::Impact(landing))) => {
                         flights += 1;
                         let launch = from.expect("it was in the air");
                         let at_once =
-                            launch.1 == 0.0 && landing.impact.phase.angle().to_bits() == launch.0.to_bits();
+                            launch.1 == 0.0 && landing.phase.angle().to_bits() == launch.0.to_bits();
                         assert!(!at_once, "{launch:?} {landing:?} {:?}", map.drive());
                     }
                     Some(event) => drop(event.unwrap()),

@@ -7,7 +7,7 @@ use crate::contacts::exponents;
 use crate::launches::SplitMix;
 use bouncing_disk_core::flight::RelativeState;
 use bouncing_disk_core::{
-    ChatterPolicy, Drive, DrivenEvent, DrivenMap, Error, ImpactMap, ImpactState, Phase, Vibration,
+    Attachment, ChatterPolicy, Drive, DrivenMap, Error, ImpactMap, ImpactState, OrbitEvent, Phase, Vibration,
 };
 
 fn state(phase: f64, velocity: f64) -> ImpactState {
@@ -220,19 +220,23 @@ fn orbits_are_chains_of_steps_and_end_where_the_disk_settles() {
         let mut at = state(1.0, -40.0);
         let mut orbit = map.orbit(at, ChatterPolicy::Complete);
         for _ in 0..100 {
-            let Some(DrivenEvent::Impact(landing)) = orbit.advance().unwrap() else { panic!("bounces") };
-            assert_eq!(landing, map.step(at).unwrap());
-            at = landing.impact.into();
+            let Some(OrbitEvent::Impact(landing)) = orbit.advance().unwrap() else { panic!("bounces") };
+            assert_eq!(landing, map.step(at).unwrap().impact);
+            at = landing.into();
         }
     }
     // A platform that never outruns the disk: with a damper the force becomes steady.
     let calm = sine(0.5, 0.5).with_contact_time(1.0).unwrap();
     let mut orbit = calm.of_flight(0.0, 1.0, 0.0, ChatterPolicy::Complete).unwrap();
     let last = (&mut orbit).last().unwrap().unwrap();
-    assert!(matches!(last, DrivenEvent::Attachment { accumulation, .. } if accumulation.error_bound == 0.0));
+    assert!(
+        matches!(last, OrbitEvent::Attachment(Attachment { accumulation, .. }) if accumulation.error_bound == 0.0)
+    );
     assert_eq!(orbit.advance(), Ok(None));
     let settles = calm.of_contact(0.3, ChatterPolicy::Complete).advance().unwrap();
-    let Some(DrivenEvent::Attachment { accumulation, .. }) = settles else { panic!("{settles:?}") };
+    let Some(OrbitEvent::Attachment(Attachment { accumulation, .. })) = settles else {
+        panic!("{settles:?}")
+    };
     let phase = (0.3 + accumulation.duration) / TAU;
     assert_eq!(accumulation.turns, phase as u64, "{accumulation:?}");
     let stays = calm.step(state(0.0, 0.0));
@@ -240,12 +244,12 @@ fn orbits_are_chains_of_steps_and_end_where_the_disk_settles() {
     // A spring that loads and unloads for ever, without a release.
     let turns = sine(0.3, 0.9).with_hysteretic_contact(1.0).unwrap();
     let event = turns.of_contact(0.0, ChatterPolicy::Complete).advance().unwrap();
-    let Some(DrivenEvent::Attachment { accumulation, .. }) = event else { panic!("{event:?}") };
+    let Some(OrbitEvent::Attachment(Attachment { accumulation, .. })) = event else { panic!("{event:?}") };
     assert!(accumulation.error_bound.is_infinite());
     // A disk that is deeper than its weight presses it is thrown off.
     let thrown = sine(3.0, 0.5).with_contact_time(1.0).unwrap();
     let event = thrown.of_contact(-1.2, ChatterPolicy::Complete).advance().unwrap();
-    assert!(matches!(event, Some(DrivenEvent::Separation(change)) if change.velocity > 0.0), "{event:?}");
+    assert!(matches!(event, Some(OrbitEvent::Separation(change)) if change.velocity > 0.0), "{event:?}");
     for flight in [(f64::NAN, 0.0, 1.0), (0.0, -1.0, 1.0), (0.0, f64::NAN, 1.0), (0.0, 0.0, f64::NAN)] {
         let refused = thrown.of_flight(flight.0, flight.1, flight.2, ChatterPolicy::Complete);
         assert!(refused.is_err(), "{flight:?}");

@@ -20,7 +20,7 @@ use bouncing_disk_core::orbits::{
 };
 use bouncing_disk_core::sweep::{InstructionSet, OrbitBatch};
 use bouncing_disk_core::{
-    ChatterPolicy, Drive, DrivenEvent, DrivenMap, ImpactMap, ImpactState, OrbitEvent, Phase, Unobserved,
+    Attachment, ChatterPolicy, Drive, DrivenMap, ImpactMap, ImpactState, OrbitEvent, Phase, Unobserved,
     Vibration,
 };
 
@@ -257,15 +257,15 @@ fn add_orbits(digest: &mut Digest, map: &DrivenMap) {
         let mut orbit = map.orbit(start, ChatterPolicy::Complete);
         for _ in 0..300 {
             match orbit.advance().expect("no failure") {
-                Some(DrivenEvent::Impact(landing)) => {
-                    add_state(digest, landing.impact.into());
-                    digest.number(landing.impact.remainder);
+                Some(OrbitEvent::Impact(landing)) => {
+                    add_state(digest, landing.into());
+                    digest.number(landing.remainder);
                 }
-                Some(DrivenEvent::Attachment { accumulation, last_speed }) => {
+                Some(OrbitEvent::Attachment(Attachment { accumulation, last_speed, .. })) => {
                     digest.number(accumulation.phase.angle());
                     digest.number(last_speed);
                 }
-                Some(DrivenEvent::Separation(change) | DrivenEvent::Kick(change)) => {
+                Some(OrbitEvent::Separation(change) | OrbitEvent::Kick(change)) => {
                     digest.number(change.phase.angle());
                     digest.number(change.velocity);
                 }

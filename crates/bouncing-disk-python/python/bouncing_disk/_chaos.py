@@ -130,12 +130,15 @@ def lyapunov_exponents(
     normalised_speed: ArrayLike,
     transient: Int = 1000,
     impacts: Int = 10_000,
+    drive: Drive | None = None,
+    contact_periods: Float | None = None,
     progress: Progress = None,
 ) -> FloatArray:
     """The largest Lyapunov exponent per impact of each orbit.
 
     Args:
         axial_forcing, restitution, impact_phase, normalised_speed: as of :func:`orbit_diagram`, shape (n,).
+        drive, contact_periods: the platform and the contact, as of :func:`orbit_diagram`.
         transient: impacts before the exponent is measured.
         impacts: impacts over which it is measured.
 
@@ -191,12 +194,15 @@ def lyapunov_spectra(
     normalised_speed: ArrayLike,
     transient: Int = 1000,
     impacts: Int = 10_000,
+    drive: Drive | None = None,
+    contact_periods: Float | None = None,
     progress: Progress = None,
 ) -> LyapunovSpectra:
     """Both Lyapunov exponents per impact of each orbit, with the standard error of the largest.
 
     Args:
         axial_forcing, restitution, impact_phase, normalised_speed: as of :func:`orbit_diagram`, shape (n,).
+        drive, contact_periods: the platform and the contact, as of :func:`orbit_diagram`.
         transient: impacts before the exponents are measured.
         impacts: impacts over which they are measured, at least 16.
 
@@ -272,6 +278,8 @@ def verdicts(
     impacts: Int = 100_000,
     longest_period: Int = 256,
     tolerance: Float = 1e-07,
+    drive: Drive | None = None,
+    contact_periods: Float | None = None,
     progress: Progress = None,
 ) -> Verdicts:
     """The long-term motion from each start: periodic, chaotic, chattering, at rest or undecided, with the
@@ -279,6 +287,7 @@ def verdicts(
 
     Args:
         axial_forcing, restitution, impact_phase, normalised_speed: as of :func:`orbit_diagram`, shape (n,).
+        drive, contact_periods: the platform and the contact, as of :func:`orbit_diagram`.
         transient: impacts before the exponent is measured.
         impacts: impacts over which the exponent is measured, at least 64.
         longest_period: the longest period searched for, in impacts, in [1, 4096].

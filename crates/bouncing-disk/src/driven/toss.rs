@@ -1,8 +1,6 @@
 //! Tosses by a hand that moves in any way (Secs. III and IV).
 
-use bouncing_disk_core::chaos::TangentGrowth;
-use bouncing_disk_core::orbits::PeriodicOrbit;
-use bouncing_disk_core::{ChatterPolicy, DrivenMap, ImpactState, Observer, Phase};
+use bouncing_disk_core::{ChatterPolicy, DrivenMap, Observer, Phase};
 
 use super::ground::DrivenEngine;
 use super::{DrivenStart, DrivenSystem};
@@ -12,7 +10,7 @@ use crate::motion::event::{Event, SteeredMotion};
 use crate::parameters::disk::Disk;
 use crate::parameters::driven_platform::DrivenPlatform;
 use crate::toss::collisions::Collisions;
-use crate::toss::multiple::{VerticalMap, settle};
+use crate::toss::multiple::settle;
 use crate::toss::{InitialSpin, MultiTossSettings, TossOrbit, TossPerformance};
 
 /// Most events without a departure after which a disk counts as one that never leaves: without restitution it
@@ -90,20 +88,6 @@ pub fn multi_toss(
     let mut engine = DrivenEngine::new(system, start, settings.policy)?;
     engine.skip_energies();
     settle(Collisions::of(engine), &map, twist_speed, settings, observer)
-}
-
-impl VerticalMap for DrivenMap {
-    fn refined(&self, states: &[ImpactState]) -> Option<PeriodicOrbit> {
-        self.refine(states).ok()
-    }
-
-    fn grow(&self, tangent: &mut TangentGrowth, state: ImpactState) -> Option<f64> {
-        self.step_with_derivative(state).ok().map(|(_, derivative)| tangent.grow(derivative))
-    }
-
-    fn needed_impacts(&self) -> f64 {
-        self.transient_impacts()
-    }
 }
 
 #[cfg(test)]

@@ -356,7 +356,7 @@ mod tests {
         let times: Vec<f64> = (1..=20_000).map(|i| f64::from(i) * 0.02).collect();
         let speeds = curve(20.0, 0.6, &times);
         let (asked, done) = check_stops(1, |observer| ExponentialFit::new(&times, &speeds, observer));
-        assert!(asked > TRIALS as usize && done.iter().all(|&done| done == 0), "{asked} {done:?}");
+        assert!(asked > u64::from(TRIALS) && done.iter().all(|&done| done == 0), "{asked} {done:?}");
     }
 
     #[test]

@@ -5,9 +5,9 @@ use std::f64::consts::{PI, TAU};
 use std::fmt::{self, Display, Formatter};
 
 use bouncing_disk_core::chaos::{LyapunovEstimate, TangentGrowth};
-use bouncing_disk_core::orbits::{MAX_PERIOD, Multipliers, PeriodicOrbit, Stability};
+use bouncing_disk_core::orbits::{MAX_PERIOD, Multipliers, Stability};
 use bouncing_disk_core::run::{Watch, WorkCount};
-use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, Observer};
+use bouncing_disk_core::{BouncingMap, ChatterPolicy, ImpactState, Observer};
 
 use crate::error::{Error, check, not_negative, room_for};
 use crate::motion::event::{EventRecord, Motion};
@@ -145,36 +145,10 @@ fn toss_orbit(
     settle(collisions, system.map(), system.twist_speed(), settings, observer)
 }
 
-/// The vertical impact map, as far as a classification needs it.
-pub(crate) trait VerticalMap {
-    /// The periodic orbit next to these impacts.
-    fn refined(&self, states: &[ImpactState]) -> Option<PeriodicOrbit>;
-
-    /// The growth of a tangent vector in the step from `state`; `None` where there is no derivative.
-    fn grow(&self, tangent: &mut TangentGrowth, state: ImpactState) -> Option<f64>;
-
-    /// Impacts in which dissipation acts.
-    fn needed_impacts(&self) -> f64;
-}
-
-impl VerticalMap for ImpactMap {
-    fn refined(&self, states: &[ImpactState]) -> Option<PeriodicOrbit> {
-        self.refine(states).ok()
-    }
-
-    fn grow(&self, tangent: &mut TangentGrowth, state: ImpactState) -> Option<f64> {
-        self.step_with_derivative(state).ok().map(|(_, derivative)| tangent.grow(derivative))
-    }
-
-    fn needed_impacts(&self) -> f64 {
-        self.transient_impacts()
-    }
-}
-
 /// [`multi_toss`] on a platform with this impact map and largest angular speed.
 pub(crate) fn settle<M: Motion<Record = EventRecord>>(
     mut collisions: Collisions<M>,
-    map: &impl VerticalMap,
+    map: &impl BouncingMap,
     twist_speed: f64,
     settings: &MultiTossSettings,
     observer: &dyn Observer,
@@ -239,7 +213,7 @@ impl Examined {
 
     fn classified(
         self,
-        map: &impl VerticalMap,
+        map: &impl BouncingMap,
         twist_speed: f64,
         settings: &MultiTossSettings,
         work: &mut WorkCount<'_>,
@@ -287,7 +261,7 @@ impl Examined {
 
     fn periodic(
         &self,
-        map: &impl VerticalMap,
+        map: &impl BouncingMap,
         same_speed: f64,
         settings: &MultiTossSettings,
     ) -> Option<TossOrbit> {
@@ -307,7 +281,7 @@ impl Examined {
         let round = &self.collisions[last + 1 - period..];
         let states: Vec<ImpactState> =
             round.iter().map(|collision| collision.state.vertical()).collect::<Result<_, _>>().ok()?;
-        let orbit = map.refined(&states)?;
+        let orbit = map.refine(&states).ok()?;
         if orbit.stability() != Stability::Stable {
             return None;
         }
@@ -328,7 +302,7 @@ impl Examined {
 
     fn without_period(
         self,
-        map: &impl VerticalMap,
+        map: &impl BouncingMap,
         settings: &MultiTossSettings,
         work: &mut WorkCount<'_>,
     ) -> Result<TossOrbit, Error> {
@@ -337,7 +311,7 @@ impl Examined {
         let lyapunov_exponent = if self.attached { None } else { growth_rate(map, &self.collisions, work)? };
         let followed = settings.transient_impacts.saturating_add(self.collisions.len()) as f64;
         let class = match lyapunov_exponent {
-            Some(lyapunov_exponent) if lyapunov_exponent.grows() && followed >= map.needed_impacts() => {
+            Some(lyapunov_exponent) if lyapunov_exponent.grows() && followed >= map.transient_impacts() => {
                 OrbitClass::Chaotic { lyapunov_exponent }
             }
             _ => OrbitClass::Undecided { impacts: self.collisions.len(), lyapunov_exponent },
@@ -355,7 +329,7 @@ fn mean_speed(from: (PhaseTime, f64), to: (PhaseTime, f64)) -> Option<f64> {
 /// Mean logarithmic growth of a tangent vector per impact; `None` at a graze, where the derivative is
 /// unbounded.
 fn growth_rate(
-    map: &impl VerticalMap,
+    map: &impl BouncingMap,
     collisions: &[Collision],
     work: &mut WorkCount<'_>,
 ) -> Result<Option<LyapunovEstimate>, Error> {
@@ -364,7 +338,9 @@ fn growth_rate(
     for collision in followed {
         work.spend(1)?;
         let state = collision.state.vertical().ok();
-        let Some(growth) = state.and_then(|state| map.grow(&mut tangent, state)) else { return Ok(None) };
+        let derivative = state.and_then(|state| map.step_with_derivative(state).ok());
+        let Some((_, derivative)) = derivative else { return Ok(None) };
+        let growth = tangent.grow(derivative);
         growths.push(growth);
     }
     Ok(LyapunovEstimate::of(&growths).filter(|_| tangent.is_bounded()))
@@ -409,7 +385,7 @@ mod tests {
     use bouncing_disk_core::Unobserved;
     use std::f64::consts::PI;
 
-    use bouncing_disk_core::{Phase, Vibration};
+    use bouncing_disk_core::{ImpactMap, Phase, Vibration};
     use proptest::prelude::*;
 
     use super::*;

@@ -49,13 +49,13 @@ pub(super) fn first_look(
     let orbits = orbits(map, starts);
     let seen = sweep(
         &orbits,
-        |index| (Witness::new((*map, starts[index]), settings), false),
+        |index| (Witness::new((map, starts[index]), settings), false),
         |(witness, rests), event| match event {
-            SweepEvent::Attachment(_) => {
+            SweepEvent::Impact(_) => witness.see(event),
+            _ => {
                 *rests = true;
                 ControlFlow::Break(())
             }
-            SweepEvent::Impact(_) => witness.see(event),
         },
         observer,
     )?;
@@ -84,8 +84,8 @@ pub(super) struct LongLook {
 }
 
 /// One orbit that is followed for long.
-struct Recorder {
-    witness: Witness,
+struct Recorder<'m> {
+    witness: Witness<'m, ImpactMap>,
     marks: CellMarks,
     impacts: u64,
     last: ImpactState,
@@ -112,7 +112,7 @@ pub(super) fn long_look(
     let mut recorders = sweep(
         &[map.orbit(start, ChatterPolicy::Complete)],
         |_| Recorder {
-            witness: Witness::new((*map, start), settings),
+            witness: Witness::new((map, start), settings),
             marks: CellMarks::new(side, top),
             impacts: 0,
             last: start,
@@ -149,6 +149,7 @@ pub(super) fn long_look(
                 }
                 recorder.witness.see(event)
             }
+            SweepEvent::Separation(_) | SweepEvent::Kick(_) => recorder.witness.see(event),
         },
         observer,
     )?;

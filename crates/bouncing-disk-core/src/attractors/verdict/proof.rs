@@ -2,7 +2,8 @@
 //! one.
 
 use super::VerdictSettings;
-use crate::map::impact_map::{ImpactMap, ImpactState};
+use crate::map::bouncing_map::BouncingMap;
+use crate::map::impact_map::ImpactState;
 use crate::numerics::elementary::{exp, ln};
 use crate::orbits::periodic::{PeriodicOrbit, Stability, distance};
 
@@ -33,7 +34,7 @@ pub(super) struct Proof {
 /// The periodic orbit that the orbit from `state` approaches, or else one at which it stays; the orbit from
 /// `state` nearly repeats itself after `period` impacts.
 pub(super) fn prove(
-    map: &ImpactMap,
+    map: &impl BouncingMap,
     state: ImpactState,
     period: usize,
     settings: &VerdictSettings,
@@ -47,8 +48,8 @@ pub(super) fn prove(
     });
     let orbit = orbits.filter(is_known).min_by_key(PeriodicOrbit::stability)?;
     let stability = orbit.stability();
-    let bounces_on = |impact: &ImpactState| !map.chatters_to_rest(map.rebound(*impact));
-    let distance = orbit.distance(state, map.vibration().peak_acceleration());
+    let bounces_on = |impact: &ImpactState| !map.chatters_to_rest_after(*impact);
+    let distance = orbit.distance(state, map.speed_scale());
     let proved = orbit.states.iter().all(bounces_on)
         && match stability {
             Stability::Stable => comes_nearer(map, &orbit, state, distance),
@@ -64,7 +65,7 @@ fn is_known(orbit: &PeriodicOrbit) -> bool {
 }
 
 /// `count` impacts, beginning with `state`.
-fn impacts_from(map: &ImpactMap, state: ImpactState, count: usize) -> Option<Vec<ImpactState>> {
+fn impacts_from(map: &impl BouncingMap, state: ImpactState, count: usize) -> Option<Vec<ImpactState>> {
     let mut impacts = Vec::with_capacity(count);
     let mut state = state;
     loop {
@@ -78,7 +79,7 @@ fn impacts_from(map: &ImpactMap, state: ImpactState, count: usize) -> Option<Vec
 
 /// The orbit with its smallest period: a shorter one that it nearly repeats, unless that repels and this one
 /// does not.
-fn prime(map: &ImpactMap, orbit: PeriodicOrbit) -> PeriodicOrbit {
+fn prime(map: &impl BouncingMap, orbit: PeriodicOrbit) -> PeriodicOrbit {
     let states = &orbit.states;
     let n = states.len();
     let fastest = states.iter().fold(1.0_f64, |most, state| most.max(state.velocity().abs()));
@@ -95,7 +96,7 @@ fn prime(map: &ImpactMap, orbit: PeriodicOrbit) -> PeriodicOrbit {
 /// Whether the orbit from `state` comes nearer to the periodic one, after whole periods of it: by at least
 /// half of the decrease that the multipliers predict, within about twice the time in which they shrink a
 /// distance to a third, or within [`MOST_CONFIRMING`] impacts if these are fewer.
-fn comes_nearer(map: &ImpactMap, orbit: &PeriodicOrbit, state: ImpactState, from: f64) -> bool {
+fn comes_nearer(map: &impl BouncingMap, orbit: &PeriodicOrbit, state: ImpactState, from: f64) -> bool {
     if from <= ROUNDING_DISTANCE {
         return true;
     }
@@ -110,7 +111,7 @@ fn comes_nearer(map: &ImpactMap, orbit: &PeriodicOrbit, state: ImpactState, from
 }
 
 /// Whether the orbit from `state` stays so near to the periodic one over the most impacts of a proof.
-fn stays_within(map: &ImpactMap, orbit: &PeriodicOrbit, state: ImpactState, most: f64) -> bool {
+fn stays_within(map: &impl BouncingMap, orbit: &PeriodicOrbit, state: ImpactState, most: f64) -> bool {
     let rounds = (MOST_CONFIRMING as usize / orbit.period()).max(1);
     let mut distances = distances(map, orbit, state).take(rounds);
     distances.all(|distance| distance.is_some_and(|distance| distance <= most))
@@ -119,11 +120,11 @@ fn stays_within(map: &ImpactMap, orbit: &PeriodicOrbit, state: ImpactState, most
 /// The distances of the orbit from `state` from the periodic one after each of its periods; `None` from where
 /// it has no next impact.
 fn distances(
-    map: &ImpactMap,
+    map: &impl BouncingMap,
     orbit: &PeriodicOrbit,
     state: ImpactState,
 ) -> impl Iterator<Item = Option<f64>> {
-    let scale = map.vibration().peak_acceleration();
+    let scale = map.speed_scale();
     let mut state = Some(state);
     core::iter::repeat_with(move || {
         state = state.and_then(|state| map.steps(state, orbit.period() as u64).ok());

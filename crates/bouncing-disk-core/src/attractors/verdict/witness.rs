@@ -7,10 +7,11 @@ use super::proof::{Proof, prove};
 use super::returns::Returns;
 use super::{CycleTrust, RestCycle, UndecidedReason, Verdict, VerdictSettings};
 use crate::flight::platform::phase::Phase;
-use crate::map::impact_map::{Attachment, ImpactMap, ImpactState};
+use crate::map::bouncing_map::BouncingMap;
+use crate::map::impact_map::{Attachment, ImpactState};
 use crate::numerics::batch_means::BatchMeans;
 use crate::numerics::elementary::exp;
-use crate::orbits::periodic::Stability;
+use crate::orbits::periodic::{Stability, phase_difference};
 use crate::sweep::lyapunov::{LyapunovEstimate, TangentGrowth};
 use crate::sweep::{SweepEvent, SweepImpact};
 
@@ -25,21 +26,33 @@ const TRUSTED_ROUNDING: f64 = 1.0e-3;
 /// The course of the motion since the disk separated from rest.
 #[derive(Debug, Clone)]
 struct Round {
+    /// Where it separated.
+    from: Phase,
+    /// Impacts before that.
+    before: u64,
+    /// Impacts since, a kick among them.
+    impacts: u64,
     long_flights: u64,
     turns: u64,
     /// Logarithms of the growth of a perturbation by each flight after the first impact.
     growth: BatchMeans,
+    /// Whether all of them are known.
+    is_known: bool,
     /// The error of the last impact, and the largest so far.
     rounding: f64,
     worst_rounding: f64,
 }
 
 impl Round {
-    fn new() -> Self {
+    fn new(from: Phase, before: u64, kicks: u64) -> Self {
         Self {
+            from,
+            before,
+            impacts: kicks,
             long_flights: 0,
             turns: 0,
             growth: LyapunovEstimate::growths(),
+            is_known: true,
             rounding: 0.0,
             worst_rounding: 0.0,
         }
@@ -65,6 +78,9 @@ impl Round {
     }
 }
 
+/// Two separations at phases (rad) as near as this are one.
+const SAME_SEPARATION: f64 = 1.0e-9;
+
 /// An orbit that returns to within this (rad, and relative speed) is on a periodic one, whatever
 /// perturbations of it do: of the pairs of impacts that are compared a chaotic one has about one in 1e8 as
 /// near.
@@ -72,8 +88,8 @@ const ON_AN_ORBIT: f64 = 1.0e-9;
 
 /// An orbit under way to its verdict.
 #[derive(Debug, Clone)]
-pub(crate) struct Witness {
-    map: ImpactMap,
+pub(crate) struct Witness<'m, M> {
+    map: &'m M,
     settings: VerdictSettings,
     state: ImpactState,
     /// Impacts since the start or since the last separation, and those before.
@@ -86,12 +102,16 @@ pub(crate) struct Witness {
     growth: BatchMeans,
     turns: u64,
     grazed: Option<(u64, Phase)>,
+    /// Where the disk came to rest that has not separated since.
+    attached: Option<Phase>,
     round: Option<Round>,
+    /// The rounds before it: more than none only where the disk leaves the platform at several phases.
+    earlier: Vec<Round>,
     verdict: Option<Verdict>,
 }
 
-impl Witness {
-    pub(crate) fn new((map, state): (ImpactMap, ImpactState), settings: VerdictSettings) -> Self {
+impl<'m, M: BouncingMap> Witness<'m, M> {
+    pub(crate) fn new((map, state): (&'m M, ImpactState), settings: VerdictSettings) -> Self {
         Self {
             map,
             settings,
@@ -103,7 +123,9 @@ impl Witness {
             growth: LyapunovEstimate::growths(),
             turns: 0,
             grazed: None,
+            attached: None,
             round: None,
+            earlier: Vec::new(),
             verdict: None,
         }
     }
@@ -113,16 +135,17 @@ impl Witness {
         match event {
             SweepEvent::Impact(impact) => self.impact(impact),
             SweepEvent::Attachment(rest) => self.rest(rest),
+            SweepEvent::Separation(change) => self.separates(change.phase, change.turns, 0),
+            SweepEvent::Kick(change) => self.separates(change.phase, change.turns, 1),
         }
         if self.verdict.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
     /// The verdict, once the orbit has been followed to it.
     pub(crate) fn verdict(self) -> Verdict {
-        // An orbit ends without a verdict where the disk stays on the platform without an impact or a
-        // chatter.
-        self.verdict
-            .unwrap_or(Verdict::AtRest { phase: self.state.phase(), after: self.before + self.impacts })
+        // An orbit ends without a verdict where the disk stays on the platform, perhaps without an impact or a chatter.
+        let phase = self.attached.unwrap_or(self.state.phase());
+        self.verdict.unwrap_or(Verdict::AtRest { phase, after: self.before + self.impacts })
     }
 
     fn impact(&mut self, impact: &SweepImpact) {
@@ -179,34 +202,35 @@ impl Witness {
     }
 
     fn rest(&mut self, rest: &Attachment) {
-        let after = self.before + self.impacts;
-        let Some((separation, turns)) = rest.separation else {
-            self.verdict = Some(Verdict::AtRest { phase: rest.accumulation.phase, after });
-            return;
-        };
-        if let Some(round) = self.round.take() {
-            let turns = round.turns + rest.accumulation.turns + turns;
-            let cycle = self.cycle(&round, turns);
-            self.verdict = Some(Verdict::Chattering { cycle, after: self.before });
+        self.attached = Some(rest.accumulation.phase);
+        if let Some(round) = &mut self.round {
+            round.turns += rest.accumulation.turns;
+        }
+        if let Some((separation, turns)) = rest.separation {
+            self.separates(separation, turns, 0);
+        }
+    }
+
+    /// The disk leaves the platform, after `turns` of the phase in contact; a kick counts as an impact.
+    fn separates(&mut self, phase: Phase, turns: u64, kicks: u64) {
+        if let Some(mut round) = self.round.take() {
+            round.turns += turns;
+            round.impacts += self.impacts;
+            round.is_known &= self.grazed.is_none();
+            self.earlier.push(round);
+        }
+        let same =
+            |round: &Round| phase_difference(round.from.angle(), phase.angle()).abs() <= SAME_SEPARATION;
+        if let Some(first) = self.earlier.iter().position(same) {
+            let after = self.earlier[first].before;
+            self.verdict = Some(Verdict::Chattering { cycle: cycle(&self.earlier[first..]), after });
             return;
         }
         // From here on nothing depends on what was before.
-        let from = ImpactState::of_impact(separation, 0.0);
-        *self =
-            Self { before: after, round: Some(Round::new()), ..Self::new((self.map, from), self.settings) };
-    }
-
-    fn cycle(&self, round: &Round, platform_periods: u64) -> RestCycle {
-        let rounding_error = round.worst_rounding;
-        let trust = if rounding_error <= TRUSTED_ROUNDING {
-            CycleTrust::Exact
-        } else {
-            let measured = |value: Option<f64>| value.filter(|_| self.grazed.is_none());
-            let exponent = measured(round.growth.mean());
-            CycleTrust::ChosenByRounding { exponent, standard_error: measured(round.growth.standard_error()) }
-        };
-        let long_flights = round.long_flights;
-        RestCycle { impacts: self.impacts, platform_periods, long_flights, rounding_error, trust }
+        let (after, earlier) = (self.before + self.impacts, core::mem::take(&mut self.earlier));
+        let start = (self.map, ImpactState::of_impact(phase, 0.0));
+        let round = Some(Round::new(phase, after, kicks));
+        *self = Self { before: after, round, earlier, ..Self::new(start, self.settings) };
     }
 
     /// How often the disk has come to rest.
@@ -217,7 +241,7 @@ impl Witness {
     /// The verdict if the orbit is on its way to an attracting one with this period, or stays at one that is
     /// no less stable than `least`.
     fn periodic(&self, period: usize, least: Stability) -> Option<Verdict> {
-        let proof = prove(&self.map, self.state, period, &self.settings)?;
+        let proof = prove(self.map, self.state, period, &self.settings)?;
         let Proof { orbit, distance, stability } = proof;
         let (impacts, platform_periods) = (orbit.period() as u64, orbit.platform_periods);
         let (multipliers, state, rests) = (orbit.multipliers(), *orbit.states.first()?, self.rests());
@@ -266,5 +290,31 @@ impl Witness {
             UndecidedReason::ExponentNearZero { exponent, standard_error }
         };
         Verdict::Undecided { reason, rests }
+    }
+}
+
+/// What repeats after these rounds.
+fn cycle(rounds: &[Round]) -> RestCycle {
+    let sum = |of: fn(&Round) -> u64| rounds.iter().map(of).sum();
+    let mut worst = &rounds[0];
+    for round in &rounds[1..] {
+        if round.worst_rounding > worst.worst_rounding {
+            worst = round;
+        }
+    }
+    let rounding_error = worst.worst_rounding;
+    let trust = if rounding_error <= TRUSTED_ROUNDING {
+        CycleTrust::Exact
+    } else {
+        let measured = |value: Option<f64>| value.filter(|_| worst.is_known);
+        let exponent = measured(worst.growth.mean());
+        CycleTrust::ChosenByRounding { exponent, standard_error: measured(worst.growth.standard_error()) }
+    };
+    RestCycle {
+        impacts: sum(|round| round.impacts),
+        platform_periods: sum(|round| round.turns),
+        long_flights: sum(|round| round.long_flights),
+        rounding_error,
+        trust,
     }
 }

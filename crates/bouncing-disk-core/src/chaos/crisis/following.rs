@@ -321,7 +321,7 @@ impl CrisisSearch {
                     (*lived, *state) = (*lived + 1, impact.state);
                     if *lived < most { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
                 }
-                SweepEvent::Attachment(_) => ControlFlow::Break(()),
+                _ => ControlFlow::Break(()),
             },
             &observer,
         );

@@ -14,8 +14,8 @@ use super::search::{Catalogue, OrbitSearch};
 use super::{MAX_NEWTON_STEPS, MAX_PERIOD, PeriodicOrbit, Stability, phase_difference};
 use crate::chatter::policy::ChatterPolicy;
 use crate::flight::platform::phase::Phase;
-use crate::map::driven_map::{DrivenEvent, DrivenMap};
-use crate::map::impact_map::ImpactState;
+use crate::map::driven_map::DrivenMap;
+use crate::map::impact_map::{ImpactState, OrbitEvent};
 use crate::numerics::block_cyclic::solve_block_cyclic;
 use crate::numerics::error::{Error, within};
 use crate::run::{Observer, Watch, in_parallel};
@@ -174,7 +174,7 @@ impl DrivenMap {
         one_impact: Option<&OneImpact>,
     ) -> Vec<PeriodicOrbit> {
         let impacts = self.orbit(start, ChatterPolicy::Complete).map_while(|event| match event {
-            Ok(DrivenEvent::Impact(landing)) => Some(ImpactState::from(landing.impact)),
+            Ok(OrbitEvent::Impact(landing)) => Some(ImpactState::from(landing)),
             _ => None,
         });
         let mut states = vec![start];

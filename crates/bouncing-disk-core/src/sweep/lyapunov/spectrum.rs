@@ -7,7 +7,8 @@ use glam::DMat2;
 
 use crate::chatter::policy::ChatterPolicy;
 use crate::flight::platform::phase::Phase;
-use crate::map::impact_map::{ImpactMap, ImpactState, Orbit};
+use crate::map::bouncing_map::BouncingMap;
+use crate::map::impact_map::ImpactState;
 use crate::numerics::batch_means::{BatchMeans, FEWEST_NUMBERS};
 use crate::numerics::elementary::ln;
 use crate::numerics::error::{Error, within};
@@ -28,7 +29,7 @@ pub struct LyapunovSpectrum {
     pub second: Option<f64>,
     /// The exact sum of both over these impacts: 2 ln(restitution) + ln(v_0/v_n)/n with the impact
     /// velocities before the first and after the last of n flights. It tends to 2 ln(restitution).
-    /// `None` for restitution 0.
+    /// `None` for restitution 0, and in contacts that take time.
     pub exact_sum: Option<f64>,
     /// Impacts through which the perturbations were followed.
     pub impacts: u64,
@@ -42,7 +43,7 @@ pub enum LyapunovOutcome {
     /// The orbit lasted for the requested number of impacts.
     Exponents(LyapunovSpectrum),
     /// The disk came to rest on the platform. The motion after a rest does not depend on the one before, so
-    /// that the orbit of the map has no exponent; [`ImpactMap::verdict`] describes the motion of the disk.
+    /// that the orbit of the map has no exponent; [`ImpactMap::verdict`](crate::ImpactMap::verdict) describes the motion of the disk.
     Rested {
         /// Impacts before the rest, those of the transient among them.
         impacts: u64,
@@ -89,8 +90,8 @@ impl TangentFrame {
 
 /// The state of the computation of an orbit's exponents.
 #[derive(Debug, Clone)]
-struct Followed {
-    map: ImpactMap,
+struct Followed<'m, M> {
+    map: &'m M,
     state: ImpactState,
     impacts: u64,
     first_velocity: f64,
@@ -98,7 +99,7 @@ struct Followed {
     outcome: Option<LyapunovOutcome>,
 }
 
-impl Followed {
+impl<M: BouncingMap> Followed<'_, M> {
     fn see(&mut self, event: &SweepEvent, transient: u64, impacts: u64) -> ControlFlow<()> {
         let SweepEvent::Impact(SweepImpact { state, duration, .. }) = *event else {
             self.outcome = Some(LyapunovOutcome::Rested { impacts: self.impacts });
@@ -127,11 +128,12 @@ impl Followed {
         let restitution = self.map.restitution();
         let telescoped = ln(self.first_velocity / self.state.velocity()) / impacts as f64;
         let two = restitution > 0.0;
+        let is_known = two && self.map.shrinks_areas_exactly();
         Some(LyapunovSpectrum {
             largest: self.frame.batches.mean()?,
             standard_error: self.frame.batches.standard_error()?,
             second: two.then(|| self.frame.second_sum / impacts as f64),
-            exact_sum: two.then(|| 2.0 * ln(restitution) + telescoped),
+            exact_sum: is_known.then(|| 2.0 * ln(restitution) + telescoped),
             impacts,
         })
     }
@@ -163,19 +165,19 @@ impl Followed {
 ///
 /// # Errors
 /// [`Error::OutOfRange`] for fewer than 16 impacts; those of [`sweep`](crate::sweep::sweep()).
-pub fn lyapunov_spectra(
-    starts: &[(ImpactMap, ImpactState)],
+pub fn lyapunov_spectra<M: BouncingMap>(
+    starts: &[(M, ImpactState)],
     transient: u64,
     impacts: u64,
     observer: &dyn Observer,
 ) -> Result<Vec<LyapunovOutcome>, Error> {
     within("impacts", impacts as f64, FEWEST_NUMBERS as f64, f64::MAX, "at least 16")?;
-    let orbits: Vec<Orbit> =
+    let orbits: Vec<M::Orbit> =
         starts.iter().map(|(map, state)| map.orbit(*state, ChatterPolicy::Complete)).collect();
     sweep_with(
         &orbits,
         |index| {
-            let (map, state) = starts[index];
+            let (map, state) = (&starts[index].0, starts[index].1);
             let batches = LyapunovEstimate::growths();
             let frame = TangentFrame { first: TangentGrowth::default(), batches, second_sum: 0.0 };
             Followed { map, state, impacts: 0, first_velocity: 0.0, frame, outcome: None }

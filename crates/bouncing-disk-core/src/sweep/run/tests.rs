@@ -3,7 +3,7 @@
 use super::*;
 use crate::chatter::policy::ChatterPolicy;
 use crate::flight::platform::vibration::Vibration;
-use crate::map::impact_map::{ImpactMap, ImpactState};
+use crate::map::impact_map::{ImpactMap, ImpactState, Orbit};
 use crate::run::Unobserved;
 use crate::sweep::survival_times;
 

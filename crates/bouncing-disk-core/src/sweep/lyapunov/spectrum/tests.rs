@@ -1,5 +1,5 @@
 use super::*;
-use crate::map::impact_map::map;
+use crate::map::impact_map::{ImpactMap, map};
 use crate::numerics::testing::golden_spread;
 use crate::orbits::periodic::Multipliers;
 use crate::run::Unobserved;

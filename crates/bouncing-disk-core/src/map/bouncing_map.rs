@@ -1,0 +1,127 @@
+//! The impact map of any platform, as the analyses need it.
+
+use core::ops::ControlFlow;
+
+use glam::DMat2;
+
+use crate::chatter::policy::ChatterPolicy;
+use crate::flight::launch::Impact;
+use crate::map::impact_map::ImpactState;
+use crate::numerics::elementary::ln;
+use crate::numerics::error::Error;
+use crate::orbits::periodic::PeriodicOrbit;
+use crate::run::{Watch, in_parallel};
+use crate::sweep::SweepEvent;
+
+/// How many times the area of a set of states must have shrunk by e before the behaviour of an orbit counts
+/// as final.
+const DISSIPATION_TIMES: f64 = 10.0;
+
+/// The vertical impact map of a disk on a platform: the sine's [`ImpactMap`](crate::ImpactMap), and the
+/// [`DrivenMap`](crate::DrivenMap) of other drives and of contacts that take time.
+///
+/// Verdicts, Lyapunov exponents and orbit diagrams take any of them. Where a map knows more (a closed form, a
+/// certificate of rest, a way to compute many flights at once), its methods replace the general ones.
+pub trait BouncingMap: Clone + core::fmt::Debug + Send + Sync {
+    /// Its orbits.
+    type Orbit: BouncingOrbit;
+
+    /// Coefficient of restitution, in [0, 1).
+    fn restitution(&self) -> f64;
+
+    /// The speed (units of g/omega) that counts as much as a radian in a distance between two impacts: the largest
+    /// speed of the platform.
+    fn speed_scale(&self) -> f64;
+
+    /// The impact that follows the one in `state`, without any chattering policy.
+    ///
+    /// # Errors
+    /// [`Error::NoLiftOff`] if the disk stays on the platform, and those of a flight.
+    fn step(&self, state: ImpactState) -> Result<Impact, Error>;
+
+    /// [`Self::step`] with the derivative of the next (phase, velocity) by the present (phase, velocity).
+    ///
+    /// # Errors
+    /// Those of [`Self::step`]; [`Error::ImpactOnKink`] where the map has no derivative.
+    fn step_with_derivative(&self, state: ImpactState) -> Result<(Impact, DMat2), Error>;
+
+    /// The orbit that starts with the impact in `state`; the first item is the next event.
+    fn orbit(&self, state: ImpactState, policy: ChatterPolicy) -> Self::Orbit;
+
+    /// The periodic orbit next to `guess` (its impacts in order).
+    ///
+    /// # Errors
+    /// [`Error::NotSettled`] and the others of [`ImpactMap::refine`](crate::ImpactMap::refine).
+    fn refine(&self, guess: &[ImpactState]) -> Result<PeriodicOrbit, Error>;
+
+    /// Whether the disk is certain to chatter to rest after the impact in `state`.
+    fn chatters_to_rest_after(&self, state: ImpactState) -> bool;
+
+    /// The derivative at the impact `from` whose next impact is `to`, after a flight of `duration` (rad); not a
+    /// number where there is none.
+    fn derivative(&self, from: ImpactState, to: ImpactState, duration: f64) -> DMat2 {
+        let _ = (to, duration);
+        self.step_with_derivative(from).map_or(DMat2::NAN, |(_, derivative)| derivative)
+    }
+
+    /// Whether every impact shrinks an area of (phase, velocity) by exactly r^2 v/v', with the velocities v before and
+    /// v' after the flight: then the Lyapunov exponents have a known sum.
+    fn shrinks_areas_exactly(&self) -> bool {
+        true
+    }
+
+    /// Impacts after which a transient may be taken as over: each impact shrinks an area of states by
+    /// restitution^2, all of these by e^-10.
+    fn transient_impacts(&self) -> f64 {
+        DISSIPATION_TIMES / (-2.0 * ln(self.restitution()))
+    }
+
+    /// The impact a number of steps after the one in `state`, which nobody watches.
+    ///
+    /// # Errors
+    /// That of the first step that fails.
+    fn steps(&self, mut state: ImpactState, impacts: u64) -> Result<ImpactState, Error> {
+        for _ in 0..impacts {
+            state = self.step(state)?.into();
+        }
+        Ok(state)
+    }
+}
+
+/// The outcome of the orbit with an index.
+pub type OrbitOutcome<S> = (usize, Result<S, Error>);
+
+/// An orbit of a [`BouncingMap`].
+pub trait BouncingOrbit: Clone + Send + Sync {
+    /// The next event, or `None` after the end of the orbit.
+    ///
+    /// # Errors
+    /// Those of a flight. An error ends the orbit.
+    fn next_event(&mut self) -> Result<Option<SweepEvent>, Error>;
+
+    /// Follows orbits until `visit` breaks, they end, or the observer of `watch` breaks: the outcomes in the order of
+    /// the orbits, of those that are finished. Each finished orbit is an item of `watch`.
+    #[doc(hidden)]
+    fn follow<S: Send>(
+        orbits: &[Self],
+        start: &(impl Fn(usize) -> S + Sync),
+        visit: &(impl Fn(&mut S, &SweepEvent) -> ControlFlow<()> + Sync),
+        watch: &Watch<'_>,
+    ) -> Vec<OrbitOutcome<S>> {
+        let one = |index: usize| {
+            let (mut orbit, mut value, mut work) = (orbits[index].clone(), start(index), watch.work());
+            loop {
+                // Once the observer has broken, what is under way is dropped: it is not finished.
+                work.spend(1).ok()?;
+                match orbit.next_event() {
+                    Ok(Some(event)) if visit(&mut value, &event).is_continue() => {}
+                    Ok(_) => break,
+                    Err(error) => return Some((index, Err(error))),
+                }
+            }
+            watch.finish(1);
+            Some((index, Ok(value)))
+        };
+        in_parallel(orbits.len(), one).into_iter().flatten().collect()
+    }
+}

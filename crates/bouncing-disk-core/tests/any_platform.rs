@@ -1,0 +1,353 @@
+//! Verdicts, exponents and diagrams on drives, against a program that knows only parabolas: on pieces of constant
+//! acceleration each flight is a root of quadratics, and each chatter a geometric series.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use std::f64::consts::{PI, TAU};
+
+use bouncing_disk_core::attractors::{Verdict, VerdictSettings, verdicts};
+use bouncing_disk_core::chaos::{LyapunovOutcome, lyapunov_exponents, lyapunov_spectra};
+use bouncing_disk_core::numerics::elementary::{hypot, ln};
+use bouncing_disk_core::numerics::random::SplitMix64;
+use bouncing_disk_core::sweep::{orbit_diagram, survival_times};
+use bouncing_disk_core::{ChatterPolicy, Drive, DrivenMap, ImpactMap, ImpactState, Unobserved, Vibration};
+
+/// Pieces of constant acceleration: where each begins, with its height, velocity, and half its acceleration there.
+#[derive(Debug, Clone)]
+struct Parabolas(Vec<(f64, [f64; 3])>);
+
+/// The motion after an impact or a rest.
+#[derive(Debug, Clone, Copy)]
+enum Motion {
+    /// The disk leaves the platform at this phase with this speed.
+    Launch(f64, f64),
+    /// It rests from this phase on.
+    Rest(f64),
+}
+
+/// An orbit as it was followed.
+#[derive(Debug, Default)]
+struct Followed {
+    /// Phases and velocities of the impacts, and the periods before each.
+    impacts: Vec<(f64, f64, u64)>,
+    /// Of each separation, its phase, with the impacts, the long flights and the periods before it.
+    separations: Vec<(f64, usize, usize, u64)>,
+    rests_for_ever: bool,
+}
+
+impl Parabolas {
+    fn triangle(a: f64, rise: f64) -> Self {
+        let crest = PI * rise;
+        let (up, down) = (a / crest, -a / (PI - crest));
+        Self(vec![(0.0, [0.0, up, 0.0]), (crest, [a, down, 0.0]), (TAU - crest, [-a, up, 0.0])])
+    }
+
+    fn arcs(a: f64) -> Self {
+        let (slope, half) = (4.0 * a / PI, 4.0 * a / (PI * PI));
+        Self(vec![(0.0, [0.0, slope, -half]), (PI, [0.0, -slope, half])])
+    }
+
+    fn piece(&self, phase: f64) -> usize {
+        self.0.iter().rposition(|(start, _)| *start <= phase).unwrap()
+    }
+
+    fn end(&self, piece: usize) -> f64 {
+        self.0.get(piece + 1).map_or(TAU, |next| next.0)
+    }
+
+    fn at(&self, piece: usize, phase: f64) -> [f64; 3] {
+        let (start, [z, v, half]) = self.0[piece];
+        let s = phase - start;
+        [z + s * (v + s * half), v + 2.0 * s * half, half]
+    }
+
+    /// The next impact: its phase, velocity, and how often the phase passed 0.
+    fn fly(&self, phase: f64, speed: f64) -> (f64, f64, u64) {
+        let mut piece = self.piece(phase);
+        let [_, platform, half] = self.at(piece, phase);
+        // The gap over this piece is h (speed - h bend).
+        let bend = 0.5 + half;
+        let root = speed / bend;
+        if root > 0.0 && phase + root < self.end(piece) {
+            return (phase + root, speed - 2.0 * bend * root, 0);
+        }
+        let z = self.at(piece, phase)[0];
+        let (mut time, mut turns) = (self.end(piece) - phase, 0);
+        loop {
+            piece = (piece + 1) % self.0.len();
+            turns += u64::from(piece == 0);
+            let (start, [height, velocity, half]) = self.0[piece];
+            let length = self.end(piece) - start;
+            let own = platform + speed - time;
+            let gap = z + time * (platform + speed - 0.5 * time) - height;
+            // gap + (own - velocity) s - (1/2 + half) s^2 = 0.
+            let (b, c) = (own - velocity, 0.5 + half);
+            let discriminant = b * b + 4.0 * c * gap;
+            if discriminant >= 0.0 {
+                let sum = b.abs() + discriminant.sqrt();
+                let roots = if b > 0.0 {
+                    [0.5 * sum / c, -2.0 * gap / sum]
+                } else {
+                    [2.0 * gap / sum, -0.5 * sum / c]
+                };
+                let inside = |root: &f64| *root > 0.0 && *root < length;
+                if let Some(s) = roots.into_iter().filter(inside).min_by(f64::total_cmp) {
+                    return (start + s, b - 2.0 * c * s, turns);
+                }
+            }
+            time += length;
+        }
+    }
+
+    /// What follows an impact.
+    fn after(&self, phase: f64, speed: f64, r: f64) -> Motion {
+        let piece = self.piece(phase);
+        let pull = 1.0 + 2.0 * self.at(piece, phase)[2];
+        let rest = phase + 2.0 * speed / (pull * (1.0 - r));
+        if pull > 0.0 && rest < self.end(piece) { Motion::Rest(rest) } else { Motion::Launch(phase, speed) }
+    }
+
+    /// Where a rest ends, how often the phase passes 0 before, and what follows; `None` if it lasts.
+    fn leave(&self, phase: f64, r: f64) -> Option<(f64, u64, Motion)> {
+        let (mut piece, mut turns) = (self.piece(phase), 0);
+        for _ in 0..=self.0.len() {
+            let end = self.end(piece);
+            let before = self.at(piece, end)[1];
+            piece = (piece + 1) % self.0.len();
+            turns += u64::from(piece == 0);
+            let (start, [_, velocity, half]) = self.0[piece];
+            let jump = velocity - before;
+            if jump < -1e-12 {
+                return Some((start, turns, Motion::Launch(start, -jump)));
+            }
+            if jump > 1e-12 {
+                return Some((start, turns, self.after(start, r * jump, r)));
+            }
+            if 0.5 + half < 0.0 {
+                return Some((start, turns, Motion::Launch(start, 0.0)));
+            }
+        }
+        None
+    }
+
+    /// The orbit from an impact, for so many impacts or until it leaves a rest for the fifth time.
+    fn follow(&self, (phase, velocity): (f64, f64), r: f64, impacts: usize) -> Followed {
+        let mut followed = Followed::default();
+        let mut motion = self.after(phase, -r * velocity, r);
+        let (mut long, mut periods) = (0, 0);
+        while followed.impacts.len() < impacts && followed.separations.len() < 5 {
+            match motion {
+                Motion::Launch(from, speed) => {
+                    let (to, velocity, turns) = self.fly(from, speed);
+                    periods += turns;
+                    long += usize::from(to - from + TAU * turns as f64 > PI);
+                    followed.impacts.push((to, velocity, periods));
+                    motion = self.after(to, -r * velocity, r);
+                }
+                Motion::Rest(since) => {
+                    let whole = (since / TAU).floor();
+                    periods += whole as u64;
+                    match self.leave(since - TAU * whole, r) {
+                        Some((at, turns, next)) => {
+                            periods += turns;
+                            followed.separations.push((at, followed.impacts.len(), long, periods));
+                            motion = next;
+                        }
+                        None => {
+                            followed.rests_for_ever = true;
+                            break;
+                        }
+                    }
+                }
+            }
+        }
+        followed
+    }
+
+    /// The growth of a small difference per impact, renewed in each.
+    fn exponent(&self, (mut phase, mut velocity): (f64, f64), r: f64, impacts: u32) -> f64 {
+        let (mut x, mut y, mut sum, mut counted) = (1.0, 0.0, 0.0, 0);
+        while counted < impacts {
+            let size = 1e-8;
+            // No difference survives a rest.
+            if let Motion::Rest(since) = self.after(phase, -r * velocity, r) {
+                let Some((_, _, Motion::Launch(from, speed))) = self.leave(since.rem_euclid(TAU), r) else {
+                    break;
+                };
+                (phase, velocity, _) = self.fly(from, speed);
+                continue;
+            }
+            let (next, fast, _) = self.fly(phase, -r * velocity);
+            let (there, other, _) = self.fly((phase + size * x).rem_euclid(TAU), -r * (velocity + size * y));
+            let away = (there - next + PI).rem_euclid(TAU) - PI;
+            let grown = hypot(away, other - fast) / size;
+            sum += ln(grown);
+            (x, y) = (away / size / grown, (other - fast) / size / grown);
+            (phase, velocity) = (next, fast);
+            counted += 1;
+        }
+        sum / f64::from(counted)
+    }
+}
+
+fn state(phase: f64, velocity: f64) -> ImpactState {
+    ImpactState::from_normalised(phase, -velocity / PI).unwrap()
+}
+
+/// How many verdicts of each kind there are.
+#[derive(Debug, Default)]
+struct Seen {
+    periodic: u32,
+    chaotic: u32,
+    chattering: u32,
+    undecided: u32,
+}
+
+#[test]
+fn verdicts_on_parabolas_are_those_of_quadratics() {
+    let mut seen = Seen::default();
+    let settings = VerdictSettings { transient: 500, impacts: 4_000, ..VerdictSettings::default() };
+    let mut random = SplitMix64::new(70);
+    for case in 0..120 {
+        let (a, r) = (0.3 + 4.0 * random.unit(), 0.9 * random.unit());
+        let (exact, drive) = match case % 3 {
+            0 => (Parabolas::triangle(a, 0.5), Drive::triangle(a)),
+            1 => {
+                let rise = 0.1 + 0.8 * random.unit();
+                (Parabolas::triangle(a, rise), Drive::sawtooth(a, rise))
+            }
+            _ => (Parabolas::arcs(a), Drive::parabolas(a)),
+        };
+        let map = DrivenMap::new(drive.unwrap(), r).unwrap();
+        let start = (TAU * random.unit(), -2.0 * PI * random.unit());
+        let verdict = map.verdict(state(start.0, start.1), settings).unwrap();
+        let context = format!("{case}: a = {a}, r = {r}, {start:?}, {verdict:?}");
+        match verdict {
+            Verdict::Periodic { impacts, platform_periods, .. } => {
+                seen.periodic += 1;
+                let followed = exact.follow(start, r, 20_000).impacts;
+                assert_eq!(followed.len(), 20_000, "{context}");
+                let (last, before) = (followed[19_999], followed[19_999 - impacts as usize]);
+                assert!((last.1 - before.1).abs() < 1e-6, "{context}: {last:?} {before:?}");
+                assert_eq!(last.2 - before.2, platform_periods, "{context}");
+            }
+            Verdict::Chaotic { exponent, standard_error, .. } => {
+                seen.chaotic += 1;
+                let followed = exact.follow(start, r, 2_000);
+                assert_eq!(followed.impacts.len(), 2_000, "{context}");
+                let (phase, velocity, _) = followed.impacts[1_999];
+                let own = exact.exponent((phase, velocity), r, 20_000);
+                assert!((own - exponent).abs() < 5.0 * standard_error + 0.02, "{context}: {own}");
+            }
+            Verdict::Chattering { cycle, .. } => {
+                seen.chattering += 1;
+                let followed = exact.follow(start, r, 100_000);
+                assert_eq!(followed.separations.len(), 5, "{context}");
+                if cycle.is_exact() {
+                    // The round from a separation to the next at the same phase.
+                    let last = followed.separations.last().unwrap();
+                    let same = |other: &&(f64, usize, usize, u64)| (other.0 - last.0).abs() < 1e-9;
+                    let earlier = followed.separations[..4].iter().rev().find(same).unwrap();
+                    assert_eq!(last.3 - earlier.3, cycle.platform_periods, "{context}: {followed:?}");
+                    assert_eq!((last.2 - earlier.2) as u64, cycle.long_flights, "{context}: {followed:?}");
+                }
+            }
+            Verdict::AtRest { .. } => {
+                assert!(exact.follow(start, r, 100_000).rests_for_ever, "{context}");
+            }
+            _ => seen.undecided += 1,
+        }
+    }
+    assert!(seen.chattering > 30 && seen.periodic + seen.chaotic > 10, "{seen:?}");
+    assert!(seen.undecided < 30, "{seen:?}");
+}
+
+/// The general code on the sine as a sum, against the sine's own.
+#[test]
+fn analyses_of_a_sine_as_a_sum_are_those_of_the_sine() {
+    let mut random = SplitMix64::new(71);
+    let settings = VerdictSettings { transient: 300, impacts: 2_000, ..VerdictSettings::default() };
+    let (mut sines, mut sums) = (Vec::new(), Vec::new());
+    for _ in 0..40 {
+        let (forcing, r) = (0.3 + 0.6 * random.unit(), 0.9 * random.unit());
+        let sine = ImpactMap::new(Vibration::from_axial_forcing(forcing).unwrap(), r).unwrap();
+        let sum = DrivenMap::new(Drive::fourier(&[(PI * forcing, 0.0)]).unwrap(), r).unwrap();
+        let start = state(TAU * random.unit(), -2.0 * PI * random.unit());
+        sines.push((sine, start));
+        sums.push((sum, start));
+    }
+    let own = verdicts(&sines, settings, &Unobserved).unwrap();
+    let general = verdicts(&sums, settings, &Unobserved).unwrap();
+    for (own, general) in own.iter().zip(&general) {
+        match (own, general) {
+            (
+                Verdict::Periodic { impacts, platform_periods, multipliers, .. },
+                Verdict::Periodic { impacts: n, platform_periods: k, multipliers: other, .. },
+            ) => {
+                assert_eq!((impacts, platform_periods), (n, k));
+                assert!((multipliers.spectral_radius() - other.spectral_radius()).abs() < 1e-7);
+            }
+            (Verdict::Chattering { cycle, .. }, Verdict::Chattering { cycle: other, .. }) => {
+                if cycle.is_exact() && other.is_exact() {
+                    let numbers = [cycle, other].map(|one| (one.platform_periods, one.long_flights));
+                    assert_eq!(numbers[0], numbers[1]);
+                }
+            }
+            // Rounding decides when a chaotic orbit comes to rest.
+            (Verdict::Chaotic { .. }, Verdict::Chattering { cycle, .. })
+            | (Verdict::Chattering { cycle, .. }, Verdict::Chaotic { .. }) => assert!(!cycle.is_exact()),
+            (own, general) => {
+                assert_eq!(
+                    std::mem::discriminant(own),
+                    std::mem::discriminant(general),
+                    "{own:?} {general:?}"
+                );
+            }
+        }
+    }
+    let exponents = [
+        lyapunov_exponents(&sines, 100, 400, &Unobserved).unwrap(),
+        lyapunov_exponents(&sums, 100, 400, &Unobserved).unwrap(),
+    ];
+    let spectra = lyapunov_spectra(&sums, 100, 400, &Unobserved).unwrap();
+    for ((own, general), outcome) in exponents[0].iter().zip(&exponents[1]).zip(spectra) {
+        // Rounding decides when a chaotic orbit comes to rest.
+        let lasting = own.or(*general).filter(|_| own.is_none() || general.is_none());
+        assert!(lasting.is_none_or(|exponent| exponent > 0.0), "{own:?} {general:?}");
+        if let (Some(own), Some(general), LyapunovOutcome::Exponents(spectrum)) = (own, general, outcome) {
+            // Chaotic orbits part by rounding; their means do not.
+            let room = if *own > 0.0 { 5.0 * spectrum.standard_error + 0.05 } else { 1e-6 };
+            assert!((own - general).abs() < room, "{own} {general}");
+            if let (Some(second), Some(sum)) = (spectrum.second, spectrum.exact_sum) {
+                assert!((spectrum.largest + second - sum).abs() < 1e-9, "{spectrum:?}");
+            }
+        }
+    }
+    let orbits = |index: usize| sums[index].0.orbit(sums[index].1, ChatterPolicy::Complete);
+    let orbits: Vec<_> = (0..40).map(orbits).collect();
+    let lives = survival_times(&orbits, 400, &Unobserved).unwrap();
+    let own: Vec<_> = sines.iter().map(|(map, start)| map.orbit(*start, ChatterPolicy::Complete)).collect();
+    for (own, general) in survival_times(&own, 400, &Unobserved).unwrap().into_iter().zip(lives) {
+        // How many impacts of a chatter are summed is another matter on each.
+        assert!(own >= 20 || general < 100, "{own} {general}: too soon for rounding");
+    }
+    assert_eq!(orbit_diagram(&orbits, 10, 5, &Unobserved).unwrap().len(), 40);
+}
+
+/// Without restitution a disk on a triangle leaves each crest, and is hit by each trough, where it sticks.
+#[test]
+fn a_kick_is_a_part_of_a_cycle() {
+    let map = DrivenMap::new(Drive::triangle(1.0).unwrap(), 0.0).unwrap();
+    let verdict = map.verdict(state(0.3, -1.0), VerdictSettings::default()).unwrap();
+    let Verdict::Chattering { cycle, after } = verdict else { panic!("{verdict:?}") };
+    assert_eq!((cycle.impacts, cycle.platform_periods, cycle.long_flights, after), (2, 1, 0, 0));
+    assert!(cycle.is_exact());
+}
+
+/// A contact that lasts for long keeps the disk for ever on a gentle platform.
+#[test]
+fn a_disk_in_a_soft_contact_comes_to_rest_for_ever() {
+    let gentle = DrivenMap::new(Drive::fourier(&[(0.5, 0.0)]).unwrap(), 0.5).unwrap();
+    let soft = gentle.with_contact_time(0.3).unwrap();
+    let verdict = soft.verdict(state(0.3, -1.0), VerdictSettings::default()).unwrap();
+    assert!(matches!(verdict, Verdict::AtRest { .. }), "{verdict:?}");
+}
