@@ -91,7 +91,11 @@ fn no_page_prints_the_noise_of_rounding_as_a_number() {
     assert_eq!(below_rounding("at θ = 2.3e−15π and 2 × 10⁻¹³ m, 1e-12"), ["θ = 2.3e-15π", "2 × 1e-13"]);
     for name in WITH_NUMBERS {
         let noise = below_rounding(&page(name)).into_iter().filter(|words| !words.starts_with("at most "));
-        assert_eq!(noise.collect::<Vec<_>>(), [""; 0], "{name}");
+        assert_eq!(
+            noise.collect::<Vec<_>>(),
+            [""; 0],
+            "{name}: a number below 1e-12 is rounding; write \"at most 1e-12\""
+        );
     }
 }
 

@@ -166,19 +166,20 @@ impl Claim {
         self.note(words)
     }
 
-    /// [`Self::by_definition`] of shares: where the kindest definition counts, the claim shows its share.
-    pub fn by_shares(self, by_definition: &[Cases]) -> Self {
+    /// [`Self::by_definition`] of the shares for low periods of at most so many flights: where the kindest definition counts,
+    /// the claim shows it with its share.
+    pub fn by_shares(self, by_flights: &[(usize, Cases)]) -> Self {
         let (own, is_decided) = (self.share, matches!(self.computed, Computed::Text(_)));
-        let verdicts: Vec<Verdict> = by_definition.iter().map(|cases| cases.sampled()).collect();
+        let verdicts: Vec<Verdict> = by_flights.iter().map(|(_, cases)| cases.sampled()).collect();
         let claim = self.by_definition(&verdicts);
-        let kindest = by_definition.iter().copied().filter(|cases| cases.share() > own);
-        let kindest =
-            kindest.max_by(|one, other| one.share().partial_cmp(&other.share()).unwrap_or(Ordering::Equal));
+        let kindest = by_flights.iter().filter(|(_, cases)| cases.share() > own);
+        let kindest = kindest
+            .max_by(|one, other| one.1.share().partial_cmp(&other.1.share()).unwrap_or(Ordering::Equal));
         match kindest {
-            Some(cases) if is_decided && claim.verdict != Verdict::NotComputable => {
+            Some((flights, cases)) if is_decided && claim.verdict != Verdict::NotComputable => {
                 let Cases { holding, tried } = cases;
-                let computed = Computed::Text(format!("holds for {holding} of {tried} orbits"));
-                Self { computed, share: cases.share(), ..claim }
+                let text = format!("holds for {holding} of {tried} orbits with at most {flights} flights");
+                Self { computed: Computed::Text(text), share: cases.share(), ..claim }
             }
             _ => claim,
         }
@@ -389,9 +390,10 @@ mod tests {
         assert_eq!(undecided.verdict, Verdict::NotComputable);
         assert!(!undecided.lacks_data() && undecided.note.contains("undefined"));
         let few = Claim::printed_statement("section5.low_period_case", Cases { holding: 0, tried: 200 }, "");
-        let kindest = few.by_shares(&[Cases { holding: 112, tried: 200 }, Cases { holding: 12, tried: 200 }]);
+        let kindest = few
+            .by_shares(&[(32, Cases { holding: 112, tried: 200 }), (8, Cases { holding: 12, tried: 200 })]);
         assert_eq!((kindest.share, kindest.verdict), (Some(0.56), Verdict::DependsOnUnprintedDigits));
-        assert_eq!(kindest.computed, Computed::Text("holds for 112 of 200 orbits".to_owned()));
+        assert_eq!(kindest.computed, Computed::Text("holds for 112 of 200 orbits with at most 32 flights".to_owned()));
         let never = claim(100).by_definition(&[Verdict::Differs]);
         assert_eq!(never.verdict, Verdict::DependsOnUnprintedDigits);
     }

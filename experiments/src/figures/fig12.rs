@@ -10,7 +10,7 @@ use self::shown::{LONG_RISES, flown, nearest_low_period, shown};
 use super::shared::alike::{AlikeMotor, DRAWN, PrintedInputs, alike};
 use super::shared::map_in_parallel;
 use super::shared::motor::{
-    Cycle, DEFINITIONS, LOW_PERIOD_FLIGHTS, MotorCase, RobustCycle, by_definition_words,
+    Cycle, DEFINITIONS, LOW_PERIOD_FLIGHTS, MotorCase, RobustCycle, by_definition_words, by_each_definition,
 };
 use super::shared::numbers::median;
 use crate::claims::{Cases, Claim, Verdict, paper};
@@ -214,13 +214,13 @@ fn lines(motor: &MotorCase, cycle: Cycle) -> Result<Lines, ExperimentError> {
 fn case(orbits: &[Alike; 2], case: usize, key: &str) -> Claim {
     let motors = &orbits[case].motors;
     let cases = |most: usize| Cases::of(motors.iter().map(|motor| motor.cycle.is_low(most) == (case == 1)));
-    let others = DEFINITIONS.map(cases);
+    let shares = by_each_definition(cases);
     Claim::printed_statement(
         key,
         cases(LOW_PERIOD_FLIGHTS),
-        format!("low: at most {LOW_PERIOD_FLIGHTS} flights; {}", by_definition_words(others)),
+        format!("by the flights of a low period at most: {}", by_definition_words(&shares)),
     )
-    .by_shares(&others)
+    .by_shares(&shares)
 }
 
 /// The verdicts on the orbits of a case that are of low period, or not, under the other definitions.

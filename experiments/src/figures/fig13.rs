@@ -9,8 +9,9 @@ mod single_orbits;
 use std::f64::consts::PI;
 
 use bouncing_disk::core::numerics::elementary::pow;
-use bouncing_disk::core::{ChatterPolicy, Unobserved};
+use bouncing_disk::core::{ChatterPolicy, ImpactMap, Launch, OrbitEvent, Unobserved};
 use bouncing_disk::estimate::ExponentialFit;
+use bouncing_disk::motion::PAPER_CHATTER;
 use bouncing_disk::motor::{NormalImpulses, TransientSettings};
 use serde::Serialize;
 
@@ -20,7 +21,7 @@ use crate::claims::paper;
 use crate::experiment::{ExperimentError, Paper, Quality};
 use crate::figures::shared::inputs::{Input, motor as inputs};
 use crate::figures::shared::motor::{MotorCase, MotorStatistics, statistics};
-use crate::figures::shared::numbers::Concentration;
+use crate::figures::shared::numbers::{Concentration, Noise};
 
 /// Duration of a transient in rise times ωΦ a_g²/(μ a_e g).
 const RISES: f64 = 6.0;
@@ -33,6 +34,9 @@ const PARTS: usize = 48;
 /// Largest ε of a sweep.
 const LARGEST_RESTITUTION: f64 = 0.9;
 
+/// Seed of the relaunches of the counted collisions.
+const RELAUNCH_SEED: u64 = 93;
+
 /// A small change of ε or θ.
 const SMALL_CHANGE: f64 = 1e-4;
 
@@ -41,6 +45,7 @@ pub(crate) fn fig13(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
     fig.chattering(ChatterPolicy::Complete);
     fig.seed("motors that print alike", single_orbits::SEED);
     fig.seed("ensembles", TransientSettings::default().seed);
+    fig.seed("relaunches of counted collisions", RELAUNCH_SEED);
     let quality = fig.quality;
     let members = quality.choose(3, 8);
     let impacts = quality.choose(4_000, 20_000);
@@ -205,22 +210,43 @@ struct ImpulsePhases {
     restitution: f64,
     /// Shares in equal parts of the cycle from τ = −π to π.
     shares: Vec<f64>,
-    /// Where in the cycle the normal impulse is concentrated, and the collisions that end a flight of more than half a period.
+    /// Where in the cycle the normal impulse is concentrated, the collisions that end a flight of more than half a period, and
+    /// all collisions up to the paper's cut of a chatter.
     impulse: Option<Concentration>,
+    landings: Option<Concentration>,
     collisions: Option<Concentration>,
 }
 
 impl ImpulsePhases {
     fn of(case: &MotorCase, impacts: usize) -> Result<Self, ExperimentError> {
-        let impulses =
-            NormalImpulses::of(case.system()?.dimensionless().map(), impacts, BREAKING_PERTURBATION)?;
+        let system = case.system()?;
+        let map = system.dimensionless().map();
+        let impulses = NormalImpulses::of(map, impacts, BREAKING_PERTURBATION)?;
+        let collisions = collisions(map, impacts)?;
         Ok(Self {
             restitution: case.restitution,
             shares: impulses.histogram(PARTS),
             impulse: impulses.concentration(),
-            collisions: impulses.concentration_of_collisions(),
+            landings: impulses.concentration_of_collisions(),
+            collisions: Concentration::of(collisions.into_iter().map(|phase| (phase, 1.0))),
         })
     }
+}
+
+/// The phases of the first collisions of a disk from rest, up to the paper's cut of each chatter, with perturbed relaunches.
+fn collisions(map: &ImpactMap, count: usize) -> Result<Vec<f64>, ExperimentError> {
+    let (mut phases, mut noise) = (Vec::with_capacity(count), Noise::new(RELAUNCH_SEED));
+    let Some(leaves) = map.vibration().separation_phase() else { return Ok(phases) };
+    let mut orbit = map.orbit_from_launch(Launch::new(leaves, 0.0)?, PAPER_CHATTER);
+    while phases.len() < count
+        && let Some(event) = orbit.advance()?
+    {
+        match event {
+            OrbitEvent::Impact(impact) => phases.push(impact.phase.angle()),
+            _ => orbit.perturb_launch(BREAKING_PERTURBATION * noise.even())?,
+        }
+    }
+    Ok(phases)
 }
 
 /// What the claims and the drawing are about.

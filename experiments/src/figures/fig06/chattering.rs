@@ -245,13 +245,12 @@ pub(super) fn chattering(
     fig.claim(
         Claim::printed_statement(
             "section4.chattering_is_periodic",
-            repeats,
+            (repeats.tried > 0).then(|| mostly(repeats)),
             format!(
                 "a rest repeats the cycle for ever; without one up to {LONGEST_PERIOD} impacts may repeat within a dot's width: in all at {} of {} Γ",
                 repeats.holding, repeats.tried,
             ),
-        )
-        .cause("chattering that neither rests nor repeats"),
+        ),
     );
     let (restitution, axial_forcing) = BELOW_SEPARATION;
     let radius = multiplier(axial_forcing, restitution)?;

@@ -10,7 +10,7 @@ use crate::claims::{Cases, Claim, all};
 use crate::experiment::ExperimentError;
 use crate::figures::shared::alike::{AlikeMotor, PrintedInputs, SpeedBand, alike_with_band};
 use crate::figures::shared::map_in_parallel;
-use crate::figures::shared::motor::{DEFINITIONS, LOW_PERIOD_FLIGHTS, MotorCase, by_definition_words};
+use crate::figures::shared::motor::{LOW_PERIOD_FLIGHTS, MotorCase, by_definition_words, by_each_definition};
 use crate::figures::shared::numbers::median;
 
 /// Duration of the transients that verdicts are taken over, in rise times.
@@ -110,13 +110,13 @@ fn between_rests(cases: &[MotorCase]) -> Result<BetweenRests, ExperimentError> {
 pub(super) fn long_period(alike: &Alike) -> Claim {
     let by_draw =
         |most| Cases::of(alike.draws().map(|draw| draw.into_iter().all(|motor| !motor.cycle.is_low(most))));
-    let others = DEFINITIONS.map(by_draw);
+    let shares = by_each_definition(by_draw);
     Claim::printed_statement(
         "section5.long_period_chattering",
         by_draw(LOW_PERIOD_FLIGHTS),
-        format!("low: at most {LOW_PERIOD_FLIGHTS} flights; {}", by_definition_words(others),),
+        format!("by the flights of a low period at most: {}", by_definition_words(&shares)),
     )
-    .by_shares(&others)
+    .by_shares(&shares)
 }
 
 /// Chaos that a rest ends.
@@ -155,14 +155,14 @@ pub(super) fn long_period_oscillates(alike: &Alike) -> Claim {
         });
         Cases::of(draws)
     };
-    let others = DEFINITIONS.map(by_draw);
+    let shares = by_each_definition(by_draw);
     Claim::printed_statement(
         "section5.oscillation_from_long_period",
         by_draw(LOW_PERIOD_FLIGHTS),
         format!(
             "at every A of long period the speed varies more than in the middle motor of low period; {}",
-            by_definition_words(others),
+            by_definition_words(&shares),
         ),
     )
-    .by_shares(&others)
+    .by_shares(&shares)
 }

@@ -5,9 +5,9 @@ use std::f64::consts::{FRAC_PI_8, PI};
 use bouncing_disk::core::numerics::elementary::ln;
 
 use super::single_orbits::Prevalence;
-use super::{Study, SweepPoint};
+use super::{ImpulsePhases, Study, SweepPoint};
 use crate::claims::judging::trend;
-use crate::claims::{Cases, Claim, all, any};
+use crate::claims::{Cases, Claim, Kind, all, any};
 use crate::figures::shared::inputs::motor as inputs;
 use crate::figures::shared::motor::LOW_PERIOD_FLIGHTS;
 use crate::figures::shared::numbers::{Concentration, StraightLine, extent};
@@ -87,39 +87,46 @@ fn prevalent(prevalence: &[Prevalence], drawn: usize) -> Claim {
         .by_definition(&verdicts.collect::<Vec<_>>())
 }
 
-/// The statements on where in the cycle the collisions fall. A chattering sequence has infinitely many: the
-/// collisions that are counted are those that end a flight of more than half a period; all are weighed by
-/// their impulse. The paper's argument is about cos τ, so that the measures are those of circular statistics,
-/// the mean direction and the mean cosine; there is no width to choose.
+/// The statements on where in the cycle the collisions fall. The paper does not say which count and with what weight: all of
+/// them as they come, up to its cut of a chatter, those that end a flight of more than half a period, or all by their impulse.
+/// Its argument is about cos τ, so that the measures are those of circular statistics, the mean direction and the mean
+/// cosine; there is no width to choose.
 fn phases_of_impulse(study: &Study) -> [Claim; 2] {
-    let both: Option<Vec<[Concentration; 2]>> =
-        study.impulses.iter().map(|impulse| Some([impulse.impulse?, impulse.collisions?])).collect();
-    let both = both.unwrap_or_default();
-    let listed = |of: fn(&Concentration) -> String| {
-        let rows = study.impulses.iter().zip(&both).map(|(impulse, [own, collisions])| {
-            format!("ε = {}: {} and {}", impulse.restitution, of(own), of(collisions))
+    let readings = |impulse: &ImpulsePhases| Some([impulse.impulse?, impulse.landings?, impulse.collisions?]);
+    let all_readings: Option<Vec<[Concentration; 3]>> = study.impulses.iter().map(readings).collect();
+    let all_readings = all_readings.unwrap_or_default();
+    const READINGS: [&str; 3] = ["impulse", "after long flights", "all collisions"];
+    let listed = |of: &dyn Fn(&Concentration) -> String| {
+        let words = READINGS.iter().enumerate().map(|(index, name)| {
+            let values: Vec<_> = all_readings.iter().map(|of_one| of(&of_one[index])).collect();
+            format!("{name} {}", values.join(", "))
         });
-        rows.collect::<Vec<_>>().join("; ")
+        words.collect::<Vec<_>>().join("; ")
+    };
+    let reading = |index: usize| all_readings.iter().map(move |of_one| of_one[index]);
+    let at_zero = |index: usize| all(reading(index), |of| of.mean_direction_rad.abs() <= AT_ZERO);
+    let falls = |index: usize| {
+        trend(
+            study.impulses.iter().map(|of| of.restitution).zip(reading(index).map(|of| of.mean_cosine())),
+            -1.0,
+        )
     };
     [
         Claim::printed_statement(
             "section5.collisions_at_zero_phase",
-            all(both.iter().flatten(), |of| of.mean_direction_rad.abs() <= AT_ZERO),
+            at_zero(0),
             format!(
-                "mean directions of the impulse, and of collisions after long flights, within π/8 of 0: {}",
-                listed(|of| format!("{:+.3}π", of.mean_direction_rad / PI)),
+                "directions within π/8 of 0 by ε: {}",
+                listed(&|of| format!("{:+.2}π", of.mean_direction_rad / PI)),
             ),
-        ),
+        )
+        .by_definition(&[1, 2].map(|index| Kind::Comparison.verdict(Cases::from(at_zero(index))))),
         Claim::printed_statement(
             "section5.concentration_falls_with_restitution",
-            all(both.windows(2).flat_map(|pair| pair[0].iter().zip(&pair[1])), |(one, other)| {
-                one.mean_cosine() > other.mean_cosine()
-            }),
-            format!(
-                "the mean of cos τ, of the impulse and of these collisions, falls: {}",
-                listed(|of| format!("{:.3}", of.mean_cosine())),
-            ),
-        ),
+            falls(0),
+            format!("mean cos τ by ε: {}", listed(&|of| format!("{:.3}", of.mean_cosine())),),
+        )
+        .by_definition(&[1, 2].map(|index| Kind::Trend.verdict(falls(index)))),
     ]
 }
 

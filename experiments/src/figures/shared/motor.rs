@@ -26,9 +26,16 @@ pub(crate) const LOW_PERIOD_FLIGHTS: usize = 4;
 /// Other definitions, under which a verdict must be the same to count.
 pub(crate) const DEFINITIONS: [usize; 4] = [2, 8, 16, 32];
 
-/// In which share of the cases something holds under each of the other definitions, in words.
-pub(crate) fn by_definition_words(cases: [Cases; 4]) -> String {
-    let words = DEFINITIONS.iter().zip(cases).map(|(flights, cases)| {
+/// The cases in which something holds under each definition, in their order.
+pub(crate) fn by_each_definition(cases: impl Fn(usize) -> Cases) -> Vec<(usize, Cases)> {
+    let mut definitions = [&DEFINITIONS[..], &[LOW_PERIOD_FLIGHTS]].concat();
+    definitions.sort_unstable();
+    definitions.into_iter().map(|flights| (flights, cases(flights))).collect()
+}
+
+/// In which share of the cases something holds under each definition, in words.
+pub(crate) fn by_definition_words(cases: &[(usize, Cases)]) -> String {
+    let words = cases.iter().map(|(flights, cases)| {
         let share =
             cases.share().map_or_else(|| "none".to_owned(), |share| format!("{:.0} %", 100.0 * share));
         format!("{flights}: {share}")
