@@ -61,10 +61,10 @@ pub use flight::drive::Drive;
 pub use flight::launch::{Impact, Launch};
 pub use flight::platform::phase::Phase;
 pub use flight::platform::vibration::Vibration;
-pub use map::bouncing_map::BouncingMap;
 pub use map::driven_map::{DrivenMap, DrivenOrbit};
 pub use map::impact_map::{Attachment, ImpactMap, ImpactState, Orbit, OrbitEvent};
 pub use numerics::error::Error;
+pub use sweep::bouncing_map::BouncingMap;
 // The model reads as the core does.
 #[doc(hidden)]
 pub use numerics::stored;

@@ -16,7 +16,6 @@
 //!
 //! Orbits that repeat are in [`orbits`](crate::orbits), many at a time in [`sweep`](mod@crate::sweep).
 
-pub(crate) mod bouncing_map;
 mod chattering;
 pub(crate) mod driven_map;
 pub(crate) mod impact_map;
@@ -25,7 +24,6 @@ mod release;
 pub(crate) mod restitution_law;
 mod trapping_region;
 
-pub use bouncing_map::{BouncingOrbit, OrbitOutcome};
 pub use impact_map::ContactChange;
 pub use restitution_law::kuwabara_kono::KuwabaraKono;
 pub use restitution_law::{Constant, RestitutionLaw};

@@ -18,6 +18,7 @@
 //!
 //! The final motions of orbits are in [`attractors`](crate::attractors).
 
+pub(crate) mod bouncing_map;
 mod events;
 pub(crate) mod lockstep;
 pub(crate) mod lyapunov;
@@ -28,6 +29,7 @@ pub(crate) mod runner;
 #[cfg(test)]
 mod tests;
 
+pub use bouncing_map::{BouncingOrbit, OrbitOutcome};
 pub use events::{SweepEvent, SweepImpact};
 // The number of flights computed at once may change: only the model, benches and tests use these.
 #[doc(hidden)]

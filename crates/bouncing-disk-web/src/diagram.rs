@@ -2,8 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk::core::map::BouncingOrbit;
-use bouncing_disk::core::sweep::orbit_diagram;
+use bouncing_disk::core::sweep::{BouncingOrbit, orbit_diagram};
 use bouncing_disk::core::{ChatterPolicy, ImpactState, Unobserved};
 use bouncing_disk::parameters::DimensionlessSystem;
 use bouncing_disk::toss::{CollisionEvent, CollisionState, Collisions};

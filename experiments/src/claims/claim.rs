@@ -393,7 +393,10 @@ mod tests {
         let kindest = few
             .by_shares(&[(32, Cases { holding: 112, tried: 200 }), (8, Cases { holding: 12, tried: 200 })]);
         assert_eq!((kindest.share, kindest.verdict), (Some(0.56), Verdict::DependsOnUnprintedDigits));
-        assert_eq!(kindest.computed, Computed::Text("holds for 112 of 200 orbits with at most 32 flights".to_owned()));
+        assert_eq!(
+            kindest.computed,
+            Computed::Text("holds for 112 of 200 orbits with at most 32 flights".to_owned())
+        );
         let never = claim(100).by_definition(&[Verdict::Differs]);
         assert_eq!(never.verdict, Verdict::DependsOnUnprintedDigits);
     }

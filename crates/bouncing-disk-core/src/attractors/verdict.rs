@@ -8,13 +8,13 @@ pub(crate) mod witness;
 
 use crate::chatter::policy::ChatterPolicy;
 use crate::flight::platform::phase::Phase;
-use crate::map::bouncing_map::BouncingMap;
 use crate::map::driven_map::DrivenMap;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::error::{Error, finite, not_negative, within};
 use crate::numerics::stored::read_checked;
 use crate::orbits::periodic::{MAX_PERIOD, Multipliers};
 use crate::run::{Observer, Progress, Unobserved};
+use crate::sweep::bouncing_map::BouncingMap;
 use crate::sweep::lyapunov::LyapunovEstimate;
 use crate::sweep::sweep_with;
 use witness::Witness;

@@ -10,15 +10,11 @@ use crate::chatter::policy::{AfterImpact, ChatterPolicy, ShortFlightCount};
 use crate::flight::compliance::{Compliance, CompliantPlatform, RelativeState};
 use crate::flight::drive::landing::{DrivenImpact, Start};
 use crate::flight::drive::{Drive, TimeAhead};
-use crate::flight::launch::Impact;
 use crate::flight::platform::phase::Phase;
-use crate::map::bouncing_map::{BouncingMap, BouncingOrbit};
 use crate::map::impact_map::{Attachment, ContactChange, ImpactState, OrbitEvent};
 use crate::map::release::Cycle;
 use crate::numerics::elementary::wrapped_angle;
 use crate::numerics::error::{Error, within};
-use crate::orbits::periodic::PeriodicOrbit;
-use crate::sweep::SweepEvent;
 
 /// The vertical impact map of a disk with a constant restitution r on a [`Drive`].
 ///
@@ -208,51 +204,13 @@ impl DrivenMap {
         DrivenOrbit { next: Next::Contact(wrapped_angle(time)), ..self.start(policy) }
     }
 
-    fn start(&self, policy: ChatterPolicy) -> DrivenOrbit {
-        DrivenOrbit { map: self.clone(), policy, short_flights: ShortFlightCount::new(), next: Next::End }
-    }
-}
-
-impl BouncingMap for DrivenMap {
-    type Orbit = DrivenOrbit;
-
-    fn restitution(&self) -> f64 {
-        self.restitution
-    }
-
-    fn speed_scale(&self) -> f64 {
-        self.drive.bounds().speed
-    }
-
-    fn step(&self, state: ImpactState) -> Result<Impact, Error> {
-        self.step(state).map(|landing| landing.impact)
-    }
-
-    fn step_with_derivative(&self, state: ImpactState) -> Result<(Impact, DMat2), Error> {
-        self.step_with_derivative(state).map(|(landing, derivative)| (landing.impact, derivative))
-    }
-
-    fn orbit(&self, state: ImpactState, policy: ChatterPolicy) -> DrivenOrbit {
-        self.orbit(state, policy)
-    }
-
-    fn refine(&self, guess: &[ImpactState]) -> Result<PeriodicOrbit, Error> {
-        self.refine(guess)
-    }
-
-    fn chatters_to_rest_after(&self, state: ImpactState) -> bool {
+    /// Whether the disk is certain to chatter to rest after the impact in `state`.
+    pub(crate) fn chatters_to_rest_after(&self, state: ImpactState) -> bool {
         matches!(self.orbit(state, ChatterPolicy::Complete).next, Next::Attach(..))
     }
 
-    /// A contact that takes time does not.
-    fn shrinks_areas_exactly(&self) -> bool {
-        self.compliant.is_none()
-    }
-}
-
-impl BouncingOrbit for DrivenOrbit {
-    fn next_event(&mut self) -> Result<Option<SweepEvent>, Error> {
-        Ok(self.advance()?.map(|event| SweepEvent::of(None, event)))
+    fn start(&self, policy: ChatterPolicy) -> DrivenOrbit {
+        DrivenOrbit { map: self.clone(), policy, short_flights: ShortFlightCount::new(), next: Next::End }
     }
 }
 

@@ -8,11 +8,9 @@ use crate::flight::launch::Impact;
 use crate::flight::launch::Launch;
 use crate::flight::platform::phase::Phase;
 use crate::flight::platform::vibration::Vibration;
-use crate::map::bouncing_map::BouncingMap;
 use crate::map::restitution_law::{Constant, Internal, RestitutionLaw, launch_slope, restitution_of};
 use crate::numerics::error::{Error, not_negative, within};
 use crate::numerics::stored::read_checked;
-use crate::orbits::periodic::PeriodicOrbit;
 use crate::run::{FLIGHTS_BETWEEN_CALLS, Observer, Watch};
 
 /// The state of the disk just before an impact: the paper's tau_imp and w_A.
@@ -335,49 +333,6 @@ impl<L: RestitutionLaw> ImpactMap<L> {
     #[must_use]
     pub fn orbit_from_launch(&self, launch: Launch, policy: ChatterPolicy) -> Orbit<L> {
         Orbit::new(self.clone(), policy, Next::Launch(launch.phase(), launch.relative_speed()))
-    }
-}
-
-impl BouncingMap for ImpactMap {
-    type Orbit = Orbit;
-
-    fn restitution(&self) -> f64 {
-        self.restitution.value()
-    }
-
-    fn speed_scale(&self) -> f64 {
-        self.vibration.peak_acceleration()
-    }
-
-    #[inline]
-    fn step(&self, state: ImpactState) -> Result<Impact, Error> {
-        self.step(state)
-    }
-
-    fn step_with_derivative(&self, state: ImpactState) -> Result<(Impact, DMat2), Error> {
-        self.step_with_derivative(state)
-    }
-
-    fn orbit(&self, state: ImpactState, policy: ChatterPolicy) -> Orbit {
-        self.orbit(state, policy)
-    }
-
-    fn refine(&self, guess: &[ImpactState]) -> Result<PeriodicOrbit, Error> {
-        self.refine(guess)
-    }
-
-    fn chatters_to_rest_after(&self, state: ImpactState) -> bool {
-        self.chatters_to_rest(self.rebound(state))
-    }
-
-    #[inline]
-    fn derivative(&self, from: ImpactState, to: ImpactState, duration: f64) -> DMat2 {
-        self.derivative(from, to, duration)
-    }
-
-    #[inline]
-    fn steps(&self, state: ImpactState, impacts: u64) -> Result<ImpactState, Error> {
-        self.steps(state, impacts)
     }
 }
 

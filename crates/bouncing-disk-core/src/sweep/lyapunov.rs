@@ -7,13 +7,13 @@ use core::ops::ControlFlow;
 use glam::{DMat2, DVec2};
 
 use crate::chatter::policy::ChatterPolicy;
-use crate::map::bouncing_map::BouncingMap;
 use crate::map::impact_map::ImpactState;
 use crate::numerics::batch_means::BatchMeans;
 use crate::numerics::elementary::{hypot, ln};
 use crate::numerics::error::{Error, finite, not_negative, within};
 use crate::numerics::stored::read_checked;
 use crate::run::Observer;
+use crate::sweep::bouncing_map::BouncingMap;
 use crate::sweep::{SweepEvent, SweepImpact, sweep_with};
 
 /// The growth of a small perturbation along an orbit of the impact map, one derivative after the other.

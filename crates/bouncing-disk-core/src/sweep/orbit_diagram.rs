@@ -4,10 +4,10 @@ use core::ops::ControlFlow;
 
 use super::events::SweepEvent;
 use super::run::{sweep, sweep_with};
-use crate::map::bouncing_map::BouncingOrbit;
 use crate::map::impact_map::ImpactState;
 use crate::numerics::error::Error;
 use crate::run::Observer;
+use crate::sweep::bouncing_map::BouncingOrbit;
 
 /// Most impacts that [`orbit_diagram`] records, of all orbits together.
 pub const MAX_RECORDED: u64 = 1 << 31;

@@ -4,10 +4,10 @@ use core::ops::ControlFlow;
 
 use super::events::SweepEvent;
 use super::runner;
-use crate::map::bouncing_map::BouncingOrbit;
 use crate::numerics::error::Error;
 use crate::numerics::stored::read_checked;
 use crate::run::{Observer, Watch};
+use crate::sweep::bouncing_map::BouncingOrbit;
 
 /// The results of a list of items, as far as they are finished, in the order of the items.
 ///

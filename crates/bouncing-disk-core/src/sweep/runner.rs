@@ -4,10 +4,10 @@ use core::ops::ControlFlow;
 use core::sync::atomic::{AtomicUsize, Ordering};
 
 use super::events::{SweepEvent, SweepImpact, advance};
-use crate::map::bouncing_map::{BouncingOrbit, OrbitOutcome};
 use crate::map::impact_map::Orbit;
 use crate::numerics::error::Error;
 use crate::run::{Watch, WorkCount, in_parallel, threads};
+use crate::sweep::bouncing_map::{BouncingOrbit, OrbitOutcome};
 use crate::sweep::lockstep::lanes::{Batch, FlightScheduler, InstructionSet, LANES, Purpose};
 
 /// With fewer orbits under way they are advanced one by one: a step of the lanes costs nearly the same

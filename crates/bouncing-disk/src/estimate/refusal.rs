@@ -1,5 +1,6 @@
 //! Why a fit has no result.
 
+use crate::display::rough;
 use crate::error::Error;
 use crate::estimate::interval::IntervalEstimate;
 
@@ -83,8 +84,9 @@ pub enum FitRefusal {
     },
     /// The curve ends before its speed has settled.
     #[error(
-        "its duration {duration:?} s is less than {least:?} times the time constant, which is or may be {time_constant:?} \
-         s: take a longer one"
+        "its duration {duration:?} s is less than {least:?} times the time constant, which is or may be {} s: take a \
+         longer one",
+        rough(*time_constant)
     )]
     TooShort {
         /// Last time of the curve (s).

@@ -108,7 +108,7 @@ pub(crate) fn transient_fits() -> Vec<String> {
         fit.ramp.iter().for_each(|ramp| add_rise(&mut numbers, ramp));
         numbers.extend([fit.start_time, fit.duration]);
     }
-    one("transient fits", numbers, 0xd65b_1f38_d6cc_3f58)
+    one("transient fits", numbers, 0x9bc6_c4d3_10c3_6922)
 }
 
 /// What a motor's rated points leave of its friction.

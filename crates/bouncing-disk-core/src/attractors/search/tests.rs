@@ -4,10 +4,10 @@ use core::f64::consts::PI;
 use super::*;
 use crate::attractors::basin::{ATTACHED, Axis, BasinSettings, Basins, FIRST_ORBIT, Grid, UNDECIDED};
 use crate::chatter::policy::PAPER_POLICY;
-use crate::map::bouncing_map::BouncingMap as _;
 use crate::map::impact_map::map;
 use crate::numerics::testing::stored;
 use crate::orbits::periodic::search::OrbitSearch;
+use crate::sweep::bouncing_map::BouncingMap as _;
 
 /// A search that is quick.
 fn quick(starts: u32) -> AttractorSearch {

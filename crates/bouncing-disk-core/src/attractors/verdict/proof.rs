@@ -2,10 +2,10 @@
 //! one.
 
 use super::VerdictSettings;
-use crate::map::bouncing_map::BouncingMap;
 use crate::map::impact_map::ImpactState;
 use crate::numerics::elementary::{exp, ln};
 use crate::orbits::periodic::{PeriodicOrbit, Stability, distance};
+use crate::sweep::bouncing_map::BouncingMap;
 
 /// If the parts of a solution repeat each other to within this (rad, relative speed), the code looks for the
 /// shorter orbit: next to a doubling the equations are nearly singular, and rounding may move their solution

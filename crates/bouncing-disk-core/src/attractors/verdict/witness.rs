@@ -7,11 +7,11 @@ use super::proof::{Proof, prove};
 use super::returns::Returns;
 use super::{CycleTrust, RestCycle, UndecidedReason, Verdict, VerdictSettings};
 use crate::flight::platform::phase::Phase;
-use crate::map::bouncing_map::BouncingMap;
 use crate::map::impact_map::{Attachment, ImpactState};
 use crate::numerics::batch_means::BatchMeans;
 use crate::numerics::elementary::exp;
 use crate::orbits::periodic::{Stability, phase_difference};
+use crate::sweep::bouncing_map::BouncingMap;
 use crate::sweep::lyapunov::{LyapunovEstimate, TangentGrowth};
 use crate::sweep::{SweepEvent, SweepImpact};
 

@@ -7,12 +7,12 @@ use glam::DMat2;
 
 use crate::chatter::policy::ChatterPolicy;
 use crate::flight::platform::phase::Phase;
-use crate::map::bouncing_map::BouncingMap;
 use crate::map::impact_map::ImpactState;
 use crate::numerics::batch_means::{BatchMeans, FEWEST_NUMBERS};
 use crate::numerics::elementary::ln;
 use crate::numerics::error::{Error, within};
 use crate::run::Observer;
+use crate::sweep::bouncing_map::BouncingMap;
 use crate::sweep::lyapunov::{LyapunovEstimate, TangentGrowth};
 use crate::sweep::{SweepEvent, SweepImpact, sweep_with};
 

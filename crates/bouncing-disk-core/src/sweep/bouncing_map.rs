@@ -6,7 +6,8 @@ use glam::DMat2;
 
 use crate::chatter::policy::ChatterPolicy;
 use crate::flight::launch::Impact;
-use crate::map::impact_map::ImpactState;
+use crate::map::driven_map::{DrivenMap, DrivenOrbit};
+use crate::map::impact_map::{ImpactMap, ImpactState, Orbit};
 use crate::numerics::elementary::ln;
 use crate::numerics::error::Error;
 use crate::orbits::periodic::PeriodicOrbit;
@@ -123,5 +124,91 @@ pub trait BouncingOrbit: Clone + Send + Sync {
             Some((index, Ok(value)))
         };
         in_parallel(orbits.len(), one).into_iter().flatten().collect()
+    }
+}
+
+impl BouncingMap for ImpactMap {
+    type Orbit = Orbit;
+
+    fn restitution(&self) -> f64 {
+        Self::restitution(self)
+    }
+
+    fn speed_scale(&self) -> f64 {
+        self.vibration().peak_acceleration()
+    }
+
+    #[inline]
+    fn step(&self, state: ImpactState) -> Result<Impact, Error> {
+        self.step(state)
+    }
+
+    fn step_with_derivative(&self, state: ImpactState) -> Result<(Impact, DMat2), Error> {
+        self.step_with_derivative(state)
+    }
+
+    fn orbit(&self, state: ImpactState, policy: ChatterPolicy) -> Orbit {
+        self.orbit(state, policy)
+    }
+
+    fn refine(&self, guess: &[ImpactState]) -> Result<PeriodicOrbit, Error> {
+        self.refine(guess)
+    }
+
+    fn chatters_to_rest_after(&self, state: ImpactState) -> bool {
+        self.chatters_to_rest(self.rebound(state))
+    }
+
+    #[inline]
+    fn derivative(&self, from: ImpactState, to: ImpactState, duration: f64) -> DMat2 {
+        self.derivative(from, to, duration)
+    }
+
+    #[inline]
+    fn steps(&self, state: ImpactState, impacts: u64) -> Result<ImpactState, Error> {
+        self.steps(state, impacts)
+    }
+}
+
+impl BouncingMap for DrivenMap {
+    type Orbit = DrivenOrbit;
+
+    fn restitution(&self) -> f64 {
+        Self::restitution(self)
+    }
+
+    fn speed_scale(&self) -> f64 {
+        self.drive().bounds().speed
+    }
+
+    fn step(&self, state: ImpactState) -> Result<Impact, Error> {
+        self.step(state).map(|landing| landing.impact)
+    }
+
+    fn step_with_derivative(&self, state: ImpactState) -> Result<(Impact, DMat2), Error> {
+        self.step_with_derivative(state).map(|(landing, derivative)| (landing.impact, derivative))
+    }
+
+    fn orbit(&self, state: ImpactState, policy: ChatterPolicy) -> DrivenOrbit {
+        self.orbit(state, policy)
+    }
+
+    fn refine(&self, guess: &[ImpactState]) -> Result<PeriodicOrbit, Error> {
+        self.refine(guess)
+    }
+
+    fn chatters_to_rest_after(&self, state: ImpactState) -> bool {
+        self.chatters_to_rest_after(state)
+    }
+
+    /// A contact that takes time does not.
+    fn shrinks_areas_exactly(&self) -> bool {
+        self.compliant().is_none()
+    }
+}
+
+impl BouncingOrbit for DrivenOrbit {
+    fn next_event(&mut self) -> Result<Option<SweepEvent>, Error> {
+        Ok(self.advance()?.map(|event| SweepEvent::of(None, event)))
     }
 }
