@@ -351,3 +351,19 @@ fn a_disk_in_a_soft_contact_comes_to_rest_for_ever() {
     let verdict = soft.verdict(state(0.3, -1.0), VerdictSettings::default()).unwrap();
     assert!(matches!(verdict, Verdict::AtRest { .. }), "{verdict:?}");
 }
+
+/// A gentle arc whose end kicks the disk that has come to rest on it: no impact ends a flight.
+#[test]
+fn a_disk_that_is_only_kicked_has_no_impacts_and_a_cycle() {
+    let arc = Drive::pieces(&[(TAU, [0.0, 0.05 * TAU, -0.05, 0.0])]).unwrap();
+    for r in [0.0, 0.2] {
+        let map = DrivenMap::new(arc.clone(), r).unwrap();
+        let start = state(0.3, -0.1);
+        let columns =
+            orbit_diagram(&[map.orbit(start, ChatterPolicy::Complete)], 0, 50, &Unobserved).unwrap();
+        assert!(columns[0].len() < 50, "{r}: {}", columns[0].len());
+        let verdict = map.verdict(start, VerdictSettings::default()).unwrap();
+        let Verdict::Chattering { cycle, .. } = verdict else { panic!("{r}: {verdict:?}") };
+        assert_eq!((cycle.impacts, cycle.platform_periods), (1, 1), "{r}: {cycle:?}");
+    }
+}

@@ -200,6 +200,7 @@ fn undecided(reason: &UndecidedReason, rests: u64) -> Evidence {
         UndecidedReason::TransientMayLast { exponent, standard_error, .. } => {
             Evidence { reason: 5, exponent, standard_error, ..nothing }
         }
+        UndecidedReason::RestNotProven { after, .. } => Evidence { reason: 6, after, ..nothing },
         _ => nothing,
     }
 }

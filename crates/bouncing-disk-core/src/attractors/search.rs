@@ -131,7 +131,7 @@ pub enum AttractorKind {
     },
     /// A motion whose small perturbations grow, and which orbits leave, or may leave because they were not
     /// followed for long enough for dissipation to act
-    /// ([`ImpactMap::transient_impacts`](crate::ImpactMap::transient_impacts)). Its starts are those that are
+    /// ([`BouncingMap::transient_impacts`](crate::BouncingMap::transient_impacts)). Its starts are those that are
     /// still on it after [`Recurrence::impacts`] impacts.
     Transient {
         /// The largest Lyapunov exponent per impact.

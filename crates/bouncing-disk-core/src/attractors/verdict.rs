@@ -19,10 +19,6 @@ use crate::sweep::lyapunov::LyapunovEstimate;
 use crate::sweep::sweep_with;
 use witness::Witness;
 
-/// Orbits of [`each_verdict`] that are under way together, at some 2 kB each: so many that the last of them,
-/// which leave lanes empty, do not count.
-const TOGETHER: usize = 1 << 14;
-
 /// The long-term behaviour of an orbit, with the evidence. Impacts and rests are those of
 /// [`ChatterPolicy::Complete`].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,7 +43,7 @@ pub enum Verdict {
         distance: f64,
         /// Impacts after which this was seen.
         after: u64,
-        /// How often the disk came to rest on the way, 0 or 1: the basin of a start with a rest is that of
+        /// 1 if the disk came to rest on the way, 0 if not: the basin of a start with a rest is that of
         /// the attached disk by [`ImpactMap::basin_label`], as the flight from a rest begins anew.
         rests: u64,
     },
@@ -64,7 +60,7 @@ pub enum Verdict {
         impacts: u64,
         /// Periods of the platform that these took.
         platform_periods: u64,
-        /// How often the disk came to rest before, 0 or 1.
+        /// 1 if the disk came to rest before, 0 if not.
         rests: u64,
     },
     /// The disk comes to rest on the platform, separates, and comes to rest again: as it always separates in
@@ -72,10 +68,10 @@ pub enum Verdict {
     Chattering {
         /// The cycle that repeats.
         cycle: RestCycle,
-        /// Impacts before the first rest.
+        /// Impacts before the rest with which the cycle begins.
         after: u64,
     },
-    /// The disk has come to rest on a platform that never falls away (P <= 1).
+    /// The disk has come to rest on a platform that never falls away from it: a sine with P <= 1, or a soft contact that holds it.
     AtRest {
         /// Phase at which it comes to rest.
         phase: Phase,
@@ -86,7 +82,7 @@ pub enum Verdict {
     Undecided {
         /// Why.
         reason: UndecidedReason,
-        /// How often the disk came to rest before, 0 or 1.
+        /// 1 if the disk came to rest before, 0 if not.
         rests: u64,
     },
 }
@@ -166,6 +162,13 @@ pub enum UndecidedReason {
         /// One of its impacts.
         state: ImpactState,
     },
+    /// The disk has come to rest in a contact that takes time, and nothing proves that it stays.
+    RestNotProven {
+        /// Its phase.
+        phase: Phase,
+        /// Impacts before.
+        after: u64,
+    },
     /// Perturbations grow, but the orbit was not followed long enough for dissipation to end a transient.
     TransientMayLast {
         /// The largest exponent per impact.
@@ -175,7 +178,8 @@ pub enum UndecidedReason {
         /// Impacts needed, with those of the transient ([`BouncingMap::transient_impacts`]).
         needed: f64,
     },
-    /// An impact has no speed, or one so small that the derivative exceeds what a double holds.
+    /// An impact has no speed, or one so small that the derivative exceeds what a double holds; or it is on a kink of a
+    /// drive, where there is no derivative.
     Grazing {
         /// Impacts up to this one.
         impacts: u64,
@@ -215,6 +219,7 @@ read_checked!(enum UndecidedReason as UncheckedReason {
         impacts: u64, platform_periods: u64, multipliers: Multipliers, multiplier_error: f64,
         state: ImpactState,
     },
+    RestNotProven { phase: Phase, after: u64 },
     TransientMayLast { exponent: f64, standard_error: f64, needed: f64 },
     Grazing { impacts: u64, phase: Phase },
 });
@@ -305,6 +310,7 @@ impl UndecidedReason {
                 not_negative("error of a multiplier", multiplier_error).map(|_| ())
             }
             Self::Grazing { impacts, .. } => at_least_one("impacts", impacts),
+            Self::RestNotProven { .. } => Ok(()),
         }
     }
 }
@@ -345,7 +351,7 @@ fn verdict<M: BouncingMap>(map: &M, state: ImpactState, settings: VerdictSetting
     verdicts.pop().ok_or(Error::Stopped { done: 0, total: 1 })
 }
 
-/// The long-term behaviour of the orbit of each of `starts`, in their order. The orbits advance in lockstep,
+/// The long-term behaviour of the orbit of each of `starts`, in their order. Those of the sine advance in lockstep,
 /// with the bits of [`ImpactMap::verdict`].
 ///
 /// The items of `observer` are the orbits. [`each_verdict`] keeps the verdicts of a stopped call.
@@ -397,8 +403,9 @@ pub fn each_verdict<M: BouncingMap, E: From<Error>>(
     settings.check()?;
     let total = count as u64;
     // At least one call of the observer, also of nothing.
-    for first in (0..count.max(1)).step_by(TOGETHER) {
-        let block: Vec<_> = (first..count.min(first + TOGETHER)).map(&mut start).collect::<Result<_, E>>()?;
+    for first in (0..count.max(1)).step_by(M::TOGETHER) {
+        let block: Vec<_> =
+            (first..count.min(first + M::TOGETHER)).map(&mut start).collect::<Result<_, E>>()?;
         let starts: Vec<_> = block.iter().flatten().collect();
         let orbits: Vec<M::Orbit> =
             starts.iter().map(|(map, state)| map.orbit(*state, ChatterPolicy::Complete)).collect();
@@ -430,7 +437,8 @@ const FEWEST_IMPACTS: f64 = 64.0;
 /// How long an orbit is followed for its verdict, and how.
 ///
 /// An orbit that repeats or rests is decided as soon as this is seen. The others are followed for
-/// `transient` + `impacts` impacts; after a rest on a platform that falls away this begins anew, once.
+/// `transient` + `impacts` impacts; after a rest on a platform that falls away this begins anew, once for each phase at
+/// which it does.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedSettings"))]

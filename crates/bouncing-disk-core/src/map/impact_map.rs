@@ -9,7 +9,7 @@ use crate::flight::launch::Launch;
 use crate::flight::platform::phase::Phase;
 use crate::flight::platform::vibration::Vibration;
 use crate::map::restitution_law::{Constant, Internal, RestitutionLaw, launch_slope, restitution_of};
-use crate::numerics::error::{Error, not_negative, within};
+use crate::numerics::error::{Error, finite, not_negative, within};
 use crate::numerics::stored::read_checked;
 use crate::run::{FLIGHTS_BETWEEN_CALLS, Observer, Watch};
 
@@ -356,6 +356,7 @@ pub enum OrbitEvent {
 /// The end of a contact as an event.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedChange"))]
 pub struct ContactChange {
     /// The time since the disk came to rest, in radians.
     pub duration: f64,
@@ -366,6 +367,16 @@ pub struct ContactChange {
     /// The velocity of the disk relative to the platform just after the platform's velocity has jumped,
     /// before any law of impact: zero or positive for a separation, negative for a kick.
     pub velocity: f64,
+}
+
+read_checked!(ContactChange as UncheckedChange { duration: f64, phase: Phase, turns: u64, velocity: f64 });
+
+impl ContactChange {
+    /// Checks a value that was deserialised.
+    fn check(&self) -> Result<(), Error> {
+        not_negative("duration of a contact", self.duration)?;
+        finite("velocity at the end of a contact", self.velocity).map(|_| ())
+    }
 }
 
 /// A spell of contact between the end of a chattering sequence and the next separation.

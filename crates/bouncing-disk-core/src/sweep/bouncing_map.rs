@@ -16,7 +16,10 @@ use crate::sweep::SweepEvent;
 
 /// How many times the area of a set of states must have shrunk by e before the behaviour of an orbit counts
 /// as final.
-const DISSIPATION_TIMES: f64 = 10.0;
+pub(crate) const DISSIPATION_TIMES: f64 = 10.0;
+
+/// The work of an event on a drive, in flights of the sine.
+const WORK_OF_EVENT: u64 = 16;
 
 /// The vertical impact map of a disk on a platform: the sine's [`ImpactMap`](crate::ImpactMap), and the
 /// [`DrivenMap`](crate::DrivenMap) of other drives and of contacts that take time.
@@ -26,6 +29,9 @@ const DISSIPATION_TIMES: f64 = 10.0;
 pub trait BouncingMap: Clone + core::fmt::Debug + Send + Sync {
     /// Its orbits.
     type Orbit: BouncingOrbit;
+
+    /// How many orbits are followed together where there may be millions.
+    const TOGETHER: usize = 256;
 
     /// Coefficient of restitution, in [0, 1).
     fn restitution(&self) -> f64;
@@ -58,21 +64,20 @@ pub trait BouncingMap: Clone + core::fmt::Debug + Send + Sync {
     /// Whether the disk is certain to chatter to rest after the impact in `state`.
     fn chatters_to_rest_after(&self, state: ImpactState) -> bool;
 
-    /// The derivative at the impact `from` whose next impact is `to`, after a flight of `duration` (rad); not a
-    /// number where there is none.
-    fn derivative(&self, from: ImpactState, to: ImpactState, duration: f64) -> DMat2 {
-        let _ = (to, duration);
-        self.step_with_derivative(from).map_or(DMat2::NAN, |(_, derivative)| derivative)
-    }
+    /// The derivative at the impact `from` whose next impact is `to`, after a flight of `duration` (rad), and how far
+    /// rounding may move that impact (rad and g/omega); not a number and infinite where there is no derivative.
+    fn derivative(&self, from: ImpactState, to: ImpactState, duration: f64) -> (DMat2, f64);
+
+    /// How far rounding may move the phase (rad) at which the disk leaves a rest.
+    fn separation_error(&self) -> f64;
 
     /// Whether every impact shrinks an area of (phase, velocity) by exactly r^2 v/v', with the velocities v before and
     /// v' after the flight: then the Lyapunov exponents have a known sum.
-    fn shrinks_areas_exactly(&self) -> bool {
-        true
-    }
+    fn shrinks_areas_exactly(&self) -> bool;
 
     /// Impacts after which a transient may be taken as over: each impact shrinks an area of states by
-    /// restitution^2, all of these by e^-10.
+    /// restitution^2, all of these by e^-10. Of a contact that takes time it is an estimate; a verdict measures there
+    /// how areas shrink.
     fn transient_impacts(&self) -> f64 {
         DISSIPATION_TIMES / (-2.0 * ln(self.restitution()))
     }
@@ -88,6 +93,9 @@ pub trait BouncingMap: Clone + core::fmt::Debug + Send + Sync {
         Ok(state)
     }
 }
+
+/// How far rounding may move the end of a contact on a drive, where the force falls through zero at its slowest (rad).
+const SEPARATION_ERROR: f64 = 1.0e-9;
 
 /// The outcome of the orbit with an index.
 pub type OrbitOutcome<S> = (usize, Result<S, Error>);
@@ -110,10 +118,11 @@ pub trait BouncingOrbit: Clone + Send + Sync {
         watch: &Watch<'_>,
     ) -> Vec<OrbitOutcome<S>> {
         let one = |index: usize| {
+            // Once the observer has broken, what is under way is dropped: it is not finished.
+            watch.ask().ok()?;
             let (mut orbit, mut value, mut work) = (orbits[index].clone(), start(index), watch.work());
             loop {
-                // Once the observer has broken, what is under way is dropped: it is not finished.
-                work.spend(1).ok()?;
+                work.spend(WORK_OF_EVENT).ok()?;
                 match orbit.next_event() {
                     Ok(Some(event)) if visit(&mut value, &event).is_continue() => {}
                     Ok(_) => break,
@@ -129,6 +138,9 @@ pub trait BouncingOrbit: Clone + Send + Sync {
 
 impl BouncingMap for ImpactMap {
     type Orbit = Orbit;
+
+    /// So many that the last of them, which leave lanes empty, do not count.
+    const TOGETHER: usize = 1 << 14;
 
     fn restitution(&self) -> f64 {
         Self::restitution(self)
@@ -160,8 +172,17 @@ impl BouncingMap for ImpactMap {
     }
 
     #[inline]
-    fn derivative(&self, from: ImpactState, to: ImpactState, duration: f64) -> DMat2 {
-        self.derivative(from, to, duration)
+    fn derivative(&self, from: ImpactState, to: ImpactState, duration: f64) -> (DMat2, f64) {
+        (self.derivative(from, to, duration), f64::EPSILON * (1.0 + to.velocity().abs()))
+    }
+
+    /// The phase is that of a closed form.
+    fn separation_error(&self) -> f64 {
+        0.0
+    }
+
+    fn shrinks_areas_exactly(&self) -> bool {
+        true
     }
 
     #[inline]
@@ -199,6 +220,22 @@ impl BouncingMap for DrivenMap {
 
     fn chatters_to_rest_after(&self, state: ImpactState) -> bool {
         self.chatters_to_rest_after(state)
+    }
+
+    /// The flight again: an event does not have its error.
+    fn derivative(&self, from: ImpactState, to: ImpactState, _duration: f64) -> (DMat2, f64) {
+        match self.step_with_derivative(from) {
+            // A contact that takes time has no bound of its error.
+            Ok((landing, derivative)) if landing.doubt.is_none() && landing.error.is_finite() => {
+                (derivative, landing.error * (1.0 + to.velocity().abs()))
+            }
+            Ok((_, derivative)) => (derivative, f64::INFINITY),
+            Err(_) => (DMat2::NAN, f64::INFINITY),
+        }
+    }
+
+    fn separation_error(&self) -> f64 {
+        SEPARATION_ERROR
     }
 
     /// A contact that takes time does not.

@@ -50,7 +50,7 @@ impl Default for TangentGrowth {
 
 impl TangentGrowth {
     /// Follows the perturbation through one impact, where the map has this derivative
-    /// ([`ImpactMap::step_with_derivative`]); returns the logarithm of this one growth.
+    /// ([`BouncingMap::step_with_derivative`]); returns the logarithm of this one growth.
     pub fn grow(&mut self, derivative: DMat2) -> f64 {
         let (by_phase, by_velocity) = (derivative.x_axis, derivative.y_axis);
         let x = by_phase.x * self.tangent.0 + by_velocity.x * self.tangent.1;
@@ -205,7 +205,7 @@ pub fn lyapunov_exponents<M: BouncingMap>(
             if followed.skipped < transient {
                 followed.skipped += 1;
             } else {
-                followed.growth.grow(map.derivative(followed.state, state, duration));
+                followed.growth.grow(map.derivative(followed.state, state, duration).0);
             }
             followed.state = state;
             if followed.growth.is_bounded() && followed.growth.impacts() < impacts {

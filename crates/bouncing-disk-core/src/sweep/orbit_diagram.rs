@@ -9,6 +9,9 @@ use crate::numerics::error::Error;
 use crate::run::Observer;
 use crate::sweep::bouncing_map::BouncingOrbit;
 
+/// Most events without an impact after which a disk counts as one that bounces no more: at each kink it may be hit for ever.
+const MOST_CONTACT_EVENTS: usize = 10_000;
+
 /// Most impacts that [`orbit_diagram`] records, of all orbits together.
 pub const MAX_RECORDED: u64 = 1 << 31;
 
@@ -43,7 +46,7 @@ pub fn survival_times<O: BouncingOrbit>(
 
 /// The columns of a bifurcation diagram: for each orbit the `recorded` impacts after the first `transient`
 /// ones. A disk that comes to rest continues with its next separation; one that rests for ever has fewer
-/// impacts.
+/// impacts, and so has one that is only hit by kinks of the platform.
 ///
 /// The items of `observer` are the orbits.
 ///
@@ -66,8 +69,12 @@ pub fn orbit_diagram<O: BouncingOrbit>(
     }
     sweep_with(
         orbits,
-        |_| (0, Some(Vec::new())),
-        |(skipped, column), event| {
+        |_| (0, 0, Some(Vec::new())),
+        |(skipped, contacts, column), event| {
+            *contacts = if matches!(event, SweepEvent::Impact(_)) { 0 } else { *contacts + 1 };
+            if *contacts > MOST_CONTACT_EVENTS {
+                return ControlFlow::Break(());
+            }
             let Some(states) = column else { return ControlFlow::Break(()) };
             match event {
                 SweepEvent::Impact(_) if *skipped < transient => *skipped += 1,
@@ -83,7 +90,7 @@ pub fn orbit_diagram<O: BouncingOrbit>(
             }
             if states.len() < recorded { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         },
-        |(_, states)| states.ok_or(refusal),
+        |(.., states)| states.ok_or(refusal),
         observer,
     )
 }

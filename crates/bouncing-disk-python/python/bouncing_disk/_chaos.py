@@ -143,7 +143,7 @@ def lyapunov_exponents(
         impacts: impacts over which it is measured.
 
     Returns:
-        Mean logarithmic growth per impact; NaN where the disk comes to rest or grazes the platform.
+        Mean logarithmic growth per impact; NaN where the disk comes to rest, grazes the platform or hits a kink of it.
 
     >>> import bouncing_disk as bd
     >>> exponents = bd.lyapunov_exponents(axial_forcing=[0.44, 0.56], restitution=0.5, impact_phase=1.2,
@@ -163,7 +163,7 @@ class LyapunovSpectra(Result):
         outcome: A place in :attr:`OUTCOMES`, shape (n,).
         largest, standard_error: the largest exponent, and its standard error by batch means, shape (n,).
         second: the other exponent; minus infinity for restitution 0, shape (n,).
-        exact_sum: the exact sum of both over these impacts, shape (n,).
+        exact_sum: the exact sum of both over these impacts; minus infinity for restitution 0 and in contacts that take time, shape (n,).
         impacts: measured impacts; those up to a rest or a graze, with the transient, if there is one,
             shape (n,).
         phase: phase (rad) of the impact that grazes the platform, shape (n,).
@@ -227,7 +227,7 @@ class Verdicts(Result):
         period: impacts of one period of a periodic orbit or of one cycle of a chattering one, shape (n,).
         platform_periods: periods of the platform that this takes, shape (n,).
         after: impacts after which the verdict was known, shape (n,).
-        rests: how often the disk came to rest on the way, shape (n,).
+        rests: 1 where the disk came to rest on the way, shape (n,).
         exponent, standard_error: the largest Lyapunov exponent per impact and its standard error, where it
             was measured, shape (n,).
         rounding_error: how far rounding may have carried the impacts of a chattering cycle (rad and g/omega),
@@ -244,6 +244,7 @@ class Verdicts(Result):
         "grazing",
         "on-periodic-orbit",
         "transient-may-last",
+        "rest-not-proven",
     )
 
     axial_forcing: FloatArray

@@ -85,7 +85,7 @@ pub enum OrbitClass {
     /// the arithmetic is. (A long cycle depends on its rounding.)
     Chattering(ChatteringCycle),
     /// Small vertical perturbations grow for certain ([`LyapunovEstimate::grows`]), over enough impacts for
-    /// dissipation to act ([`ImpactMap::transient_impacts`]).
+    /// dissipation to act ([`BouncingMap::transient_impacts`](bouncing_disk_core::BouncingMap::transient_impacts)).
     Chaotic {
         /// Growth rate of a small vertical perturbation per impact, from the derivatives of the map along the
         /// impacts examined.

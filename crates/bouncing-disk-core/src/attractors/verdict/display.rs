@@ -63,6 +63,9 @@ impl core::fmt::Display for UndecidedReason {
                 write!(formatter, "exponent {exponent:.digits$} +- {standard_error:.digits$}, ")?;
                 write!(formatter, "a transient may last {needed:.0} impacts")
             }
+            Self::RestNotProven { phase, .. } => {
+                write!(formatter, "rests at {:.digits$} rad, perhaps not for ever", phase.angle())
+            }
             Self::Grazing { impacts, phase } => {
                 write!(formatter, "impact {impacts} grazes at {:.digits$} rad", phase.angle())
             }

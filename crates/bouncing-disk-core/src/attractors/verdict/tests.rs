@@ -213,6 +213,7 @@ fn verdicts_in_lockstep_are_those_of_single_orbits() {
 /// The verdicts come in their order, whatever is stopped; what was taken before the stop stays.
 #[test]
 fn a_call_of_many_blocks_can_be_stopped_and_keeps_no_verdict() {
+    const TOGETHER: usize = <ImpactMap as BouncingMap>::TOGETHER;
     let count = 3 * TOGETHER + 100;
     let start = |index: usize| {
         let forcing = 0.05 + 0.2 * (index % 97) as f64 / 97.0;

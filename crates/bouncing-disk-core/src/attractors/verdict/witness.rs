@@ -6,12 +6,13 @@ use core::ops::ControlFlow;
 use super::proof::{Proof, prove};
 use super::returns::Returns;
 use super::{CycleTrust, RestCycle, UndecidedReason, Verdict, VerdictSettings};
+use crate::chatter::accumulation::Accumulation;
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{Attachment, ImpactState};
 use crate::numerics::batch_means::BatchMeans;
-use crate::numerics::elementary::exp;
+use crate::numerics::elementary::{exp, ln};
 use crate::orbits::periodic::{Stability, phase_difference};
-use crate::sweep::bouncing_map::BouncingMap;
+use crate::sweep::bouncing_map::{BouncingMap, DISSIPATION_TIMES};
 use crate::sweep::lyapunov::{LyapunovEstimate, TangentGrowth};
 use crate::sweep::{SweepEvent, SweepImpact};
 
@@ -63,15 +64,15 @@ impl Round {
         self.long_flights += u64::from(impact.duration > LONG_FLIGHT);
     }
 
-    /// Takes the logarithm of the growth by a flight that ends in `state`; the first flight has no growth.
-    fn grow(&mut self, growth: f64, state: ImpactState) {
+    /// Takes the logarithm of the growth by a flight, and the error of its impact; the first flight has no growth.
+    fn grow(&mut self, growth: f64, error: f64) {
         self.growth.push(growth);
-        self.round(exp(growth), state);
+        self.round(exp(growth), error);
     }
 
-    /// The earlier error has grown, and the rounding of this impact is added.
-    fn round(&mut self, growth: f64, state: ImpactState) {
-        self.rounding = self.rounding * growth + f64::EPSILON * (1.0 + state.velocity().abs());
+    /// The earlier error has grown, and that of this impact is added.
+    fn round(&mut self, growth: f64, error: f64) {
+        self.rounding = self.rounding * growth + error;
         // Also of what is no number.
         let told = if self.rounding < 1.0 { self.rounding } else { 1.0 };
         self.worst_rounding = self.worst_rounding.max(told);
@@ -101,9 +102,11 @@ pub(crate) struct Witness<'m, M> {
     /// Its logarithms after the transient, and the turns of the phase there.
     growth: BatchMeans,
     turns: u64,
+    /// How often areas have shrunk by e since, where they do not shrink by the restitution squared in each impact.
+    shrunk: f64,
     grazed: Option<(u64, Phase)>,
-    /// Where the disk came to rest that has not separated since.
-    attached: Option<Phase>,
+    /// Where the disk came to rest that has not separated since, and the error of that.
+    attached: Option<(Phase, f64)>,
     round: Option<Round>,
     /// The rounds before it: more than none only where the disk leaves the platform at several phases.
     earlier: Vec<Round>,
@@ -122,6 +125,7 @@ impl<'m, M: BouncingMap> Witness<'m, M> {
             tangent: TangentGrowth::default(),
             growth: LyapunovEstimate::growths(),
             turns: 0,
+            shrunk: 0.0,
             grazed: None,
             attached: None,
             round: None,
@@ -144,8 +148,13 @@ impl<'m, M: BouncingMap> Witness<'m, M> {
     /// The verdict, once the orbit has been followed to it.
     pub(crate) fn verdict(self) -> Verdict {
         // An orbit ends without a verdict where the disk stays on the platform, perhaps without an impact or a chatter.
-        let phase = self.attached.unwrap_or(self.state.phase());
-        self.verdict.unwrap_or(Verdict::AtRest { phase, after: self.before + self.impacts })
+        let (phase, error) = self.attached.unwrap_or((self.state.phase(), 0.0));
+        let after = self.before + self.impacts;
+        self.verdict.unwrap_or(if error.is_finite() || self.map.shrinks_areas_exactly() {
+            Verdict::AtRest { phase, after }
+        } else {
+            Verdict::Undecided { reason: UndecidedReason::RestNotProven { phase, after }, rests: 1 }
+        })
     }
 
     fn impact(&mut self, impact: &SweepImpact) {
@@ -179,18 +188,23 @@ impl<'m, M: BouncingMap> Witness<'m, M> {
         }
         let state = impact.state;
         if self.round.is_some() && self.impacts == 1 {
-            // The disk left the platform at a state that is known exactly.
+            // The disk left the platform at a state that is known but for this.
+            let error = self.map.separation_error() + f64::EPSILON * (1.0 + state.velocity().abs());
             if let Some(round) = &mut self.round {
-                round.round(0.0, state);
+                round.round(0.0, error);
             }
             return;
         }
-        let growth = self.tangent.grow(self.map.derivative(from, state, impact.duration));
+        let (derivative, error) = self.map.derivative(from, state, impact.duration);
+        let growth = self.tangent.grow(derivative);
         if let Some(round) = &mut self.round {
-            round.grow(growth, state);
+            round.grow(growth, error);
         }
         if counts {
             self.growth.push(growth);
+            if !self.map.shrinks_areas_exactly() {
+                self.shrunk -= ln(derivative.determinant().abs());
+            }
         }
         if !self.tangent.is_bounded() {
             self.grazed = Some((self.before + self.impacts, state.phase()));
@@ -202,7 +216,8 @@ impl<'m, M: BouncingMap> Witness<'m, M> {
     }
 
     fn rest(&mut self, rest: &Attachment) {
-        self.attached = Some(rest.accumulation.phase);
+        let Accumulation { phase, error_bound, .. } = rest.accumulation;
+        self.attached = Some((phase, error_bound));
         if let Some(round) = &mut self.round {
             round.turns += rest.accumulation.turns;
         }
@@ -222,6 +237,11 @@ impl<'m, M: BouncingMap> Witness<'m, M> {
         let same =
             |round: &Round| phase_difference(round.from.angle(), phase.angle()).abs() <= SAME_SEPARATION;
         if let Some(first) = self.earlier.iter().position(same) {
+            // On either side of the seam, the turn between them belongs to neither.
+            let seam = phase.angle() - self.earlier[first].from.angle();
+            if let Some(last) = self.earlier.last_mut() {
+                last.turns = last.turns.saturating_add_signed(i64::from(seam > PI) - i64::from(seam < -PI));
+            }
             let after = self.earlier[first].before;
             self.verdict = Some(Verdict::Chattering { cycle: cycle(&self.earlier[first..]), after });
             return;
@@ -278,7 +298,11 @@ impl<'m, M: BouncingMap> Witness<'m, M> {
         if let Some(verdict) = nearest.and_then(|(_, period)| self.periodic(period, Stability::Unstable)) {
             return verdict;
         }
-        let needed = self.map.transient_impacts();
+        let needed = if self.map.shrinks_areas_exactly() {
+            self.map.transient_impacts()
+        } else {
+            DISSIPATION_TIMES * impacts as f64 / self.shrunk.max(f64::MIN_POSITIVE)
+        };
         let reason = if estimate.grows() && (self.impacts as f64) < needed {
             UndecidedReason::TransientMayLast { exponent, standard_error, needed }
         } else if estimate.grows() {

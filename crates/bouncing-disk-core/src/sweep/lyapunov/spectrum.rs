@@ -25,7 +25,7 @@ pub struct LyapunovSpectrum {
     /// Its standard error over the one orbit that was followed: scatter, drift and rounding ([`BatchMeans`]).
     pub standard_error: f64,
     /// The other exponent; `None` for restitution 0, where the map forgets one of its two dimensions at every
-    /// impact and the exponent is minus infinity.
+    /// impact and the exponent is minus infinity, and where a contact that takes time does so.
     pub second: Option<f64>,
     /// The exact sum of both over these impacts: 2 ln(restitution) + ln(v_0/v_n)/n with the impact
     /// velocities before the first and after the last of n flights. It tends to 2 ln(restitution).
@@ -110,7 +110,7 @@ impl<M: BouncingMap> Followed<'_, M> {
             if self.frame.batches.count() == 0 {
                 self.first_velocity = self.state.velocity();
             }
-            self.frame.grow(self.map.derivative(self.state, state, duration));
+            self.frame.grow(self.map.derivative(self.state, state, duration).0);
         }
         self.state = state;
         if !self.frame.first.is_bounded() {
@@ -132,7 +132,7 @@ impl<M: BouncingMap> Followed<'_, M> {
         Some(LyapunovSpectrum {
             largest: self.frame.batches.mean()?,
             standard_error: self.frame.batches.standard_error()?,
-            second: two.then(|| self.frame.second_sum / impacts as f64),
+            second: two.then(|| self.frame.second_sum / impacts as f64).filter(|sum| sum.is_finite()),
             exact_sum: is_known.then(|| 2.0 * ln(restitution) + telescoped),
             impacts,
         })
