@@ -22,12 +22,13 @@
 //! [`BoundaryScaling`] measure basins. The methods:
 //! docs/numerics/dynamics.md.
 
+mod attracting_map;
 pub(crate) mod attraction;
 pub(crate) mod basin;
-mod driven;
 pub(crate) mod search;
 pub(crate) mod verdict;
 
+pub use attracting_map::AttractingMap;
 pub use basin::boundary::{BoundaryFit, BoundaryScaling, UncertainShare};
 pub use basin::entropy::BasinEntropy;
 pub use basin::{

@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 
 use bouncing_disk_core::attractors::{Verdict, VerdictSettings, verdicts};
 use bouncing_disk_core::chaos::{LyapunovOutcome, lyapunov_exponents, lyapunov_spectra};
-use bouncing_disk_core::numerics::elementary::{hypot, ln};
+use bouncing_disk_core::numerics::elementary::{cos, hypot, ln, sin};
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::sweep::{orbit_diagram, survival_times};
 use bouncing_disk_core::{ChatterPolicy, Drive, DrivenMap, ImpactMap, ImpactState, Unobserved, Vibration};
@@ -365,5 +365,24 @@ fn a_disk_that_is_only_kicked_has_no_impacts_and_a_cycle() {
         let verdict = map.verdict(start, VerdictSettings::default()).unwrap();
         let Verdict::Chattering { cycle, .. } = verdict else { panic!("{r}: {verdict:?}") };
         assert_eq!((cycle.impacts, cycle.platform_periods), (1, 1), "{r}: {cycle:?}");
+    }
+}
+
+/// Whatever starts within the radius of the orbit derived by hand ends on it.
+#[test]
+fn starts_within_the_radius_end_on_the_orbit_of_the_parabolas() {
+    let (a, r) = (1.3, 0.5);
+    let (map, exact) = (DrivenMap::new(Drive::parabolas(a).unwrap(), r).unwrap(), Parabolas::arcs(a));
+    // The platform rises with pi (1 - r)/(1 + r) there.
+    let phase = (4.0 * a / PI - PI * (1.0 - r) / (1.0 + r)) / (8.0 * a / (PI * PI));
+    let orbit = map.refine(&[state(phase, -TAU / (1.0 + r))]).unwrap();
+    let radius = orbit.trapping_radius(&map, 64, &Unobserved).unwrap();
+    assert!(radius > 1e-3, "{radius}");
+    let (mut random, speed) = (SplitMix64::new(72), map.drive().bounds().speed);
+    for _ in 0..50 {
+        let (angle, reach) = (TAU * random.unit(), radius * random.unit());
+        let start = (phase + reach * cos(angle), -TAU / (1.0 + r) + reach * speed * sin(angle));
+        let end = *exact.follow(start, r, 3_000).impacts.last().unwrap();
+        assert!((end.0 - phase).abs() < 1e-9 && (end.1 + TAU / (1.0 + r)).abs() < 1e-9, "{start:?} {end:?}");
     }
 }

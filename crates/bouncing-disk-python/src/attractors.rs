@@ -3,9 +3,9 @@
 use bouncing_disk::core::{
     Error as CoreError, ImpactMap,
     attractors::{
-        AfterRest, Attractor, AttractorKind, AttractorSearch, Attractors as AttractorsModel, Axis,
-        BasinSettings, Basins, BoundaryFit, Grid, KnownOrbit, Label, RestCycle,
-        basin_fractions_over as fractions_over,
+        AfterRest, AttractingMap as _, Attractor, AttractorKind, AttractorSearch,
+        Attractors as AttractorsModel, Axis, BasinSettings, Basins, BoundaryFit, Grid, KnownOrbit, Label,
+        RestCycle, basin_fractions_over as fractions_over,
     },
     orbits::PeriodicOrbit as OrbitModel,
 };

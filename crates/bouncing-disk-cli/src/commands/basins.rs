@@ -2,8 +2,8 @@
 
 use bouncing_disk::core::DrivenMap;
 use bouncing_disk::core::attractors::{
-    ATTACHED, AfterRest, AttractorKind, AttractorSearch, Attractors, Axis, BasinSettings, FIRST_ORBIT, Grid,
-    KnownOrbit, Label, UNDECIDED,
+    ATTACHED, AfterRest, AttractingMap as _, AttractorKind, AttractorSearch, Attractors, Axis, BasinSettings,
+    FIRST_ORBIT, Grid, KnownOrbit, Label, UNDECIDED,
 };
 use bouncing_disk::core::orbits::{OrbitSearch, PeriodicOrbit, Stability};
 use bouncing_disk::parameters::Waveform;

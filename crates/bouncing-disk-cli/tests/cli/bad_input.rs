@@ -82,7 +82,7 @@ fn drives() {
         file("infinite", "start_phase = inf");
         let sine_only = "this analysis holds for the sine of Eq. (1) only";
         let lines = if command == "toss" {
-            &["verdicts", "doublings", "toss --template"][..]
+            &["doublings", "toss --template"][..]
         } else {
             &["motor report", "motor traps", ""]
         };
@@ -93,7 +93,10 @@ fn drives() {
         if command == "toss" {
             let copy = "--template writes no table [drive]";
             folder.all_refused(2, &[(&format!("{template} triangle.toml"), copy)]);
-            folder.all_refused(2, &[("diagram triangle.toml --start period-1", "give rest, rise or")]);
+            for command in ["diagram", "verdicts"] {
+                let line = format!("{command} triangle.toml --start period-1");
+                folder.all_refused(2, &[(&line, "give rest, rise or")]);
+            }
             folder.all_refused(2, &[("orbits start.toml", "start_phase is where a toss starts")]);
         }
         for (name, told) in [

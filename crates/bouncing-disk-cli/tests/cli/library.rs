@@ -226,6 +226,12 @@ fn diagrams_orbits_and_basins_of_contacts_that_take_time() {
         assert_eq!(of(&soft), stored(&phases));
         assert_ne!(of(&soft), of(&rigid));
     }
+    let settings = VerdictSettings { transient: 200, impacts: 2_000, ..VerdictSettings::default() };
+    let starts = [0.45, 0.55].map(|forcing| (map(forcing), start));
+    let line = "verdicts -G 0.45:0.55:2 --start 0.1,1.3 --transient 200 --impacts 2000 --contact-periods 0.2";
+    let found = written(line);
+    let cells: Vec<&Value> = found["cells"].as_array().unwrap().iter().map(|cell| &cell["verdict"]).collect();
+    assert_eq!(json!(cells), stored(&verdicts(&starts, settings, &Unobserved).unwrap()));
     let search = OrbitSearch::new(1, 1).unwrap().with_starts(20, 20).unwrap();
     let orbits = map(0.45).periodic_orbits(&search, &Unobserved).unwrap();
     let orbit = "orbits -G 0.45 --impacts 1 --platform-periods 1 --starts 20 --contact-periods 0.2";
@@ -241,7 +247,7 @@ fn diagrams_orbits_and_basins_of_contacts_that_take_time() {
         ("basins --contact-periods=-1", "contact_periods = -1 is outside"),
         ("orbits --contact-periods 0.2 -r 0", "restitution of a contact that takes time = 0 is outside"),
         ("diagram --contact-periods 0.2 --start period-1", "rigid impacts"),
-        ("verdicts --contact-periods 0.2", "unexpected argument"),
+        ("verdicts --contact-periods 0", legal),
     ];
     folder.all_refused(2, &lines);
 }

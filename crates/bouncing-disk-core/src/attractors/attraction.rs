@@ -7,11 +7,12 @@ use core::f64::consts::{PI, TAU};
 
 use glam::{DMat2, DVec2};
 
+use super::attracting_map::AttractingMap;
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::elementary::{asin, sin_cos};
 use crate::numerics::error::Error;
-use crate::orbits::periodic::{PeriodicOrbit, Stability, distance};
+use crate::orbits::periodic::{PeriodicOrbit, distance};
 use crate::run::{Observer, Watch, WorkCount};
 
 /// The radius that is tried first, the largest, and the one at which the search gives up.
@@ -210,11 +211,7 @@ impl PeriodicOrbit {
     /// [stable](Self::stability); [`Error::NothingProven`] if the region would be no larger than the
     /// rounding, as next to a graze; those of [`Vibration::first_impact`](crate::Vibration::first_impact).
     pub fn proven_radius(&self, map: &ImpactMap) -> Result<f64, Error> {
-        map.check_orbit(self)?;
-        if self.stability() != Stability::Stable {
-            let spectral_radius = self.multipliers().spectral_radius();
-            return Err(Error::NotAttracting { spectral_radius, trace_error: self.trace_error });
-        }
+        map.check_attracting(self)?;
         let flights = flights(map, self)?;
         let n = flights.len();
         let widest = flights.iter().fold(1.0_f64, |most, flight| most.max(flight.largest));
@@ -238,7 +235,7 @@ impl PeriodicOrbit {
     }
 
     /// The radius (rad) within which a start counts as caught by this orbit: the
-    /// [proven](Self::proven_radius) one, or a larger one that samples support.
+    /// [proven](AttractingMap::proven_radius) one, or a larger one that samples support.
     ///
     /// An orbit of at most eight impacts gets the first radius of 0.1, 0.05, ... rad that traps: `samples`
     /// starts on a circle of this radius about each impact stay within four radii of the orbit, and end
@@ -258,17 +255,17 @@ impl PeriodicOrbit {
     /// # Errors
     /// [`Error::NotAnOrbit`] for an orbit of another map; [`Error::NotAttracting`] unless the orbit is
     /// [stable](Self::stability); those of [`Self::proven_radius`] where samples find no radius either.
-    pub fn trapping_radius(
+    pub fn trapping_radius<M: AttractingMap>(
         &self,
-        map: &ImpactMap,
+        map: &M,
         samples: u32,
         observer: &dyn Observer,
     ) -> Result<f64, Error> {
-        let proven = self.proven_radius(map);
+        let proven = map.proven_radius(self);
         if let Err(refused @ (Error::NotAnOrbit { .. } | Error::NotAttracting { .. })) = proven {
             return Err(refused);
         }
-        let (scale, samples) = (map.vibration().peak_acceleration(), samples.max(1));
+        let (scale, samples) = (map.speed_scale(), samples.max(1));
         let more = samples.saturating_mul(4);
         let most = halvings() * u64::from(samples) + widenings() * u64::from(more);
         let watch = Watch::begin(observer, 0, most.saturating_mul(self.period() as u64))?;
@@ -287,7 +284,12 @@ impl PeriodicOrbit {
     }
 
     /// The radius of circles that trap, widened; `None` if even the smallest does not.
-    fn sampled(&self, search: &mut Search<'_>, samples: u32, more: u32) -> Result<Option<f64>, Error> {
+    fn sampled(
+        &self,
+        search: &mut Search<'_, impl AttractingMap>,
+        samples: u32,
+        more: u32,
+    ) -> Result<Option<f64>, Error> {
         let inner = first_halving(FIRST_RADIUS, SMALLEST_RADIUS, |radius| {
             search.all_on_circle(self, radius, samples, |search, start, _| self.traps(search, start, radius))
         })?;
@@ -295,7 +297,7 @@ impl PeriodicOrbit {
         let mut widest = inner;
         while inner >= FIRST_RADIUS && widest < LARGEST_RADIUS {
             let next = (WIDENING * widest).min(LARGEST_RADIUS);
-            let drawn = |search: &mut Search<'_>, start, _| self.draws(search, start, inner, 4.0 * next);
+            let drawn = |search: &mut Search<'_, _>, start, _| self.draws(search, start, inner, 4.0 * next);
             if !search.all_on_circle(self, next, more, drawn)? {
                 break;
             }
@@ -305,12 +307,16 @@ impl PeriodicOrbit {
     }
 
     /// Half the radius of the circles from which starts come back nearer; `None` if it is not above `least`.
-    fn sampled_circles(&self, search: &mut Search<'_>, least: f64) -> Result<Option<f64>, Error> {
+    fn sampled_circles(
+        &self,
+        search: &mut Search<'_, impl AttractingMap>,
+        least: f64,
+    ) -> Result<Option<f64>, Error> {
         let smallest = SMALLEST_CIRCLE.max(least / SHARE_OF_CIRCLE);
         let radius = first_halving(LARGEST_CIRCLE, smallest, |radius| {
             for part in CIRCLES {
                 let from = part * radius;
-                let returns = |search: &mut Search<'_>, start, centre| {
+                let returns = |search: &mut Search<'_, _>, start, centre| {
                     search.returns_nearer(self.period() as u64, (start, centre), from)
                 };
                 if !search.all_on_circle(self, from, CIRCLE_SAMPLES, returns)? {
@@ -330,7 +336,7 @@ impl PeriodicOrbit {
     /// Whether a start comes within `radius` of this orbit, and stays within `bound` on the way.
     fn draws(
         &self,
-        search: &mut Search<'_>,
+        search: &mut Search<'_, impl AttractingMap>,
         start: ImpactState,
         radius: f64,
         bound: f64,
@@ -350,7 +356,12 @@ impl PeriodicOrbit {
         Ok(false)
     }
 
-    fn traps(&self, search: &mut Search<'_>, start: ImpactState, radius: f64) -> Result<bool, Error> {
+    fn traps(
+        &self,
+        search: &mut Search<'_, impl AttractingMap>,
+        start: ImpactState,
+        radius: f64,
+    ) -> Result<bool, Error> {
         let mut state = start;
         for _ in 0..200 * self.period() {
             search.work.spend(self.flights_of_step())?;
@@ -397,13 +408,13 @@ fn widenings() -> u64 {
 }
 
 /// The state of the search for a radius: the map, the scale of its speeds, and the work so far.
-struct Search<'w> {
-    map: &'w ImpactMap,
+struct Search<'w, M> {
+    map: &'w M,
     scale: f64,
     work: WorkCount<'w>,
 }
 
-impl<'w> Search<'w> {
+impl<M: AttractingMap> Search<'_, M> {
     /// Whether all starts on the circles of this radius about the impacts of the orbit pass. A start below
     /// the platform does not.
     fn all_on_circle(

@@ -9,8 +9,9 @@ mod starts;
 
 use core::f64::consts::TAU;
 
+use crate::attractors::attracting_map::AttractingMap as _;
 use crate::chatter::policy::ChatterPolicy;
-use crate::map::impact_map::{ImpactMap, ImpactState, OrbitEvent};
+use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::error::{Error, within};
 use crate::numerics::fraction::Fraction;
 use crate::numerics::stored::read_checked;
@@ -356,51 +357,6 @@ impl ImpactMap {
         self.label_of(start, known, settings, || Ok(()))
     }
 
-    /// The label of a start; `follow` is called before each flight.
-    fn label_of(
-        &self,
-        start: ImpactState,
-        known: &[KnownOrbit],
-        settings: BasinSettings,
-        mut follow: impl FnMut() -> Result<(), Error>,
-    ) -> Result<Label, Error> {
-        let settles = |state: ImpactState| self.settles(state, known, settings.policy);
-        if let Some(label) = settles(start) {
-            return Ok(label);
-        }
-        let mut orbit = self.orbit(start, settings.policy);
-        for _ in 0..settings.max_impacts {
-            follow()?;
-            match orbit.advance()? {
-                Some(OrbitEvent::Impact(impact)) => {
-                    if let Some(label) = settles(impact.into()) {
-                        return Ok(label);
-                    }
-                }
-                Some(_) | None => return Ok(ATTACHED),
-            }
-        }
-        Ok(UNDECIDED)
-    }
-
-    /// The label that an impact in `state` decides: near a known orbit, or (complete policy) certain to
-    /// chatter to rest.
-    pub(crate) fn settles(
-        &self,
-        state: ImpactState,
-        known: &[KnownOrbit],
-        policy: ChatterPolicy,
-    ) -> Option<Label> {
-        let caught = caught(known, state, self.vibration().peak_acceleration());
-        if caught.is_some() {
-            return caught;
-        }
-        let speed = -self.restitution() * state.velocity();
-        let rests = policy == ChatterPolicy::Complete
-            && self.vibration().chatters_to_rest(state.phase(), speed, self.restitution());
-        rests.then_some(ATTACHED)
-    }
-
     /// The basins on a grid.
     ///
     /// The labels are the same for any number of threads.
@@ -428,7 +384,7 @@ const TARGETS_OF_FLIGHT: usize = 8;
 
 /// The work of a flight, and of the comparison of its impact with the known orbits, in the units of an
 /// observer.
-fn flights_of_label(known: &[KnownOrbit]) -> u64 {
+pub(super) fn flights_of_label(known: &[KnownOrbit]) -> u64 {
     let impacts: usize = known.iter().map(|known| known.orbit.period()).sum();
     1 + (impacts / TARGETS_OF_FLIGHT) as u64
 }

@@ -13,7 +13,7 @@ use crate::numerics::error::{Error, finite, not_negative, within};
 use crate::numerics::stored::read_checked;
 use crate::run::{Observer, Tick, Watch};
 
-mod belonging;
+pub(crate) mod belonging;
 mod driven;
 mod margin;
 pub(crate) mod newton;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::attractors::{Axis, BasinSettings, Grid, KnownOrbit};
+use bouncing_disk_core::attractors::{AttractingMap as _, Axis, BasinSettings, Grid, KnownOrbit};
 use bouncing_disk_core::orbits::OrbitSearch;
 use bouncing_disk_core::sweep::orbit_diagram;
 use bouncing_disk_core::{

@@ -9,7 +9,8 @@
 use std::f64::consts::TAU;
 
 use bouncing_disk_core::attractors::{
-    AttractorKind, AttractorSearch, Axis, BasinSettings, Grid, KnownOrbit, Label, VerdictSettings, verdicts,
+    AttractingMap as _, AttractorKind, AttractorSearch, Axis, BasinSettings, Grid, KnownOrbit, Label,
+    VerdictSettings, verdicts,
 };
 use bouncing_disk_core::chaos::lyapunov_spectra;
 use bouncing_disk_core::numerics::double_double::DoubleDouble;
@@ -490,7 +491,7 @@ pub(crate) fn periodic_orbits() -> Vec<String> {
         labels.bytes(map.basins(grid, &known, settings, &Unobserved).expect("no failure").labels());
     }
     lines.extend(one("periodic orbits on drives", orbits, 0x4455_9a97_4f62_b38d));
-    lines.extend(one("basins on drives", labels, 0xb37e_5db1_4cd5_b151));
+    lines.extend(one("basins on drives", labels, 0x24a4_243e_efa0_0d14));
     lines
 }
 

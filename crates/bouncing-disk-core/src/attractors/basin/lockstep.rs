@@ -3,6 +3,7 @@
 use super::screen::{Judge, Verdicts};
 use super::starts::{Cell, Cells, Starts};
 use super::{BasinSettings, KnownOrbit, Label, UNDECIDED, flights_of_label};
+use crate::attractors::attracting_map::AttractingMap as _;
 use crate::chatter::policy::ChatterPolicy;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::error::Error;

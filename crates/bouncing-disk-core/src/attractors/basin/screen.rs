@@ -5,6 +5,7 @@ use core::f64::consts::TAU;
 use pulp::{Simd, WithSimd};
 
 use super::{ATTACHED, BasinSettings, FIRST_ORBIT, KnownOrbit, Label, TARGETS_OF_FLIGHT};
+use crate::attractors::attracting_map::AttractingMap as _;
 use crate::chatter::rest_proof::RestProof;
 use crate::map::impact_map::ImpactMap;
 use crate::numerics::error::Error;

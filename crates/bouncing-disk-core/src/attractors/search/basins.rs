@@ -5,6 +5,7 @@ use core::ops::{ControlFlow, Range};
 use super::cells::VisitedCells;
 use super::follow::SHARE_IN_CELLS;
 use super::{Attractors, label_of};
+use crate::attractors::attracting_map::AttractingMap as _;
 use crate::attractors::basin::{ATTACHED, BasinSettings, Basins, Grid, KnownOrbit, Label, UNDECIDED};
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::error::Error;

@@ -57,7 +57,7 @@ impl DrivenMap {
     }
 }
 
-fn check(
+pub(crate) fn check(
     orbit: &PeriodicOrbit,
     step: impl Fn(ImpactState) -> Result<Impact, Error>,
     step_with_derivative: impl Fn(ImpactState) -> Result<(Impact, DMat2), Error>,

@@ -1,6 +1,7 @@
 use core::f64::consts::PI;
 
 use super::*;
+use crate::attractors::AttractingMap as _;
 use crate::attractors::basin::{Axis, BasinSettings, Grid, KnownOrbit};
 #[cfg(feature = "serde")]
 use crate::attractors::{AttractorSearch, Attractors};
