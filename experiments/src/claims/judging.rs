@@ -176,7 +176,7 @@ kinds! {
     /// "Much larger", "sufficiently", "eventually".
     Limit = "limit", "Reproduced where the deviation falls to less than a hundredth in the stated limit.";
     /// "Appears", "seems", "can be seen".
-    Appears = "appears", "Reproduced where the picture that is referred to shows it at its resolution, whatever lies between its points.";
+    Appears = "appears", "Reproduced where the picture that is referred to shows it at its resolution, over most of the range that is meant, whatever lies between its points.";
     /// A speed, a torque, a form of transient or a trend of the motor.
     Motor = "motor", "Two verdicts. The row counts by the mean of an ensemble of motors whose relaunch is perturbed; over many values of a parameter by the middle mean, or the middle exponent. Beside it stands that of single orbits that nothing perturbs: reproduced for 95 % of them or more, differing for 5 % or less.";
     /// Which orbit one motor is on, and what follows from that.

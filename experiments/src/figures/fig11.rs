@@ -45,7 +45,7 @@ pub(crate) fn fig11(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
     let inertia = mass * motor.gyration_radius_m * motor.gyration_radius_m;
     let perturbation = TransientSettings::default().relaunch_perturbation;
     // The larger the amplitude, the fewer collisions a transient averages over, and the cheaper it is.
-    let members = quality.choose([2, 3, 6], [3, 5, 12]);
+    let members = quality.choose([2, 3, 6], [3, 5, 10]);
     let (count, more) = (quality.choose(20, 112), quality.choose(4, MORE_ABOVE));
     let amplitudes = section.amplitudes_of_fig10_m;
     let [low, high] = printed.measured_range_n.map(|preload| preload / mass);

@@ -203,7 +203,7 @@ fn three_branches(four: &[&Slice], crossings: &[f64]) -> [Claim; 2] {
             "section4.projection_hides_branch",
             all(&alike, |(gap, apart)| *apart > ONE_BRANCH && apart > gap),
             format!(
-                "impacts whose speeds look alike are at least {least:.3} apart in τ_imp/2π or |w_A Γ/(ωA)|"
+                "impacts whose speeds look alike are at least {least:.3} apart in τ_imp/2π or |w_A Γ/(ωA)| at the Γ drawn"
             ),
         ),
     ]

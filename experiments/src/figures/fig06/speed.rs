@@ -186,14 +186,15 @@ pub(super) fn speeds(
             words(&ones),
         ),
     ));
-    let found = decides.iter().flat_map(|decides| &decides.found);
-    let at_maximum = found.filter(|of| of.speed >= AT_MAXIMUM).count();
+    let found: Vec<f64> = decides.iter().flat_map(|decides| &decides.found).map(|of| of.speed).collect();
+    let at_maximum = found.iter().filter(|speed| **speed >= AT_MAXIMUM).count();
     fig.claim(Claim::printed_statement(
         "section4.merged_below_maximum",
         slower(&merged).map(|slower| slower && at_maximum == 0),
         format!(
-            "from rest {} at the best lag; where one impact of a cycle has most of the impulse, a motor comes near to ωΦ, and reaches it at {at_maximum} of {} values of Γ",
+            "from rest {} at the best lag; where one impact has most of the impulse {:.5} ωΦ or less at Γ_T = {LARGE_ANGULAR_FORCING:e}, nearer as Γ_T grows, but equal to it at {at_maximum} of {} Γ",
             words(&merged),
+            range(&found).1,
             decides.as_ref().map_or(0, |decides| decides.tried),
         ),
     ));

@@ -25,6 +25,20 @@ pub(super) fn claims(study: &Study) -> Vec<Claim> {
     let mean = shares.sum::<f64>() / study.alike.draws.len() as f64;
     let printed = study.motor.restitution;
     let lower = prevalence.iter().filter(|entry| entry.restitution < printed);
+    let of_pairs = |share: &dyn Fn(&Prevalence) -> f64| {
+        trend(prevalence.iter().map(|entry| (entry.restitution, share(entry))), -1.0)
+    };
+    let definitions = prevalence.first().map_or(0, |entry| entry.share_up_to.len());
+    let by_flights: Vec<_> = (0..definitions)
+        .map(|index| Kind::Trend.verdict(of_pairs(&|entry| entry.share_up_to[index].1)))
+        .collect();
+    let ends = prevalence.first().zip(prevalence.last());
+    let falling = ends.map_or_else(String::new, |(first, last)| {
+        let percent = |entry: &Prevalence| {
+            format!("{:.0} % at ε = {}", 100.0 * entry.share_of_low_period, entry.restitution)
+        };
+        format!("{} to {}", percent(first), percent(last))
+    });
     let [at_zero, falls] = phases_of_impulse(study);
     vec![
         prevalent(prevalence, study.alike.drawn),
@@ -41,8 +55,9 @@ pub(super) fn claims(study: &Study) -> Vec<Claim> {
         Claim::printed_statement(
             "section5.smaller_restitution_gives_low_period",
             trend(prevalence.iter().map(|entry| (entry.restitution, entry.share_of_low_period)), -1.0),
-            format!("share of low period among {} motors that print alike", study.alike.drawn),
-        ),
+            format!("share of low period among {} motors that print alike: {falling}", study.alike.drawn),
+        )
+        .by_definition(&by_flights),
         Claim::printed_statement(
             "section5.reduced_restitution",
             any(lower.clone(), |entry| entry.share_of_low_period > 0.5),

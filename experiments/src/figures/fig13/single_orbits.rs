@@ -126,7 +126,7 @@ impl SingleOrbits {
     pub(super) fn of(quality: Quality) -> Result<Self, ExperimentError> {
         let printed = PrintedInputs::table_three()?;
         let count = quality.choose(DRAWN / 10, DRAWN);
-        let steps = quality.choose(4, 10);
+        let steps = quality.choose(4, 8);
         let default = printed.drawn(count, SEED);
         let with = |parameter: Input<MotorCase>, values: &[f64]| {
             let cases =
