@@ -4,12 +4,16 @@
 
 use std::f64::consts::{PI, TAU};
 
-use bouncing_disk_core::attractors::{Verdict, VerdictSettings, verdicts};
+use bouncing_disk_core::attractors::{
+    AttractingMap as _, Axis, BasinSettings, Grid, Verdict, VerdictSettings, verdicts,
+};
 use bouncing_disk_core::chaos::{LyapunovOutcome, lyapunov_exponents, lyapunov_spectra};
 use bouncing_disk_core::numerics::elementary::{cos, hypot, ln, sin};
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::sweep::{orbit_diagram, survival_times};
-use bouncing_disk_core::{ChatterPolicy, Drive, DrivenMap, ImpactMap, ImpactState, Unobserved, Vibration};
+use bouncing_disk_core::{
+    ChatterPolicy, Drive, DrivenMap, Error, ImpactMap, ImpactState, Unobserved, Vibration,
+};
 
 /// Pieces of constant acceleration: where each begins, with its height, velocity, and half its acceleration there.
 #[derive(Debug, Clone)]
@@ -384,5 +388,23 @@ fn starts_within_the_radius_end_on_the_orbit_of_the_parabolas() {
         let start = (phase + reach * cos(angle), -TAU / (1.0 + r) + reach * speed * sin(angle));
         let end = *exact.follow(start, r, 3_000).impacts.last().unwrap();
         assert!((end.0 - phase).abs() < 1e-9 && (end.1 + TAU / (1.0 + r)).abs() < 1e-9, "{start:?} {end:?}");
+    }
+}
+
+/// Rows that a grid does not have are refused on every map.
+#[test]
+fn rows_outside_of_a_grid_are_refused() {
+    let sine = ImpactMap::new(Vibration::from_axial_forcing(0.45).unwrap(), 0.5).unwrap();
+    let driven = DrivenMap::new(Drive::triangle(1.0).unwrap(), 0.5).unwrap();
+    let grid = Grid::new(Axis::new(0.0, 1.0, 4).unwrap(), Axis::new(0.0, 2.0, 4).unwrap()).unwrap();
+    let settings = BasinSettings::default();
+    for (first, end) in [(0, 5), (2, 2), (3, 1), (9, usize::MAX)] {
+        let refusals = [
+            sine.basins_of_rows(grid, first..end, &[], settings, &Unobserved),
+            driven.basins_of_rows(grid, first..end, &[], settings, &Unobserved),
+        ];
+        for refused in refusals {
+            assert!(matches!(refused, Err(Error::Unfitting { .. })), "{first}..{end}: {refused:?}");
+        }
     }
 }

@@ -109,7 +109,9 @@ fn exponents(outcome: &LyapunovOutcome) -> Exponents {
     let (none, forgotten) = (f64::NAN, f64::NEG_INFINITY);
     match outcome {
         LyapunovOutcome::Exponents(found) => {
-            let (second, sum) = (found.second.unwrap_or(forgotten), found.exact_sum.unwrap_or(forgotten));
+            // A contact that takes time has two exponents, whose sum is not known.
+            let unknown = if found.second.is_some() { none } else { forgotten };
+            let (second, sum) = (found.second.unwrap_or(forgotten), found.exact_sum.unwrap_or(unknown));
             (0, [found.largest, found.standard_error, second, sum], signed(found.impacts), none)
         }
         LyapunovOutcome::Rested { impacts } => (1, [none; 4], signed(*impacts), none),

@@ -4,7 +4,7 @@ use core::ops::Range;
 
 use super::basin::{
     ATTACHED, BasinSettings, Basins, Grid, KnownOrbit, Label, MAX_CELLS, UNDECIDED, caught, check_known,
-    flights_of_label,
+    check_rows, flights_of_label,
 };
 use crate::chatter::policy::ChatterPolicy;
 use crate::map::driven_map::DrivenMap;
@@ -16,7 +16,7 @@ use crate::run::{Observer, Watch, in_parallel};
 use crate::sweep::SweepEvent;
 use crate::sweep::bouncing_map::{BouncingMap, BouncingOrbit as _};
 
-/// A map with basins: of the sine, and of other drives and contacts that take time.
+/// A map whose basins of attraction are computed.
 pub trait AttractingMap: BouncingMap {
     /// Checks that `orbit` is an orbit of this map: that each of its impacts leads to the next one.
     ///
@@ -39,7 +39,7 @@ pub trait AttractingMap: BouncingMap {
         Ok(())
     }
 
-    /// A radius (rad) within which every start beside an impact of `orbit` is proven to end on it.
+    /// A radius (rad): every start within it of an impact of `orbit` is proven to end on the orbit.
     ///
     /// # Errors
     /// Those of [`Self::check_attracting`]; [`Error::NothingProven`] where no region is.
@@ -88,7 +88,7 @@ pub trait AttractingMap: BouncingMap {
     /// observer.
     ///
     /// # Errors
-    /// Those of [`Self::basins`].
+    /// Those of [`Self::basins_of_rows`].
     fn labels_of_rows(
         &self,
         grid: Grid,
@@ -98,6 +98,7 @@ pub trait AttractingMap: BouncingMap {
         observer: &dyn Observer,
     ) -> Result<Vec<Label>, Error> {
         check_known(known, |orbit| self.check_orbit(orbit))?;
+        check_rows(grid, &rows)?;
         let (columns, height) = (grid.phase().cells(), grid.speed().cells());
         drop(room_for::<Label>("cells of a grid", columns as u64 * height as u64, MAX_CELLS)?);
         let mut labels = vec![UNDECIDED; columns * height];
@@ -142,7 +143,7 @@ pub trait AttractingMap: BouncingMap {
     /// [`Self::basins`] of some rows of the grid.
     ///
     /// # Errors
-    /// [`Error::Unfitting`] for rows outside the grid; those of [`Self::basins`].
+    /// [`Error::Unfitting`] for rows outside the grid, or no rows; the others as for [`Self::basins`].
     fn basins_of_rows(
         &self,
         grid: Grid,
@@ -151,11 +152,8 @@ pub trait AttractingMap: BouncingMap {
         settings: BasinSettings,
         observer: &dyn Observer,
     ) -> Result<Basins, Error> {
-        let (columns, expected) = (grid.phase().cells(), grid.speed().cells() as u64);
-        if rows.end as u64 > expected {
-            let what = "end of the rows of a grid";
-            return Err(Error::Unfitting { what, found: rows.end as u64, expected });
-        }
+        check_rows(grid, &rows)?;
+        let columns = grid.phase().cells();
         let mut labels = self.labels_of_rows(grid, rows.clone(), known, settings, observer)?;
         labels.truncate(rows.end * columns);
         labels.drain(..rows.start * columns);

@@ -9,6 +9,8 @@ mod starts;
 
 use core::f64::consts::TAU;
 
+use core::ops::Range;
+
 use crate::attractors::attracting_map::AttractingMap as _;
 use crate::chatter::policy::ChatterPolicy;
 use crate::map::impact_map::{ImpactMap, ImpactState};
@@ -206,6 +208,21 @@ pub(super) fn check_known(
 ) -> Result<(), Error> {
     check_number_of(known)?;
     known.iter().try_for_each(|known| check_orbit(&known.orbit))
+}
+
+/// Refuses rows that a grid does not have, and no rows.
+pub(super) fn check_rows(grid: Grid, rows: &Range<usize>) -> Result<(), Error> {
+    let refuse = |what, found: usize, expected: usize| {
+        Err(Error::Unfitting { what, found: found as u64, expected: expected as u64 })
+    };
+    let height = grid.speed().cells();
+    if rows.end > height {
+        return refuse("end of the rows of a grid", rows.end, height);
+    }
+    if rows.start >= rows.end {
+        return refuse("first row of rows of a grid", rows.start, rows.end.saturating_sub(1));
+    }
+    Ok(())
 }
 
 /// How long a start is followed.

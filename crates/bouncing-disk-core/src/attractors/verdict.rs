@@ -162,7 +162,7 @@ pub enum UndecidedReason {
         /// One of its impacts.
         state: ImpactState,
     },
-    /// The disk has come to rest in a contact that takes time, and nothing proves that it stays.
+    /// The disk has come to rest in a soft contact, and no bound proves that it stays.
     RestNotProven {
         /// Its phase.
         phase: Phase,
@@ -437,7 +437,7 @@ const FEWEST_IMPACTS: f64 = 64.0;
 /// How long an orbit is followed for its verdict, and how.
 ///
 /// An orbit that repeats or rests is decided as soon as this is seen. The others are followed for
-/// `transient` + `impacts` impacts; after a rest on a platform that falls away this begins anew, once for each phase at
+/// `transient` + `impacts` impacts; after a rest on a platform that falls away this begins again, once for each phase at
 /// which it does.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

@@ -163,7 +163,8 @@ class LyapunovSpectra(Result):
         outcome: A place in :attr:`OUTCOMES`, shape (n,).
         largest, standard_error: the largest exponent, and its standard error by batch means, shape (n,).
         second: the other exponent; minus infinity for restitution 0, shape (n,).
-        exact_sum: the exact sum of both over these impacts; minus infinity for restitution 0 and in contacts that take time, shape (n,).
+        exact_sum: the exact sum of both over these impacts; minus infinity for restitution 0, NaN in a
+            contact that takes time, shape (n,).
         impacts: measured impacts; those up to a rest or a graze, with the transient, if there is one,
             shape (n,).
         phase: phase (rad) of the impact that grazes the platform, shape (n,).

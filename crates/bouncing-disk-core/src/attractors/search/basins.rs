@@ -6,7 +6,9 @@ use super::cells::VisitedCells;
 use super::follow::SHARE_IN_CELLS;
 use super::{Attractors, label_of};
 use crate::attractors::attracting_map::AttractingMap as _;
-use crate::attractors::basin::{ATTACHED, BasinSettings, Basins, Grid, KnownOrbit, Label, UNDECIDED};
+use crate::attractors::basin::{
+    ATTACHED, BasinSettings, Basins, Grid, KnownOrbit, Label, UNDECIDED, check_rows,
+};
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::error::Error;
 use crate::run::{Observer, Progress, Unobserved};
@@ -249,16 +251,8 @@ impl Attractors {
         settings: BasinSettings,
         observer: &dyn Observer,
     ) -> Result<Basins, Error> {
-        let (width, height) = (grid.phase().cells(), grid.speed().cells());
-        let unfitting = |what, found: usize, expected: usize| {
-            Err(Error::Unfitting { what, found: found as u64, expected: expected as u64 })
-        };
-        if rows.end > height {
-            return unfitting("end of the rows of a grid", rows.end, height);
-        }
-        if rows.start >= rows.end {
-            return unfitting("first row of rows of a grid", rows.start, rows.end.saturating_sub(1));
-        }
+        check_rows(grid, &rows)?;
+        let width = grid.phase().cells();
         let labelling = Labels::new(self, settings);
         let count = rows.len() as u64;
         let recurrent = !labelling.cells.is_empty();

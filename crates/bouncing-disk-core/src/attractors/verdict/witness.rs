@@ -70,7 +70,7 @@ impl Round {
         self.round(exp(growth), error);
     }
 
-    /// The earlier error has grown, and that of this impact is added.
+    /// Multiplies the earlier error by the growth, and adds the error of this impact.
     fn round(&mut self, growth: f64, error: f64) {
         self.rounding = self.rounding * growth + error;
         // Also of what is no number.

@@ -141,7 +141,7 @@ impl<M: BouncingMap> Followed<'_, M> {
 
 /// Both Lyapunov exponents per impact of each orbit of `starts`, over `impacts` >= 16 impacts after
 /// `transient` ones, with the standard error of the largest; for an orbit without exponents the reason. The
-/// orbits are advanced in lockstep.
+/// orbits of the sine advance in lockstep.
 ///
 /// The largest exponent is that of [`lyapunov_exponents`](crate::chaos::lyapunov_exponents), but for the
 /// rounding of its sum.
