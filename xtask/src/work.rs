@@ -20,8 +20,8 @@ pub(crate) struct Finished<T> {
     pub(crate) result: anyhow::Result<T>,
 }
 
-/// Makes all figures, at most `threads` at a time, and gives each to `keep`. A figure that fails does
-/// not stop the others.
+/// Makes all figures and gives each to `keep`. A figure that fails does not stop the others. With several computing threads
+/// twice as many figures are under way: where one has no work for all of them, another has.
 ///
 /// The figures are taken by threads of their own and only their parallel parts run in the pool of computing
 /// threads. A pool thread that waits inside one figure would take up another figure meanwhile, and its run
@@ -58,7 +58,8 @@ pub(crate) fn make_all<T: Send>(
                 finished.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).push(figure);
             }
         };
-        for _ in 1..threads.min(experiments.len()) {
+        let under_way = if threads > 1 { 2 * threads } else { 1 };
+        for _ in 1..under_way.min(experiments.len()) {
             // A system that gives no more threads makes it slower, no more.
             if thread::Builder::new().spawn_scoped(scope, work).is_err() {
                 break;

@@ -1,10 +1,9 @@
 //! Very many points: painted into one embedded image, so that the figure stays small.
 
-use tiny_skia::{Color, FillRule, Paint, PathBuilder, Pixmap, Transform};
-
 use crate::builders::builders;
 use crate::colour::Colour;
 use crate::error::DrawError;
+use crate::figure::LARGEST_SIDE;
 use crate::frame::Frame;
 use crate::label::Label;
 use crate::style::{Fill, Style};
@@ -37,46 +36,59 @@ impl DensePoints {
 
     pub(crate) fn render(&self, frame: &Frame<'_>, svg: &mut Svg) -> Result<(), DrawError> {
         let area = frame.area;
-        let (width, height) = ((area.width * RESOLUTION).ceil(), (area.height * RESOLUTION).ceil());
+        if area.width.max(area.height) > LARGEST_SIDE {
+            return Err(DrawError::Size { what: "a panel", width: area.width, height: area.height });
+        }
+        let [width, height] = [area.width, area.height].map(|length| (length * RESOLUTION).ceil() as usize);
         // The image covers the frame exactly, so pixels may differ from squares by less than one part in a
         // hundred.
-        let (across, down) = (width / area.width, height / area.height);
+        let (across, down) = (width as f64 / area.width, height as f64 / area.height);
         let places = self.points.iter().map(|point| frame.point(*point));
         let places = places.map(|place| ((place.x - area.left) * across, (place.y - area.top) * down));
         let Fill { colour, opacity } = self.style.solid();
-        let pixels = paint(width as u32, height as u32, places, self.radius * RESOLUTION, opacity)?;
+        let pixels = paint(width, height, places, self.radius * RESOLUTION, opacity);
         let palette: Vec<_> = (0..=255).map(|opacity| (colour, opacity)).collect();
-        svg.image(area.outline(), [width as usize, height as usize], &pixels, &palette, false)
+        svg.image(area.outline(), [width, height], &pixels, &palette, false)
     }
 }
 
+/// Rows per pixel on which the chord of a disc is measured.
+const ROWS: usize = 4;
+
 /// How much discs cover each pixel of an image, from 0 to 255. Lengths are pixels.
 fn paint(
-    width: u32,
-    height: u32,
+    width: usize,
+    height: usize,
     centres: impl Iterator<Item = (f64, f64)>,
     radius: f64,
     opacity: f64,
-) -> Result<Vec<u8>, DrawError> {
-    let mut image = Pixmap::new(width, height).ok_or(DrawError::Size {
-        what: "an embedded image",
-        width: f64::from(width),
-        height: f64::from(height),
-    })?;
+) -> Vec<u8> {
     // A disc smaller than a pixel is drawn as a pixel-wide one of proportionally lower opacity.
     let (radius, opacity) =
         if radius < 0.5 { (0.5, opacity * 4.0 * radius * radius) } else { (radius, opacity) };
-    let Some(disc) = PathBuilder::from_circle(0.0, 0.0, radius as f32) else {
-        return Ok(vec![0; image.pixels().len()]);
-    };
-    let mut paint = Paint::default();
-    paint.set_color(Color::from_rgba(0.0, 0.0, 0.0, opacity.clamp(0.0, 1.0) as f32).unwrap_or(Color::BLACK));
-    let (columns, rows) = (-radius..f64::from(width) + radius, -radius..f64::from(height) + radius);
+    let opacity = opacity.clamp(0.0, 1.0);
+    let (columns, rows) = (-radius..width as f64 + radius, -radius..height as f64 + radius);
+    // What shines through all discs.
+    let mut light = vec![1.0_f32; width * height];
     for (x, y) in centres.filter(|(x, y)| columns.contains(x) && rows.contains(y)) {
-        let place = Transform::from_translate(x as f32, y as f32);
-        image.fill_path(&disc, &paint, FillRule::Winding, place, None);
+        // A number below 0 becomes 0.
+        let reached = |centre: f64, count: usize| {
+            (centre - radius) as usize..count.min((centre + radius).ceil() as usize)
+        };
+        for row in reached(y, height) {
+            let half_chords: [f64; ROWS] = std::array::from_fn(|part| {
+                let below = row as f64 + (part as f64 + 0.5) / ROWS as f64 - y;
+                (radius * radius - below * below).max(0.0).sqrt()
+            });
+            for column in reached(x, width) {
+                let left = column as f64 - x;
+                let inside = |half: &f64| (half.min(left + 1.0) - left.max(-half)).max(0.0);
+                let share = half_chords.iter().map(inside).sum::<f64>() / ROWS as f64;
+                light[row * width + column] *= (1.0 - opacity * share) as f32;
+            }
+        }
     }
-    Ok(image.pixels().iter().map(|pixel| pixel.alpha()).collect())
+    light.iter().map(|light| (255.0 * (1.0 - light)).round() as u8).collect()
 }
 
 #[cfg(test)]
@@ -85,8 +97,8 @@ mod tests {
 
     #[test]
     fn a_disc_covers_its_area() {
-        for (radius, opacity) in [(6.0, 1.0), (6.0, 0.5), (0.25, 1.0)] {
-            let levels = paint(40, 40, [(20.3, 19.6)].into_iter(), radius, opacity).expect("an image");
+        for (radius, opacity) in [(6.0, 1.0), (6.0, 0.5), (1.2, 1.0), (0.25, 1.0)] {
+            let levels = paint(40, 40, [(20.3, 19.6)].into_iter(), radius, opacity);
             let area: f64 = levels.iter().map(|level| f64::from(*level) / 255.0).sum();
             let expected = std::f64::consts::PI * radius * radius * opacity;
             assert!((area / expected - 1.0).abs() < 0.05, "{area} {expected}");
@@ -96,7 +108,7 @@ mod tests {
     #[test]
     fn points_outside_and_nan_are_ignored() {
         let points = [(f64::NAN, 1.0), (-5.0, 1.0), (1.0, 1e300), (f64::INFINITY, 2.0)];
-        let levels = paint(4, 4, points.into_iter(), 1.0, 1.0).expect("an image");
+        let levels = paint(4, 4, points.into_iter(), 1.0, 1.0);
         assert!(levels.iter().all(|level| *level == 0));
     }
 }

@@ -4,6 +4,7 @@ use resvg::{tiny_skia, usvg};
 
 use crate::builders::builders;
 use crate::drawing::Drawing;
+use crate::encode;
 use crate::error::DrawError;
 use crate::font;
 use crate::panel::Panel;
@@ -15,7 +16,7 @@ pub const SINGLE_COLUMN: f64 = 246.0;
 pub const DOUBLE_COLUMN: f64 = 510.0;
 
 /// The largest side of a figure in points; beyond, its picture would not fit in memory.
-const LARGEST_SIDE: f64 = 4000.0;
+pub(crate) const LARGEST_SIDE: f64 = 4000.0;
 
 /// Panels and drawings on a white page, in points.
 #[derive(Clone, Debug, PartialEq)]
@@ -73,7 +74,7 @@ impl Figure {
     ///
     /// As [`Figure::to_svg`], and when rendering fails.
     pub fn to_png(&self) -> Result<Vec<u8>, DrawError> {
-        png(&self.to_svg()?, f32::MAX)
+        rendered(&self.to_svg()?, f32::MAX)
     }
 
     /// As [`Figure::to_png`], made smaller where it would be wider than so many pixels.
@@ -82,7 +83,7 @@ impl Figure {
     ///
     /// As [`Figure::to_png`].
     pub fn to_png_within(&self, pixels: u16) -> Result<Vec<u8>, DrawError> {
-        png(&self.to_svg()?, f32::from(pixels))
+        rendered(&self.to_svg()?, f32::from(pixels))
     }
 }
 
@@ -90,7 +91,7 @@ impl Figure {
 const SCALE: f32 = 4.0;
 
 /// The picture of an SVG text with the bundled fonts only, as wide as `most_pixels` at most.
-fn png(svg: &str, most_pixels: f32) -> Result<Vec<u8>, DrawError> {
+fn rendered(svg: &str, most_pixels: f32) -> Result<Vec<u8>, DrawError> {
     let options = usvg::Options {
         font_family: font::FAMILY.to_owned(),
         fontdb: font::database(),
@@ -110,5 +111,10 @@ fn png(svg: &str, most_pixels: f32) -> Result<Vec<u8>, DrawError> {
         height: f64::from(height),
     })?;
     resvg::render(&tree, tiny_skia::Transform::from_scale(scale, scale), &mut pixels.as_mut());
-    pixels.encode_png().map_err(|error| DrawError::Render { message: error.to_string() })
+    // The page is white and hides what lies behind it.
+    let colours = pixels.pixels().iter().flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()]);
+    let colours: Vec<u8> = colours.collect();
+    encode::png([pixels.width() as usize, pixels.height() as usize], &colours, |encoder| {
+        encoder.set_color(png::ColorType::Rgb);
+    })
 }

@@ -29,6 +29,7 @@ mod camera;
 mod colour;
 mod dense;
 mod drawing;
+mod encode;
 mod error;
 mod figure;
 mod font;

@@ -6,6 +6,7 @@ use base64::Engine as _;
 use kurbo::{BezPath, PathEl, Point, Shape};
 
 use crate::colour::Colour;
+use crate::encode;
 use crate::error::DrawError;
 use crate::font::{FAMILIES, FontStyle};
 use crate::frame::Rect;
@@ -194,24 +195,14 @@ impl Svg {
 
 /// An indexed image as PNG: one byte per pixel, each a colour with an opacity (0 to 255).
 fn indexed(size: [usize; 2], pixels: &[u8], palette: &[(Colour, u8)]) -> Result<Vec<u8>, DrawError> {
-    let failed = |error: png::EncodingError| DrawError::Render { message: error.to_string() };
-    let [Ok(width), Ok(height)] = size.map(u32::try_from) else {
-        let [width, height] = size.map(|length| length as f64);
-        return Err(DrawError::Size { what: "an embedded image", width, height });
-    };
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, width, height);
-    encoder.set_color(png::ColorType::Indexed);
-    encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_compression(png::Compression::High);
-    encoder.set_palette(palette.iter().flat_map(|(c, _)| [c.red, c.green, c.blue]).collect::<Vec<_>>());
-    if palette.iter().any(|(_, opacity)| *opacity < 255) {
-        encoder.set_trns(palette.iter().map(|(_, opacity)| *opacity).collect::<Vec<_>>());
-    }
-    let mut writer = encoder.write_header().map_err(failed)?;
-    writer.write_image_data(pixels).map_err(failed)?;
-    writer.finish().map_err(failed)?;
-    Ok(bytes)
+    encode::png(size, pixels, |encoder| {
+        encoder.set_color(png::ColorType::Indexed);
+        encoder.set_compression(png::Compression::High);
+        encoder.set_palette(palette.iter().flat_map(|(c, _)| [c.red, c.green, c.blue]).collect::<Vec<_>>());
+        if palette.iter().any(|(_, opacity)| *opacity < 255) {
+            encoder.set_trns(palette.iter().map(|(_, opacity)| *opacity).collect::<Vec<_>>());
+        }
+    })
 }
 
 /// Place and size of a rectangle.

@@ -27,7 +27,7 @@ pub(crate) fn fig07(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
     let (restitution, forcings) = (section.restitution, section.axial_forcings_of_fig7);
     let (quality, progress) = (fig.quality, fig.progress);
     let cells = quality.choose(150, 800);
-    let grid = quality.choose((320, 100), (1_200, 300));
+    let grid = quality.choose((320, 100), (900, 240));
     fig.chattering(ChatterPolicy::Complete);
     fig.record("restitution", &restitution)?;
     fig.record("window_top", &WINDOW_TOP)?;

@@ -14,7 +14,7 @@ use serde::Serialize;
 use self::alike::Alike;
 use self::panels::{MEMBER_INTERVALS, Reading, Transient};
 use super::shared::alike::{AlikeMotor, DRAWN, PrintedInputs};
-use super::shared::motor::{INTERVALS, MotorCase, MotorStatistics};
+use super::shared::motor::{INTERVALS, MotorCase, MotorStatistics, statistics};
 use crate::claims::paper::{self, STANDARD_GRAVITY};
 use crate::claims::{Cases, Claim, all, catalogue};
 use crate::experiment::{ExperimentError, Paper};
@@ -72,11 +72,11 @@ pub(crate) fn fig10(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
     fig.record("alike", &alike)?;
     fig.progress.advance(1);
     let rises = fig.quality.choose(COMPARED_RISES[0], COMPARED_RISES[1]);
-    let perturbed = |relaunch_perturbation: f64| {
-        let statistics = case.statistics(rises, members, relaunch_perturbation)?;
-        Ok::<_, ExperimentError>(PerturbationEffect { relaunch_perturbation, statistics })
-    };
-    fig.record("perturbations", &PERTURBATIONS.into_iter().map(perturbed).collect::<Result<Vec<_>, _>>()?)?;
+    let ensembles = PERTURBATIONS.map(|perturbation| (case, members, perturbation));
+    let effects = PERTURBATIONS.into_iter().zip(statistics(&ensembles, rises)?);
+    let effect =
+        |(relaunch_perturbation, statistics)| PerturbationEffect { relaunch_perturbation, statistics };
+    fig.record("perturbations", &effects.map(effect).collect::<Vec<_>>())?;
     fig.progress.advance(1);
 
     let own =

@@ -65,13 +65,13 @@ pub(crate) fn fig11(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
                 let preloads = preloads([from, last], count, &mut noise);
                 let with = |preload| inputs::PRELOAD_ACCELERATION.set(&of_curve, preload);
                 let cases: Vec<MotorCase> = preloads.map(with).collect();
-                ensembles.extend(cases.iter().map(|case| (*case, members)));
+                ensembles.extend(cases.iter().map(|case| (*case, members, perturbation)));
                 groups.push(cases);
             }
         }
     }
     let singles = alike_groups(&groups, RISES)?.into_iter().flat_map(|group| group.0);
-    let mut motors = singles.zip(statistics(&ensembles, RISES, perturbation)?);
+    let mut motors = singles.zip(statistics(&ensembles, RISES)?);
     let mut points = |cases: &[MotorCase]| {
         let computed: Vec<_> = motors.by_ref().take(cases.len()).collect();
         let point = |k: usize| Point::of(&cases[k], &computed[k], mass, perturbation);
@@ -86,15 +86,22 @@ pub(crate) fn fig11(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
     }
 
     // The load that really stalls the default motor, at three preloads of the trends.
-    let mut stalls = Vec::new();
-    for frequency_hz in printed.frequencies_hz {
-        for preload in three_preloads {
-            let case = MotorCase { frequency_hz, preload_acceleration_m_per_s2: preload, ..motor };
-            let stall = Stall::of(&case, quality.choose(4, 8), perturbation)?;
-            stalls.push(StallAt { frequency_hz, preload_mn: 1e3 * mass * preload, stall });
-            fig.progress.advance(1);
-        }
-    }
+    let at = |frequency_hz: f64| {
+        three_preloads
+            .map(|preload| inputs::PRELOAD_ACCELERATION.set(&MotorCase { frequency_hz, ..motor }, preload))
+    };
+    let cases = printed.frequencies_hz.map(at).concat();
+    let stalls = Stall::of_each(&cases, quality.choose(4, 8), perturbation)?;
+    let stalls: Vec<StallAt> = cases
+        .iter()
+        .zip(stalls)
+        .map(|(case, stall)| StallAt {
+            frequency_hz: case.frequency_hz,
+            preload_mn: 1e3 * mass * case.preload_acceleration_m_per_s2,
+            stall,
+        })
+        .collect();
+    fig.progress.advance(stalls.len() as u64);
 
     let plateau_mn = 1e3 * printed.plateau_n;
     let of_curve: Vec<Trend> = curves.iter().map(|curve| Trend::of(curve, trend_mn, plateau_mn)).collect();

@@ -56,25 +56,28 @@ pub(crate) fn fig13(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
     let amplitudes = paper::section_five()?.amplitudes_of_fig10_m;
     let grids = inputs::PANELS.map(|parameter| (parameter, values(parameter, &amplitudes, quality)));
     fig.progress.start(grids.iter().map(|(_, grid)| grid.len() as u64).sum::<u64>() + 2, "motors");
+    let case = |(parameter, value): (Input<MotorCase>, f64)| parameter.set(&motor, value);
+    let values = grids.iter().flat_map(|(parameter, grid)| grid.iter().map(|value| (*parameter, *value)));
+    let ensembles = values.map(|value| (case(value), members, perturbation));
+    let ensembles: Vec<_> = ensembles.chain([(motor, 2 * members, perturbation)]).collect();
+    let mut ensembles = statistics(&ensembles, RISES)?.into_iter();
     let mut sweeps = Vec::new();
     for (parameter, grid) in grids {
-        let cases: Vec<MotorCase> = grid.iter().map(|value| parameter.set(&motor, *value)).collect();
-        let ensembles: Vec<_> = cases.iter().map(|case| (*case, members)).collect();
-        let statistics = statistics(&ensembles, RISES, perturbation)?;
         let mut points = Vec::new();
-        for ((value, case), statistics) in grid.into_iter().zip(&cases).zip(statistics) {
-            points.push(SweepPoint::of(value, case, statistics, impacts, perturbation)?);
+        for (value, statistics) in grid.into_iter().zip(&mut ensembles) {
+            points.push(SweepPoint::of(value, &case((parameter, value)), statistics, impacts, perturbation)?);
             fig.progress.advance(1);
         }
         sweeps.push(Sweep { parameter, points });
     }
+    let default =
+        ensembles.next().ok_or_else(|| ExperimentError::NoData { quantity: "statistics".to_owned() })?;
     let impulses = RESTITUTIONS
         .map(|restitution| ImpulsePhases::of(&inputs::RESTITUTION.set(&motor, restitution), 5 * impacts));
     let impulses = impulses.into_iter().collect::<Result<Vec<_>, _>>()?;
     fig.progress.advance(1);
     let alike = SingleOrbits::of(quality)?;
     fig.progress.advance(1);
-    let default = motor.statistics(RISES, 2 * members, perturbation)?;
     let study = Study::new(motor, &default, sweeps, impulses, alike)?;
 
     let left_out = study.all_points().filter(|point| point.stall().is_none()).count();
@@ -103,7 +106,7 @@ pub(crate) fn fig13(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
     let mut persisting = Vec::new();
     for (parameter, value) in study.beyond_limits() {
         let cases = [value - SMALL_CHANGE, value + SMALL_CHANGE].map(|value| parameter.set(&motor, value));
-        let means = statistics(&cases.map(|case| (case, members)), RISES, perturbation)?;
+        let means = statistics(&cases.map(|case| (case, members, perturbation)), RISES)?;
         let beyond = |(case, mean): (&MotorCase, &MotorStatistics)| {
             let reading = Reading::of(parameter.of(case), case, mean);
             reading.is_within_limits() == Some(false)

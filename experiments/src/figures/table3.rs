@@ -64,9 +64,9 @@ pub(crate) fn table3(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
     fig.claim(reference_friction()?);
 
     // What the motor of either reading does.
-    let stall = |case: &MotorCase| Stall::of(case, quality.choose(4, 8), ensembles.relaunch_perturbation);
     let tolerance = InputTolerance { draws: quality.choose(8, 39), ..InputTolerance::default() };
-    let stalls = [stall(&as_printed)?, stall(&as_frequency)?];
+    let stalls =
+        Stall::of_each(&[as_printed, as_frequency], quality.choose(4, 8), ensembles.relaunch_perturbation)?;
     let speeds = [speed(&as_printed, quality, None)?, speed(&as_frequency, quality, Some(tolerance))?];
     let derived = derived(&cases, &stalls, &speeds, mass)?;
 
@@ -208,7 +208,7 @@ struct Following {
 
 fn derived(
     cases: &[MotorCase; 2],
-    stalls: &[Stall; 2],
+    stalls: &[Stall],
     speeds: &[Speed; 2],
     mass: f64,
 ) -> Result<Vec<Following>, ExperimentError> {
@@ -227,7 +227,7 @@ fn derived(
     let weights = cases.map(|case| mass * case.preload_acceleration_m_per_s2);
     let axial_speeds = platforms.map(|platform| platform.amplitude() * platform.angular_frequency());
     let largest = cases.map(|case| case.largest_acceleration());
-    let stall = stalls.map(|stall| stall.load_rad_per_s2.value);
+    let stall = [0, 1].map(|reading| stalls[reading].load_rad_per_s2.value);
     let stall_torques = [0, 1].map(|index| {
         let radius = cases[index].gyration_radius_m;
         1e6 * mass * radius * radius * stall[index]
@@ -277,7 +277,7 @@ fn derived(
             r"$\dot{\alpha}_{ss}/t_c$",
             "rad/s²",
             "of the stall load, from a transient",
-            stalls.map(|stall| stall.estimate_rad_per_s2.mean),
+            [0, 1].map(|reading| stalls[reading].estimate_rad_per_s2.mean),
         ),
         row_of("least stall load", STALL, "rad/s²", WITHIN, end(|of| of.stall_over_inputs_rad_per_s2, 0)),
         row_of("largest stall load", STALL, "rad/s²", WITHIN, end(|of| of.stall_over_inputs_rad_per_s2, 1)),

@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use crate::claims::{Cases, Claim, all};
 use crate::experiment::ExperimentError;
-use crate::figures::shared::alike::{AlikeMotor, PrintedInputs, SpeedBand, alike_with_band};
+use crate::figures::shared::alike::{AlikeMotor, PrintedInputs, SpeedBand, alike_groups};
 use crate::figures::shared::map_in_parallel;
 use crate::figures::shared::motor::{LOW_PERIOD_FLIGHTS, MotorCase, by_definition_words, by_each_definition};
 use crate::figures::shared::numbers::median;
@@ -36,37 +36,30 @@ pub(super) struct Alike {
     /// The ranges drawn from.
     pub(super) inputs: String,
     /// By amplitude, then by draw.
-    pub(super) motors: [Vec<AlikeMotor>; 3],
+    pub(super) motors: Vec<Vec<AlikeMotor>>,
     /// The middle nine tenths of their speeds, by amplitude.
-    pub(super) bands: [SpeedBand; 3],
-    pub(super) between_rests: [BetweenRests; 3],
+    pub(super) bands: Vec<SpeedBand>,
+    pub(super) between_rests: Vec<BetweenRests>,
 }
 
 impl Alike {
     /// The motors of Table III at the three amplitudes, with the g drawn that is not printed.
     pub(super) fn drawn(inputs: PrintedInputs, count: usize, seed: u64) -> Result<Self, ExperimentError> {
-        let motors = |key| -> Result<_, ExperimentError> {
-            let cases = inputs.amplitude(key)?.drawn(count, seed);
-            let (motors, band) = alike_with_band(&cases, JUDGED_RISES)?;
-            Ok((motors, band, between_rests(&cases)?))
-        };
-        let [small, middle, large] = [
-            motors("section5.smallest_amplitude_of_fig10")?,
-            motors("section5.middle_amplitude_of_fig10")?,
-            motors("section5.largest_amplitude_of_fig10")?,
+        let drawn = |key| Ok::<_, ExperimentError>(inputs.amplitude(key)?.drawn(count, seed));
+        let cases = [
+            drawn("section5.smallest_amplitude_of_fig10")?,
+            drawn("section5.middle_amplitude_of_fig10")?,
+            drawn("section5.largest_amplitude_of_fig10")?,
         ];
-        Ok(Self {
-            inputs: inputs.words(),
-            motors: [small.0, middle.0, large.0],
-            bands: [small.1, middle.1, large.1],
-            between_rests: [small.2, middle.2, large.2],
-        })
+        let (motors, bands): (Vec<_>, Vec<_>) = alike_groups(&cases, JUDGED_RISES)?.into_iter().unzip();
+        let between_rests = cases.iter().map(|cases| between_rests(cases)).collect::<Result<Vec<_>, _>>()?;
+        Ok(Self { inputs: inputs.words(), motors, bands, between_rests })
     }
 
     /// The three motors of each draw.
     pub(super) fn draws(&self) -> impl Iterator<Item = [&AlikeMotor; 3]> {
-        let [small, middle, large] = &self.motors;
-        small.iter().zip(middle).zip(large).map(|((small, middle), large)| [small, middle, large])
+        let count = self.motors.iter().map(Vec::len).min().unwrap_or(0);
+        (0..count).map(|index| [0, 1, 2].map(|amplitude| &self.motors[amplitude][index]))
     }
 }
 
@@ -141,7 +134,7 @@ pub(super) fn transient_chaos(alike: &Alike) -> Claim {
 /// Motors of long period must oscillate more than the middle one of those of low period at their amplitude.
 pub(super) fn long_period_oscillates(alike: &Alike) -> Claim {
     let middles = |most: usize| {
-        alike.motors.each_ref().map(|motors| {
+        [0, 1, 2].map(|amplitude| &alike.motors[amplitude]).map(|motors| {
             let low = motors.iter().filter(|motor| motor.cycle.is_low(most));
             // A comparison with NaN fails.
             median(low.map(|motor| motor.oscillation)).unwrap_or(f64::NAN)

@@ -14,10 +14,10 @@ use serde::Serialize;
 use super::{PRELOAD_SEED, RISES};
 use crate::claims::{Cases, Claim};
 use crate::experiment::{ExperimentError, Quality};
-use crate::figures::shared::alike::{DRAWN, PrintedInputs, Range, alike};
+use crate::figures::shared::alike::{DRAWN, PrintedInputs, Range, alike_groups};
 use crate::figures::shared::inputs::motor as inputs;
 use crate::figures::shared::map;
-use crate::figures::shared::motor::MotorCase;
+use crate::figures::shared::motor::{MotorCase, statistics};
 use crate::figures::shared::numbers::Noise;
 
 /// The share to which the stator's twist is reduced, to see the effect of a smaller one.
@@ -46,20 +46,16 @@ impl ReducedTwist {
         let (members, drawn) = (quality.choose(4, 16), quality.choose(DRAWN / 10, DRAWN));
         let twist = motor.peak_angular_speed_rad_per_s;
         let speeds = [twist, REDUCED_TWIST * twist];
-        let statistics = |peak_angular_speed: f64| {
-            inputs::PEAK_ANGULAR_SPEED.set(motor, peak_angular_speed).statistics(
-                RISES,
-                members,
-                relaunch_perturbation,
-            )
-        };
-        let [printed, reduced] = [statistics(speeds[0])?, statistics(speeds[1])?];
+        let ensembles = speeds
+            .map(|speed| (inputs::PEAK_ANGULAR_SPEED.set(motor, speed), members, relaunch_perturbation));
+        let statistics = statistics(&ensembles, RISES)?;
+        let [printed, reduced] = [statistics[0], statistics[1]];
         let single = PrintedInputs::table_three()?.drawn(drawn, PRELOAD_SEED);
-        let orbits = |peak_angular_speed: f64| {
-            let with = |motor: &MotorCase| inputs::PEAK_ANGULAR_SPEED.set(motor, peak_angular_speed);
-            alike(&single.iter().map(with).collect::<Vec<_>>(), RISES)
+        let with = |speed: f64| {
+            single.iter().map(move |motor| inputs::PEAK_ANGULAR_SPEED.set(motor, speed)).collect()
         };
-        let pairs = orbits(speeds[0])?.into_iter().zip(orbits(speeds[1])?);
+        let orbits = alike_groups(&speeds.map(with), RISES)?;
+        let pairs = orbits[0].0.iter().zip(&orbits[1].0);
         let slower =
             Cases::of(pairs.map(|(one, other)| other.steady_speed_rad_per_s < one.steady_speed_rad_per_s));
         Ok(Self {

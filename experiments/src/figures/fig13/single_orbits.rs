@@ -70,11 +70,6 @@ struct Drawn {
 }
 
 impl Drawn {
-    fn of(parameter: Input<MotorCase>, cases: Vec<Vec<MotorCase>>) -> Result<Self, ExperimentError> {
-        let motors = alike_groups(&cases, RISES)?.into_iter().map(|group| group.0).collect();
-        Ok(Self { parameter, cases, motors })
-    }
-
     fn reading(&self, case: &MotorCase, motor: &AlikeMotor) -> Reading {
         Reading {
             value: self.parameter.of(case),
@@ -129,9 +124,8 @@ impl SingleOrbits {
         let steps = quality.choose(4, 8);
         let default = printed.drawn(count, SEED);
         let with = |parameter: Input<MotorCase>, values: &[f64]| {
-            let cases =
-                values.iter().map(|&value| default.iter().map(|motor| parameter.set(motor, value)).collect());
-            Drawn::of(parameter, cases.collect())
+            let at = |&value: &f64| default.iter().map(|motor| parameter.set(motor, value)).collect();
+            (parameter, values.iter().map(at).collect::<Vec<Vec<MotorCase>>>())
         };
         let amplitudes = [
             "section5.smallest_amplitude_of_fig10",
@@ -142,13 +136,20 @@ impl SingleOrbits {
         let restitutions: Vec<f64> =
             (0..steps).map(|step| LARGEST_RESTITUTION * f64::from(step) / f64::from(steps - 1)).collect();
         let phase_lags: Vec<f64> = (0..LAGS).map(|lag| TAU * f64::from(lag) / f64::from(LAGS) - PI).collect();
-        let sweeps = [
-            with(inputs::FRICTION, &[0.05, 0.1, 0.2, 0.4])?,
-            with(inputs::RESTITUTION, &restitutions)?,
-            with(inputs::PHASE_LAG, &phase_lags)?,
-            Drawn::of(inputs::AMPLITUDE, by_amplitude.collect::<Result<_, ExperimentError>>()?)?,
-            with(inputs::PEAK_ANGULAR_SPEED, &[5.0, 23.0, 41.0, 60.0])?,
+        let cases = [
+            with(inputs::FRICTION, &[0.05, 0.1, 0.2, 0.4]),
+            with(inputs::RESTITUTION, &restitutions),
+            with(inputs::PHASE_LAG, &phase_lags),
+            (inputs::AMPLITUDE, by_amplitude.collect::<Result<_, ExperimentError>>()?),
+            with(inputs::PEAK_ANGULAR_SPEED, &[5.0, 23.0, 41.0, 60.0]),
         ];
+        // All at once: many transients advance in lockstep.
+        let groups: Vec<Vec<MotorCase>> = cases.iter().flat_map(|(_, cases)| cases.clone()).collect();
+        let mut motors = alike_groups(&groups, RISES)?.into_iter().map(|group| group.0);
+        let sweeps = cases.map(|(parameter, cases)| {
+            let motors = motors.by_ref().take(cases.len()).collect();
+            Drawn { parameter, cases, motors }
+        });
         let [_, by_restitution, _, by_amplitude, _] = &sweeps;
         let rises: Vec<f64> = default.iter().map(MotorCase::rise_time_s).collect();
         let prevalence =

@@ -176,27 +176,15 @@ impl MotorCase {
         }
         Ok(Some(RobustCycle(cycle)))
     }
-
-    /// The [`statistics`] of this motor alone.
-    pub(crate) fn statistics(
-        &self,
-        rises: f64,
-        members: usize,
-        relaunch_perturbation: f64,
-    ) -> Result<MotorStatistics, ExperimentError> {
-        let own = statistics(&[(*self, members)], rises, relaunch_perturbation)?;
-        own.into_iter().next().ok_or_else(|| ExperimentError::NoData { quantity: "statistics".to_owned() })
-    }
 }
 
-/// Transients of so many rotors of each motor over `rises` rise times, and their statistics. All transients
-/// are computed at once: many advance in lockstep.
+/// Transients of so many rotors of each motor, with a relaunch perturbation (g/ω), over `rises` rise times, and their statistics. All
+/// transients are computed at once: many advance in lockstep.
 pub(crate) fn statistics(
-    motors: &[(MotorCase, usize)],
+    motors: &[(MotorCase, usize, f64)],
     rises: f64,
-    relaunch_perturbation: f64,
 ) -> Result<Vec<MotorStatistics>, ExperimentError> {
-    let settings = |motor: &MotorCase| TransientSettings {
+    let settings = |motor: &MotorCase, relaunch_perturbation: f64| TransientSettings {
         duration: rises * motor.rise_time_s(),
         intervals: INTERVALS,
         relaunch_perturbation,
@@ -204,16 +192,20 @@ pub(crate) fn statistics(
     };
     let mut all = Vec::new();
     let mut first = Vec::with_capacity(motors.len());
-    for (motor, members) in motors {
+    for (motor, members, perturbation) in motors {
         first.push(all.len());
-        all.extend(TransientMember::of_ensemble(&motor.system()?, &settings(motor), *members)?);
+        all.extend(TransientMember::of_ensemble(
+            &motor.system()?,
+            &settings(motor, *perturbation),
+            *members,
+        )?);
     }
     let curves = transients(&all, &Unobserved)?;
     let statistics = |k: usize| -> Result<MotorStatistics, ExperimentError> {
-        let (motor, members) = &motors[k];
+        let (motor, members, perturbation) = &motors[k];
         let own = curves[first[k]..first[k] + members].to_vec();
         let runs = TransientEnsemble::of_results(own, &Unobserved)?;
-        let TransientSettings { duration, policy, .. } = settings(motor);
+        let TransientSettings { duration, policy, .. } = settings(motor, *perturbation);
         Ok(EnsembleStatistics::of(&motor.system()?, &runs, duration, policy)?.into())
     };
     in_parallel(motors.len(), statistics).into_iter().collect()

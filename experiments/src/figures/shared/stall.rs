@@ -8,7 +8,7 @@ use bouncing_disk::estimate::{ExponentialFit, Spread};
 use bouncing_disk::motor::{Estimate, NormalImpulses, OperatingSettings};
 use serde::Serialize;
 
-use super::motor::MotorCase;
+use super::motor::{MotorCase, MotorStatistics, statistics};
 use crate::experiment::ExperimentError;
 
 /// Duration of the transients for α̇_ss/t_c, as in Fig. 11.
@@ -46,9 +46,22 @@ pub(crate) struct Stall {
 }
 
 impl Stall {
-    /// Of `members` runs, each with relaunches of its own.
-    pub(crate) fn of(
+    /// Of each motor with `members` runs, each of these with relaunches of its own.
+    pub(crate) fn of_each(
+        cases: &[MotorCase],
+        members: usize,
+        relaunch_perturbation: f64,
+    ) -> Result<Vec<Self>, ExperimentError> {
+        let ensembles: Vec<_> = cases.iter().map(|case| (*case, members, relaunch_perturbation)).collect();
+        let transients = statistics(&ensembles, TRANSIENT_RISES)?;
+        let of = |(case, transients)| Self::of(case, transients, members, relaunch_perturbation);
+        cases.iter().zip(&transients).map(of).collect()
+    }
+
+    /// Of a motor whose transients without load have these statistics.
+    fn of(
         case: &MotorCase,
+        transients: &MotorStatistics,
         members: usize,
         relaunch_perturbation: f64,
     ) -> Result<Self, ExperimentError> {
@@ -73,8 +86,7 @@ impl Stall {
         let mean = |of: fn(&(f64, f64)) -> f64| orbits.iter().map(of).sum::<f64>();
         let predicted_off = mean(|orbit| orbit.1) / mean(|orbit| orbit.0) - 1.0;
         let balance: Vec<f64> = orbits.iter().map(|orbit| limit * orbit.0).collect();
-        let statistics = case.statistics(TRANSIENT_RISES, members, relaunch_perturbation)?;
-        let estimate_rad_per_s2 = statistics.stall_acceleration_rad_per_s2.ok_or_else(|| {
+        let estimate_rad_per_s2 = transients.stall_acceleration_rad_per_s2.ok_or_else(|| {
             ExperimentError::NoData { quantity: "stall torque from a transient".to_owned() }
         })?;
         let ratio = estimate_rad_per_s2.mean / value;
@@ -156,7 +168,7 @@ mod tests {
     #[test]
     fn the_engine_stands_still_on_average_at_the_stall_load_and_turns_with_less_or_more() {
         let case = MotorCase::table_three().expect("reads");
-        let stall = Stall::of(&case, 8, PERTURBATION).expect("no failure");
+        let stall = Stall::of_each(&[case], 8, PERTURBATION).expect("no failure")[0];
         let load = stall.load_rad_per_s2.value;
         let [less, still, more] = [0.8, 1.0, 1.2].map(|share| engine_speed(&case, share * load, 6.0));
         assert!(less > 0.0 && more < 0.0, "{less} {still} {more}");
