@@ -5,7 +5,8 @@
 use std::f64::consts::{PI, TAU};
 
 use bouncing_disk_core::attractors::{
-    AttractingMap as _, Axis, BasinSettings, Grid, Verdict, VerdictSettings, verdicts,
+    AfterRest, AttractingMap as _, Attractor, AttractorKind, AttractorSearch, Attractors, Axis,
+    BasinSettings, Grid, Verdict, VerdictSettings, verdicts,
 };
 use bouncing_disk_core::chaos::{LyapunovOutcome, lyapunov_exponents, lyapunov_spectra};
 use bouncing_disk_core::numerics::elementary::{cos, hypot, ln, sin};
@@ -308,6 +309,25 @@ fn analyses_of_a_sine_as_a_sum_are_those_of_the_sine() {
             }
         }
     }
+    let search = AttractorSearch::default().with_starts(64).unwrap().with_impacts(300, 2_000).unwrap();
+    for ((sine, _), (sum, _)) in sines.iter().zip(&sums).take(12) {
+        let [own, general] = [
+            sine.attractors(&search, &Unobserved).unwrap().all().to_vec(),
+            sum.attractors(&search, &Unobserved).unwrap().all().to_vec(),
+        ];
+        let orbits = |all: &[Attractor]| -> Vec<_> {
+            let orbits = all.iter().filter(|own| own.starts.count() > 3).filter_map(|own| own.kind.orbit());
+            orbits.map(|orbit| (orbit.period(), orbit.platform_periods)).collect()
+        };
+        let found: Vec<_> = general.iter().filter_map(|own| own.kind.orbit()).collect();
+        for (n, k) in orbits(&own) {
+            assert!(
+                found.iter().any(|other| (other.period(), other.platform_periods) == (n, k)),
+                "{sine}: {n} {k}"
+            );
+        }
+        assert_eq!(own[0].kind.lasts(), general[0].kind.lasts(), "{sine}");
+    }
     let exponents = [
         lyapunov_exponents(&sines, 100, 400, &Unobserved).unwrap(),
         lyapunov_exponents(&sums, 100, 400, &Unobserved).unwrap(),
@@ -356,6 +376,28 @@ fn a_disk_in_a_soft_contact_comes_to_rest_for_ever() {
     assert!(matches!(verdict, Verdict::AtRest { .. }), "{verdict:?}");
 }
 
+/// A contact that hardly takes time keeps the orbits without chatter, and a chatter is one of finitely many impacts; one
+/// that lasts leaves nothing but rest on a gentle platform.
+#[test]
+fn soft_contacts_have_the_attractors_of_rigid_ones_where_they_are_short() {
+    let search = AttractorSearch::default().with_starts(64).unwrap().with_impacts(300, 2_000).unwrap();
+    let periods = |map: &DrivenMap| {
+        let found = map.attractors(&search, &Unobserved).unwrap();
+        let orbits = found.all().iter().filter_map(|own| own.kind.orbit());
+        let mut periods: Vec<_> = orbits.map(|orbit| (orbit.period(), orbit.platform_periods)).collect();
+        periods.sort_unstable();
+        (periods, matches!(found.all()[0].kind, AttractorKind::Rest(AfterRest::StaysForEver)))
+    };
+    for amplitude in [1.2, 1.4] {
+        let rigid = DrivenMap::new(Drive::fourier(&[(amplitude, 0.0)]).unwrap(), 0.5).unwrap();
+        let soft = rigid.clone().with_contact_time(1e-4).unwrap();
+        let own = periods(&soft).0;
+        assert!(periods(&rigid).0.iter().all(|orbit| own.contains(orbit)), "{own:?}");
+    }
+    let gentle = DrivenMap::new(Drive::fourier(&[(0.5, 0.0)]).unwrap(), 0.5).unwrap();
+    assert_eq!(periods(&gentle.with_contact_time(0.3).unwrap()), (vec![], true));
+}
+
 /// A gentle arc whose end kicks the disk that has come to rest on it: no impact ends a flight.
 #[test]
 fn a_disk_that_is_only_kicked_has_no_impacts_and_a_cycle() {
@@ -370,6 +412,171 @@ fn a_disk_that_is_only_kicked_has_no_impacts_and_a_cycle() {
         let Verdict::Chattering { cycle, .. } = verdict else { panic!("{r}: {verdict:?}") };
         assert_eq!((cycle.impacts, cycle.platform_periods), (1, 1), "{r}: {cycle:?}");
     }
+}
+
+/// Where an orbit of the quadratics ends.
+#[derive(Debug, PartialEq)]
+enum End {
+    Rest,
+    /// On a periodic orbit through this impact.
+    Cycle(f64, f64),
+    Other,
+}
+
+impl Parabolas {
+    fn end_of(&self, start: (f64, f64), r: f64) -> End {
+        let followed = self.follow(start, r, 8_000);
+        if followed.rests_for_ever || !followed.separations.is_empty() {
+            return End::Rest;
+        }
+        let last = followed.impacts[7_999];
+        let near = |lag: usize| {
+            let before = followed.impacts[7_999 - lag];
+            (last.0 - before.0).abs() < 1e-9 && (last.1 - before.1).abs() < 1e-9
+        };
+        if (1..257).any(near) { End::Cycle(last.0, last.1) } else { End::Other }
+    }
+
+    /// The first separation of the cycle of rests on which a start that rests ends, and its periods.
+    fn rests(&self, start: (f64, f64), r: f64) -> Option<(f64, u64)> {
+        let followed = self.follow(start, r, 100_000);
+        let last = followed.separations.get(4)?;
+        let first = followed.separations[..4].iter().rposition(|other| (other.0 - last.0).abs() < 1e-9)?;
+        let cycle = &followed.separations[first..4];
+        let phase = cycle.iter().map(|separation| separation.0).fold(f64::INFINITY, f64::min);
+        Some((phase, last.3 - cycle[0].3))
+    }
+
+    /// Lines between so many random points.
+    fn zigzag(points: usize, height: f64, random: &mut SplitMix64) -> Self {
+        let share = TAU / points as f64;
+        let phases: Vec<f64> = (0..points)
+            .map(|k| if k == 0 { 0.0 } else { share * (k as f64 + 0.8 * random.unit() - 0.4) })
+            .collect();
+        let heights: Vec<f64> = (0..points).map(|_| height * random.unit()).collect();
+        let piece = |k: usize| {
+            let (end, next) =
+                if k + 1 < points { (phases[k + 1], heights[k + 1]) } else { (TAU, heights[0]) };
+            (phases[k], [heights[k], (next - heights[k]) / (end - phases[k]), 0.0])
+        };
+        Self((0..points).map(piece).collect())
+    }
+
+    fn drive(&self) -> Drive {
+        let piece = |k: usize| {
+            let (start, [z, v, half]) = self.0[k];
+            (self.end(k) - start, [z, v, half, 0.0])
+        };
+        Drive::pieces(&(0..self.0.len()).map(piece).collect::<Vec<_>>()).unwrap()
+    }
+}
+
+fn through(found: &Attractors<DrivenMap>, (phase, velocity): (f64, f64)) -> bool {
+    found.all().iter().filter_map(|own| own.kind.orbit()).any(|orbit| {
+        orbit.states.iter().any(|at| {
+            let apart = (at.phase().angle() - phase + PI).rem_euclid(TAU) - PI;
+            let room = 1e-6 + orbit.position_error;
+            apart.abs() < room && (at.velocity() - velocity).abs() < room * (1.0 + velocity.abs())
+        })
+    })
+}
+
+/// Every start ends on an attractor that was found, and every attractor that was found lasts.
+#[test]
+fn attractors_on_parabolas_are_those_of_quadratics() {
+    let search = AttractorSearch::default().with_starts(256).unwrap().with_impacts(1_000, 20_000).unwrap();
+    let mut random = SplitMix64::new(74);
+    let mut kinds = [0; 5];
+    for case in 0..45 {
+        let (a, r) = (0.3 + 4.0 * random.unit(), 0.9 * random.unit());
+        let (exact, drive) = match case % 3 {
+            0 => (Parabolas::triangle(a, 0.5), Drive::triangle(a)),
+            1 => {
+                let rise = 0.1 + 0.8 * random.unit();
+                (Parabolas::triangle(a, rise), Drive::sawtooth(a, rise))
+            }
+            _ => (Parabolas::arcs(a), Drive::parabolas(a)),
+        };
+        let map = DrivenMap::new(drive.unwrap(), r).unwrap();
+        let found = map.attractors(&search, &Unobserved).unwrap();
+        let context = || {
+            let all: Vec<_> =
+                found.all().iter().map(|own| format!("{} ({})", own.kind, own.starts.count())).collect();
+            format!("{case}: a = {a}, r = {r}: {all:?}, undecided {}", found.undecided().count())
+        };
+        for own in found.all() {
+            let names = ["rest", "periodic", "marginal", "chaotic", "transient"];
+            kinds[names.iter().position(|name| *name == own.kind.name()).unwrap()] += 1;
+            if let AttractorKind::Periodic(known) = &own.kind {
+                let at = known.orbit().states[0];
+                let end = exact.end_of((at.phase().angle(), at.velocity()), r);
+                let End::Cycle(phase, velocity) = end else { panic!("{}: {end:?}", context()) };
+                assert!(through(&found, (phase, velocity)), "{}: {phase} {velocity}", context());
+            }
+        }
+        let mut rests = Vec::new();
+        for _ in 0..16 {
+            let start = (TAU * random.unit(), -map.impact_speed_bound() * random.unit());
+            match exact.end_of(start, r) {
+                End::Rest => rests.extend(exact.rests(start, r)),
+                End::Cycle(phase, velocity) => {
+                    assert!(through(&found, (phase, velocity)), "{}: {phase} {velocity}", context());
+                }
+                End::Other => {
+                    let other = found
+                        .all()
+                        .iter()
+                        .any(|own| !matches!(own.kind, AttractorKind::Rest(_) | AttractorKind::Periodic(_)));
+                    assert!(other || found.undecided().count() > 0, "{}", context());
+                }
+            }
+        }
+        if let AttractorKind::Rest(AfterRest::RestsAgain(cycle)) = &found.all()[0].kind
+            && cycle.is_exact()
+        {
+            assert!(rests.iter().all(|rest| rest.1 == cycle.platform_periods), "{}: {rests:?}", context());
+        }
+    }
+    assert!(kinds[1] > 5 && kinds[3] + kinds[4] > 2, "{kinds:?}");
+}
+
+/// Where the platform has several crests, rests end at several phases, and may be parts of different cycles.
+#[test]
+fn rests_on_a_zigzag_are_one_cycle_or_several() {
+    let search = AttractorSearch::default().with_starts(256).unwrap().with_impacts(500, 4_000).unwrap();
+    let (mut random, mut several, mut two, mut one) = (SplitMix64::new(75), 0, 0, 0);
+    for case in 0..100 {
+        let (points, height, r) = (4 + 2 * (case % 2), 2.0 + 4.0 * random.unit(), 0.05 * random.unit());
+        let exact = Parabolas::zigzag(points, height, &mut random);
+        let map = DrivenMap::new(exact.drive(), r).unwrap();
+        let found = map.attractors(&search, &Unobserved).unwrap();
+        let mut cycles: Vec<(f64, u64)> = Vec::new();
+        for _ in 0..100 {
+            let start = (TAU * random.unit(), -map.impact_speed_bound() * random.unit());
+            if let Some((phase, periods)) = exact.rests(start, r) {
+                let same = |own: &&(f64, u64)| (own.0 - phase).abs() < 1e-9 && own.1 == periods;
+                if !cycles.iter().any(|own| same(&own)) {
+                    cycles.push((phase, periods));
+                }
+            }
+        }
+        let context = || format!("{case}: {height} {r} {}: {cycles:?}", found.all()[0].kind);
+        match &found.all()[0].kind {
+            AttractorKind::Rest(AfterRest::Several { last: true }) => {
+                several += 1;
+                // The oracle may have missed one.
+                assert!(!cycles.is_empty(), "{}", context());
+                two += usize::from(cycles.len() > 1);
+            }
+            AttractorKind::Rest(AfterRest::RestsAgain(cycle)) if cycle.is_exact() => {
+                one += 1;
+                assert!(cycles.iter().all(|own| own.1 == cycle.platform_periods), "{}", context());
+                assert!(cycles.len() <= 1, "{}", context());
+            }
+            _ => {}
+        }
+    }
+    assert!(several > 2 && 2 * two > several && one > 10, "{several} {two} {one}");
 }
 
 /// Whatever starts within the radius of the orbit derived by hand ends on it.

@@ -2,10 +2,10 @@
 
 use bouncing_disk::core::DrivenMap;
 use bouncing_disk::core::attractors::{
-    ATTACHED, AfterRest, AttractingMap as _, AttractorKind, AttractorSearch, Attractors, Axis, BasinSettings,
-    FIRST_ORBIT, Grid, KnownOrbit, Label, UNDECIDED,
+    ATTACHED, AfterRest, AttractingMap as _, Attractor, AttractorKind, AttractorSearch, Attractors, Axis,
+    BasinSettings, Grid, Label, UNDECIDED,
 };
-use bouncing_disk::core::orbits::{OrbitSearch, PeriodicOrbit, Stability};
+use bouncing_disk::core::orbits::PeriodicOrbit;
 use bouncing_disk::parameters::Waveform;
 use bouncing_disk::{Observer, Progress};
 use serde::{Deserialize, Serialize};
@@ -21,9 +21,8 @@ const FORCING: f64 = 0.486;
 #[command(after_help = "\
 The search for the attractors comes first, and needs no hints. Then each cell of the window says where an impact in its middle leads, \
 as in Fig. 7 of the paper: phases in periods (tau_imp/2pi), speeds normalised, |w_A Gamma/(omega A)|. Labels in files: \
-0 undecided, 1 rest, 2 and more the other attractors in the order of the table; in .json two hexadecimal digits a cell. With a \
-[drive] that is not a sine, and with --contact-periods, the attractors are the attracting orbits of up to 8 impacts. An orbit with an impact within 0.001 rad \
-of one of these belongs to its basin; chaos stays undecided. See docs/studying-the-dynamics.md.
+0 undecided, 1 rest, 2 and more the other attractors in the order of the table; in .json two hexadecimal digits a cell. A \
+[drive] that is not a sine and --contact-periods take longer. See docs/studying-the-dynamics.md.
 
 Examples:
   bouncing-disk basins --out basins.png
@@ -97,18 +96,25 @@ pub(crate) struct BasinsJob {
     contact_periods: Option<f64>,
 }
 
-/// How near an impact must come to an orbit of a drive that is not a sine (rad): a twentieth of a cell of the
-/// default window, because no radius of attraction is proven there.
-const RADIUS: f64 = 1e-3;
-
-/// Most impacts and platform periods of an orbit on such a drive: the time of the search grows with both.
-const LONGEST: usize = 8;
-
 /// What impacts lead to.
 pub(crate) enum Known {
     Sine(Attractors),
-    /// The attracting orbits on a drive that is not a sine, or with a contact that takes time.
-    Driven(DrivenMap, Vec<KnownOrbit>),
+    /// On a drive that is not a sine, or with a contact that takes time.
+    Driven(Attractors<DrivenMap>),
+}
+
+impl Known {
+    fn all(&self) -> &[Attractor] {
+        match self {
+            Self::Sine(found) => found.all(),
+            Self::Driven(found) => found.all(),
+        }
+    }
+
+    /// The attractors with their labels.
+    fn labelled(&self) -> impl Iterator<Item = (Label, &Attractor)> {
+        (ATTACHED..).zip(self.all())
+    }
 }
 
 impl BasinsJob {
@@ -150,13 +156,7 @@ impl GridJob for BasinsJob {
             return Ok(Known::Sine(map.attractors(&self.search, &silent)?));
         }
         let map = driven_map(&self.drive, self.contact_periods, self.axial_forcing, self.restitution)?;
-        // As many starts, on a square.
-        let side = self.search.starts().isqrt();
-        let search = OrbitSearch::new(LONGEST, LONGEST as u64)?.with_starts(side, side)?;
-        let orbits = map.periodic_orbits(&search, &silent)?;
-        let stable = orbits.into_iter().filter(|orbit| orbit.stability() == Stability::Stable);
-        let known = stable.map(|orbit| KnownOrbit::new(orbit, RADIUS)).collect::<Result<_, _>>()?;
-        Ok(Known::Driven(map, known))
+        Ok(Known::Driven(map.attractors(&self.search, &silent)?))
     }
 
     fn compute(&self, known: &Known, rows: Rows, observer: &dyn Observer) -> Result<Vec<String>> {
@@ -168,7 +168,7 @@ impl GridJob for BasinsJob {
         let (window, settings) = (self.window()?, self.settings);
         let labelled = match known {
             Known::Sine(attractors) => attractors.basins_of_rows(window, rows, settings, &within)?,
-            Known::Driven(map, orbits) => map.basins_of_rows(window, rows, orbits, settings, &within)?,
+            Known::Driven(attractors) => attractors.basins_of_rows(window, rows, settings, &within)?,
         };
         Ok(labelled.labels().chunks(self.cells).map(hexadecimal).collect())
     }
@@ -235,7 +235,7 @@ impl GridJob for BasinsJob {
                 ("labels", json::list(listed)),
                 match known {
                     Known::Sine(attractors) => ("attractors", stored(attractors)?),
-                    Known::Driven(_, orbits) => ("known_orbits", stored(orbits)?),
+                    Known::Driven(attractors) => ("attractors", stored(attractors.all())?),
                 },
                 ("hexadecimal_labels_by_speed", stored(rows)?),
             ],
@@ -257,16 +257,7 @@ fn of_hexadecimal(row: &str) -> impl Iterator<Item = Label> + '_ {
 /// The labels and what they stand for, in their order.
 fn legend(known: &Known) -> Vec<(Label, String)> {
     let mut legend = vec![(UNDECIDED, "undecided".to_owned())];
-    let attractors = match known {
-        Known::Sine(attractors) => attractors,
-        Known::Driven(_, orbits) => {
-            legend.push((ATTACHED, "comes to rest".to_owned()));
-            legend.extend((FIRST_ORBIT..).zip(orbits.iter().map(|known| of_orbit(known.orbit()))));
-            return legend;
-        }
-    };
-    for (number, attractor) in attractors.all().iter().enumerate() {
-        let Some(label) = attractors.label(number) else { continue };
+    for (label, attractor) in known.labelled() {
         let words = match &attractor.kind {
             AttractorKind::Rest(AfterRest::StaysForEver) => "at rest for ever".to_owned(),
             AttractorKind::Rest(AfterRest::RestsAgain(cycle)) if cycle.is_exact() => cycle.to_string(),
@@ -274,11 +265,12 @@ fn legend(known: &Known) -> Vec<(Label, String)> {
                 "rest, in a cycle that rounding chooses".to_owned()
             }
             AttractorKind::Rest(AfterRest::LeadsTo(number)) => {
-                let to = attractors.label(*number).unwrap_or(ATTACHED);
+                let to = known.labelled().nth(*number).map_or(ATTACHED, |(label, _)| label);
                 format!("at rest, then to {to}")
             }
             AttractorKind::Periodic(known) => of_orbit(known.orbit()),
             AttractorKind::Marginal(orbit) => format!("{}, marginal", of_orbit(orbit)),
+            AttractorKind::Rest(AfterRest::Several { .. }) => "at rest, then several motions".to_owned(),
             AttractorKind::Rest(AfterRest::Undecided) => "at rest, then undecided".to_owned(),
             AttractorKind::Chaotic { exponent, standard_error, recurrence } => {
                 let chaos = format!("chaos, exponent {exponent:.4} +- {standard_error:.4}");
@@ -299,21 +291,15 @@ fn of_orbit(orbit: &PeriodicOrbit) -> String {
 
 /// The impacts of the periodic attractors: label, phase (periods), normalised speed.
 fn impacts(known: &Known) -> Vec<(Label, f64, f64)> {
-    let periodic: Vec<_> = match known {
-        Known::Sine(attractors) => {
-            let numbered = attractors.all().iter().enumerate();
-            let labelled =
-                numbered.filter_map(|(number, own)| Some((attractors.label(number)?, own.kind.orbit()?)));
-            labelled.collect()
-        }
-        Known::Driven(_, orbits) => (FIRST_ORBIT..).zip(orbits.iter().map(KnownOrbit::orbit)).collect(),
+    let periodic = known.labelled().filter_map(|(label, own)| Some((label, own.kind.orbit()?)));
+    let of_orbit = |(label, orbit): (Label, &PeriodicOrbit)| {
+        orbit
+            .states
+            .iter()
+            .map(move |at| (label, at.phase().cycles(), at.normalised_speed()))
+            .collect::<Vec<_>>()
     };
-    periodic
-        .into_iter()
-        .flat_map(|(label, orbit)| {
-            orbit.states.iter().map(move |state| (label, state.phase().cycles(), state.normalised_speed()))
-        })
-        .collect()
+    periodic.flat_map(of_orbit).collect()
 }
 
 #[cfg(test)]

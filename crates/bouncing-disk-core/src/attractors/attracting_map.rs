@@ -1,23 +1,174 @@
 //! What the search for final motions needs of a map beyond [`BouncingMap`].
 
-use core::ops::Range;
+use core::f64::consts::{PI, TAU};
+use core::ops::{ControlFlow, Range};
 
 use super::basin::{
     ATTACHED, BasinSettings, Basins, Grid, KnownOrbit, Label, MAX_CELLS, UNDECIDED, caught, check_known,
     check_rows, flights_of_label,
 };
+use super::search::settings::AttractorSearch;
+use super::search::{Attractors, find};
 use crate::chatter::policy::ChatterPolicy;
+use crate::flight::platform::phase::Phase;
 use crate::map::driven_map::DrivenMap;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::error::{Error, room_for};
-use crate::orbits::periodic::belonging;
-use crate::orbits::periodic::{PeriodicOrbit, Stability};
+use crate::orbits::periodic::search::OrbitSearch;
+use crate::orbits::periodic::{PeriodicOrbit, Stability, belonging, newton, phase_difference};
 use crate::run::{Observer, Watch, in_parallel};
-use crate::sweep::SweepEvent;
 use crate::sweep::bouncing_map::{BouncingMap, BouncingOrbit as _};
+use crate::sweep::{SweepEvent, sweep};
 
-/// A map whose basins of attraction are computed.
+/// Orbits of one impact that are tried as candidates, from those with the longest flights down.
+const MOST_PERIOD_ONE: u64 = 10_000;
+
+/// Phases at which a disk is put on a drive, to see where rests end.
+const PUT_ON: u32 = 64;
+
+/// Impacts after which a start that was seen to rest is left.
+const MOST_TO_REST: u32 = 1 << 16;
+
+/// Two rests that end as near to each other as this (rad) end at one phase.
+const SAME_END: f64 = 1.0e-9;
+
+/// Where the rests of one orbit end, until one ends where an earlier one did.
+struct RestEnds {
+    rests: bool,
+    /// Impacts that it may still make.
+    left: u32,
+    phases: Vec<Phase>,
+    /// The smallest of those phases (rad) that repeat.
+    cycle: Option<f64>,
+}
+
+fn same_end(one: f64, other: f64) -> bool {
+    phase_difference(one, other).abs() <= SAME_END
+}
+
+impl RestEnds {
+    const fn new(left: u32) -> Self {
+        Self { rests: false, left, phases: Vec::new(), cycle: None }
+    }
+
+    fn see(&mut self, event: &SweepEvent) -> ControlFlow<()> {
+        let end = match event {
+            SweepEvent::Impact(_) if self.left == 0 => return ControlFlow::Break(()),
+            SweepEvent::Impact(_) => {
+                self.left -= 1;
+                return ControlFlow::Continue(());
+            }
+            SweepEvent::Attachment(rest) => {
+                (self.rests, self.left) = (true, MOST_TO_REST);
+                match rest.separation {
+                    Some((phase, _)) => phase,
+                    None => return ControlFlow::Continue(()),
+                }
+            }
+            SweepEvent::Separation(_) | SweepEvent::Kick(_) if !self.rests => return ControlFlow::Break(()),
+            SweepEvent::Separation(change) | SweepEvent::Kick(change) => change.phase,
+        };
+        let first = self.phases.iter().position(|phase| same_end(phase.angle(), end.angle()));
+        let Some(first) = first else {
+            self.phases.push(end);
+            let more = self.phases.len() < PUT_ON as usize;
+            return if more { ControlFlow::Continue(()) } else { ControlFlow::Break(()) };
+        };
+        let smallest = self.phases[first..].iter().fold(TAU, |least, phase| least.min(phase.angle()));
+        self.cycle = Some(smallest);
+        ControlFlow::Break(())
+    }
+
+    /// Whether the first rests of both end at one phase, or both end on one cycle.
+    fn is_same(&self, other: &Self) -> bool {
+        let first = match (self.phases.first(), other.phases.first()) {
+            (Some(one), Some(other)) => same_end(one.angle(), other.angle()),
+            (one, other) => one.is_none() && other.is_none(),
+        };
+        first || self.cycle.zip(other.cycle).is_some_and(|(one, other)| same_end(one, other))
+    }
+}
+
+/// A map whose attractors and basins are computed.
 pub trait AttractingMap: BouncingMap {
+    /// The work of an impact, in flights of the sine: the budget of a search is divided by it.
+    const WORK: u64 = 32;
+
+    /// The attractors, found without any known orbit: as [`ImpactMap::attractors`], with starts spread over all impacts
+    /// that are no faster than [`Self::impact_speed_bound`].
+    ///
+    /// On a drive a rest may end at several phases. Where the motions that follow differ, they are
+    /// [`AfterRest::Several`](super::AfterRest::Several).
+    ///
+    /// # Errors
+    /// Those of [`ImpactMap::attractors`].
+    fn attractors(
+        &self,
+        search: &AttractorSearch,
+        observer: &dyn Observer,
+    ) -> Result<Attractors<Self>, Error> {
+        find::find(self, search, observer)
+    }
+
+    /// The speed (units of g/omega) that no impact of an attractor exceeds; of a contact that takes time, the fastest
+    /// start of a search.
+    fn impact_speed_bound(&self) -> f64;
+
+    /// The same of impacts at one phase.
+    fn impact_speed_bound_at(&self, _phase: Phase) -> f64 {
+        self.impact_speed_bound()
+    }
+
+    /// Gives `add` periodic orbits that may attract, until it fails.
+    ///
+    /// # Errors
+    /// Those of `add`; [`Error::Stopped`].
+    #[doc(hidden)]
+    fn candidates(
+        &self,
+        search: Option<OrbitSearch>,
+        observer: &dyn Observer,
+        add: &mut dyn FnMut(PeriodicOrbit) -> Result<(), Error>,
+    ) -> Result<(), Error>;
+
+    /// The periodic orbit next to `guess`, with its least period.
+    ///
+    /// # Errors
+    /// Those of [`BouncingMap::refine`].
+    #[doc(hidden)]
+    fn prime_orbit(&self, guess: &[ImpactState]) -> Result<PeriodicOrbit, Error> {
+        newton::prime_orbit(guess, |guess| self.refine(guess), PeriodicOrbit::determinant)
+    }
+
+    /// Starts that come to rest, of these and of a disk put on the platform: one for each phase at which a rest ends,
+    /// but of those that end on one cycle of rests one alone.
+    ///
+    /// # Errors
+    /// Those of a flight.
+    #[doc(hidden)]
+    fn to_rests(&self, seen: &[ImpactState], observer: &dyn Observer) -> Result<Vec<ImpactState>, Error> {
+        let put_on = (0..PUT_ON).map(|k| {
+            let phase = Phase::of_angle(TAU * (f64::from(k) + 0.5) / f64::from(PUT_ON));
+            ImpactState::of_impact(phase, 0.0)
+        });
+        let starts: Vec<_> = put_on.chain(seen.iter().copied()).collect();
+        let orbits: Vec<_> = starts.iter().map(|start| self.orbit(*start, ChatterPolicy::Complete)).collect();
+        let ends = sweep(
+            &orbits,
+            // A disk that is put on and leaves at once has not rested.
+            |index| RestEnds::new(if index < PUT_ON as usize { 0 } else { MOST_TO_REST }),
+            RestEnds::see,
+            observer,
+        )?;
+        let mut found: Vec<(RestEnds, ImpactState)> = Vec::new();
+        for (start, ends) in starts.into_iter().zip(ends) {
+            if ends.rests && !found.iter().any(|(known, _)| known.is_same(&ends)) {
+                found.push((ends, start));
+            }
+        }
+        Ok(found.into_iter().map(|(_, start)| start).collect())
+    }
+
     /// Checks that `orbit` is an orbit of this map: that each of its impacts leads to the next one.
     ///
     /// # Errors
@@ -162,6 +313,52 @@ pub trait AttractingMap: BouncingMap {
 }
 
 impl AttractingMap for ImpactMap {
+    const WORK: u64 = 1;
+
+    fn impact_speed_bound(&self) -> f64 {
+        self.impact_speed_bound()
+    }
+
+    fn impact_speed_bound_at(&self, phase: Phase) -> f64 {
+        self.impact_speed_bound_at(phase)
+    }
+
+    /// Those of one impact by their closed form, and those of the search.
+    fn candidates(
+        &self,
+        search: Option<OrbitSearch>,
+        observer: &dyn Observer,
+        add: &mut dyn FnMut(PeriodicOrbit) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        let (r, forcing) = (self.restitution(), self.vibration().axial_forcing());
+        // A node attracts from its birth to its doubling: the longest flights do, down to some number of
+        // periods.
+        let longest = ((1.0 + r) * forcing / (1.0 - r)) as u64;
+        let longest = longest.saturating_add(1);
+        for k in (longest.saturating_sub(MOST_PERIOD_ONE).max(1)..=longest).rev() {
+            let Some(pair) = self.period_one_pair(k) else { continue };
+            let Some(orbit) = pair.node.orbit(self)? else { continue };
+            // All with shorter flights have doubled, too.
+            if orbit.stability() == Stability::Unstable {
+                break;
+            }
+            add(orbit)?;
+        }
+        match search {
+            Some(search) => self.periodic_orbits(&search, observer)?.orbits.into_iter().try_for_each(add),
+            None => Ok(()),
+        }
+    }
+
+    fn prime_orbit(&self, guess: &[ImpactState]) -> Result<PeriodicOrbit, Error> {
+        self.prime_orbit(guess)
+    }
+
+    /// At its lowest point: all rests end at one phase.
+    fn to_rests(&self, _seen: &[ImpactState], _observer: &dyn Observer) -> Result<Vec<ImpactState>, Error> {
+        Ok(vec![ImpactState::of_impact(Phase::new(1.5 * PI)?, 0.0)])
+    }
+
     fn proven_radius(&self, orbit: &PeriodicOrbit) -> Result<f64, Error> {
         orbit.proven_radius(self)
     }
@@ -179,4 +376,20 @@ impl AttractingMap for ImpactMap {
     }
 }
 
-impl AttractingMap for DrivenMap {}
+impl AttractingMap for DrivenMap {
+    fn impact_speed_bound(&self) -> f64 {
+        self.impact_speed_bound()
+    }
+
+    fn candidates(
+        &self,
+        search: Option<OrbitSearch>,
+        observer: &dyn Observer,
+        add: &mut dyn FnMut(PeriodicOrbit) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        match search {
+            Some(search) => self.periodic_orbits(&search, observer)?.into_iter().try_for_each(add),
+            None => Ok(()),
+        }
+    }
+}

@@ -3,12 +3,13 @@
 
 mod basins;
 pub(crate) mod cells;
-mod find;
+pub(crate) mod find;
 mod follow;
 pub(crate) mod over_forcing;
 pub(crate) mod settings;
 mod starts;
 
+use crate::attractors::attracting_map::AttractingMap;
 use crate::attractors::basin::{KnownOrbit, Label};
 use crate::attractors::verdict::RestCycle;
 use crate::map::impact_map::{ImpactMap, ImpactState};
@@ -38,6 +39,11 @@ pub enum AfterRest {
     /// motion at this index of [`Attractors::all`], and so do all starts that come to rest. If that is a
     /// transient, the disk may rest again later.
     LeadsTo(usize),
+    /// On a drive: what follows depends on the phase at which it comes to rest.
+    Several {
+        /// Whether each of these motions comes to rest again and again, or stays.
+        last: bool,
+    },
     /// It separates, and the impacts of the search do not show what follows.
     Undecided,
 }
@@ -46,6 +52,7 @@ read_checked!(enum AfterRest as UncheckedAfterRest {
     StaysForEver,
     RestsAgain(cycle: RestCycle),
     LeadsTo(attractor: usize),
+    Several { last: bool },
     Undecided,
 });
 
@@ -55,7 +62,7 @@ impl AfterRest {
     pub const fn leads_to(&self) -> Option<usize> {
         match self {
             Self::LeadsTo(attractor) => Some(*attractor),
-            Self::StaysForEver | Self::RestsAgain(_) | Self::Undecided => None,
+            Self::StaysForEver | Self::RestsAgain(_) | Self::Several { .. } | Self::Undecided => None,
         }
     }
 
@@ -216,7 +223,10 @@ impl AttractorKind {
     #[must_use]
     pub const fn lasts(&self) -> bool {
         match self {
-            Self::Rest(after) => matches!(after, AfterRest::StaysForEver | AfterRest::RestsAgain(_)),
+            Self::Rest(after) => matches!(
+                after,
+                AfterRest::StaysForEver | AfterRest::RestsAgain(_) | AfterRest::Several { last: true }
+            ),
             Self::Periodic(_) | Self::Chaotic { .. } => true,
             Self::Marginal(_) | Self::Transient { .. } => false,
         }
@@ -242,6 +252,9 @@ impl core::fmt::Display for AttractorKind {
             }
             Self::Rest(AfterRest::LeadsTo(other)) => {
                 write!(formatter, "comes to rest, then attractor {}", other + 1)
+            }
+            Self::Rest(AfterRest::Several { .. }) => {
+                formatter.write_str("comes to rest, then motions that depend on where")
             }
             Self::Rest(AfterRest::Undecided) => {
                 formatter.write_str("comes to rest, then a motion that is not decided")
@@ -287,11 +300,12 @@ pub struct Attractor {
 /// Their numbers are those of [`Self::all`]: the disk at rest has 0; then come the periodic ones by impacts,
 /// platform periods and falling speed, the marginal ones in the same order, then all others as they were
 /// found.
+///
+/// Those of a sine are stored and read by serde.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedAttractors"))]
-pub struct Attractors {
-    map: ImpactMap,
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Attractors<M = ImpactMap> {
+    map: M,
     search: AttractorSearch,
     all: Vec<Attractor>,
 }
@@ -301,6 +315,13 @@ read_checked!(Attractors as UncheckedAttractors {
     search: AttractorSearch,
     all: Vec<Attractor>,
 });
+
+#[cfg(feature = "serde")]
+impl<'de> serde::Deserialize<'de> for Attractors {
+    fn deserialize<D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        UncheckedAttractors::deserialize(from)?.try_into().map_err(serde::de::Error::custom)
+    }
+}
 
 impl Attractors {
     /// Checks what is read: the disk at rest first, then periodic ones, then all others, no more than there
@@ -342,10 +363,12 @@ impl Attractors {
         }
         Ok(())
     }
+}
 
+impl<M> Attractors<M> {
     /// The map.
     #[must_use]
-    pub const fn map(&self) -> &ImpactMap {
+    pub const fn map(&self) -> &M {
         &self.map
     }
 
@@ -442,7 +465,7 @@ impl ImpactMap {
     /// [`Error::TooLarge`] for more than 250 attractors beside the disk at rest; those of
     /// [`Vibration::first_impact`](crate::Vibration::first_impact).
     pub fn attractors(&self, search: &AttractorSearch, observer: &dyn Observer) -> Result<Attractors, Error> {
-        find::find(self, search, observer)
+        AttractingMap::attractors(self, search, observer)
     }
 }
 

@@ -270,7 +270,7 @@ impl PeriodicOrbit {
 
     /// Phase space shrinks, so that the determinant is at most 1 in size. Where perturbations grow a lot, that of the
     /// product of many matrices is all rounding and may have any size.
-    fn determinant(&self) -> f64 {
+    pub(crate) fn determinant(&self) -> f64 {
         self.monodromy.determinant().clamp(-1.0, 1.0)
     }
 

@@ -5,11 +5,11 @@ use core::ops::{ControlFlow, Range};
 use super::cells::VisitedCells;
 use super::follow::SHARE_IN_CELLS;
 use super::{Attractors, label_of};
-use crate::attractors::attracting_map::AttractingMap as _;
+use crate::attractors::attracting_map::AttractingMap;
 use crate::attractors::basin::{
     ATTACHED, BasinSettings, Basins, Grid, KnownOrbit, Label, UNDECIDED, check_rows,
 };
-use crate::map::impact_map::{ImpactMap, ImpactState};
+use crate::map::impact_map::ImpactState;
 use crate::numerics::error::Error;
 use crate::run::{Observer, Progress, Unobserved};
 use crate::sweep::{SweepEvent, sweep};
@@ -22,8 +22,8 @@ const COMPARED: u32 = 256;
 const AT_ONCE: usize = 1 << 14;
 
 /// The tests that label a start.
-struct Labels<'a> {
-    map: &'a ImpactMap,
+struct Labels<'a, M> {
+    map: &'a M,
     known: Vec<KnownOrbit>,
     cells: Vec<(Label, &'a VisitedCells)>,
     settings: BasinSettings,
@@ -37,8 +37,8 @@ struct OnItsWay {
     label: Option<Label>,
 }
 
-impl<'a> Labels<'a> {
-    fn new(attractors: &'a Attractors, settings: BasinSettings) -> Self {
+impl<'a, M: AttractingMap> Labels<'a, M> {
+    fn new(attractors: &'a Attractors<M>, settings: BasinSettings) -> Self {
         let recurrences = attractors.recurrences();
         Self {
             map: &attractors.map,
@@ -163,16 +163,16 @@ impl Observer for Rows<'_> {
     }
 }
 
-impl Attractors {
+impl<M: AttractingMap> Attractors<M> {
     /// The label of one start: that of the attractor it ends on ([`Self::label`]), or [`UNDECIDED`].
     ///
-    /// Rests and periodic attractors are recognised as by [`ImpactMap::basin_label`]. A start that is
+    /// Rests and periodic attractors are recognised as by [`ImpactMap::basin_label`](crate::ImpactMap::basin_label). A start that is
     /// undecided after [`BasinSettings::max_impacts`] is compared with the attractors that are known by their
     /// cells: it is followed for 256 more impacts, half of which at least must lie in the cells of one of
     /// them.
     ///
     /// # Errors
-    /// Those of [`ImpactMap::basin_label`].
+    /// Those of [`ImpactMap::basin_label`](crate::ImpactMap::basin_label).
     pub fn basin_label(&self, start: ImpactState, settings: BasinSettings) -> Result<Label, Error> {
         let labels = Labels::new(self, settings).of(&[start], &Unobserved)?;
         Ok(labels.first().copied().unwrap_or(UNDECIDED))
@@ -198,7 +198,7 @@ impl Attractors {
     /// ```
     ///
     /// # Errors
-    /// Those of [`ImpactMap::basins`].
+    /// Those of [`ImpactMap::basins`](crate::ImpactMap::basins).
     pub fn basins(
         &self,
         grid: Grid,

@@ -8,10 +8,10 @@ use super::follow::{
 use super::settings::AttractorSearch;
 use super::starts::starts;
 use super::{AfterRest, Attractor, AttractorKind, Attractors, MOST_ATTRACTORS, Recurrence};
+use crate::attractors::attracting_map::AttractingMap;
 use crate::attractors::basin::KnownOrbit;
 use crate::attractors::verdict::{UndecidedReason, Verdict, VerdictSettings};
-use crate::flight::platform::phase::Phase;
-use crate::map::impact_map::{ImpactMap, ImpactState};
+use crate::map::impact_map::ImpactState;
 use crate::numerics::error::Error;
 use crate::numerics::fraction::Fraction;
 use crate::numerics::lifetime::Lifetime;
@@ -19,11 +19,8 @@ use crate::orbits::periodic::newton::same_orbit;
 use crate::orbits::periodic::{PeriodicOrbit, Stability, phase_difference};
 use crate::run::{Observer, Progress};
 
-use core::f64::consts::{PI, TAU};
+use core::f64::consts::TAU;
 use core::ops::ControlFlow;
-
-/// Orbits of one impact that are tried as candidates, from those with the longest flights down.
-const MOST_PERIOD_ONE: u64 = 10_000;
 
 /// Starts on each circle by which the radius of an attractor is found.
 const SAMPLES: u32 = 64;
@@ -111,8 +108,27 @@ enum RestLeadsTo {
     Nothing(AfterRest),
 }
 
-struct Finder<'a> {
-    map: &'a ImpactMap,
+impl RestLeadsTo {
+    /// Whether both are the same motion.
+    fn is_same(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Periodic(one), Self::Periodic(other)) => same_orbit(one, other),
+            (Self::Recurrent(one), Self::Recurrent(other)) => one == other,
+            // Of one cycle there is one start.
+            (Self::Nothing(AfterRest::RestsAgain(_)), _) => false,
+            (Self::Nothing(one), Self::Nothing(other)) => one == other,
+            _ => false,
+        }
+    }
+
+    /// Whether the disk stays at rest, or comes to rest again and again.
+    const fn lasts(&self) -> bool {
+        matches!(self, Self::Nothing(AfterRest::StaysForEver | AfterRest::RestsAgain(_)))
+    }
+}
+
+struct Finder<'a, M> {
+    map: &'a M,
     search: &'a AttractorSearch,
     observer: &'a dyn Observer,
     rests: u64,
@@ -126,19 +142,22 @@ struct Finder<'a> {
     followed: Option<u64>,
 }
 
-pub(super) fn find(
-    map: &ImpactMap,
+pub(crate) fn find<M: AttractingMap>(
+    map: &M,
     search: &AttractorSearch,
     observer: &dyn Observer,
-) -> Result<Attractors, Error> {
+) -> Result<Attractors<M>, Error> {
     let mut finder = Finder::new(map, search, observer);
     let starts = starts(map, search.starts());
     let part = Part { counts: true, ..finder.part() };
     let seen = part.whole(first_look(map, &starts, search.first_look(), &part))?;
     finder.done = starts.len() as u64;
     finder.spend(finder.done * search.first_look().allowed());
-    let mut open = Vec::new();
+    let (mut open, mut resting) = (Vec::new(), Vec::new());
     for (start, seen) in starts.iter().zip(seen) {
+        if matches!(seen, Seen::Rest) {
+            resting.push(*start);
+        }
         if finder.close(&seen, 1) {
             finder.done += 1;
         } else {
@@ -147,7 +166,7 @@ pub(super) fn find(
     }
     finder.add_candidates()?;
     finder.settle(open)?;
-    let after = finder.after_rest()?;
+    let after = finder.after_rest(&resting)?;
     let found = finder.into_attractors(after)?;
     let total = 2 * u64::from(search.starts());
     // Whatever it says, there is nothing left to stop.
@@ -155,8 +174,8 @@ pub(super) fn find(
     Ok(found)
 }
 
-impl<'a> Finder<'a> {
-    const fn new(map: &'a ImpactMap, search: &'a AttractorSearch, observer: &'a dyn Observer) -> Self {
+impl<'a, M: AttractingMap> Finder<'a, M> {
+    const fn new(map: &'a M, search: &'a AttractorSearch, observer: &'a dyn Observer) -> Self {
         Self {
             map,
             search,
@@ -165,7 +184,7 @@ impl<'a> Finder<'a> {
             periodic: Vec::new(),
             recurrent: Vec::new(),
             done: 0,
-            budget: search.budget(),
+            budget: search.budget() / M::WORK,
             followed: None,
         }
     }
@@ -200,7 +219,7 @@ impl<'a> Finder<'a> {
     /// Counts starts that approach an attracting orbit through this impact; if no orbit goes through it, the
     /// starts stay undecided.
     fn repeats(&mut self, state: ImpactState, impacts: u64, platform_periods: u64, starts: u64) {
-        let scale = self.map.vibration().peak_acceleration();
+        let scale = self.map.speed_scale();
         let known = self.periodic.iter_mut().find(|known| {
             known.orbit.period() as u64 == impacts
                 && known.orbit.platform_periods == platform_periods
@@ -473,46 +492,43 @@ impl<'a> Finder<'a> {
 
     /// Adds attracting orbits that need no start.
     fn add_candidates(&mut self) -> Result<(), Error> {
-        let map = self.map;
-        let (r, forcing) = (map.restitution(), map.vibration().axial_forcing());
-        // A node attracts from its birth to its doubling: the longest flights do, down to some number of
-        // periods.
-        let longest = ((1.0 + r) * forcing / (1.0 - r)) as u64;
-        let longest = longest.saturating_add(1);
-        for k in (longest.saturating_sub(MOST_PERIOD_ONE).max(1)..=longest).rev() {
-            let Some(pair) = map.period_one_pair(k) else { continue };
-            let Some(orbit) = pair.node.orbit(map)? else { continue };
-            // All with shorter flights have doubled, too.
-            if orbit.stability() == Stability::Unstable {
-                break;
-            }
+        let (map, part, orbits) = (self.map, self.part(), self.search.orbits());
+        part.whole(map.candidates(orbits, &part, &mut |orbit| {
             self.add_candidate(orbit);
-            // Thousands of them, for little dissipation: there is no need to tell them apart.
-            self.check_count()?;
-        }
-        if let Some(orbits) = self.search.orbits() {
-            let part = self.part();
-            for orbit in part.whole(map.periodic_orbits(&orbits, &part))?.orbits {
-                self.add_candidate(orbit);
-            }
-        }
-        Ok(())
+            // There may be thousands, for little dissipation: there is no need to tell them apart.
+            self.check_count()
+        }))
     }
 
     fn add_candidate(&mut self, orbit: PeriodicOrbit) {
-        if !orbit.states.iter().any(|at| self.map.rests_after(*at)) {
+        if !orbit.states.iter().any(|at| self.map.chatters_to_rest_after(*at)) {
             self.add(orbit, 0);
         }
     }
 
-    /// The further motion of a disk at rest, that is of a disk put on the platform at its lowest point.
-    fn after_rest(&mut self) -> Result<RestLeadsTo, Error> {
-        let lowest = ImpactState::of_impact(Phase::new(1.5 * PI)?, 0.0);
+    /// The further motion of a disk at rest; on a drive, of a rest that ends at each of the phases that were seen.
+    fn after_rest(&mut self, resting: &[ImpactState]) -> Result<RestLeadsTo, Error> {
+        let part = self.part();
+        let starts = part.whole(self.map.to_rests(resting, &part))?;
         // What has been spent does not count: a rest is there in any case.
-        let most = self.search.budget() / 4;
+        let most = self.search.budget() / (4 * M::WORK * (starts.len() as u64).max(1));
+        let mut all = Vec::new();
+        for start in starts {
+            all.push(self.after_rest_of(start, most)?);
+        }
+        let Some(first) = all.pop() else { return Ok(RestLeadsTo::Nothing(AfterRest::Undecided)) };
+        if all.iter().all(|other| other.is_same(&first)) {
+            return Ok(first);
+        }
+        let last = first.lasts() && all.iter().all(RestLeadsTo::lasts);
+        Ok(RestLeadsTo::Nothing(AfterRest::Several { last }))
+    }
+
+    /// The motion of a start after its first rest, over so many impacts at most.
+    fn after_rest_of(&mut self, start: ImpactState, most: u64) -> Result<RestLeadsTo, Error> {
         let look = self.search.look_within(most).unwrap_or_else(|| self.search.first_look());
         let part = self.part();
-        let long = part.whole(long_look(self.map, lowest, true, (look, self.search.cells()), &part))?;
+        let long = part.whole(long_look(self.map, start, true, (look, self.search.cells()), &part))?;
         Ok(match long.seen {
             Seen::Verdict(Verdict::Chattering { cycle, .. }) => {
                 RestLeadsTo::Nothing(AfterRest::RestsAgain(cycle))
@@ -552,7 +568,7 @@ impl<'a> Finder<'a> {
         Ok(())
     }
 
-    fn into_attractors(mut self, after: RestLeadsTo) -> Result<Attractors, Error> {
+    fn into_attractors(mut self, after: RestLeadsTo) -> Result<Attractors<M>, Error> {
         self.check_count()?;
         self.periodic.sort_by(|a, b| {
             let (first, second) = (a.orbit.states[0], b.orbit.states[0]);
@@ -599,7 +615,7 @@ impl<'a> Finder<'a> {
             };
             all.push(attractor(kind, starts)?);
         }
-        Ok(Attractors { map: *self.map, search: *self.search, all })
+        Ok(Attractors { map: self.map.clone(), search: *self.search, all })
     }
 }
 

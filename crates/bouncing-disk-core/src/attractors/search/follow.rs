@@ -4,13 +4,15 @@ use core::ops::ControlFlow;
 
 use super::cells::{CellMarks, VisitedCells};
 use super::{Attractors, Recurrence};
+use crate::attractors::attracting_map::AttractingMap;
 use crate::attractors::verdict::returns::Returns;
 use crate::attractors::verdict::witness::Witness;
 use crate::attractors::verdict::{Verdict, VerdictSettings};
 use crate::chatter::policy::ChatterPolicy;
-use crate::map::impact_map::{ImpactMap, ImpactState, Orbit};
+use crate::map::impact_map::ImpactState;
 use crate::numerics::error::Error;
 use crate::run::Observer;
+use crate::sweep::bouncing_map::BouncingMap;
 use crate::sweep::{SweepEvent, sweep};
 
 /// Impacts of a start that are compared with the cells of an attractor, and the share of them that must lie
@@ -35,13 +37,13 @@ pub(super) enum Seen {
 }
 
 /// The orbits of starts, with chatters that are summed.
-fn orbits(map: &ImpactMap, starts: &[ImpactState]) -> Vec<Orbit> {
+fn orbits<M: BouncingMap>(map: &M, starts: &[ImpactState]) -> Vec<M::Orbit> {
     starts.iter().map(|start| map.orbit(*start, ChatterPolicy::Complete)).collect()
 }
 
 /// Follows every start until it rests or there is a verdict.
 pub(super) fn first_look(
-    map: &ImpactMap,
+    map: &impl BouncingMap,
     starts: &[ImpactState],
     settings: VerdictSettings,
     observer: &dyn Observer,
@@ -84,8 +86,8 @@ pub(super) struct LongLook {
 }
 
 /// One orbit that is followed for long.
-struct Recorder<'m> {
-    witness: Witness<'m, ImpactMap>,
+struct Recorder<'m, M> {
+    witness: Witness<'m, M>,
     marks: CellMarks,
     impacts: u64,
     last: ImpactState,
@@ -98,7 +100,7 @@ struct Recorder<'m> {
 /// The fate of a start that is followed for long, and where its orbit has been: through its first rest, or
 /// up to it.
 pub(super) fn long_look(
-    map: &ImpactMap,
+    map: &impl AttractingMap,
     start: ImpactState,
     through_rest: bool,
     (settings, side): (VerdictSettings, u32),
@@ -177,7 +179,7 @@ pub(super) struct Followed {
 /// Follows each start for so many impacts as are given for it, without derivatives, until it rests or nearly
 /// repeats itself.
 pub(super) fn follow(
-    map: &ImpactMap,
+    map: &impl BouncingMap,
     starts: &[ImpactState],
     impacts: &(dyn Fn(usize) -> u64 + Sync),
     settings: VerdictSettings,
@@ -215,7 +217,7 @@ pub(super) fn follow(
 /// The share of impacts of each start, after the transient, that lie in these cells: `None` for those that
 /// rest before they have been compared.
 pub(super) fn share_in(
-    map: &ImpactMap,
+    map: &impl BouncingMap,
     starts: &[ImpactState],
     cells: &VisitedCells,
     transient: u64,
@@ -244,7 +246,7 @@ pub(super) fn share_in(
 
 /// After how many of so many impacts each orbit was in these cells for the last time.
 pub(super) fn last_in(
-    map: &ImpactMap,
+    map: &impl BouncingMap,
     starts: &[ImpactState],
     cells: &VisitedCells,
     impacts: u64,
@@ -278,7 +280,7 @@ pub(super) fn overlap(one: &VisitedCells, other: &VisitedCells) -> bool {
     shared as f64 >= SHARE_IN_CELLS * few.visited().len() as f64
 }
 
-impl Attractors {
+impl<M> Attractors<M> {
     /// The attractors that are known by their cells, with their numbers.
     pub(super) fn recurrences(&self) -> impl Iterator<Item = (usize, &Recurrence)> {
         self.all.iter().enumerate().filter_map(|(number, own)| Some((number, own.kind.recurrence()?)))

@@ -2,8 +2,9 @@
 
 use core::f64::consts::TAU;
 
+use crate::attractors::attracting_map::AttractingMap;
 use crate::flight::platform::phase::Phase;
-use crate::map::impact_map::{ImpactMap, ImpactState};
+use crate::map::impact_map::ImpactState;
 
 /// The fractional parts of multiples of 1/g and 1/g^2, where g^3 = g + 1, as 64-bit fixed-point numbers: the
 /// most even sequence of its kind in two dimensions (M. Roberts' R2; g = 1.32471795724...).
@@ -19,7 +20,7 @@ fn unit(fixed: u64) -> f64 {
 
 /// So many impacts in the trapping region, evenly by its area in (phase, velocity): the points of a sequence
 /// over the rectangle about it that lie inside.
-pub(super) fn starts(map: &ImpactMap, count: u32) -> Vec<ImpactState> {
+pub(super) fn starts(map: &impl AttractingMap, count: u32) -> Vec<ImpactState> {
     let fastest = map.impact_speed_bound();
     let mut starts = Vec::with_capacity(count as usize);
     for k in 0..TRIES * u64::from(count) {

@@ -135,6 +135,23 @@ pub(super) fn prime_period(states: &[ImpactState], room: f64) -> usize {
     (1..n).filter(|shift| n.is_multiple_of(*shift)).find(|shift| repeats(*shift)).unwrap_or(n)
 }
 
+/// The periodic orbit near a guess, with its least period: if the guess nearly repeats a shorter orbit, this one, except
+/// next to a doubling, if the guess leads to the doubled orbit.
+pub(crate) fn prime_orbit(
+    guess: &[ImpactState],
+    refine: impl Fn(&[ImpactState]) -> Result<PeriodicOrbit, Error>,
+    determinant: impl Fn(&PeriodicOrbit) -> f64,
+) -> Result<PeriodicOrbit, Error> {
+    let prime = prime_period(guess, SAME);
+    let mut orbit = refine(&guess[..prime])?;
+    let (_, doubling) = next_to_margin(orbit.monodromy, determinant(&orbit));
+    if doubling && guess.len().is_multiple_of(2 * prime) {
+        orbit = refine(&guess[..2 * prime]).unwrap_or(orbit);
+    }
+    let repeated = prime_period(&orbit.states, 2.0 * orbit.position_error);
+    if repeated < orbit.period() { refine(&orbit.states[..repeated]) } else { Ok(orbit) }
+}
+
 impl ImpactMap {
     /// The periodic orbit next to `guess` (its impacts in order), by multiple shooting: every impact is an
     /// unknown, so that long and unstable orbits converge.
@@ -216,17 +233,9 @@ impl ImpactMap {
         self.vibration().accumulation(state.phase(), speed, self.restitution()).is_some()
     }
 
-    /// The periodic orbit near a guess, with its least period: if the guess nearly repeats a shorter orbit,
-    /// this one, except next to a doubling, if the guess leads to the doubled orbit.
+    /// [`prime_orbit`] of this map, whose areas shrink by a known ratio.
     pub(crate) fn prime_orbit(&self, guess: &[ImpactState]) -> Result<PeriodicOrbit, Error> {
-        let prime = prime_period(guess, SAME);
-        let mut orbit = self.refine(&guess[..prime])?;
-        let (_, doubling) = next_to_margin(orbit.monodromy, self.determinant_after(prime));
-        if doubling && guess.len().is_multiple_of(2 * prime) {
-            orbit = self.refine(&guess[..2 * prime]).unwrap_or(orbit);
-        }
-        let repeated = prime_period(&orbit.states, 2.0 * orbit.position_error);
-        if repeated < orbit.period() { self.refine(&orbit.states[..repeated]) } else { Ok(orbit) }
+        prime_orbit(guess, |guess| self.refine(guess), |orbit| self.determinant_after(orbit.period()))
     }
 
     /// The periodic orbit near a rough guess.
