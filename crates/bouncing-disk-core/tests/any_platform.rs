@@ -376,6 +376,39 @@ fn a_disk_in_a_soft_contact_comes_to_rest_for_ever() {
     assert!(matches!(verdict, Verdict::AtRest { .. }), "{verdict:?}");
 }
 
+/// arXiv 2004.10633 claims that the diagram depends on the order of the polynomial. At restitution 0.5 parabolas have
+/// period 1 from pi/12 on, up to 5 pi/36 = 0.436, and chaotic bands at once after it. One cubic for the whole period has
+/// period 1 next to its birth alone.
+#[test]
+fn parabolas_go_from_period_one_to_bands_and_one_cubic_has_it_next_to_its_birth() {
+    let search = AttractorSearch::default().with_starts(256).unwrap();
+    let kinds = |drive: Drive| {
+        let map = DrivenMap::new(drive, 0.5).unwrap();
+        let found = map.attractors(&search, &Unobserved).unwrap();
+        let periods = found.all().iter().filter(|own| own.starts.count() > 0).map(|own| {
+            own.kind.orbit().map_or(own.kind.name().to_owned(), |orbit| orbit.period().to_string())
+        });
+        periods.collect::<Vec<_>>()
+    };
+    let parabolas = |forcing: f64| kinds(Drive::parabolas(PI * forcing).unwrap());
+    for forcing in [0.275, 0.35, 0.42, 0.435] {
+        assert!(parabolas(forcing).contains(&"1".to_owned()), "{forcing}: {:?}", parabolas(forcing));
+    }
+    for forcing in [0.44, 0.45] {
+        let found = parabolas(forcing);
+        assert!(found.contains(&"chaotic".to_owned()), "{forcing}: {found:?}");
+        assert!(!found.iter().any(|own| ["1", "2", "4"].contains(&own.as_str())), "{forcing}: {found:?}");
+    }
+    // t (t - pi) (t - 2 pi), whose largest height is 2 pi^3/(3 sqrt 3).
+    let cubic = |forcing: f64| {
+        let scale = 3.0 * 3.0_f64.sqrt() / (2.0 * PI * PI * PI) * PI * forcing;
+        Drive::pieces(&[(TAU, [0.0, 2.0 * PI * PI * scale, -3.0 * PI * scale, scale])]).unwrap()
+    };
+    let has_one = |forcing: f64| kinds(cubic(forcing)).contains(&"1".to_owned());
+    assert!(has_one(0.235), "{:?}", kinds(cubic(0.235)));
+    assert!(![0.2, 0.26, 0.3, 0.35, 0.4].into_iter().any(has_one));
+}
+
 /// A contact that hardly takes time keeps the orbits without chatter, and a chatter is one of finitely many impacts; one
 /// that lasts leaves nothing but rest on a gentle platform.
 #[test]

@@ -1,7 +1,7 @@
 //! Attractors of the map, their basins on a grid and over the forcing, and measures of basins.
 
 use bouncing_disk::core::{
-    Error as CoreError, ImpactMap,
+    DrivenMap, Error as CoreError, ImpactMap,
     attractors::{
         AfterRest, AttractingMap as _, Attractor, AttractorKind, AttractorSearch,
         Attractors as AttractorsModel, Axis, BasinSettings, Basins, BoundaryFit, Grid, KnownOrbit, Label,
@@ -26,10 +26,23 @@ holders! {
     Attractors(AttractorsModel) = shown_attractors;
 }
 
+/// The contents of an `Attractors` on a drive, or with a contact that takes time.
+#[pyclass(frozen, eq, module = "bouncing_disk._native")]
+#[derive(Debug, PartialEq)]
+pub(crate) struct DrivenAttractors(AttractorsModel<DrivenMap>);
+
+#[pymethods]
+impl DrivenAttractors {
+    #[expect(clippy::unused_self, reason = "a method of every result that is held")]
+    fn to_json(&self) -> PyResult<String> {
+        Err(PyTypeError::new_err("attractors on a drive, or with a contact time, are not stored"))
+    }
+}
+
 /// Starts on each circle that is tried for the radius of a known orbit.
 const SAMPLES: u32 = 64;
 
-fn shown_attractor<'py>(py: Python<'py>, all: &AttractorsModel, number: usize, own: &Attractor) -> Made<'py> {
+fn shown_attractor<'py>(py: Python<'py>, label: Option<Label>, own: &Attractor) -> Made<'py> {
     let mut leads_to = None;
     let (mut radius, mut exponent, mut error) = (f64::NAN, f64::NAN, f64::NAN);
     let (mut mean_life, mut mean_life_interval) = (f64::NAN, (f64::NAN, f64::NAN));
@@ -50,7 +63,7 @@ fn shown_attractor<'py>(py: Python<'py>, all: &AttractorsModel, number: usize, o
         py,
         "Attractor",
         own.kind.name(),
-        all.label(number),
+        label,
         own.kind.orbit().map(|orbit| shown_orbit(py, orbit.clone())).transpose()?,
         radius,
         exponent,
@@ -68,10 +81,16 @@ fn shown_attractor<'py>(py: Python<'py>, all: &AttractorsModel, number: usize, o
 }
 
 fn shown_attractors(py: Python<'_>, found: AttractorsModel) -> Made<'_> {
-    let all = found.all().iter().enumerate().map(|(number, own)| shown_attractor(py, &found, number, own));
+    let map = python_map(py, found.map())?;
+    holding(shown_of(map, &found)?, Attractors(found))
+}
+
+fn shown_of<'py, M>(map: Bound<'py, PyAny>, found: &AttractorsModel<M>) -> Made<'py> {
+    let py = map.py();
+    let all = found.all().iter().enumerate();
+    let all = all.map(|(number, own)| shown_attractor(py, found.label(number), own));
     let all = PyTuple::new(py, all.collect::<PyResult<Vec<_>>>()?)?;
-    let made = make!(py, "Attractors", python_map(py, found.map())?, all, found.undecided().value())?;
-    holding(made, Attractors(found))
+    make!(py, "Attractors", map, all, found.undecided().value())
 }
 
 fn search(a: &Arguments<'_>) -> PyResult<AttractorSearch> {
@@ -90,7 +109,11 @@ fn search(a: &Arguments<'_>) -> PyResult<AttractorSearch> {
 #[pyfunction]
 pub(crate) fn attractors(a: Arguments<'_>) -> Made<'_> {
     let (map, search) = (a.map()?, search(&a)?);
-    shown_attractors(a.py(), a.run(|observer| Ok(map.attractors(&search, observer)?))?)
+    let Some((shape, contact)) = a.shape()? else {
+        return shown_attractors(a.py(), a.run(|observer| Ok(map.attractors(&search, observer)?))?);
+    };
+    let found = a.run(|observer| Ok(shape.map(&map, contact)?.attractors(&search, observer)?))?;
+    holding(shown_of(a.get("impact_map")?, &found)?, DrivenAttractors(found))
 }
 
 /// The grid of the arguments.
@@ -146,12 +169,22 @@ fn labels(basins: &Basins) -> Result<Vec<Label>, Error> {
 /// The basins of all attractors.
 #[pyfunction]
 pub(crate) fn basins_of(a: Arguments<'_>) -> Made<'_> {
-    let (grid, settings, found) = (grid(&a)?, basin_settings(&a)?, a.held::<Attractors>("self")?);
-    let found = &found.get().0;
-    let labels = a.run(|observer| labels(&found.basins(grid, settings, observer)?))?;
-    let mut meaning = vec!["undecided".to_owned()];
-    meaning.extend(found.all().iter().map(|attractor| attractor.kind.to_string()));
+    let (grid, settings) = (grid(&a)?, basin_settings(&a)?);
+    let (labels, meaning) = if let Ok(driven) = a.held::<DrivenAttractors>("self") {
+        let found = &driven.get().0;
+        (a.run(|observer| labels(&found.basins(grid, settings, observer)?))?, meaning(found.all()))
+    } else {
+        let found = a.held::<Attractors>("self")?;
+        let found = &found.get().0;
+        (a.run(|observer| labels(&found.basins(grid, settings, observer)?))?, meaning(found.all()))
+    };
     shown_basins(a.get("self")?.getattr("impact_map")?, &grid, labels, meaning)
+}
+
+/// What the labels of these attractors mean.
+fn meaning(all: &[Attractor]) -> Vec<String> {
+    let words = all.iter().map(|attractor| attractor.kind.to_string());
+    std::iter::once("undecided".to_owned()).chain(words).collect()
 }
 
 /// The orbits of the argument `known_orbits`, each with a radius if one is given.

@@ -155,3 +155,17 @@ def test_a_warning_is_of_the_line_that_makes_the_drive() -> None:
 def test_noisy_samples_give_a_warning() -> None:
     with pytest.warns(UserWarning, match="if they have noise"):
         bd.Drive.sampled(np.sin(2.0 * np.pi * np.arange(64) / 64) + 0.01 * (-1.0) ** np.arange(64))
+
+
+def test_attractors_on_a_drive_have_basins_and_are_not_stored() -> None:
+    bouncing = bd.ImpactMap(axial_forcing=0.45, restitution=0.5)
+    found = bd.attractors(bouncing, starts=256, drive=bd.Drive(height="parabolas"))
+    assert [one.kind for one in found.all] == ["rest", "chaotic"]
+    basins = found.basins(phases=20, speeds=10)
+    assert basins.share(bd.FIRST_ORBIT) > 0.1 and basins.meaning[2] == found.all[1].meaning
+    with pytest.raises(TypeError, match="not stored"):
+        found.to_json()
+    sine = bd.attractors(bouncing, starts=256)
+    assert sine != found
+    soft = bd.attractors(bouncing, starts=64, contact_periods=0.05)
+    assert any(one.kind == "periodic" for one in soft.all)

@@ -117,7 +117,7 @@ class Basins(Result):
 class Attractors(Stored):
     """The attractors of an impact map: the disk at rest, and all others that were found.
 
-    Made by :func:`attractors`.
+    Made by :func:`attractors`. Those on a drive, or with a contact that takes time, cannot be stored.
 
     Attributes:
         impact_map: the map.
@@ -161,6 +161,8 @@ def attractors(
     longest_period: Int = 256,
     cells: Int = 256,
     budget: Int = 2**28,
+    drive: Drive | None = None,
+    contact_periods: Float | None = None,
     progress: Progress = None,
 ) -> Attractors:
     """The attractors of a map, found without known orbits.
@@ -172,12 +174,17 @@ def attractors(
         longest_period: the longest period, in impacts, in [1, 4096].
         cells: cells along each axis of the grid that distinguishes aperiodic motions, in [8, 4096].
         budget: approximate limit on the impacts of the whole search, in [256 a start, 2^50]; starts that are
-            still under way when it is used up are undecided.
+            still under way when it is used up are undecided. On a drive an impact counts as 32.
+        drive: how the platform moves; ``None`` for the sine.
+        contact_periods: as of :func:`orbit_diagram`.
 
     >>> import bouncing_disk as bd
     >>> found = bd.attractors(bd.ImpactMap(axial_forcing=0.486, restitution=0.5))
     >>> [attractor.orbit.period for attractor in found.all if attractor.orbit is not None]
     [1, 4]
+    >>> parabolas = bd.Drive(height="parabolas")
+    >>> [one.kind for one in bd.attractors(bd.ImpactMap(axial_forcing=0.4, restitution=0.5), drive=parabolas).all]
+    ['rest', 'periodic']
     """
     return native.attractors(locals())
 
