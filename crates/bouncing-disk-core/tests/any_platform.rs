@@ -409,6 +409,32 @@ fn parabolas_go_from_period_one_to_bands_and_one_cubic_has_it_next_to_its_birth(
     assert!(![0.2, 0.26, 0.3, 0.35, 0.4].into_iter().any(has_one));
 }
 
+/// Beside its doubling, by hand at (pi/4) (1 + r^2)/(1 + r)^2, the orbit of one impact is never told to attract where it
+/// repels, nor left out where it attracts; beside its birth at the corner, pi (1 - r)/(4 (1 + r)), nothing fails.
+#[test]
+fn attractors_beside_the_doubling_and_the_corner_of_parabolas() {
+    let search = AttractorSearch::default().with_starts(16).unwrap().with_impacts(300, 2_000).unwrap();
+    let one_impact = |forcing: f64, r: f64| {
+        let map = DrivenMap::new(Drive::parabolas(PI * forcing).unwrap(), r).unwrap();
+        let found = map.attractors(&search, &Unobserved).unwrap();
+        let own = found.all().iter().find(|own| own.kind.orbit().is_some_and(|orbit| orbit.period() == 1));
+        own.map(|own| own.kind.name())
+    };
+    let r = 0.5;
+    let doubling = 0.25 * PI * (1.0 + r * r) / ((1.0 + r) * (1.0 + r));
+    let birth = 0.25 * PI * (1.0 - r) / (1.0 + r);
+    for beside in [1e-8, 1e-12, f64::EPSILON] {
+        let before = one_impact(doubling * (1.0 - beside), r);
+        assert!(before.is_some(), "{r}, {beside}: {before:?}");
+        let after = one_impact(doubling * (1.0 + beside), r);
+        assert_ne!(after, Some("periodic"), "{r}, {beside}");
+        assert_ne!(one_impact(birth * (1.0 - beside), r), Some("periodic"), "{r}, {beside}");
+        one_impact(birth * (1.0 + beside), r);
+    }
+    assert_eq!(one_impact(doubling * (1.0 - 1e-6), r), Some("periodic"));
+    assert_eq!(one_impact(birth * (1.0 + 1e-6), r), Some("periodic"));
+}
+
 /// A contact that hardly takes time keeps the orbits without chatter, and a chatter is one of finitely many impacts; one
 /// that lasts leaves nothing but rest on a gentle platform.
 #[test]

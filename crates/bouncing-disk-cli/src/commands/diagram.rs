@@ -167,16 +167,14 @@ impl<'a> Diagram<'a> {
 
     fn draw(self) -> Figure {
         let DiagramJob { axial_forcings, restitution, starts, drive, contact_periods, .. } = self.job;
-        // The shape once: the names stand side by side.
-        let shape =
-            |index: usize| if index == 0 { and_shape(drive, *contact_periods) } else { String::new() };
-        let named = |(index, start): (usize, &Start)| (start.in_words() + &shape(index), Vec::new());
-        let mut starts: Vec<OrbitsFrom> = starts.iter().enumerate().map(named).collect();
+        let named = |start: &Start| (start.in_words(), Vec::new());
+        let mut starts: Vec<OrbitsFrom> = starts.iter().map(named).collect();
         for (forcing, start, phase, speed) in self.impacts() {
             starts[start].1.push((forcing, phase, speed));
         }
         let axial_forcings = axial_forcings.cell_ends(0.01);
-        OrbitDiagram { axial_forcings, restitution: *restitution, starts: &starts }.draw()
+        let shape = and_shape(drive, *contact_periods);
+        OrbitDiagram { axial_forcings, restitution: *restitution, shape: &shape, starts: &starts }.draw()
     }
 }
 

@@ -34,6 +34,8 @@ pub struct OrbitDiagram<'a> {
     pub axial_forcings: (f64, f64),
     /// The restitution of all orbits.
     pub restitution: f64,
+    /// What follows the restitution in words, as the shape of a drive: ", parabolas".
+    pub shape: &'a str,
     /// The orbits, by where they start.
     pub starts: &'a [OrbitsFrom],
 }
@@ -90,7 +92,8 @@ impl OrbitDiagram<'_> {
                 .y(y)
                 .layer(Text::at_axes(left, 1.045, format!("({letter})")));
             if column == 1 {
-                let words = Text::at_axes(1.0, 1.045, format!(r"$\epsilon = {}$", in_math(self.restitution)));
+                let words = format!(r"$\epsilon = {}${}", in_math(self.restitution), self.shape);
+                let words = Text::at_axes(1.0, 1.045, words);
                 panel = panel.layer(words.anchor(Anchor::Right).size(8.0));
             }
             for (index, (name, impacts)) in starts.iter().enumerate().rev() {
@@ -145,7 +148,8 @@ mod tests {
         for count in [0, 1, 2, 3, 4, 5, 13] {
             let start = |index: usize| (format!("0.{index},1.{index}"), vec![(0.4, 0.2, 1.0)]);
             let starts: Vec<_> = (0..count).map(start).collect();
-            let diagram = OrbitDiagram { axial_forcings: (0.3, 0.5), restitution: 0.5, starts: &starts };
+            let diagram =
+                OrbitDiagram { axial_forcings: (0.3, 0.5), restitution: 0.5, shape: "", starts: &starts };
             let svg = diagram.draw().to_svg().expect("draws");
             let named = starts.iter().filter(|(name, _)| svg.contains(name.as_str())).count();
             assert_eq!(named, if count > 1 { count } else { 0 }, "{count}");
