@@ -198,6 +198,20 @@ fn state(phase: f64, velocity: f64) -> ImpactState {
     ImpactState::from_normalised(phase, -velocity / PI).unwrap()
 }
 
+/// A triangle, a sawtooth or parabolas, with amplitude and restitution.
+fn random_map(case: usize, random: &mut SplitMix64) -> (Parabolas, DrivenMap, [f64; 2]) {
+    let (a, r) = (0.3 + 4.0 * random.unit(), 0.9 * random.unit());
+    let (exact, drive) = match case % 3 {
+        0 => (Parabolas::triangle(a, 0.5), Drive::triangle(a)),
+        1 => {
+            let rise = 0.1 + 0.8 * random.unit();
+            (Parabolas::triangle(a, rise), Drive::sawtooth(a, rise))
+        }
+        _ => (Parabolas::arcs(a), Drive::parabolas(a)),
+    };
+    (exact, DrivenMap::new(drive.unwrap(), r).unwrap(), [a, r])
+}
+
 /// How many verdicts of each kind there are.
 #[derive(Debug, Default)]
 struct Seen {
@@ -213,16 +227,7 @@ fn verdicts_on_parabolas_are_those_of_quadratics() {
     let settings = VerdictSettings { transient: 500, impacts: 4_000, ..VerdictSettings::default() };
     let mut random = SplitMix64::new(70);
     for case in 0..120 {
-        let (a, r) = (0.3 + 4.0 * random.unit(), 0.9 * random.unit());
-        let (exact, drive) = match case % 3 {
-            0 => (Parabolas::triangle(a, 0.5), Drive::triangle(a)),
-            1 => {
-                let rise = 0.1 + 0.8 * random.unit();
-                (Parabolas::triangle(a, rise), Drive::sawtooth(a, rise))
-            }
-            _ => (Parabolas::arcs(a), Drive::parabolas(a)),
-        };
-        let map = DrivenMap::new(drive.unwrap(), r).unwrap();
+        let (exact, map, [a, r]) = random_map(case, &mut random);
         let start = (TAU * random.unit(), -2.0 * PI * random.unit());
         let verdict = map.verdict(state(start.0, start.1), settings).unwrap();
         let context = format!("{case}: a = {a}, r = {r}, {start:?}, {verdict:?}");
@@ -409,8 +414,8 @@ fn parabolas_go_from_period_one_to_bands_and_one_cubic_has_it_next_to_its_birth(
     assert!(![0.2, 0.26, 0.3, 0.35, 0.4].into_iter().any(has_one));
 }
 
-/// Beside its doubling, by hand at (pi/4) (1 + r^2)/(1 + r)^2, the orbit of one impact is never told to attract where it
-/// repels, nor left out where it attracts; beside its birth at the corner, pi (1 - r)/(4 (1 + r)), nothing fails.
+/// Next to its doubling, by hand at (pi/4) (1 + r^2)/(1 + r)^2, the orbit of one impact is never told to attract where it
+/// repels, nor left out where it attracts; next to its birth at the corner, pi (1 - r)/(4 (1 + r)), nothing fails.
 #[test]
 fn attractors_beside_the_doubling_and_the_corner_of_parabolas() {
     let search = AttractorSearch::default().with_starts(16).unwrap().with_impacts(300, 2_000).unwrap();
@@ -435,7 +440,7 @@ fn attractors_beside_the_doubling_and_the_corner_of_parabolas() {
     assert_eq!(one_impact(birth * (1.0 + 1e-6), r), Some("periodic"));
 }
 
-/// A contact that hardly takes time keeps the orbits without chatter, and a chatter is one of finitely many impacts; one
+/// A very short contact keeps the orbits without chatter, and a chatter is one of finitely many impacts; one
 /// that lasts leaves nothing but rest on a gentle platform.
 #[test]
 fn soft_contacts_have_the_attractors_of_rigid_ones_where_they_are_short() {
@@ -547,16 +552,7 @@ fn attractors_on_parabolas_are_those_of_quadratics() {
     let mut random = SplitMix64::new(74);
     let mut kinds = [0; 5];
     for case in 0..45 {
-        let (a, r) = (0.3 + 4.0 * random.unit(), 0.9 * random.unit());
-        let (exact, drive) = match case % 3 {
-            0 => (Parabolas::triangle(a, 0.5), Drive::triangle(a)),
-            1 => {
-                let rise = 0.1 + 0.8 * random.unit();
-                (Parabolas::triangle(a, rise), Drive::sawtooth(a, rise))
-            }
-            _ => (Parabolas::arcs(a), Drive::parabolas(a)),
-        };
-        let map = DrivenMap::new(drive.unwrap(), r).unwrap();
+        let (exact, map, [a, r]) = random_map(case, &mut random);
         let found = map.attractors(&search, &Unobserved).unwrap();
         let context = || {
             let all: Vec<_> =

@@ -26,7 +26,7 @@ holders! {
     Attractors(AttractorsModel) = shown_attractors;
 }
 
-/// The contents of an `Attractors` on a drive, or with a contact that takes time.
+/// The contents of an `Attractors` on another drive, or with a compliant contact.
 #[pyclass(frozen, eq, module = "bouncing_disk._native")]
 #[derive(Debug, PartialEq)]
 pub(crate) struct DrivenAttractors(AttractorsModel<DrivenMap>);

@@ -99,7 +99,7 @@ pub(crate) struct BasinsJob {
 /// What impacts lead to.
 pub(crate) enum Known {
     Sine(Attractors),
-    /// On a drive that is not a sine, or with a contact that takes time.
+    /// On another drive, or with a compliant contact.
     Driven(Attractors<DrivenMap>),
 }
 
@@ -270,7 +270,9 @@ fn legend(known: &Known) -> Vec<(Label, String)> {
             }
             AttractorKind::Periodic(known) => of_orbit(known.orbit()),
             AttractorKind::Marginal(orbit) => format!("{}, marginal", of_orbit(orbit)),
-            AttractorKind::Rest(AfterRest::Several { .. }) => "at rest, then several motions".to_owned(),
+            AttractorKind::Rest(AfterRest::Several { .. }) => {
+                "at rest, then one of several motions".to_owned()
+            }
             AttractorKind::Rest(AfterRest::Undecided) => "at rest, then undecided".to_owned(),
             AttractorKind::Chaotic { exponent, standard_error, recurrence } => {
                 let chaos = format!("chaos, exponent {exponent:.4} +- {standard_error:.4}");

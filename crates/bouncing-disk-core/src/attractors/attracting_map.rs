@@ -110,8 +110,8 @@ pub trait AttractingMap: BouncingMap {
         find::find(self, search, observer)
     }
 
-    /// The speed (units of g/omega) that no impact of an attractor exceeds; of a contact that takes time, the fastest
-    /// start of a search.
+    /// The speed (units of g/omega) that no impact of an attractor exceeds. With a compliant contact it is the speed of
+    /// the fastest start of a search.
     fn impact_speed_bound(&self) -> f64;
 
     /// The same of impacts at one phase.
@@ -119,17 +119,25 @@ pub trait AttractingMap: BouncingMap {
         self.impact_speed_bound()
     }
 
-    /// Gives `add` periodic orbits that may attract, until it fails.
+    /// Gives `add` the orbits of closed form that may attract, until it fails.
     ///
     /// # Errors
-    /// Those of `add`; [`Error::Stopped`].
+    /// Those of `add`.
     #[doc(hidden)]
-    fn candidates(
+    fn closed_forms(&self, _add: &mut dyn FnMut(PeriodicOrbit) -> Result<(), Error>) -> Result<(), Error> {
+        Ok(())
+    }
+
+    /// The periodic orbits that a search finds.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`] if the observer stops it.
+    #[doc(hidden)]
+    fn orbits_found(
         &self,
-        search: Option<OrbitSearch>,
+        search: &OrbitSearch,
         observer: &dyn Observer,
-        add: &mut dyn FnMut(PeriodicOrbit) -> Result<(), Error>,
-    ) -> Result<(), Error>;
+    ) -> Result<Vec<PeriodicOrbit>, Error>;
 
     /// The periodic orbit next to `guess`, with its least period.
     ///
@@ -140,8 +148,8 @@ pub trait AttractingMap: BouncingMap {
         newton::prime_orbit(guess, |guess| self.refine(guess), PeriodicOrbit::determinant)
     }
 
-    /// Starts that come to rest, of these and of a disk put on the platform: one for each phase at which a rest ends,
-    /// but of those that end on one cycle of rests one alone.
+    /// Starts that come to rest, from those seen and from a disk that is put on the platform: one for each phase at which
+    /// the first rest ends, and one for each cycle of rests.
     ///
     /// # Errors
     /// Those of a flight.
@@ -323,13 +331,8 @@ impl AttractingMap for ImpactMap {
         self.impact_speed_bound_at(phase)
     }
 
-    /// Those of one impact by their closed form, and those of the search.
-    fn candidates(
-        &self,
-        search: Option<OrbitSearch>,
-        observer: &dyn Observer,
-        add: &mut dyn FnMut(PeriodicOrbit) -> Result<(), Error>,
-    ) -> Result<(), Error> {
+    /// The nodes of one impact.
+    fn closed_forms(&self, add: &mut dyn FnMut(PeriodicOrbit) -> Result<(), Error>) -> Result<(), Error> {
         let (r, forcing) = (self.restitution(), self.vibration().axial_forcing());
         // A node attracts from its birth to its doubling: the longest flights do, down to some number of
         // periods.
@@ -344,10 +347,15 @@ impl AttractingMap for ImpactMap {
             }
             add(orbit)?;
         }
-        match search {
-            Some(search) => self.periodic_orbits(&search, observer)?.orbits.into_iter().try_for_each(add),
-            None => Ok(()),
-        }
+        Ok(())
+    }
+
+    fn orbits_found(
+        &self,
+        search: &OrbitSearch,
+        observer: &dyn Observer,
+    ) -> Result<Vec<PeriodicOrbit>, Error> {
+        Ok(self.periodic_orbits(search, observer)?.orbits)
     }
 
     fn prime_orbit(&self, guess: &[ImpactState]) -> Result<PeriodicOrbit, Error> {
@@ -381,15 +389,11 @@ impl AttractingMap for DrivenMap {
         self.impact_speed_bound()
     }
 
-    fn candidates(
+    fn orbits_found(
         &self,
-        search: Option<OrbitSearch>,
+        search: &OrbitSearch,
         observer: &dyn Observer,
-        add: &mut dyn FnMut(PeriodicOrbit) -> Result<(), Error>,
-    ) -> Result<(), Error> {
-        match search {
-            Some(search) => self.periodic_orbits(&search, observer)?.into_iter().try_for_each(add),
-            None => Ok(()),
-        }
+    ) -> Result<Vec<PeriodicOrbit>, Error> {
+        self.periodic_orbits(search, observer)
     }
 }

@@ -39,7 +39,7 @@ pub enum AfterRest {
     /// motion at this index of [`Attractors::all`], and so do all starts that come to rest. If that is a
     /// transient, the disk may rest again later.
     LeadsTo(usize),
-    /// On a drive: what follows depends on the phase at which it comes to rest.
+    /// On a drive: rests end at several phases, and different motions follow.
     Several {
         /// Whether each of these motions comes to rest again and again, or stays.
         last: bool,
@@ -254,7 +254,7 @@ impl core::fmt::Display for AttractorKind {
                 write!(formatter, "comes to rest, then attractor {}", other + 1)
             }
             Self::Rest(AfterRest::Several { .. }) => {
-                formatter.write_str("comes to rest, then motions that depend on where")
+                formatter.write_str("comes to rest, then one of several motions")
             }
             Self::Rest(AfterRest::Undecided) => {
                 formatter.write_str("comes to rest, then a motion that is not decided")

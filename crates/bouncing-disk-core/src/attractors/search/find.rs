@@ -121,6 +121,10 @@ impl RestLeadsTo {
         }
     }
 
+    const fn is_undecided(&self) -> bool {
+        matches!(self, Self::Nothing(AfterRest::Undecided))
+    }
+
     /// Whether the disk stays at rest, or comes to rest again and again.
     const fn lasts(&self) -> bool {
         matches!(self, Self::Nothing(AfterRest::StaysForEver | AfterRest::RestsAgain(_)))
@@ -492,12 +496,18 @@ impl<'a, M: AttractingMap> Finder<'a, M> {
 
     /// Adds attracting orbits that need no start.
     fn add_candidates(&mut self) -> Result<(), Error> {
-        let (map, part, orbits) = (self.map, self.part(), self.search.orbits());
-        part.whole(map.candidates(orbits, &part, &mut |orbit| {
+        let (map, part) = (self.map, self.part());
+        map.closed_forms(&mut |orbit| {
             self.add_candidate(orbit);
             // There may be thousands, for little dissipation: there is no need to tell them apart.
             self.check_count()
-        }))
+        })?;
+        if let Some(search) = self.search.orbits() {
+            for orbit in part.whole(map.orbits_found(&search, &part))? {
+                self.add_candidate(orbit);
+            }
+        }
+        Ok(())
     }
 
     fn add_candidate(&mut self, orbit: PeriodicOrbit) {
@@ -519,6 +529,10 @@ impl<'a, M: AttractingMap> Finder<'a, M> {
         let Some(first) = all.pop() else { return Ok(RestLeadsTo::Nothing(AfterRest::Undecided)) };
         if all.iter().all(|other| other.is_same(&first)) {
             return Ok(first);
+        }
+        // Whether an unknown motion differs from the others is not known.
+        if all.iter().chain([&first]).any(RestLeadsTo::is_undecided) {
+            return Ok(RestLeadsTo::Nothing(AfterRest::Undecided));
         }
         let last = first.lasts() && all.iter().all(RestLeadsTo::lasts);
         Ok(RestLeadsTo::Nothing(AfterRest::Several { last }))
