@@ -110,8 +110,9 @@ fn rendered(svg: &str, most_pixels: f32) -> Result<Vec<u8>, DrawError> {
         width: f64::from(width),
         height: f64::from(height),
     })?;
+    // The last row and column may lie partly outside of the page.
+    pixels.fill(tiny_skia::Color::WHITE);
     resvg::render(&tree, tiny_skia::Transform::from_scale(scale, scale), &mut pixels.as_mut());
-    // The page is white and hides what lies behind it.
     let colours = pixels.pixels().iter().flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()]);
     let colours: Vec<u8> = colours.collect();
     encode::png([pixels.width() as usize, pixels.height() as usize], &colours, |encoder| {
