@@ -99,6 +99,7 @@ impl From<bouncing_disk::Error> for Failure {
             | Error::YieldingStator
             | Error::LoadLaw
             | Error::LoadInTime
+            | Error::NoSuchNumber
             | Error::StartPhase => Self::Usage(error.to_string()),
             _ => Self::Failed(error.to_string()),
         }

@@ -114,8 +114,8 @@ impl<D: Described> SourceArgs<D> {
 
 /// The end of a template.
 const DRIVE: &str = "\
-# How the platform moves in place of the sine, for toss, diagram, orbits, basins, and motor transient, curve, stall,
-# best and sweep.
+# How the platform moves instead of the sine, for toss, diagram, orbits, basins, verdicts, doublings, and motor transient,
+# curve, stall, best and sweep.
 # Shapes: sine, triangle, parabolas, cubics, { sawtooth = 0.3 }, { fourier = [[1.0, 0.0], [0.1, 1.5]] }, { sampled = [...] }
 # [drive]
 # height = \"triangle\"

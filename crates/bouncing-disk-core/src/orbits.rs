@@ -17,7 +17,7 @@
 //! # Ok::<(), bouncing_disk_core::Error>(())
 //! ```
 //!
-//! [`ImpactMap::continued`](crate::ImpactMap::continued) follows an orbit over a parameter. The orbits on
+//! [`ContinuedMap::continued`] follows an orbit over a parameter. The orbits on
 //! which a disk ends are in [`attractors`](crate::attractors). How it is computed: docs/numerics/dynamics.md.
 
 pub(crate) mod cascade;
@@ -26,10 +26,14 @@ pub(crate) mod continuation;
 pub(crate) mod follow_attractor;
 pub(crate) mod periodic;
 
+pub use cascade::driven::driven_doubling_cascade;
 pub use cascade::feigenbaum::{FeigenbaumEstimate, feigenbaum_estimates};
 pub use cascade::{CascadeDoubling, DoublingCascade, MAX_DOUBLINGS, doubling_cascade};
-pub use closing::ContinuationParameter;
-pub use continuation::{Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation};
+pub use closing::family::DrivenFamily;
+pub use closing::{ContinuationParameter, ContinuedMap};
+pub use continuation::{
+    Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation, LocatedDoubling,
+};
 pub use follow_attractor::{Followed, Following, follow_attractor};
 pub use periodic::pair::{PeriodOneOrbit, PeriodOnePair};
 pub use periodic::search::{OrbitCoverage, OrbitSearch, OrbitsFound};

@@ -7,7 +7,9 @@ use bouncing_disk_core::attractors::{
     Label, UNDECIDED,
 };
 use bouncing_disk_core::numerics::random::SplitMix64;
-use bouncing_disk_core::orbits::{BifurcationKind, Branch, Continuation, ContinuationParameter};
+use bouncing_disk_core::orbits::{
+    BifurcationKind, Branch, Continuation, ContinuationParameter, ContinuedMap as _,
+};
 use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, Phase, Unobserved, Vibration};
 
 fn map(axial_forcing: f64, restitution: f64) -> ImpactMap {

@@ -13,7 +13,7 @@ use bouncing_disk_core::chaos::{
     CrisisSearch, ManifoldKind, ManifoldSettings, lyapunov_exponents, lyapunov_spectra,
 };
 use bouncing_disk_core::orbits::{
-    Continuation, ContinuationParameter, OrbitSearch, PeriodicOrbit, doubling_cascade,
+    Continuation, ContinuationParameter, ContinuedMap as _, OrbitSearch, PeriodicOrbit, doubling_cascade,
 };
 use bouncing_disk_core::run::FLIGHTS_BETWEEN_CALLS;
 use bouncing_disk_core::sweep::{SweepEvent, orbit_diagram, survival_times, sweep};
@@ -209,6 +209,7 @@ fn orbits_and_branches() {
     check("branch", 20_000, |observer| map.continued(&orbit, &settings, observer));
     let branch = map.continued(&orbit, &settings, &Unobserved).expect("continued");
     check("doubled branch", 20_000, |observer| branch.switched(0, &settings, observer));
+    check("doublings", 2, |observer| map.doublings(&orbit, &settings, 2, observer));
 }
 
 #[test]

@@ -23,7 +23,7 @@ fn raise<'py>(py: Python<'py>, class: &str, arguments: impl PyCallArgs<'py>) -> 
 }
 
 /// The errors that arguments are the reason of which do not fit together.
-const INVALID: [&str; 22] = [
+const INVALID: [&str; 23] = [
     "not-of-kind",
     "no-closed-form",
     "no-decimal",
@@ -42,6 +42,7 @@ const INVALID: [&str; 22] = [
     "waveform-jump",
     "drive-not-sine",
     "start-phase",
+    "no-such-number",
     "yielding-stator",
     "soft-contact",
     "load-law",

@@ -2,12 +2,14 @@
 
 use bouncing_disk::Error;
 use bouncing_disk::core::{
-    Error as CoreError, ImpactState,
+    ImpactMap, ImpactState, Vibration,
     orbits::{
-        BifurcationKind, Branch as BranchModel, BranchEnd, Continuation, ContinuationParameter, OrbitSearch,
-        PeriodicOrbit as OrbitModel, Stability, feigenbaum_estimates,
+        BifurcationKind, Branch as BranchModel, BranchEnd, BranchPoint, Continuation, ContinuationParameter,
+        ContinuedMap, DrivenFamily, OrbitSearch, PeriodicOrbit as OrbitModel, Stability,
+        doubling_cascade as doubling_cascade_of, driven_doubling_cascade, feigenbaum_estimates,
     },
 };
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
@@ -20,7 +22,20 @@ holders! {
     /// The contents of a `PeriodicOrbit`.
     PeriodicOrbit(OrbitModel) = shown_orbit;
     /// The contents of a `Branch`.
-    Branch(BranchModel) = shown_branch;
+    Branch(BranchModel) = shown_own_branch;
+}
+
+/// The contents of a `Branch` on another drive, or with a compliant contact, and the number that is varied.
+#[pyclass(frozen, eq, module = "bouncing_disk._native")]
+#[derive(Debug, PartialEq)]
+pub(crate) struct DrivenBranch(BranchModel<DrivenFamily>, String);
+
+#[pymethods]
+impl DrivenBranch {
+    #[expect(clippy::unused_self, reason = "a method of every result that is held")]
+    fn to_json(&self) -> PyResult<String> {
+        Err(PyTypeError::new_err("branches on a drive, or with a contact time, are not stored"))
+    }
 }
 
 /// A periodic orbit as Python has it.
@@ -110,13 +125,30 @@ const PARAMETERS: [(&str, ContinuationParameter); 2] =
 fn kind(kind: BifurcationKind) -> (String, Option<usize>) {
     let impact = match kind {
         BifurcationKind::Graze { flight } => Some(flight),
-        BifurcationKind::VanishingImpact { impact } => Some(impact),
+        BifurcationKind::VanishingImpact { impact } | BifurcationKind::BorderCollision { impact } => {
+            Some(impact)
+        }
         _ => None,
     };
     (kind.name().replace(' ', "-"), impact)
 }
 
-fn shown_branch(py: Python<'_>, branch: BranchModel) -> Made<'_> {
+fn shown_own_branch(py: Python<'_>, branch: BranchModel) -> Made<'_> {
+    let parameter = PARAMETERS.into_iter().find(|(_, parameter)| *parameter == branch.parameter);
+    let made = shown_branch(py, &branch, parameter.map_or("unknown", |(name, _)| name))?;
+    holding(made, Branch(branch))
+}
+
+fn shown_driven_branch(py: Python<'_>, branch: BranchModel<DrivenFamily>, parameter: String) -> Made<'_> {
+    let made = shown_branch(py, &branch, &parameter)?;
+    holding(made, DrivenBranch(branch, parameter))
+}
+
+fn shown_branch<'py, M: ContinuedMap>(
+    py: Python<'py>,
+    branch: &BranchModel<M>,
+    parameter: &str,
+) -> Made<'py> {
     let points = &branch.points;
     let period = points.first().map_or(0, |point| point.orbit.period());
     // A number of each impact of each orbit, orbit by impact.
@@ -140,23 +172,21 @@ fn shown_branch(py: Python<'_>, branch: BranchModel) -> Made<'_> {
         BranchEnd::StepTooSmall(arclength) => format!("no next point at the arclength {arclength:?}"),
         _ => "unknown".to_owned(),
     };
-    let parameter = PARAMETERS.into_iter().find(|(_, parameter)| *parameter == branch.parameter);
     let multipliers = points.iter().flat_map(|point| complex(point.multipliers())).collect();
-    let made = make!(
+    make!(
         py,
         "Branch",
-        parameter.map_or("unknown", |(name, _)| name),
+        parameter,
         column(py, points, |point| point.parameter),
         column(py, points, |point| point.arclength),
         impacts(|state| state.phase().angle())?,
         impacts(ImpactState::velocity)?,
         impacts(ImpactState::normalised_speed)?,
         matrix(py, multipliers, [points.len(), 2])?,
-        column(py, points, bouncing_disk::core::orbits::BranchPoint::is_stable),
+        column(py, points, BranchPoint::is_stable),
         end,
         PyTuple::new(py, bifurcations)?,
-    )?;
-    holding(made, Branch(branch))
+    )
 }
 
 fn continuation(a: &Arguments<'_>, parameter: ContinuationParameter, rising: bool) -> PyResult<Continuation> {
@@ -170,26 +200,46 @@ fn continuation(a: &Arguments<'_>, parameter: ContinuationParameter, rising: boo
 #[pyfunction]
 pub(crate) fn continued(a: Arguments<'_>) -> Made<'_> {
     let (map, orbit) = (a.map()?, a.held::<PeriodicOrbit>("orbit")?);
-    let settings = continuation(&a, a.choice("parameter", &PARAMETERS)?, a.of("rising")?)?;
-    let orbit = &orbit.get().0;
-    shown_branch(a.py(), a.run(|observer| Ok(map.continued(orbit, &settings, observer)?))?)
+    let (orbit, rising) = (&orbit.get().0, a.of("rising")?);
+    let Some((shape, contact_periods)) = a.shape()? else {
+        let settings = continuation(&a, a.choice("parameter", &PARAMETERS)?, rising)?;
+        return shown_own_branch(a.py(), a.run(|observer| Ok(map.continued(orbit, &settings, observer)?))?);
+    };
+    let settings = continuation(&a, ContinuationParameter::Number, rising)?;
+    let number: String = a.of("parameter")?;
+    let named = number.parse().map_err(|error: Error| a.refused(error))?;
+    let family = shape.family(&map, contact_periods, named).map_err(|error| a.refused(error))?;
+    let branch = a.run(|observer| Ok(family.continued(orbit, &settings, observer)?))?;
+    shown_driven_branch(a.py(), branch, number)
 }
 
 /// The branch of twice the period that begins at a doubling.
 #[pyfunction]
 pub(crate) fn switched(a: Arguments<'_>) -> Made<'_> {
-    let (branch, index) = (a.held::<Branch>("self")?, a.usize("index")?);
+    let index = a.usize("index")?;
+    if let Ok(branch) = a.held::<DrivenBranch>("self") {
+        let DrivenBranch(branch, number) = branch.get();
+        let settings = continuation(&a, ContinuationParameter::Number, true)?;
+        let switched = a.run(|observer| Ok(branch.switched(index, &settings, observer)?))?;
+        return shown_driven_branch(a.py(), switched, number.clone());
+    }
+    let branch = a.held::<Branch>("self")?;
     let branch = &branch.get().0;
     let settings = continuation(&a, branch.parameter, true)?;
-    shown_branch(a.py(), a.run(|observer| Ok(branch.switched(index, &settings, observer)?))?)
+    shown_own_branch(a.py(), a.run(|observer| Ok(branch.switched(index, &settings, observer)?))?)
 }
 
 /// One orbit of a branch.
 #[pyfunction]
 pub(crate) fn branch_orbit(a: Arguments<'_>) -> Made<'_> {
-    let (branch, index) = (a.held::<Branch>("self")?, a.usize("index")?);
-    match branch.get().0.points.get(index) {
-        Some(point) => shown_orbit(a.py(), point.orbit.clone()),
+    let index = a.usize("index")?;
+    let own = |points: &[BranchPoint]| points.get(index).map(|point| point.orbit.clone());
+    let orbit = match a.held::<DrivenBranch>("self") {
+        Ok(branch) => own(&branch.get().0.points),
+        Err(_) => own(&a.held::<Branch>("self")?.get().0.points),
+    };
+    match orbit {
+        Some(orbit) => shown_orbit(a.py(), orbit),
         None => Err(errors::out_of_range(a.py(), "index", index as f64, "less than the number of orbits")),
     }
 }
@@ -198,9 +248,16 @@ pub(crate) fn branch_orbit(a: Arguments<'_>) -> Made<'_> {
 #[pyfunction]
 pub(crate) fn doubling_cascade(a: Arguments<'_>) -> Made<'_> {
     let (restitution, count, py) = (a.real("restitution")?, a.usize("count")?, a.py());
-    let cascade = a.run(|observer| {
-        bouncing_disk::core::orbits::doubling_cascade(restitution, count, observer)
-            .map_err(|error: CoreError| Error::from(error))
+    let shape = a.shape()?;
+    let cascade = a.run(move |observer| {
+        let Some((shape, contact_periods)) = shape else {
+            return Ok(doubling_cascade_of(restitution, count, observer)?);
+        };
+        let sine = move |forcing| ImpactMap::new(Vibration::from_axial_forcing(forcing)?, restitution);
+        // What is wrong with the map, before the search asks for many.
+        shape.map(&sine(1.0)?, contact_periods)?;
+        let maps = move |forcing| shape.map(&sine(forcing).ok()?, contact_periods).ok();
+        Ok(driven_doubling_cascade(maps, count, observer)?)
     })?;
     let (cascade, ended_by) = (cascade.doublings, cascade.ended_by.map(|error| error.to_string()));
     let estimates = feigenbaum_estimates(&cascade);

@@ -377,3 +377,38 @@ def test_a_cascade_that_ends_has_the_doublings_before() -> None:
     assert bd.doubling_cascade(restitution=0.01, count=2).ended_by is None
     with pytest.raises(bd.OutOfRangeError, match="count"):
         bd.doubling_cascade(restitution=0.5, count=0)
+
+
+def test_branches_and_doublings_on_a_drive_and_with_a_compliant_contact() -> None:
+    parabolas = bd.Drive(height="parabolas")
+    bouncing = bd.ImpactMap(axial_forcing=0.35, restitution=0.5)
+    orbits = bd.periodic_orbits(bouncing, max_impacts=1, max_platform_periods=1, drive=parabolas)
+    orbit = next(orbit for orbit in orbits if orbit.is_stable)
+    up = bd.continued(bouncing, orbit, drive=parabolas, parameter_range=(0.2, 0.5))
+    # By hand: the doubling, and the corner at which the branch turns.
+    by_hand = np.pi * 1.25 / 9
+    assert up.parameter == "axial_forcing" and up.bifurcations[0].parameter == pytest.approx(by_hand, abs=1e-13)
+    down = bd.continued(bouncing, orbit, drive=parabolas, parameter_range=(0.2, 0.5), rising=False)
+    corner = down.bifurcations[0]
+    assert (corner.kind, corner.impact) == ("border-collision", 0)
+    assert corner.parameter == pytest.approx(np.pi / 12, abs=1e-12)
+    with pytest.raises(TypeError, match="not stored"):
+        up.to_json()
+    first = bd.doubling_cascade(restitution=0.5, count=1, drive=parabolas)
+    assert first.axial_forcing[0] == pytest.approx(by_hand, abs=first.forcing_error[0])
+
+    # A member of two families: over the second harmonic, and over the contact time.
+    sum_of_two = bd.Drive(height={"fourier": [[1.0, 0.0], [0.1, 0.3]]})
+    arguments = {"drive": sum_of_two, "contact_periods": 0.05}
+    orbits = bd.periodic_orbits(bouncing, max_impacts=1, max_platform_periods=1, **arguments)
+    orbit = next(orbit for orbit in orbits if orbit.is_stable and orbit.normalised_speed[0] > 1)
+    for parameter, now in [("fourier[1][0]", 0.1), ("fourier[1][1]", 0.3), ("contact_periods", 0.05), ("restitution", 0.5)]:
+        branch = bd.continued(
+            bouncing, orbit, parameter=parameter, parameter_range=(now - 0.04, now + 0.04), **arguments
+        )
+        assert branch.values[0] == now and branch.parameter == parameter and len(branch) > 1
+        assert branch.orbit(0).period == 1
+    for parameter in ["fourier[2][0]", "fourier[1]", "sawtooth", "", "fourier[1", "fourier[x][0]"]:
+        with pytest.raises(bd.InvalidError) as refused:
+            bd.continued(bouncing, orbit, parameter=parameter, parameter_range=(0, 1), **arguments)
+        assert refused.value.kind == "no-such-number"

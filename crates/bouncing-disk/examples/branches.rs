@@ -6,7 +6,7 @@
 
 use std::error::Error;
 
-use bouncing_disk::core::orbits::{Branch, Continuation, ContinuationParameter};
+use bouncing_disk::core::orbits::{Branch, Continuation, ContinuationParameter, ContinuedMap as _};
 use bouncing_disk::core::{ImpactMap, Unobserved, Vibration};
 
 fn print(name: &str, branch: &Branch) {

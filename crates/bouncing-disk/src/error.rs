@@ -192,7 +192,7 @@ pub enum Error {
     /// A file with a drive where only the sine can be computed.
     #[error(
         "this analysis holds for the sine of Eq. (1) only, and the table [drive] gives another motion: remove the table, or use \
-         one of the analyses that accept any drive: tosses, orbit diagrams, periodic orbits, basins, motor transients, \
+         one of the analyses that accept any drive: tosses, orbit diagrams, periodic orbits, doublings, verdicts, basins, motor transients, \
          torque-speed curves, stall, best values and sweeps"
     )]
     DriveNotSine,
@@ -222,6 +222,12 @@ pub enum Error {
          (`motor transient`)"
     )]
     LoadInTime,
+    /// A number of a map by a name that it does not have.
+    #[error(
+        "the platform has no number of this name: possible are axial_forcing, restitution, contact_periods where a contact \
+         time is given, and the numbers of the shape by their places from 0, as sawtooth or fourier[1][0]"
+    )]
+    NoSuchNumber,
     /// A phase at which a toss starts, where nothing is tossed.
     #[error("start_phase is where a toss starts, and nothing is tossed here: leave it out")]
     StartPhase,

@@ -36,7 +36,7 @@ pub(crate) mod system;
 pub use contact::estimate::{ContactStatement, ContactWarning, LiftOff};
 pub use contact::{Contact, ContactLaw, Geometry, Material};
 pub use dimensionless::{DimensionlessParameters, DimensionlessSystem, ForcingParameters};
-pub use driven_platform::{DriveParameters, DrivenPlatform, Waveform};
+pub use driven_platform::{DriveParameters, DrivenPlatform, MapNumber, Waveform};
 pub use load::{LoadLaw, LoadSegment, MAX_LOAD_NODES};
 pub use scales::Scales;
 pub use stator::{Circuit, ElectricalInput, StatorKind, StatorModes, StatorParameters, VibrationMode};

@@ -1,12 +1,12 @@
 //! `bouncing-disk doublings`: the period-doubling cascade.
 
 use bouncing_disk::core::orbits::{
-    CascadeDoubling, FeigenbaumEstimate, doubling_cascade, feigenbaum_estimates,
+    CascadeDoubling, FeigenbaumEstimate, doubling_cascade, driven_doubling_cascade, feigenbaum_estimates,
 };
 
 use bouncing_disk_plot::rounded;
 
-use super::map::MapArgs;
+use super::map::{ContactArgs, MapArgs, driven_map, is_rigid_sine, is_sine, shape};
 use super::prelude::*;
 
 /// The period-doubling cascade, forcing by forcing, with Feigenbaum's constants
@@ -14,7 +14,7 @@ use super::prelude::*;
 #[command(after_help = "\
 The cascade starts from the orbit with one impact in each period of the platform, at the paper's Gamma_1, Gamma_2, ... From \
 the seventh doubling on there are estimates of Feigenbaum's constants. The error is what rounding may have moved a \
-forcing by. If the cascade ends early, the doublings found so far are printed with the reason. The command finds the forcings, so that there is no --axial-forcing; of a system it takes the restitution alone. See docs/numerics/dynamics.md.
+forcing by. If the cascade ends early, the doublings found so far are printed with the reason. The command finds the forcings, so that there is no --axial-forcing; of a system it takes the restitution and the shape of the drive. With another drive or --contact-periods it begins with the attracting orbit of one impact per period at the lowest forcing, and the error is that of the trace. See docs/numerics/dynamics.md.
 
 Examples:
   bouncing-disk doublings
@@ -22,6 +22,8 @@ Examples:
 pub(crate) struct DoublingsArgs {
     #[command(flatten)]
     map: MapArgs,
+    #[command(flatten)]
+    contact: ContactArgs,
     /// Doublings that are looked for, in [1, 13]
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, short = 'n', value_name = "N", default_value_t = 8)]
     count: usize,
@@ -31,15 +33,31 @@ pub(crate) struct DoublingsArgs {
 
 pub(super) fn run(args: &DoublingsArgs, context: Context) -> Result<()> {
     let given = args.map.system.begin(&args.output, true, context)?;
-    let Some(system) = given.map(DrivenDisk::sine).transpose()? else { return Ok(()) };
+    let Some((system, drive)) = given.map(DrivenDisk::rigid).transpose()? else { return Ok(()) };
+    let (drive, contact_periods) = (shape(&system, &drive)?, args.contact.contact_periods);
     let (_, restitution) = args.map.pair(&system, None, 0.0)?;
-    let cascade = doubling_cascade(restitution, args.count, &context.watch("doublings"))?;
+    let watch = context.watch("doublings");
+    let cascade = if is_rigid_sine(&drive, contact_periods) {
+        doubling_cascade(restitution, args.count, &watch)?
+    } else {
+        // What is wrong with the map, before the search asks for many.
+        driven_map(&drive, contact_periods, 1.0, restitution)?;
+        let shape = drive.clone();
+        let maps = move |forcing| driven_map(&shape, contact_periods, forcing, restitution).ok();
+        driven_doubling_cascade(maps, args.count, &watch)?
+    };
     let (found, ended_by) = (cascade.doublings, cascade.ended_by.map(|error| error.to_string()));
     let estimates = feigenbaum_estimates(&found);
     let of = |doubling: &CascadeDoubling| estimates.iter().find(|own| own.number == doubling.number).copied();
     let forcings: Vec<f64> = found.iter().map(|doubling| doubling.axial_forcing).collect();
     let rows = found.iter().map(|doubling| (*doubling, of(doubling))).collect();
-    let job = json!({ "restitution": restitution, "count": args.count });
+    let mut job = json!({ "restitution": restitution, "count": args.count });
+    if !is_sine(&drive) {
+        job["drive"] = json!(drive);
+    }
+    if let Some(periods) = contact_periods {
+        job["contact_periods"] = json!(periods);
+    }
     let report = Report {
         provenance: provenance("bouncing-disk doublings", &job)?,
         text: text(&found, &estimates, ended_by.as_deref()),

@@ -23,12 +23,6 @@ impl DrivenDisk {
         DimensionlessSystem::try_from(self.system)?;
         Ok((self.system, self.drive))
     }
-
-    /// The system, if impacts are rigid and the platform moves as a sine.
-    pub(crate) fn sine(self) -> Result<System, bouncing_disk::Error> {
-        self.drive.sine()?;
-        Ok(self.rigid()?.0)
-    }
 }
 
 const PIZZA_TOSS: fn() -> DrivenDisk = || DrivenDisk::from(System::pizza_toss());

@@ -81,11 +81,8 @@ fn drives() {
         file("start", "height = 'triangle'\nstart_phase = 1.0");
         file("infinite", "start_phase = inf");
         let sine_only = "this analysis holds for the sine of Eq. (1) only";
-        let lines = if command == "toss" {
-            &["doublings", "toss --template"][..]
-        } else {
-            &["motor report", "motor traps", ""]
-        };
+        let lines =
+            if command == "toss" { &["toss --template"][..] } else { &["motor report", "motor traps", ""] };
         let (template, sine) = lines.split_last().unwrap();
         for line in sine {
             folder.all_refused(2, &[(&format!("{line} triangle.toml"), sine_only)]);

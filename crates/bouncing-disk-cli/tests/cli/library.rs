@@ -6,7 +6,7 @@ use crate::common::Folder;
 use bouncing_disk::core::attractors::{
     AttractorSearch, Axis, BasinSettings, Grid, VerdictSettings, verdicts,
 };
-use bouncing_disk::core::orbits::{OrbitSearch, Stability, doubling_cascade};
+use bouncing_disk::core::orbits::{OrbitSearch, Stability, doubling_cascade, driven_doubling_cascade};
 use bouncing_disk::core::sweep::orbit_diagram;
 use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Phase, Unobserved, Vibration};
 use bouncing_disk::driven::{self, DrivenStart, DrivenSystem};
@@ -195,6 +195,12 @@ fn diagrams_orbits_and_basins_of_parabolas() {
     let line = "orbits a.toml -G 0.36 --impacts 2 --platform-periods 2 --starts 20";
     assert_eq!(written(line)["orbits"], stored(&orbits));
     assert!(orbits.iter().any(|orbit| orbit.stability() == Stability::Stable));
+    let maps = move |forcing| Some(map(forcing));
+    let first = driven_doubling_cascade(maps, 1, &Unobserved).unwrap().doublings[0];
+    assert_eq!(
+        written("doublings a.toml --count 1")["doublings"][0]["axial_forcing"],
+        json!(first.axial_forcing)
+    );
     let labels = "hexadecimal_labels_by_speed";
     let basins = "basins a.toml -G 0.36 --cells 12 --speed 0:2";
     let whole = written(basins);

@@ -1,7 +1,7 @@
 //! The motions of a platform: Fourier sums and pieces of polynomials.
 
 use core::f64::consts::TAU;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use crate::flight::drive::pieces::Pieces;
 use crate::flight::platform::vibration::Vibration;
@@ -95,10 +95,20 @@ pub(crate) struct Harmonic {
     angle: f64,
 }
 
-#[derive(Debug, PartialEq)]
+#[derive(Debug)]
 pub(crate) struct Fourier {
     harmonics: Vec<Harmonic>,
+    /// Without those of the height: [`Self::bounds`].
     bounds: DriveBounds,
+    /// The bounds of the height, which take many times as long as all else, once somebody needs them.
+    heights: OnceLock<(f64, f64)>,
+}
+
+/// The harmonics decide all else.
+impl PartialEq for Fourier {
+    fn eq(&self, other: &Self) -> bool {
+        self.harmonics == other.harmonics
+    }
 }
 
 impl Drive {
@@ -132,8 +142,7 @@ impl Drive {
         let most = Vibration::MAX_PEAK_ACCELERATION;
         within("acceleration of a drive", acceleration, 0.0, most, "[0, 1e8] (units of g)")?;
         let none = DriveBounds { lowest: 0.0, highest: 0.0, speed, acceleration, jerk };
-        let mut fourier = Fourier { harmonics: kept, bounds: none };
-        (fourier.bounds.lowest, fourier.bounds.highest) = fourier.height_bounds();
+        let fourier = Fourier { harmonics: kept, bounds: none, heights: OnceLock::new() };
         Ok(Self { shape: Shape::Fourier(Arc::new(fourier)) })
     }
 
@@ -176,12 +185,17 @@ impl Drive {
     /// then: it holds up to the next joint.
     #[must_use]
     pub fn derivative(&self, order: u32, time: f64) -> QuasiPolynomial {
-        let order = order.min(2);
-        let (at, terms) = self.at_with_terms(time, order, 1.0);
         let bounds = self.bounds();
         let height = bounds.highest.abs().max(bounds.lowest.abs());
         let errors =
             [height, bounds.speed, bounds.acceleration, bounds.jerk].map(|size| 8.0 * f64::EPSILON * size);
+        self.derivative_known_to(errors, order, time)
+    }
+
+    /// The same with these errors of height, velocity, acceleration and jerk.
+    fn derivative_known_to(&self, errors: [f64; 4], order: u32, time: f64) -> QuasiPolynomial {
+        let order = order.min(2);
+        let (at, terms) = self.at_with_terms(time, order, 1.0);
         let values = [at.height, at.velocity, at.acceleration, at.jerk, 0.0, 0.0];
         let k = order as usize;
         let bend = match &self.shape {
@@ -222,7 +236,8 @@ impl Drive {
         while left > 0.0 {
             let joint = self.next_joint(here);
             let step = joint.map_or(left, |joint| joint.after.min(left));
-            let change = self.derivative(0, here).starting_with([0.0; 2], [0.0; 2]).at(step, step);
+            let motion = self.derivative_known_to([0.0; 4], 0, here);
+            let change = motion.starting_with([0.0; 2], [0.0; 2]).at(step, step);
             height += step * velocity + change.value;
             velocity += change.slope;
             left -= step;
@@ -271,7 +286,7 @@ impl Drive {
     #[must_use]
     pub fn bounds(&self) -> DriveBounds {
         match &self.shape {
-            Shape::Fourier(fourier) => fourier.bounds,
+            Shape::Fourier(fourier) => fourier.bounds(),
             Shape::Pieces(pieces) => pieces.bounds,
         }
     }
@@ -408,6 +423,11 @@ impl Fourier {
 
     fn highest_harmonic(&self) -> f64 {
         self.harmonics.iter().fold(1.0, |most, harmonic| harmonic.number.max(most))
+    }
+
+    fn bounds(&self) -> DriveBounds {
+        let &(lowest, highest) = self.heights.get_or_init(|| self.height_bounds());
+        DriveBounds { lowest, highest, ..self.bounds }
     }
 
     /// Bounds on the height: between two samples it differs from the line between them by at most s'' d^2/8.

@@ -23,7 +23,7 @@ pub(crate) struct Border {
 /// The equations of a closed sequence: `own[i] x[i] + next[i] x[i + 1] + column[i] mu = right[i]`, the index
 /// taken modulo their number.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct CyclicEquations {
+pub struct CyclicEquations {
     pub(crate) own: Vec<DMat2>,
     pub(crate) next: Vec<DMat2>,
     pub(crate) column: Vec<DVec2>,

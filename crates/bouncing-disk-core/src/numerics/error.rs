@@ -144,6 +144,12 @@ pub enum Error {
         /// The parameter of the continuation at which the search took place.
         parameter: f64,
     },
+    /// A branch of periodic orbits ends before it doubles its period.
+    #[error("the branch ends before another doubling follows the one, or the start, at {after:?}")]
+    NoDoubling {
+        /// The last doubling, or where the branch began.
+        after: f64,
+    },
     /// A number of a list is not of the kind that is needed.
     #[error("{what} number {index} of {count} is not {expected}")]
     NotOfKind {

@@ -2,6 +2,7 @@
 //! Newton's iteration on the impact times (docs/numerics/dynamics.md, "The doubling cascade").
 
 pub(crate) mod branch;
+pub(crate) mod driven;
 pub(crate) mod feigenbaum;
 mod recurrence;
 
@@ -38,7 +39,7 @@ pub struct CascadeDoubling<R = f64> {
     /// The largest distance (rad) of an impact of the orbit from the one half a period later; 0 for n = 1.
     pub width: R,
     /// How near a flight of the orbit comes to an earlier impact, in units of g/omega^2; infinite if none
-    /// comes near.
+    /// comes near; NaN on a drive.
     pub graze_margin: f64,
 }
 

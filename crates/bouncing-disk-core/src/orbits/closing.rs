@@ -1,17 +1,26 @@
-//! The equations of a closed sequence of flights and of their derivatives by one parameter. They ignore
-//! earlier impacts that would end a flight, and so are smooth through a graze
+//! The equations of a closed sequence of flights and of their derivatives by one parameter. With rigid impacts they
+//! ignore earlier impacts that would end a flight, and so are smooth through a graze
 //! (docs/numerics/dynamics.md, "Branches").
 
-use core::f64::consts::{PI, TAU};
+use core::f64::consts::TAU;
+use core::fmt::Debug;
+use core::ops::ControlFlow;
 
-use glam::{DMat2, DVec2};
+use glam::DVec2;
 
 use crate::flight::platform::phase::Phase;
 use crate::flight::platform::vibration::Vibration;
-use crate::map::impact_map::{ImpactMap, ImpactState};
+use crate::map::impact_map::ImpactState;
 use crate::numerics::bordered_cyclic::{Border, CyclicEquations};
-use crate::numerics::elementary::{cos, nearest_whole, sin, sin_cos};
-use crate::numerics::error::Error;
+use crate::numerics::elementary::nearest_whole;
+use crate::numerics::error::{Error, within};
+use crate::orbits::cascade::MAX_DOUBLINGS;
+use crate::orbits::continuation::{Branch, Continuation, LocatedDoubling, walker};
+use crate::orbits::periodic::PeriodicOrbit;
+use crate::run::{Observer, Progress, Watch};
+
+pub(crate) mod family;
+mod sine;
 
 /// Newton steps until a correction is given up.
 const MAX_CORRECTIONS: u32 = 12;
@@ -36,30 +45,200 @@ pub enum ContinuationParameter {
     Forcing,
     /// The coefficient of restitution, in (0, 1).
     Restitution,
+    /// The number of a [`DrivenFamily`](super::DrivenFamily).
+    Number,
 }
 
 impl ContinuationParameter {
-    /// Its value for a map.
-    #[must_use]
-    pub fn of(self, map: &ImpactMap) -> f64 {
-        match self {
-            Self::Forcing => map.vibration().axial_forcing(),
-            Self::Restitution => map.restitution(),
-        }
-    }
-
     /// The range in which a map exists, and in which an impact is followed by a flight.
     pub(crate) const fn legal(self) -> (f64, f64) {
         match self {
             Self::Forcing => (0.0, Vibration::MAX_PEAK_ACCELERATION / core::f64::consts::PI),
             Self::Restitution => (f64::MIN_POSITIVE, 1.0 - f64::EPSILON / 2.0),
+            Self::Number => (f64::MIN, f64::MAX),
         }
     }
 }
 
-/// Impacts (phase in rad, the disk's own speed after the impact in units of g/omega) and the parameter.
+/// A map whose periodic orbits can be continued in a parameter: [`ImpactMap`](crate::ImpactMap) in its forcing and its restitution,
+/// [`DrivenFamily`](super::DrivenFamily) in its number.
+pub trait ContinuedMap: Clone + Debug {
+    /// Whether Newton's method converges quadratically: the derivatives are exact.
+    #[doc(hidden)]
+    const IS_QUADRATIC: bool = true;
+
+    /// The work of a flight, in flights of the sine.
+    #[doc(hidden)]
+    const WORK: u64 = 1;
+
+    /// Its value of a parameter; `None` if it has no such parameter.
+    fn parameter(&self, by: ContinuationParameter) -> Option<f64>;
+
+    /// The map with another value of a parameter.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a value without a map.
+    fn with_parameter(&self, by: ContinuationParameter, value: f64) -> Result<Self, Error>;
+
+    /// Coefficient of restitution, in [0, 1).
+    fn restitution(&self) -> f64;
+
+    /// Checks that `orbit` is an orbit of this map: that each of its impacts leads to the next one.
+    ///
+    /// # Errors
+    /// [`Error::NotAnOrbit`] and the others of [`ImpactMap::check_orbit`](crate::ImpactMap::check_orbit).
+    fn check_orbit(&self, orbit: &PeriodicOrbit) -> Result<(), Error>;
+
+    /// The units of the arclength.
+    #[doc(hidden)]
+    fn scale(&self, by: ContinuationParameter) -> Scale;
+
+    /// The unknowns of an impact.
+    #[doc(hidden)]
+    fn unknowns(&self, state: ImpactState) -> DVec2;
+
+    /// The time (rad) from an impact to the next.
+    #[doc(hidden)]
+    fn time_to_next(&self, state: ImpactState) -> Result<f64, Error>;
+
+    /// How far the equations are from being satisfied, negative, and their derivatives.
+    #[doc(hidden)]
+    fn equations(&self, by: ContinuationParameter, at: &Closed, durations: &[f64])
+    -> Option<CyclicEquations>;
+
+    /// Relative velocities (disk minus platform) before and after each impact.
+    #[doc(hidden)]
+    fn velocities(&self, by: ContinuationParameter, at: &Closed, durations: &[f64]) -> Vec<(f64, f64)>;
+
+    /// Whether the platform meets the disk between two impacts.
+    #[doc(hidden)]
+    fn is_grazed(&self, flight: &Flight) -> Result<bool, Error>;
+
+    /// The duration that this map finds for a flight.
+    #[doc(hidden)]
+    fn duration_found(&self, flight: &Flight) -> Result<f64, Error>;
+
+    /// The orbit with these impacts, and trace and determinant of the derivative around it.
+    #[doc(hidden)]
+    fn orbit_through(&self, states: Vec<ImpactState>, durations: &[f64])
+    -> Option<(PeriodicOrbit, [f64; 2])>;
+
+    /// Whether the acceleration of the platform jumps between two phases (rad), or within rounding of them.
+    #[doc(hidden)]
+    fn has_joint_between(&self, _from: f64, _to: f64) -> bool {
+        false
+    }
+
+    /// Whether the velocity of the platform jumps there.
+    #[doc(hidden)]
+    fn is_on_kink(&self, _phase: f64) -> bool {
+        false
+    }
+
+    /// Whether the derivative at the next impact is infinite.
+    #[doc(hidden)]
+    fn is_torn_after(&self, _state: ImpactState) -> bool {
+        false
+    }
+
+    /// The branch of periodic orbits through `orbit`, an orbit of this map, by continuation in the
+    /// pseudo-arclength: through folds, and along unstable parts, until it ends
+    /// ([`BranchEnd`](super::BranchEnd)).
+    ///
+    /// Doublings, folds, and where the orbit ceases to exist are located to the rounding. Two of one kind
+    /// within one step are missed: see [`Continuation::with_steps`].
+    ///
+    /// The items of `observer` are the points that are allowed.
+    ///
+    /// ```
+    /// # use bouncing_disk_core::orbits::{BifurcationKind, Continuation, ContinuationParameter, ContinuedMap as _};
+    /// # use bouncing_disk_core::{ImpactMap, Unobserved, Vibration};
+    /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
+    /// let orbit = map.refine(&[map.period_one(1).expect("it exists")])?;
+    /// let rising = Continuation::new(ContinuationParameter::Forcing, (0.1, 0.6), true)?;
+    /// let branch = map.continued(&orbit, &rising, &Unobserved)?;
+    /// let doubling = branch.of_kind(BifurcationKind::Doubling).next().expect("the first doubling");
+    /// assert!((doubling.point.parameter - ImpactMap::first_doubling_forcing(0.5)).abs() < 1e-14);
+    /// # Ok::<(), bouncing_disk_core::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if the parameter of this map is outside of the range, or the restitution is 0;
+    /// [`Error::NotOfKind`] if it has no such parameter; [`Error::NotAnOrbit`] if `orbit` is not an orbit of this
+    /// map; [`Error::NoBranch`] if it is not an isolated one: start beside a fold or a birth, not on it.
+    fn continued(
+        &self,
+        orbit: &PeriodicOrbit,
+        settings: &Continuation,
+        observer: &dyn Observer,
+    ) -> Result<Branch<Self>, Error> {
+        settings.check()?;
+        orbit.check()?;
+        settings.check_map(self)?;
+        self.check_orbit(orbit)?;
+        self.continued_from(orbit, settings, observer)
+    }
+
+    /// The first `count` period doublings, in [1, [`MAX_DOUBLINGS`]], from `orbit` on: of its branch, of the branch that
+    /// begins there, and so on. There are fewer where a branch ends before it doubles.
+    ///
+    /// The items of `observer` are the doublings.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for the count; those of [`Self::continued`] and [`Branch::switched`].
+    fn doublings(
+        &self,
+        orbit: &PeriodicOrbit,
+        settings: &Continuation,
+        count: usize,
+        observer: &dyn Observer,
+    ) -> Result<Vec<LocatedDoubling>, Error> {
+        within("count", count as f64, 1.0, MAX_DOUBLINGS as f64, "[1, 13]")?;
+        let watch = Watch::begin(observer, 0, count as u64)?;
+        let asked = |_: Progress| {
+            if watch.ask().is_ok() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        };
+        let of_all = |error| match error {
+            Error::Stopped { .. } => {
+                let Progress { done, total } = watch.progress();
+                Error::Stopped { done, total }
+            }
+            other => other,
+        };
+        let mut branch = self.continued(orbit, settings, &asked).map_err(of_all)?;
+        let mut found = Vec::new();
+        while let Some((index, doubling)) = branch.first_doubling() {
+            found.push(doubling);
+            watch.finish(1);
+            if found.len() == count {
+                break;
+            }
+            branch = branch.switched(index, settings, &asked).map_err(of_all)?;
+        }
+        watch.end();
+        Ok(found)
+    }
+
+    /// [`Self::continued`] from an orbit of this map or of one next to it.
+    ///
+    /// # Errors
+    /// Those of [`Self::continued`], but for [`Error::NotAnOrbit`].
+    // The explorer draws branches with it.
+    #[doc(hidden)]
+    fn continued_from(
+        &self,
+        orbit: &PeriodicOrbit,
+        settings: &Continuation,
+        observer: &dyn Observer,
+    ) -> Result<Branch<Self>, Error> {
+        walker::continued_from(self, orbit, settings, observer)
+    }
+}
+
+/// Impacts (phase in rad, and with rigid impacts the disk's own speed after the impact, otherwise its velocity before
+/// it, in units of g/omega) and the parameter.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Closed {
+pub struct Closed {
     pub(crate) impacts: Vec<DVec2>,
     pub(crate) parameter: f64,
 }
@@ -79,9 +258,18 @@ pub(crate) fn turned(angle: f64) -> f64 {
 
 /// The units in which changes of the first impact and of the parameter are measured.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Scale {
+pub struct Scale {
     pub(crate) speed: f64,
     pub(crate) parameter: f64,
+}
+
+/// A flight from an impact to the next: phase (rad) and relative velocity (g/omega) at either end, and its duration
+/// (rad).
+#[derive(Debug, Clone, Copy)]
+pub struct Flight {
+    pub(crate) from: (f64, f64),
+    pub(crate) to: (f64, f64),
+    pub(crate) duration: f64,
 }
 
 /// The plane in which a correction looks for a point: at this distance from a base, across a direction
@@ -95,37 +283,31 @@ pub(crate) struct Plane {
 
 /// A sequence of flights that closes, with the properties that are the same all along a branch.
 #[derive(Debug, Clone)]
-pub(crate) struct Closing {
+pub(crate) struct Closing<M> {
     /// The map at the start of the branch: where the other parameters come from.
-    pub(crate) map: ImpactMap,
+    pub(crate) map: M,
     pub(crate) by: ContinuationParameter,
     pub(crate) scale: Scale,
     /// The turns of the phase that belong to each flight.
     turns: Vec<f64>,
 }
 
-impl Closing {
+impl<M: ContinuedMap> Closing<M> {
     /// The equations of an orbit of `map`, and the orbit in their unknowns.
     pub(crate) fn of(
-        map: &ImpactMap,
+        map: &M,
         by: ContinuationParameter,
         states: &[ImpactState],
     ) -> Result<(Self, Closed), Error> {
-        let (p, r) = (map.vibration().peak_acceleration(), map.restitution());
         let n = states.len();
-        let impact = |state: &ImpactState| {
-            DVec2::new(state.phase().angle(), p * state.phase().cos() - r * state.velocity())
-        };
-        let impacts: Vec<DVec2> = states.iter().map(impact).collect();
+        let impacts: Vec<DVec2> = states.iter().map(|state| map.unknowns(*state)).collect();
         let mut turns = Vec::with_capacity(n);
         for (i, &state) in states.iter().enumerate() {
             let between = impacts[(i + 1) % n].x - impacts[i].x;
-            turns.push(nearest_whole((map.step(state)?.duration() - between) / TAU));
+            turns.push(nearest_whole((map.time_to_next(state)? - between) / TAU));
         }
-        let parameter = by.of(map);
-        let of_parameter = if by == ContinuationParameter::Forcing { parameter } else { 1.0 };
-        let scale = Scale { speed: 1.0 + p, parameter: of_parameter };
-        Ok((Self { map: *map, by, scale, turns }, Closed { impacts, parameter }))
+        let parameter = map.parameter(by).unwrap_or(f64::NAN);
+        Ok((Self { map: map.clone(), by, scale: map.scale(by), turns }, Closed { impacts, parameter }))
     }
 
     /// The turns of the phase in each flight.
@@ -156,24 +338,10 @@ impl Closing {
         self.turns.len()
     }
 
-    /// Peak acceleration P and restitution.
-    pub(crate) fn strengths(&self, parameter: f64) -> (f64, f64) {
-        match self.by {
-            ContinuationParameter::Forcing => (PI * parameter, self.map.restitution()),
-            ContinuationParameter::Restitution => (self.map.vibration().peak_acceleration(), parameter),
-        }
-    }
-
     /// The map at this parameter, or at the nearest one for which there is a map.
-    pub(crate) fn map_at(&self, parameter: f64) -> Result<ImpactMap, Error> {
+    pub(crate) fn map_at(&self, parameter: f64) -> Result<M, Error> {
         let (least, most) = self.by.legal();
-        let parameter = parameter.clamp(least, most);
-        match self.by {
-            ContinuationParameter::Forcing => {
-                ImpactMap::new(Vibration::from_axial_forcing(parameter)?, self.map.restitution())
-            }
-            ContinuationParameter::Restitution => ImpactMap::new(*self.map.vibration(), parameter),
-        }
+        self.map.with_parameter(self.by, parameter.clamp(least, most))
     }
 
     /// The duration of a flight.
@@ -181,30 +349,42 @@ impl Closing {
         (impacts[(i + 1) % impacts.len()].x - impacts[i].x) + TAU * self.turns[i]
     }
 
-    /// Relative velocities (disk minus platform) before and after each impact.
-    pub(crate) fn velocities(&self, at: &Closed) -> Vec<(f64, f64)> {
-        let n = at.impacts.len();
-        let (p, r) = self.strengths(at.parameter);
+    fn durations(&self, impacts: &[DVec2]) -> Vec<f64> {
+        (0..impacts.len()).map(|i| self.duration(impacts, i)).collect()
+    }
+
+    /// The flights of a solution; the velocities of one that is no orbit may have any sign.
+    pub(crate) fn flights_of(&self, at: &Closed) -> Vec<Flight> {
+        let (n, durations) = (at.impacts.len(), self.durations(&at.impacts));
+        let velocities = self.map.velocities(self.by, at, &durations);
         let one = |i: usize| {
-            let before = (i + n - 1) % n;
-            let platform = p * cos(at.impacts[i].x);
-            let landing = at.impacts[before].y - self.duration(&at.impacts, before);
-            // By the law: u - P cos tau would be a difference of large numbers where the restitution is
-            // small.
-            (landing - platform, r * (platform - landing))
+            let to = (i + 1) % n;
+            Flight {
+                from: (at.impacts[i].x, velocities[i].1),
+                to: (at.impacts[to].x, velocities[to].0),
+                duration: durations[i],
+            }
         };
         (0..n).map(one).collect()
     }
 
     /// The impacts of a solution; `None` where one has no speed.
     pub(crate) fn states(&self, at: &Closed) -> Option<Vec<ImpactState>> {
+        let velocities = self.map.velocities(self.by, at, &self.durations(&at.impacts));
         let one = |(impact, (arrival, _)): (&DVec2, (f64, f64))| {
             if arrival >= 0.0 {
                 return None;
             }
             ImpactState::new(Phase::new(impact.x).ok()?, arrival).ok()
         };
-        at.impacts.iter().zip(self.velocities(at)).map(one).collect()
+        at.impacts.iter().zip(velocities).map(one).collect()
+    }
+
+    /// The impact at which the derivative of the map is infinite.
+    pub(crate) fn impact_lost(&self, at: &Closed) -> Option<usize> {
+        let (map, states) = (self.map_at(at.parameter).ok()?, self.states(at)?);
+        let flight = states.iter().position(|state| map.is_torn_after(*state))?;
+        Some((flight + 1) % states.len())
     }
 
     /// First impact and parameter in units of the scale.
@@ -216,36 +396,11 @@ impl Closing {
     /// How far the equations are from being satisfied, negative, and their derivatives; `None` where a flight
     /// has no duration.
     pub(crate) fn equations(&self, at: &Closed) -> Option<CyclicEquations> {
-        let n = at.impacts.len();
-        let (p, r) = self.strengths(at.parameter);
-        let mut equations = CyclicEquations::default();
-        for i in 0..n {
-            let (from, to) = (at.impacts[i], at.impacts[(i + 1) % n]);
-            let h = self.duration(&at.impacts, i);
-            if !(h > 0.0 && h.is_finite()) {
-                return None;
-            }
-            let (_, c) = sin_cos(from.x);
-            let (s1, c1) = sin_cos(to.x);
-            // The mean slope of the platform's height over the flight, per P.
-            let slope = sin_cos(from.x + 0.5 * h).1 * (sin(0.5 * h) / (0.5 * h));
-            let landing = from.y - h;
-            let flight = from.y - 0.5 * h - p * slope;
-            let law = to.y + r * landing - (1.0 + r) * p * c1;
-            equations.right.push(DVec2::new(-flight, -law));
-            equations
-                .own
-                .push(DMat2::from_cols(DVec2::new(0.5 - p * (slope - c) / h, r), DVec2::new(1.0, r)));
-            equations.next.push(DMat2::from_cols(
-                DVec2::new(-0.5 - p * (c1 - slope) / h, (1.0 + r) * p * s1 - r),
-                DVec2::new(0.0, 1.0),
-            ));
-            equations.column.push(match self.by {
-                ContinuationParameter::Forcing => DVec2::new(-PI * slope, -(1.0 + r) * PI * c1),
-                ContinuationParameter::Restitution => DVec2::new(0.0, landing - p * c1),
-            });
+        let durations = self.durations(&at.impacts);
+        if !durations.iter().all(|duration| *duration > 0.0 && duration.is_finite()) {
+            return None;
         }
-        Some(equations)
+        self.map.equations(self.by, at, &durations)
     }
 
     /// The border of a plane, for a step or a direction from `at`.
@@ -274,7 +429,7 @@ impl Closing {
             at = at.moved(&Closed { impacts: steps, parameter: change }, 1.0);
             // Next to a singular point the steps shrink slowly, and a small one does not tell of a small
             // distance.
-            let settled = size <= FAST * last || size > STILL * last && size <= NEARLY;
+            let settled = M::IS_QUADRATIC && size <= FAST * last || size > STILL * last && size <= NEARLY;
             if size <= ROUNDING || last <= NEARLY && settled {
                 return Some((at, step));
             }

@@ -1,15 +1,14 @@
 //! Branches of periodic orbits in a parameter: through folds and along unstable parts, with the bifurcations
 //! on the way (docs/numerics/dynamics.md, "Branches").
 
-use crate::flight::platform::vibration::Vibration;
-use crate::map::impact_map::ImpactMap;
+use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::error::{Error, finite, within};
 use crate::numerics::stored::read_checked;
-use crate::orbits::closing::{Closing, ContinuationParameter};
-use crate::orbits::periodic::{Multipliers, PeriodicOrbit, Stability};
+use crate::orbits::closing::{Closing, ContinuationParameter, ContinuedMap};
+use crate::orbits::periodic::{Multipliers, PeriodicOrbit, Stability, phase_difference};
 use crate::run::{Observer, Watch};
 
-mod walker;
+pub(super) mod walker;
 
 use walker::Walker;
 
@@ -75,7 +74,7 @@ impl Continuation {
     }
 
     /// Checks a value that was deserialised.
-    fn check(&self) -> Result<(), Error> {
+    pub(super) fn check(&self) -> Result<(), Error> {
         let (least, most) = self.parameter.legal();
         within("low end of a continuation", self.low, least, most, "the range of its parameter")?;
         within(
@@ -88,6 +87,23 @@ impl Continuation {
         within("largest step", self.largest_step, 1.0e-9, 1.0, "[1e-9, 1]")?;
         within("first step", self.first_step, 1.0e-9, self.largest_step, "[1e-9, largest step]")?;
         within("points of a branch", self.max_points as f64, 2.0, Self::MAX_POINTS as f64, "[2, 1000000]")?;
+        Ok(())
+    }
+
+    /// Refuses a map that does not lie in the range, and that of a disk without restitution.
+    pub(super) fn check_map<M: ContinuedMap>(&self, map: &M) -> Result<(), Error> {
+        within("restitution of a continuation", map.restitution(), f64::MIN_POSITIVE, 1.0, "(0, 1)")?;
+        let (what, index, count) = ("parameter of a continuation", self.parameter as usize, 3);
+        let expected = "a number of this map";
+        let Some(parameter) = map.parameter(self.parameter) else {
+            return Err(Error::NotOfKind { what, index, count, expected });
+        };
+        // The forcing of a map, P/pi, is rounded: that of a map made for an end of the range may lie beside
+        // it.
+        let rounding = ROUNDED * parameter.abs();
+        if parameter < self.low - rounding || parameter > self.high + rounding || parameter.is_nan() {
+            within(what, parameter, self.low, self.high, "[low, high] of the `Continuation`")?;
+        }
         Ok(())
     }
 
@@ -115,13 +131,13 @@ impl Continuation {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedPoint"))]
 pub struct BranchPoint {
-    /// The forcing Gamma or the restitution, whichever is varied.
+    /// The value of the parameter that is varied.
     pub parameter: f64,
     /// The orbit, an orbit of the map: no earlier impact forestalls a flight.
     pub orbit: PeriodicOrbit,
     /// The trace of the derivative around the orbit.
     pub trace: f64,
-    /// Its determinant, r^(2 n) for n impacts, in [0, 1].
+    /// Its determinant, for n rigid impacts r^(2 n), in [-1, 1].
     pub determinant: f64,
     /// The arclength from the start of the branch (see [`Continuation::new`]).
     pub arclength: f64,
@@ -140,7 +156,7 @@ impl BranchPoint {
     fn check(&self) -> Result<(), Error> {
         finite("parameter of a branch", self.parameter)?;
         finite("trace", self.trace)?;
-        within("determinant", self.determinant, 0.0, 1.0, "[0, 1]")?;
+        within("determinant", self.determinant, -1.0, 1.0, "[-1, 1]")?;
         within("arclength", self.arclength, 0.0, f64::MAX, "[0, inf)")?;
         Ok(())
     }
@@ -149,6 +165,11 @@ impl BranchPoint {
     #[must_use]
     pub fn multipliers(&self) -> Multipliers {
         Multipliers::of_invariants(self.trace, self.determinant)
+    }
+
+    /// (1 + m1)(1 + m2) of the multipliers.
+    pub(super) fn flip_function(&self) -> f64 {
+        1.0 + self.trace + self.determinant
     }
 
     /// Whether the orbit attracts, where rounding leaves no doubt of it ([`Stability::Stable`]).
@@ -172,8 +193,15 @@ pub enum BifurcationKind {
         /// Which flight, the one after this impact.
         flight: usize,
     },
-    /// The speed of an impact falls to zero: beyond, the disk passes without it.
+    /// The speed of an impact falls to zero, or the force of a compliant contact only touches zero: beyond, the disk
+    /// passes without this impact, or is not released there.
     VanishingImpact {
+        /// Which impact.
+        impact: usize,
+    },
+    /// An impact passes a place at which the acceleration of the platform jumps, and with it the multipliers: an orbit
+    /// gains or loses its stability, or the branch turns back in the parameter. Where the velocity jumps, it ends.
+    BorderCollision {
         /// Which impact.
         impact: usize,
     },
@@ -191,6 +219,7 @@ impl BifurcationKind {
             Self::Fold => "fold",
             Self::Graze { .. } => "graze",
             Self::VanishingImpact { .. } => "vanishing impact",
+            Self::BorderCollision { .. } => "border collision",
             Self::Birth => "birth",
         }
     }
@@ -210,6 +239,18 @@ pub struct Bifurcation {
     pub point: BranchPoint,
 }
 
+/// A period doubling, with the error of its parameter.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct LocatedDoubling {
+    /// The orbit there.
+    pub point: BranchPoint,
+    /// How far the errors of the orbit may have moved the parameter: that of the trace over its slope.
+    pub parameter_error: f64,
+    /// The largest distance (rad) of an impact from the one half a period later; 0 for a single impact.
+    pub width: f64,
+}
+
 /// Why a branch ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -224,7 +265,8 @@ pub enum BranchEnd {
     Closed,
     /// There are as many points as were allowed.
     PointLimit(usize),
-    /// Newton's method finds no next point even at this arclength: by rounding, or for an unknown reason.
+    /// Newton's method finds no next point even at this arclength: by rounding, at the end of the range in which a
+    /// family has maps, or for an unknown reason.
     StepTooSmall(f64),
 }
 
@@ -232,11 +274,11 @@ pub enum BranchEnd {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct Branch {
+pub struct Branch<M = ImpactMap> {
     /// The parameter that is varied.
     pub parameter: ContinuationParameter,
     /// The map at the start of the branch: the other parameters.
-    pub map: ImpactMap,
+    pub map: M,
     /// The orbits in the order of the arclength; the last one lies at the end, or within a step of the birth
     /// that ends the branch.
     pub points: Vec<BranchPoint>,
@@ -246,23 +288,39 @@ pub struct Branch {
     pub end: BranchEnd,
 }
 
-impl Branch {
+impl<M: ContinuedMap> Branch<M> {
     /// The bifurcations of one kind, in the order of the arclength.
     pub fn of_kind(&self, kind: BifurcationKind) -> impl Iterator<Item = &Bifurcation> {
         self.bifurcations.iter().filter(move |bifurcation| bifurcation.kind == kind)
+    }
+
+    /// The first doubling, and its number among the bifurcations.
+    pub(super) fn first_doubling(&self) -> Option<(usize, LocatedDoubling)> {
+        let is_doubling = |found: &Bifurcation| found.kind == BifurcationKind::Doubling;
+        let index = self.bifurcations.iter().position(is_doubling)?;
+        let point = &self.bifurcations[index].point;
+        let after = self.points.partition_point(|other| other.arclength <= point.arclength);
+        let after = after.clamp(1, self.points.len().checked_sub(1)?.max(1));
+        let [one, other] = [after - 1, after].map(|index| self.points.get(index));
+        let slope = one.zip(other).map_or(f64::NAN, |(one, other)| {
+            (other.flip_function() - one.flip_function()) / (other.parameter - one.parameter)
+        });
+        let (states, half) = (&point.orbit.states, point.orbit.period() / 2);
+        let apart = |(one, other): (&ImpactState, &ImpactState)| {
+            phase_difference(one.phase().angle(), other.phase().angle()).abs()
+        };
+        let width = states[..half].iter().zip(&states[half..]).map(apart).fold(0.0, f64::max);
+        let rounding = 2.0 * f64::EPSILON * point.parameter.abs();
+        let parameter_error = point.orbit.trace_error / slope.abs() + rounding;
+        Some((index, LocatedDoubling { point: point.clone(), parameter_error, width }))
     }
 
     /// The map at a value of the parameter.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a value outside its range.
-    pub fn map_at(&self, parameter: f64) -> Result<ImpactMap, Error> {
-        match self.parameter {
-            ContinuationParameter::Forcing => {
-                ImpactMap::new(Vibration::from_axial_forcing(parameter)?, self.map.restitution())
-            }
-            ContinuationParameter::Restitution => ImpactMap::new(*self.map.vibration(), parameter),
-        }
+    pub fn map_at(&self, parameter: f64) -> Result<M, Error> {
+        self.map.with_parameter(self.parameter, parameter)
     }
 
     /// The branch of twice the period that begins at number `index` of this branch's [`Self::bifurcations`],
@@ -273,7 +331,7 @@ impl Branch {
     ///
     /// # Errors
     /// [`Error::NotOfKind`] if there is no such bifurcation or it is not a doubling; [`Error::NoBranch`] if
-    /// no doubled orbit is found; those of [`ImpactMap::continued`].
+    /// no doubled orbit is found; those of [`ContinuedMap::continued`].
     pub fn switched(
         &self,
         index: usize,
@@ -290,81 +348,6 @@ impl Branch {
         let map = self.map_at(doubling.point.parameter)?;
         let (closing, at) = Closing::of(&map, settings.parameter, &doubling.point.orbit.states)?;
         let (walker, located) = Walker::after_doubling(closing, at, settings, watch.work())?;
-        let branch = walker.walk(located)?;
-        watch.end();
-        Ok(branch)
-    }
-}
-
-impl ImpactMap {
-    /// The branch of periodic orbits through `orbit`, an orbit of this map, by continuation in the
-    /// pseudo-arclength: through folds, and along unstable parts, until it ends ([`BranchEnd`]).
-    ///
-    /// Doublings, folds, and where the orbit ceases to exist are located to the rounding. Two of one kind
-    /// within one step are missed: see [`Continuation::with_steps`].
-    ///
-    /// The items of `observer` are the points that are allowed.
-    ///
-    /// ```
-    /// # use bouncing_disk_core::orbits::{BifurcationKind, Continuation, ContinuationParameter};
-    /// # use bouncing_disk_core::{ImpactMap, Unobserved, Vibration};
-    /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
-    /// let orbit = map.refine(&[map.period_one(1).expect("it exists")])?;
-    /// let rising = Continuation::new(ContinuationParameter::Forcing, (0.1, 0.6), true)?;
-    /// let branch = map.continued(&orbit, &rising, &Unobserved)?;
-    /// let doubling = branch.of_kind(BifurcationKind::Doubling).next().expect("the first doubling");
-    /// assert!((doubling.point.parameter - ImpactMap::first_doubling_forcing(0.5)).abs() < 1e-14);
-    /// # Ok::<(), bouncing_disk_core::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`] if the parameter of this map is outside of the range, or the restitution is 0;
-    /// [`Error::NotAnOrbit`] if `orbit` is not an orbit of this map; [`Error::NoBranch`] if it is not an
-    /// isolated one: start beside a fold or a birth, not on it.
-    pub fn continued(
-        &self,
-        orbit: &PeriodicOrbit,
-        settings: &Continuation,
-        observer: &dyn Observer,
-    ) -> Result<Branch, Error> {
-        settings.check()?;
-        orbit.check()?;
-        self.check_parameter(settings)?;
-        self.check_orbit(orbit)?;
-        self.continued_from(orbit, settings, observer)
-    }
-
-    /// Refuses a continuation in whose range this map does not lie, and one of a disk without restitution.
-    fn check_parameter(&self, settings: &Continuation) -> Result<(), Error> {
-        within("restitution of a continuation", self.restitution(), f64::MIN_POSITIVE, 1.0, "(0, 1)")?;
-        let parameter = settings.parameter.of(self);
-        // The forcing of a map, P/pi, is rounded: that of a map made for an end of the range may lie beside
-        // it.
-        let rounding = ROUNDED * parameter;
-        if parameter < settings.low - rounding || parameter > settings.high + rounding || parameter.is_nan() {
-            let legal = "[low, high] of the `Continuation`";
-            within("parameter of a continuation", parameter, settings.low, settings.high, legal)?;
-        }
-        Ok(())
-    }
-
-    /// [`Self::continued`] from an orbit of this map or of one next to it.
-    ///
-    /// # Errors
-    /// Those of [`Self::continued`], but for [`Error::NotAnOrbit`].
-    // The explorer draws branches with it.
-    #[doc(hidden)]
-    pub fn continued_from(
-        &self,
-        orbit: &PeriodicOrbit,
-        settings: &Continuation,
-        observer: &dyn Observer,
-    ) -> Result<Branch, Error> {
-        self.check_parameter(settings)?;
-        let watch = Watch::begin(observer, 0, settings.max_points as u64)?;
-        let (closing, mut at) = Closing::of(self, settings.parameter, &orbit.states)?;
-        at.parameter = at.parameter.clamp(settings.low, settings.high);
-        let (walker, located) = Walker::new(closing, at, settings, watch.work())?;
         let branch = walker.walk(located)?;
         watch.end();
         Ok(branch)

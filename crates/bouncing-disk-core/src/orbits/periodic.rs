@@ -15,7 +15,7 @@ use crate::run::{Observer, Tick, Watch};
 
 pub(crate) mod belonging;
 mod driven;
-mod margin;
+pub(crate) mod margin;
 pub(crate) mod newton;
 pub(crate) mod pair;
 pub(crate) mod search;

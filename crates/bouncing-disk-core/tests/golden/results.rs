@@ -16,8 +16,8 @@ use bouncing_disk_core::chaos::lyapunov_spectra;
 use bouncing_disk_core::numerics::double_double::DoubleDouble;
 use bouncing_disk_core::numerics::elementary;
 use bouncing_disk_core::orbits::{
-    BifurcationKind, Branch, BranchPoint, Continuation, ContinuationParameter, OrbitSearch, PeriodicOrbit,
-    Stability, doubling_cascade,
+    BifurcationKind, Branch, BranchPoint, Continuation, ContinuationParameter, ContinuedMap as _,
+    OrbitSearch, PeriodicOrbit, Stability, doubling_cascade,
 };
 use bouncing_disk_core::sweep::{InstructionSet, OrbitBatch};
 use bouncing_disk_core::{

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
 
 from bouncing_disk import _native as native
 from bouncing_disk._base import *
@@ -254,10 +253,11 @@ class Bifurcation(Result):
     """A special point of a branch of periodic orbits.
 
     Attributes:
-        kind: ``"doubling"``, ``"fold"``, ``"graze"``, ``"vanishing-impact"`` or ``"birth"``.
+        kind: ``"doubling"``, ``"fold"``, ``"graze"``, ``"vanishing-impact"``, ``"border-collision"`` (an impact
+            passes a joint or reaches a kink of the platform) or ``"birth"``.
         parameter: the value of the parameter.
         arclength: arclength from the start of the branch.
-        impact: which impact grazes or vanishes.
+        impact: which impact grazes, vanishes or collides.
         orbit: the orbit there.
     """
 
@@ -275,7 +275,7 @@ class Branch(Stored):
     Made by :func:`continued` and :meth:`Branch.switched`. Arrays have one row for each orbit, n in all.
 
     Attributes:
-        parameter: the parameter that is varied: ``"axial_forcing"`` or ``"restitution"``.
+        parameter: the parameter that is varied, as it was given.
         values: the parameter of each orbit, shape (n,).
         arclength: arclength from the start of the branch, shape (n,).
         impact_phase: phases of the impacts of each orbit (rad), shape (n, period).
@@ -335,26 +335,33 @@ def continued(
     impact_map: ImpactMap,
     orbit: PeriodicOrbit,
     *,
-    parameter: Literal["axial_forcing", "restitution"] = "axial_forcing",
+    parameter: str = "axial_forcing",
     parameter_range: Pair,
     rising: bool = True,
     first_step: Float = 0.01,
     largest_step: Float = 0.05,
     max_points: Int = 10_000,
+    drive: Drive | None = None,
+    contact_periods: Float | None = None,
     progress: Progress = None,
 ) -> Branch:
     """The branch of periodic orbits through one of them, through folds and along unstable parts.
 
     Args:
         orbit: an orbit of this map.
-        parameter: the parameter to vary.
+        parameter: the parameter to vary: ``"axial_forcing"`` or ``"restitution"``; with a drive or a contact time also
+            ``"contact_periods"`` and each number of the drive's height by its place, as ``"fourier[1][0]"`` for the
+            amplitude of the second harmonic or ``"sawtooth"``.
         parameter_range: its lowest and highest value.
         rising: whether it goes towards higher values at first.
         first_step, largest_step: arclength of the first and of the largest step, in [1e-9, 1].
         max_points: the most orbits, in [2, 1000000].
+        drive: how the platform moves; ``None`` for the sine.
+        contact_periods: as of :func:`orbit_diagram`. Where a branch ends there is known to 1e-6.
 
     Raises:
-        InvalidError: ``"not-an-orbit"`` for an orbit of another map.
+        InvalidError: ``"not-an-orbit"`` for an orbit of another map; ``"no-such-number"`` for a parameter that the
+            drive does not have.
 
     >>> import bouncing_disk as bd
     >>> bouncing = bd.ImpactMap(axial_forcing=0.45, restitution=0.5)
@@ -376,7 +383,7 @@ class DoublingCascade(Result):
         multiplier: the multiplier that the search reached, -1 but for rounding, shape (n,).
         width: the largest distance (rad) of an impact from the one half a period later, shape (n,).
         graze_margin: how near a flight comes to an earlier impact, in units of g/omega^2; infinite if none
-            comes near, shape (n,).
+            comes near, not a number on another drive, shape (n,).
         feigenbaum_number: the last doubling that was used for each estimate, from 1, shape (m,).
         delta, delta_error, alpha, alpha_error: Feigenbaum's numbers, extrapolated, and how far they may be
             off, shape (m,).
@@ -397,7 +404,14 @@ class DoublingCascade(Result):
     ended_by: str | None
 
 
-def doubling_cascade(*, restitution: Float, count: Int, progress: Progress = None) -> DoublingCascade:
+def doubling_cascade(
+    *,
+    restitution: Float,
+    count: Int,
+    drive: Drive | None = None,
+    contact_periods: Float | None = None,
+    progress: Progress = None,
+) -> DoublingCascade:
     """The period doublings of the orbit with one impact per period of the platform, and Feigenbaum's numbers
     from them.
 
@@ -405,6 +419,9 @@ def doubling_cascade(*, restitution: Float, count: Int, progress: Progress = Non
         restitution: coefficient of restitution, in (0, 1).
         count: number of doublings, in [1, 13]; fewer are found where the cascade ends, as for the restitution 0.01
             after two.
+        drive: how the platform moves; ``None`` for the sine. The cascade begins with the attracting orbit of one
+            impact per period at the lowest forcing.
+        contact_periods: as of :func:`orbit_diagram`.
 
     >>> import bouncing_disk as bd
     >>> bd.doubling_cascade(restitution=0.5, count=3).axial_forcing.round(4)

@@ -5,7 +5,7 @@
 
 use bouncing_disk::core::orbits::{
     Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation, ContinuationParameter,
-    PeriodicOrbit,
+    ContinuedMap as _, PeriodicOrbit,
 };
 use bouncing_disk::core::{Error, ImpactMap, Unobserved, Vibration};
 

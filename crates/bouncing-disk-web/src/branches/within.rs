@@ -1,7 +1,7 @@
 //! The parts of a branch in a range of its parameter, at the resolution of a view.
 
 use bouncing_disk::core::orbits::{
-    BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation, PeriodicOrbit,
+    BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation, ContinuedMap as _, PeriodicOrbit,
 };
 use bouncing_disk::core::{Error, Unobserved};
 
@@ -42,7 +42,7 @@ impl Known {
 /// part of it, as the halved orbit run through twice.
 ///
 /// # Errors
-/// Those of [`ImpactMap::continued`](bouncing_disk::core::ImpactMap::continued) but for [`Error::NoBranch`]: a
+/// Those of [`continued`](bouncing_disk::core::orbits::ContinuedMap::continued) but for [`Error::NoBranch`]: a
 /// part that is not found again has the points of this branch.
 pub(crate) fn within(
     branch: &Branch,

@@ -2,8 +2,10 @@
 
 use std::f64::consts::TAU;
 use std::fmt::{self, Display, Formatter};
+use std::str::FromStr;
 
-use bouncing_disk_core::{Drive, DrivenMap, ImpactMap};
+use bouncing_disk_core::orbits::DrivenFamily;
+use bouncing_disk_core::{Drive, DrivenMap, ImpactMap, Vibration};
 
 use crate::display::rough;
 use crate::error::{Error, check, finite};
@@ -100,6 +102,50 @@ impl TryFrom<Given> for Waveform {
     }
 }
 
+/// A number in which the maps of a platform may differ.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum MapNumber {
+    /// `axial_forcing`: the forcing Gamma.
+    AxialForcing,
+    /// `restitution`.
+    Restitution,
+    /// `contact_periods`: how long a compliant contact lasts (periods).
+    ContactPeriods,
+    /// A number of the shape, by its name and place in a file, counted from 0: `sawtooth`, `fourier[1][0]` for the
+    /// amplitude of the second harmonic, `sampled[3]`.
+    OfShape((String, Vec<usize>)),
+}
+
+impl FromStr for MapNumber {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let known = [Self::AxialForcing, Self::Restitution, Self::ContactPeriods];
+        if let Some(own) = known.into_iter().find(|own| own.to_string() == text) {
+            return Ok(own);
+        }
+        let mut parts = text.split('[');
+        let name = parts.next().unwrap_or_default();
+        let place = parts.map(|part| part.strip_suffix(']')?.parse().ok()).collect::<Option<_>>();
+        Ok(Self::OfShape((name.to_owned(), place.ok_or(Error::NoSuchNumber)?)))
+    }
+}
+
+/// As it is read.
+impl Display for MapNumber {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::AxialForcing => f.write_str("axial_forcing"),
+            Self::Restitution => f.write_str("restitution"),
+            Self::ContactPeriods => f.write_str("contact_periods"),
+            Self::OfShape((name, place)) => {
+                f.write_str(name)?;
+                place.iter().try_for_each(|index| write!(f, "[{index}]"))
+            }
+        }
+    }
+}
+
 impl Display for Waveform {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
@@ -138,6 +184,70 @@ impl Waveform {
         let legal = "[1e-6, 1000] (periods of the platform)";
         check((1e-6..=1000.0).contains(&periods), "contact_periods", periods, legal)?;
         Ok(map.with_contact_time(TAU * periods)?)
+    }
+
+    /// The maps of [`Self::map`] that differ in one number: the forcing, the restitution, the contact time, or one of the
+    /// shape, by its place.
+    ///
+    /// ```
+    /// use bouncing_disk::core::orbits::{
+    ///     BifurcationKind, Continuation, ContinuationParameter, ContinuedMap as _, OrbitSearch,
+    /// };
+    /// use bouncing_disk::core::{ImpactMap, Unobserved, Vibration};
+    /// use bouncing_disk::parameters::{MapNumber, Waveform};
+    ///
+    /// let shape = Waveform::Fourier(vec![(1.0, 0.0), (0.1, 0.3)]);
+    /// let sine = ImpactMap::new(Vibration::from_axial_forcing(0.4)?, 0.5)?;
+    /// let family = shape.family(&sine, None, "fourier[1][0]".parse()?)?;
+    /// let orbits = family.map().periodic_orbits(&OrbitSearch::new(1, 1)?, &Unobserved)?;
+    /// let settings = Continuation::new(ContinuationParameter::Number, (-0.5, 0.5), true)?;
+    /// let branch = family.continued(&orbits[0], &settings, &Unobserved)?;
+    /// assert!(branch.of_kind(BifurcationKind::Doubling).next().is_some());
+    /// # Ok::<(), bouncing_disk::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`Self::map`]; [`Error::NoSuchNumber`] for a place that the shape does not have.
+    pub fn family(
+        &self,
+        sine: &ImpactMap,
+        contact_periods: Option<f64>,
+        number: MapNumber,
+    ) -> Result<DrivenFamily, Error> {
+        self.map(sine, contact_periods)?;
+        let forcing = sine.vibration().axial_forcing();
+        let (now, unit) = match &number {
+            MapNumber::AxialForcing => (forcing, forcing),
+            MapNumber::Restitution => (sine.restitution(), 1.0),
+            MapNumber::ContactPeriods => (contact_periods.ok_or(Error::NoSuchNumber)?, 1.0),
+            MapNumber::OfShape(place) => (*self.clone().number(place).ok_or(Error::NoSuchNumber)?, 1.0),
+        };
+        let (shape, sine) = (self.clone(), *sine);
+        let with = move |value: f64| {
+            let (mut shape, mut periods) = (shape.clone(), contact_periods);
+            let (mut vibration, mut restitution) = (*sine.vibration(), sine.restitution());
+            match &number {
+                MapNumber::AxialForcing => vibration = Vibration::from_axial_forcing(value).ok()?,
+                MapNumber::Restitution => restitution = value,
+                MapNumber::ContactPeriods => periods = Some(value),
+                MapNumber::OfShape(place) => *shape.number(place)? = value,
+            }
+            shape.map(&ImpactMap::new(vibration, restitution).ok()?, periods).ok()
+        };
+        Ok(DrivenFamily::new(now, unit, with)?)
+    }
+
+    /// A number of the shape by its place.
+    fn number(&mut self, place: &(String, Vec<usize>)) -> Option<&mut f64> {
+        match (self, place.0.as_str(), &place.1[..]) {
+            (Self::Sawtooth(rise), "sawtooth", []) => Some(rise),
+            (Self::Sampled(samples), "sampled", [k]) => samples.get_mut(*k),
+            (Self::Fourier(harmonics), "fourier", [j, 0]) => harmonics.get_mut(*j).map(|own| &mut own.0),
+            (Self::Fourier(harmonics), "fourier", [j, 1]) => harmonics.get_mut(*j).map(|own| &mut own.1),
+            (Self::Pieces(pieces), "pieces", [k, 0]) => pieces.get_mut(*k).map(|own| &mut own.0),
+            (Self::Pieces(pieces), "pieces", [k, 1, c]) => pieces.get_mut(*k)?.1.get_mut(*c),
+            _ => None,
+        }
     }
 
     /// How much the acceleration at the samples changes without every second sample, as a share of its peak.

@@ -98,7 +98,8 @@ impl Fourier {
         if let [harmonic] = self.harmonics[..] {
             return harmonic.first_at(1.5 * PI);
         }
-        let size = self.bounds.highest.abs().max(self.bounds.lowest.abs());
+        let bounds = self.bounds();
+        let size = bounds.highest.abs().max(bounds.lowest.abs());
         first_least(self.minima(|at| (at.height, at.velocity), self.bounds.acceleration), size, 0.0)
     }
 

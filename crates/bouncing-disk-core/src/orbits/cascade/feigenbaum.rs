@@ -1,7 +1,7 @@
 //! Feigenbaum's two constants from the doublings of one cascade.
 
 use super::CascadeDoubling;
-use super::branch::{rounding, width_rounding};
+use super::branch::width_rounding;
 use crate::numerics::real::Real;
 
 /// The first doubling of an estimate with an error: one ratio of distances less, one of widths; one step of
@@ -65,8 +65,8 @@ impl core::fmt::Display for FeigenbaumEstimate {
 /// ```
 #[must_use]
 pub fn feigenbaum_estimates<R: Real>(cascade: &[CascadeDoubling<R>]) -> Vec<FeigenbaumEstimate> {
-    let points: Vec<_> = cascade.iter().map(|doubling| (doubling.axial_forcing, doubling.width)).collect();
-    estimates(&points)
+    let point = |own: &CascadeDoubling<R>| (own.axial_forcing, own.width, own.forcing_error);
+    estimates(&cascade.iter().map(point).collect::<Vec<_>>())
 }
 
 /// The values with the part taken out that shrinks by `ratio` from one to the next; the first ones have none
@@ -86,8 +86,8 @@ fn with_error<R: Real>(values: &[Option<R>], i: usize) -> Option<(f64, f64)> {
     Some((now.value(), CHANGES * changes[0].max(changes[1])))
 }
 
-/// The estimates from (forcing, width) of the doublings from the first one on.
-fn estimates<R: Real>(points: &[(R, R)]) -> Vec<FeigenbaumEstimate> {
+/// The estimates from (forcing, width, error of the forcing) of the doublings from the first one on.
+fn estimates<R: Real>(points: &[(R, R, f64)]) -> Vec<FeigenbaumEstimate> {
     let one = R::of(1.0);
     let distance = |i: usize| points[i].0 - points[i - 1].0;
     let forcing_ratios: Vec<_> =
@@ -101,7 +101,7 @@ fn estimates<R: Real>(points: &[(R, R)]) -> Vec<FeigenbaumEstimate> {
         let number = i + 1;
         let (forcing_ratio, width_ratio) = (forcing_ratios[i]?.value(), width_ratios[i]?.value());
         let ((delta, delta_error), (alpha, alpha_error)) = (with_error(&delta, i)?, with_error(&alpha, i)?);
-        let of_distance = 2.0 * rounding::<R>(number) * points[i].0.value() / distance(i).value();
+        let of_distance = 2.0 * points[i].2 / distance(i).value();
         let of_width = 2.0 * width_rounding::<R>(number);
         Some(FeigenbaumEstimate {
             number,

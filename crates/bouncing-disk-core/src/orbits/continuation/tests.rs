@@ -400,7 +400,9 @@ fn a_branch_in_the_restitution_is_that_of_the_closed_form() {
                     assert!((first - map.vibration().axial_forcing()).abs() < 1e-13);
                 }
                 BifurcationKind::Graze { .. } | BifurcationKind::VanishingImpact { .. } => {}
-                BifurcationKind::Birth => panic!("one impact has no halves"),
+                BifurcationKind::Birth | BifurcationKind::BorderCollision { .. } => {
+                    panic!("one impact has no halves, and a sine no joints")
+                }
             }
         }
         assert_eq!(branch, stored(&branch));

@@ -1,20 +1,18 @@
 //! From point to point along a branch, by pseudo-arclength.
 
 use core::cell::RefCell;
-use core::f64::consts::TAU;
 
-use glam::{DMat2, DVec2};
+use glam::DVec2;
 
 use super::{Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation, ROUNDED};
-use crate::flight::launch::Impact;
-use crate::flight::launch::Launch;
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::ImpactState;
 use crate::numerics::error::Error;
 use crate::numerics::roots::{bisected_bracket, bracket_of_width};
-use crate::orbits::closing::{Closed, Closing, Plane, turned};
+use crate::orbits::closing::{Closed, Closing, ContinuedMap, Plane, turned};
 use crate::orbits::periodic::PeriodicOrbit;
-use crate::run::WorkCount;
+use crate::orbits::periodic::margin::next_to_margin;
+use crate::run::{Observer, Watch, WorkCount};
 
 /// The cosine of the largest angle that the direction turns in one step.
 const STRAIGHT: f64 = 0.95;
@@ -46,6 +44,32 @@ const FEWEST_OF_CLOSED: usize = 8;
 /// The smallest arclength of a step.
 const SMALLEST_STEP: f64 = 1.0e-10;
 
+/// A step that passes a place at which the acceleration of the platform jumps: so short, it may turn by up to a right
+/// angle.
+const CORNER: f64 = 1.0e-7;
+
+/// Where no next point is found, the map is asked this much of arclength beyond (of which a graze may hide the root),
+/// and has lost a flight whose duration is off by more than this (rad).
+const BEYOND: f64 = 1.0e-7;
+const LOST: f64 = 1.0e-3;
+
+/// [`ContinuedMap::continued`] from an orbit of the map or of one next to it.
+pub(crate) fn continued_from<M: ContinuedMap>(
+    map: &M,
+    orbit: &PeriodicOrbit,
+    settings: &Continuation,
+    observer: &dyn Observer,
+) -> Result<Branch<M>, Error> {
+    settings.check_map(map)?;
+    let watch = Watch::begin(observer, 0, settings.max_points as u64)?;
+    let (closing, mut at) = Closing::of(map, settings.parameter, &orbit.states)?;
+    at.parameter = at.parameter.clamp(settings.low, settings.high);
+    let (walker, located) = Walker::new(closing, at, settings, watch.work())?;
+    let branch = walker.walk(located)?;
+    watch.end();
+    Ok(branch)
+}
+
 /// A point of the branch with its direction.
 #[derive(Debug, Clone)]
 pub(super) struct Located {
@@ -75,21 +99,21 @@ struct Stretch {
 
 /// Continues one orbit.
 #[derive(Debug)]
-pub(super) struct Walker<'s> {
-    pub(super) closing: Closing,
+pub(super) struct Walker<'s, M> {
+    pub(super) closing: Closing<M>,
     pub(super) settings: &'s Continuation,
     pub(super) work: RefCell<WorkCount<'s>>,
 }
 
-impl<'s> Walker<'s> {
+impl<'s, M: ContinuedMap> Walker<'s, M> {
     /// Counts the flights of a point: some Newton steps of all impacts.
     pub(super) fn spend(&self) -> Result<(), Error> {
-        self.work.borrow_mut().spend(8 * self.closing.flights() as u64)
+        self.work.borrow_mut().spend(8 * M::WORK * self.closing.flights() as u64)
     }
 
     /// From an orbit, in the direction of the settings.
     pub(super) fn new(
-        closing: Closing,
+        closing: Closing<M>,
         guess: Closed,
         settings: &'s Continuation,
         work: WorkCount<'s>,
@@ -109,7 +133,7 @@ impl<'s> Walker<'s> {
 
     /// From a doubling, onto the branch of twice the period.
     pub(super) fn after_doubling(
-        closing: Closing,
+        closing: Closing<M>,
         at: Closed,
         settings: &'s Continuation,
         work: WorkCount<'s>,
@@ -163,11 +187,20 @@ impl<'s> Walker<'s> {
         };
         let moved = largest(&guess.impacts, &base.at.impacts).max(step);
         let corrected = largest(&guess.impacts, &next.at.impacts);
-        (cosine >= STRAIGHT && corrected <= LARGEST_CORRECTION * moved).then_some(next)
+        let is_straight = cosine >= STRAIGHT && corrected <= LARGEST_CORRECTION * moved;
+        let turns_a_corner = || step <= CORNER && cosine > 0.0 && self.joint_between(base, &next).is_some();
+        (is_straight || turns_a_corner()).then_some(next)
+    }
+
+    /// The first impact between whose places the acceleration of the platform jumps.
+    fn joint_between(&self, one: &Located, other: &Located) -> Option<usize> {
+        let map = self.closing.map_at(one.at.parameter).ok()?;
+        let mut phases = one.at.impacts.iter().zip(&other.at.impacts);
+        phases.position(|(one, other)| map.has_joint_between(one.x, other.x))
     }
 
     /// The whole branch from `start` on; the items are its points.
-    pub(super) fn walk(self, start: Located) -> Result<Branch, Error> {
+    pub(super) fn walk(self, start: Located) -> Result<Branch<M>, Error> {
         let Some(first) = self.point(&start)? else {
             let parameter = start.at.parameter;
             return Err(Error::NoBranch { what: "the start of the branch", parameter });
@@ -187,7 +220,10 @@ impl<'s> Walker<'s> {
             let (Some(next), Some(stretch)) = (next, stretch) else {
                 step *= 0.5;
                 if step < SMALLEST_STEP {
-                    break BranchEnd::StepTooSmall(step);
+                    let end = self.end_at(&base)?;
+                    let ends = end.is_some();
+                    bifurcations.extend(end);
+                    break if ends { BranchEnd::Bifurcation } else { BranchEnd::StepTooSmall(step) };
                 }
                 continue;
             };
@@ -210,7 +246,42 @@ impl<'s> Walker<'s> {
             }
             base = next;
         };
-        Ok(Branch { parameter: closing.by, map: closing.map, points, bifurcations, end })
+        Ok(Branch { parameter: closing.by, map: closing.map.clone(), points, bifurcations, end })
+    }
+
+    /// What ends the branch where there is no next point: a kink at an impact, or a place beyond which the map has
+    /// another flight.
+    fn end_at(&self, base: &Located) -> Result<Option<Bifurcation>, Error> {
+        let map = self.closing.map_at(base.at.parameter)?;
+        let on_kink = base.at.impacts.iter().position(|impact| map.is_on_kink(impact.x));
+        let kind = match on_kink {
+            Some(impact) => Some(BifurcationKind::BorderCollision { impact }),
+            None => self.flight_lost(base),
+        };
+        let Some(kind) = kind else { return Ok(None) };
+        Ok(self.point(base)?.map(|point| Bifurcation { kind, point }))
+    }
+
+    /// The change by which the map itself loses a flight just beyond a point, along the branch or in the parameter
+    /// alone: where a force only touches zero, the branch is as steep as a root.
+    fn flight_lost(&self, base: &Located) -> Option<BifurcationKind> {
+        let still = vec![DVec2::ZERO; base.at.impacts.len()];
+        let aside = Closed { impacts: still, parameter: base.direction.parameter.signum() };
+        [&base.direction, &aside].into_iter().find_map(|direction| {
+            let beyond = base.at.moved(direction, BEYOND);
+            let map = self.closing.map_at(beyond.parameter).ok()?;
+            let states = self.closing.states(&beyond)?;
+            states.iter().enumerate().find_map(|(flight, state)| {
+                let impact = (flight + 1) % states.len();
+                // A disk that stays on the platform has no next impact.
+                let found = map.time_to_next(*state).unwrap_or(f64::INFINITY);
+                let later = found - self.closing.duration(&beyond.impacts, flight);
+                if later < -LOST {
+                    return Some(BifurcationKind::Graze { flight });
+                }
+                (later > LOST).then_some(BifurcationKind::VanishingImpact { impact })
+            })
+        })
     }
 
     /// The course of the branch from `base` to `next`, as far as it goes. `None` if the step is too long to
@@ -225,9 +296,21 @@ impl<'s> Walker<'s> {
             Halves::Apart if base.direction.parameter * next.direction.parameter < 0.0 => {
                 let as_before =
                     |located: &Located| Ok(located.direction.parameter * base.direction.parameter > 0.0);
-                let Some((last, _)) = self.change(base, next, as_before)? else { return Ok(None) };
+                let Some((last, beyond)) = self.change(base, next, as_before)? else { return Ok(None) };
+                let kind = match self.closing.impact_lost(&last.at) {
+                    Some(impact) => BifurcationKind::VanishingImpact { impact },
+                    None => self.kind_or_border(BifurcationKind::Fold, &last, &beyond),
+                };
                 let point = self.point(&last)?;
-                point.map(|point| (last, Bifurcation { kind: BifurcationKind::Fold, point }))
+                let is_fold = |point: &BranchPoint| {
+                    kind != BifurcationKind::Fold
+                        || next_to_margin(point.orbit.monodromy, point.determinant).0
+                };
+                // Elsewhere the derivative by the parameter is that of no curve.
+                if !point.as_ref().is_none_or(is_fold) {
+                    return Ok(None);
+                }
+                point.map(|point| (last, Bifurcation { kind, point }))
             }
             Halves::Apart => None,
         };
@@ -238,7 +321,8 @@ impl<'s> Walker<'s> {
             let parameter = turn.point.parameter;
             let rounding = ROUNDED * parameter;
             let outside = parameter < low - rounding || parameter > high + rounding;
-            if outside || turn.kind == BifurcationKind::Birth {
+            let ends = matches!(turn.kind, BifurcationKind::Birth | BifurcationKind::VanishingImpact { .. });
+            if outside || ends {
                 last = before;
                 let limit = if parameter > high { high } else { low };
                 end = Some(if outside { BranchEnd::RangeLimit(limit) } else { BranchEnd::Bifurcation });
@@ -259,7 +343,9 @@ impl<'s> Walker<'s> {
             // Rarely an orbit is lost and regained within a step: then the first of the two counts.
             let free = |located: &Located| Ok(self.obstacle(&located.at)?.is_none());
             let Some((free, beyond)) = self.change(base, &last, free)? else { return Ok(None) };
-            found.retain(|turn| turn.kind == BifurcationKind::Fold && turn.point.arclength <= free.arclength);
+            found.retain(|turn: &Bifurcation| {
+                turn.kind != BifurcationKind::Birth && turn.point.arclength <= free.arclength
+            });
             if let (Some(kind), Some(point)) = (self.obstacle(&beyond.at)?, self.point(&free)?) {
                 found.push(Bifurcation { kind, point });
             }
@@ -299,10 +385,16 @@ impl<'s> Walker<'s> {
         let as_before =
             |located: &Located| Ok(self.point(located)?.is_some_and(|point| flip(&point) * first > 0.0));
         let Some((low, high)) = self.change(base, next, as_before)? else { return Ok(None) };
-        match (self.point(&low)?, self.point(&high)?) {
-            (Some(low), Some(high)) => at(if flip(&low).abs() <= flip(&high).abs() { low } else { high }),
-            _ => Ok(Some(None)),
-        }
+        let kind = self.kind_or_border(BifurcationKind::Doubling, &low, &high);
+        let (Some(low), Some(high)) = (self.point(&low)?, self.point(&high)?) else { return Ok(Some(None)) };
+        let point = if flip(&low).abs() <= flip(&high).abs() { low } else { high };
+        Ok(Some(Some(Bifurcation { kind, point })))
+    }
+
+    /// The kind, or a border collision where an acceleration jumps between the two neighbours.
+    fn kind_or_border(&self, kind: BifurcationKind, one: &Located, other: &Located) -> BifurcationKind {
+        let border = self.joint_between(one, other);
+        border.map_or(kind, |impact| BifurcationKind::BorderCollision { impact })
     }
 
     /// As [`Self::bracket`]; `None` where the two points are not neighbours on one curve.
@@ -352,25 +444,16 @@ impl<'s> Walker<'s> {
     /// The reason why it is no orbit of the map.
     fn obstacle(&self, at: &Closed) -> Result<Option<BifurcationKind>, Error> {
         let map = self.closing.map_at(at.parameter)?;
-        let velocities = self.closing.velocities(at);
-        for (impact, &(arrival, launch)) in velocities.iter().enumerate() {
-            if !(arrival < 0.0 && launch > 0.0) {
+        let flights = self.closing.flights_of(at);
+        let n = flights.len();
+        for (impact, flight) in flights.iter().enumerate() {
+            if !(flights[(impact + n - 1) % n].to.1 < 0.0 && flight.from.1 > 0.0) {
                 return Ok(Some(BifurcationKind::VanishingImpact { impact }));
             }
         }
-        for (flight, &(_, speed)) in velocities.iter().enumerate() {
-            let launch = Launch::known(Phase::new(at.impacts[flight].x)?, speed);
-            let following = (flight + 1) % velocities.len();
-            let impact = Impact {
-                periods: 0,
-                remainder: self.closing.duration(&at.impacts, flight),
-                turns: 0,
-                phase: Phase::new(at.impacts[following].x)?,
-                velocity: velocities[following].0,
-                evaluations: 0,
-            };
-            if map.vibration().graze_margin(launch, &impact) <= 0.0 {
-                return Ok(Some(BifurcationKind::Graze { flight }));
+        for (index, flight) in flights.iter().enumerate() {
+            if map.is_grazed(flight)? {
+                return Ok(Some(BifurcationKind::Graze { flight: index }));
             }
         }
         Ok(None)
@@ -379,13 +462,12 @@ impl<'s> Walker<'s> {
     /// Whether the map itself finds these flights.
     fn is_confirmed(&self, at: &Closed) -> Result<bool, Error> {
         let map = self.closing.map_at(at.parameter)?;
-        for (flight, &(arrival, speed)) in self.closing.velocities(at).iter().enumerate() {
-            if !(arrival < 0.0 && speed > 0.0) {
-                return Ok(false);
-            }
-            let launch = Launch::known(Phase::new(at.impacts[flight].x)?, speed);
-            let found = map.vibration().first_impact(launch)?.duration();
-            if (found - self.closing.duration(&at.impacts, flight)).abs() > SAME_FLIGHT {
+        let flights = self.closing.flights_of(at);
+        if !flights.iter().all(|flight| flight.to.1 < 0.0 && flight.from.1 > 0.0) {
+            return Ok(false);
+        }
+        for flight in &flights {
+            if (map.duration_found(flight)? - flight.duration).abs() > SAME_FLIGHT {
                 return Ok(false);
             }
         }
@@ -396,20 +478,16 @@ impl<'s> Walker<'s> {
     pub(super) fn point(&self, located: &Located) -> Result<Option<BranchPoint>, Error> {
         let at = &located.at;
         let (n, map) = (at.impacts.len(), self.closing.map_at(at.parameter)?);
-        let states = at.impacts.iter().zip(self.closing.velocities(at)).map(|(impact, (arrival, _))| {
-            ImpactState::new(Phase::new(impact.x)?, arrival.min(-f64::MIN_POSITIVE))
+        let flights = self.closing.flights_of(at);
+        let states = (0..n).map(|i| {
+            let arrival = flights[(i + n - 1) % n].to.1;
+            ImpactState::new(Phase::new(at.impacts[i].x)?, arrival.min(-f64::MIN_POSITIVE))
         });
         let states = states.collect::<Result<Vec<_>, _>>()?;
-        let (mut monodromy, mut determinant, mut total) = (DMat2::IDENTITY, 1.0, 0.0);
-        for i in 0..n {
-            let h = self.closing.duration(&at.impacts, i);
-            monodromy = map.derivative(states[i], states[(i + 1) % n], h) * monodromy;
-            determinant *= map.restitution() * map.restitution();
-            total += h;
-        }
-        let platform_periods = (total / TAU).round() as u64;
-        let trace = monodromy.x_axis.x + monodromy.y_axis.y;
-        let orbit = PeriodicOrbit::of(&map, states, platform_periods, monodromy);
+        let durations: Vec<f64> = flights.iter().map(|flight| flight.duration).collect();
+        let Some((orbit, [trace, determinant])) = map.orbit_through(states, &durations) else {
+            return Ok(None);
+        };
         if orbit.check().is_err() {
             return Ok(None);
         }
@@ -431,7 +509,7 @@ impl<'s> Walker<'s> {
 
 /// (1 + m1)(1 + m2), or 0 where it is rounding.
 fn flip(point: &BranchPoint) -> f64 {
-    let flip = 1.0 + point.trace + point.determinant;
+    let flip = point.flip_function();
     let PeriodicOrbit { states, monodromy, .. } = &point.orbit;
     let size = 1.0 + monodromy.x_axis.length() + monodromy.y_axis.length();
     let rounding = FLIP_ROUNDINGS * f64::EPSILON * size * states.len() as f64;
@@ -465,7 +543,7 @@ enum Halves {
     Unclear,
 }
 
-impl Walker<'_> {
+impl<M: ContinuedMap> Walker<'_, M> {
     /// The distance of each impact of the second half from that of the first, up to whole turns; none for an
     /// odd number of impacts.
     fn apart(&self, at: &Closed) -> Vec<DVec2> {
@@ -513,7 +591,7 @@ impl Walker<'_> {
                 return Ok(None);
             };
             let located = Located { direction: at.clone(), at, arclength: last.arclength, corrections };
-            Ok(half.point(&located)?.map(|point| (1.0 + point.trace + point.determinant, point)))
+            Ok(half.point(&located)?.map(|point| (point.flip_function(), point)))
         };
         let (least, most) = half.closing.by.legal();
         let mut reach = NEAREST * scale;

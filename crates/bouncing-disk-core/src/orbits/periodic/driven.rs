@@ -299,6 +299,12 @@ impl DrivenMap {
         })
     }
 
+    /// The orbit with these impacts, which are known to be one.
+    pub(in crate::orbits) fn orbit_through(&self, states: Vec<ImpactState>) -> Result<PeriodicOrbit, Error> {
+        let shooting = self.shoot(&states)?;
+        Ok(self.measured(states, &shooting))
+    }
+
     /// The orbit with its errors.
     fn measured(&self, states: Vec<ImpactState>, shooting: &Shooting) -> PeriodicOrbit {
         let room = (shooting.worst + MAP_ROUNDING) * speed_scale(&states);

@@ -37,7 +37,7 @@ const WITHIN_ROUNDING: f64 = 4.0;
 const DIFFERENCE: f64 = 1.0e-5;
 
 /// Whether the fixed-point function 1 - T + D and the flip function 1 + T + D are next to zero.
-pub(super) fn next_to_margin(monodromy: DMat2, determinant: f64) -> (bool, bool) {
+pub(crate) fn next_to_margin(monodromy: DMat2, determinant: f64) -> (bool, bool) {
     let (trace, room) = (monodromy.x_axis.x + monodromy.y_axis.y, NEXT_TO_MARGIN * size(monodromy));
     ((1.0 - trace + determinant).abs() < room, (1.0 + trace + determinant).abs() < room)
 }
@@ -50,7 +50,7 @@ fn size(matrix: DMat2) -> f64 {
 /// The equations of an orbit, and the orbit in their unknowns.
 struct Equations {
     map: ImpactMap,
-    closing: Closing,
+    closing: Closing<ImpactMap>,
     at: Closed,
     turns: Vec<f64>,
     determinant: f64,

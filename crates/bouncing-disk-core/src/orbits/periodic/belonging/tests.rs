@@ -12,7 +12,7 @@ use crate::numerics::random::SplitMix64;
 use crate::numerics::testing::stored;
 use crate::orbits::continuation::{BifurcationKind, Continuation};
 use crate::orbits::periodic::search::OrbitSearch;
-use crate::orbits::{ContinuationParameter, PeriodOneOrbit};
+use crate::orbits::{ContinuationParameter, ContinuedMap as _, PeriodOneOrbit};
 use crate::run::Unobserved;
 
 fn driven(drive: Drive, restitution: f64) -> DrivenMap {

@@ -4,8 +4,8 @@ use super::*;
 use crate::flight::drive::Drive;
 use crate::flight::platform::vibration::Vibration;
 use crate::map::impact_map::ImpactMap;
-use crate::orbits::ContinuationParameter;
 use crate::orbits::continuation::{BifurcationKind, Continuation};
+use crate::orbits::{ContinuationParameter, ContinuedMap as _};
 use crate::run::Unobserved;
 
 fn driven(drive: Result<Drive, Error>, restitution: f64) -> DrivenMap {
