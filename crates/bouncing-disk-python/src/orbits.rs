@@ -72,9 +72,14 @@ pub(crate) fn refine(a: Arguments<'_>) -> Made<'_> {
     let (map, phases) = (a.map()?, a.row("impact_phase")?);
     let velocities = a.numbers("axial_impact_velocity")?;
     common_length(&[("impact_phase", Some(phases.len())), ("axial_impact_velocity", velocities.len())])?;
+    let shape = a.shape()?;
     let orbit = a.run(|_| {
         let impacts = phases.iter().enumerate().map(|(index, phase)| state(*phase, velocities.get(index)));
-        Ok(map.refine(&impacts.collect::<Result<Vec<_>, _>>()?)?)
+        let guess = impacts.collect::<Result<Vec<_>, _>>()?;
+        Ok(match &shape {
+            None => map.refine(&guess)?,
+            Some((shape, contact)) => shape.map(&map, *contact)?.refine(&guess)?,
+        })
     })?;
     shown_orbit(a.py(), orbit)
 }
@@ -97,7 +102,15 @@ pub(crate) fn settled_orbit(a: Arguments<'_>) -> PyResult<Option<Bound<'_, PyAny
 pub(crate) fn trapping_radius(a: Arguments<'_>) -> PyResult<f64> {
     let (map, orbit) = (a.map()?, a.held::<PeriodicOrbit>("self")?);
     let (orbit, samples) = (&orbit.get().0, a.count("samples", 1 << 20, "[1, 1048576]")? as u32);
-    a.run(|observer| Ok(orbit.trapping_radius(&map, samples, observer)?))
+    let shape = a.shape()?;
+    a.run(|observer| {
+        Ok(match &shape {
+            None => orbit.trapping_radius(&map, samples, observer)?,
+            Some((shape, contact)) => {
+                orbit.trapping_radius(&shape.map(&map, *contact)?, samples, observer)?
+            }
+        })
+    })
 }
 
 /// The periodic orbits of few impacts.

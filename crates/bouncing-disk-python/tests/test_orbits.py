@@ -384,6 +384,10 @@ def test_branches_and_doublings_on_a_drive_and_with_a_compliant_contact() -> Non
     bouncing = bd.ImpactMap(axial_forcing=0.35, restitution=0.5)
     orbits = bd.periodic_orbits(bouncing, max_impacts=1, max_platform_periods=1, drive=parabolas)
     orbit = next(orbit for orbit in orbits if orbit.is_stable)
+    place = {"impact_phase": orbit.impact_phase + 1e-3, "axial_impact_velocity": orbit.axial_impact_velocity}
+    again = bouncing.refine(drive=parabolas, **place)
+    assert again.impact_phase == pytest.approx(orbit.impact_phase, abs=1e-13)
+    assert 0 < orbit.trapping_radius(bouncing, drive=parabolas) < 1
     up = bd.continued(bouncing, orbit, drive=parabolas, parameter_range=(0.2, 0.5))
     # By hand: the doubling, and the corner at which the branch turns.
     by_hand = np.pi * 1.25 / 9

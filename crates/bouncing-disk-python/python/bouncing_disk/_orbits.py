@@ -125,12 +125,21 @@ class ImpactMap(Parameters):
         self.__dict__["period_one"] = self._native.period_one
         return self._native.period_one(platform_periods=platform_periods)
 
-    def refine(self, *, impact_phase: ArrayLike, axial_impact_velocity: ArrayLike) -> PeriodicOrbit:
+    def refine(
+        self,
+        *,
+        impact_phase: ArrayLike,
+        axial_impact_velocity: ArrayLike,
+        drive: Drive | None = None,
+        contact_periods: Float | None = None,
+    ) -> PeriodicOrbit:
         """The periodic orbit next to a guess, stable or not, by Newton's method on all impacts.
 
         Args:
             impact_phase: phases of the impacts of one period (rad), in their order, shape (n,).
             axial_impact_velocity: their relative velocities, not positive, in units of g/omega, shape (n,).
+            drive: how the platform moves; ``None`` for the sine.
+            contact_periods: as of :func:`orbit_diagram`.
         """
         return native.refine(locals())
 
@@ -191,7 +200,13 @@ class PeriodicOrbit(Stored):
     stability: str
 
     def trapping_radius(
-        self, impact_map: ImpactMap, *, samples: Int = 64, progress: Progress = None
+        self,
+        impact_map: ImpactMap,
+        *,
+        samples: Int = 64,
+        drive: Drive | None = None,
+        contact_periods: Float | None = None,
+        progress: Progress = None,
     ) -> float:
         """The radius within which a start counts as caught by this orbit: the proven one, or a larger one that samples
         support.
@@ -199,6 +214,7 @@ class PeriodicOrbit(Stored):
         Args:
             impact_map: the map that it is an orbit of.
             samples: starts on each circle that is tried.
+            drive, contact_periods: the platform and the contact, as of :func:`orbit_diagram`.
 
         Returns:
             In radians (a radian counts as much as the peak velocity of the platform).

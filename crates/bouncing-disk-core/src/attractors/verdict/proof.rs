@@ -4,7 +4,8 @@
 use super::VerdictSettings;
 use crate::map::impact_map::ImpactState;
 use crate::numerics::elementary::{exp, ln};
-use crate::orbits::periodic::{PeriodicOrbit, Stability, distance};
+use crate::orbits::periodic::newton::repetitions;
+use crate::orbits::periodic::{PeriodicOrbit, Stability};
 use crate::sweep::bouncing_map::BouncingMap;
 
 /// If the parts of a solution repeat each other to within this (rad, relative speed), the code looks for the
@@ -80,17 +81,13 @@ fn impacts_from(map: &impl BouncingMap, state: ImpactState, count: usize) -> Opt
 /// The orbit with its smallest period: a shorter one that it nearly repeats, unless that repels and this one
 /// does not.
 fn prime(map: &impl BouncingMap, orbit: PeriodicOrbit) -> PeriodicOrbit {
-    let states = &orbit.states;
-    let n = states.len();
-    let fastest = states.iter().fold(1.0_f64, |most, state| most.max(state.velocity().abs()));
-    let repeats = |part: &usize| {
-        n.is_multiple_of(*part)
-            && (0..n - part).all(|i| distance(states[i], states[i + part], fastest) <= NEARLY_SAME)
-    };
     let is = |orbit: &PeriodicOrbit, least| is_known(orbit) && orbit.stability() <= least;
     let least = if is(&orbit, Stability::Marginal) { Stability::Marginal } else { Stability::Unstable };
-    let mut shorter = (1..n).filter(repeats).filter_map(|part| map.refine(&states[..part]).ok());
-    shorter.find(|orbit| is(orbit, least)).unwrap_or(orbit)
+    let states = &orbit.states;
+    let mut shorter = repetitions(states, NEARLY_SAME).filter_map(|part| map.refine(&states[..part]).ok());
+    let found = shorter.find(|orbit| is(orbit, least));
+    drop(shorter);
+    found.unwrap_or(orbit)
 }
 
 /// Whether the orbit from `state` comes nearer to the periodic one, after whole periods of it: by at least

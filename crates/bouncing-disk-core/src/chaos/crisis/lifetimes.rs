@@ -5,6 +5,7 @@ use crate::chatter::policy::ChatterPolicy;
 use crate::flight::platform::vibration::Vibration;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::error::{Error, within};
+use crate::numerics::lifetime::Lifetime;
 use crate::numerics::power_law::{NoPowerLaw, PowerLaw, PowerLawPoint, fit_power_law};
 use crate::run::Observer;
 use crate::sweep::survival_times;
@@ -44,11 +45,9 @@ impl MeanLife {
             ended += u64::from(life < most);
             total += life as f64;
         }
-        let (impacts, relative_error) = if ended > 0 {
-            (total / ended as f64, 1.0 / (ended as f64).sqrt())
-        } else {
-            (f64::MAX, f64::MAX)
-        };
+        let life = Lifetime::new(total, ended).ok();
+        let impacts = life.and_then(|life| life.mean()).unwrap_or(f64::MAX);
+        let relative_error = if ended > 0 { 1.0 / (ended as f64).sqrt() } else { f64::MAX };
         Self { beyond, impacts, relative_error, ended, orbits }
     }
 }

@@ -9,15 +9,15 @@ use glam::{DMat2, DVec2};
 use self::fold::Beside;
 use self::one_impact::OneImpact;
 use super::margin::next_to_margin;
-use super::newton::{Shooting, moved, prime_period, speed_scale};
+use super::newton::{Shooting, moved, prime_period, settled, speed_scale};
 use super::search::{Catalogue, OrbitSearch};
-use super::{MAX_NEWTON_STEPS, MAX_PERIOD, PeriodicOrbit, Stability, phase_difference};
+use super::{MAX_NEWTON_STEPS, PeriodicOrbit, Stability, phase_difference};
 use crate::chatter::policy::ChatterPolicy;
 use crate::flight::platform::phase::Phase;
 use crate::map::driven_map::DrivenMap;
 use crate::map::impact_map::{ImpactState, OrbitEvent};
 use crate::numerics::block_cyclic::solve_block_cyclic;
-use crate::numerics::error::{Error, within};
+use crate::numerics::error::Error;
 use crate::run::{Observer, Watch, in_parallel};
 
 mod fold;
@@ -75,31 +75,10 @@ impl DrivenMap {
 
     /// The end of an iteration from a guess, which need not be an orbit next to a fold.
     fn iterated(&self, guess: &[ImpactState]) -> Result<PeriodicOrbit, Error> {
-        within("period", guess.len() as f64, 1.0, MAX_PERIOD as f64, "[1, 4096] impacts")?;
-        let mut states = guess.to_vec();
-        let mut residual = f64::INFINITY;
-        for iterations in 1..=MAX_NEWTON_STEPS {
-            let shooting = self.shoot(&states)?;
-            let worst = shooting.worst;
-            if worst <= SHOOTING_RESIDUAL && worst >= 0.5 * residual || worst == 0.0 {
-                let orbit = self.measured(states, &shooting);
-                orbit.check_motion()?;
-                return Ok(orbit);
-            }
-            residual = worst;
-            let steps = solve_block_cyclic(&shooting.derivatives, &shooting.right);
-            states = match moved(&states, &steps) {
-                Some(states) => states,
-                // A member of a family of orbits of one impact, where the derivative is singular.
-                None if worst <= SHOOTING_RESIDUAL && states.len() == 1 && self.compliant().is_none() => {
-                    let orbit = self.measured(states, &shooting);
-                    orbit.check_motion()?;
-                    return Ok(orbit);
-                }
-                None => return Err(Error::NotSettled { what: "multiple shooting", iterations, residual }),
-            };
-        }
-        Err(Error::NotSettled { what: "multiple shooting", iterations: MAX_NEWTON_STEPS, residual })
+        let shoot = |states: &[ImpactState]| self.shoot(states);
+        let (states, shooting) = settled(guess, SHOOTING_RESIDUAL, shoot, moved, &mut |_| Ok(()))?;
+        let orbit = self.measured(states, &shooting);
+        orbit.check_motion().map(|()| orbit)
     }
 
     /// The periodic orbits that Newton's method finds from the first impacts of the orbits of a grid of

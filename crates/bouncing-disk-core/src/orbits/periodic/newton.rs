@@ -84,6 +84,52 @@ impl Shooting {
     }
 }
 
+const fn not_settled(iterations: u32, residual: f64) -> Error {
+    Error::NotSettled { what: "multiple shooting", iterations, residual }
+}
+
+/// The impacts on which Newton's method settles, with their shooting: to `residual`, and until it no longer shrinks. A
+/// step may be shortened, and is `None` where numbers get out of range; the tick counts impacts.
+pub(super) fn settled(
+    guess: &[ImpactState],
+    residual: f64,
+    shoot: impl Fn(&[ImpactState]) -> Result<Shooting, Error>,
+    stepped: impl Fn(&[ImpactState], &[DVec2]) -> Option<Vec<ImpactState>>,
+    tick: Tick<'_>,
+) -> Result<(Vec<ImpactState>, Shooting), Error> {
+    let n = guess.len();
+    within("period", n as f64, 1.0, MAX_PERIOD as f64, "[1, 4096] impacts")?;
+    let (mut states, mut last) = (guess.to_vec(), f64::INFINITY);
+    // The last result below the residual, if a later step is worse: at the birth of an orbit the derivative is
+    // singular.
+    let mut found = None;
+    for iterations in 1..=MAX_NEWTON_STEPS {
+        tick(n as u64)?;
+        let shooting = match shoot(&states) {
+            Ok(shooting) => shooting,
+            Err(error) => return found.ok_or(error),
+        };
+        let worst = shooting.worst;
+        // A step after the residual has stopped shrinking only stirs the rounding.
+        if worst <= residual && worst >= 0.5 * last || worst == 0.0 {
+            return Ok((states, shooting));
+        }
+        if worst > residual
+            && let Some(found) = found
+        {
+            return Ok(found);
+        }
+        last = worst;
+        let next = stepped(&states, &solve_block_cyclic(&shooting.derivatives, &shooting.right));
+        found = (worst <= residual).then_some((states, shooting));
+        states = match next {
+            Some(next) => next,
+            None => return found.ok_or(not_settled(iterations, last)),
+        };
+    }
+    found.ok_or(not_settled(MAX_NEWTON_STEPS, last))
+}
+
 /// The unit of speeds in the residual of a shooting.
 pub(super) fn speed_scale(states: &[ImpactState]) -> f64 {
     1.0 + states.iter().fold(0.0_f64, |most, state| most.max(-state.velocity()))
@@ -128,11 +174,16 @@ pub(crate) fn same_orbit(a: &PeriodicOrbit, b: &PeriodicOrbit) -> bool {
     (0..n).any(|shift| (0..n).all(|i| near(a.states[i], b.states[(i + shift) % n], room)))
 }
 
+/// The numbers of impacts, less than all, after which a sequence repeats itself within `room`, rising.
+pub(crate) fn repetitions(states: &[ImpactState], room: f64) -> impl Iterator<Item = usize> {
+    let n = states.len();
+    let repeats = move |shift: usize| (0..n).all(|i| near(states[i], states[(i + shift) % n], room));
+    (1..n).filter(move |shift| n.is_multiple_of(*shift) && repeats(*shift))
+}
+
 /// The number of impacts after which a sequence repeats itself within `room`.
 pub(super) fn prime_period(states: &[ImpactState], room: f64) -> usize {
-    let n = states.len();
-    let repeats = |shift: usize| (0..n).all(|i| near(states[i], states[(i + shift) % n], room));
-    (1..n).filter(|shift| n.is_multiple_of(*shift)).find(|shift| repeats(*shift)).unwrap_or(n)
+    repetitions(states, room).next().unwrap_or(states.len())
 }
 
 /// The periodic orbit near a guess, with its least period: if the guess nearly repeats a shorter orbit, this one, except
@@ -171,56 +222,26 @@ impl ImpactMap {
         guess: &[ImpactState],
         tick: Tick<'_>,
     ) -> Result<PeriodicOrbit, Error> {
-        let n = guess.len();
-        within("period", n as f64, 1.0, MAX_PERIOD as f64, "[1, 4096] impacts")?;
-        let mut states = guess.to_vec();
-        let scale = speed_scale(&states);
-        let mut residual = f64::INFINITY;
-        // The last result below the residual, if a later step is worse: at the birth of an orbit the
-        // derivative is singular.
-        let mut found = None;
-        let not_settled =
-            |iterations, residual| Error::NotSettled { what: "multiple shooting", iterations, residual };
-        let accepted = |orbit: PeriodicOrbit| {
-            orbit.check_motion()?;
-            let residual = orbit.position_error;
-            self.exact_orbit(orbit).ok_or_else(|| not_settled(MAX_NEWTON_STEPS, residual))
-        };
-        for iterations in 1..=MAX_NEWTON_STEPS {
-            tick(n as u64)?;
-            let Shooting { derivatives, right, monodromy, turns, worst } = match self.shoot(&states, scale) {
-                Ok(shooting) => shooting,
-                Err(error) => return found.map_or(Err(error), accepted),
-            };
-            let orbit = || PeriodicOrbit {
-                states: states.clone(),
-                platform_periods: turns,
-                monodromy,
-                position_error: worst,
-                trace_error: 0.0,
-            };
-            // A step after the residual has stopped shrinking only stirs the rounding.
-            if worst <= SHOOTING_RESIDUAL && worst >= 0.5 * residual || worst == 0.0 {
-                return accepted(orbit());
-            }
-            if worst <= SHOOTING_RESIDUAL {
-                found = Some(orbit());
-            } else if let Some(found) = found {
-                return accepted(found);
-            }
-            residual = worst;
-            let steps = solve_block_cyclic(&derivatives, &right);
-            let moved = states.iter().zip(&steps).map(|(state, step)| {
+        let scale = speed_scale(guess);
+        let full_step = |states: &[ImpactState], steps: &[DVec2]| {
+            let moved = states.iter().zip(steps).map(|(state, step)| {
                 let angle = state.phase().angle() + step.x;
-                let velocity = (state.velocity() + step.y).min(0.0);
-                ImpactState::new(Phase::new(angle)?, velocity)
+                ImpactState::new(Phase::new(angle)?, (state.velocity() + step.y).min(0.0))
             });
-            states = match moved.collect::<Result<_, _>>() {
-                Ok(states) => states,
-                Err(_) => return found.map_or(Err(not_settled(iterations, residual)), accepted),
-            };
-        }
-        found.map_or(Err(not_settled(MAX_NEWTON_STEPS, residual)), accepted)
+            moved.collect::<Result<_, Error>>().ok()
+        };
+        let shoot = |states: &[ImpactState]| self.shoot(states, scale);
+        let (states, Shooting { monodromy, turns, worst, .. }) =
+            settled(guess, SHOOTING_RESIDUAL, shoot, full_step, tick)?;
+        let orbit = PeriodicOrbit {
+            states,
+            platform_periods: turns,
+            monodromy,
+            position_error: worst,
+            trace_error: 0.0,
+        };
+        orbit.check_motion()?;
+        self.exact_orbit(orbit).ok_or(not_settled(MAX_NEWTON_STEPS, worst))
     }
 
     pub(super) fn shoot(&self, states: &[ImpactState], scale: f64) -> Result<Shooting, Error> {
