@@ -5,7 +5,7 @@ use std::hint::black_box;
 
 use bouncing_disk_core::sweep::{InstructionSet, OrbitBatch};
 use bouncing_disk_core::{
-    ChatterPolicy, Drive, ImpactMap, ImpactState, Launch, OrbitEvent, Phase, Unobserved, Vibration,
+    ChatterPolicy, ImpactMap, ImpactState, Launch, OrbitEvent, Phase, Unobserved, Vibration,
 };
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
@@ -140,41 +140,5 @@ fn regimes(c: &mut Criterion) {
     group.finish();
 }
 
-/// The same launches on the sine and on drives: the cost of a drive is the ratio (docs/numerics/drives.md).
-fn drives(c: &mut Criterion) {
-    let peak = 1.8;
-    let launches = launches(peak, 0.0, 2.0);
-    let sine = Drive::from(Vibration::new(peak).expect("legal"));
-    let samples: Vec<_> = (0..16_384).map(|k| sine.height(f64::from(k) / 16_384.0 * TAU)).collect();
-    let drives = [
-        ("one_harmonic", Ok(sine)),
-        ("three_harmonics", Drive::fourier(&[(peak, 0.0), (0.2, 1.0), (0.1, 2.0)])),
-        ("triangle", Drive::triangle(peak)),
-        ("parabolas", Drive::parabolas(peak)),
-        ("cubics", Drive::cubics(peak)),
-        ("samples_16384", Drive::sampled(&samples)),
-    ];
-    let mut group = c.benchmark_group("drives");
-    group.throughput(Throughput::Elements(launches.len() as u64));
-    group.bench_function("sine", |bencher| {
-        bencher.iter(|| {
-            for (vibration, launch) in black_box(&launches) {
-                let _ = black_box(vibration.first_impact(*launch));
-            }
-        });
-    });
-    for (name, drive) in drives {
-        let drive = drive.expect("legal");
-        group.bench_function(name, |bencher| {
-            bencher.iter(|| {
-                for (_, launch) in black_box(&launches) {
-                    let _ = black_box(drive.first_impact(*launch));
-                }
-            });
-        });
-    }
-    group.finish();
-}
-
-criterion_group!(benches, w1, regimes, drives);
+criterion_group!(benches, w1, regimes);
 criterion_main!(benches);

@@ -25,4 +25,4 @@ pub(crate) mod rest_proof;
 
 pub use accumulation::{Accumulation, ChatterImpact};
 pub use impact_series::{ChatterSeries, ImpactRange, PowerSeries};
-pub use policy::{AfterImpact, ShortFlightCount};
+pub use policy::{AfterImpact, ChatterDuration, ShortFlightCount};

@@ -17,8 +17,6 @@
 //! One flight after the other makes the [impact map](crate::map).
 
 pub(crate) mod bounds;
-pub(crate) mod compliance;
-pub(crate) mod drive;
 pub(crate) mod drop;
 pub(crate) mod first_impact;
 pub(crate) mod gap;
@@ -28,11 +26,6 @@ pub(crate) mod platform;
 pub mod reference;
 
 // The model reads a drop through the same check.
-pub use compliance::{Branch, Compliance, CompliantPlatform, ContactEnd, Pressed, RelativeState, Touch};
-pub use drive::contact::ChatterDuration;
-pub use drive::landing::{Doubt, DrivenImpact};
-pub use drive::pieces::MAX_PIECES;
-pub use drive::{DriveBounds, DriveState, MAX_HARMONICS, TimeAhead};
 #[doc(hidden)]
 pub use drop::check_drop;
 pub use first_impact::MAX_FLIGHT_DURATION;

@@ -52,16 +52,16 @@ pub mod flight;
 pub mod map;
 pub mod numerics;
 pub mod orbits;
+#[doc(hidden)]
+pub mod parts;
 pub mod run;
 pub mod sweep;
 
 pub use chatter::policy::{ChatterCut, ChatterPolicy};
 
-pub use flight::drive::Drive;
 pub use flight::launch::{Impact, Launch};
 pub use flight::platform::phase::Phase;
 pub use flight::platform::vibration::Vibration;
-pub use map::driven_map::{DrivenMap, DrivenOrbit};
 pub use map::impact_map::{Attachment, ImpactMap, ImpactState, Orbit, OrbitEvent};
 pub use numerics::error::Error;
 pub use sweep::bouncing_map::BouncingMap;

@@ -17,10 +17,8 @@
 //! Orbits that repeat are in [`orbits`](crate::orbits), many at a time in [`sweep`](mod@crate::sweep).
 
 mod chattering;
-pub(crate) mod driven_map;
 pub(crate) mod impact_map;
 mod inverse;
-mod release;
 pub(crate) mod restitution_law;
 mod trapping_region;
 

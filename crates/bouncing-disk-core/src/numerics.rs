@@ -11,7 +11,6 @@ pub(crate) mod error;
 pub mod fraction;
 pub mod lifetime;
 pub mod power_law;
-pub mod quasi_polynomial;
 pub mod random;
 pub mod real;
 pub mod roots;

@@ -26,10 +26,8 @@ pub(crate) mod continuation;
 pub(crate) mod follow_attractor;
 pub(crate) mod periodic;
 
-pub use cascade::driven::driven_doubling_cascade;
 pub use cascade::feigenbaum::{FeigenbaumEstimate, feigenbaum_estimates};
 pub use cascade::{CascadeDoubling, DoublingCascade, MAX_DOUBLINGS, doubling_cascade};
-pub use closing::family::DrivenFamily;
 pub use closing::{ContinuationParameter, ContinuedMap};
 pub use continuation::{
     Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation, LocatedDoubling,

@@ -24,16 +24,6 @@ fn orbits_with_chatter() {
 }
 
 #[test]
-fn orbits_on_drives() {
-    assert_none(&results::orbits_on_drives());
-}
-
-#[test]
-fn orbits_with_compliance() {
-    assert_none(&results::orbits_with_compliance());
-}
-
-#[test]
 fn basin_labels() {
     assert_none(&results::basin_labels());
 }

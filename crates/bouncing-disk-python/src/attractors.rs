@@ -1,7 +1,7 @@
 //! Attractors of the map, their basins on a grid and over the forcing, and measures of basins.
 
 use bouncing_disk::core::{
-    DrivenMap, Error as CoreError, ImpactMap,
+    Error as CoreError, ImpactMap,
     attractors::{
         AfterRest, AttractingMap as _, Attractor, AttractorKind, AttractorSearch,
         Attractors as AttractorsModel, Axis, BasinSettings, Basins, BoundaryFit, Grid, KnownOrbit, Label,
@@ -9,6 +9,7 @@ use bouncing_disk::core::{
     },
     orbits::PeriodicOrbit as OrbitModel,
 };
+use bouncing_disk::drives::DrivenMap;
 use bouncing_disk::{Error, Observer, Progress};
 use numpy::{PyArray2, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::exceptions::PyTypeError;

@@ -5,10 +5,11 @@ use bouncing_disk::core::{
     ImpactMap, ImpactState, Vibration,
     orbits::{
         BifurcationKind, Branch as BranchModel, BranchEnd, BranchPoint, Continuation, ContinuationParameter,
-        ContinuedMap, DrivenFamily, OrbitSearch, PeriodicOrbit as OrbitModel, Stability,
-        doubling_cascade as doubling_cascade_of, driven_doubling_cascade, feigenbaum_estimates,
+        ContinuedMap, OrbitSearch, PeriodicOrbit as OrbitModel, Stability,
+        doubling_cascade as doubling_cascade_of, feigenbaum_estimates,
     },
 };
+use bouncing_disk::drives::{DrivenFamily, driven_doubling_cascade};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;

@@ -4,8 +4,8 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk::core::flight::Compliance;
 use bouncing_disk::core::{ImpactMap, ImpactState, Vibration};
+use bouncing_disk::drives::compliance::Compliance;
 use bouncing_disk::motor::MotorParameters;
 use bouncing_disk::parameters::{Contact, StatorParameters, Waveform};
 use bouncing_disk::{DiskParameters, PlatformParameters, System};

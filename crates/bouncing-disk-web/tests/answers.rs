@@ -2,10 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk::core::flight::Compliance;
 use bouncing_disk::core::numerics::elementary::ln;
 use bouncing_disk::core::{Phase, Unobserved};
 use bouncing_disk::driven;
+use bouncing_disk::drives::compliance::Compliance;
 use bouncing_disk::motor::OperatingSettings;
 use bouncing_disk::parameters::{ContactLaw, DrivenPlatform, Stroke};
 use bouncing_disk::toss::{InitialSpin, TOSS_START, single_toss};

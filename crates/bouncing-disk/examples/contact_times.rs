@@ -10,9 +10,8 @@ use std::f64::consts::{FRAC_1_PI, FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
 use bouncing_disk::core::numerics::roots::bisection;
 use bouncing_disk::core::numerics::statistics::{mean, standard_deviation};
-use bouncing_disk::core::{
-    Drive, DrivenMap, Error as CoreError, ImpactMap, ImpactState, Phase, Unobserved, Vibration,
-};
+use bouncing_disk::core::{Error as CoreError, ImpactMap, ImpactState, Phase, Unobserved, Vibration};
+use bouncing_disk::drives::{Drive, DrivenMap};
 use bouncing_disk::motor::{Estimate, NormalImpulses, OperatingSettings, Operation};
 use bouncing_disk::parameters::{Contact, Geometry};
 use bouncing_disk::{Error, Motor, System};

@@ -26,10 +26,10 @@
 //!
 //! [`single_toss`] and [`multi_toss`] compute the tosses of such a hand, and a
 //! [`Motor`](crate::Motor) whose sheet has a [drive](crate::motor::MotorParameters::drive) has such a stator. Where one motion
-//! follows another, as in a start-up, [`DrivenEngine::of_state`] goes on from the state of the one before. The core's [`DrivenMap`](crate::core::DrivenMap) has the vertical motion alone.
+//! follows another, as in a start-up, [`DrivenEngine::of_state`] goes on from the state of the one before. The core's [`DrivenMap`](crate::drives::DrivenMap) has the vertical motion alone.
 
-use bouncing_disk_core::Drive;
-use bouncing_disk_core::flight::{Compliance, CompliantPlatform};
+use bouncing_disk_drives::Drive;
+use bouncing_disk_drives::compliance::{Compliance, CompliantPlatform};
 
 use crate::error::Error;
 use crate::parameters::contact::ContactLaw;

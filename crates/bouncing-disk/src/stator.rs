@@ -42,8 +42,8 @@ mod works;
 
 use std::sync::Arc;
 
-use bouncing_disk_core::flight::Compliance;
 use bouncing_disk_core::numerics::elementary::sin_cos;
+use bouncing_disk_drives::compliance::Compliance;
 
 use crate::error::{Error, check, finite};
 use crate::motion::state::{Mode, SlipDirection};

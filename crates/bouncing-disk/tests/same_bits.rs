@@ -3,8 +3,10 @@
 //! They are stored beside the Python package, which compares its own results with them
 //! (`tests/test_same_bits.py`). `.ci/aarch64` runs these tests on another processor.
 
+#[path = "../../bouncing-disk-drives/tests/golden/on_drives.rs"]
+mod on_drives;
 #[path = "../../bouncing-disk-core/tests/golden/results.rs"]
-mod golden;
+mod results;
 
 use bouncing_disk::core::numerics::digest::Digest;
 use bouncing_disk::core::{
@@ -40,18 +42,19 @@ fn results_have_the_stored_digests() {
 #[test]
 fn flights_orbits_and_basins_are_the_golden_ones() {
     let differences = [
-        golden::launches_of_every_regime(),
-        golden::chaotic_orbit(),
-        golden::orbits_with_chatter(PAPER_CHATTER),
-        golden::orbits_on_drives(),
-        golden::orbits_with_compliance(),
-        golden::basin_labels(),
-        golden::branches(),
-        golden::cascade(),
-        golden::attractors(),
-        golden::verdicts_and_exponents(),
-        golden::periodic_orbits(),
-        golden::drops(),
+        results::launches_of_every_regime(),
+        results::chaotic_orbit(),
+        results::orbits_with_chatter(PAPER_CHATTER),
+        on_drives::orbits_on_drives(),
+        on_drives::orbits_with_compliance(),
+        results::basin_labels(),
+        results::branches(),
+        results::cascade(),
+        results::attractors(),
+        results::verdicts_and_exponents(),
+        results::periodic_orbits(),
+        on_drives::periodic_orbits_on_drives(),
+        results::drops(),
     ];
     assert_eq!(differences.concat(), Vec::<String>::new());
 }

@@ -1,11 +1,11 @@
 //! `bouncing-disk basins`: which impacts lead where.
 
-use bouncing_disk::core::DrivenMap;
 use bouncing_disk::core::attractors::{
     ATTACHED, AfterRest, AttractingMap as _, Attractor, AttractorKind, AttractorSearch, Attractors, Axis,
     BasinSettings, Grid, Label, UNDECIDED,
 };
 use bouncing_disk::core::orbits::PeriodicOrbit;
+use bouncing_disk::drives::DrivenMap;
 use bouncing_disk::parameters::Waveform;
 use bouncing_disk::{Observer, Progress};
 use serde::{Deserialize, Serialize};

@@ -3,9 +3,10 @@
 use bouncing_disk::Observer;
 use bouncing_disk::core::numerics::statistics::extent;
 use bouncing_disk::core::{
-    ChatterPolicy, DrivenOrbit, ImpactState, Orbit,
+    ChatterPolicy, ImpactState, Orbit,
     sweep::{MAX_RECORDED, orbit_diagram},
 };
+use bouncing_disk::drives::DrivenOrbit;
 use bouncing_disk::motor::circular::distinct;
 use bouncing_disk::parameters::Waveform;
 use bouncing_disk_plot::Figure;

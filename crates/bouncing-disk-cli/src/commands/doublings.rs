@@ -1,8 +1,9 @@
 //! `bouncing-disk doublings`: the period-doubling cascade.
 
 use bouncing_disk::core::orbits::{
-    CascadeDoubling, FeigenbaumEstimate, doubling_cascade, driven_doubling_cascade, feigenbaum_estimates,
+    CascadeDoubling, FeigenbaumEstimate, doubling_cascade, feigenbaum_estimates,
 };
+use bouncing_disk::drives::driven_doubling_cascade;
 
 use bouncing_disk_plot::rounded;
 

@@ -5,7 +5,8 @@ use std::fmt::{self, Display, Formatter};
 use std::str::FromStr;
 
 use bouncing_disk::System;
-use bouncing_disk::core::{DrivenMap, Error, ImpactMap, ImpactState, Phase, Vibration};
+use bouncing_disk::core::{Error, ImpactMap, ImpactState, Phase, Vibration};
+use bouncing_disk::drives::DrivenMap;
 use bouncing_disk::parameters::{DriveParameters, DrivenPlatform, Waveform};
 use serde::{Deserialize, Serialize};
 

@@ -6,10 +6,11 @@ use crate::common::Folder;
 use bouncing_disk::core::attractors::{
     AttractorSearch, Axis, BasinSettings, Grid, VerdictSettings, verdicts,
 };
-use bouncing_disk::core::orbits::{OrbitSearch, Stability, doubling_cascade, driven_doubling_cascade};
+use bouncing_disk::core::orbits::{OrbitSearch, Stability, doubling_cascade};
 use bouncing_disk::core::sweep::orbit_diagram;
 use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Phase, Unobserved, Vibration};
 use bouncing_disk::driven::{self, DrivenStart, DrivenSystem};
+use bouncing_disk::drives::driven_doubling_cascade;
 use bouncing_disk::estimate::TransientEnsemble;
 use bouncing_disk::motor::{
     MotorField, MotorSweep, OperatingSettings, SweepAxis, TransientMember, TransientSettings,

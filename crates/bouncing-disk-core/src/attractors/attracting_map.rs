@@ -11,7 +11,6 @@ use super::search::settings::AttractorSearch;
 use super::search::{Attractors, find};
 use crate::chatter::policy::ChatterPolicy;
 use crate::flight::platform::phase::Phase;
-use crate::map::driven_map::DrivenMap;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::error::{Error, room_for};
 use crate::orbits::periodic::search::OrbitSearch;
@@ -381,19 +380,5 @@ impl AttractingMap for ImpactMap {
         observer: &dyn Observer,
     ) -> Result<Vec<Label>, Error> {
         self.labels_of_rows(grid, rows, known, settings, observer)
-    }
-}
-
-impl AttractingMap for DrivenMap {
-    fn impact_speed_bound(&self) -> f64 {
-        self.impact_speed_bound()
-    }
-
-    fn orbits_found(
-        &self,
-        search: &OrbitSearch,
-        observer: &dyn Observer,
-    ) -> Result<Vec<PeriodicOrbit>, Error> {
-        self.periodic_orbits(search, observer)
     }
 }

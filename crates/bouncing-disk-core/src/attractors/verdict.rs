@@ -8,7 +8,6 @@ pub(crate) mod witness;
 
 use crate::chatter::policy::ChatterPolicy;
 use crate::flight::platform::phase::Phase;
-use crate::map::driven_map::DrivenMap;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::error::{Error, finite, not_negative, within};
 use crate::numerics::stored::read_checked;
@@ -328,16 +327,6 @@ impl ImpactMap {
     /// assert!(matches!(verdict, Verdict::Periodic { impacts: 1, platform_periods: 1, .. }));
     /// # Ok::<(), bouncing_disk_core::Error>(())
     /// ```
-    ///
-    /// # Errors
-    /// Those of [`verdicts`].
-    pub fn verdict(&self, state: ImpactState, settings: VerdictSettings) -> Result<Verdict, Error> {
-        verdict(self, state, settings)
-    }
-}
-
-impl DrivenMap {
-    /// The long-term behaviour of the orbit from `state`.
     ///
     /// # Errors
     /// Those of [`verdicts`].

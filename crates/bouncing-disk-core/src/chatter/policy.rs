@@ -2,8 +2,6 @@
 
 use core::f64::consts::{PI, TAU};
 
-use crate::flight::drive::Drive;
-use crate::flight::drive::contact::ChatterDuration;
 use crate::numerics::error::Error;
 use crate::numerics::stored::read_checked;
 
@@ -28,7 +26,28 @@ pub enum ChatterPolicy {
     Cut(ChatterCut),
 }
 
-/// What a disk does after an impact on a [`Drive`].
+/// How long a chatter lasts, from a launch to the rest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct ChatterDuration {
+    /// In radians, from the Taylor series of the acceleration at the launch.
+    pub duration: f64,
+    /// Bound on its error.
+    pub error: f64,
+}
+
+/// A platform on which a disk may chatter.
+#[doc(hidden)]
+pub trait Surface {
+    /// Whether a disk that rests on the platform at `time` stays there.
+    fn holds(&self, time: f64) -> bool;
+
+    /// The time from a launch at `time` with relative `speed` to the rest after infinitely many impacts, if that is
+    /// proven.
+    fn chatter_duration(&self, time: f64, speed: f64, restitution: f64) -> Option<ChatterDuration>;
+}
+
+/// What a disk does after an impact on any platform.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum AfterImpact {
     /// It leaves the platform with this relative speed, in units of g/omega: zero where a cut has taken the
@@ -44,17 +63,17 @@ pub enum AfterImpact {
 }
 
 impl ChatterPolicy {
-    /// What follows an impact on `drive` at `time` with this relative velocity <= 0, at the end of a flight
+    /// What follows an impact on `surface` at `time` with this relative velocity <= 0, at the end of a flight
     /// of this duration (rad; infinite if it does not count as a flight).
     pub fn after_impact(
         &self,
-        (drive, restitution): (&Drive, f64),
+        (surface, restitution): (&impl Surface, f64),
         (time, velocity): (f64, f64),
         flight: f64,
         short_flights: &mut ShortFlightCount,
     ) -> AfterImpact {
         let speed = -restitution * velocity;
-        let holds = drive.holds(time);
+        let holds = surface.holds(time);
         let rest = AfterImpact::Rest { error: if speed > 0.0 { f64::INFINITY } else { 0.0 } };
         match self {
             Self::Cut(cut) => match short_flights.attaches(cut, flight, -velocity) || speed == 0.0 {
@@ -63,7 +82,7 @@ impl ChatterPolicy {
                 true => AfterImpact::Launch(0.0),
             },
             Self::Complete => {
-                let chatter = drive.chatter_duration(time, speed, restitution);
+                let chatter = surface.chatter_duration(time, speed, restitution);
                 match chatter.filter(|chatter| chatter.error <= COMPLETION_ERROR) {
                     Some(chatter) => AfterImpact::Chatter(chatter),
                     None if speed <= SMALLEST_SPEED && holds => rest,
@@ -150,7 +169,7 @@ pub struct ShortFlightCount(u32);
 
 impl ShortFlightCount {
     /// No short flight yet.
-    pub(crate) const fn new() -> Self {
+    pub const fn new() -> Self {
         Self(0)
     }
 

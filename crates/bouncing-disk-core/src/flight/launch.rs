@@ -38,7 +38,7 @@ impl Launch {
     }
 
     /// A launch with a speed that is known to be legal.
-    pub(crate) const fn known(phase: Phase, relative_speed: f64) -> Self {
+    pub const fn known(phase: Phase, relative_speed: f64) -> Self {
         Self { phase, relative_speed }
     }
 

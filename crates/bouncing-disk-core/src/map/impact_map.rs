@@ -63,7 +63,7 @@ impl ImpactState {
     }
 
     /// The state at an impact that was computed.
-    pub(crate) const fn of_impact(phase: Phase, velocity: f64) -> Self {
+    pub const fn of_impact(phase: Phase, velocity: f64) -> Self {
         Self { phase, velocity }
     }
 

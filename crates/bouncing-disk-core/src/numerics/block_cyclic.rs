@@ -20,7 +20,7 @@ type Row = [f64; 7];
 /// 742 (1992)). With rotations the rounding does not grow, however unstable the sequence is; with the product
 /// of the blocks it would. The solution of a singular system is not finite, or as large as the rounding makes
 /// it.
-pub(crate) fn solve_block_cyclic(blocks: &[DMat2], right: &[DVec2]) -> Vec<DVec2> {
+pub fn solve_block_cyclic(blocks: &[DMat2], right: &[DVec2]) -> Vec<DVec2> {
     let n = blocks.len().min(right.len());
     if n == 0 {
         return Vec::new();

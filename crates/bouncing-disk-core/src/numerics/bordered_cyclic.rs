@@ -14,20 +14,27 @@ type Row = [f64; 8];
 
 /// The condition that is added: `first . x[0] + parameter mu = right`.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Border {
-    pub(crate) first: DVec2,
-    pub(crate) parameter: f64,
-    pub(crate) right: f64,
+pub struct Border {
+    /// The part of the first unknown.
+    pub first: DVec2,
+    /// The part of the parameter.
+    pub parameter: f64,
+    /// The right side.
+    pub right: f64,
 }
 
 /// The equations of a closed sequence: `own[i] x[i] + next[i] x[i + 1] + column[i] mu = right[i]`, the index
 /// taken modulo their number.
 #[derive(Debug, Clone, Default)]
 pub struct CyclicEquations {
-    pub(crate) own: Vec<DMat2>,
-    pub(crate) next: Vec<DMat2>,
-    pub(crate) column: Vec<DVec2>,
-    pub(crate) right: Vec<DVec2>,
+    /// Of the own unknown of each equation.
+    pub own: Vec<DMat2>,
+    /// Of the next unknown.
+    pub next: Vec<DMat2>,
+    /// Of the parameter.
+    pub column: Vec<DVec2>,
+    /// The right sides.
+    pub right: Vec<DVec2>,
 }
 
 impl CyclicEquations {
@@ -38,7 +45,7 @@ impl CyclicEquations {
     /// these two alone, it meets the rest at the end, in three equations: so the whole is as well conditioned
     /// as the bordered matrix, also where the closed sequence alone is singular, in a fold. The solution of a
     /// singular system is not finite, or as large as the rounding makes it.
-    pub(crate) fn solve(&self, border: Border) -> (Vec<DVec2>, f64) {
+    pub fn solve(&self, border: Border) -> (Vec<DVec2>, f64) {
         let n = self.own.len();
         if n == 0 {
             return (Vec::new(), border.right / border.parameter);

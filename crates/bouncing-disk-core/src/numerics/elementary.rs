@@ -189,7 +189,7 @@ pub fn sine_deficit_ratio(h: f64) -> f64 {
 /// The remainder has an error of at most 5e-16 + 2e-24 duration (two-part reduction), beside that of the
 /// rounded `duration` itself.
 #[inline(always)]
-pub(crate) fn nearest_periods(duration: f64) -> (f64, f64) {
+pub fn nearest_periods(duration: f64) -> (f64, f64) {
     let periods = (duration * (1.0 / TAU) + ROUND_MAGIC) - ROUND_MAGIC;
     let rest = (duration - periods * TAU_HEAD) - periods * TAU_TAIL;
     (periods, rest)
@@ -243,7 +243,7 @@ pub(crate) fn impact_phase_of_lane(angle: f64) -> (f64, f64) {
 
 /// The nearest whole number to `x`, for |x| below 2^51.
 #[inline(always)]
-pub(crate) fn nearest_whole(x: f64) -> f64 {
+pub fn nearest_whole(x: f64) -> f64 {
     (x + ROUND_MAGIC) - ROUND_MAGIC
 }
 

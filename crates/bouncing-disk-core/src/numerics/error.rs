@@ -218,7 +218,7 @@ fn without_fraction(value: f64) -> String {
 }
 
 /// Checks that `value` lies in [`low`, `high`]; NaN does not.
-pub(crate) fn within(
+pub fn within(
     field: &'static str,
     value: f64,
     low: f64,
@@ -239,12 +239,12 @@ fn missed(impact: usize, distance: f64) -> String {
 }
 
 /// Checks that `value` is finite.
-pub(crate) fn finite(field: &'static str, value: f64) -> Result<f64, Error> {
+pub fn finite(field: &'static str, value: f64) -> Result<f64, Error> {
     within(field, value, f64::MIN, f64::MAX, "finite")
 }
 
 /// Checks that `value` is finite and not negative.
-pub(crate) fn not_negative(field: &'static str, value: f64) -> Result<f64, Error> {
+pub fn not_negative(field: &'static str, value: f64) -> Result<f64, Error> {
     within(field, value, 0.0, f64::MAX, "[0, inf)")
 }
 

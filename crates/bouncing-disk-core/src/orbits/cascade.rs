@@ -2,7 +2,6 @@
 //! Newton's iteration on the impact times (docs/numerics/dynamics.md, "The doubling cascade").
 
 pub(crate) mod branch;
-pub(crate) mod driven;
 pub(crate) mod feigenbaum;
 mod recurrence;
 

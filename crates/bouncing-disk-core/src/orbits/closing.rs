@@ -19,7 +19,6 @@ use crate::orbits::continuation::{Branch, Continuation, LocatedDoubling, walker}
 use crate::orbits::periodic::PeriodicOrbit;
 use crate::run::{Observer, Progress, Watch};
 
-pub(crate) mod family;
 mod sine;
 
 /// Newton steps until a correction is given up.
@@ -45,7 +44,7 @@ pub enum ContinuationParameter {
     Forcing,
     /// The coefficient of restitution, in (0, 1).
     Restitution,
-    /// The number of a [`DrivenFamily`](super::DrivenFamily).
+    /// The number of a family of maps, as `bouncing_disk_drives::DrivenFamily`.
     Number,
 }
 
@@ -61,7 +60,7 @@ impl ContinuationParameter {
 }
 
 /// A map whose periodic orbits can be continued in a parameter: [`ImpactMap`](crate::ImpactMap) in its forcing and its restitution,
-/// [`DrivenFamily`](super::DrivenFamily) in its number.
+/// `bouncing_disk_drives::DrivenFamily` in its number.
 pub trait ContinuedMap: Clone + Debug {
     /// Whether Newton's method converges quadratically: the derivatives are exact.
     #[doc(hidden)]
@@ -239,8 +238,10 @@ pub trait ContinuedMap: Clone + Debug {
 /// it, in units of g/omega) and the parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Closed {
-    pub(crate) impacts: Vec<DVec2>,
-    pub(crate) parameter: f64,
+    /// The impacts.
+    pub impacts: Vec<DVec2>,
+    /// The parameter.
+    pub parameter: f64,
 }
 
 impl Closed {
@@ -259,17 +260,22 @@ pub(crate) fn turned(angle: f64) -> f64 {
 /// The units in which changes of the first impact and of the parameter are measured.
 #[derive(Debug, Clone, Copy)]
 pub struct Scale {
-    pub(crate) speed: f64,
-    pub(crate) parameter: f64,
+    /// Of the speed.
+    pub speed: f64,
+    /// Of the parameter.
+    pub parameter: f64,
 }
 
 /// A flight from an impact to the next: phase (rad) and relative velocity (g/omega) at either end, and its duration
 /// (rad).
 #[derive(Debug, Clone, Copy)]
 pub struct Flight {
-    pub(crate) from: (f64, f64),
-    pub(crate) to: (f64, f64),
-    pub(crate) duration: f64,
+    /// Just after the impact before.
+    pub from: (f64, f64),
+    /// Just before the impact after.
+    pub to: (f64, f64),
+    /// Between both.
+    pub duration: f64,
 }
 
 /// The plane in which a correction looks for a point: at this distance from a base, across a direction

@@ -168,7 +168,7 @@ impl BranchPoint {
     }
 
     /// (1 + m1)(1 + m2) of the multipliers.
-    pub(super) fn flip_function(&self) -> f64 {
+    pub fn flip_function(&self) -> f64 {
         1.0 + self.trace + self.determinant
     }
 

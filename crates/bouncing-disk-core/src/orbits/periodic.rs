@@ -14,14 +14,13 @@ use crate::numerics::stored::read_checked;
 use crate::run::{Observer, Tick, Watch};
 
 pub(crate) mod belonging;
-mod driven;
 pub(crate) mod margin;
 pub(crate) mod newton;
 pub(crate) mod pair;
 pub(crate) mod search;
 
 /// Most Newton steps of [`ImpactMap::refine`].
-const MAX_NEWTON_STEPS: u32 = 50;
+pub const MAX_NEWTON_STEPS: u32 = 50;
 
 /// The longest period searched for and refined.
 pub const MAX_PERIOD: usize = 4_096;
@@ -200,7 +199,11 @@ impl PeriodicOrbit {
     }
 
     /// Refuses a disk at rest.
-    fn check_motion(&self) -> Result<(), Error> {
+    ///
+    /// # Errors
+    /// [`Error::ImpactWithoutSpeed`] and [`Error::NoPlatformPeriods`].
+    #[doc(hidden)]
+    pub fn check_motion(&self) -> Result<(), Error> {
         if let Some(index) = self.states.iter().position(|state| state.velocity() >= 0.0) {
             return Err(Error::ImpactWithoutSpeed { index, phase: self.states[index].phase().angle() });
         }
@@ -270,11 +273,16 @@ impl PeriodicOrbit {
 
     /// Phase space shrinks, so that the determinant is at most 1 in size. Where perturbations grow a lot, that of the
     /// product of many matrices is all rounding and may have any size.
-    pub(crate) fn determinant(&self) -> f64 {
+    #[doc(hidden)]
+    #[must_use]
+    pub fn determinant(&self) -> f64 {
         self.monodromy.determinant().clamp(-1.0, 1.0)
     }
 
-    fn trace(&self) -> f64 {
+    /// The trace of the derivative around the orbit.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn trace(&self) -> f64 {
         self.monodromy.x_axis.x + self.monodromy.y_axis.y
     }
 
@@ -286,7 +294,7 @@ impl PeriodicOrbit {
 }
 
 /// The smaller way round the circle from `from` to `to`, in (-pi, pi].
-pub(crate) fn phase_difference(to: f64, from: f64) -> f64 {
+pub fn phase_difference(to: f64, from: f64) -> f64 {
     let difference = to - from;
     if difference > PI {
         difference - TAU

@@ -6,7 +6,6 @@ use glam::DMat2;
 
 use crate::chatter::policy::ChatterPolicy;
 use crate::flight::launch::Impact;
-use crate::map::driven_map::{DrivenMap, DrivenOrbit};
 use crate::map::impact_map::{ImpactMap, ImpactState, Orbit};
 use crate::numerics::elementary::ln;
 use crate::numerics::error::Error;
@@ -22,7 +21,7 @@ pub(crate) const DISSIPATION_TIMES: f64 = 10.0;
 const WORK_OF_EVENT: u64 = 16;
 
 /// The vertical impact map of a disk on a platform: the sine's [`ImpactMap`](crate::ImpactMap), and the
-/// [`DrivenMap`](crate::DrivenMap) of other drives and of contacts that take time.
+/// `bouncing_disk_drives::DrivenMap` of other drives and of contacts that take time.
 ///
 /// Verdicts, Lyapunov exponents and orbit diagrams take any of them. Where a map knows more (a closed form, a
 /// certificate of rest, a way to compute many flights at once), its methods replace the general ones.
@@ -93,9 +92,6 @@ pub trait BouncingMap: Clone + core::fmt::Debug + Send + Sync {
         Ok(state)
     }
 }
-
-/// How far rounding may move the end of a contact on a drive, where the force falls through zero at its slowest (rad).
-const SEPARATION_ERROR: f64 = 1.0e-9;
 
 /// The outcome of the orbit with an index.
 pub type OrbitOutcome<S> = (usize, Result<S, Error>);
@@ -188,64 +184,5 @@ impl BouncingMap for ImpactMap {
     #[inline]
     fn steps(&self, state: ImpactState, impacts: u64) -> Result<ImpactState, Error> {
         self.steps(state, impacts)
-    }
-}
-
-impl BouncingMap for DrivenMap {
-    type Orbit = DrivenOrbit;
-
-    fn restitution(&self) -> f64 {
-        Self::restitution(self)
-    }
-
-    fn speed_scale(&self) -> f64 {
-        self.drive().bounds().speed
-    }
-
-    fn step(&self, state: ImpactState) -> Result<Impact, Error> {
-        self.step(state).map(|landing| landing.impact)
-    }
-
-    fn step_with_derivative(&self, state: ImpactState) -> Result<(Impact, DMat2), Error> {
-        self.step_with_derivative(state).map(|(landing, derivative)| (landing.impact, derivative))
-    }
-
-    fn orbit(&self, state: ImpactState, policy: ChatterPolicy) -> DrivenOrbit {
-        self.orbit(state, policy)
-    }
-
-    fn refine(&self, guess: &[ImpactState]) -> Result<PeriodicOrbit, Error> {
-        self.refine(guess)
-    }
-
-    fn chatters_to_rest_after(&self, state: ImpactState) -> bool {
-        self.chatters_to_rest_after(state)
-    }
-
-    /// The flight again: an event does not have its error.
-    fn derivative(&self, from: ImpactState, to: ImpactState, _duration: f64) -> (DMat2, f64) {
-        match self.step_with_derivative(from) {
-            // A contact that takes time has no bound of its error.
-            Ok((landing, derivative)) if landing.doubt.is_none() && landing.error.is_finite() => {
-                (derivative, landing.error * (1.0 + to.velocity().abs()))
-            }
-            Ok((_, derivative)) => (derivative, f64::INFINITY),
-            Err(_) => (DMat2::NAN, f64::INFINITY),
-        }
-    }
-
-    fn separation_error(&self) -> f64 {
-        SEPARATION_ERROR
-    }
-
-    /// A contact that takes time does not.
-    fn shrinks_areas_exactly(&self) -> bool {
-        self.compliant().is_none()
-    }
-}
-
-impl BouncingOrbit for DrivenOrbit {
-    fn next_event(&mut self) -> Result<Option<SweepEvent>, Error> {
-        Ok(self.advance()?.map(|event| SweepEvent::of(None, event)))
     }
 }

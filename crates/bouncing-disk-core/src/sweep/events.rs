@@ -27,7 +27,7 @@ pub enum SweepEvent {
 impl SweepEvent {
     /// An event of an orbit that is advanced by itself, which left the platform at `from`.
     #[inline(always)]
-    pub(crate) fn of(from: Option<Phase>, event: OrbitEvent) -> Self {
+    pub fn of(from: Option<Phase>, event: OrbitEvent) -> Self {
         match event {
             OrbitEvent::Impact(impact) => Self::Impact(SweepImpact::of(from, impact)),
             OrbitEvent::Attachment(rest) => Self::Attachment(rest),

@@ -5,21 +5,13 @@
 mod attack;
 mod campaign;
 mod cases;
-mod contacts;
-mod drive_oracle;
-mod driven;
-mod drives;
 mod drops;
 mod elementary;
 mod launches;
 mod march;
-mod numbers;
 mod oracle;
 #[path = "../paper/mod.rs"]
 mod paper;
-mod polynomials;
 mod properties;
-mod releases;
 mod seams;
 mod shards;
-mod sums;

@@ -9,32 +9,28 @@
 use std::f64::consts::TAU;
 
 use bouncing_disk_core::attractors::{
-    AttractingMap as _, AttractorKind, AttractorSearch, Axis, BasinSettings, Grid, KnownOrbit, Label,
-    VerdictSettings, verdicts,
+    AttractorKind, AttractorSearch, Axis, BasinSettings, Grid, KnownOrbit, Label, VerdictSettings, verdicts,
 };
 use bouncing_disk_core::chaos::lyapunov_spectra;
 use bouncing_disk_core::numerics::double_double::DoubleDouble;
 use bouncing_disk_core::numerics::elementary;
 use bouncing_disk_core::orbits::{
     BifurcationKind, Branch, BranchPoint, Continuation, ContinuationParameter, ContinuedMap as _,
-    OrbitSearch, PeriodicOrbit, Stability, doubling_cascade,
+    OrbitSearch, PeriodicOrbit, doubling_cascade,
 };
 use bouncing_disk_core::sweep::{InstructionSet, OrbitBatch};
-use bouncing_disk_core::{
-    Attachment, ChatterPolicy, Drive, DrivenMap, ImpactMap, ImpactState, OrbitEvent, Phase, Unobserved,
-    Vibration,
-};
+use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, OrbitEvent, Phase, Unobserved, Vibration};
 
 use bouncing_disk_core::numerics::digest::Digest;
 
 /// Half: dividing a launch speed by it, to get the impact before, loses nothing.
-const RESTITUTION: f64 = 0.5;
+pub(crate) const RESTITUTION: f64 = 0.5;
 const LAUNCHES: u64 = 100_000;
 const ORBIT_IMPACTS: usize = 100_000;
 const CELLS: usize = 200;
 
 /// Adds the four numbers of an impact.
-fn add_state(digest: &mut Digest, state: ImpactState) {
+pub(crate) fn add_state(digest: &mut Digest, state: ImpactState) {
     let phase = state.phase();
     for number in [phase.angle(), phase.sin(), phase.cos(), state.velocity()] {
         digest.number(number);
@@ -46,11 +42,11 @@ fn spread(k: u64, factor: f64) -> f64 {
     (k as f64 * factor) % 1.0
 }
 
-fn first(k: u64) -> f64 {
+pub(crate) fn first(k: u64) -> f64 {
     spread(k, 0.618_033_988_749_894_9)
 }
 
-fn second(k: u64) -> f64 {
+pub(crate) fn second(k: u64) -> f64 {
     spread(k, 0.754_877_666_246_692_7)
 }
 
@@ -189,7 +185,7 @@ fn differences(name: &str, launches: &[(ImpactMap, ImpactState)], recorded: [u64
 }
 
 /// What differs from one recorded digest.
-fn one(name: &str, digest: Digest, recorded: u64) -> Vec<String> {
+pub(crate) fn one(name: &str, digest: Digest, recorded: u64) -> Vec<String> {
     if digest.value() == recorded { Vec::new() } else { vec![format!("{name}: {:#018x}", digest.value())] }
 }
 
@@ -249,63 +245,6 @@ pub(crate) fn orbits_with_chatter(paper_policy: ChatterPolicy) -> Vec<String> {
         }
     }
     one("orbits with chatter", digest, 0x4ef0_e214_d440_d948)
-}
-
-/// Events of orbits of one map.
-fn add_orbits(digest: &mut Digest, map: &DrivenMap) {
-    for k in 0..20 {
-        let start = ImpactState::from_normalised(TAU * first(k), 2.0 * second(k)).expect("legal");
-        let mut orbit = map.orbit(start, ChatterPolicy::Complete);
-        for _ in 0..300 {
-            match orbit.advance().expect("no failure") {
-                Some(OrbitEvent::Impact(landing)) => {
-                    add_state(digest, landing.into());
-                    digest.number(landing.remainder);
-                }
-                Some(OrbitEvent::Attachment(Attachment { accumulation, last_speed, .. })) => {
-                    digest.number(accumulation.phase.angle());
-                    digest.number(last_speed);
-                }
-                Some(OrbitEvent::Separation(change) | OrbitEvent::Kick(change)) => {
-                    digest.number(change.phase.angle());
-                    digest.number(change.velocity);
-                }
-                Some(_) => digest.bytes(b"another event"),
-                None => break,
-            }
-        }
-    }
-}
-
-/// Orbits on platforms that move in other ways than a sine, with their contacts.
-pub(crate) fn orbits_on_drives() -> Vec<String> {
-    let samples: Vec<f64> = (0..64).map(|k| 2.0 * first(k) * second(k)).collect();
-    let drives = [
-        Drive::fourier(&[(1.4, 0.0), (0.2, 1.0), (0.1, 0.5)]),
-        Drive::triangle(2.0),
-        Drive::sawtooth(2.0, 0.3),
-        Drive::parabolas(1.5),
-        Drive::cubics(1.5),
-        Drive::sampled(&samples),
-    ];
-    let mut digest = Digest::new();
-    for drive in drives {
-        add_orbits(&mut digest, &DrivenMap::new(drive.expect("legal"), RESTITUTION).expect("legal"));
-    }
-    one("orbits on drives", digest, 0x461c_4c22_578d_7a1f)
-}
-
-/// Orbits with contacts that take time, of both laws, on a sine and on another drive.
-pub(crate) fn orbits_with_compliance() -> Vec<String> {
-    let mut digest = Digest::new();
-    for harmonics in [&[(20.0, 0.0)][..], &[(1.4, 0.0), (0.2, 1.0)]] {
-        for contact_time in [0.1, 3.0, 7.0] {
-            let map = DrivenMap::new(Drive::fourier(harmonics).expect("legal"), RESTITUTION).expect("legal");
-            add_orbits(&mut digest, &map.clone().with_contact_time(contact_time).expect("legal"));
-            add_orbits(&mut digest, &map.with_hysteretic_contact(contact_time).expect("legal"));
-        }
-    }
-    one("orbits with compliance", digest, 0xafa7_04ee_08bb_0b1f)
 }
 
 /// W3 of docs/performance.md on a smaller grid.
@@ -454,13 +393,13 @@ pub(crate) fn verdicts_and_exponents() -> Vec<String> {
     lines
 }
 
-fn add_orbit(digest: &mut Digest, orbit: &PeriodicOrbit) {
+pub(crate) fn add_orbit(digest: &mut Digest, orbit: &PeriodicOrbit) {
     orbit.states.iter().for_each(|state| add_state(digest, *state));
     let errors = [orbit.position_error, orbit.trace_error];
     errors.into_iter().chain(orbit.monodromy.to_cols_array()).for_each(|number| digest.number(number));
 }
 
-/// Periodic orbits and basins of the sine, of other drives, and of contacts that take time.
+/// Periodic orbits.
 pub(crate) fn periodic_orbits() -> Vec<String> {
     let search = OrbitSearch::new(3, 3).expect("legal");
     let mut digest = Digest::new();
@@ -470,29 +409,7 @@ pub(crate) fn periodic_orbits() -> Vec<String> {
         let found = map.periodic_orbits(&search, &Unobserved).expect("no failure");
         found.orbits.iter().for_each(|orbit| add_orbit(&mut digest, orbit));
     }
-    let mut lines = one("periodic orbits", digest, 0x2389_edf0_9c63_2317);
-    let drives = [
-        Drive::fourier(&[(1.4, 0.0), (0.2, 1.0), (0.1, 0.5)]),
-        Drive::triangle(2.0),
-        Drive::parabolas(1.5),
-        Drive::cubics(1.5),
-    ];
-    let maps = drives.map(|drive| DrivenMap::new(drive.expect("legal"), RESTITUTION).expect("legal"));
-    let soft = maps[0].clone().with_contact_time(0.3).expect("legal");
-    let (mut orbits, mut labels) = (Digest::new(), Digest::new());
-    let axis = |high| Axis::new(0.0, high, 40).expect("legal");
-    let grid = Grid::new(axis(1.0), axis(2.0)).expect("legal");
-    let settings = BasinSettings { max_impacts: 300, policy: ChatterPolicy::Complete };
-    for map in maps.iter().chain([&soft]) {
-        let found = map.periodic_orbits(&search, &Unobserved).expect("no failure");
-        found.iter().for_each(|orbit| add_orbit(&mut orbits, orbit));
-        let known = found.into_iter().filter(|orbit| orbit.stability() == Stability::Stable);
-        let known: Vec<_> = known.map(|orbit| KnownOrbit::new(orbit, 1.0e-3).expect("legal")).collect();
-        labels.bytes(map.basins(grid, &known, settings, &Unobserved).expect("no failure").labels());
-    }
-    lines.extend(one("periodic orbits on drives", orbits, 0x4455_9a97_4f62_b38d));
-    lines.extend(one("basins on drives", labels, 0x24a4_243e_efa0_0d14));
-    lines
+    one("periodic orbits", digest, 0x2389_edf0_9c63_2317)
 }
 
 /// Disks that start in the air, near and far, rising and falling.

@@ -11,9 +11,11 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::Drive;
-use bouncing_disk_core::flight::{Branch, MAX_FLIGHT_DURATION, Pressed, TimeAhead};
-use bouncing_disk_core::numerics::quasi_polynomial::{FirstRoot, QuasiPolynomial};
+use bouncing_disk_core::flight::MAX_FLIGHT_DURATION;
+use bouncing_disk_drives::Drive;
+use bouncing_disk_drives::compliance::{Branch, Pressed};
+use bouncing_disk_drives::drive::TimeAhead;
+use bouncing_disk_drives::quasi_polynomial::{FirstRoot, QuasiPolynomial};
 
 use super::DrivenSystem;
 use crate::error::Error;

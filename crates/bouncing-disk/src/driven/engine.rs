@@ -3,9 +3,11 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::flight::{Pressed, RelativeState, TimeAhead};
+use bouncing_disk_core::ChatterPolicy;
 use bouncing_disk_core::numerics::elementary::wrapped_angle;
-use bouncing_disk_core::{ChatterPolicy, Drive};
+use bouncing_disk_drives::Drive;
+use bouncing_disk_drives::compliance::{Pressed, RelativeState};
+use bouncing_disk_drives::drive::TimeAhead;
 
 use super::contact::{Ride, Touching};
 use super::ground::{DrivenEnd, DrivenEngine, DrivenFlight, DrivenGround, JOINT, Then, lying_pressed};

@@ -1,11 +1,12 @@
 //! The ground of a platform that moves in any way, with rigid or compliant contacts: its next event.
 
+use bouncing_disk_core::chatter::ChatterDuration;
 use bouncing_disk_core::chatter::{AfterImpact, ShortFlightCount};
-use bouncing_disk_core::flight::{
-    Branch, ChatterDuration, ContactEnd, Pressed, RelativeState, TimeAhead, Touch,
-};
 use bouncing_disk_core::numerics::elementary::wrapped_angle;
-use bouncing_disk_core::{ChatterPolicy, Drive, Phase};
+use bouncing_disk_core::{ChatterPolicy, Phase};
+use bouncing_disk_drives::Drive;
+use bouncing_disk_drives::compliance::{Branch, ContactEnd, Pressed, RelativeState, Touch};
+use bouncing_disk_drives::drive::TimeAhead;
 
 use super::DrivenSystem;
 use super::contact::{Ride, Touching};

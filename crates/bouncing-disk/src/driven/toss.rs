@@ -1,6 +1,7 @@
 //! Tosses by a hand that moves in any way (Secs. III and IV).
 
-use bouncing_disk_core::{ChatterPolicy, DrivenMap, Observer, Phase};
+use bouncing_disk_core::{ChatterPolicy, Observer, Phase};
+use bouncing_disk_drives::DrivenMap;
 
 use super::ground::DrivenEngine;
 use super::{DrivenStart, DrivenSystem};
@@ -18,7 +19,7 @@ use crate::toss::{InitialSpin, MultiTossSettings, TossOrbit, TossPerformance};
 const MOST_CONTACT_EVENTS: usize = 10_000;
 
 /// The toss of a disk that lies on the hand at `phase`, until the hand falls away from it or a kink throws it; `None`
-/// is the hand's [lowest point](bouncing_disk_core::Drive::lowest_phase), at which a toss starts in the paper. Where
+/// is the hand's [lowest point](bouncing_disk_drives::Drive::lowest_phase), at which a toss starts in the paper. Where
 /// the hand moves at `phase`, it has given the disk its velocity: a disk that starts on a kink moves with the hand
 /// after the kink, and is not hit. The speed ratio is to the hand's largest rotary speed with this waveform.
 ///
@@ -94,9 +95,10 @@ pub fn multi_toss(
 mod tests {
     use std::f64::consts::{PI, TAU};
 
+    use bouncing_disk_core::Unobserved;
     use bouncing_disk_core::numerics::elementary::{cos, sin};
     use bouncing_disk_core::numerics::roots::bisection;
-    use bouncing_disk_core::{Drive, Unobserved};
+    use bouncing_disk_drives::Drive;
 
     use super::*;
     use crate::System;

@@ -22,8 +22,8 @@ pub(crate) mod window;
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::Drive;
 use bouncing_disk_core::numerics::elementary::sin_cos;
+use bouncing_disk_drives::Drive;
 
 use crate::motor::tape::window::AxialWindow;
 use crate::stator::StatorLedger;

@@ -4,8 +4,9 @@ use std::f64::consts::TAU;
 use std::fmt::{self, Display, Formatter};
 use std::str::FromStr;
 
-use bouncing_disk_core::orbits::DrivenFamily;
-use bouncing_disk_core::{Drive, DrivenMap, ImpactMap, Vibration};
+use bouncing_disk_core::{ImpactMap, Vibration};
+use bouncing_disk_drives::DrivenFamily;
+use bouncing_disk_drives::{Drive, DrivenMap};
 
 use crate::display::rough;
 use crate::error::{Error, check, finite};
@@ -37,11 +38,11 @@ pub enum Waveform {
     #[default]
     Sine,
     /// The pairs (a_j, phi_j) of a sum of a_j sin(j tau + phi_j) over j = 1, 2, ..., at most
-    /// [`MAX_HARMONICS`](bouncing_disk_core::flight::MAX_HARMONICS).
+    /// [`MAX_HARMONICS`](bouncing_disk_drives::drive::MAX_HARMONICS).
     Fourier(Vec<(f64, f64)>),
     /// Pieces (duration, [c0, c1, c2, c3]), one after the other: c0 + c1 x + c2 x^2 + c3 x^3, x from the
     /// start of the piece. x and the durations are in periods; the durations sum to 1. The height must be
-    /// continuous; the velocity may jump. At most [`MAX_PIECES`](bouncing_disk_core::flight::MAX_PIECES).
+    /// continuous; the velocity may jump. At most [`MAX_PIECES`](bouncing_disk_drives::drive::MAX_PIECES).
     Pieces(Vec<(f64, [f64; 4])>),
     /// The periodic cubic spline through at least 3 samples at equal distances over one period.
     Sampled(Vec<f64>),
@@ -531,7 +532,7 @@ impl DriveParameters {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use bouncing_disk_core::flight::{MAX_HARMONICS, MAX_PIECES};
+    use bouncing_disk_drives::drive::{MAX_HARMONICS, MAX_PIECES};
 
     fn hand() -> Platform {
         *crate::System::pizza_toss().platform()

@@ -1,8 +1,8 @@
 //! A disk on a platform, in SI units.
 
 use crate::display::numbers;
-use bouncing_disk_core::flight::Compliance;
 use bouncing_disk_core::read_checked;
+use bouncing_disk_drives::compliance::Compliance;
 use std::fmt::{self, Display, Formatter};
 
 use crate::error::Error;

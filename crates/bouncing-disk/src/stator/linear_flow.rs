@@ -8,7 +8,7 @@
 use core::array;
 
 use bouncing_disk_core::Error;
-use bouncing_disk_core::numerics::quasi_polynomial::{FirstRoot, Jet, first_root};
+use bouncing_disk_drives::quasi_polynomial::{FirstRoot, Jet, first_root};
 
 /// Degree of the Taylor polynomials: the next term is below 1/19! = 8e-18 of the state.
 const DEGREE: usize = 18;

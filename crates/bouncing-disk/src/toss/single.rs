@@ -20,7 +20,7 @@ use crate::parameters::scales::Scales;
 use crate::parameters::system::System;
 
 /// Phase at which a toss starts on the sine of Eq. (1): the lowest point of the hand. That of other motions is
-/// [`Drive::lowest_phase`](bouncing_disk_core::Drive::lowest_phase).
+/// [`Drive::lowest_phase`](bouncing_disk_drives::Drive::lowest_phase).
 pub const TOSS_START: f64 = 1.5 * PI;
 
 /// How the dough turns at the start of a toss. The two differ if the phase lag is not zero: the hand then

@@ -76,8 +76,10 @@ impl Phase {
     }
 
     /// The phase at an angle that is known to lie in [0, 2 pi).
+    #[doc(hidden)]
+    #[must_use]
     #[inline]
-    pub(crate) fn of_angle(angle: f64) -> Self {
+    pub fn of_angle(angle: f64) -> Self {
         let (sin, cos) = sin_cos(angle);
         Self { angle, sin, cos }
     }

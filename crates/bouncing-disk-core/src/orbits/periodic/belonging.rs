@@ -5,7 +5,6 @@ use glam::DMat2;
 use super::newton::speed_scale;
 use super::{MAX_PERIOD, PeriodicOrbit, phase_difference};
 use crate::flight::launch::Impact;
-use crate::map::driven_map::DrivenMap;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::error::{Error, within};
 
@@ -43,21 +42,11 @@ impl ImpactMap {
     }
 }
 
-impl DrivenMap {
-    /// Checks that `orbit` is an orbit of this map, as [`ImpactMap::check_orbit`] does. An orbit of the sine
-    /// is one of the sine as a drive.
-    ///
-    /// # Errors
-    /// As for [`ImpactMap::check_orbit`].
-    pub fn check_orbit(&self, orbit: &PeriodicOrbit) -> Result<(), Error> {
-        let impact = |state| self.step(state).map(|landing| landing.impact);
-        check(orbit, impact, |state| {
-            self.step_with_derivative(state).map(|(landing, derivative)| (landing.impact, derivative))
-        })
-    }
-}
-
-pub(crate) fn check(
+/// The check of any map that steps and has a derivative.
+///
+/// # Errors
+/// Those of [`ImpactMap::check_orbit`].
+pub fn check(
     orbit: &PeriodicOrbit,
     step: impl Fn(ImpactState) -> Result<Impact, Error>,
     step_with_derivative: impl Fn(ImpactState) -> Result<(Impact, DMat2), Error>,

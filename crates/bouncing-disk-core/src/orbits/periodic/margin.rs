@@ -14,7 +14,7 @@ use crate::orbits::closing::{Closed, Closing, ContinuationParameter};
 
 /// Two orbits whose impacts agree within this much (rad, and relative speed) count as one, unless a
 /// multiplier is next to 1 or -1: then their own uncertainty decides.
-pub(crate) const SAME: f64 = 1.0e-6;
+pub const SAME: f64 = 1.0e-6;
 
 /// Relative to the derivative's size, 1 - T + D or 1 + T + D below which a multiplier is next to 1 or -1.
 const NEXT_TO_MARGIN: f64 = 1.0e-4;
@@ -37,7 +37,7 @@ const WITHIN_ROUNDING: f64 = 4.0;
 const DIFFERENCE: f64 = 1.0e-5;
 
 /// Whether the fixed-point function 1 - T + D and the flip function 1 + T + D are next to zero.
-pub(crate) fn next_to_margin(monodromy: DMat2, determinant: f64) -> (bool, bool) {
+pub fn next_to_margin(monodromy: DMat2, determinant: f64) -> (bool, bool) {
     let (trace, room) = (monodromy.x_axis.x + monodromy.y_axis.y, NEXT_TO_MARGIN * size(monodromy));
     ((1.0 - trace + determinant).abs() < room, (1.0 + trace + determinant).abs() < room)
 }

@@ -31,23 +31,24 @@ const NEAR: f64 = 1.0e-5;
 const LONGEST_STEP: f64 = 0.7;
 
 /// One step of the multiple shooting.
-pub(super) struct Shooting {
+#[derive(Debug)]
+pub struct Shooting {
     /// The derivative of the map at each impact.
-    pub(super) derivatives: Vec<DMat2>,
+    pub derivatives: Vec<DMat2>,
     /// How far the successor of each impact misses the next one: the step has to make up for it.
-    pub(super) right: Vec<DVec2>,
+    pub right: Vec<DVec2>,
     /// The derivative of the map around the orbit.
-    pub(super) monodromy: DMat2,
+    pub monodromy: DMat2,
     /// Turns of the phase around the orbit.
-    pub(super) turns: u64,
+    pub turns: u64,
     /// The largest distance of a successor from its target.
-    pub(super) worst: f64,
+    pub worst: f64,
 }
 
 impl Shooting {
     /// The step from these impacts of a map, given with its derivative; distances of speeds count in units of
     /// `scale`.
-    pub(super) fn from(
+    pub fn from(
         states: &[ImpactState],
         scale: f64,
         map: impl Fn(ImpactState) -> Result<(Impact, DMat2), Error>,
@@ -90,7 +91,7 @@ const fn not_settled(iterations: u32, residual: f64) -> Error {
 
 /// The impacts on which Newton's method settles, with their shooting: to `residual`, and until it no longer shrinks. A
 /// step may be shortened, and is `None` where numbers get out of range; the tick counts impacts.
-pub(super) fn settled(
+pub fn settled(
     guess: &[ImpactState],
     residual: f64,
     shoot: impl Fn(&[ImpactState]) -> Result<Shooting, Error>,
@@ -131,12 +132,12 @@ pub(super) fn settled(
 }
 
 /// The unit of speeds in the residual of a shooting.
-pub(super) fn speed_scale(states: &[ImpactState]) -> f64 {
+pub fn speed_scale(states: &[ImpactState]) -> f64 {
     1.0 + states.iter().fold(0.0_f64, |most, state| most.max(-state.velocity()))
 }
 
 /// The impacts after a step of each, or after a share of it; `None` if numbers get out of range.
-pub(super) fn moved(states: &[ImpactState], steps: &[DVec2]) -> Option<Vec<ImpactState>> {
+pub fn moved(states: &[ImpactState], steps: &[DVec2]) -> Option<Vec<ImpactState>> {
     let longest = steps.iter().fold(0.0_f64, |most, step| most.max(step.x.abs()));
     let share = if longest > LONGEST_STEP { LONGEST_STEP / longest } else { 1.0 };
     let moved = states.iter().zip(steps).map(|(state, step)| {
@@ -165,7 +166,7 @@ fn near(a: ImpactState, b: ImpactState, room: f64) -> bool {
 }
 
 /// Whether two orbits count as one, wherever they begin: their regions of uncertainty meet.
-pub(crate) fn same_orbit(a: &PeriodicOrbit, b: &PeriodicOrbit) -> bool {
+pub fn same_orbit(a: &PeriodicOrbit, b: &PeriodicOrbit) -> bool {
     let n = a.period();
     if n != b.period() || a.platform_periods != b.platform_periods {
         return false;
@@ -182,7 +183,7 @@ pub(crate) fn repetitions(states: &[ImpactState], room: f64) -> impl Iterator<It
 }
 
 /// The number of impacts after which a sequence repeats itself within `room`.
-pub(super) fn prime_period(states: &[ImpactState], room: f64) -> usize {
+pub fn prime_period(states: &[ImpactState], room: f64) -> usize {
     repetitions(states, room).next().unwrap_or(states.len())
 }
 

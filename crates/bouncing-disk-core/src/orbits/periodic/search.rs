@@ -346,13 +346,13 @@ struct Entry {
 
 /// Distinct orbits in the order in which they were found first.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Catalogue {
+pub struct Catalogue {
     entries: Vec<Entry>,
 }
 
 impl Catalogue {
     /// Adds an orbit that was found so often, unless it is known.
-    pub(super) fn add(&mut self, orbit: PeriodicOrbit, found: u64, by_coarser: bool) {
+    pub fn add(&mut self, orbit: PeriodicOrbit, found: u64, by_coarser: bool) {
         let sum = orbit.states.iter().fold(0.0, |sum, state| sum + state.velocity());
         self.insert(Entry { orbit, sum, found, by_coarser });
     }
@@ -396,7 +396,7 @@ impl Catalogue {
     }
 
     /// The same together with others, none of which is known.
-    pub(super) fn into_sorted_with(self, mut orbits: Vec<PeriodicOrbit>) -> Vec<PeriodicOrbit> {
+    pub fn into_sorted_with(self, mut orbits: Vec<PeriodicOrbit>) -> Vec<PeriodicOrbit> {
         orbits.extend(self.entries.into_iter().map(|entry| entry.orbit));
         orbits.sort_by(|a, b| {
             let (first, second) = (a.states[0], b.states[0]);

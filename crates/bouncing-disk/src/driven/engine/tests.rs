@@ -1,6 +1,6 @@
 mod compliance;
 
-use bouncing_disk_core::Drive;
+use bouncing_disk_drives::Drive;
 use proptest::prelude::*;
 
 use super::*;

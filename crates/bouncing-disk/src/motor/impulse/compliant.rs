@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::flight::{CompliantPlatform, ContactEnd, Pressed};
+use bouncing_disk_drives::compliance::{CompliantPlatform, ContactEnd, Pressed};
 
 use super::{NormalImpulses, PhasedImpulse};
 use crate::error::{Error, within_limit};
@@ -80,8 +80,9 @@ impl NormalImpulses {
 
 #[cfg(test)]
 mod tests {
-    use bouncing_disk_core::flight::Compliance;
-    use bouncing_disk_core::{Drive, Phase, Unobserved};
+    use bouncing_disk_core::{Phase, Unobserved};
+    use bouncing_disk_drives::Drive;
+    use bouncing_disk_drives::compliance::Compliance;
 
     use super::*;
     use crate::Motor;

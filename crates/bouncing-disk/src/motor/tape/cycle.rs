@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::Drive;
 use bouncing_disk_core::run::WorkCount;
 use bouncing_disk_core::sweep::LaneRunner;
+use bouncing_disk_drives::Drive;
 
 use super::recurrence::{Key, ONE, ONE_OF_TWO, Repeats, Touch, are_same, is_near};
 use super::replay::{Done, Replay, Rotors};

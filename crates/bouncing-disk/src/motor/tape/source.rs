@@ -1,7 +1,8 @@
 //! Where a tape comes from: the vertical motion of a disk that friction does not act back on.
 
 use bouncing_disk_core::run::WorkCount;
-use bouncing_disk_core::{ChatterPolicy, Drive, Phase};
+use bouncing_disk_core::{ChatterPolicy, Phase};
+use bouncing_disk_drives::Drive;
 
 use super::Tape;
 use super::engine::EngineTape;

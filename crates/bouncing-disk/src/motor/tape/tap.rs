@@ -8,11 +8,11 @@
 use core::f64::consts::TAU;
 use core::ops::RangeInclusive;
 
-use bouncing_disk_core::flight::CompliantPlatform;
 use bouncing_disk_core::numerics::elementary::{
     exp, exp_m1, sin_cos, sine_deficit, versine_ratio, wrapped_angle,
 };
 use bouncing_disk_core::{Launch, Phase, Vibration};
+use bouncing_disk_drives::compliance::CompliantPlatform;
 
 /// Coefficients of a piece: a polynomial with the function's first derivatives at both ends.
 const COUNT: usize = 10;

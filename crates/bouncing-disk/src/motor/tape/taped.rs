@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 use std::iter::Peekable;
 use std::ops::RangeInclusive;
 
-use bouncing_disk_core::Drive;
 use bouncing_disk_core::run::WorkCount;
 use bouncing_disk_core::sweep::{InstructionSet, LaneRunner};
+use bouncing_disk_drives::Drive;
 
 use super::Tape;
 use super::cycle::Cycle;

@@ -4,8 +4,8 @@
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 use std::fmt::{self, Display, Formatter};
 
-use bouncing_disk_core::flight::Compliance;
 use bouncing_disk_core::numerics::elementary::{ln, pow};
+use bouncing_disk_drives::compliance::Compliance;
 
 use crate::display::rough;
 use crate::parameters::contact::{Contact, Geometry, Material};

@@ -1,12 +1,8 @@
-use core::f64::consts::PI;
-
 use super::*;
-use crate::attractors::AttractingMap as _;
 use crate::attractors::basin::{Axis, BasinSettings, Grid, KnownOrbit};
 #[cfg(feature = "serde")]
 use crate::attractors::{AttractorSearch, Attractors};
 use crate::chaos::{ManifoldKind, ManifoldSettings};
-use crate::flight::drive::Drive;
 use crate::map::impact_map::map;
 use crate::numerics::random::SplitMix64;
 use crate::numerics::testing::stored;
@@ -14,10 +10,6 @@ use crate::orbits::continuation::{BifurcationKind, Continuation};
 use crate::orbits::periodic::search::OrbitSearch;
 use crate::orbits::{ContinuationParameter, ContinuedMap as _, PeriodOneOrbit};
 use crate::run::Unobserved;
-
-fn driven(drive: Drive, restitution: f64) -> DrivenMap {
-    DrivenMap::new(drive, restitution).expect("legal")
-}
 
 fn orbit_of(map: &ImpactMap, member: PeriodOneOrbit) -> PeriodicOrbit {
     member.orbit(map).expect("no failure").expect("admissible")
@@ -61,21 +53,6 @@ fn orbits_of_another_map_are_refused_by_all_that_take_one() {
     assert!(misses(map(0.2, 0.8 + 1e-6).check_orbit(&node)) > 1e-7);
     assert!(misses(map(0.2, 0.0).check_orbit(&node)).is_infinite());
     assert_eq!(pair.node.is_admissible(&other), Ok(false));
-
-    // On drives: the sine is its own, all else is another.
-    let (p, third) = (0.2 * PI, Drive::fourier(&[(0.2 * PI, 0.0), (0.0, 0.0), (0.01, 0.3)]));
-    let sine = driven(Drive::from(*own.vibration()), 0.8);
-    assert_eq!(sine.check_orbit(&node), Ok(()));
-    sine.basins(grid, &known, settings, &Unobserved).expect("its own");
-    for other in [
-        driven(Drive::parabolas(p).expect("legal"), 0.8),
-        driven(third.expect("legal"), 0.8),
-        driven(Drive::from(*own.vibration()), 0.79),
-        sine.clone().with_contact_time(0.1).expect("legal"),
-    ] {
-        assert!(misses(other.check_orbit(&node)) > 1e-3);
-        misses(other.basins(grid, &known, settings, &Unobserved));
-    }
 }
 
 #[cfg(feature = "serde")]
@@ -140,19 +117,6 @@ fn own_orbits_are_never_refused() {
                 assert_eq!(there.check_orbit(&point.orbit), Ok(()), "{there} {point:?}");
                 checked += 1;
             }
-        }
-    }
-    let two = Drive::fourier(&[(1.5, 0.2), (0.3, 1.0)]).expect("legal");
-    for own in [
-        driven(Drive::parabolas(2.0).expect("legal"), 0.6),
-        driven(Drive::triangle(1.9).expect("legal"), 0.4),
-        driven(two.clone(), 0.0),
-        driven(two.clone(), 0.9),
-        driven(two, 0.5).with_contact_time(0.2).expect("legal"),
-    ] {
-        for orbit in own.periodic_orbits(&search(3, 10), &Unobserved).expect("no failure") {
-            assert_eq!(own.check_orbit(&stored(&orbit)), Ok(()), "{own:?} {orbit:?}");
-            checked += 1;
         }
     }
     assert!(checked > 500 && ends > 3, "{checked} {ends}");

@@ -2,10 +2,10 @@
 
 use std::cell::Cell;
 
-use bouncing_disk_core::flight::Compliance;
 use bouncing_disk_core::numerics::elementary::{atan2, hypot, wrapped_angle};
 use bouncing_disk_core::run::WorkCount;
 use bouncing_disk_core::{ChatterPolicy, Phase};
+use bouncing_disk_drives::compliance::Compliance;
 use roots::{Convergency, find_root_regula_falsi};
 
 use super::{Held, add};

@@ -1,8 +1,9 @@
 //! Taps against the engine, each from the same state.
 
+use bouncing_disk_core::ChatterPolicy;
 use bouncing_disk_core::numerics::elementary::{cos, exp, ln, sin};
 use bouncing_disk_core::numerics::random::SplitMix64;
-use bouncing_disk_core::{ChatterPolicy, Drive};
+use bouncing_disk_drives::Drive;
 
 use super::*;
 use crate::driven::{DrivenEngine, DrivenStart};

@@ -1,0 +1,315 @@
+//! The first impact of a disk on a platform that moves in any way.
+//!
+//! While the parabola of the disk is above the highest point of the platform nothing is searched: a flight
+//! has two windows, before it has risen above that height and after it has come down to it. In each the gap
+//! is followed from the start of the window, so that a brief flight keeps its relative accuracy
+//! (docs/numerics/drives.md).
+
+use core::f64::consts::TAU;
+
+use super::{Drive, DriveBounds, Fourier, ROUNDING, Shape};
+use crate::quasi_polynomial::{DampedSine, FirstRoot, QuasiPolynomial, Root};
+use bouncing_disk_core::Error;
+use bouncing_disk_core::Phase;
+use bouncing_disk_core::flight::MAX_FLIGHT_DURATION;
+use bouncing_disk_core::numerics::elementary::{nearest_periods, nearest_whole, wrapped_angle};
+use bouncing_disk_core::parts::{finite, not_negative, within};
+use bouncing_disk_core::{Impact, Launch};
+
+/// A flight whose parabola is back at the highest point of the platform before (rad) is searched as a whole:
+/// without the errors with which a second window starts, and with few steps more.
+const BRIEF: f64 = 2.0;
+
+/// The first impact on a [`Drive`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct DrivenImpact {
+    /// When, and how fast.
+    pub impact: Impact,
+    /// Bound on the error of the duration (rad) that rounding leaves.
+    pub error: f64,
+    /// The impact is on a kink of the drive within its error: it has no derivative.
+    pub on_kink: bool,
+    /// The flight has touched the platform or missed it before: which, rounding hides.
+    pub doubt: Option<Doubt>,
+}
+
+/// A graze that rounding does not decide: it counts as the evaluated sign says.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Doubt {
+    /// When, in radians after the start.
+    pub at: f64,
+    /// Bound on the magnitude of the gap there, in units of g/omega^2.
+    pub bound: f64,
+}
+
+/// A disk at a time, this far above the platform and with this velocity relative to it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Start {
+    pub(crate) time: f64,
+    pub(crate) gap: f64,
+    pub(crate) velocity: f64,
+    /// The contact ends here: what the platform still pushes by is rounding.
+    pub(crate) separates: bool,
+}
+
+impl Start {
+    /// A start by numbers of a user.
+    pub(crate) fn new(time: f64, gap: f64, velocity: f64) -> Result<Self, Error> {
+        finite("time", time)?;
+        within("gap", gap, 0.0, 1.0e17, "[0, 1e17] (units of g/omega^2)")?;
+        within("relative_velocity", velocity, -1.0e9, 1.0e9, "[-1e9, 1e9] (units of g/omega)")?;
+        if gap == 0.0 {
+            not_negative("relative velocity of a launch", velocity)?;
+        }
+        Ok(Self { time, gap, velocity, separates: false })
+    }
+
+    /// The second derivative of the gap: where a contact ends, a platform that still pushes by no more than a
+    /// rounding does not push.
+    pub(super) fn bend(&self, bend: f64, bounds: &DriveBounds) -> f64 {
+        if self.separates && bend < 0.0 && bend >= -bounds.doubtful_pull(self.time) { 0.0 } else { bend }
+    }
+}
+
+/// What is found in a window.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Found {
+    pub(crate) root: Option<Root>,
+    pub(super) on_kink: bool,
+    pub(super) doubt: Option<Doubt>,
+    pub(super) evaluations: u32,
+    /// From when to when the piece holds on which it is.
+    pub(super) piece: Option<(f64, f64)>,
+}
+
+impl Drive {
+    /// The first impact after `launch`.
+    ///
+    /// # Errors
+    /// [`Error::NoLiftOff`] for a launch from rest where the platform does not fall away;
+    /// [`Error::FlightTooLong`] beyond [`MAX_FLIGHT_DURATION`];
+    /// [`Error::NoConvergence`] after 100,000 evaluations.
+    pub fn first_impact(&self, launch: Launch) -> Result<DrivenImpact, Error> {
+        self.first_impact_from(launch.phase().angle(), 0.0, launch.relative_speed())
+    }
+
+    /// The first impact of a disk that is `gap` >= 0 above the platform at `time`, with this velocity
+    /// relative to it; on the platform (`gap` = 0) it leaves with that velocity >= 0.
+    ///
+    /// # Errors
+    /// As [`Self::first_impact`]; [`Error::OutOfRange`] for numbers outside their range.
+    pub fn first_impact_from(
+        &self,
+        time: f64,
+        gap: f64,
+        relative_velocity: f64,
+    ) -> Result<DrivenImpact, Error> {
+        self.first_impact_within(time, gap, relative_velocity, f64::INFINITY)?.ok_or(Error::FlightTooLong {
+            relative_speed: relative_velocity,
+            duration: f64::INFINITY,
+            limit: MAX_FLIGHT_DURATION,
+        })
+    }
+
+    /// [`Self::first_impact_from`] if it comes within `limit` radians; `None` if the disk flies on.
+    ///
+    /// # Errors
+    /// As [`Self::first_impact_from`].
+    pub fn first_impact_within(
+        &self,
+        time: f64,
+        gap: f64,
+        relative_velocity: f64,
+        limit: f64,
+    ) -> Result<Option<DrivenImpact>, Error> {
+        self.land(Start::new(time, gap, relative_velocity)?, limit)
+    }
+
+    /// The impact of a disk that leaves a contact at `time` because the force falls to zero there, within
+    /// rounding ([`Self::contact_end`]), if it comes within `limit` radians; `None` if the disk flies on.
+    ///
+    /// # Errors
+    /// As [`Self::first_impact_from`].
+    pub fn impact_after_separation_within(
+        &self,
+        time: f64,
+        limit: f64,
+    ) -> Result<Option<DrivenImpact>, Error> {
+        self.land(Start { time: finite("time", time)?, gap: 0.0, velocity: 0.0, separates: true }, limit)
+    }
+
+    /// The first impact within `limit`, of a start that is known to be legal.
+    pub(crate) fn land(&self, mut start: Start, limit: f64) -> Result<Option<DrivenImpact>, Error> {
+        start.time = wrapped_angle(start.time);
+        // What is no number is no limit.
+        let limit = limit.min(f64::INFINITY);
+        let (here, terms) = self.at_with_terms(start.time, 0, -1.0);
+        let bounds = self.bounds();
+        if start.gap == 0.0 && start.velocity == 0.0 && !start.separates && here.acceleration >= -1.0 {
+            return Err(Error::NoLiftOff { phase: start.time, peak_acceleration: bounds.acceleration });
+        }
+        let speed = here.velocity + start.velocity;
+        let height = here.height + start.gap;
+        let depth = bounds.highest - height;
+        let radicand = speed * speed - 2.0 * depth;
+        let fall = if radicand > 0.0 { radicand.sqrt() } else { 0.0 };
+        // When the disk rises above all heights of the platform, and when it is back.
+        let (mut up, down) = if depth <= 0.0 {
+            (0.0, if speed >= 0.0 { speed + fall } else { -2.0 * depth / (fall - speed) })
+        } else if speed > 0.0 && radicand > 0.0 {
+            (2.0 * depth / (speed + fall), speed + fall)
+        } else {
+            (f64::INFINITY, f64::INFINITY)
+        };
+        if down.is_finite() && down > MAX_FLIGHT_DURATION {
+            return Err(Error::FlightTooLong {
+                relative_speed: start.velocity,
+                duration: down,
+                limit: MAX_FLIGHT_DURATION,
+            });
+        }
+        if start.gap == 0.0 && down < BRIEF {
+            // From the start on it keeps its relative accuracy.
+            up = f64::INFINITY;
+        }
+        let mut found = Found::default();
+        if up > 0.0 {
+            found = self.window(start, [0.0; 2], terms, up.min(limit))?;
+            if found.root.is_some() || limit <= up {
+                return Ok(found.root.map(|root| self.landed(start.time, (0.0, 0.0), root, &found)));
+            }
+        }
+        if limit <= down {
+            return Ok(None);
+        }
+        let (periods, rest) = if down > TAU { nearest_periods(down) } else { (0.0, down) };
+        let time = start.time + rest;
+        let (there, terms) = self.at_with_terms(time, 0, -1.0);
+        // Time and speed at which the disk is back are rounded, and so were height and speed before.
+        let height_error = ROUNDING * (height.abs() + bounds.highest.abs() + bounds.highest - bounds.lowest);
+        let radicand_error = ROUNDING * (speed * speed + depth.abs()) + height_error;
+        let fall_error = (radicand_error / fall).min((2.0 * radicand_error).sqrt());
+        let [joint_height, joint_speed] = match &self.shape {
+            Shape::Fourier(_) => [0.0; 2],
+            Shape::Pieces(pieces) => pieces.joint_rounding,
+        };
+        let error = [
+            joint_height
+                + joint_speed * down.min(TAU)
+                + height_error
+                + ROUNDING * ((fall + bounds.speed) * (1.0 + down) + speed.abs() * down),
+            joint_speed + fall_error + ROUNDING * (fall + bounds.speed + bounds.acceleration),
+        ];
+        let descent = Start {
+            time,
+            gap: bounds.highest - there.height,
+            velocity: -fall - there.velocity,
+            separates: false,
+        };
+        let (before, doubt) = (found.evaluations, found.doubt);
+        found = self.window(descent, error, terms, limit - down)?;
+        found.evaluations += before;
+        found.doubt = doubt.or(found.doubt.map(|doubt| Doubt { at: doubt.at + down, ..doubt }));
+        Ok(found.root.map(|root| self.landed(start.time, (periods, rest), root, &found)))
+    }
+
+    /// The first root of the gap within `to`; its value and slope at the start have these errors, and `terms`
+    /// are those of the drive there.
+    fn window(&self, start: Start, error: [f64; 2], terms: Vec<DampedSine>, to: f64) -> Result<Found, Error> {
+        match &self.shape {
+            Shape::Fourier(fourier) => fourier.window(start, error, terms, to),
+            Shape::Pieces(pieces) => pieces.window(start, error, to),
+        }
+    }
+
+    /// The impact `root` after whole periods and a rest.
+    fn landed(&self, from: f64, (periods, rest): (f64, f64), root: Root, found: &Found) -> DrivenImpact {
+        let after = rest + root.at;
+        let angle = from + after;
+        let mut wrapped = wrapped_angle(angle);
+        if let Some((begin, end)) = found.piece
+            && !(begin..end).contains(&wrapped)
+        {
+            // Rounding must not put the impact on another piece.
+            let apart = |joint: f64| (wrapped - joint).abs().min(TAU - (wrapped - joint).abs());
+            wrapped = if apart(begin) <= apart(end) { begin } else { end.next_down() };
+        }
+        let turns = periods + nearest_whole((angle - wrapped) / TAU);
+        let (mut whole, mut remainder) = (periods, after);
+        if remainder < 0.0 {
+            (whole, remainder) = (whole - 1.0, remainder + TAU);
+        } else if remainder >= TAU {
+            let more = libm::floor(remainder / TAU);
+            (whole, remainder) = (whole + more, wrapped_angle(remainder));
+        }
+        DrivenImpact {
+            impact: Impact {
+                periods: whole as u64,
+                remainder,
+                turns: turns as u64,
+                phase: Phase::of_angle(wrapped),
+                velocity: root.slope.min(0.0),
+                evaluations: found.evaluations,
+            },
+            error: root.error + ROUNDING * (periods * TAU + rest.abs() + root.at),
+            on_kink: found.on_kink,
+            doubt: found.doubt,
+        }
+    }
+}
+
+impl Fourier {
+    fn window(&self, start: Start, error: [f64; 2], terms: Vec<DampedSine>, to: f64) -> Result<Found, Error> {
+        let mut gap = QuasiPolynomial::known([start.gap, start.velocity], error, [-0.5, 0.0], terms);
+        if start.separates {
+            let bend = gap.at(0.0, 0.0).bend;
+            gap = gap.bent_by(start.bend(bend, &self.bounds) - bend);
+        }
+        decided(&gap, if to.is_finite() { to } else { 2.0 * MAX_FLIGHT_DURATION })
+    }
+}
+
+impl Found {
+    /// The impact, with a doubt if it may also be a graze.
+    pub(super) fn take(&mut self, root: Root) {
+        if root.doubt > 0.0 {
+            self.doubt = self.doubt.or(Some(Doubt { at: root.at, bound: root.doubt }));
+        }
+        self.root = Some(root);
+    }
+}
+
+/// The first root of a gap up to `to`; a touch that rounding hides counts as its evaluated sign says.
+pub(crate) fn decided(gap: &QuasiPolynomial, to: f64) -> Result<Found, Error> {
+    let mut found = Found::default();
+    let mut from = 0.0;
+    loop {
+        match gap.first_root(from, to)? {
+            FirstRoot::Root(root) => {
+                found.evaluations += root.evaluations;
+                found.take(root);
+                return Ok(found);
+            }
+            FirstRoot::None { evaluations } => {
+                found.evaluations += evaluations;
+                return Ok(found);
+            }
+            FirstRoot::Undecided { at, value, bound, until, evaluations } => {
+                found.evaluations += evaluations;
+                found.doubt = found.doubt.or(Some(Doubt { at, bound }));
+                if value <= 0.0 {
+                    let jet = gap.at(at, to);
+                    let (error, doubt) = jet.root_error();
+                    found.root = Some(Root { at, error, slope: jet.slope, doubt, evaluations });
+                    return Ok(found);
+                }
+                if until >= to {
+                    return Ok(found);
+                }
+                from = until;
+            }
+        }
+    }
+}

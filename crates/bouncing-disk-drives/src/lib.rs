@@ -1,0 +1,47 @@
+//! Platforms that move in any way, and contacts that take time, for the analyses of
+//! [`bouncing_disk_core`].
+//!
+//! A [`Drive`] is the height of a platform over one period: a Fourier sum, or pieces of polynomials. A [`DrivenMap`] is the
+//! impact map of a disk on it, with rigid impacts or a [compliant contact](compliance): verdicts, exponents, attractors,
+//! basins and diagrams take it as they take the map of the sine. A [`DrivenFamily`] is continued in any of its numbers.
+//! Lengths, times and speeds are without units, as in the core.
+//!
+//! ```
+//! use bouncing_disk_core::attractors::{AttractingMap as _, AttractorSearch};
+//! use bouncing_disk_core::Unobserved;
+//! use bouncing_disk_drives::{Drive, DrivenMap};
+//! use std::f64::consts::PI;
+//!
+//! // A platform that follows parabolas, with a forcing of 0.36: the disk lands once in every period.
+//! let map = DrivenMap::new(Drive::parabolas(0.36 * PI)?, 0.5)?;
+//! let found = map.attractors(&AttractorSearch::default(), &Unobserved)?;
+//! assert!(found.all().iter().any(|one| one.kind.orbit().is_some_and(|orbit| orbit.period() == 1)));
+//! # Ok::<(), bouncing_disk_core::Error>(())
+//! ```
+//!
+//! | chapter | about |
+//! | --- | --- |
+//! | [`quasi_polynomial`] | sums of polynomials and damped sines, and their first roots |
+//! | [`drive`] | the motions of a platform, and the first impact on them |
+//! | [`compliance`] | contacts that take time |
+//!
+//! How it is computed: docs/numerics/drives.md and docs/numerics/contacts.md.
+
+mod analyses;
+mod cascade;
+pub mod compliance;
+pub mod drive;
+mod driven_map;
+mod family;
+mod periodic;
+pub mod quasi_polynomial;
+
+pub use cascade::driven_doubling_cascade;
+pub use drive::Drive;
+pub use driven_map::{DrivenMap, DrivenOrbit};
+pub use family::DrivenFamily;
+
+/// Compiles and runs the example of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeExamples;

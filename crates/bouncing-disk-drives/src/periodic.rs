@@ -1,0 +1,335 @@
+//! Periodic orbits on a drive: Newton's method by multiple shooting, and a search from a grid of starts
+//! (docs/numerics/drives.md, "Periodic orbits").
+
+use core::f64::consts::TAU;
+use core::ops::RangeInclusive;
+
+use glam::{DMat2, DVec2};
+
+use self::fold::Beside;
+use self::one_impact::OneImpact;
+use crate::driven_map::DrivenMap;
+use bouncing_disk_core::ChatterPolicy;
+use bouncing_disk_core::Error;
+use bouncing_disk_core::Observer;
+use bouncing_disk_core::Phase;
+use bouncing_disk_core::orbits::{OrbitSearch, PeriodicOrbit, Stability};
+use bouncing_disk_core::parts::solve_block_cyclic;
+use bouncing_disk_core::parts::{
+    Catalogue, MAX_NEWTON_STEPS, Shooting, moved, next_to_margin, phase_difference, prime_period, settled,
+    speed_scale,
+};
+use bouncing_disk_core::run::{Watch, in_parallel};
+use bouncing_disk_core::{ImpactState, OrbitEvent};
+
+mod fold;
+mod one_impact;
+
+/// A shooting residual (rad, relative speed) at which an orbit counts as found, if it no longer shrinks.
+const SHOOTING_RESIDUAL: f64 = 1.0e-11;
+
+/// The error of one step of the map (rad, relative speed): that of its phase, made generous.
+const MAP_ROUNDING: f64 = 1.0e-14;
+
+/// How far (rad) an iteration may end from the orbit of one impact that it belongs to: next to a fold by the
+/// root of the residual.
+const REACH: f64 = 1.0e-3;
+
+/// How closely (rad, and relative speed) an orbit repeats a shorter one next to the doubling that it is born in:
+/// by the root of |1 - T + D|.
+const DOUBLED: f64 = 0.1;
+
+/// The position error (rad) up to which the end of an iteration is kept beside the exact phase.
+const EXACT: f64 = 1.0e-12;
+
+impl DrivenMap {
+    /// The periodic orbit next to `guess` (its impacts in order), with its multipliers. Its errors are
+    /// estimates: what a rounding of each impact makes of the orbit, and that of the trace.
+    ///
+    /// Next to a fold an iteration may end where there is no orbit. One is returned only if it exists beyond
+    /// rounding, or as [`Marginal`](bouncing_disk_core::orbits::Stability::Marginal) where rounding decides whether it does.
+    ///
+    /// ```
+    /// use bouncing_disk_core::{ImpactMap, Vibration};
+    /// use bouncing_disk_drives::{Drive, DrivenMap};
+    ///
+    /// let sine = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
+    /// let exact = sine.period_one(1).expect("it exists");
+    /// let map = DrivenMap::new(Drive::from(*sine.vibration()), 0.5)?;
+    /// let orbit = map.refine(&[exact])?;
+    /// assert!((orbit.states[0].velocity() - exact.velocity()).abs() < 1e-12);
+    /// assert!((orbit.monodromy.determinant() - 0.25).abs() < 1e-12);
+    /// # Ok::<(), bouncing_disk_core::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for an empty guess or one longer than [`MAX_PERIOD`](bouncing_disk_core::orbits::MAX_PERIOD); [`Error::NotSettled`];
+    /// [`Error::ImpactOnKink`] for an orbit without multipliers; [`Error::ImpactWithoutSpeed`] and
+    /// [`Error::NoPlatformPeriods`] for a disk at rest; those of [`Self::step`].
+    pub fn refine(&self, guess: &[ImpactState]) -> Result<PeriodicOrbit, Error> {
+        let orbit = self.iterated(guess)?;
+        let (residual, iterations) = (orbit.position_error, MAX_NEWTON_STEPS);
+        let periods = orbit.platform_periods;
+        let one_impact = (orbit.period() == 1).then(|| self.one_impact(periods..=periods)).flatten();
+        let existing = self.existing(orbit, one_impact.as_ref()).into_iter().next();
+        let orbit = existing.ok_or(Error::NotSettled { what: "multiple shooting", iterations, residual })?;
+        orbit.check_motion().map(|()| orbit)
+    }
+
+    /// The end of an iteration from a guess, which need not be an orbit next to a fold.
+    fn iterated(&self, guess: &[ImpactState]) -> Result<PeriodicOrbit, Error> {
+        let shoot = |states: &[ImpactState]| self.shoot(states);
+        let (states, shooting) = settled(guess, SHOOTING_RESIDUAL, shoot, moved, &mut |_| Ok(()))?;
+        let orbit = self.measured(states, &shooting);
+        orbit.check_motion().map(|()| orbit)
+    }
+
+    /// The periodic orbits that Newton's method finds from the first impacts of the orbits of a grid of
+    /// starts: all of them only if the grid is fine enough. Orbits with an impact on a kink have no multipliers
+    /// and are left out, and so are those that come to rest. With rigid impacts the orbits of one impact come from
+    /// the phases at which the platform has their velocity, and are complete; of a family, as on a triangle, one
+    /// member is given, with its position error the length of the family.
+    ///
+    /// They have the order of [`OrbitsFound`](bouncing_disk_core::orbits::OrbitsFound): by rising number of impacts, then of
+    /// platform periods, then by falling speed of their fastest impact, which is the first of each.
+    ///
+    /// Next to a fold both orbits are given, one [marginal](bouncing_disk_core::orbits::Stability::Marginal) one where rounding decides
+    /// whether they exist, or none.
+    ///
+    /// The items of `observer` are the starts.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`] if the observer stops it.
+    pub fn periodic_orbits(
+        &self,
+        search: &OrbitSearch,
+        observer: &dyn Observer,
+    ) -> Result<Vec<PeriodicOrbit>, Error> {
+        let (columns, rows) = (search.phases() as usize, search.speeds() as usize);
+        let watch = Watch::begin(observer, 0, (columns * rows) as u64)?;
+        let one_impact = self.one_impact(1..=search.max_platform_periods());
+        let found = in_parallel(columns * rows, |start| {
+            watch.ask()?;
+            let angle = TAU * ((start % columns) as f64 + 0.5) / columns as f64;
+            let share = ((start / columns) as f64 + 0.5) / rows as f64;
+            let state = ImpactState::new(Phase::new(angle)?, -share * self.impact_speed_bound())?;
+            let orbits = self.orbits_from(state, search, one_impact.as_ref());
+            watch.finish(1);
+            Ok::<_, Error>(orbits)
+        });
+        let (mut catalogue, mut of_one) = (Catalogue::default(), Vec::new());
+        for of_start in found {
+            for orbit in of_start? {
+                if one_impact.is_some() && orbit.period() == 1 {
+                    of_one.push(orbit);
+                } else {
+                    catalogue.add(orbit, 1, false);
+                }
+            }
+        }
+        let of_one = one_impact.map_or_else(Vec::new, |all| all.with_found(&of_one));
+        watch.end();
+        Ok(catalogue.into_sorted_with(of_one))
+    }
+
+    /// The orbits of one impact by their phases; `None` for contacts that take time, of which these are not known.
+    fn one_impact(&self, platform_periods: RangeInclusive<u64>) -> Option<OneImpact> {
+        self.compliant().is_none().then(|| OneImpact::of(self, platform_periods))
+    }
+
+    /// No impact of a periodic orbit is faster: from w the disk rises with at most V + r w, falls by the
+    /// height of the platform more than it rises, and meets the platform's V. (That holds for rigid impacts;
+    /// with a contact that takes time it is the range of the starts of a search.)
+    #[must_use]
+    pub fn impact_speed_bound(&self) -> f64 {
+        let (r, bounds) = (self.restitution(), self.drive().bounds());
+        let (speed, fall) = (bounds.speed * (1.0 + r), bounds.highest - bounds.lowest);
+        let lost = 1.0 - r * r;
+        (speed + (speed * speed + 2.0 * fall * lost).sqrt()) / lost
+    }
+
+    /// The orbits that the first impacts of one orbit lead to, each with its fastest impact first.
+    fn orbits_from(
+        &self,
+        start: ImpactState,
+        search: &OrbitSearch,
+        one_impact: Option<&OneImpact>,
+    ) -> Vec<PeriodicOrbit> {
+        let impacts = self.orbit(start, ChatterPolicy::Complete).map_while(|event| match event {
+            Ok(OrbitEvent::Impact(landing)) => Some(ImpactState::from(landing)),
+            _ => None,
+        });
+        let mut states = vec![start];
+        states.extend(impacts.take(search.max_impacts() - 1));
+        let mut orbits = Vec::new();
+        for n in 1..=states.len() {
+            let Ok(orbit) = self.prime(self.iterated(&states[..n])) else { continue };
+            let within = |orbit: &PeriodicOrbit| orbit.platform_periods <= search.max_platform_periods();
+            let existing = self.existing(orbit, one_impact).into_iter();
+            // Beside a doubled orbit lies the one that it doubles, passed twice.
+            let prime = existing.filter(|orbit| prime_period_of(orbit) == orbit.period() && within(orbit));
+            orbits.extend(prime.filter_map(|orbit| self.fastest_first(orbit)));
+        }
+        orbits
+    }
+
+    /// The end of an iteration, or that of the shorter orbit that it repeats.
+    fn prime(&self, end: Result<PeriodicOrbit, Error>) -> Result<PeriodicOrbit, Error> {
+        let end = end?;
+        let prime = prime_period_of(&end);
+        if prime < end.period() { self.iterated(&end.states[..prime]) } else { Ok(end) }
+    }
+
+    /// The orbit from its fastest impact on.
+    fn fastest_first(&self, mut orbit: PeriodicOrbit) -> Option<PeriodicOrbit> {
+        let fastest = (1..orbit.period()).fold(0, |fastest, i| {
+            if orbit.states[i].velocity() < orbit.states[fastest].velocity() { i } else { fastest }
+        });
+        if fastest > 0 {
+            orbit.states.rotate_left(fastest);
+            orbit.monodromy = self.shoot(&orbit.states).ok()?.monodromy;
+        }
+        Some(orbit)
+    }
+
+    /// The orbits that do exist at the end of an iteration, the nearest first, and those beside it in a fold.
+    /// Away from folds it is the end itself.
+    fn existing(&self, end: PeriodicOrbit, one_impact: Option<&OneImpact>) -> Vec<PeriodicOrbit> {
+        if let Some(all) = one_impact.filter(|_| end.period() == 1) {
+            if let Some(member) = all.member(self, &end) {
+                return vec![member];
+            }
+            let apart = |orbit: &PeriodicOrbit| {
+                phase_difference(orbit.states[0].phase().angle(), end.states[0].phase().angle()).abs()
+            };
+            let mut orbits = all.orbits_with(end.platform_periods).to_vec();
+            orbits.retain(|orbit| apart(orbit) <= REACH);
+            orbits.sort_by(|one, other| apart(one).total_cmp(&apart(other)));
+            if let Some(nearest) = orbits.first_mut()
+                && end.position_error <= EXACT
+                && apart(nearest) <= EXACT
+                && !next_to_fold(&end)
+                && nearest.stability() != Stability::Marginal
+            {
+                *nearest = end;
+            }
+            return orbits;
+        }
+        if self.is_beside_its_doubling(&end) {
+            return vec![self.doubled(end)];
+        }
+        if !next_to_fold(&end) && self.keeps_its_derivative(&end) {
+            return vec![end];
+        }
+        match self.orbits_beside(&end) {
+            Some(Beside::Orbits(orbits)) => orbits,
+            Some(Beside::Family) | None => vec![undecided(end)],
+        }
+    }
+
+    /// Whether an orbit nearly repeats its half, and that is next to its doubling.
+    fn is_beside_its_doubling(&self, end: &PeriodicOrbit) -> bool {
+        let half = prime_period(&end.states, DOUBLED);
+        2 * half == end.period()
+            && self
+                .iterated(&end.states[..half])
+                .is_ok_and(|half| next_to_margin(half.monodromy, half.determinant()).1)
+    }
+
+    /// An orbit beside the doubling that it is born in, which is no member of a pair. Its weak direction has opposite
+    /// signs in both halves, which roundings of one sign do not move.
+    fn doubled(&self, end: PeriodicOrbit) -> PeriodicOrbit {
+        let Ok(shooting) = self.shoot(&end.states) else { return end };
+        let room = (shooting.worst + MAP_ROUNDING) * speed_scale(&end.states);
+        let (mut position_error, mut trace_error) = (end.position_error, end.trace_error);
+        for signs in [DVec2::new(room, room), DVec2::new(room, -room)] {
+            let half = end.period() / 2;
+            let right: Vec<_> = (0..end.period()).map(|i| if i < half { signs } else { -signs }).collect();
+            let steps = solve_block_cyclic(&shooting.derivatives, &right);
+            for step in &steps {
+                position_error = position_error.max(step.x.abs()).max(step.y.abs());
+            }
+            let there = moved(&end.states, &steps).and_then(|states| self.shoot(&states).ok());
+            let trace = there.map_or(f64::MAX, |there| there.monodromy.x_axis.x + there.monodromy.y_axis.y);
+            trace_error = trace_error.max((trace - end.trace()).abs());
+        }
+        PeriodicOrbit { position_error, trace_error, ..end }
+    }
+
+    /// Whether the condition of Newton and Kantorovich holds: over twice the error of an orbit its trace changes by
+    /// less than half of 1 - T + D. Only where acceleration may jump it can fail away from folds.
+    fn keeps_its_derivative(&self, orbit: &PeriodicOrbit) -> bool {
+        if self.drive().next_joint(0.0).is_none() {
+            return true;
+        }
+        let reach = 2.0 * orbit.position_error;
+        let most = 0.5 * (1.0 - orbit.trace() + orbit.determinant()).abs();
+        [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)].into_iter().all(|(phase, velocity)| {
+            let step = DVec2::new(phase * reach, velocity * reach);
+            let there = moved(&orbit.states, &vec![step; orbit.period()]);
+            let there = there.and_then(|states| self.shoot(&states).ok());
+            there.is_some_and(|there| {
+                let trace = there.monodromy.x_axis.x + there.monodromy.y_axis.y;
+                (trace - orbit.trace()).abs() < most
+            })
+        })
+    }
+
+    fn shoot(&self, states: &[ImpactState]) -> Result<Shooting, Error> {
+        Shooting::from(states, speed_scale(states), |state| {
+            self.step_with_derivative(state).map(|(landing, derivative)| (landing.impact, derivative))
+        })
+    }
+
+    /// The orbit with these impacts, which are known to be one.
+    pub(crate) fn orbit_through(&self, states: Vec<ImpactState>) -> Result<PeriodicOrbit, Error> {
+        let shooting = self.shoot(&states)?;
+        Ok(self.measured(states, &shooting))
+    }
+
+    /// The orbit with its errors.
+    fn measured(&self, states: Vec<ImpactState>, shooting: &Shooting) -> PeriodicOrbit {
+        let room = (shooting.worst + MAP_ROUNDING) * speed_scale(&states);
+        let mut position_error = 0.0_f64;
+        for signs in [DVec2::new(room, room), DVec2::new(room, -room)] {
+            for step in solve_block_cyclic(&shooting.derivatives, &vec![signs; states.len()]) {
+                position_error = position_error.max(step.x.abs()).max(step.y.abs());
+            }
+        }
+        let trace = |matrix: DMat2| matrix.x_axis.x + matrix.y_axis.y;
+        let own = trace(shooting.monodromy);
+        let mut trace_error = MAP_ROUNDING * own.abs();
+        for step in [DVec2::new(position_error, 0.0), DVec2::new(0.0, position_error)] {
+            // Where the orbit is as near as this to its end, the multipliers mean nothing.
+            let there = moved(&states, &vec![step; states.len()]).and_then(|states| self.shoot(&states).ok());
+            trace_error =
+                there.map_or(f64::MAX, |there| trace_error.max((trace(there.monodromy) - own).abs()));
+        }
+        PeriodicOrbit {
+            states,
+            platform_periods: shooting.turns,
+            monodromy: shooting.monodromy,
+            position_error,
+            trace_error,
+        }
+    }
+}
+
+/// The number of impacts after which an orbit repeats itself.
+fn prime_period_of(orbit: &PeriodicOrbit) -> usize {
+    prime_period(&orbit.states, 2.0 * orbit.position_error + 1.0e-9)
+}
+
+/// Whether a multiplier is next to 1.
+fn next_to_fold(orbit: &PeriodicOrbit) -> bool {
+    next_to_margin(orbit.monodromy, orbit.determinant()).0
+}
+
+/// The orbit as one of which rounding decides whether it exists.
+fn undecided(orbit: PeriodicOrbit) -> PeriodicOrbit {
+    let inside = 1.0 + orbit.determinant() - orbit.trace().abs();
+    PeriodicOrbit { trace_error: orbit.trace_error.max(inside.abs()), ..orbit }
+}
+
+#[cfg(test)]
+mod tests;
