@@ -33,6 +33,6 @@ pub use continuation::{
     Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation, LocatedDoubling,
 };
 pub use follow_attractor::{Followed, Following, follow_attractor};
+pub use periodic::catalogue::{OrbitCoverage, OrbitSearch, OrbitsFound};
 pub use periodic::pair::{PeriodOneOrbit, PeriodOnePair};
-pub use periodic::search::{OrbitCoverage, OrbitSearch, OrbitsFound};
 pub use periodic::{MAX_PERIOD, Multipliers, PeriodicOrbit, Stability};

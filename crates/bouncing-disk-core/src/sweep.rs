@@ -24,7 +24,7 @@ pub(crate) mod lockstep;
 pub(crate) mod lyapunov;
 pub(crate) mod orbit_batch;
 mod orbit_diagram;
-mod run;
+mod outcomes;
 pub(crate) mod runner;
 #[cfg(test)]
 mod tests;
@@ -38,5 +38,5 @@ pub use lockstep::flights::{Flights, LaneImpacts, LaneLoop, LaneRunner};
 pub use lockstep::lanes::InstructionSet;
 pub use orbit_batch::OrbitBatch;
 pub use orbit_diagram::{MAX_RECORDED, orbit_diagram, survival_times};
-pub(crate) use run::sweep_with;
-pub use run::{PartialResults, sweep};
+pub(crate) use outcomes::sweep_with;
+pub use outcomes::{PartialResults, sweep};

@@ -78,7 +78,7 @@ pub struct Compliance {
 /// What the spring does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub enum Branch {
+pub enum SpringState {
     /// It loads; with a damper also: it moves.
     Loading,
     /// It unloads at its lower stiffness.
@@ -204,10 +204,10 @@ impl Compliance {
     }
 
     /// The spring and damper on a branch.
-    pub(crate) const fn on(&self, branch: Branch) -> Self {
+    pub(crate) const fn on(&self, branch: SpringState) -> Self {
         match branch {
-            Branch::Unloading => Self { stiffness: self.unloading, ..*self },
-            Branch::Loading | Branch::Held => *self,
+            SpringState::Unloading => Self { stiffness: self.unloading, ..*self },
+            SpringState::Loading | SpringState::Held => *self,
         }
     }
 
@@ -324,7 +324,7 @@ pub enum ContactEnd {
     /// platform by its [steady response](CompliantPlatform::steady).
     Settles(f64),
     /// The contact goes on, but its spring loads, unloads or holds still from now on (rad).
-    Turns(f64, Branch),
+    Turns(f64, SpringState),
 }
 
 impl CompliantPlatform {
@@ -378,12 +378,12 @@ impl CompliantPlatform {
     /// The force of a contact in this state, were it not cut off at zero.
     #[must_use]
     pub fn force(&self, state: RelativeState) -> f64 {
-        self.force_on(self.branch(state), state)
+        self.force_on(self.spring_state(state), state)
     }
 
-    pub(crate) fn force_on(&self, branch: Branch, state: RelativeState) -> f64 {
+    pub(crate) fn force_on(&self, branch: SpringState, state: RelativeState) -> f64 {
         let Compliance { stiffness, damping, .. } = self.compliance.on(branch);
-        if branch == Branch::Held {
+        if branch == SpringState::Held {
             return 1.0 + self.drive.acceleration(state.time);
         }
         -(stiffness * state.gap + damping * state.velocity)
@@ -398,17 +398,17 @@ impl CompliantPlatform {
 
     /// What the spring does in this state.
     #[must_use]
-    pub fn branch(&self, state: RelativeState) -> Branch {
+    pub fn spring_state(&self, state: RelativeState) -> SpringState {
         let load = || 1.0 + self.drive.acceleration(state.time);
         let spare = || self.spare(state.gap);
         if !self.compliance.is_hysteretic() || state.velocity < 0.0 {
-            Branch::Loading
+            SpringState::Loading
         } else if state.velocity > 0.0 || load() < -self.compliance.unloading * state.gap - spare() {
-            Branch::Unloading
+            SpringState::Unloading
         } else if load() > -self.compliance.stiffness * state.gap + spare() {
-            Branch::Loading
+            SpringState::Loading
         } else {
-            Branch::Held
+            SpringState::Held
         }
     }
 
@@ -519,14 +519,14 @@ impl CompliantPlatform {
     /// A disk in contact from this state on.
     #[must_use]
     pub fn press(&self, from: RelativeState) -> Pressed {
-        self.press_on(self.branch(from), from)
+        self.press_on(self.spring_state(from), from)
     }
 
     /// A disk in contact from this state on, whose spring does that.
     #[must_use]
-    pub fn press_on(&self, branch: Branch, from: RelativeState) -> Pressed {
+    pub fn press_on(&self, branch: SpringState, from: RelativeState) -> Pressed {
         let (here, harmonics) = self.drive.at_with_terms(from.time, 2, 1.0);
-        if branch == Branch::Held {
+        if branch == SpringState::Held {
             return Pressed {
                 from: RelativeState { velocity: 0.0, ..from },
                 branch,
@@ -596,7 +596,7 @@ impl CompliantPlatform {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pressed {
     from: RelativeState,
-    branch: Branch,
+    branch: SpringState,
     platform: CompliantPlatform,
     force: QuasiPolynomial,
     /// Bound on the oscillation of the force that stays, and on that which decays.
@@ -662,7 +662,7 @@ impl Pressed {
 
     /// What the spring does.
     #[must_use]
-    pub const fn branch(&self) -> Branch {
+    pub const fn spring_state(&self) -> SpringState {
         self.branch
     }
 
@@ -721,7 +721,7 @@ impl Pressed {
             Ok(if ended { Some(0.0) } else { decided(function, to)?.root.map(|root| root.at) })
         };
         let [first, second] = match self.branch {
-            Branch::Held => {
+            SpringState::Held => {
                 let to = limit.min(TAU);
                 let spare = self.platform.spare(self.from.gap);
                 let edge = |sign: f64, stiffness: f64| {
@@ -732,7 +732,10 @@ impl Pressed {
                 if loads.is_none() && unloads.is_none() && limit >= TAU {
                     return Ok(Some(ContactEnd::Settles(TAU)));
                 }
-                [loads.map(|at| (at, Some(Branch::Loading))), unloads.map(|at| (at, Some(Branch::Unloading)))]
+                [
+                    loads.map(|at| (at, Some(SpringState::Loading))),
+                    unloads.map(|at| (at, Some(SpringState::Unloading))),
+                ]
             }
             branch => {
                 let jet = self.force.at(0.0, 0.0);
@@ -743,17 +746,17 @@ impl Pressed {
                     bend => bend,
                 };
                 let relative = self.velocity_change() + drive.derivative(1, self.from.time) * -1.0;
-                let sign = if branch == Branch::Loading { -1.0 } else { 1.0 };
+                let sign = if branch == SpringState::Loading { -1.0 } else { 1.0 };
                 let to = limit.min(MAX_FLIGHT_DURATION);
                 let speed =
                     (relative * sign).starting_with([sign * self.from.velocity, sign * bend], [0.0; 2]);
                 let turned = fall(&speed, to)?;
                 let freed = match branch {
-                    Branch::Unloading => fall(&self.force, turned.unwrap_or(to))?,
+                    SpringState::Unloading => fall(&self.force, turned.unwrap_or(to))?,
                     _ => None,
                 };
                 // What would go back at once has not moved.
-                let to = |at| if at > 0.0 { self.turned_at(at) } else { Branch::Held };
+                let to = |at| if at > 0.0 { self.turned_at(at) } else { SpringState::Held };
                 [turned.map(|at| (at, Some(to(at)))), freed.map(|at| (at, None))]
             }
         };
@@ -764,9 +767,9 @@ impl Pressed {
     }
 
     /// What a spring does whose motion has come to an end.
-    fn turned_at(&self, after: f64) -> Branch {
+    fn turned_at(&self, after: f64) -> SpringState {
         let state = self.after(after);
-        self.platform.branch(RelativeState { velocity: 0.0, ..state })
+        self.platform.spring_state(RelativeState { velocity: 0.0, ..state })
     }
 
     /// The disk where the spring turns: it moves with the platform.

@@ -21,3 +21,8 @@ fn orbits_with_compliance() {
 fn periodic_orbits() {
     assert_eq!(on_drives::periodic_orbits_on_drives(), [""; 0]);
 }
+
+#[test]
+fn branches() {
+    assert_eq!(on_drives::branches_on_drives(), [""; 0]);
+}

@@ -54,6 +54,7 @@ fn flights_orbits_and_basins_are_the_golden_ones() {
         results::verdicts_and_exponents(),
         results::periodic_orbits(),
         on_drives::periodic_orbits_on_drives(),
+        on_drives::branches_on_drives(),
         results::drops(),
     ];
     assert_eq!(differences.concat(), Vec::<String>::new());

@@ -13,7 +13,7 @@ use crate::chatter::policy::ChatterPolicy;
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::error::{Error, room_for};
-use crate::orbits::periodic::search::OrbitSearch;
+use crate::orbits::periodic::catalogue::OrbitSearch;
 use crate::orbits::periodic::{PeriodicOrbit, Stability, belonging, newton, phase_difference};
 use crate::run::{Observer, Watch, in_parallel};
 use crate::sweep::bouncing_map::{BouncingMap, BouncingOrbit as _};

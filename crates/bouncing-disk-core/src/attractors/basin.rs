@@ -2,8 +2,8 @@
 
 pub(crate) mod boundary;
 pub(crate) mod entropy;
+mod labels;
 mod lockstep;
-mod run;
 mod screen;
 mod starts;
 

@@ -14,10 +14,10 @@ use crate::numerics::stored::read_checked;
 use crate::run::{Observer, Tick, Watch};
 
 pub(crate) mod belonging;
+pub(crate) mod catalogue;
 pub(crate) mod margin;
 pub(crate) mod newton;
 pub(crate) mod pair;
-pub(crate) mod search;
 
 /// Most Newton steps of [`ImpactMap::refine`].
 pub const MAX_NEWTON_STEPS: u32 = 50;

@@ -3,7 +3,7 @@
 use core::ops::ControlFlow;
 
 use super::events::SweepEvent;
-use super::run::{sweep, sweep_with};
+use super::outcomes::{sweep, sweep_with};
 use crate::map::impact_map::ImpactState;
 use crate::numerics::error::Error;
 use crate::run::Observer;

@@ -15,8 +15,8 @@ use bouncing_disk_core::chaos::lyapunov_spectra;
 use bouncing_disk_core::numerics::double_double::DoubleDouble;
 use bouncing_disk_core::numerics::elementary;
 use bouncing_disk_core::orbits::{
-    BifurcationKind, Branch, BranchPoint, Continuation, ContinuationParameter, ContinuedMap as _,
-    OrbitSearch, PeriodicOrbit, doubling_cascade,
+    BifurcationKind, Branch, BranchPoint, Continuation, ContinuationParameter, ContinuedMap, OrbitSearch,
+    PeriodicOrbit, doubling_cascade,
 };
 use bouncing_disk_core::sweep::{InstructionSet, OrbitBatch};
 use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, OrbitEvent, Phase, Unobserved, Vibration};
@@ -284,7 +284,7 @@ fn add_point(digest: &mut Digest, point: &BranchPoint) {
     point.orbit.states.iter().for_each(|state| add_state(digest, *state));
 }
 
-fn add_branch(digest: &mut Digest, branch: &Branch) {
+pub(crate) fn add_branch<M: ContinuedMap>(digest: &mut Digest, branch: &Branch<M>) {
     branch.points.iter().for_each(|point| add_point(digest, point));
     for bifurcation in &branch.bifurcations {
         digest.bytes(bifurcation.kind.name().as_bytes());

@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 
 use glam::{DMat2, DVec2};
 
-use crate::compliance::{Branch, CompliantPlatform, ContactEnd, Pressed, RelativeState, Touch};
+use crate::compliance::{CompliantPlatform, ContactEnd, Pressed, RelativeState, SpringState, Touch};
 use crate::drive::landing::DrivenImpact;
 use crate::quasi_polynomial::QuasiPolynomial;
 use bouncing_disk_core::Error;
@@ -129,10 +129,10 @@ impl CompliantPlatform {
                 ContactEnd::Turns(_, branch) => {
                     let acceleration = |branch| self.acceleration(self.force_on(branch, state), state.time);
                     if let Some(change) = change.as_deref_mut()
-                        && pressed.branch() != Branch::Held
+                        && pressed.spring_state() != SpringState::Held
                     {
                         // The force jumps as the velocity passes zero.
-                        let kept = acceleration(branch) / acceleration(pressed.branch());
+                        let kept = acceleration(branch) / acceleration(pressed.spring_state());
                         *change = DMat2::from_diagonal(DVec2::new(1.0, kept)) * *change;
                     }
                     pressed = self.press_on(branch, state);
@@ -148,10 +148,10 @@ impl CompliantPlatform {
 impl Pressed {
     /// What a change of gap and velocity at the start has become after `span`, both at fixed times.
     fn propagator(&self, span: f64) -> DMat2 {
-        if self.branch() == Branch::Held {
+        if self.spring_state() == SpringState::Held {
             return DMat2::from_diagonal(DVec2::new(1.0, 0.0));
         }
-        let spring = self.platform().compliance().on(self.branch());
+        let spring = self.platform().compliance().on(self.spring_state());
         let free = |value: f64, slope: f64| {
             let terms = spring.free(value, slope);
             let jet = QuasiPolynomial::known([value, slope], [0.0; 2], [0.0; 2], terms).at(span, span);
@@ -162,7 +162,7 @@ impl Pressed {
 
     /// What a change of gap and velocity at a fixed time makes of phase and speed at the release in `state`.
     fn change_to_release(&self, state: RelativeState) -> DMat2 {
-        let spring = self.platform().compliance().on(self.branch());
+        let spring = self.platform().compliance().on(self.spring_state());
         let (k, c) = (spring.stiffness(), spring.damping());
         let acceleration = self.platform().acceleration(0.0, state.time);
         let fall = k * state.velocity + c * acceleration;

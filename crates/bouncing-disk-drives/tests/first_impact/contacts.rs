@@ -11,7 +11,7 @@ use bouncing_disk_core::Error;
 use bouncing_disk_core::run::in_parallel;
 use bouncing_disk_drives::Drive;
 use bouncing_disk_drives::compliance::{
-    Branch, Compliance, CompliantPlatform, ContactEnd, Pressed, RelativeState, Touch,
+    Compliance, CompliantPlatform, ContactEnd, Pressed, RelativeState, SpringState, Touch,
 };
 
 use crate::launches::SplitMix;
@@ -388,8 +388,8 @@ impl Contact {
             Some(ContactEnd::Settles(t)) => (t, false),
             None => (limit, false),
         };
-        let spring = match pressed.branch() {
-            Branch::Unloading => (self.unloading, 0.0),
+        let spring = match pressed.spring_state() {
+            SpringState::Unloading => (self.unloading, 0.0),
             _ => self.spring,
         };
         let settles = matches!(end, Some(ContactEnd::Settles(_)));
@@ -397,7 +397,7 @@ impl Contact {
         let on = if settles { TAU.min(self.horizon(spring)) } else { 0.0 };
         let motion = self.motion(spring, from, span + on, wide);
         let load = [0.0, 0.0, 1.0, 0.0].map(dd);
-        if pressed.branch() == Branch::Held {
+        if pressed.spring_state() == SpringState::Held {
             let size = self.law.load() + self.spring.0 * from.gap.abs();
             let edge = |sign: f64, k: f64| Fall {
                 form: [dd(0.0), dd(0.0), dd(sign), dd(sign) * dd(k) * dd(from.gap)],
@@ -406,15 +406,19 @@ impl Contact {
             };
             let (unloads, loads) = (edge(1.0, self.unloading), edge(-1.0, self.spring.0));
             let to = |branch| matches!(end, Some(ContactEnd::Turns(_, to)) if to == branch);
-            let doubt = unloads.judge(&motion, (0.0, span), to(Branch::Unloading))?;
-            return Ok(loads.judge(&motion, (0.0, span), to(Branch::Loading))? || doubt);
+            let doubt = unloads.judge(&motion, (0.0, span), to(SpringState::Unloading))?;
+            return Ok(loads.judge(&motion, (0.0, span), to(SpringState::Loading))? || doubt);
         }
         let (velocity, _) = motion.at(&form(0.0, 1.0), span);
         let load_here = motion.at(&load, 0.0).0.high();
         let (k, c) = spring;
         let most = motion.pieces.iter().map(|[gap, _]| k * gap[0].high().abs() + c * gap[1].high().abs());
         let mut force = self.force(spring, from, most.fold(0.0, f64::max), 1.0);
-        let moves = self.velocity(spring, from, if pressed.branch() == Branch::Loading { -1.0 } else { 1.0 });
+        let moves = self.velocity(
+            spring,
+            from,
+            if pressed.spring_state() == SpringState::Loading { -1.0 } else { 1.0 },
+        );
         let off = moves.tolerance(motion.rate, span).min(
             ROUNDING
                 * (from.velocity.abs() + span * (force.cap + self.law.load()))
@@ -445,7 +449,7 @@ impl Contact {
         }
         let turns = matches!(end, Some(ContactEnd::Turns(..)));
         let mut doubt = moves.judge(&motion, (0.0, span), turns)?;
-        if pressed.branch() == Branch::Unloading {
+        if pressed.spring_state() == SpringState::Unloading {
             doubt |= force.judge(&motion, (0.0, span), falls && !turns)?;
         }
         if let Some(ContactEnd::Turns(_, to)) = end {
@@ -461,9 +465,9 @@ impl Contact {
             let rounding = 3.0 * ROUNDING * (self.law.load() + high + (span + 1.0) * self.law.size(3))
                 + self.spring.0 * legal;
             let right = match to {
-                Branch::Loading => load > high - rounding,
-                Branch::Unloading => load < low + rounding,
-                Branch::Held => low - rounding <= load && load <= high + rounding,
+                SpringState::Loading => load > high - rounding,
+                SpringState::Unloading => load < low + rounding,
+                SpringState::Held => low - rounding <= load && load <= high + rounding,
             };
             doubt |= (load - low).abs() <= rounding || (load - high).abs() <= rounding;
             if !right {
@@ -576,7 +580,7 @@ fn phase(random: &mut SplitMix, contact: &Contact) -> f64 {
 #[derive(Debug)]
 enum Next {
     Flies(RelativeState),
-    Presses(Branch, RelativeState),
+    Presses(SpringState, RelativeState),
 }
 
 fn start(random: &mut SplitMix, contact: &Contact) -> Next {
@@ -653,7 +657,7 @@ fn start(random: &mut SplitMix, contact: &Contact) -> Next {
         }
         _ => in_contact(random),
     };
-    Next::Presses(platform.branch(pressed), pressed)
+    Next::Presses(platform.spring_state(pressed), pressed)
 }
 
 const KINDS: [&str; 10] = [
@@ -690,7 +694,7 @@ impl Tally {
                     let judged =
                         judged.and_then(|touch| contact.judge_touch(from, touch.as_ref(), limit, wide));
                     let then = found.ok().flatten().map(|Touch { state, duration, .. }| {
-                        (Next::Presses(contact.platform.branch(state), state), duration)
+                        (Next::Presses(contact.platform.spring_state(state), state), duration)
                     });
                     let kind = match then {
                         Some((Next::Presses(_, state), _)) => usize::from(state.gap < 0.0),
@@ -814,7 +818,7 @@ fn isolated_impacts_last_and_rebound_as_they_say() {
 
 /// The disk behind a contact that begins so.
 fn rebound(platform: &CompliantPlatform, mut from: RelativeState) -> RelativeState {
-    let mut branch = platform.branch(from);
+    let mut branch = platform.spring_state(from);
     loop {
         let pressed = platform.press_on(branch, from);
         match pressed.end(f64::INFINITY).unwrap().unwrap() {

@@ -1,14 +1,17 @@
 //! Digests of results on drives and with compliant contacts: see the ones of the core.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use bouncing_disk_core::attractors::{AttractingMap as _, Axis, BasinSettings, Grid, KnownOrbit};
 use bouncing_disk_core::numerics::digest::Digest;
-use bouncing_disk_core::orbits::{OrbitSearch, Stability};
+use bouncing_disk_core::orbits::{
+    Bifurcation, BifurcationKind, Continuation, ContinuationParameter, ContinuedMap as _, OrbitSearch,
+    Stability,
+};
 use bouncing_disk_core::{Attachment, ChatterPolicy, ImpactState, OrbitEvent, Unobserved};
-use bouncing_disk_drives::{Drive, DrivenMap};
+use bouncing_disk_drives::{Drive, DrivenFamily, DrivenMap};
 
-use crate::results::{RESTITUTION, add_orbit, add_state, first, one, second};
+use crate::results::{RESTITUTION, add_branch, add_orbit, add_state, first, one, second};
 
 /// Events of orbits of one map.
 fn add_orbits(digest: &mut Digest, map: &DrivenMap) {
@@ -92,4 +95,38 @@ pub(crate) fn periodic_orbits_on_drives() -> Vec<String> {
     let mut lines = one("periodic orbits on drives", orbits, 0x4455_9a97_4f62_b38d);
     lines.extend(one("basins on drives", labels, 0x24a4_243e_efa0_0d14));
     lines
+}
+
+/// Branches over the forcing, a harmonic and the contact time, and the ones that begin at their doublings.
+pub(crate) fn branches_on_drives() -> Vec<String> {
+    let map = |drive: Result<Drive, _>| DrivenMap::new(drive.ok()?, RESTITUTION).ok();
+    let parabolas = move |forcing: f64| map(Drive::parabolas(PI * forcing));
+    let sum = move |second: f64| map(Drive::fourier(&[(1.2, 0.0), (second, 0.4)]));
+    let soft = move |time: f64| map(Drive::fourier(&[(1.3, 0.0)]))?.with_contact_time(time).ok();
+    let families = [
+        DrivenFamily::new(0.35, 0.35, parabolas),
+        DrivenFamily::new(0.05, 1.0, sum),
+        DrivenFamily::new(0.3, 1.0, soft),
+    ];
+    let search = OrbitSearch::new(1, 1).expect("legal");
+    let mut digest = Digest::new();
+    for family in families {
+        let family = family.expect("has a map");
+        let orbits = family.map().periodic_orbits(&search, &Unobserved).expect("no failure");
+        for orbit in orbits {
+            for rising in [false, true] {
+                let settings = Continuation::new(ContinuationParameter::Number, (-0.5, 2.0), rising);
+                let settings = settings.and_then(|settings| settings.with_steps(0.01, 0.05, 100));
+                let settings = settings.expect("legal");
+                let branch = family.continued(&orbit, &settings, &Unobserved).expect("continued");
+                add_branch(&mut digest, &branch);
+                let doubles = |found: &Bifurcation| found.kind == BifurcationKind::Doubling;
+                if let Some(index) = branch.bifurcations.iter().position(doubles) {
+                    let doubled = branch.switched(index, &settings, &Unobserved).expect("doubles");
+                    add_branch(&mut digest, &doubled);
+                }
+            }
+        }
+    }
+    one("branches on drives", digest, 0x525a_3d80_4007_4911)
 }

@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 
 use bouncing_disk_core::flight::MAX_FLIGHT_DURATION;
 use bouncing_disk_drives::Drive;
-use bouncing_disk_drives::compliance::{Branch, Pressed};
+use bouncing_disk_drives::compliance::{Pressed, SpringState};
 use bouncing_disk_drives::drive::TimeAhead;
 use bouncing_disk_drives::quasi_polynomial::{FirstRoot, QuasiPolynomial};
 
@@ -405,7 +405,7 @@ impl Touching<'_> {
         let end = gap + rest * (start.axial_velocity - here.velocity) + (lifted - raised);
         let mut lost = periods * whole_loss + loss;
         if let Ride::Pressed(pressed, _) = self.ride
-            && pressed.branch() == Branch::Loading
+            && pressed.spring_state() == SpringState::Loading
         {
             // What the spring takes while it loads and does not give back.
             let kept = compliant.compliance().stiffness() - compliant.compliance().unloading_stiffness();

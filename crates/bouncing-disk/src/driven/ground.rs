@@ -5,7 +5,7 @@ use bouncing_disk_core::chatter::{AfterImpact, ShortFlightCount};
 use bouncing_disk_core::numerics::elementary::wrapped_angle;
 use bouncing_disk_core::{ChatterPolicy, Phase};
 use bouncing_disk_drives::Drive;
-use bouncing_disk_drives::compliance::{Branch, ContactEnd, Pressed, RelativeState, Touch};
+use bouncing_disk_drives::compliance::{ContactEnd, Pressed, RelativeState, SpringState, Touch};
 use bouncing_disk_drives::drive::TimeAhead;
 
 use super::DrivenSystem;
@@ -64,7 +64,7 @@ pub(super) enum Then {
     /// The transient of a compliant contact is over: the disk never leaves.
     Settles,
     /// The spring of a compliant contact does this.
-    Turns(Branch),
+    Turns(SpringState),
 }
 
 /// The motion of a disk on a driven platform, as a lazy sequence of [`EventRecord`]s.
@@ -367,7 +367,7 @@ impl DrivenEngine {
         }
         let mut after = passed.before;
         if let Some(pressed) = self.ground.pressed.take() {
-            let next = pressed.platform().press_on(pressed.branch(), pressed.after(span));
+            let next = pressed.platform().press_on(pressed.spring_state(), pressed.after(span));
             after = self.pressing(&next, after);
             self.ground.pressed = Some(next);
         }

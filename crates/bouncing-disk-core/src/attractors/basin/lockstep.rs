@@ -1,6 +1,6 @@
 //! Labels of many starts at once: as [`ImpactMap::basin_label`], with the flights in lockstep.
 
-use super::screen::{Judge, Verdicts};
+use super::screen::{Judge, LabelMasks};
 use super::starts::{Cell, Cells, Starts};
 use super::{BasinSettings, KnownOrbit, Label, UNDECIDED, flights_of_label};
 use crate::attractors::attracting_map::AttractingMap as _;
@@ -31,7 +31,7 @@ impl ImpactMap {
         while lockstep.lanes < capacity && lockstep.load(lockstep.lanes, &mut starts) {
             lockstep.lanes += 1;
         }
-        let mut verdicts = Verdicts::new();
+        let mut verdicts = LabelMasks::new();
         while lockstep.lanes > 0 {
             lockstep.fly()?;
             // From the last lane, so that a lane moved into a gap has been judged.
@@ -111,7 +111,7 @@ impl<'a> Lockstep<'a> {
         &mut self,
         number: usize,
         starts: &mut Starts<'_, '_>,
-        verdicts: &mut Verdicts,
+        verdicts: &mut LabelMasks,
     ) -> Result<(), Error> {
         self.judge.screen(self.batches[number].impacts(), verdicts, |flights| starts.spend(flights))?;
         let first = number * LANES;

@@ -31,7 +31,7 @@ struct Target {
 
 /// The labels that the impacts of lanes decide, as `ImpactMap::settles` finds them.
 #[derive(Debug, Clone)]
-pub(super) struct Verdicts {
+pub(super) struct LabelMasks {
     pub(super) labels: Mask,
     /// Lanes left to `ImpactMap::settles`.
     pub(super) doubtful: Mask,
@@ -81,7 +81,7 @@ impl<'a> Judge<'a> {
     pub(super) fn screen(
         &self,
         impacts: &Impacts,
-        verdicts: &mut Verdicts,
+        verdicts: &mut LabelMasks,
         mut spend: impl FnMut(u64) -> Result<(), Error>,
     ) -> Result<(), Error> {
         spend(LANES as u64)?;
@@ -113,7 +113,7 @@ impl<'a> Judge<'a> {
 
     /// The label of a lane that was found settled, if the doubt is resolved so.
     #[inline(always)]
-    pub(super) fn label(&self, verdicts: &Verdicts, batch: &Batch, lane: usize) -> Option<Label> {
+    pub(super) fn label(&self, verdicts: &LabelMasks, batch: &Batch, lane: usize) -> Option<Label> {
         if verdicts.doubtful[lane] == 0 {
             return Some(verdicts.labels[lane] as Label);
         }
@@ -129,7 +129,7 @@ struct Screen<'a> {
     proof: RestProof,
     peak: f64,
     restitution: f64,
-    verdicts: &'a mut Verdicts,
+    verdicts: &'a mut LabelMasks,
 }
 
 impl WithSimd for Screen<'_> {
@@ -152,7 +152,7 @@ impl WithSimd for Screen<'_> {
 }
 
 #[inline(always)]
-fn find_rest(impacts: &Impacts, proof: RestProof, restitution: f64, verdicts: &mut Verdicts) {
+fn find_rest(impacts: &Impacts, proof: RestProof, restitution: f64, verdicts: &mut LabelMasks) {
     for lane in 0..LANES {
         let speed = -restitution * impacts.velocity[lane];
         let (angle, sin, cos) = (impacts.angle[lane], impacts.sin[lane], impacts.cos[lane]);
@@ -163,7 +163,7 @@ fn find_rest(impacts: &Impacts, proof: RestProof, restitution: f64, verdicts: &m
 }
 
 #[inline(always)]
-fn find_caught(impacts: &Impacts, target: Target, inverse_peak: f64, verdicts: &mut Verdicts) {
+fn find_caught(impacts: &Impacts, target: Target, inverse_peak: f64, verdicts: &mut LabelMasks) {
     let label = u64::from(target.label);
     let (least, most) = (target.square_radius * (1.0 - SLACK), target.square_radius * (1.0 + SLACK));
     // Chosen from copies: masked stores are slow.
@@ -180,7 +180,7 @@ fn find_caught(impacts: &Impacts, target: Target, inverse_peak: f64, verdicts: &
     }
 }
 
-impl Verdicts {
+impl LabelMasks {
     pub(super) const fn new() -> Self {
         Self { labels: [0; LANES], doubtful: [0; LANES], either: [0; LANES], settled: Lanes::NONE }
     }

@@ -2,7 +2,7 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use super::screen::{Judge, Verdicts};
+use super::screen::{Judge, LabelMasks};
 use super::{Grid, Label};
 use crate::flight::platform::phase::Phase;
 use crate::numerics::error::Error;
@@ -122,7 +122,7 @@ pub(super) struct Starts<'c, 'l> {
     column: usize,
     batch: Batch,
     batch_cells: [Cell; LANES],
-    verdicts: Verdicts,
+    verdicts: LabelMasks,
     /// Lanes of the batch not taken yet.
     open: Lanes,
     work: WorkCount<'c>,
@@ -140,7 +140,7 @@ impl<'c, 'l> Starts<'c, 'l> {
             column: 0,
             batch,
             batch_cells: [Cell::NONE; LANES],
-            verdicts: Verdicts::new(),
+            verdicts: LabelMasks::new(),
             open: Lanes::NONE,
             work: cells.watch.work(),
         }

@@ -5,7 +5,7 @@ use crate::attractors::verdict::VerdictSettings;
 use crate::numerics::error::{Error, within};
 use crate::numerics::stored::read_checked;
 use crate::orbits::periodic::MAX_PERIOD;
-use crate::orbits::periodic::search::OrbitSearch;
+use crate::orbits::periodic::catalogue::OrbitSearch;
 
 /// Fewest impacts of a start for anything to be said about its motion.
 const FEWEST_EACH: u64 = 256;

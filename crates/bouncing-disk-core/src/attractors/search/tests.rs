@@ -6,7 +6,7 @@ use crate::attractors::basin::{ATTACHED, Axis, BasinSettings, Basins, FIRST_ORBI
 use crate::chatter::policy::PAPER_POLICY;
 use crate::map::impact_map::map;
 use crate::numerics::testing::stored;
-use crate::orbits::periodic::search::OrbitSearch;
+use crate::orbits::periodic::catalogue::OrbitSearch;
 use crate::sweep::bouncing_map::BouncingMap as _;
 
 /// A search that is quick.

@@ -5,7 +5,7 @@ use crate::map::impact_map::map;
 use crate::numerics::random::SplitMix64;
 use crate::numerics::testing::stored;
 use crate::orbits::cascade::doubling_cascade;
-use crate::orbits::periodic::search::OrbitSearch;
+use crate::orbits::periodic::catalogue::OrbitSearch;
 use crate::run::Unobserved;
 
 fn forcing(low: f64, high: f64, rising: bool) -> Continuation {

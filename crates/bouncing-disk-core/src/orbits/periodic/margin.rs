@@ -275,7 +275,7 @@ impl ImpactMap {
 
 #[cfg(test)]
 mod tests {
-    use super::super::search::OrbitSearch;
+    use super::super::catalogue::OrbitSearch;
     use super::super::{Multipliers, Stability};
     use super::*;
     use crate::map::impact_map::map;

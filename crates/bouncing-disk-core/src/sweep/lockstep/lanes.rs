@@ -12,8 +12,8 @@ mod awaiting;
 mod instructions;
 mod low;
 mod platform;
+mod root;
 mod scheduler;
-mod search;
 mod short;
 mod subset;
 

@@ -7,7 +7,7 @@ use crate::map::impact_map::map;
 use crate::numerics::random::SplitMix64;
 use crate::numerics::testing::stored;
 use crate::orbits::continuation::{BifurcationKind, Continuation};
-use crate::orbits::periodic::search::OrbitSearch;
+use crate::orbits::periodic::catalogue::OrbitSearch;
 use crate::orbits::{ContinuationParameter, ContinuedMap as _, PeriodOneOrbit};
 use crate::run::Unobserved;
 

@@ -6,7 +6,7 @@ use core::f64::consts::{PI, TAU};
 use pulp::{Simd, WithSimd};
 
 use super::platform::Platform;
-use super::search::{Forms, Times};
+use super::root::{Forms, Times};
 use super::{Arcs, Impacts, LANES, Mask, ROW, Row, Sixteens, Width, kept, mask, pairs};
 use crate::flight::gap::CrestForm;
 use crate::numerics::elementary::{CREST, impact_phase_of_lane, nearby_wrapped_of_lane, sin_cos_of_lane};

@@ -6,7 +6,7 @@ use core::f64::consts::TAU;
 use pulp::{Simd, WithSimd};
 
 use super::platform::{Platform, PlatformLanes};
-use super::search::{Forms, Times};
+use super::root::{Forms, Times};
 use super::{Impacts, LANES, Launches, Mask, ROW, Row, Sixteens, Width, kept, mask, pairs};
 use crate::flight::bounds::{clears, clears_by_tangents};
 use crate::flight::gap::SHORT_FLIGHT;
@@ -30,14 +30,14 @@ pub(super) struct Low {
 /// Launches with a window, and those that clear the crest after all.
 #[derive(Debug, Clone)]
 #[repr(align(64))]
-pub(super) struct Verdicts {
+pub(super) struct WindowMasks {
     pub(super) open: Mask,
     pub(super) clears: Mask,
     /// Launches that clear inflection and crest, but may dip between the two.
     pub(super) dips: Mask,
 }
 
-impl Verdicts {
+impl WindowMasks {
     pub(super) const fn new() -> Self {
         Self { open: [0; LANES], clears: [0; LANES], dips: [0; LANES] }
     }
@@ -98,7 +98,7 @@ pub(super) struct Windows<'a, P> {
     pub(super) platforms: P,
     pub(super) low: &'a Low,
     pub(super) times: &'a mut Times,
-    pub(super) verdicts: &'a mut Verdicts,
+    pub(super) masks: &'a mut WindowMasks,
 }
 
 impl<P: PlatformLanes> WithSimd for Windows<'_, P> {
@@ -106,7 +106,7 @@ impl<P: PlatformLanes> WithSimd for Windows<'_, P> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { width, platforms, low, times, verdicts } = self;
+        let Self { width, platforms, low, times, masks } = self;
         for k in 0..width.lanes() {
             let platform = platforms.lane(k);
             let (angle, speed, peak) = (low.angle[k], low.speed[k], platform.peak);
@@ -130,7 +130,7 @@ impl<P: PlatformLanes> WithSimd for Windows<'_, P> {
             let guess = if inside != 0 { parabola } else { inflection };
             times.time[k] = if concave != 0 { guess } else { from };
             times.peak[k] = peak;
-            verdicts.open[k] = certain & (concave | convex);
+            masks.open[k] = certain & (concave | convex);
             let clears = mask(clears_by_tangents(
                 peak,
                 platform.separation_speed,
@@ -138,8 +138,8 @@ impl<P: PlatformLanes> WithSimd for Windows<'_, P> {
                 (crest, at_crest),
                 speed + cosine,
             ));
-            verdicts.clears[k] = clears;
-            verdicts.dips[k] = certain & !concave & mask(at_crest > doubt) & !clears;
+            masks.clears[k] = clears;
+            masks.dips[k] = certain & !concave & mask(at_crest > doubt) & !clears;
         }
     }
 }
@@ -154,7 +154,7 @@ pub(super) struct Dips<'a> {
     pub(super) width: Sixteens,
     pub(super) low: &'a mut Low,
     pub(super) times: &'a mut Times,
-    pub(super) verdicts: &'a mut Verdicts,
+    pub(super) masks: &'a mut WindowMasks,
 }
 
 impl WithSimd for Dips<'_> {
@@ -162,20 +162,20 @@ impl WithSimd for Dips<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { width, low, times, verdicts } = self;
+        let Self { width, low, times, masks } = self;
         let from = times.lo;
         for k in 0..width.lanes() {
             times.time[k] = 0.5 * (times.lo[k] + times.hi[k]);
-            verdicts.open[k] = 0;
-            verdicts.clears[k] = 0;
-            verdicts.dips[k] = u64::MAX;
+            masks.open[k] = 0;
+            masks.clears[k] = 0;
+            masks.dips[k] = u64::MAX;
         }
         for _ in 0..DIP_EVALUATIONS {
             low.evaluate::<S>(width, times);
             for k in 0..width.lanes() {
                 let (lo, hi, t) = (times.lo[k], times.hi[k], times.time[k]);
                 let (gap, slope) = (times.gap[k], times.slope[k]);
-                let undecided = verdicts.dips[k];
+                let undecided = masks.dips[k];
                 let falls = mask(slope < 0.0);
                 let far = if falls != 0 { hi } else { lo };
                 let open = undecided & mask(clears(-gap, times.peak[k]));
@@ -190,11 +190,11 @@ impl WithSimd for Dips<'_> {
                 times.lo[k] = shorter_lo;
                 times.hi[k] = shorter_hi;
                 times.time[k] = next;
-                verdicts.open[k] |= open;
-                verdicts.clears[k] |= clears;
-                verdicts.dips[k] = on;
+                masks.open[k] |= open;
+                masks.clears[k] |= clears;
+                masks.dips[k] = on;
             }
-            if verdicts.dips.iter().take(width.lanes()).fold(0, |any, dips| any | dips) == 0 {
+            if masks.dips.iter().take(width.lanes()).fold(0, |any, dips| any | dips) == 0 {
                 break;
             }
         }
@@ -254,7 +254,7 @@ mod tests {
         let vibration = Vibration::new(2.0).expect("legal");
         let (platform, width) = (Platform::from(&vibration), Sixteens::holding(LANES));
         let dispatch = Dispatch::new(InstructionSet::best());
-        let (mut low, mut times, mut verdicts) = (Low::new(), Times::new(), Verdicts::new());
+        let (mut low, mut times, mut masks) = (Low::new(), Times::new(), WindowMasks::new());
         let (mut dips, mut open, mut clear) = (0, 0, 0);
         for block in 0..2_000 {
             let launches: [_; LANES] = core::array::from_fn(|k| {
@@ -267,19 +267,13 @@ mod tests {
                 low.sine[k] = platform.peak * launch.phase().sin();
                 low.cosine[k] = platform.peak * launch.phase().cos();
             }
-            let (forms, windows, verdict) = (&mut low, &mut times, &mut verdicts);
-            dispatch.run(Windows {
-                width,
-                platforms: platform,
-                low: forms,
-                times: windows,
-                verdicts: verdict,
-            });
-            let (was_open, was_clear, may_dip) = (verdicts.open, verdicts.clears, verdicts.dips);
+            let (forms, windows, verdict) = (&mut low, &mut times, &mut masks);
+            dispatch.run(Windows { width, platforms: platform, low: forms, times: windows, masks: verdict });
+            let (was_open, was_clear, may_dip) = (masks.open, masks.clears, masks.dips);
             let concave = times.clone();
-            dispatch.run(Dips { width, low: &mut low, times: &mut times, verdicts: &mut verdicts });
+            dispatch.run(Dips { width, low: &mut low, times: &mut times, masks: &mut masks });
             for k in 0..LANES {
-                let decided = if may_dip[k] != 0 { &verdicts } else { continue };
+                let decided = if may_dip[k] != 0 { &masks } else { continue };
                 assert_eq!((was_open[k], was_clear[k]), (0, 0), "dips are what is left");
                 let single = vibration.bracket_before_crest_of_launch(&low.form(&concave, k), &mut 0);
                 let found = single.map(|(bracket, guess)| (bracket.lo, bracket.hi, guess));

@@ -6,10 +6,10 @@ use crate::flight::first_impact::FASTEST_ARC;
 use crate::numerics::error::Error;
 use crate::sweep::lockstep::lanes::above::{Fly, Work};
 use crate::sweep::lockstep::lanes::awaiting::{AwaitingSearch, FallingPlatform};
-use crate::sweep::lockstep::lanes::low::{Low, Verdicts};
+use crate::sweep::lockstep::lanes::low::{Low, WindowMasks};
 use crate::sweep::lockstep::lanes::platform::{Platform, PlatformLanes, Platforms};
-use crate::sweep::lockstep::lanes::search::{Classify, Kinds};
-use crate::sweep::lockstep::lanes::search::{Search, Times};
+use crate::sweep::lockstep::lanes::root::{Classify, Kinds};
+use crate::sweep::lockstep::lanes::root::{Search, Times};
 use crate::sweep::lockstep::lanes::short::Short;
 use crate::sweep::lockstep::lanes::{
     Arcs, Batch, Dispatch, Ground, Impacts, InstructionSet, LANES, Lanes, Rows, Who, Whole, lanes_of,
@@ -40,8 +40,8 @@ pub(crate) struct FlightScheduler {
     awaiting: Queue<AwaitingSearch>,
     low_search: Search<Low>,
     awaiting_search: Search<AwaitingSearch>,
-    verdicts: Verdicts,
-    dip_verdicts: Verdicts,
+    masks: WindowMasks,
+    dip_masks: WindowMasks,
     falling_platform: FallingPlatform,
     /// Windows: flights of one kind are added to another while their own are read.
     low_windows: Times,
@@ -72,8 +72,8 @@ impl FlightScheduler {
             awaiting: Queue::new(AwaitingSearch::new()),
             low_search: Search::new(Low::new()),
             awaiting_search: Search::new(AwaitingSearch::new()),
-            verdicts: Verdicts::new(),
-            dip_verdicts: Verdicts::new(),
+            masks: WindowMasks::new(),
+            dip_masks: WindowMasks::new(),
             falling_platform: FallingPlatform::new(),
             low_windows: Times::new(),
             dip_windows: Times::new(),

@@ -6,7 +6,7 @@ use crate::sweep::lockstep::lanes::above::Fly;
 use crate::sweep::lockstep::lanes::awaiting;
 use crate::sweep::lockstep::lanes::low::{self, Dips};
 use crate::sweep::lockstep::lanes::platform::Platform;
-use crate::sweep::lockstep::lanes::search::{Advance, Finish, Forms, Search};
+use crate::sweep::lockstep::lanes::root::{Advance, Finish, Forms, Search};
 use crate::sweep::lockstep::lanes::short::{self, Fate};
 use crate::sweep::lockstep::lanes::{Batch, Dispatch, Impacts, LANES, Lanes, Sixteens, Who, lanes_of};
 
@@ -42,17 +42,17 @@ impl FlightScheduler {
             return;
         }
         let width = Sixteens::holding(count);
-        let Self { dispatch, low: Queue { rows: low, .. }, low_windows: times, verdicts, .. } = self;
+        let Self { dispatch, low: Queue { rows: low, .. }, low_windows: times, masks, .. } = self;
         if let Some(platforms) = shared {
-            dispatch.run(low::Windows { width, platforms, low, times, verdicts });
+            dispatch.run(low::Windows { width, platforms, low, times, masks });
         } else {
             let platforms = &self.low_platforms;
-            dispatch.run(low::Windows { width, platforms, low, times, verdicts });
+            dispatch.run(low::Windows { width, platforms, low, times, masks });
         }
         let all = Lanes::first(count);
-        let open = lanes_of(&verdicts.open) & all;
-        let clear = lanes_of(&verdicts.clears) & all.without(open);
-        let doubtful = lanes_of(&verdicts.dips) & all.without(open | clear);
+        let open = lanes_of(&masks.open) & all;
+        let clear = lanes_of(&masks.clears) & all.without(open);
+        let doubtful = lanes_of(&masks.dips) & all.without(open | clear);
         // Before their windows shrink.
         for k in doubtful {
             let slot = self.dips.place(self.low.who[k]);
@@ -95,19 +95,17 @@ impl FlightScheduler {
             return;
         }
         let width = Sixteens::holding(count);
-        let Self {
-            dispatch, dips: Queue { rows: low, .. }, dip_windows: times, dip_verdicts: verdicts, ..
-        } = self;
-        dispatch.run(Dips { width, low, times, verdicts });
+        let Self { dispatch, dips: Queue { rows: low, .. }, dip_windows: times, dip_masks: masks, .. } = self;
+        dispatch.run(Dips { width, low, times, masks });
         self.dips.len = 0;
         for k in 0..count {
             let who = self.dips.who[k];
-            if self.dip_verdicts.open[k] != 0 {
+            if self.dip_masks.open[k] != 0 {
                 self.low_search.add(who, &self.dips.rows, &self.dip_windows, k, 0);
                 if self.low_search.is_full() {
                     self.search_low(batches, LEFT);
                 }
-            } else if self.dip_verdicts.clears[k] != 0 {
+            } else if self.dip_masks.clears[k] != 0 {
                 self.go_above(batches, who, shared);
             } else {
                 self.hard.push(who);
