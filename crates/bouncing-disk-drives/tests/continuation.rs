@@ -236,6 +236,12 @@ fn parabolas_have_a_corner_and_a_doubling_by_hand() {
         check_points(&up);
         let [doubling] = places(&up, BifurcationKind::Doubling)[..] else { panic!("{:?}", up.bifurcations) };
         assert!((doubling - double).abs() < 1e-13, "{r}: {doubling} {double}");
+        // All orbits of two impacts exist at that one forcing: rounding alone turns it back and forth.
+        let index = up.bifurcations.iter().position(|found| found.kind == BifurcationKind::Doubling).unwrap();
+        let two = up.switched(index, &continuation(0.5 * corner, 1.3 * double, true), &Unobserved).unwrap();
+        assert_eq!(places(&two, BifurcationKind::Fold), [0.0; 0], "{r}");
+        let near = |point: &&BranchPoint| (point.parameter - double).abs() < 1e-13;
+        assert!(two.points.iter().filter(near).count() > 3, "{r} {:?}", two.bifurcations);
         // The node turns at the corner and comes back as a saddle.
         let down = branch(&family, 1, 1, &continuation(0.5 * corner, start, false));
         check_points(&down);

@@ -128,5 +128,5 @@ pub(crate) fn branches_on_drives() -> Vec<String> {
             }
         }
     }
-    one("branches on drives", digest, 0x525a_3d80_4007_4911)
+    one("branches on drives", digest, 0xa9b8_6914_a0ad_ea9d)
 }

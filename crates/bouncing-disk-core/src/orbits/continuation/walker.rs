@@ -41,6 +41,10 @@ const FLIP_ROUNDINGS: f64 = 8.0;
 /// A branch is not taken to be closed before so many points.
 const FEWEST_OF_CLOSED: usize = 8;
 
+/// A fold is one if the parameter changes by more than this share of itself within this arclength to either side.
+const FLAT: f64 = 1.0e-11;
+const ASIDE: f64 = 1.0e-3;
+
 /// The smallest arclength of a step.
 const SMALLEST_STEP: f64 = 1.0e-10;
 
@@ -301,16 +305,20 @@ impl<'s, M: ContinuedMap> Walker<'s, M> {
                     Some(impact) => BifurcationKind::VanishingImpact { impact },
                     None => self.kind_or_border(BifurcationKind::Fold, &last, &beyond),
                 };
-                let point = self.point(&last)?;
-                let is_fold = |point: &BranchPoint| {
-                    kind != BifurcationKind::Fold
-                        || next_to_margin(point.orbit.monodromy, point.determinant).0
-                };
-                // Elsewhere the derivative by the parameter is that of no curve.
-                if !point.as_ref().is_none_or(is_fold) {
-                    return Ok(None);
+                if kind == BifurcationKind::Fold && self.is_vertical(&last) {
+                    None
+                } else {
+                    let point = self.point(&last)?;
+                    let is_fold = |point: &BranchPoint| {
+                        kind != BifurcationKind::Fold
+                            || next_to_margin(point.orbit.monodromy, point.determinant).0
+                    };
+                    // Elsewhere the derivative by the parameter is that of no curve.
+                    if !point.as_ref().is_none_or(is_fold) {
+                        return Ok(None);
+                    }
+                    point.map(|point| (last, Bifurcation { kind, point }))
                 }
-                point.map(|point| (last, Bifurcation { kind, point }))
             }
             Halves::Apart => None,
         };
@@ -363,6 +371,15 @@ impl<'s, M: ContinuedMap> Walker<'s, M> {
             last = base.clone();
         }
         Ok(Some(Stretch { last, found, end }))
+    }
+
+    /// Whether the parameter stays the same to either side but for rounding, as on the orbits of two impacts on parabolas:
+    /// then rounding alone turns it back.
+    fn is_vertical(&self, at: &Located) -> bool {
+        [-ASIDE, ASIDE].into_iter().filter_map(|step| self.at(at, step)).any(|beside| {
+            let parameter = at.at.parameter;
+            (beside.at.parameter - parameter).abs() <= FLAT * parameter.abs()
+        })
     }
 
     /// The doubling between two points, if there is one: where a multiplier passes -1 between them, is -1
