@@ -192,17 +192,18 @@ impl Waveform {
     ///
     /// ```
     /// use bouncing_disk::core::orbits::{
-    ///     BifurcationKind, Continuation, ContinuationParameter, ContinuedMap as _, OrbitSearch,
+    ///     BifurcationKind, Continuation, ContinuationParameter, ContinuedMap as _, OrbitSearch, Stability,
     /// };
     /// use bouncing_disk::core::{ImpactMap, Unobserved, Vibration};
     /// use bouncing_disk::parameters::{MapNumber, Waveform};
     ///
     /// let shape = Waveform::Fourier(vec![(1.0, 0.0), (0.1, 0.3)]);
-    /// let sine = ImpactMap::new(Vibration::from_axial_forcing(0.4)?, 0.5)?;
+    /// let sine = ImpactMap::new(Vibration::from_axial_forcing(0.36)?, 0.5)?;
     /// let family = shape.family(&sine, None, "fourier[1][0]".parse()?)?;
     /// let orbits = family.map().periodic_orbits(&OrbitSearch::new(1, 1)?, &Unobserved)?;
     /// let settings = Continuation::new(ContinuationParameter::Number, (-0.5, 0.5), true)?;
-    /// let branch = family.continued(&orbits[0], &settings, &Unobserved)?;
+    /// let node = orbits.iter().find(|orbit| orbit.stability() == Stability::Stable).expect("exists");
+    /// let branch = family.continued(node, &settings, &Unobserved)?;
     /// assert!(branch.of_kind(BifurcationKind::Doubling).next().is_some());
     /// # Ok::<(), bouncing_disk::Error>(())
     /// ```
