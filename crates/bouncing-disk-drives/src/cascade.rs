@@ -2,15 +2,14 @@
 
 use core::f64::consts::{PI, TAU};
 
+use bouncing_disk_core::orbits::{
+    CascadeDoubling, Continuation, ContinuationParameter, ContinuedMap as _, DoublingCascade,
+    LocatedDoubling, OrbitSearch, PeriodicOrbit, Stability,
+};
+use bouncing_disk_core::{Error, Observer, Progress};
+
 use crate::driven_map::DrivenMap;
 use crate::family::DrivenFamily;
-use bouncing_disk_core::Error;
-use bouncing_disk_core::orbits::OrbitSearch;
-use bouncing_disk_core::orbits::{CascadeDoubling, DoublingCascade};
-use bouncing_disk_core::orbits::{Continuation, LocatedDoubling};
-use bouncing_disk_core::orbits::{ContinuationParameter, ContinuedMap as _};
-use bouncing_disk_core::orbits::{PeriodicOrbit, Stability};
-use bouncing_disk_core::{Observer, Progress};
 
 /// The forcings at which an orbit to begin with is looked for, in units of the one at which rigid impacts first have one:
 /// from below in equal ratios, as compliant contacts have it there, and from there on at distances that double, as it may

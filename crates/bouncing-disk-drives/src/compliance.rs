@@ -15,19 +15,17 @@
 
 use core::f64::consts::{E, FRAC_PI_2, TAU};
 
-use crate::drive::Drive;
-use crate::drive::landing::{DrivenImpact, decided};
-use crate::quasi_polynomial::{DampedSine, QuasiPolynomial};
-use bouncing_disk_core::Error;
-use bouncing_disk_core::Launch;
-use bouncing_disk_core::Phase;
-use bouncing_disk_core::Vibration;
 use bouncing_disk_core::flight::MAX_FLIGHT_DURATION;
 use bouncing_disk_core::numerics::elementary::{
     atan2, exp, exp_m1, hypot, ln, ln_1p, nearest_whole, sin_cos, tan, wrapped_angle,
 };
 use bouncing_disk_core::numerics::roots::bisection;
 use bouncing_disk_core::parts::{finite, within};
+use bouncing_disk_core::{Error, Launch, Phase, Vibration};
+
+use crate::drive::Drive;
+use crate::drive::landing::{DrivenImpact, decided};
+use crate::quasi_polynomial::{DampedSine, QuasiPolynomial};
 
 /// Damping this near to the critical one counts as critical: the restitution differs by less than a rounding.
 const CRITICAL: f64 = 1.0e-8;

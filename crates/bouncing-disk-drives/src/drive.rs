@@ -3,12 +3,12 @@
 use core::f64::consts::TAU;
 use std::sync::{Arc, OnceLock};
 
-use crate::drive::pieces::Pieces;
-use crate::quasi_polynomial::{DampedSine, QuasiPolynomial};
-use bouncing_disk_core::Error;
-use bouncing_disk_core::Vibration;
 use bouncing_disk_core::numerics::elementary::{sin_cos, wrapped_angle};
 use bouncing_disk_core::parts::{finite, within};
+use bouncing_disk_core::{Error, Vibration};
+
+use crate::drive::pieces::Pieces;
+use crate::quasi_polynomial::{DampedSine, QuasiPolynomial};
 
 pub(crate) mod contact;
 mod extremes;

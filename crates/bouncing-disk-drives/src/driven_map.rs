@@ -3,21 +3,17 @@
 
 use core::f64::consts::TAU;
 
+use bouncing_disk_core::chatter::{Accumulation, AfterImpact, ShortFlightCount};
+use bouncing_disk_core::map::ContactChange;
+use bouncing_disk_core::numerics::elementary::wrapped_angle;
+use bouncing_disk_core::parts::within;
+use bouncing_disk_core::{Attachment, ChatterPolicy, Error, ImpactState, OrbitEvent, Phase};
 use glam::{DMat2, DVec2};
 
 use self::release::Cycle;
 use crate::compliance::{Compliance, CompliantPlatform, RelativeState};
 use crate::drive::landing::{DrivenImpact, Start};
 use crate::drive::{Drive, TimeAhead};
-use bouncing_disk_core::ChatterPolicy;
-use bouncing_disk_core::Error;
-use bouncing_disk_core::Phase;
-use bouncing_disk_core::chatter::Accumulation;
-use bouncing_disk_core::chatter::{AfterImpact, ShortFlightCount};
-use bouncing_disk_core::map::ContactChange;
-use bouncing_disk_core::numerics::elementary::wrapped_angle;
-use bouncing_disk_core::parts::within;
-use bouncing_disk_core::{Attachment, ImpactState, OrbitEvent};
 
 mod release;
 

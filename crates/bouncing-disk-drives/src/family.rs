@@ -4,20 +4,14 @@ use core::f64::consts::TAU;
 use core::fmt::{self, Debug, Formatter};
 use std::sync::Arc;
 
+use bouncing_disk_core::numerics::elementary::wrapped_angle;
+use bouncing_disk_core::orbits::{ContinuationParameter, ContinuedMap, PeriodicOrbit};
+use bouncing_disk_core::parts::{Closed, CyclicEquations, Flight, SAME, Scale, finite, within};
+use bouncing_disk_core::{Error, ImpactState, Phase};
 use glam::{DMat2, DVec2};
 
 use crate::drive::Drive;
 use crate::driven_map::DrivenMap;
-use bouncing_disk_core::Error;
-use bouncing_disk_core::ImpactState;
-use bouncing_disk_core::Phase;
-use bouncing_disk_core::numerics::elementary::wrapped_angle;
-use bouncing_disk_core::orbits::PeriodicOrbit;
-use bouncing_disk_core::orbits::{ContinuationParameter, ContinuedMap};
-use bouncing_disk_core::parts::CyclicEquations;
-use bouncing_disk_core::parts::SAME;
-use bouncing_disk_core::parts::{Closed, Flight, Scale};
-use bouncing_disk_core::parts::{finite, within};
 
 /// The step, in units of the number, of the differences that tell how the equations change with it. Their error slows
 /// Newton's method; it does not move the solution. Next to a place where a force only touches zero, the map is as curved

@@ -4,23 +4,18 @@
 use core::f64::consts::TAU;
 use core::ops::RangeInclusive;
 
+use bouncing_disk_core::orbits::{OrbitSearch, PeriodicOrbit, Stability};
+use bouncing_disk_core::parts::{
+    Catalogue, MAX_NEWTON_STEPS, Shooting, moved, next_to_margin, phase_difference, prime_period, settled,
+    solve_block_cyclic, speed_scale,
+};
+use bouncing_disk_core::run::{Watch, in_parallel};
+use bouncing_disk_core::{ChatterPolicy, Error, ImpactState, Observer, OrbitEvent, Phase};
 use glam::{DMat2, DVec2};
 
 use self::fold::Beside;
 use self::one_impact::OneImpact;
 use crate::driven_map::DrivenMap;
-use bouncing_disk_core::ChatterPolicy;
-use bouncing_disk_core::Error;
-use bouncing_disk_core::Observer;
-use bouncing_disk_core::Phase;
-use bouncing_disk_core::orbits::{OrbitSearch, PeriodicOrbit, Stability};
-use bouncing_disk_core::parts::solve_block_cyclic;
-use bouncing_disk_core::parts::{
-    Catalogue, MAX_NEWTON_STEPS, Shooting, moved, next_to_margin, phase_difference, prime_period, settled,
-    speed_scale,
-};
-use bouncing_disk_core::run::{Watch, in_parallel};
-use bouncing_disk_core::{ImpactState, OrbitEvent};
 
 mod fold;
 mod one_impact;

@@ -10,8 +10,7 @@ use bouncing_disk_core::orbits::{
     OrbitSearch, PeriodicOrbit, Stability, doubling_cascade,
 };
 use bouncing_disk_core::{Error, ImpactMap, ImpactState, Phase, Unobserved, Vibration};
-use bouncing_disk_drives::{Drive, DrivenMap};
-use bouncing_disk_drives::{DrivenFamily, driven_doubling_cascade};
+use bouncing_disk_drives::{Drive, DrivenFamily, DrivenMap, driven_doubling_cascade};
 
 const NUMBER: ContinuationParameter = ContinuationParameter::Number;
 

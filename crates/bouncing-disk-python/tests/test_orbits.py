@@ -384,8 +384,11 @@ def test_branches_and_doublings_on_a_drive_and_with_a_compliant_contact() -> Non
     bouncing = bd.ImpactMap(axial_forcing=0.35, restitution=0.5)
     orbits = bd.periodic_orbits(bouncing, max_impacts=1, max_platform_periods=1, drive=parabolas)
     orbit = next(orbit for orbit in orbits if orbit.is_stable)
-    place = {"impact_phase": orbit.impact_phase + 1e-3, "axial_impact_velocity": orbit.axial_impact_velocity}
-    again = bouncing.refine(drive=parabolas, **place)
+    again = bouncing.refine(
+        drive=parabolas,
+        impact_phase=orbit.impact_phase + 1e-3,
+        axial_impact_velocity=orbit.axial_impact_velocity,
+    )
     assert again.impact_phase == pytest.approx(orbit.impact_phase, abs=1e-13)
     assert 0 < orbit.trapping_radius(bouncing, drive=parabolas) < 1
     up = bd.continued(bouncing, orbit, drive=parabolas, parameter_range=(0.2, 0.5))
@@ -403,16 +406,24 @@ def test_branches_and_doublings_on_a_drive_and_with_a_compliant_contact() -> Non
 
     # A member of two families: over the second harmonic, and over the contact time.
     sum_of_two = bd.Drive(height={"fourier": [[1.0, 0.0], [0.1, 0.3]]})
-    arguments = {"drive": sum_of_two, "contact_periods": 0.05}
-    orbits = bd.periodic_orbits(bouncing, max_impacts=1, max_platform_periods=1, **arguments)
+    orbits = bd.periodic_orbits(
+        bouncing, max_impacts=1, max_platform_periods=1, drive=sum_of_two, contact_periods=0.05
+    )
     orbit = next(orbit for orbit in orbits if orbit.is_stable and orbit.normalised_speed[0] > 1)
     for parameter, now in [("fourier[1][0]", 0.1), ("fourier[1][1]", 0.3), ("contact_periods", 0.05), ("restitution", 0.5)]:
         branch = bd.continued(
-            bouncing, orbit, parameter=parameter, parameter_range=(now - 0.04, now + 0.04), **arguments
+            bouncing,
+            orbit,
+            parameter=parameter,
+            parameter_range=(now - 0.04, now + 0.04),
+            drive=sum_of_two,
+            contact_periods=0.05,
         )
         assert branch.values[0] == now and branch.parameter == parameter and len(branch) > 1
         assert branch.orbit(0).period == 1
     for parameter in ["fourier[2][0]", "fourier[1]", "sawtooth", "", "fourier[1", "fourier[x][0]"]:
         with pytest.raises(bd.InvalidError) as refused:
-            bd.continued(bouncing, orbit, parameter=parameter, parameter_range=(0, 1), **arguments)
+            bd.continued(
+                bouncing, orbit, parameter=parameter, parameter_range=(0, 1), drive=sum_of_two, contact_periods=0.05
+            )
         assert refused.value.kind == "no-such-number"

@@ -3,13 +3,13 @@
 
 use core::f64::consts::TAU;
 
-use super::{Drive, DriveBounds, ROUNDING, Shape, TimeAhead};
-use crate::quasi_polynomial::{FirstRoot, QuasiPolynomial};
 use bouncing_disk_core::Error;
 use bouncing_disk_core::chatter::ChatterDuration;
 use bouncing_disk_core::numerics::elementary::wrapped_angle;
-use bouncing_disk_core::parts::Surface;
-use bouncing_disk_core::parts::finite;
+use bouncing_disk_core::parts::{Surface, finite};
+
+use super::{Drive, DriveBounds, ROUNDING, Shape, TimeAhead};
+use crate::quasi_polynomial::{FirstRoot, QuasiPolynomial};
 
 /// A pull that is smaller than this share of its terms may be their rounding.
 const DOUBTFUL_PULL: f64 = 1.0e-12;

@@ -3,10 +3,11 @@
 use core::convert::Infallible;
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use super::pieces::Pieces;
-use super::{Drive, DriveState, Fourier, Harmonic, Shape};
 use bouncing_disk_core::numerics::elementary::wrapped_angle;
 use bouncing_disk_core::numerics::roots::bisection;
+
+use super::pieces::Pieces;
+use super::{Drive, DriveState, Fourier, Harmonic, Shape};
 
 /// Two values that differ by less, relative to the largest one, differ by rounding.
 const SAME: f64 = 64.0 * f64::EPSILON;

@@ -7,14 +7,13 @@
 
 use core::f64::consts::TAU;
 
-use super::{Drive, DriveBounds, Fourier, ROUNDING, Shape};
-use crate::quasi_polynomial::{DampedSine, FirstRoot, QuasiPolynomial, Root};
-use bouncing_disk_core::Error;
-use bouncing_disk_core::Phase;
 use bouncing_disk_core::flight::MAX_FLIGHT_DURATION;
 use bouncing_disk_core::numerics::elementary::{nearest_periods, nearest_whole, wrapped_angle};
 use bouncing_disk_core::parts::{finite, not_negative, within};
-use bouncing_disk_core::{Impact, Launch};
+use bouncing_disk_core::{Error, Impact, Launch, Phase};
+
+use super::{Drive, DriveBounds, Fourier, ROUNDING, Shape};
+use crate::quasi_polynomial::{DampedSine, FirstRoot, QuasiPolynomial, Root};
 
 /// A flight whose parabola is back at the highest point of the platform before (rad) is searched as a whole:
 /// without the errors with which a second window starts, and with few steps more.

@@ -4,13 +4,13 @@
 use core::f64::consts::TAU;
 use std::sync::Arc;
 
+use bouncing_disk_core::numerics::elementary::wrapped_angle;
+use bouncing_disk_core::parts::within;
+use bouncing_disk_core::{Error, Vibration};
+
 use super::landing::{Doubt, Found, Start, decided};
 use super::{Drive, DriveBounds, DriveState, ROUNDING, Shape, TimeAhead};
 use crate::quasi_polynomial::{Jet, QuasiPolynomial, Root};
-use bouncing_disk_core::Error;
-use bouncing_disk_core::Vibration;
-use bouncing_disk_core::numerics::elementary::wrapped_angle;
-use bouncing_disk_core::parts::within;
 
 /// Most pieces of a drive.
 pub const MAX_PIECES: usize = 1 << 20;

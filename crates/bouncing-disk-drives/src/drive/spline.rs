@@ -2,10 +2,11 @@
 
 use core::f64::consts::TAU;
 
-use super::Drive;
-use super::pieces::MAX_PIECES;
 use bouncing_disk_core::Error;
 use bouncing_disk_core::parts::within;
+
+use super::Drive;
+use super::pieces::MAX_PIECES;
 
 impl Drive {
     /// The periodic cubic spline through the heights at equal distances over one period, the first one at

@@ -3,16 +3,14 @@
 
 use core::f64::consts::TAU;
 
+use bouncing_disk_core::chatter::Accumulation;
+use bouncing_disk_core::numerics::elementary::nearest_whole;
+use bouncing_disk_core::{Error, Impact, Phase};
 use glam::{DMat2, DVec2};
 
 use crate::compliance::{CompliantPlatform, ContactEnd, Pressed, RelativeState, SpringState, Touch};
 use crate::drive::landing::DrivenImpact;
 use crate::quasi_polynomial::QuasiPolynomial;
-use bouncing_disk_core::Error;
-use bouncing_disk_core::Impact;
-use bouncing_disk_core::Phase;
-use bouncing_disk_core::chatter::Accumulation;
-use bouncing_disk_core::numerics::elementary::nearest_whole;
 
 /// Turns of a spring after which a contact counts as one that lasts for ever.
 const MAX_TURNS: u32 = 4_096;

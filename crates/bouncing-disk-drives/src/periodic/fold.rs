@@ -3,15 +3,13 @@
 
 use core::f64::consts::TAU;
 
+use bouncing_disk_core::ImpactState;
+use bouncing_disk_core::orbits::PeriodicOrbit;
+use bouncing_disk_core::parts::{Border, CyclicEquations, Shooting, moved, phase_difference, speed_scale};
 use glam::{DMat2, DVec2};
 
 use super::MAP_ROUNDING;
 use crate::driven_map::DrivenMap;
-use bouncing_disk_core::ImpactState;
-use bouncing_disk_core::orbits::PeriodicOrbit;
-use bouncing_disk_core::parts::phase_difference;
-use bouncing_disk_core::parts::{Border, CyclicEquations};
-use bouncing_disk_core::parts::{Shooting, moved, speed_scale};
 
 /// How the curve is followed to either side: the first step, its growth, and the number of steps, which end at
 /// some 1e-3 rad. Orbits farther apart are found one by one.

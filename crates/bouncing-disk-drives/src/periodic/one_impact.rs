@@ -4,14 +4,14 @@
 use core::f64::consts::{PI, TAU};
 use core::ops::RangeInclusive;
 
-use super::EXACT;
-use crate::drive::Drive;
-use crate::driven_map::DrivenMap;
-use bouncing_disk_core::ImpactState;
-use bouncing_disk_core::Phase;
 use bouncing_disk_core::numerics::elementary::wrapped_angle;
 use bouncing_disk_core::orbits::{PeriodicOrbit, Stability};
 use bouncing_disk_core::parts::phase_difference;
+use bouncing_disk_core::{ImpactState, Phase};
+
+use super::EXACT;
+use crate::drive::Drive;
+use crate::driven_map::DrivenMap;
 
 /// The rounding of a velocity and of the value that it must have, in units of the sizes of both.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;

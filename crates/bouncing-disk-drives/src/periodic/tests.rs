@@ -1,12 +1,10 @@
 use core::f64::consts::PI;
 
+use bouncing_disk_core::orbits::{BifurcationKind, Continuation, ContinuationParameter, ContinuedMap as _};
+use bouncing_disk_core::{ImpactMap, Unobserved, Vibration};
+
 use super::*;
 use crate::drive::Drive;
-use bouncing_disk_core::ImpactMap;
-use bouncing_disk_core::Unobserved;
-use bouncing_disk_core::Vibration;
-use bouncing_disk_core::orbits::{BifurcationKind, Continuation};
-use bouncing_disk_core::orbits::{ContinuationParameter, ContinuedMap as _};
 
 fn driven(drive: Result<Drive, Error>, restitution: f64) -> DrivenMap {
     DrivenMap::new(drive.expect("legal"), restitution).expect("legal")

@@ -3,13 +3,14 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::contacts::exponents;
-use crate::launches::SplitMix;
 use bouncing_disk_core::{
     Attachment, ChatterPolicy, Error, ImpactMap, ImpactState, OrbitEvent, Phase, Vibration,
 };
 use bouncing_disk_drives::compliance::RelativeState;
 use bouncing_disk_drives::{Drive, DrivenMap};
+
+use crate::contacts::exponents;
+use crate::launches::SplitMix;
 
 fn state(phase: f64, velocity: f64) -> ImpactState {
     ImpactState::new(Phase::new(phase).unwrap(), velocity).unwrap()
