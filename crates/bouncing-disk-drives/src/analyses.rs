@@ -46,7 +46,7 @@ impl BouncingMap for DrivenMap {
     /// The flight again: an event does not have its error.
     fn derivative(&self, from: ImpactState, to: ImpactState, _duration: f64) -> (DMat2, f64) {
         match self.step_with_derivative(from) {
-            // A contact that takes time has no bound of its error.
+            // A compliant contact has no bound of its error.
             Ok((landing, derivative)) if landing.doubt.is_none() && landing.error.is_finite() => {
                 (derivative, landing.error * (1.0 + to.velocity().abs()))
             }
@@ -59,7 +59,7 @@ impl BouncingMap for DrivenMap {
         SEPARATION_ERROR
     }
 
-    /// A contact that takes time does not.
+    /// A compliant contact does not.
     fn shrinks_areas_exactly(&self) -> bool {
         self.compliant().is_none()
     }

@@ -36,13 +36,13 @@ const MOST: f64 = 20.0;
 /// The unit of the forcing is the first one, and at least this.
 const LEAST_UNIT: f64 = 0.1;
 
-/// As [`doubling_cascade`](bouncing_disk_core::orbits::doubling_cascade), on the maps of any drive and contact, given over the forcing, by
-/// continuation. The error of a forcing is that of the trace over its slope; graze margins are not known (NaN).
+/// The cascade of [`doubling_cascade`](bouncing_disk_core::orbits::doubling_cascade) on any drive and contact. `maps` gives
+/// the map of a forcing. It goes from branch to branch by continuation. The error of a forcing is the error of the trace
+/// over its slope; graze margins are not known (NaN).
 ///
 /// ```
-/// use bouncing_disk_drives::driven_doubling_cascade;
 /// use bouncing_disk_core::Unobserved;
-/// use bouncing_disk_drives::{Drive, DrivenMap};
+/// use bouncing_disk_drives::{Drive, DrivenMap, driven_doubling_cascade};
 /// use std::f64::consts::PI;
 ///
 /// let parabolas = |forcing: f64| DrivenMap::new(Drive::parabolas(PI * forcing).ok()?, 0.5).ok();
@@ -112,5 +112,5 @@ fn first_orbit(
             return Ok((family.with_unit(forcing.max(LEAST_UNIT)), orbit, birth));
         }
     }
-    Err(Error::NoBranch { what: "an attracting orbit of one impact in one period", parameter: birth })
+    Err(Error::NoBranch { what: "the orbit of one impact in one period", parameter: birth })
 }

@@ -34,9 +34,8 @@ const TORN: f64 = 1.0e7;
 ///
 /// ```
 /// use bouncing_disk_core::orbits::{BifurcationKind, Continuation, ContinuationParameter, ContinuedMap as _};
-/// use bouncing_disk_drives::DrivenFamily;
 /// use bouncing_disk_core::{ImpactState, Phase, Unobserved};
-/// use bouncing_disk_drives::{Drive, DrivenMap};
+/// use bouncing_disk_drives::{Drive, DrivenFamily, DrivenMap};
 ///
 /// // A sine with a second harmonic, which grows.
 /// let with = |second: f64| {

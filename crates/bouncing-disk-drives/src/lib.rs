@@ -1,4 +1,4 @@
-//! Platforms that move in any way, and contacts that take time, for the analyses of
+//! Platforms that move in any way, and compliant contacts, for the analyses of
 //! [`bouncing_disk_core`].
 //!
 //! A [`Drive`] is the height of a platform over one period: a Fourier sum, or pieces of polynomials. A [`DrivenMap`] is the
@@ -23,7 +23,7 @@
 //! | --- | --- |
 //! | [`quasi_polynomial`] | sums of polynomials and damped sines, and their first roots |
 //! | [`drive`] | the motions of a platform, and the first impact on them |
-//! | [`compliance`] | contacts that take time |
+//! | [`compliance`] | compliant contacts |
 //!
 //! How it is computed: docs/numerics/drives.md and docs/numerics/contacts.md.
 

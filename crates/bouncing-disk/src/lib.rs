@@ -75,7 +75,7 @@ pub mod toss;
 
 /// The math core: the vertical motion, its impact map and their analysis.
 pub use bouncing_disk_core as core;
-/// Platforms that move in any way and contacts that take time, for the same analyses.
+/// Platforms that move in any way and compliant contacts, for the same analyses.
 pub use bouncing_disk_drives as drives;
 
 pub use bouncing_disk_core::{Observer, Progress, Unobserved};

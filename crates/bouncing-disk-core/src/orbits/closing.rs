@@ -59,8 +59,8 @@ impl ContinuationParameter {
     }
 }
 
-/// A map whose periodic orbits can be continued in a parameter: [`ImpactMap`](crate::ImpactMap) in its forcing and its restitution,
-/// `bouncing_disk_drives::DrivenFamily` in its number.
+/// A map whose periodic orbits can be continued in a parameter. [`ImpactMap`](crate::ImpactMap) has its forcing and its
+/// restitution, `bouncing_disk_drives::DrivenFamily` its number.
 pub trait ContinuedMap: Clone + Debug {
     /// Whether Newton's method converges quadratically: the derivatives are exact.
     #[doc(hidden)]
@@ -164,7 +164,7 @@ pub trait ContinuedMap: Clone + Debug {
     /// # Errors
     /// [`Error::OutOfRange`] if the parameter of this map is outside of the range, or the restitution is 0;
     /// [`Error::NotOfKind`] if it has no such parameter; [`Error::NotAnOrbit`] if `orbit` is not an orbit of this
-    /// map; [`Error::NoBranch`] if it is not an isolated one: start beside a fold or a birth, not on it.
+    /// map; [`Error::NoBranch`] if it is not an isolated one: start near a fold or a birth, not on it.
     fn continued(
         &self,
         orbit: &PeriodicOrbit,
@@ -184,7 +184,7 @@ pub trait ContinuedMap: Clone + Debug {
     /// The items of `observer` are the doublings.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for the count; those of [`Self::continued`] and [`Branch::switched`].
+    /// [`Error::OutOfRange`] for the count; the errors of [`Self::continued`] and [`Branch::switched`].
     fn doublings(
         &self,
         orbit: &PeriodicOrbit,

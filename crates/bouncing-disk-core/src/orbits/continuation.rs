@@ -90,7 +90,7 @@ impl Continuation {
         Ok(())
     }
 
-    /// Refuses a map that does not lie in the range, and that of a disk without restitution.
+    /// Refuses a map outside the range, and a disk without restitution.
     pub(super) fn check_map<M: ContinuedMap>(&self, map: &M) -> Result<(), Error> {
         within("restitution of a continuation", map.restitution(), f64::MIN_POSITIVE, 1.0, "(0, 1)")?;
         let (what, index, count) = ("parameter of a continuation", self.parameter as usize, 3);
@@ -98,8 +98,7 @@ impl Continuation {
         let Some(parameter) = map.parameter(self.parameter) else {
             return Err(Error::NotOfKind { what, index, count, expected });
         };
-        // The forcing of a map, P/pi, is rounded: that of a map made for an end of the range may lie beside
-        // it.
+        // The forcing of a map, P/pi, is rounded: a map made for an end of the range may lie just outside.
         let rounding = ROUNDED * parameter.abs();
         if parameter < self.low - rounding || parameter > self.high + rounding || parameter.is_nan() {
             within(what, parameter, self.low, self.high, "[low, high] of the `Continuation`")?;
@@ -245,7 +244,7 @@ pub struct Bifurcation {
 pub struct LocatedDoubling {
     /// The orbit there.
     pub point: BranchPoint,
-    /// How far the errors of the orbit may have moved the parameter: that of the trace over its slope.
+    /// How far the errors of the orbit may have moved the parameter: the error of the trace over its slope.
     pub parameter_error: f64,
     /// The largest distance (rad) of an impact from the one half a period later; 0 for a single impact.
     pub width: f64,
@@ -331,7 +330,7 @@ impl<M: ContinuedMap> Branch<M> {
     ///
     /// # Errors
     /// [`Error::NotOfKind`] if there is no such bifurcation or it is not a doubling; [`Error::NoBranch`] if
-    /// no doubled orbit is found; those of [`ContinuedMap::continued`].
+    /// no doubled orbit is found; the errors of [`ContinuedMap::continued`].
     pub fn switched(
         &self,
         index: usize,

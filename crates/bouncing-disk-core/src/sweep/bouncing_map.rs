@@ -21,7 +21,7 @@ pub(crate) const DISSIPATION_TIMES: f64 = 10.0;
 const WORK_OF_EVENT: u64 = 16;
 
 /// The vertical impact map of a disk on a platform: the sine's [`ImpactMap`](crate::ImpactMap), and the
-/// `bouncing_disk_drives::DrivenMap` of other drives and of contacts that take time.
+/// `bouncing_disk_drives::DrivenMap` of other drives and of compliant contacts.
 ///
 /// Verdicts, Lyapunov exponents and orbit diagrams take any of them. Where a map knows more (a closed form, a
 /// certificate of rest, a way to compute many flights at once), its methods replace the general ones.

@@ -52,8 +52,8 @@ const SMALLEST_STEP: f64 = 1.0e-10;
 /// angle.
 const CORNER: f64 = 1.0e-7;
 
-/// Where no next point is found, the map is asked this much of arclength beyond (of which a graze may hide the root),
-/// and has lost a flight whose duration is off by more than this (rad).
+/// Where no next point is found, the map is asked again after this arclength. It has lost a flight if the duration is off
+/// by more than the second number (rad).
 const BEYOND: f64 = 1.0e-7;
 const LOST: f64 = 1.0e-3;
 
@@ -313,7 +313,7 @@ impl<'s, M: ContinuedMap> Walker<'s, M> {
                         kind != BifurcationKind::Fold
                             || next_to_margin(point.orbit.monodromy, point.determinant).0
                     };
-                    // Elsewhere the derivative by the parameter is that of no curve.
+                    // No multiplier is 1: the differences that give the derivative cross a discontinuity.
                     if !point.as_ref().is_none_or(is_fold) {
                         return Ok(None);
                     }
