@@ -28,9 +28,9 @@ pub(crate) mod periodic;
 
 pub use cascade::feigenbaum::{FeigenbaumEstimate, feigenbaum_estimates};
 pub use cascade::{CascadeDoubling, DoublingCascade, MAX_DOUBLINGS, doubling_cascade};
-pub use closing::{ContinuationParameter, ContinuedMap};
+pub use closing::{ClosingMap, ContinuationParameter};
 pub use continuation::{
-    Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation, LocatedDoubling,
+    Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation, ContinuedMap, LocatedDoubling,
 };
 pub use follow_attractor::{Followed, Following, follow_attractor};
 pub use periodic::catalogue::{OrbitCoverage, OrbitSearch, OrbitsFound};

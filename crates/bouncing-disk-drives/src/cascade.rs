@@ -3,8 +3,8 @@
 use core::f64::consts::{PI, TAU};
 
 use bouncing_disk_core::orbits::{
-    CascadeDoubling, Continuation, ContinuationParameter, ContinuedMap as _, DoublingCascade,
-    LocatedDoubling, OrbitSearch, PeriodicOrbit, Stability,
+    CascadeDoubling, ClosingMap as _, Continuation, ContinuationParameter, ContinuedMap as _,
+    DoublingCascade, LocatedDoubling, OrbitSearch, PeriodicOrbit, Stability,
 };
 use bouncing_disk_core::{Error, Observer, Progress};
 

@@ -5,7 +5,7 @@ use core::fmt::{self, Debug, Formatter};
 use std::sync::Arc;
 
 use bouncing_disk_core::numerics::elementary::wrapped_angle;
-use bouncing_disk_core::orbits::{ContinuationParameter, ContinuedMap, PeriodicOrbit};
+use bouncing_disk_core::orbits::{ClosingMap, ContinuationParameter, ContinuedMap, PeriodicOrbit};
 use bouncing_disk_core::parts::{Closed, CyclicEquations, Flight, SAME, Scale, finite, within};
 use bouncing_disk_core::{Error, ImpactState, Phase};
 use glam::{DMat2, DVec2};
@@ -154,9 +154,8 @@ fn released(map: &DrivenMap, from: DVec2, to: DVec2, h: f64) -> Option<(DVec2, D
     Some((DVec2::new(h - landing.impact.duration(), to.y - landing.impact.velocity), derivative))
 }
 
-impl ContinuedMap for DrivenFamily {
+impl ClosingMap for DrivenFamily {
     const IS_QUADRATIC: bool = false;
-    const WORK: u64 = 32;
 
     fn parameter(&self, by: ContinuationParameter) -> Option<f64> {
         (by == ContinuationParameter::Number).then_some(self.number)
@@ -168,10 +167,6 @@ impl ContinuedMap for DrivenFamily {
 
     fn restitution(&self) -> f64 {
         self.map.restitution()
-    }
-
-    fn check_orbit(&self, orbit: &PeriodicOrbit) -> Result<(), Error> {
-        self.map.check_orbit(orbit)
     }
 
     fn scale(&self, _by: ContinuationParameter) -> Scale {
@@ -246,6 +241,24 @@ impl ContinuedMap for DrivenFamily {
         (0..n).map(one).collect()
     }
 
+    /// Where the force of a compliant contact only touches zero.
+    fn is_torn_after(&self, state: ImpactState) -> bool {
+        let is_infinite = |derivative: DMat2| {
+            let most = derivative.x_axis.abs().max_element().max(derivative.y_axis.abs().max_element());
+            most.is_nan() || most > TORN
+        };
+        self.map.compliant().is_some()
+            && self.map.step_with_derivative(state).is_ok_and(|(_, derivative)| is_infinite(derivative))
+    }
+}
+
+impl ContinuedMap for DrivenFamily {
+    const WORK: u64 = 32;
+
+    fn check_orbit(&self, orbit: &PeriodicOrbit) -> Result<(), Error> {
+        self.map.check_orbit(orbit)
+    }
+
     /// Whether the first impact comes earlier.
     fn is_grazed(&self, flight: &Flight) -> Result<bool, Error> {
         Ok(self.duration_found(flight)? < flight.duration - ON_JOINT)
@@ -290,16 +303,6 @@ impl ContinuedMap for DrivenFamily {
         let jump = (drive.acceleration(joint.time) - drive.acceleration(before)).abs();
         joint.after <= high - low
             && (jump > JUMP * (1.0 + drive.bounds().acceleration) || joint.velocity_jump != 0.0)
-    }
-
-    /// Where the force of a compliant contact only touches zero.
-    fn is_torn_after(&self, state: ImpactState) -> bool {
-        let is_infinite = |derivative: DMat2| {
-            let most = derivative.x_axis.abs().max_element().max(derivative.y_axis.abs().max_element());
-            most.is_nan() || most > TORN
-        };
-        self.map.compliant().is_some()
-            && self.map.step_with_derivative(state).is_ok_and(|(_, derivative)| is_infinite(derivative))
     }
 
     fn is_on_kink(&self, phase: f64) -> bool {

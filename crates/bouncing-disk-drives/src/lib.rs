@@ -7,14 +7,14 @@
 //! Lengths, times and speeds are without units, as in the core.
 //!
 //! ```
-//! use bouncing_disk_core::attractors::{AttractingMap as _, AttractorSearch};
+//! use bouncing_disk_core::attractors::{AttractorSearch, Attractors};
 //! use bouncing_disk_core::Unobserved;
 //! use bouncing_disk_drives::{Drive, DrivenMap};
 //! use std::f64::consts::PI;
 //!
 //! // A platform that follows parabolas, with a forcing of 0.36: the disk lands once in every period.
 //! let map = DrivenMap::new(Drive::parabolas(0.36 * PI)?, 0.5)?;
-//! let found = map.attractors(&AttractorSearch::default(), &Unobserved)?;
+//! let found = Attractors::find(&map, &AttractorSearch::default(), &Unobserved)?;
 //! assert!(found.all().iter().any(|one| one.kind.orbit().is_some_and(|orbit| orbit.period() == 1)));
 //! # Ok::<(), bouncing_disk_core::Error>(())
 //! ```

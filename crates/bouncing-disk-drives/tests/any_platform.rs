@@ -478,7 +478,7 @@ fn analyses_of_a_sine_as_a_sum_are_those_of_the_sine() {
     for ((sine, _), (sum, _)) in sines.iter().zip(&sums).take(12) {
         let [own, general] = [
             sine.attractors(&search, &Unobserved).unwrap().all().to_vec(),
-            sum.attractors(&search, &Unobserved).unwrap().all().to_vec(),
+            Attractors::find(sum, &search, &Unobserved).unwrap().all().to_vec(),
         ];
         let orbits = |all: &[Attractor]| -> Vec<_> {
             let orbits = all.iter().filter(|own| own.starts.count() > 3).filter_map(|own| own.kind.orbit());
@@ -549,7 +549,7 @@ fn parabolas_go_from_period_one_to_bands_and_one_cubic_has_it_next_to_its_birth(
     let search = AttractorSearch::default().with_starts(256).unwrap();
     let kinds = |drive: Drive| {
         let map = DrivenMap::new(drive, 0.5).unwrap();
-        let found = map.attractors(&search, &Unobserved).unwrap();
+        let found = Attractors::find(&map, &search, &Unobserved).unwrap();
         let periods = found.all().iter().filter(|own| own.starts.count() > 0).map(|own| {
             own.kind.orbit().map_or(own.kind.name().to_owned(), |orbit| orbit.period().to_string())
         });
@@ -581,7 +581,7 @@ fn attractors_beside_the_doubling_and_the_corner_of_parabolas() {
     let search = AttractorSearch::default().with_starts(16).unwrap().with_impacts(300, 2_000).unwrap();
     let one_impact = |forcing: f64, r: f64| {
         let map = DrivenMap::new(Drive::parabolas(PI * forcing).unwrap(), r).unwrap();
-        let found = map.attractors(&search, &Unobserved).unwrap();
+        let found = Attractors::find(&map, &search, &Unobserved).unwrap();
         let own = found.all().iter().find(|own| own.kind.orbit().is_some_and(|orbit| orbit.period() == 1));
         own.map(|own| own.kind.name())
     };
@@ -606,7 +606,7 @@ fn attractors_beside_the_doubling_and_the_corner_of_parabolas() {
 fn soft_contacts_have_the_attractors_of_rigid_ones_where_they_are_short() {
     let search = AttractorSearch::default().with_starts(64).unwrap().with_impacts(300, 2_000).unwrap();
     let periods = |map: &DrivenMap| {
-        let found = map.attractors(&search, &Unobserved).unwrap();
+        let found = Attractors::find(map, &search, &Unobserved).unwrap();
         let orbits = found.all().iter().filter_map(|own| own.kind.orbit());
         let mut periods: Vec<_> = orbits.map(|orbit| (orbit.period(), orbit.platform_periods)).collect();
         periods.sort_unstable();
@@ -713,7 +713,7 @@ fn attractors_on_parabolas_are_those_of_quadratics() {
     let mut kinds = [0; 5];
     for case in 0..45 {
         let (exact, map, [a, r]) = random_map(case, &mut random);
-        let found = map.attractors(&search, &Unobserved).unwrap();
+        let found = Attractors::find(&map, &search, &Unobserved).unwrap();
         let context = || {
             let all: Vec<_> =
                 found.all().iter().map(|own| format!("{} ({})", own.kind, own.starts.count())).collect();
@@ -764,7 +764,7 @@ fn rests_on_a_zigzag_are_one_cycle_or_several() {
         let (points, height, r) = (4 + 2 * (case % 2), 2.0 + 4.0 * random.unit(), 0.05 * random.unit());
         let exact = Parabolas::zigzag(points, height, &mut random);
         let map = DrivenMap::new(exact.drive(), r).unwrap();
-        let found = map.attractors(&search, &Unobserved).unwrap();
+        let found = Attractors::find(&map, &search, &Unobserved).unwrap();
         let mut cycles: Vec<(f64, u64)> = Vec::new();
         for _ in 0..100 {
             let start = (TAU * random.unit(), -map.impact_speed_bound() * random.unit());

@@ -6,8 +6,8 @@ use std::f64::consts::{PI, TAU};
 
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::orbits::{
-    BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation, ContinuationParameter, ContinuedMap as _,
-    OrbitSearch, PeriodicOrbit, Stability, doubling_cascade,
+    BifurcationKind, Branch, BranchEnd, BranchPoint, ClosingMap as _, Continuation, ContinuationParameter,
+    ContinuedMap as _, OrbitSearch, PeriodicOrbit, Stability, doubling_cascade,
 };
 use bouncing_disk_core::{Error, ImpactMap, ImpactState, Phase, Unobserved, Vibration};
 use bouncing_disk_drives::{Drive, DrivenFamily, DrivenMap, driven_doubling_cascade};

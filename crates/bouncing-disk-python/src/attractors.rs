@@ -113,7 +113,8 @@ pub(crate) fn attractors(a: Arguments<'_>) -> Made<'_> {
     let Some((shape, contact)) = a.shape()? else {
         return shown_attractors(a.py(), a.run(|observer| Ok(map.attractors(&search, observer)?))?);
     };
-    let found = a.run(|observer| Ok(shape.map(&map, contact)?.attractors(&search, observer)?))?;
+    let found =
+        a.run(|observer| Ok(AttractorsModel::find(&shape.map(&map, contact)?, &search, observer)?))?;
     holding(shown_of(a.get("impact_map")?, &found)?, DrivenAttractors(found))
 }
 

@@ -1,8 +1,8 @@
 //! `bouncing-disk basins`: which impacts lead where.
 
 use bouncing_disk::core::attractors::{
-    ATTACHED, AfterRest, AttractingMap as _, Attractor, AttractorKind, AttractorSearch, Attractors, Axis,
-    BasinSettings, Grid, Label, UNDECIDED,
+    ATTACHED, AfterRest, Attractor, AttractorKind, AttractorSearch, Attractors, Axis, BasinSettings, Grid,
+    Label, UNDECIDED,
 };
 use bouncing_disk::core::orbits::PeriodicOrbit;
 use bouncing_disk::drives::DrivenMap;
@@ -156,7 +156,7 @@ impl GridJob for BasinsJob {
             return Ok(Known::Sine(map.attractors(&self.search, &silent)?));
         }
         let map = driven_map(&self.drive, self.contact_periods, self.axial_forcing, self.restitution)?;
-        Ok(Known::Driven(map.attractors(&self.search, &silent)?))
+        Ok(Known::Driven(Attractors::find(&map, &self.search, &silent)?))
     }
 
     fn compute(&self, known: &Known, rows: Rows, observer: &dyn Observer) -> Result<Vec<String>> {

@@ -4,11 +4,9 @@ use core::f64::consts::{PI, TAU};
 use core::ops::{ControlFlow, Range};
 
 use super::basin::{
-    ATTACHED, BasinSettings, Basins, Grid, KnownOrbit, Label, MAX_CELLS, UNDECIDED, caught, check_known,
-    check_rows, flights_of_label,
+    BasinSettings, Basins, Grid, KnownOrbit, Label, MAX_CELLS, UNDECIDED, check_known, check_rows,
+    flights_of_label, label_of_start,
 };
-use super::search::settings::AttractorSearch;
-use super::search::{Attractors, find};
 use crate::chatter::policy::ChatterPolicy;
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{ImpactMap, ImpactState};
@@ -16,7 +14,7 @@ use crate::numerics::error::{Error, room_for};
 use crate::orbits::periodic::catalogue::OrbitSearch;
 use crate::orbits::periodic::{PeriodicOrbit, Stability, belonging, newton, phase_difference};
 use crate::run::{Observer, Watch, in_parallel};
-use crate::sweep::bouncing_map::{BouncingMap, BouncingOrbit as _};
+use crate::sweep::bouncing_map::BouncingMap;
 use crate::sweep::{SweepEvent, sweep};
 
 /// Orbits of one impact that are tried as candidates, from those with the longest flights down.
@@ -92,22 +90,6 @@ impl RestEnds {
 pub trait AttractingMap: BouncingMap {
     /// The work of an impact, in flights of the sine: the budget of a search is divided by it.
     const WORK: u64 = 32;
-
-    /// The attractors, found without any known orbit: as [`ImpactMap::attractors`], with starts spread over all impacts
-    /// that are no faster than [`Self::impact_speed_bound`].
-    ///
-    /// On a drive a rest may end at several phases. Where the motions that follow differ, they are
-    /// [`AfterRest::Several`](super::AfterRest::Several).
-    ///
-    /// # Errors
-    /// Those of [`ImpactMap::attractors`].
-    fn attractors(
-        &self,
-        search: &AttractorSearch,
-        observer: &dyn Observer,
-    ) -> Result<Attractors<Self>, Error> {
-        find::find(self, search, observer)
-    }
 
     /// The speed (units of g/omega) that no impact of an attractor exceeds. With a compliant contact it is the speed of
     /// the fastest start of a search.
@@ -206,42 +188,6 @@ pub trait AttractingMap: BouncingMap {
         Err(Error::NothingProven { region: 0.0 })
     }
 
-    /// The label that an impact in `state` decides: near a known orbit, or (complete policy) certain to
-    /// chatter to rest.
-    fn settles(&self, state: ImpactState, known: &[KnownOrbit], policy: ChatterPolicy) -> Option<Label> {
-        let rests = || policy == ChatterPolicy::Complete && self.chatters_to_rest_after(state);
-        caught(known, state, self.speed_scale()).or_else(|| rests().then_some(ATTACHED))
-    }
-
-    /// The label of a start; `follow` is called before each flight.
-    ///
-    /// # Errors
-    /// Those of a flight and of `follow`.
-    fn label_of(
-        &self,
-        start: ImpactState,
-        known: &[KnownOrbit],
-        settings: BasinSettings,
-        mut follow: impl FnMut() -> Result<(), Error>,
-    ) -> Result<Label, Error> {
-        if let Some(label) = self.settles(start, known, settings.policy) {
-            return Ok(label);
-        }
-        let mut orbit = self.orbit(start, settings.policy);
-        for _ in 0..settings.max_impacts {
-            follow()?;
-            match orbit.next_event()? {
-                Some(SweepEvent::Impact(impact)) => {
-                    if let Some(label) = self.settles(impact.state, known, settings.policy) {
-                        return Ok(label);
-                    }
-                }
-                Some(_) | None => return Ok(ATTACHED),
-            }
-        }
-        Ok(UNDECIDED)
-    }
-
     /// The labels of all cells of a grid, [`UNDECIDED`] outside of these rows, which are the items of the
     /// observer.
     ///
@@ -267,7 +213,7 @@ pub trait AttractingMap: BouncingMap {
             let row = (0..columns).map(|column| {
                 watch.ask()?;
                 let start = ImpactState::from_normalised(grid.impact_angle(column), speed)?;
-                self.label_of(start, known, settings, || work.spend(flights))
+                label_of_start(self, start, known, settings, || work.spend(flights))
             });
             let row = row.collect::<Result<Vec<_>, Error>>();
             watch.finish(1);

@@ -11,7 +11,6 @@ use core::f64::consts::TAU;
 
 use core::ops::Range;
 
-use crate::attractors::attracting_map::AttractingMap as _;
 use crate::chatter::policy::ChatterPolicy;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::error::{Error, within};
@@ -19,6 +18,8 @@ use crate::numerics::fraction::Fraction;
 use crate::numerics::stored::read_checked;
 use crate::orbits::periodic::PeriodicOrbit;
 use crate::run::Observer;
+use crate::sweep::SweepEvent;
+use crate::sweep::bouncing_map::{BouncingMap, BouncingOrbit as _};
 
 /// The fate of a start: one byte a cell.
 pub type Label = u8;
@@ -196,6 +197,47 @@ pub(super) fn caught(known: &[KnownOrbit], state: ImpactState, scale: f64) -> Op
     Some(FIRST_ORBIT + index as Label)
 }
 
+/// The label that an impact in `state` decides: near a known orbit, or (complete policy) certain to
+/// chatter to rest.
+pub(super) fn settles(
+    map: &impl BouncingMap,
+    state: ImpactState,
+    known: &[KnownOrbit],
+    policy: ChatterPolicy,
+) -> Option<Label> {
+    let rests = || policy == ChatterPolicy::Complete && map.chatters_to_rest_after(state);
+    caught(known, state, map.speed_scale()).or_else(|| rests().then_some(ATTACHED))
+}
+
+/// The label of a start; `follow` is called before each flight.
+///
+/// # Errors
+/// Those of a flight and of `follow`.
+pub(super) fn label_of_start(
+    map: &impl BouncingMap,
+    start: ImpactState,
+    known: &[KnownOrbit],
+    settings: BasinSettings,
+    mut follow: impl FnMut() -> Result<(), Error>,
+) -> Result<Label, Error> {
+    if let Some(label) = settles(map, start, known, settings.policy) {
+        return Ok(label);
+    }
+    let mut orbit = map.orbit(start, settings.policy);
+    for _ in 0..settings.max_impacts {
+        follow()?;
+        match orbit.next_event()? {
+            Some(SweepEvent::Impact(impact)) => {
+                if let Some(label) = settles(map, impact.state, known, settings.policy) {
+                    return Ok(label);
+                }
+            }
+            Some(_) | None => return Ok(ATTACHED),
+        }
+    }
+    Ok(UNDECIDED)
+}
+
 /// Refuses more known orbits than a label can count.
 pub(crate) fn check_number_of(known: &[KnownOrbit]) -> Result<(), Error> {
     within("number of known orbits", known.len() as f64, 0.0, MAX_KNOWN, "[0, 250]").map(|_| ())
@@ -371,7 +413,7 @@ impl ImpactMap {
         settings: BasinSettings,
     ) -> Result<Label, Error> {
         check_number_of(known)?;
-        self.label_of(start, known, settings, || Ok(()))
+        label_of_start(self, start, known, settings, || Ok(()))
     }
 
     /// The basins on a grid.

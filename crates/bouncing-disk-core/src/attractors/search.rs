@@ -427,20 +427,23 @@ const fn label_of(number: usize) -> Label {
     number as Label + 1
 }
 
-impl ImpactMap {
-    /// The attractors, found without any known orbit.
+impl<M: AttractingMap> Attractors<M> {
+    /// The attractors of a map, found without any known orbit.
     ///
-    /// Starts are spread evenly over the trapping region ([`Self::impact_speed_bound_at`]), which no
+    /// Starts are spread evenly over the trapping region ([`AttractingMap::impact_speed_bound_at`]), which no
     /// attractor can leave, so that no window can miss one. Each is followed until it rests, or is seen to
     /// come ever nearer to a periodic orbit, which is then refined; of those that do neither, one is followed
     /// for as many impacts as the [search](AttractorSearch::with_impacts) allows, and so are 1,024 orbits that
     /// begin where it has been. If none of these leaves, others that return to the cells it has visited are on
     /// the same attractor. If one does, it is a [transient](AttractorKind::Transient), and all starts are
     /// followed for so many impacts, or for as many as the budget allows. Periodic
-    /// orbits are the same as in [`Self::periodic_orbits`], wherever they begin.
+    /// orbits are the same as in [`ImpactMap::periodic_orbits`], wherever they begin.
     ///
     /// Attracting orbits with one impact, by their closed form, and those that [`AttractorSearch::orbits`]
     /// finds are included in any case, however small their basins.
+    ///
+    /// On a drive a rest may end at several phases. Where the motions that follow differ, they are
+    /// [`AfterRest::Several`].
     ///
     /// Two things are not proven. An attractor whose basin no start has hit is missed; its share is then
     /// below the upper end of the [interval](Fraction::interval) of zero starts. And a chaotic motion may end
@@ -450,12 +453,12 @@ impl ImpactMap {
     /// attractor is known.
     ///
     /// ```
-    /// use bouncing_disk_core::attractors::{AttractorKind, AttractorSearch};
+    /// use bouncing_disk_core::attractors::{AttractorKind, AttractorSearch, Attractors};
     /// use bouncing_disk_core::{ImpactMap, Unobserved, Vibration};
     ///
     /// // Where the paper has two attractors there are three: rest, period 1, and an orbit of four impacts.
     /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.486)?, 0.5)?;
-    /// let found = map.attractors(&AttractorSearch::default(), &Unobserved)?;
+    /// let found = Attractors::find(&map, &AttractorSearch::default(), &Unobserved)?;
     /// let periods: Vec<usize> = found.known().map(|known| known.orbit().period()).collect();
     /// assert_eq!((found.all().len(), periods), (3, vec![1, 4]));
     /// # Ok::<(), bouncing_disk_core::Error>(())
@@ -464,8 +467,18 @@ impl ImpactMap {
     /// # Errors
     /// [`Error::TooLarge`] for more than 250 attractors beside the disk at rest; those of
     /// [`Vibration::first_impact`](crate::Vibration::first_impact).
+    pub fn find(map: &M, search: &AttractorSearch, observer: &dyn Observer) -> Result<Self, Error> {
+        find::find(map, search, observer)
+    }
+}
+
+impl ImpactMap {
+    /// The attractors: [`Attractors::find`].
+    ///
+    /// # Errors
+    /// Those of [`Attractors::find`].
     pub fn attractors(&self, search: &AttractorSearch, observer: &dyn Observer) -> Result<Attractors, Error> {
-        AttractingMap::attractors(self, search, observer)
+        Attractors::find(self, search, observer)
     }
 }
 

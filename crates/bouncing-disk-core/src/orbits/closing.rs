@@ -4,7 +4,6 @@
 
 use core::f64::consts::TAU;
 use core::fmt::Debug;
-use core::ops::ControlFlow;
 
 use glam::DVec2;
 
@@ -13,11 +12,7 @@ use crate::flight::platform::vibration::Vibration;
 use crate::map::impact_map::ImpactState;
 use crate::numerics::bordered_cyclic::{Border, CyclicEquations};
 use crate::numerics::elementary::nearest_whole;
-use crate::numerics::error::{Error, within};
-use crate::orbits::cascade::MAX_DOUBLINGS;
-use crate::orbits::continuation::{Branch, Continuation, LocatedDoubling, walker};
-use crate::orbits::periodic::PeriodicOrbit;
-use crate::run::{Observer, Progress, Watch};
+use crate::numerics::error::Error;
 
 mod sine;
 
@@ -59,16 +54,11 @@ impl ContinuationParameter {
     }
 }
 
-/// A map whose periodic orbits can be continued in a parameter. [`ImpactMap`](crate::ImpactMap) has its forcing and its
-/// restitution, `bouncing_disk_drives::DrivenFamily` its number.
-pub trait ContinuedMap: Clone + Debug {
+/// The equations of the closed sequences of flights on a map.
+pub trait ClosingMap: Clone + Debug {
     /// Whether Newton's method converges quadratically: the derivatives are exact.
     #[doc(hidden)]
     const IS_QUADRATIC: bool = true;
-
-    /// The work of a flight, in flights of the sine.
-    #[doc(hidden)]
-    const WORK: u64 = 1;
 
     /// Its value of a parameter; `None` if it has no such parameter.
     fn parameter(&self, by: ContinuationParameter) -> Option<f64>;
@@ -81,12 +71,6 @@ pub trait ContinuedMap: Clone + Debug {
 
     /// Coefficient of restitution, in [0, 1).
     fn restitution(&self) -> f64;
-
-    /// Checks that `orbit` is an orbit of this map: that each of its impacts leads to the next one.
-    ///
-    /// # Errors
-    /// [`Error::NotAnOrbit`] and the others of [`ImpactMap::check_orbit`](crate::ImpactMap::check_orbit).
-    fn check_orbit(&self, orbit: &PeriodicOrbit) -> Result<(), Error>;
 
     /// The units of the arclength.
     #[doc(hidden)]
@@ -109,128 +93,10 @@ pub trait ContinuedMap: Clone + Debug {
     #[doc(hidden)]
     fn velocities(&self, by: ContinuationParameter, at: &Closed, durations: &[f64]) -> Vec<(f64, f64)>;
 
-    /// Whether the platform meets the disk between two impacts.
-    #[doc(hidden)]
-    fn is_grazed(&self, flight: &Flight) -> Result<bool, Error>;
-
-    /// The duration that this map finds for a flight.
-    #[doc(hidden)]
-    fn duration_found(&self, flight: &Flight) -> Result<f64, Error>;
-
-    /// The orbit with these impacts, and trace and determinant of the derivative around it.
-    #[doc(hidden)]
-    fn orbit_through(&self, states: Vec<ImpactState>, durations: &[f64])
-    -> Option<(PeriodicOrbit, [f64; 2])>;
-
-    /// Whether the acceleration of the platform jumps between two phases (rad), or within rounding of them.
-    #[doc(hidden)]
-    fn has_joint_between(&self, _from: f64, _to: f64) -> bool {
-        false
-    }
-
-    /// Whether the velocity of the platform jumps there.
-    #[doc(hidden)]
-    fn is_on_kink(&self, _phase: f64) -> bool {
-        false
-    }
-
     /// Whether the derivative at the next impact is infinite.
     #[doc(hidden)]
     fn is_torn_after(&self, _state: ImpactState) -> bool {
         false
-    }
-
-    /// The branch of periodic orbits through `orbit`, an orbit of this map, by continuation in the
-    /// pseudo-arclength: through folds, and along unstable parts, until it ends
-    /// ([`BranchEnd`](super::BranchEnd)).
-    ///
-    /// Doublings, folds, and where the orbit ceases to exist are located to the rounding. Two of one kind
-    /// within one step are missed: see [`Continuation::with_steps`].
-    ///
-    /// The items of `observer` are the points that are allowed.
-    ///
-    /// ```
-    /// # use bouncing_disk_core::orbits::{BifurcationKind, Continuation, ContinuationParameter, ContinuedMap as _};
-    /// # use bouncing_disk_core::{ImpactMap, Unobserved, Vibration};
-    /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
-    /// let orbit = map.refine(&[map.period_one(1).expect("it exists")])?;
-    /// let rising = Continuation::new(ContinuationParameter::Forcing, (0.1, 0.6), true)?;
-    /// let branch = map.continued(&orbit, &rising, &Unobserved)?;
-    /// let doubling = branch.of_kind(BifurcationKind::Doubling).next().expect("the first doubling");
-    /// assert!((doubling.point.parameter - ImpactMap::first_doubling_forcing(0.5)).abs() < 1e-14);
-    /// # Ok::<(), bouncing_disk_core::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`] if the parameter of this map is outside of the range, or the restitution is 0;
-    /// [`Error::NotOfKind`] if it has no such parameter; [`Error::NotAnOrbit`] if `orbit` is not an orbit of this
-    /// map; [`Error::NoBranch`] if it is not an isolated one: start near a fold or a birth, not on it.
-    fn continued(
-        &self,
-        orbit: &PeriodicOrbit,
-        settings: &Continuation,
-        observer: &dyn Observer,
-    ) -> Result<Branch<Self>, Error> {
-        settings.check()?;
-        orbit.check()?;
-        settings.check_map(self)?;
-        self.check_orbit(orbit)?;
-        self.continued_from(orbit, settings, observer)
-    }
-
-    /// The first `count` period doublings, in [1, [`MAX_DOUBLINGS`]], from `orbit` on: of its branch, of the branch that
-    /// begins there, and so on. There are fewer where a branch ends before it doubles.
-    ///
-    /// The items of `observer` are the doublings.
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`] for the count; the errors of [`Self::continued`] and [`Branch::switched`].
-    fn doublings(
-        &self,
-        orbit: &PeriodicOrbit,
-        settings: &Continuation,
-        count: usize,
-        observer: &dyn Observer,
-    ) -> Result<Vec<LocatedDoubling>, Error> {
-        within("count", count as f64, 1.0, MAX_DOUBLINGS as f64, "[1, 13]")?;
-        let watch = Watch::begin(observer, 0, count as u64)?;
-        let asked = |_: Progress| {
-            if watch.ask().is_ok() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-        };
-        let of_all = |error| match error {
-            Error::Stopped { .. } => {
-                let Progress { done, total } = watch.progress();
-                Error::Stopped { done, total }
-            }
-            other => other,
-        };
-        let mut branch = self.continued(orbit, settings, &asked).map_err(of_all)?;
-        let mut found = Vec::new();
-        while let Some((index, doubling)) = branch.first_doubling() {
-            found.push(doubling);
-            watch.finish(1);
-            if found.len() == count {
-                break;
-            }
-            branch = branch.switched(index, settings, &asked).map_err(of_all)?;
-        }
-        watch.end();
-        Ok(found)
-    }
-
-    /// [`Self::continued`] from an orbit of this map or of one next to it.
-    ///
-    /// # Errors
-    /// Those of [`Self::continued`], but for [`Error::NotAnOrbit`].
-    // The explorer draws branches with it.
-    #[doc(hidden)]
-    fn continued_from(
-        &self,
-        orbit: &PeriodicOrbit,
-        settings: &Continuation,
-        observer: &dyn Observer,
-    ) -> Result<Branch<Self>, Error> {
-        walker::continued_from(self, orbit, settings, observer)
     }
 }
 
@@ -298,7 +164,7 @@ pub(crate) struct Closing<M> {
     turns: Vec<f64>,
 }
 
-impl<M: ContinuedMap> Closing<M> {
+impl<M: ClosingMap> Closing<M> {
     /// The equations of an orbit of `map`, and the orbit in their unknowns.
     pub(crate) fn of(
         map: &M,

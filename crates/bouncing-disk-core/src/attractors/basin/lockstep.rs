@@ -2,8 +2,7 @@
 
 use super::screen::{Judge, LabelMasks};
 use super::starts::{Cell, Cells, Starts};
-use super::{BasinSettings, KnownOrbit, Label, UNDECIDED, flights_of_label};
-use crate::attractors::attracting_map::AttractingMap as _;
+use super::{BasinSettings, KnownOrbit, Label, UNDECIDED, flights_of_label, label_of_start};
 use crate::chatter::policy::ChatterPolicy;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::error::Error;
@@ -56,7 +55,7 @@ impl ImpactMap {
             for (row, speed) in share.labels.chunks_mut(cells.phases.len()).zip(rows) {
                 for (label, phase) in row.iter_mut().zip(&cells.phases) {
                     let start = ImpactState::new(*phase, -speed)?;
-                    *label = self.label_of(start, known, settings, || work.spend(flights))?;
+                    *label = label_of_start(self, start, known, settings, || work.spend(flights))?;
                 }
             }
             cells.rows_done(&share);

@@ -1,11 +1,10 @@
-//! Which impacts of a batch decide the label of their start, as `ImpactMap::settles` finds it.
+//! Which impacts of a batch decide the label of their start, as `settles` finds it.
 
 use core::f64::consts::TAU;
 
 use pulp::{Simd, WithSimd};
 
-use super::{ATTACHED, BasinSettings, FIRST_ORBIT, KnownOrbit, Label, TARGETS_OF_FLIGHT};
-use crate::attractors::attracting_map::AttractingMap as _;
+use super::{ATTACHED, BasinSettings, FIRST_ORBIT, KnownOrbit, Label, TARGETS_OF_FLIGHT, settles};
 use crate::chatter::rest_proof::RestProof;
 use crate::map::impact_map::ImpactMap;
 use crate::numerics::error::Error;
@@ -29,11 +28,11 @@ struct Target {
     square_radius: f64,
 }
 
-/// The labels that the impacts of lanes decide, as `ImpactMap::settles` finds them.
+/// The labels that the impacts of lanes decide, as `settles` finds them.
 #[derive(Debug, Clone)]
 pub(super) struct LabelMasks {
     pub(super) labels: Mask,
-    /// Lanes left to `ImpactMap::settles`.
+    /// Lanes left to `settles`.
     pub(super) doubtful: Mask,
     either: Mask,
     /// Lanes that are labelled or doubtful.
@@ -117,7 +116,7 @@ impl<'a> Judge<'a> {
         if verdicts.doubtful[lane] == 0 {
             return Some(verdicts.labels[lane] as Label);
         }
-        self.map.settles(batch.impact_state(lane), self.known, self.settings.policy)
+        settles(self.map, batch.impact_state(lane), self.known, self.settings.policy)
     }
 }
 

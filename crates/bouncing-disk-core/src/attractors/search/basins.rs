@@ -7,7 +7,7 @@ use super::follow::SHARE_IN_CELLS;
 use super::{Attractors, label_of};
 use crate::attractors::attracting_map::AttractingMap;
 use crate::attractors::basin::{
-    ATTACHED, BasinSettings, Basins, Grid, KnownOrbit, Label, UNDECIDED, check_rows,
+    ATTACHED, BasinSettings, Basins, Grid, KnownOrbit, Label, UNDECIDED, check_rows, settles,
 };
 use crate::map::impact_map::ImpactState;
 use crate::numerics::error::Error;
@@ -60,7 +60,7 @@ impl<'a, M: AttractingMap> Labels<'a, M> {
             return ControlFlow::Break(());
         };
         own.impacts += 1;
-        own.label = self.map.settles(impact.state, &self.known, self.settings.policy);
+        own.label = settles(self.map, impact.state, &self.known, self.settings.policy);
         if own.label.is_some() {
             return ControlFlow::Break(());
         }
@@ -94,7 +94,7 @@ impl<'a, M: AttractingMap> Labels<'a, M> {
         let mut labels = Vec::with_capacity(starts.len());
         let mut open = Vec::new();
         for start in starts {
-            match self.map.settles(*start, &self.known, self.settings.policy) {
+            match settles(self.map, *start, &self.known, self.settings.policy) {
                 Some(label) => labels.push(label),
                 None => {
                     open.push(labels.len());

@@ -1,18 +1,15 @@
 //! The closed sequences of flights above a sine.
 
-use core::f64::consts::{PI, TAU};
+use core::f64::consts::PI;
 
 use glam::{DMat2, DVec2};
 
-use super::{Closed, ContinuationParameter, ContinuedMap, Flight, Scale};
-use crate::flight::launch::{Impact, Launch};
-use crate::flight::platform::phase::Phase;
+use super::{Closed, ClosingMap, ContinuationParameter, Scale};
 use crate::flight::platform::vibration::Vibration;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::bordered_cyclic::CyclicEquations;
 use crate::numerics::elementary::{cos, sin, sin_cos};
 use crate::numerics::error::{Error, within};
-use crate::orbits::periodic::PeriodicOrbit;
 
 /// Peak acceleration P and restitution of a map with this parameter, which may be none.
 fn strengths(map: &ImpactMap, by: ContinuationParameter, parameter: f64) -> (f64, f64) {
@@ -23,11 +20,7 @@ fn strengths(map: &ImpactMap, by: ContinuationParameter, parameter: f64) -> (f64
     }
 }
 
-fn launch(flight: &Flight) -> Result<Launch, Error> {
-    Ok(Launch::known(Phase::new(flight.from.0)?, flight.from.1))
-}
-
-impl ContinuedMap for ImpactMap {
+impl ClosingMap for ImpactMap {
     fn parameter(&self, by: ContinuationParameter) -> Option<f64> {
         match by {
             ContinuationParameter::Forcing => Some(self.vibration().axial_forcing()),
@@ -51,10 +44,6 @@ impl ContinuedMap for ImpactMap {
 
     fn restitution(&self) -> f64 {
         Self::restitution(self)
-    }
-
-    fn check_orbit(&self, orbit: &PeriodicOrbit) -> Result<(), Error> {
-        Self::check_orbit(self, orbit)
     }
 
     fn scale(&self, by: ContinuationParameter) -> Scale {
@@ -119,38 +108,5 @@ impl ContinuedMap for ImpactMap {
             (landing - platform, r * (platform - landing))
         };
         (0..n).map(one).collect()
-    }
-
-    fn is_grazed(&self, flight: &Flight) -> Result<bool, Error> {
-        let impact = Impact {
-            periods: 0,
-            remainder: flight.duration,
-            turns: 0,
-            phase: Phase::new(flight.to.0)?,
-            velocity: flight.to.1,
-            evaluations: 0,
-        };
-        Ok(self.vibration().graze_margin(launch(flight)?, &impact) <= 0.0)
-    }
-
-    fn duration_found(&self, flight: &Flight) -> Result<f64, Error> {
-        Ok(self.vibration().first_impact(launch(flight)?)?.duration())
-    }
-
-    fn orbit_through(
-        &self,
-        states: Vec<ImpactState>,
-        durations: &[f64],
-    ) -> Option<(PeriodicOrbit, [f64; 2])> {
-        let n = states.len();
-        let (mut monodromy, mut determinant, mut total) = (DMat2::IDENTITY, 1.0, 0.0);
-        for (i, &h) in durations.iter().enumerate() {
-            monodromy = self.derivative(states[i], states[(i + 1) % n], h) * monodromy;
-            determinant *= self.restitution() * self.restitution();
-            total += h;
-        }
-        let platform_periods = (total / TAU).round() as u64;
-        let trace = monodromy.x_axis.x + monodromy.y_axis.y;
-        Some((PeriodicOrbit::of(self, states, platform_periods, monodromy), [trace, determinant]))
     }
 }

@@ -4,12 +4,14 @@ use core::cell::RefCell;
 
 use glam::DVec2;
 
-use super::{Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation, ROUNDED};
+use super::{
+    Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation, ContinuedMap, ROUNDED,
+};
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::ImpactState;
 use crate::numerics::error::Error;
 use crate::numerics::roots::{bisected_bracket, bracket_of_width};
-use crate::orbits::closing::{Closed, Closing, ContinuedMap, Plane, turned};
+use crate::orbits::closing::{Closed, Closing, Plane, turned};
 use crate::orbits::periodic::PeriodicOrbit;
 use crate::orbits::periodic::margin::next_to_margin;
 use crate::run::{Observer, Watch, WorkCount};
