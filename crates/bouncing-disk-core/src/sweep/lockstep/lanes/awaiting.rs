@@ -14,7 +14,7 @@ use crate::numerics::elementary::{CREST, impact_phase_of_lane, nearby_wrapped_of
 /// Arcs from the height of the crests.
 #[derive(Debug, Clone)]
 #[repr(align(64))]
-pub(super) struct AwaitingSearch {
+pub(super) struct Awaiting {
     start: Row,
     speed: Row,
     free_periods: Row,
@@ -22,7 +22,7 @@ pub(super) struct AwaitingSearch {
     reached: Row,
 }
 
-impl Forms for AwaitingSearch {
+impl Forms for Awaiting {
     #[inline(always)]
     fn evaluate<S: Simd>(&mut self, width: impl Width, times: &mut Times) {
         let Times { time, sin, cos, .. } = &mut *times;
@@ -50,20 +50,6 @@ impl Forms for AwaitingSearch {
             impacts.duration[k] = Impacts::BETWEEN_PHASES;
         }
     }
-
-    #[inline(always)]
-    fn copy(&mut self, to: usize, others: &Self, from: usize) {
-        self.start[to] = others.start[from];
-        self.speed[to] = others.speed[from];
-        self.free_periods[to] = others.free_periods[from];
-    }
-
-    #[inline(always)]
-    fn copy_within(&mut self, to: usize, from: usize) {
-        self.start[to] = self.start[from];
-        self.speed[to] = self.speed[from];
-        self.free_periods[to] = self.free_periods[from];
-    }
 }
 
 /// Where the platform falls away below each arc.
@@ -84,7 +70,7 @@ pub(super) struct FallingPlatform {
 /// be searched.
 pub(super) struct Windows<'a> {
     pub(super) width: Sixteens,
-    pub(super) awaiting: &'a AwaitingSearch,
+    pub(super) awaiting: &'a Awaiting,
     pub(super) falling_platform: &'a mut FallingPlatform,
     pub(super) times: &'a mut Times,
 }
@@ -118,15 +104,9 @@ impl WithSimd for Windows<'_> {
     }
 }
 
-impl AwaitingSearch {
+impl Awaiting {
     pub(super) const fn new() -> Self {
         Self { start: ROW, speed: ROW, free_periods: ROW, reached: ROW }
-    }
-
-    /// How many evaluations of the gap number `k` had before.
-    #[inline(always)]
-    pub(super) fn evaluations(&self, k: usize) -> u8 {
-        u8::from(self.reached[k] > 0.0)
     }
 
     /// Sets number `k` to one of some arcs, with the time that a first step has led to, or zero.

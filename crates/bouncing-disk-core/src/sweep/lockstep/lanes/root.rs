@@ -1,30 +1,23 @@
-//! The search in a window, `GapForm::root`, for many flights that need different numbers of steps.
+//! The search in a window, `GapForm::root`, of many flights at once.
 
 use crate::flight::bounds::{arc_speed, may_return_soon};
 use crate::flight::first_impact::FASTEST_ARC;
 use crate::flight::gap::GapTaylor;
 use crate::numerics::elementary::{nearest_periods, rotated};
 use crate::sweep::lockstep::lanes::platform::PlatformLanes;
-use crate::sweep::lockstep::lanes::{
-    Dispatch, Impacts, LANES, Mask, ROW, Row, Rows, Sixteens, Who, Width, mask,
-};
+use crate::sweep::lockstep::lanes::{Impacts, LANES, Mask, ROW, Row, Rows, Sixteens, Width, mask};
 use pulp::{Simd, WithSimd};
 
-/// Evaluations before the last step; flights that need more are left to the solver of one flight.
-const EVALUATIONS: u8 = 8;
+/// Evaluations before the last step: flights that need more are left to the solver of one flight.
+const EVALUATIONS: usize = 4;
 
 /// Flights in one of the forms of the gap.
-pub(super) trait Forms: Clone {
+pub(super) trait Forms {
     /// Evaluates gaps, slopes and the pairs of the phases at the times reached.
     fn evaluate<S: Simd>(&mut self, width: impl Width, times: &mut Times);
 
     /// The impacts of flights whose times and pairs are those of the impact.
     fn land<S: Simd>(&mut self, width: impl Width, times: &Times, impacts: &mut Impacts);
-
-    /// Copies number `from` of others.
-    fn copy(&mut self, to: usize, others: &Self, from: usize);
-
-    fn copy_within(&mut self, to: usize, from: usize);
 }
 
 /// Times reached, the windows that hold the roots, and the gaps there.
@@ -62,15 +55,6 @@ impl Times {
         }
     }
 
-    /// Takes over number `from` of others: its window and the time reached.
-    #[inline(always)]
-    pub(super) const fn take(&mut self, to: usize, others: &Self, from: usize) {
-        self.peak[to] = others.peak[from];
-        self.lo[to] = others.lo[from];
-        self.hi[to] = others.hi[from];
-        self.time[to] = others.time[from];
-    }
-
     /// Gap and derivatives at the time evaluated last.
     #[inline(always)]
     pub(super) fn taylor(&self, k: usize) -> GapTaylor {
@@ -85,14 +69,11 @@ impl Times {
     }
 }
 
-/// Evaluations, each but the first after a step where the root is not near, and another such step if
-/// `steps_on`.
+/// Evaluations, each but the first after a step where the root is not near.
 pub(super) struct Advance<'a, F> {
     pub(super) width: Sixteens,
     pub(super) forms: &'a mut F,
     pub(super) times: &'a mut Times,
-    pub(super) evaluations: u8,
-    pub(super) steps_on: bool,
 }
 
 /// The last step, and the impacts.
@@ -108,13 +89,13 @@ impl<F: Forms> WithSimd for Advance<'_, F> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { width, forms, times, evaluations, steps_on } = self;
-        for evaluation in 1..=evaluations {
+        let Self { width, forms, times } = self;
+        for evaluation in 1..=EVALUATIONS {
             forms.evaluate::<S>(width, times);
             for k in 0..width.lanes() {
                 times.near[k] = mask(times.taylor(k).is_near_root());
             }
-            if steps_on || evaluation < evaluations {
+            if evaluation < EVALUATIONS {
                 step(width, times);
             }
         }
@@ -165,131 +146,6 @@ impl<F: Forms> WithSimd for Finish<'_, F> {
             times.time[k] += delta;
         }
         forms.land::<S>(width, times, impacts);
-    }
-}
-
-/// Flights being searched; those near their root wait until there are enough of them for the last step.
-#[derive(Debug, Clone)]
-pub(super) struct Search<F> {
-    forms: F,
-    times: Times,
-    who: [Who; LANES],
-    evaluations: [u8; LANES],
-    active: usize,
-    near: Near<F>,
-}
-
-#[derive(Debug, Clone)]
-struct Near<F> {
-    forms: F,
-    times: Times,
-    impacts: Impacts,
-    who: [Who; LANES],
-    len: usize,
-}
-
-impl<F: Forms> Search<F> {
-    pub(super) fn new(forms: F) -> Self {
-        let near = Near {
-            forms: forms.clone(),
-            times: Times::new(),
-            impacts: Impacts::new(),
-            who: [Who::NONE; LANES],
-            len: 0,
-        };
-        Self { forms, times: Times::new(), who: [Who::NONE; LANES], evaluations: [0; LANES], active: 0, near }
-    }
-
-    /// Takes in number `k` of some flights with their windows after so many evaluations; there must be room
-    /// for it.
-    #[inline(always)]
-    pub(super) fn add(&mut self, who: Who, forms: &F, times: &Times, k: usize, evaluations: u8) {
-        let slot = self.active % LANES;
-        self.forms.copy(slot, forms, k);
-        self.times.take(slot, times, k);
-        self.who[slot] = who;
-        self.evaluations[slot] = evaluations;
-        self.active += 1;
-    }
-
-    pub(super) const fn is_full(&self) -> bool {
-        self.active == LANES
-    }
-
-    /// Goes on until at most `left` flights remain; `landed` takes impacts, `hard` flights that need more
-    /// steps.
-    pub(super) fn go_on(
-        &mut self,
-        dispatch: Dispatch,
-        left: usize,
-        mut landed: impl FnMut(Who, &Impacts, usize),
-        mut hard: impl FnMut(Who),
-    ) {
-        while self.active > left {
-            let (forms, times) = (&mut self.forms, &mut self.times);
-            let width = Sixteens::holding(self.active);
-            dispatch.run(Advance { width, forms, times, evaluations: 1, steps_on: true });
-            for k in (0..self.active).rev() {
-                if self.times.near[k] != 0 {
-                    self.near.take(&self.forms, &self.times, self.who[k], k);
-                    if self.near.len == LANES {
-                        self.near.finish(dispatch, &mut landed);
-                    }
-                    self.drop(k);
-                } else {
-                    self.evaluations[k] += 1;
-                    if self.evaluations[k] == EVALUATIONS {
-                        hard(self.who[k]);
-                        self.drop(k);
-                    }
-                }
-            }
-        }
-        if left == 0 {
-            self.near.finish(dispatch, &mut landed);
-        }
-    }
-
-    /// Fills the place of a flight with the last one.
-    #[inline(always)]
-    fn drop(&mut self, k: usize) {
-        self.active -= 1;
-        let last = self.active;
-        self.forms.copy_within(k, last);
-        self.times.peak[k] = self.times.peak[last];
-        self.times.lo[k] = self.times.lo[last];
-        self.times.hi[k] = self.times.hi[last];
-        self.times.time[k] = self.times.time[last];
-        self.who[k] = self.who[last];
-        self.evaluations[k] = self.evaluations[last];
-    }
-}
-
-impl<F: Forms> Near<F> {
-    #[inline(always)]
-    fn take(&mut self, forms: &F, times: &Times, who: Who, k: usize) {
-        let slot = self.len % LANES;
-        self.forms.copy(slot, forms, k);
-        self.times.peak[slot] = times.peak[k];
-        self.times.time[slot] = times.time[k];
-        self.times.gap[slot] = times.gap[k];
-        self.times.slope[slot] = times.slope[k];
-        self.times.sin[slot] = times.sin[k];
-        self.times.cos[slot] = times.cos[k];
-        self.who[slot] = who;
-        self.len += 1;
-    }
-
-    fn finish(&mut self, dispatch: Dispatch, landed: &mut impl FnMut(Who, &Impacts, usize)) {
-        if self.len == 0 {
-            return;
-        }
-        let Self { forms, times, impacts, .. } = self;
-        dispatch.run(Finish { width: Sixteens::holding(self.len), forms, times, impacts });
-        for k in 0..self.len {
-            landed(self.who[k], &self.impacts, k);
-        }
-        self.len = 0;
     }
 }
 

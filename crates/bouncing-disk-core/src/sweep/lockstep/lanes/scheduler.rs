@@ -5,11 +5,10 @@ mod stages;
 use crate::flight::first_impact::FASTEST_ARC;
 use crate::numerics::error::Error;
 use crate::sweep::lockstep::lanes::above::{Fly, Work};
-use crate::sweep::lockstep::lanes::awaiting::{AwaitingSearch, FallingPlatform};
+use crate::sweep::lockstep::lanes::awaiting::{Awaiting, FallingPlatform};
 use crate::sweep::lockstep::lanes::low::{Low, WindowMasks};
 use crate::sweep::lockstep::lanes::platform::{Platform, PlatformLanes, Platforms};
-use crate::sweep::lockstep::lanes::root::{Classify, Kinds};
-use crate::sweep::lockstep::lanes::root::{Search, Times};
+use crate::sweep::lockstep::lanes::root::{Classify, Kinds, Times};
 use crate::sweep::lockstep::lanes::short::Short;
 use crate::sweep::lockstep::lanes::{
     Arcs, Batch, Dispatch, Ground, Impacts, InstructionSet, LANES, Lanes, Rows, Who, Whole, lanes_of,
@@ -35,25 +34,16 @@ pub(crate) struct FlightScheduler {
     work: Work,
     slow: Queue<Short>,
     low: Queue<Low>,
-    dips: Queue<Low>,
     above: Queue<Arcs>,
-    awaiting: Queue<AwaitingSearch>,
-    low_search: Search<Low>,
-    awaiting_search: Search<AwaitingSearch>,
+    awaiting: Queue<Awaiting>,
     masks: WindowMasks,
-    dip_masks: WindowMasks,
     falling_platform: FallingPlatform,
-    /// Windows: flights of one kind are added to another while their own are read.
-    low_windows: Times,
-    dip_windows: Times,
-    awaiting_windows: Times,
+    /// The windows, times and impacts of the stage that is computed: its flights land before others go on.
+    times: Times,
+    impacts: Impacts,
     /// The platforms of `low` and of `above`, unless all lanes share one.
     low_platforms: Platforms,
     above_platforms: Platforms,
-    slow_impacts: Impacts,
-    low_impacts: Impacts,
-    above_impacts: Impacts,
-    awaiting_impacts: Impacts,
     hard: Vec<Who>,
 }
 
@@ -67,23 +57,14 @@ impl FlightScheduler {
             work: Work::new(),
             slow: Queue::new(Short::new()),
             low: Queue::new(Low::new()),
-            dips: Queue::new(Low::new()),
             above: Queue::new(Arcs::new()),
-            awaiting: Queue::new(AwaitingSearch::new()),
-            low_search: Search::new(Low::new()),
-            awaiting_search: Search::new(AwaitingSearch::new()),
+            awaiting: Queue::new(Awaiting::new()),
             masks: WindowMasks::new(),
-            dip_masks: WindowMasks::new(),
             falling_platform: FallingPlatform::new(),
-            low_windows: Times::new(),
-            dip_windows: Times::new(),
-            awaiting_windows: Times::new(),
+            times: Times::new(),
+            impacts: Impacts::new(),
             low_platforms: Platforms::new(),
             above_platforms: Platforms::new(),
-            slow_impacts: Impacts::new(),
-            low_impacts: Impacts::new(),
-            above_impacts: Impacts::new(),
-            awaiting_impacts: Impacts::new(),
             hard: Vec::new(),
         }
     }
@@ -104,11 +85,8 @@ impl FlightScheduler {
         }
         self.fly_slow(batches, shared);
         self.fly_low(batches, shared);
-        self.settle_dips(batches, shared);
-        self.search_low(batches, 0);
         self.fly_above(batches, shared);
         self.fly_awaiting(batches);
-        self.search_awaiting(batches, 0);
         // In the order of the lanes, so that the first failure does not depend on how flights were collected.
         self.hard.sort_unstable_by_key(|who| (who.batch, who.lane));
         for &who in &self.hard {

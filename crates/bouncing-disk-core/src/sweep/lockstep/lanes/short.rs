@@ -8,7 +8,7 @@ use core::f64::consts::{PI, TAU};
 use pulp::{Simd, WithSimd};
 
 use super::platform::Platform;
-use super::{Impacts, LANES, Launches, Mask, ROW, Row, Sixteens, Width, kept, mask};
+use super::{Impacts, LANES, Lanes, Launches, Mask, ROW, Row, Sixteens, Width, kept, lanes_of, mask};
 use crate::flight::bounds::clears;
 use crate::flight::gap::SHORT_FLIGHT;
 use crate::flight::gap::{CrestForm, FASTEST_BRIEF, ShortForm};
@@ -164,9 +164,8 @@ fn impact(width: impl Width, short: &Short, impacts: &mut Impacts) {
     }
 }
 
-/// The outcome of a slow launch.
+/// The outcome of a slow launch that has not landed.
 pub(super) enum Fate {
-    Landed,
     /// It flies on as if it had been launched faster.
     GoesLow,
     GoesAbove,
@@ -220,13 +219,14 @@ impl Short {
         self.separation[k] = platform.separation_angle;
     }
 
-    /// The outcome of flight number `k`.
+    /// The flights that have landed.
     #[inline(always)]
-    pub(super) fn fate(&self, k: usize) -> Fate {
-        if self.landed[k] == 0 { self.fate_in_flight(k) } else { Fate::Landed }
+    pub(super) fn landed(&self) -> Lanes {
+        lanes_of(&self.landed)
     }
 
-    fn fate_in_flight(&self, k: usize) -> Fate {
+    /// The outcome of flight number `k`, which has not landed.
+    pub(super) fn fate(&self, k: usize) -> Fate {
         let form = form(self, k);
         let (last_ratio, last_velocity) = form.at(SHORT_FLIGHT);
         let (end_ratio, end_velocity) = form.at(within_short(self.end[k]));
