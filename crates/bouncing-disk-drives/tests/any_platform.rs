@@ -14,7 +14,9 @@ use bouncing_disk_core::numerics::elementary::{cos, hypot, ln, sin};
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::orbits::OrbitSearch;
 use bouncing_disk_core::sweep::{orbit_diagram, survival_times};
-use bouncing_disk_core::{ChatterPolicy, Error, ImpactMap, ImpactState, Unobserved, Vibration};
+use bouncing_disk_core::{
+    BouncingMap as _, ChatterPolicy, Error, ImpactMap, ImpactState, Unobserved, Vibration,
+};
 use bouncing_disk_drives::{Drive, DrivenMap};
 
 /// Pieces of constant acceleration: where each begins, with its height, velocity, and half its acceleration there.
@@ -493,6 +495,19 @@ fn analyses_of_a_sine_as_a_sum_are_those_of_the_sine() {
         }
         assert_eq!(own[0].kind.lasts(), general[0].kind.lasts(), "{sine}");
     }
+    let mut settled = 0;
+    for ((sine, start), (sum, _)) in sines.iter().zip(&sums) {
+        let own = sine.settled_orbit(*start, 2_000, 8, 1e-7, &Unobserved).unwrap();
+        let general = sum.settled_orbit(*start, 2_000, 8, 1e-7, &Unobserved).unwrap();
+        assert_eq!(own.is_some(), general.is_some(), "{sine}");
+        if let (Some(own), Some(general)) = (own, general) {
+            settled += 1;
+            assert_eq!((own.period(), own.platform_periods), (general.period(), general.platform_periods));
+            assert!(general.states.iter().all(|at| own.distance(*at, PI) < 1e-9), "{sine}");
+        }
+        assert_eq!(sum.iterate(*start, 3, &Unobserved), sum.steps(*start, 3));
+    }
+    assert!(settled > 1, "{settled}");
     let exponents = [
         lyapunov_exponents(&sines, 100, 400, &Unobserved).unwrap(),
         lyapunov_exponents(&sums, 100, 400, &Unobserved).unwrap(),

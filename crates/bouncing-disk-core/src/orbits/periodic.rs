@@ -305,6 +305,23 @@ pub fn phase_difference(to: f64, from: f64) -> f64 {
     }
 }
 
+/// Refuses periods and tolerances that [`repeats`] does not take.
+pub(crate) fn check_repeats(longest: usize, tolerance: f64) -> Result<(), Error> {
+    within("longest period", longest as f64, 1.0, MAX_PERIOD as f64, "[1, 4096] impacts")?;
+    within("tolerance", tolerance, 0.0, f64::MAX, "[0, inf)").map(|_| ())
+}
+
+/// The smallest period up to `longest` with which the first of 2 `longest` + 1 impacts repeat, twice in a row.
+pub(crate) fn repeats(states: &[ImpactState], longest: usize, tolerance: f64) -> Option<usize> {
+    let near = |a: &ImpactState, b: &ImpactState| {
+        phase_difference(a.phase().angle(), b.phase().angle()).abs() <= tolerance
+            && (a.velocity() - b.velocity()).abs() <= tolerance * (1.0 + a.velocity().abs())
+    };
+    (1..=longest).find(|&n| {
+        states[..n].iter().zip(&states[n..]).all(|(a, b)| near(a, b)) && near(&states[0], &states[n])
+    })
+}
+
 impl ImpactMap {
     /// The period-1 orbit with one impact every `platform_periods` >= 1 periods, in closed form:
     /// cos tau = k (1 - r)/((1 + r) Gamma), impact speed 2 pi k/(1 + r); `None` below its threshold.
@@ -379,8 +396,7 @@ impl ImpactMap {
         tolerance: f64,
         tick: Tick<'_>,
     ) -> Result<Option<usize>, Error> {
-        within("longest period", longest as f64, 1.0, MAX_PERIOD as f64, "[1, 4096] impacts")?;
-        within("tolerance", tolerance, 0.0, f64::MAX, "[0, inf)")?;
+        check_repeats(longest, tolerance)?;
         let mut states = vec![state];
         let mut orbit = self.orbit(state, ChatterPolicy::Complete);
         for _ in 0..2 * longest {
@@ -390,13 +406,7 @@ impl ImpactMap {
                 Some(_) | None => return Ok(None),
             }
         }
-        let near = |a: &ImpactState, b: &ImpactState| {
-            phase_difference(a.phase().angle(), b.phase().angle()).abs() <= tolerance
-                && (a.velocity() - b.velocity()).abs() <= tolerance * (1.0 + a.velocity().abs())
-        };
-        Ok((1..=longest).find(|&n| {
-            states[..n].iter().zip(&states[n..]).all(|(a, b)| near(a, b)) && near(&states[0], &states[n])
-        }))
+        Ok(repeats(&states, longest, tolerance))
     }
 
     /// The attracting periodic orbit that the orbit from `state` settles on: `transient` impacts, then the

@@ -9,8 +9,8 @@ use crate::flight::launch::Impact;
 use crate::map::impact_map::{ImpactMap, ImpactState, Orbit};
 use crate::numerics::elementary::ln;
 use crate::numerics::error::Error;
-use crate::orbits::periodic::PeriodicOrbit;
-use crate::run::{Watch, in_parallel};
+use crate::orbits::periodic::{PeriodicOrbit, check_repeats, repeats};
+use crate::run::{Observer, Watch, in_parallel};
 use crate::sweep::SweepEvent;
 
 /// How many times the area of a set of states must have shrunk by e before the behaviour of an orbit counts
@@ -90,6 +90,65 @@ pub trait BouncingMap: Clone + core::fmt::Debug + Send + Sync {
             state = self.step(state)?.into();
         }
         Ok(state)
+    }
+
+    /// [`Self::steps`] whose impacts are the items of `observer`.
+    ///
+    /// # Errors
+    /// That of the first step that fails.
+    fn iterate(
+        &self,
+        mut state: ImpactState,
+        impacts: u64,
+        observer: &dyn Observer,
+    ) -> Result<ImpactState, Error> {
+        let watch = Watch::begin(observer, 0, impacts)?;
+        let mut work = watch.work();
+        for _ in 0..impacts {
+            state = self.step(state)?.into();
+            watch.finish(1);
+            work.spend(WORK_OF_EVENT)?;
+        }
+        watch.end();
+        Ok(state)
+    }
+
+    /// The attracting periodic orbit that the orbit from `state` settles on, as
+    /// [`ImpactMap::settled_orbit`](crate::ImpactMap::settled_orbit).
+    ///
+    /// The items of `observer` are the impacts before the refinement.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for `longest` or `tolerance`; those of a flight and of [`Self::refine`].
+    fn settled_orbit(
+        &self,
+        mut state: ImpactState,
+        transient: usize,
+        longest: usize,
+        tolerance: f64,
+        observer: &dyn Observer,
+    ) -> Result<Option<PeriodicOrbit>, Error> {
+        check_repeats(longest, tolerance)?;
+        let impacts = transient.saturating_add(2 * longest);
+        let watch = Watch::begin(observer, 0, impacts as u64)?;
+        let (mut orbit, mut work) = (self.orbit(state, ChatterPolicy::Complete), watch.work());
+        let mut states = Vec::new();
+        for impact in 0..impacts {
+            if impact >= transient {
+                states.push(state);
+            }
+            match orbit.next_event()? {
+                Some(SweepEvent::Impact(next)) => state = next.state,
+                Some(_) | None => return Ok(None),
+            }
+            watch.finish(1);
+            work.spend(WORK_OF_EVENT)?;
+        }
+        states.push(state);
+        let period = repeats(&states, longest, tolerance);
+        let orbit = period.map(|period| self.refine(&states[..period])).transpose()?;
+        watch.end();
+        Ok(orbit)
     }
 }
 
@@ -184,5 +243,25 @@ impl BouncingMap for ImpactMap {
     #[inline]
     fn steps(&self, state: ImpactState, impacts: u64) -> Result<ImpactState, Error> {
         self.steps(state, impacts)
+    }
+
+    fn iterate(
+        &self,
+        state: ImpactState,
+        impacts: u64,
+        observer: &dyn Observer,
+    ) -> Result<ImpactState, Error> {
+        self.iterate(state, impacts, observer)
+    }
+
+    fn settled_orbit(
+        &self,
+        state: ImpactState,
+        transient: usize,
+        longest: usize,
+        tolerance: f64,
+        observer: &dyn Observer,
+    ) -> Result<Option<PeriodicOrbit>, Error> {
+        self.settled_orbit(state, transient, longest, tolerance, observer)
     }
 }
