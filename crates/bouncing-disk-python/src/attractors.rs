@@ -1,11 +1,11 @@
 //! Attractors of the map, their basins on a grid and over the forcing, and measures of basins.
 
 use bouncing_disk::core::{
-    Error as CoreError, ImpactMap,
+    Error as CoreError,
     attractors::{
-        AfterRest, AttractingMap as _, Attractor, AttractorKind, AttractorSearch,
-        Attractors as AttractorsModel, Axis, BasinSettings, Basins, BoundaryFit, Grid, KnownOrbit, Label,
-        RestCycle, basin_fractions_over as fractions_over,
+        AfterRest, AttractingMap, Attractor, AttractorKind, AttractorSearch, Attractors as AttractorsModel,
+        Axis, BasinSettings, Basins, BoundaryFit, Grid, KnownOrbit, Label, RestCycle,
+        basin_fractions_over as fractions_over,
     },
     orbits::PeriodicOrbit as OrbitModel,
 };
@@ -19,7 +19,7 @@ use pyo3::types::PyTuple;
 use crate::arguments::{Arguments, Count, Made, Real, held};
 use crate::errors;
 use crate::orbits::{PeriodicOrbit, shown_orbit};
-use crate::parameters::python_map;
+use crate::parameters::{Map, on_map, python_map};
 use crate::results::{array, column, holders, holding, make, matrix, room_for};
 
 holders! {
@@ -31,14 +31,6 @@ holders! {
 #[pyclass(frozen, eq, module = "bouncing_disk._native")]
 #[derive(Debug, PartialEq)]
 pub(crate) struct DrivenAttractors(AttractorsModel<DrivenMap>);
-
-#[pymethods]
-impl DrivenAttractors {
-    #[expect(clippy::unused_self, reason = "a method of every result that is held")]
-    fn to_json(&self) -> PyResult<String> {
-        Err(PyTypeError::new_err("attractors on a drive, or with a contact time, are not stored"))
-    }
-}
 
 /// Starts on each circle that is tried for the radius of a known orbit.
 const SAMPLES: u32 = 64;
@@ -110,11 +102,11 @@ fn search(a: &Arguments<'_>) -> PyResult<AttractorSearch> {
 #[pyfunction]
 pub(crate) fn attractors(a: Arguments<'_>) -> Made<'_> {
     let (map, search) = (a.map()?, search(&a)?);
-    let Some((shape, contact)) = a.shape()? else {
-        return shown_attractors(a.py(), a.run(|observer| Ok(map.attractors(&search, observer)?))?);
+    let Map { sine, other, .. } = map.get();
+    let Some(other) = other else {
+        return shown_attractors(a.py(), a.run(|observer| Ok(sine.attractors(&search, observer)?))?);
     };
-    let found =
-        a.run(|observer| Ok(AttractorsModel::find(&shape.map(&map, contact)?, &search, observer)?))?;
+    let found = a.run(|observer| Ok(AttractorsModel::find(&other.0, &search, observer)?))?;
     holding(shown_of(a.get("impact_map")?, &found)?, DrivenAttractors(found))
 }
 
@@ -205,7 +197,7 @@ fn known_orbits(known: &Bound<'_, PyAny>) -> PyResult<Vec<(OrbitModel, Option<f6
 
 /// An orbit with its radius, which is computed if it is not given.
 fn known(
-    map: &ImpactMap,
+    map: &impl AttractingMap,
     (orbit, radius): (OrbitModel, Option<f64>),
     observer: &dyn Observer,
 ) -> Result<KnownOrbit, Error> {
@@ -227,18 +219,12 @@ pub(crate) fn basins(a: Arguments<'_>) -> Made<'_> {
     meaning.extend(orbits.iter().map(|(orbit, _)| {
         format!("periodic orbit: impacts {}, platform periods {}", orbit.period(), orbit.platform_periods)
     }));
-    let shape = a.shape()?;
-    if shape.is_some() && orbits.iter().any(|(_, radius)| radius.is_none()) {
-        return Err(PyTypeError::new_err(
-            "known_orbits of a drive or a contact time must be pairs of an orbit and a radius",
-        ));
-    }
+    let map = map.get();
     let labels = a.run(|observer| {
-        let known = orbits.into_iter().map(|orbit| known(&map, orbit, observer));
-        let known = known.collect::<Result<Vec<_>, _>>()?;
-        labels(&match &shape {
-            None => map.basins(grid, &known, settings, observer)?,
-            Some((shape, contact)) => shape.map(&map, *contact)?.basins(grid, &known, settings, observer)?,
+        on_map!(map, |map| {
+            let known = orbits.into_iter().map(|orbit| known(map, orbit, observer));
+            let known = known.collect::<Result<Vec<_>, _>>()?;
+            labels(&map.basins(grid, &known, settings, observer)?)
         })
     })?;
     shown_basins(a.get("impact_map")?, &grid, labels, meaning)

@@ -43,18 +43,18 @@ impl Rows {
     }
 }
 
-/// A call with the map and the first impact of an index: on the sine, or on another platform (`Arguments::shape`).
+/// A call with the map and the first impact of an index: on the sine, or on another platform.
 macro_rules! on_any_platform {
-    ($starts:expr, $shape:expr, |$start:ident| $call:expr) => {
-        match $shape {
+    ($starts:expr, $platform:expr, |$start:ident| $call:expr) => {
+        match $platform {
             None => {
                 let $start = |index: usize| $starts.state(index);
                 $call
             }
-            Some((shape, contact)) => {
+            Some(platform) => {
                 let $start = |index: usize| {
                     let (map, state) = $starts.state(index)?;
-                    Ok::<_, Error>((shape.map(&map, *contact)?, state))
+                    Ok::<_, Error>((platform.map(&map)?, state))
                 };
                 $call
             }
@@ -67,9 +67,9 @@ macro_rules! on_any_platform {
 pub(crate) fn orbit_diagram(a: Arguments<'_>) -> Made<'_> {
     let (starts, policy, py) = (Starts::of(&a)?, a.policy()?, a.py());
     let (transient, recorded) = (a.usize("transient")?, a.usize("recorded")?);
-    let shape = a.shape()?;
+    let platform = a.platform()?;
     let rows = a.run(|observer| {
-        let columns = on_any_platform!(starts, &shape, |start| {
+        let columns = on_any_platform!(starts, &platform, |start| {
             let orbit = |index| start(index).map(|(map, state)| map.orbit(state, policy));
             let orbits = (0..starts.axial_forcing.len()).map(orbit).collect::<Result<Vec<_>, _>>()?;
             bouncing_disk::core::sweep::orbit_diagram(&orbits, transient, recorded, observer)?
@@ -91,9 +91,9 @@ pub(crate) fn orbit_diagram(a: Arguments<'_>) -> Made<'_> {
 #[pyfunction]
 pub(crate) fn lyapunov_exponents(a: Arguments<'_>) -> PyResult<Bound<'_, PyArray1<f64>>> {
     let (starts, transient, impacts) = (Starts::of(&a)?, a.usize("transient")?, a.usize("impacts")?);
-    let shape = a.shape()?;
+    let platform = a.platform()?;
     let exponents = a.run(|observer| {
-        on_any_platform!(starts, &shape, |start| {
+        on_any_platform!(starts, &platform, |start| {
             let all = (0..starts.axial_forcing.len()).map(start).collect::<Result<Vec<_>, _>>()?;
             Ok(bouncing_disk::core::chaos::lyapunov_exponents(&all, transient, impacts, observer)?)
         })
@@ -124,9 +124,9 @@ fn exponents(outcome: &LyapunovOutcome) -> Exponents {
 #[pyfunction]
 pub(crate) fn lyapunov_spectra(a: Arguments<'_>) -> Made<'_> {
     let (starts, transient, impacts) = (Starts::of(&a)?, a.u64("transient")?, a.u64("impacts")?);
-    let shape = a.shape()?;
+    let platform = a.platform()?;
     let all = a.run(|observer| {
-        let outcomes = on_any_platform!(starts, &shape, |start| {
+        let outcomes = on_any_platform!(starts, &platform, |start| {
             let all = (0..starts.axial_forcing.len()).map(start).collect::<Result<Vec<_>, _>>()?;
             bouncing_disk::core::chaos::lyapunov_spectra(&all, transient, impacts, observer)?
         });
@@ -251,7 +251,7 @@ fn evidence(verdict: &Verdict) -> Evidence {
 /// The long-term motion of the orbit of each start.
 #[pyfunction]
 pub(crate) fn verdicts(a: Arguments<'_>) -> Made<'_> {
-    let (starts, shape, py) = (Starts::of(&a)?, a.shape()?, a.py());
+    let (starts, platform, py) = (Starts::of(&a)?, a.platform()?, a.py());
     let settings = VerdictSettings {
         transient: a.u64("transient")?,
         impacts: a.u64("impacts")?,
@@ -261,7 +261,7 @@ pub(crate) fn verdicts(a: Arguments<'_>) -> Made<'_> {
     let all = a.run(|observer| {
         let count = starts.axial_forcing.len();
         let mut all = room_for(count)?;
-        on_any_platform!(starts, &shape, |start| {
+        on_any_platform!(starts, &platform, |start| {
             // A start that is not legal is refused before any is followed.
             (0..count).try_for_each(|index| start(index).map(|_| ()))?;
             let start = |index: usize| start(index).map(Some);
@@ -317,6 +317,7 @@ fn branch_end(end: ManifoldEnd) -> u8 {
 #[pyfunction]
 pub(crate) fn manifold(a: Arguments<'_>) -> Made<'_> {
     let (map, orbit, py) = (a.map()?, a.held::<PeriodicOrbit>("orbit")?, a.py());
+    let map = map.get().rigid_sine(py)?;
     let kind = a.choice("kind", &[("unstable", ManifoldKind::Unstable), ("stable", ManifoldKind::Stable)])?;
     let (points, generations) = (a.usize("max_points")?, a.u32("max_generations")?);
     let (chord, turn, launch) = (a.real("chord")?, a.real("turn")?, a.optional("launch_speed")?);

@@ -1,8 +1,8 @@
 //! Orbits of the impact map: its steps, periodic orbits, their branches and doublings.
 
-use bouncing_disk::Error;
 use bouncing_disk::core::{
-    ImpactMap, ImpactState, Vibration,
+    BouncingMap as _, ImpactMap, ImpactState, Vibration,
+    attractors::AttractingMap as _,
     orbits::{
         BifurcationKind, Branch as BranchModel, BranchEnd, BranchPoint, Continuation, ContinuationParameter,
         ContinuedMap, OrbitSearch, PeriodicOrbit as OrbitModel, Stability,
@@ -10,13 +10,12 @@ use bouncing_disk::core::{
     },
 };
 use bouncing_disk::drives::{DrivenFamily, driven_doubling_cascade};
-use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 use crate::arguments::{Arguments, Made, common_length, first_impact};
 use crate::errors;
-use crate::parameters::{pair, state};
+use crate::parameters::{Map, on_map, pair, state};
 use crate::results::{array, column, complex, holders, holding, make, matrix};
 
 holders! {
@@ -30,14 +29,6 @@ holders! {
 #[pyclass(frozen, eq, module = "bouncing_disk._native")]
 #[derive(Debug, PartialEq)]
 pub(crate) struct DrivenBranch(BranchModel<DrivenFamily>, String);
-
-#[pymethods]
-impl DrivenBranch {
-    #[expect(clippy::unused_self, reason = "a method of every result that is held")]
-    fn to_json(&self) -> PyResult<String> {
-        Err(PyTypeError::new_err("branches on a drive, or with a contact time, are not stored"))
-    }
-}
 
 /// A periodic orbit as Python has it.
 pub(crate) fn shown_orbit(py: Python<'_>, orbit: OrbitModel) -> Made<'_> {
@@ -64,7 +55,11 @@ pub(crate) fn shown_orbit(py: Python<'_>, orbit: OrbitModel) -> Made<'_> {
 pub(crate) fn iterate(a: Arguments<'_>) -> PyResult<(f64, f64)> {
     let (map, impacts) = (a.map()?, a.u64("impacts")?);
     let (phase, velocity) = (a.real("impact_phase")?, a.real("axial_impact_velocity")?);
-    a.run(|observer| Ok(pair(map.iterate(state(phase, velocity)?, impacts, observer)?)))
+    let map = map.get();
+    a.run(|observer| {
+        let start = state(phase, velocity)?;
+        Ok(pair(on_map!(map, |map| map.iterate(start, impacts, observer)?)))
+    })
 }
 
 /// The periodic orbit next to a guess.
@@ -73,14 +68,11 @@ pub(crate) fn refine(a: Arguments<'_>) -> Made<'_> {
     let (map, phases) = (a.map()?, a.row("impact_phase")?);
     let velocities = a.numbers("axial_impact_velocity")?;
     common_length(&[("impact_phase", Some(phases.len())), ("axial_impact_velocity", velocities.len())])?;
-    let shape = a.shape()?;
+    let map = map.get();
     let orbit = a.run(|_| {
         let impacts = phases.iter().enumerate().map(|(index, phase)| state(*phase, velocities.get(index)));
         let guess = impacts.collect::<Result<Vec<_>, _>>()?;
-        Ok(match &shape {
-            None => map.refine(&guess)?,
-            Some((shape, contact)) => shape.map(&map, *contact)?.refine(&guess)?,
-        })
+        Ok(on_map!(map, |map| map.refine(&guess)?))
     })?;
     shown_orbit(a.py(), orbit)
 }
@@ -90,10 +82,10 @@ pub(crate) fn refine(a: Arguments<'_>) -> Made<'_> {
 pub(crate) fn settled_orbit(a: Arguments<'_>) -> PyResult<Option<Bound<'_, PyAny>>> {
     let (map, phase, speed) = (a.map()?, a.real("impact_phase")?, a.real("normalised_speed")?);
     let (transient, longest) = (a.usize("transient")?, a.usize("longest_period")?);
-    let tolerance = a.real("tolerance")?;
+    let (tolerance, map) = (a.real("tolerance")?, map.get());
     let orbit = a.run(|observer| {
         let start = first_impact(phase, speed)?;
-        Ok(map.settled_orbit(start, transient, longest, tolerance, observer)?)
+        Ok(on_map!(map, |map| map.settled_orbit(start, transient, longest, tolerance, observer)?))
     })?;
     orbit.map(|orbit| shown_orbit(a.py(), orbit)).transpose()
 }
@@ -103,15 +95,8 @@ pub(crate) fn settled_orbit(a: Arguments<'_>) -> PyResult<Option<Bound<'_, PyAny
 pub(crate) fn trapping_radius(a: Arguments<'_>) -> PyResult<f64> {
     let (map, orbit) = (a.map()?, a.held::<PeriodicOrbit>("self")?);
     let (orbit, samples) = (&orbit.get().0, a.count("samples", 1 << 20, "[1, 1048576]")? as u32);
-    let shape = a.shape()?;
-    a.run(|observer| {
-        Ok(match &shape {
-            None => orbit.trapping_radius(&map, samples, observer)?,
-            Some((shape, contact)) => {
-                orbit.trapping_radius(&shape.map(&map, *contact)?, samples, observer)?
-            }
-        })
-    })
+    let map = map.get();
+    a.run(|observer| Ok(on_map!(map, |map| orbit.trapping_radius(map, samples, observer)?)))
 }
 
 /// The periodic orbits of few impacts.
@@ -121,13 +106,8 @@ pub(crate) fn periodic_orbits(a: Arguments<'_>) -> PyResult<Vec<Bound<'_, PyAny>
     let (phases, speeds) = (a.u32("phases")?, a.u32("speeds")?);
     let search = OrbitSearch::new(impacts, periods).and_then(|search| search.with_starts(phases, speeds));
     let search = search.map_err(|error| a.refused(error))?;
-    let shape = a.shape()?;
-    let orbits = a.run(|observer| {
-        Ok(match &shape {
-            None => map.periodic_orbits(&search, observer)?.orbits,
-            Some((shape, contact)) => shape.map(&map, *contact)?.periodic_orbits(&search, observer)?,
-        })
-    })?;
+    let map = map.get();
+    let orbits = a.run(|observer| Ok(on_map!(map, |map| map.orbits_found(&search, observer)?)))?;
     orbits.into_iter().map(|orbit| shown_orbit(a.py(), orbit)).collect()
 }
 
@@ -214,15 +194,14 @@ fn continuation(a: &Arguments<'_>, parameter: ContinuationParameter, rising: boo
 #[pyfunction]
 pub(crate) fn continued(a: Arguments<'_>) -> Made<'_> {
     let (map, orbit) = (a.map()?, a.held::<PeriodicOrbit>("orbit")?);
-    let (orbit, rising) = (&orbit.get().0, a.of("rising")?);
-    let Some((shape, contact_periods)) = a.shape()? else {
+    let (Map { sine, other, .. }, orbit, rising) = (map.get(), &orbit.get().0, a.of("rising")?);
+    let Some(other) = other else {
         let settings = continuation(&a, a.choice("parameter", &PARAMETERS)?, rising)?;
-        return shown_own_branch(a.py(), a.run(|observer| Ok(map.continued(orbit, &settings, observer)?))?);
+        return shown_own_branch(a.py(), a.run(|observer| Ok(sine.continued(orbit, &settings, observer)?))?);
     };
     let settings = continuation(&a, ContinuationParameter::Number, rising)?;
     let number: String = a.of("parameter")?;
-    let named = number.parse().map_err(|error: Error| a.refused(error))?;
-    let family = shape.family(&map, contact_periods, named).map_err(|error| a.refused(error))?;
+    let family = other.1.family(sine, &number).map_err(|error| a.refused(error))?;
     let branch = a.run(|observer| Ok(family.continued(orbit, &settings, observer)?))?;
     shown_driven_branch(a.py(), branch, number)
 }
@@ -262,15 +241,15 @@ pub(crate) fn branch_orbit(a: Arguments<'_>) -> Made<'_> {
 #[pyfunction]
 pub(crate) fn doubling_cascade(a: Arguments<'_>) -> Made<'_> {
     let (restitution, count, py) = (a.real("restitution")?, a.usize("count")?, a.py());
-    let shape = a.shape()?;
+    let platform = a.platform()?;
     let cascade = a.run(move |observer| {
-        let Some((shape, contact_periods)) = shape else {
+        let Some(platform) = platform else {
             return Ok(doubling_cascade_of(restitution, count, observer)?);
         };
         let sine = move |forcing| ImpactMap::new(Vibration::from_axial_forcing(forcing)?, restitution);
         // What is wrong with the map, before the search asks for many.
-        shape.map(&sine(1.0)?, contact_periods)?;
-        let maps = move |forcing| shape.map(&sine(forcing).ok()?, contact_periods).ok();
+        platform.map(&sine(1.0)?)?;
+        let maps = move |forcing| platform.map(&sine(forcing).ok()?).ok();
         Ok(driven_doubling_cascade(maps, count, observer)?)
     })?;
     let (cascade, ended_by) = (cascade.doublings, cascade.ended_by.map(|error| error.to_string()));

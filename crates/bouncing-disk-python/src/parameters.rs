@@ -1,8 +1,11 @@
 //! The contents of the classes of parameters, and their derived numbers: systems, motors, maps, cuts.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
-use bouncing_disk::core::{ChatterCut as Cut, ChatterPolicy, ImpactMap, ImpactState, Phase, Vibration};
+use bouncing_disk::core::{
+    BouncingMap, ChatterCut as Cut, ChatterPolicy, ImpactMap, ImpactState, Phase, Vibration,
+};
+use bouncing_disk::drives::{DrivenFamily, DrivenMap};
 use bouncing_disk::motion::PAPER_CUT;
 use bouncing_disk::motor::{MotorField, MotorParameters};
 use bouncing_disk::parameters::{Contact, DimensionlessSystem, DriveParameters, StatorParameters, Waveform};
@@ -137,29 +140,106 @@ impl Drive {
     }
 }
 
-/// The contents of an `ImpactMap`, and the axial forcing if it was given: one computed from the peak
-/// acceleration may differ in the last place. Its steps are what loops in Python call themselves.
+/// The contents of an `ImpactMap`. Its steps are what loops in Python call themselves.
 #[pyclass(frozen, name = "ImpactMap", module = "bouncing_disk._native")]
-pub(crate) struct Map(pub(crate) ImpactMap, Option<f64>);
+pub(crate) struct Map {
+    /// The map of rigid impacts on the sine, with this forcing and restitution.
+    pub(crate) sine: ImpactMap,
+    /// The axial forcing if it was given: one computed from the peak acceleration may differ in the last place.
+    forcing: Option<f64>,
+    /// The map itself if it is on another platform.
+    pub(crate) other: Option<Box<(DrivenMap, Platform)>>,
+}
+
+/// A call with the map of rigid impacts on the sine, or with the one on another platform.
+macro_rules! on_map {
+    ($of:expr, |$map:ident| $call:expr) => {
+        match $of.other.as_deref() {
+            None => {
+                let $map = &$of.sine;
+                $call
+            }
+            Some(($map, _)) => $call,
+        }
+    };
+}
+pub(crate) use on_map;
+
+/// A platform that moves in another way than the sine, or has compliant contacts.
+pub(crate) struct Platform {
+    drive: Option<DriveParameters>,
+    contact_periods: Option<f64>,
+}
+
+impl Platform {
+    /// `None` for rigid impacts on the sine.
+    fn new(drive: Option<DriveParameters>, contact_periods: Option<f64>) -> Result<Option<Self>, Error> {
+        if let Some(drive) = &drive {
+            drive.check()?;
+            drive.start_phase.map_or(Ok(()), |_| Err(Error::StartPhase))?;
+        }
+        let own = Self { drive, contact_periods };
+        Ok((contact_periods.is_some() || own.height().sine().is_err()).then_some(own))
+    }
+
+    fn height(&self) -> &Waveform {
+        self.drive.as_ref().map_or(&Waveform::Sine, |drive| &drive.height)
+    }
+
+    pub(crate) fn map(&self, sine: &ImpactMap) -> Result<DrivenMap, Error> {
+        self.height().map(sine, self.contact_periods)
+    }
+
+    /// The maps that differ in the number of this name.
+    pub(crate) fn family(&self, sine: &ImpactMap, number: &str) -> Result<DrivenFamily, Error> {
+        self.height().family(sine, self.contact_periods, number.parse()?)
+    }
+}
+
+impl Map {
+    /// The map of a call that is computed for rigid impacts on the sine only.
+    pub(crate) fn rigid_sine(&self, py: Python<'_>) -> PyResult<&ImpactMap> {
+        let Some((_, platform)) = self.other.as_deref() else { return Ok(&self.sine) };
+        let refused = platform.height().sine().err();
+        let argument = if refused.is_some() { "drive" } else { "contact_periods" };
+        let message = format!(
+            "this holds for rigid impacts on the sine only, and the map has {argument}=: use a map without it"
+        );
+        Err(errors::of_kind(py, message, &refused.unwrap_or(Error::SoftContact)))
+    }
+}
 
 #[pymethods]
 impl Map {
     fn numbers<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let Self(map, forcing) = self;
-        let (peak, restitution) = (map.vibration().peak_acceleration(), map.restitution());
-        let given = forcing.map_or(("peak_acceleration", peak), |forcing| ("axial_forcing", forcing));
+        let (peak, restitution) = (self.sine.vibration().peak_acceleration(), self.sine.restitution());
+        let given = self.forcing.map_or(("peak_acceleration", peak), |forcing| ("axial_forcing", forcing));
+        let given = [given, ("restitution", restitution)].into_py_dict(py)?;
+        let platform = self.other.as_ref().map(|other| &other.1);
+        let contact = platform.and_then(|own| own.contact_periods);
+        let drive = platform.and_then(|own| own.drive.clone()).map(|own| python(py, "Drive", Drive(own)));
+        let drive = drive.transpose()?;
+        // Of a compliant contact no bound is known.
+        let unknown = contact.map(|_| f64::NAN);
+        let bound = unknown.unwrap_or_else(|| on_map!(self, |map| map.impact_speed_bound() / PI));
         let all = [
-            ("axial_forcing", Some(forcing.unwrap_or_else(|| map.vibration().axial_forcing()))),
+            ("axial_forcing", Some(self.forcing.unwrap_or_else(|| self.sine.vibration().axial_forcing()))),
             ("peak_acceleration", Some(peak)),
             ("restitution", Some(restitution)),
-            ("normalised_speed_bound", Some(map.impact_speed_bound() / std::f64::consts::PI)),
+            ("contact_periods", contact),
+            ("normalised_speed_bound", Some(bound)),
         ];
-        numbers(py, [given, ("restitution", restitution)].into_py_dict(py)?.into_any(), all)
+        let all = numbers(py, given.clone().into_any(), all)?;
+        all.set_item("drive", &drive)?;
+        drive.map_or(Ok(()), |own| given.set_item("drive", own))?;
+        contact.map_or(Ok(()), |own| given.set_item("contact_periods", own))?;
+        Ok(all)
     }
 
     #[pyo3(signature = (*, impact_phase, axial_impact_velocity))]
     fn step(&self, py: Python<'_>, impact_phase: Real, axial_impact_velocity: Real) -> PyResult<(f64, f64)> {
-        with_state(py, impact_phase, axial_impact_velocity, |state| Ok(pair(self.0.step(state)?.into())))
+        let step = |state| Ok(pair(on_map!(self, |map| BouncingMap::step(map, state)?).into()));
+        with_state(py, impact_phase, axial_impact_velocity, step)
     }
 
     /// The derivative of the next impact.
@@ -170,7 +250,7 @@ impl Map {
         impact_phase: Real,
         axial_impact_velocity: Real,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let derivative = |state| Ok(self.0.step_with_derivative(state)?.1);
+        let derivative = |state| Ok(on_map!(self, |map| map.step_with_derivative(state)?.1));
         let derivative = with_state(py, impact_phase, axial_impact_velocity, derivative)?;
         let (x, y) = (derivative.x_axis, derivative.y_axis);
         matrix(py, vec![x.x, y.x, x.y, y.y], [2, 2])
@@ -179,11 +259,11 @@ impl Map {
     /// The orbit of one impact in closed form.
     #[pyo3(signature = (*, platform_periods=Count(Ok(1))))]
     fn period_one(&self, py: Python<'_>, platform_periods: Count) -> PyResult<Option<(f64, f64)>> {
-        let periods = platform_periods.u64(py, "platform_periods")?;
+        let (map, periods) = (self.rigid_sine(py)?, platform_periods.u64(py, "platform_periods")?);
         if periods == 0 {
             return Err(errors::out_of_range(py, "platform_periods", 0.0, "at least 1"));
         }
-        Ok(long_call::caught(|| Ok(self.0.period_one(periods).map(pair)))?.unwrap_or(None))
+        Ok(long_call::caught(|| Ok(map.period_one(periods).map(pair)))?.unwrap_or(None))
     }
 }
 
@@ -299,9 +379,14 @@ pub(crate) fn system(a: Arguments<'_>) -> PyResult<System> {
     system_of(numbers, tables).map(System).map_err(|error| a.refused(error))
 }
 
+/// The object of this class that holds what the library has made.
+fn python<'py>(py: Python<'py>, class: &str, held: impl IntoPyObject<'py>) -> Made<'py> {
+    py.import("bouncing_disk")?.getattr(class)?.call_method1("_holding", (held,))
+}
+
 /// The system that the library has made, as Python has it.
 pub(crate) fn python_system<'py>(py: Python<'py>, system: &SystemModel) -> Made<'py> {
-    py.import("bouncing_disk")?.getattr("System")?.call_method1("_holding", (System(*system),))
+    python(py, "System", System(*system))
 }
 
 /// A system of the paper.
@@ -334,7 +419,7 @@ pub(crate) fn motor(a: Arguments<'_>) -> PyResult<Motor> {
         contact: a.table("contact")?,
         stator: a.table("stator")?,
         load: a.table("load")?,
-        drive: a.sheet_drive()?,
+        drive: drive_of(&a.get("drive")?)?.unwrap_or_default(),
     };
     sheet.build().map(Motor).map_err(|error| a.refused(error))
 }
@@ -361,33 +446,39 @@ pub(crate) fn excluded_by(name: &str) -> Vec<&'static str> {
 /// A map by its arguments, one of the two forcings missing. They come one by one, which takes half the time
 /// of a dictionary.
 #[pyfunction]
-#[pyo3(signature = (axial_forcing, peak_acceleration, restitution))]
-pub(crate) fn impact_map(
-    py: Python<'_>,
-    axial_forcing: &Bound<'_, PyAny>,
-    peak_acceleration: &Bound<'_, PyAny>,
-    restitution: &Bound<'_, PyAny>,
+pub(crate) fn impact_map<'py>(
+    py: Python<'py>,
+    axial_forcing: &Bound<'py, PyAny>,
+    peak_acceleration: &Bound<'py, PyAny>,
+    restitution: &Bound<'py, PyAny>,
+    drive: &Bound<'py, PyAny>,
+    contact_periods: &Bound<'py, PyAny>,
 ) -> PyResult<Map> {
-    let (one, other) = ("axial_forcing", "peak_acceleration");
+    let (one, other, contact) = ("axial_forcing", "peak_acceleration", "contact_periods");
     let optional = |value, name| Ok::<_, PyErr>(extracted::<Option<Real>>(value, name)?.map(|real| real.0));
     let (forcing, peak) = (optional(axial_forcing, one)?, optional(peak_acceleration, other)?);
     let Real(restitution) = extracted(restitution, "restitution")?;
+    let (drive, periods) = (drive_of(drive)?, optional(contact_periods, contact)?);
     let vibration = match (forcing, peak) {
         (Some(forcing), None) => Vibration::from_axial_forcing(forcing).map_err(Error::from),
         (None, Some(peak)) => Vibration::new(peak).map_err(Error::from),
         (None, None) => Err(Error::NeitherGiven { one, other }),
         (Some(_), Some(_)) => Err(Error::BothGiven { one, other }),
     };
-    let map = vibration.and_then(|vibration| Ok(ImpactMap::new(vibration, restitution)?));
-    map.map(|map| Map(map, forcing)).or_else(|error| {
-        let given = [(one, forcing), (other, peak), ("restitution", Some(restitution))].into_py_dict(py)?;
-        Err(Arguments(given).refused(error))
+    let map = vibration.and_then(|vibration| {
+        let (sine, platform) = (ImpactMap::new(vibration, restitution)?, Platform::new(drive, periods)?);
+        let other = platform.map(|own| Ok::<_, Error>(Box::new((own.map(&sine)?, own)))).transpose()?;
+        Ok(Map { sine, forcing, other })
+    });
+    map.or_else(|error| {
+        let given = [(one, forcing), (other, peak), ("restitution", Some(restitution)), (contact, periods)];
+        Err(Arguments(given.into_py_dict(py)?).refused(error))
     })
 }
 
-/// The map that the library has made, as Python has it.
+/// The map of the sine that the library has made, as Python has it.
 pub(crate) fn python_map<'py>(py: Python<'py>, map: &ImpactMap) -> Made<'py> {
-    py.import("bouncing_disk")?.getattr("ImpactMap")?.call_method1("_holding", (Map(*map, None),))
+    python(py, "ImpactMap", Map { sine: *map, forcing: None, other: None })
 }
 
 /// A cut by its arguments.
@@ -404,12 +495,15 @@ pub(crate) fn paper_cut() -> ChatterCut {
     ChatterCut(PAPER_CUT)
 }
 
-/// A drive that an argument is; the sine if it is `None`.
-pub(crate) fn held_drive(given: &Bound<'_, PyAny>, name: &str) -> PyResult<DriveParameters> {
+/// The drive that the argument `drive` is, as an object or its dictionary.
+pub(crate) fn drive_of(given: &Bound<'_, PyAny>) -> PyResult<Option<DriveParameters>> {
     if given.is_none() {
-        return Ok(DriveParameters::default());
+        return Ok(None);
     }
-    held::<Drive>(given, name).map(|drive| drive.get().0.clone())
+    match held::<Drive>(given, "drive") {
+        Ok(drive) => Ok(Some(drive.get().0.clone())),
+        Err(_) => Arguments([("drive", given)].into_py_dict(given.py())?).table("drive"),
+    }
 }
 
 /// A drive by its arguments.
@@ -429,34 +523,10 @@ pub(crate) fn drive(a: Arguments<'_>) -> PyResult<Drive> {
 
 /// The objects of this module among the arguments of a call.
 impl<'py> Arguments<'py> {
-    /// A drive; the sine if it is not given.
-    pub(crate) fn drive(&self, name: &str) -> PyResult<DriveParameters> {
-        held_drive(&self.get(name)?, name)
-    }
-
-    /// The drive of a data sheet: an object, or its dictionary.
-    fn sheet_drive(&self) -> PyResult<DriveParameters> {
-        match held::<Drive>(&self.get("drive")?, "drive") {
-            Ok(drive) => Ok(drive.get().0.clone()),
-            Err(_) => Ok(self.table("drive")?.unwrap_or_default()),
-        }
-    }
-
-    /// The shape of the height of `drive` and `contact_periods`, which decide the vertical motion; `None` for rigid
-    /// impacts on the sine.
-    pub(crate) fn shape(&self) -> PyResult<Option<(Waveform, Option<f64>)>> {
-        let drive = self.drive("drive")?;
-        if drive.start_phase.is_some() {
-            return Err(self.refused(Error::StartPhase));
-        }
-        let contact_periods = self.optional("contact_periods")?;
-        let is_rigid_sine = drive.height == Waveform::Sine && contact_periods.is_none();
-        Ok((!is_rigid_sine).then_some((drive.height, contact_periods)))
-    }
-
-    /// The name of an argument; of a method that has none of it, the object itself.
-    fn or_self(&self, name: &'static str) -> PyResult<&'static str> {
-        Ok(if self.0.contains(name)? { name } else { "self" })
+    /// The platform of `drive` and `contact_periods`; `None` for rigid impacts on the sine.
+    pub(crate) fn platform(&self) -> PyResult<Option<Platform>> {
+        let platform = Platform::new(drive_of(&self.get("drive")?)?, self.optional("contact_periods")?);
+        platform.map_err(|error| self.refused(error))
     }
 
     pub(crate) fn system(&self) -> PyResult<SystemModel> {
@@ -477,8 +547,7 @@ impl<'py> Arguments<'py> {
     /// The motor, whose drive and contact time the arguments of the call replace.
     pub(crate) fn moved(&self, motor: &MotorModel) -> PyResult<MotorModel> {
         let time = self.optional("contact_time")?;
-        let drive = if self.0.contains("drive")? { self.given("drive")? } else { None };
-        let drive = drive.map(|given| held_drive(&given, "drive")).transpose()?;
+        let drive = if self.0.contains("drive")? { drive_of(&self.get("drive")?)? } else { None };
         let change = |sheet: &mut MotorParameters| {
             time.into_iter().for_each(|time| MotorField::ContactTime.set(sheet, time));
             if let Some(drive) = drive {
@@ -488,8 +557,9 @@ impl<'py> Arguments<'py> {
         motor.with(change).map_err(|error| self.refused(error))
     }
 
-    pub(crate) fn map(&self) -> PyResult<ImpactMap> {
-        Ok(self.held::<Map>(self.or_self("impact_map")?)?.get().0)
+    /// The map of a function, or of a method of its own.
+    pub(crate) fn map(&self) -> PyResult<Bound<'py, Map>> {
+        self.held(if self.0.contains("impact_map")? { "impact_map" } else { "self" })
     }
 
     /// The policy of the argument `chatter`.

@@ -80,7 +80,7 @@ pub(crate) fn single_toss<'py>(
 ) -> Made<'py> {
     let (py, system) = (system.py(), held::<System>(system, "system")?.get().0);
     let initial = choice(initial_spin, "initial_spin", &SPINS)?;
-    let drive = parameters::held_drive(drive, "drive")?;
+    let drive = parameters::drive_of(drive)?.unwrap_or_default();
     let time = extracted::<Option<Real>>(contact_time, "contact_time")?;
     let done = long_call::caught(|| {
         let contact = time.map(|Real(time)| Contact { time: Some(time), ..Contact::default() });

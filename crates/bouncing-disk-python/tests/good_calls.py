@@ -11,6 +11,7 @@ import bouncing_disk as bd
 
 STARTS: dict[str, Any] = {"restitution": 0.5, "impact_phase": 1.2, "normalised_speed": 1.3}
 MAP = bd.ImpactMap(axial_forcing=0.45, restitution=0.5)
+OTHER = MAP.replace(drive=bd.Drive.fourier([(1.0, 0.0), (0.1, 0.3)]), contact_periods=0.1)
 TOSS = bd.System.pizza_toss()
 MOTOR = bd.Motor(
     drive_frequency=70e3,
@@ -72,7 +73,7 @@ def good() -> list[tuple[Callable[..., Any], list[Any], dict[str, Any]]]:
         (bd.System.from_dict, [TOSS.to_dict()], {}),
         (bd.System.from_json, [TOSS.to_json()], {}),
         (bd.ImpactMap, [], {"axial_forcing": 0.5, "restitution": 0.5}),
-        (bd.ImpactMap, [], {"peak_acceleration": 0.5, "restitution": 0.5}),
+        (bd.ImpactMap, [], {"peak_acceleration": 0.5, "restitution": 0.5, "drive": OTHER.drive, "contact_periods": 0.1}),
         (bd.ImpactMap.of_system, [TOSS], {}),
         (bd.ImpactMap.from_json, [MAP.to_json()], {}),
         (bd.Motor, [], MOTOR.to_dict()),
@@ -83,6 +84,9 @@ def good() -> list[tuple[Callable[..., Any], list[Any], dict[str, Any]]]:
         (bd.ChatterCut, [], bd.ChatterCut.paper().to_dict()),
         (MAP.step, [], impact),
         (MAP.derivative, [], impact),
+        (OTHER.step, [], impact),
+        (OTHER.derivative, [], impact),
+        (OTHER.iterate, [], impact | {"impacts": 10, "progress": None}),
         (MAP.iterate, [], impact | {"impacts": 10, "progress": None}),
         (MAP.period_one, [], {"platform_periods": 1}),
         (MAP.refine, [], {"impact_phase": [0.7], "axial_impact_velocity": [-4.2]}),

@@ -17,7 +17,7 @@ import bouncing_disk as bd
 import numpy as np
 import pytest
 
-from good_calls import MAP, MOTOR, STARTS, TOSS, good
+from good_calls import MAP, MOTOR, OTHER, STARTS, TOSS, good
 
 Call = tuple[Callable[..., Any], list[Any], dict[str, Any]]
 
@@ -116,6 +116,7 @@ def test_no_call_is_left_out() -> None:
         ("relative_velocity", -1.0, r"\[0, inf\) m/s", lambda: bd.simulate(TOSS, relative_velocity=-1.0)),
         ("angular_speed", 1e308, r"\[-[0-9.e+]+, [0-9.e+]+\] rad/s", lambda: bd.simulate(TOSS, angular_speed=1e308)),
         ("duration", 1e300, r"\(0, [0-9.e+]+\] s", lambda: bd.ensemble(TOSS, members=3, duration=1e300)),
+        ("contact_periods", 0.0, r"\[1e-6, 1000\] .*", lambda: MAP.replace(contact_periods=0.0)),
         ("load_torque", 1e200, r"\[-[0-9.e+]+, [0-9.e+]+\] N m", lambda: MOTOR.replace(load_torque=1e200)),
         # Whole numbers stand without a fraction.
         ("recorded", -1.0, r"\[0, 4294967295\]", lambda: bd.orbit_diagram(axial_forcing=0.5, **STARTS, recorded=-1)),
@@ -263,6 +264,15 @@ def test_words_and_objects_that_are_wrong_are_named() -> None:
     for call, name in ((bd.single_toss, "system"), (bd.stall_load, "motor"), (bd.basins, "impact_map")):
         with pytest.raises(TypeError, match=f"'{name}' must be a"):
             call(wrong)
+
+
+@pytest.mark.parametrize("call", [bd.ImpactMap.period_one, lambda own: bd.manifold(own, ORBIT, arclength=1.0)])
+def test_what_is_the_sines_only_refuses_other_maps(call: Callable[[bd.ImpactMap], Any]) -> None:
+    soft = MAP.replace(contact_periods=0.1)
+    for own, kind in ((OTHER, "drive-not-sine"), (MAP.replace(drive=bd.Drive.triangle()), "drive-not-sine"), (soft, "soft-contact")):
+        with pytest.raises(bd.InvalidError, match="rigid impacts on the sine only") as refused:
+            call(own)
+        assert refused.value.kind == kind
 
 
 def test_computations_without_a_result_say_why() -> None:
@@ -525,6 +535,7 @@ PLACES: list[tuple[str, Callable[[Any], object]]] = [
     ("height.fourier[0][1]", lambda value: bd.Drive.fourier([(1.0, value)])),
     ("angle.pieces[1][0]", lambda value: bd.Drive(angle={"pieces": [(0.5, [1.0]), (value, [1.0])]})),
     ("start_phase", lambda value: bd.Drive(start_phase=value)),
+    ("drive.height.sawtooth", lambda value: MAP.replace(drive={"height": {"sawtooth": value}})),
 ]
 
 #: Calls of pairs and points, whose numbers need not be finite: the library judges them by their range.

@@ -29,23 +29,55 @@ def test_a_sine_by_another_name_is_the_sine() -> None:
 def test_orbits_and_basins_of_parabolas_by_their_pieces() -> None:
     pieces = bd.Drive.pieces([(0.5, (0.0, 8.0, -16.0, 0.0)), (0.5, (0.0, -8.0, 16.0, 0.0))])
     for drive in [bd.Drive.parabolas(), pieces]:
-        found = bd.periodic_orbits(
-            BOUNCING, max_impacts=1, max_platform_periods=1, phases=20, speeds=20, drive=drive
-        )
-        known = [(orbit, 1e-3) for orbit in found if orbit.is_stable]
-        basins = bd.basins(BOUNCING, phases=20, speeds=10, known_orbits=known, drive=drive)
+        own = BOUNCING.replace(drive=drive)
+        found = bd.periodic_orbits(own, max_impacts=1, max_platform_periods=1, phases=20, speeds=20)
+        known = [orbit for orbit in found if orbit.is_stable]
+        basins = bd.basins(own, phases=20, speeds=10, known_orbits=[(orbit, 1e-3) for orbit in known])
         assert len(found) == 2 and len(known) == 1 and 0.0 < basins.share(bd.FIRST_ORBIT) < 1.0
+        assert bd.basins(own, phases=20, speeds=10, known_orbits=known).share(bd.FIRST_ORBIT) > 0.0
+
+
+OTHERS = [
+    BOUNCING.replace(drive=bd.Drive.parabolas()),
+    BOUNCING.replace(contact_periods=0.1),
+    BOUNCING.replace(drive={"height": {"fourier": [[1.0, 0.0], [0.1, 0.3]]}}, contact_periods=0.05),
+]
+
+
+@pytest.mark.parametrize("own", OTHERS, ids=repr)
+def test_a_map_steps_as_its_orbits_do(own: bd.ImpactMap) -> None:
+    diagram = bd.orbit_diagram(
+        axial_forcing=0.36, restitution=0.5, impact_phase=0.1, normalised_speed=1.3, transient=0, recorded=9,
+        drive=own.drive, contact_periods=own.contact_periods,
+    )  # fmt: skip
+    impacts = list(zip(diagram.impact_phase.tolist(), diagram.axial_impact_velocity.tolist(), strict=True))
+
+    def step(phase: float, velocity: float) -> tuple[float, float]:
+        return own.step(impact_phase=phase, axial_impact_velocity=velocity)
+
+    assert [step(*impact) for impact in impacts[:-1]] == impacts[1:]
+    phase, velocity = impacts[0]
+    assert own.iterate(impact_phase=phase, axial_impact_velocity=velocity, impacts=8) == impacts[8]
+    half = 5e-7
+    by_phase = np.subtract(step(phase + half, velocity), step(phase - half, velocity)) / (2.0 * half)
+    by_velocity = np.subtract(step(phase, velocity + half), step(phase, velocity - half)) / (2.0 * half)
+    derivative = own.derivative(impact_phase=phase, axial_impact_velocity=velocity)
+    assert derivative == pytest.approx(np.stack([by_phase, by_velocity], axis=1), rel=1e-6, abs=1e-6)
+    settled = own.settled_orbit(impact_phase=0.1, normalised_speed=1.3)
+    assert settled is not None and settled.is_stable and settled.period == 1
+    assert (own.normalised_speed_bound > settled.normalised_speed[0]) == (own.contact_periods is None)
+    found = bd.periodic_orbits(own, max_impacts=1, max_platform_periods=1, phases=20, speeds=20)
+    assert min(abs(orbit.impact_phase[0] - settled.impact_phase[0]) for orbit in found) < 1e-11
 
 
 def test_a_contact_that_takes_time_moves_the_orbit() -> None:
     orbits = {
         time: bd.periodic_orbits(
-            bd.ImpactMap(axial_forcing=0.45, restitution=0.5),
+            bd.ImpactMap(axial_forcing=0.45, restitution=0.5, contact_periods=time),
             max_impacts=1,
             max_platform_periods=1,
             phases=20,
             speeds=20,
-            contact_periods=time,
         )
         for time in (None, 1e-4, 0.2)
     }
@@ -111,7 +143,9 @@ def test_a_contact_time_changes_tosses_and_motors_and_a_tiny_one_nothing() -> No
         (lambda: bd.Drive.sawtooth(1.0), "rise = 1"),
         (lambda: bd.stall_load(bd.Motor.paper_70_khz(), contact_time=-1.0), "contact_time = -1"),
         (lambda: diagram(bd.Drive(start_phase=1.0)), "start_phase"),
-        (lambda: bd.basins(BOUNCING, known_orbits=[], drive=bd.Drive(start_phase=0.0)), "start_phase"),
+        (lambda: BOUNCING.replace(drive=bd.Drive(start_phase=0.0)), "start_phase"),
+        (lambda: BOUNCING.replace(drive={"height": "triangel"}), "triangle"),
+        (lambda: BOUNCING.replace(drive={"angle": {"sampled": [0.0, 1.0]}}), "samples = 2"),
     ],
 )
 def test_bad_drives_are_refused_by_name(make: Callable[[], object], told: str) -> None:
@@ -159,13 +193,15 @@ def test_noisy_samples_give_a_warning() -> None:
 
 def test_attractors_on_a_drive_have_basins_and_are_not_stored() -> None:
     bouncing = bd.ImpactMap(axial_forcing=0.45, restitution=0.5)
-    found = bd.attractors(bouncing, starts=256, drive=bd.Drive(height="parabolas"))
+    own = bouncing.replace(drive=bd.Drive(height="parabolas"))
+    found = bd.attractors(own, starts=256)
     assert [one.kind for one in found.all] == ["rest", "chaotic"]
     basins = found.basins(phases=20, speeds=10)
+    assert found.impact_map == basins.impact_map == own and found.impact_map.drive == bd.Drive.parabolas()
     assert basins.share(bd.FIRST_ORBIT) > 0.1 and basins.meaning[2] == found.all[1].meaning
     with pytest.raises(TypeError, match="not stored"):
         found.to_json()
     sine = bd.attractors(bouncing, starts=256)
     assert sine != found
-    soft = bd.attractors(bouncing, starts=64, contact_periods=0.05)
+    soft = bd.attractors(bouncing.replace(contact_periods=0.05), starts=64)
     assert any(one.kind == "periodic" for one in soft.all)

@@ -86,6 +86,8 @@ WITH_TABLES: dict[str, Any] = {
     "pieces": bd.Drive.pieces([(0.5, (0.0, 8.0, -16.0)), (0.5, (0.0, -8.0, 16.0))]),
     "sampled": bd.Drive.sampled(np.sin(2.0 * np.pi * np.arange(16) / 16)),
     "start phase": bd.Drive("cubics", start_phase=0.5),
+    "map with drive": MAP.replace(drive={"height": "triangle"}),
+    "map with both": MAP.replace(drive=bd.Drive.fourier([(1.0, 0.0), (0.1, 0.5)]), contact_periods=0.25),
 }
 
 PARAMETERS: list[Any] = [bd.System.motor(), MAP, MOTOR, bd.ChatterCut.paper(), *WITH_TABLES.values()]
@@ -269,6 +271,10 @@ def test_maps_of_either_parameter() -> None:
         other = bd.ImpactMap(peak_acceleration=one.peak_acceleration, restitution=0.5)
         assert other == one and hash(other) == hash(one)
         assert pickle.loads(pickle.dumps(other)) == one
+    # What only turns the platform, and a sine by its name, change no vertical motion; nor is more than the sine stored.
+    assert MAP == MAP.replace(drive=bd.Drive()) == MAP.replace(drive={"angle": "triangle"}) != WITH_TABLES["map with both"]
+    assert repr(MAP) == "ImpactMap(axial_forcing=0.45, restitution=0.5)"
+    assert MAP.to_json() == '{"axial_forcing": 0.45, "restitution": 0.5}'
     with pytest.raises(bd.InvalidError) as refused:
         bd.ImpactMap(restitution=0.5)
     assert refused.value.kind == "neither-given"

@@ -55,8 +55,8 @@ def test_orbits_of_another_motion_are_refused_by_name() -> None:
         lambda: orbit.trapping_radius(other),
         lambda: bd.basins(other, **known),
         lambda: bd.basins(other, **{**known, "known_orbits": [orbit]}),
-        lambda: bd.basins(own, **known, drive=bd.Drive.parabolas()),
-        lambda: bd.basins(own, **known, contact_periods=0.1),
+        lambda: bd.basins(own.replace(drive=bd.Drive.parabolas()), **known),
+        lambda: bd.basins(own.replace(contact_periods=0.1), **known),
         lambda: bd.continued(other, orbit, parameter_range=(0.3, 0.4)),
         lambda: bd.manifold(other, saddle_of(own), arclength=1.0),
     ]
@@ -381,21 +381,19 @@ def test_a_cascade_that_ends_has_the_doublings_before() -> None:
 
 def test_branches_and_doublings_on_a_drive_and_with_a_compliant_contact() -> None:
     parabolas = bd.Drive(height="parabolas")
-    bouncing = bd.ImpactMap(axial_forcing=0.35, restitution=0.5)
-    orbits = bd.periodic_orbits(bouncing, max_impacts=1, max_platform_periods=1, drive=parabolas)
+    bouncing = bd.ImpactMap(axial_forcing=0.35, restitution=0.5, drive=parabolas)
+    orbits = bd.periodic_orbits(bouncing, max_impacts=1, max_platform_periods=1)
     orbit = next(orbit for orbit in orbits if orbit.is_stable)
     again = bouncing.refine(
-        drive=parabolas,
-        impact_phase=orbit.impact_phase + 1e-3,
-        axial_impact_velocity=orbit.axial_impact_velocity,
+        impact_phase=orbit.impact_phase + 1e-3, axial_impact_velocity=orbit.axial_impact_velocity
     )
     assert again.impact_phase == pytest.approx(orbit.impact_phase, abs=1e-13)
-    assert 0 < orbit.trapping_radius(bouncing, drive=parabolas) < 1
-    up = bd.continued(bouncing, orbit, drive=parabolas, parameter_range=(0.2, 0.5))
+    assert 0 < orbit.trapping_radius(bouncing) < 1
+    up = bd.continued(bouncing, orbit, parameter_range=(0.2, 0.5))
     # By hand: the doubling, and the corner at which the branch turns.
     by_hand = np.pi * 1.25 / 9
     assert up.parameter == "axial_forcing" and up.bifurcations[0].parameter == pytest.approx(by_hand, abs=1e-13)
-    down = bd.continued(bouncing, orbit, drive=parabolas, parameter_range=(0.2, 0.5), rising=False)
+    down = bd.continued(bouncing, orbit, parameter_range=(0.2, 0.5), rising=False)
     corner = down.bifurcations[0]
     assert (corner.kind, corner.impact) == ("border-collision", 0)
     assert corner.parameter == pytest.approx(np.pi / 12, abs=1e-12)
@@ -405,25 +403,14 @@ def test_branches_and_doublings_on_a_drive_and_with_a_compliant_contact() -> Non
     assert first.axial_forcing[0] == pytest.approx(by_hand, abs=first.forcing_error[0])
 
     # A member of two families: over the second harmonic, and over the contact time.
-    sum_of_two = bd.Drive(height={"fourier": [[1.0, 0.0], [0.1, 0.3]]})
-    orbits = bd.periodic_orbits(
-        bouncing, max_impacts=1, max_platform_periods=1, drive=sum_of_two, contact_periods=0.05
-    )
+    bouncing = bouncing.replace(drive={"height": {"fourier": [[1.0, 0.0], [0.1, 0.3]]}}, contact_periods=0.05)
+    orbits = bd.periodic_orbits(bouncing, max_impacts=1, max_platform_periods=1)
     orbit = next(orbit for orbit in orbits if orbit.is_stable and orbit.normalised_speed[0] > 1)
     for parameter, now in [("fourier[1][0]", 0.1), ("fourier[1][1]", 0.3), ("contact_periods", 0.05), ("restitution", 0.5)]:
-        branch = bd.continued(
-            bouncing,
-            orbit,
-            parameter=parameter,
-            parameter_range=(now - 0.04, now + 0.04),
-            drive=sum_of_two,
-            contact_periods=0.05,
-        )
+        branch = bd.continued(bouncing, orbit, parameter=parameter, parameter_range=(now - 0.04, now + 0.04))
         assert branch.values[0] == now and branch.parameter == parameter and len(branch) > 1
         assert branch.orbit(0).period == 1
     for parameter in ["fourier[2][0]", "fourier[1]", "sawtooth", "", "fourier[1", "fourier[x][0]"]:
         with pytest.raises(bd.InvalidError) as refused:
-            bd.continued(
-                bouncing, orbit, parameter=parameter, parameter_range=(0, 1), drive=sum_of_two, contact_periods=0.05
-            )
+            bd.continued(bouncing, orbit, parameter=parameter, parameter_range=(0, 1))
         assert refused.value.kind == "no-such-number"

@@ -11,7 +11,7 @@ import numpy as np
 from bouncing_disk import _native as native
 from bouncing_disk._base import *
 from bouncing_disk._orbits import ImpactMap, PeriodicOrbit
-from bouncing_disk._system import ChatterCut, Drive
+from bouncing_disk._system import ChatterCut
 
 __all__ = [
     "ATTACHED",
@@ -117,7 +117,7 @@ class Basins(Result):
 class Attractors(Stored):
     """The attractors of an impact map: the disk at rest, and all others that were found.
 
-    Made by :func:`attractors`. Those on a drive, or with a contact that takes time, cannot be stored.
+    Made by :func:`attractors`. Those of a map with a drive or a contact time cannot be stored.
 
     Attributes:
         impact_map: the map.
@@ -161,8 +161,6 @@ def attractors(
     longest_period: Int = 256,
     cells: Int = 256,
     budget: Int = 2**28,
-    drive: Drive | None = None,
-    contact_periods: Float | None = None,
     progress: Progress = None,
 ) -> Attractors:
     """The attractors of a map, found without known orbits.
@@ -175,15 +173,13 @@ def attractors(
         cells: cells along each axis of the grid that distinguishes aperiodic motions, in [8, 4096].
         budget: approximate limit on the impacts of the whole search, in [256 a start, 2^50]; starts that are
             still under way when it is used up are undecided. On a drive an impact counts as 32.
-        drive: how the platform moves; ``None`` for the sine.
-        contact_periods: as of :func:`orbit_diagram`.
 
     >>> import bouncing_disk as bd
     >>> found = bd.attractors(bd.ImpactMap(axial_forcing=0.486, restitution=0.5))
     >>> [attractor.orbit.period for attractor in found.all if attractor.orbit is not None]
     [1, 4]
-    >>> parabolas = bd.Drive(height="parabolas")
-    >>> [one.kind for one in bd.attractors(bd.ImpactMap(axial_forcing=0.4, restitution=0.5), drive=parabolas).all]
+    >>> on_parabolas = bd.ImpactMap(axial_forcing=0.4, restitution=0.5, drive=bd.Drive.parabolas())
+    >>> [one.kind for one in bd.attractors(on_parabolas).all]
     ['rest', 'periodic']
     """
     return native.attractors(locals())
@@ -198,8 +194,6 @@ def basins(
     speed_range: Pair = (0.0, 3.0),
     known_orbits: Iterable[PeriodicOrbit | tuple[PeriodicOrbit, Float]] | None = None,
     max_impacts: Int = 2000,
-    drive: Drive | None = None,
-    contact_periods: Float | None = None,
     chatter: ChatterCut | None = None,
     progress: Progress = None,
 ) -> Basins:
@@ -212,17 +206,14 @@ def basins(
         phase_range: lowest and highest impact phase, in periods.
         speeds: cells along the normalised impact speed, up to 100000.
         speed_range: lowest and highest normalised speed.
-        known_orbits: attracting orbits of this motion, at most 250, each a :class:`PeriodicOrbit` or a pair of one and the
+        known_orbits: attracting orbits of this map, at most 250, each a :class:`PeriodicOrbit` or a pair of one and the
             radius (rad) within which a start counts as caught; without a radius it is the
             :meth:`PeriodicOrbit.trapping_radius`.
         max_impacts: impacts after which a start is left undecided.
-        drive: how the platform moves; ``None`` for the sine. On another drive, and with a contact time, each orbit
-            needs a radius.
-        contact_periods: as of :func:`orbit_diagram`.
         chatter: how a chatter ends; ``None`` sums it.
 
     Raises:
-        InvalidError: ``"not-an-orbit"`` for an orbit of another map, drive or contact.
+        InvalidError: ``"not-an-orbit"`` for an orbit of another map.
 
     >>> import bouncing_disk as bd
     >>> bouncing = bd.ImpactMap(axial_forcing=0.34, restitution=0.5)

@@ -31,6 +31,7 @@ __all__ = [
     "Result",
     "Stored",
     "Table",
+    "hashable",
     "readable",
     "set_threads",
     "threads",
@@ -75,7 +76,7 @@ class Parameters:
     __delattr__ = __setattr__  # type: ignore[assignment]
 
     def _key(self) -> object:
-        return _hashable(self._given)
+        return hashable(self._given)
 
     def __eq__(self, other: object) -> bool:
         return self._key() == other._key() if isinstance(other, type(self)) else NotImplemented
@@ -101,8 +102,9 @@ class Parameters:
         return _of(type(self), {**self._given, **changes})
 
     def to_dict(self) -> dict[str, Any]:
-        """The arguments of the constructor that were given."""
-        return deepcopy(self._given)
+        """The arguments of the constructor that were given, the drive of a map as a dictionary."""
+        given = deepcopy(self._given)
+        return {name: own.to_dict() if isinstance(own, Parameters) else own for name, own in given.items()}
 
     @classmethod
     def from_dict(cls: type[Own], parameters: dict[str, Any]) -> Own:
@@ -145,11 +147,11 @@ def readable(text: str) -> str:
     return text
 
 
-def _hashable(value: Any) -> object:
+def hashable(value: Any) -> object:
     """A number or a text, and tables and lists of such as tuples."""
     if isinstance(value, dict):
-        return tuple((name, _hashable(own)) for name, own in value.items())
-    return tuple(map(_hashable, value)) if isinstance(value, list) else value
+        return tuple((name, hashable(own)) for name, own in value.items())
+    return tuple(map(hashable, value)) if isinstance(value, list) else value
 
 
 def _of(cls: Any, arguments: dict[str, Any]) -> Any:
@@ -280,6 +282,8 @@ class Stored(Result):
 
     def to_json(self) -> str:
         """The result as JSON, as the Rust library stores it."""
+        if not hasattr(self._native, "to_json"):
+            raise TypeError(f"{type(self).__name__} of a map with a drive or a contact time is not stored")
         return self._native.to_json()
 
     @classmethod

@@ -108,8 +108,7 @@ def orbit_diagram(
         transient: impacts of each orbit that are not recorded.
         recorded: impacts of each orbit that are; fewer if the disk rests for ever.
         drive: how the platform moves; ``None`` for the sine.
-        contact_periods: how long an isolated impact lasts, in periods, in [1e-6, 1000]; ``None`` for rigid ones.
-            Where the disk is released at the speed v, the impact that would rebound so is recorded.
+        contact_periods: how long an isolated impact lasts, as of :class:`ImpactMap`; ``None`` for rigid ones.
         chatter: how a chatter ends; ``None`` sums it.
 
     >>> import bouncing_disk as bd
@@ -364,7 +363,7 @@ def manifold(
     launch_speed: Float | None = None,
     progress: Progress = None,
 ) -> Manifold:
-    """The stable or the unstable manifold of a saddle, grown from it piece by piece.
+    """The stable or the unstable manifold of a saddle, grown from it piece by piece. For rigid impacts on the sine only.
 
     Lengths are those of the plane of impact phase (rad) and impact velocity in units of 1 + P, with the peak
     acceleration P.

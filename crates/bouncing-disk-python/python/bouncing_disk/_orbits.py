@@ -26,15 +26,25 @@ class ImpactMap(Parameters):
 
     An impact is its phase (rad) and the velocity of the disk relative to the platform just before
     (``axial_impact_velocity``, not positive, in units of g/omega); the paper's normalised impact speed is
-    that over -pi.
+    that over -pi. With a contact time an impact is a release: one at the speed v counts as the impact that would
+    rebound with v.
+
+    Functions use the drive and the contact time of the map. Those for rigid impacts on the sine only
+    (:meth:`period_one`, :func:`manifold`) raise :class:`InvalidError` on other maps, of the kind ``"drive-not-sine"``
+    or ``"soft-contact"``.
 
     Args:
         axial_forcing: axial forcing parameter Gamma = A omega^2/(pi g). This one or the next is needed.
-        peak_acceleration: peak acceleration A omega^2/g of the platform.
+        peak_acceleration: peak acceleration A omega^2/g of the platform (with a drive, of the sine with its amplitude).
         restitution: coefficient of restitution, in [0, 1).
+        drive: how the platform moves, a :class:`Drive` or its dictionary; ``None`` for the sine. Only the height
+            counts: a drive with the sine's height is not kept unless there is a contact time.
+        contact_periods: how long an isolated impact lasts, in periods of the platform, in [1e-6, 1000]; ``None`` for
+            rigid impacts. Only on the sine and on Fourier sums.
 
     Attributes:
-        normalised_speed_bound: the largest normalised impact speed of every attractor and periodic orbit.
+        normalised_speed_bound: the largest normalised impact speed of every attractor and periodic orbit; NaN with a
+            contact time, for which no bound is known.
 
     >>> import bouncing_disk as bd
     >>> bouncing = bd.ImpactMap(axial_forcing=0.45, restitution=0.5)
@@ -42,11 +52,16 @@ class ImpactMap(Parameters):
     >>> after, _ = bouncing.step(impact_phase=phase, axial_impact_velocity=velocity)
     >>> abs(after - phase) < 1e-15
     True
+    >>> parabolas = bouncing.replace(drive=bd.Drive.parabolas())
+    >>> [round(number, 6) for number in parabolas.step(impact_phase=1.0, axial_impact_velocity=-4.0)]
+    [0.293359, -4.386295]
     """
 
     axial_forcing: float
     peak_acceleration: float
     restitution: float
+    drive: Drive | None
+    contact_periods: float | None
     normalised_speed_bound: float
 
     def __init__(
@@ -55,12 +70,17 @@ class ImpactMap(Parameters):
         axial_forcing: Float | None = None,
         peak_acceleration: Float | None = None,
         restitution: Float,
+        drive: Drive | Table | None = None,
+        contact_periods: Float | None = None,
     ) -> None:
-        self.__dict__["_native"] = native.impact_map(axial_forcing, peak_acceleration, restitution)
+        self.__dict__["_native"] = native.impact_map(
+            axial_forcing, peak_acceleration, restitution, drive, contact_periods
+        )
 
     def _key(self) -> object:
         # Two maps are equal that compute the same, whichever forcing was given.
-        return self.peak_acceleration, self.restitution
+        height = "sine" if self.drive is None else hashable(self.drive.height)
+        return self.peak_acceleration, self.restitution, height, self.contact_periods
 
     @staticmethod
     def of_system(system: System) -> ImpactMap:
@@ -81,9 +101,7 @@ class ImpactMap(Parameters):
         """
         # The next call is that of the compiled method itself, here and below, so that loops pay for one call alone.
         self.__dict__["step"] = self._native.step
-        return self._native.step(
-            impact_phase=impact_phase, axial_impact_velocity=axial_impact_velocity
-        )
+        return self._native.step(impact_phase=impact_phase, axial_impact_velocity=axial_impact_velocity)
 
     def iterate(
         self, *, impact_phase: Float, axial_impact_velocity: Float, impacts: Int, progress: Progress = None
@@ -106,15 +124,17 @@ class ImpactMap(Parameters):
             impact_phase, axial_impact_velocity: as of :meth:`step`.
 
         Returns:
-            Rows: next phase and velocity; columns: by this phase and velocity (rad, units of g/omega).
+            Rows: next phase and velocity; columns: by this phase and velocity (rad, units of g/omega), shape (2, 2).
+
+        Raises:
+            ComputationError: ``"impact-on-kink"`` if either impact is on a kink of the platform.
         """
         self.__dict__["derivative"] = self._native.derivative
-        return self._native.derivative(
-            impact_phase=impact_phase, axial_impact_velocity=axial_impact_velocity
-        )
+        return self._native.derivative(impact_phase=impact_phase, axial_impact_velocity=axial_impact_velocity)
 
     def period_one(self, *, platform_periods: Int = 1) -> tuple[float, float] | None:
-        """The orbit with one impact every `platform_periods` periods of the platform, in closed form.
+        """The orbit with one impact every `platform_periods` periods of the platform, in closed form. For rigid impacts on the sine
+        only.
 
         Args:
             platform_periods: at least 1.
@@ -130,16 +150,12 @@ class ImpactMap(Parameters):
         *,
         impact_phase: ArrayLike,
         axial_impact_velocity: ArrayLike,
-        drive: Drive | None = None,
-        contact_periods: Float | None = None,
     ) -> PeriodicOrbit:
         """The periodic orbit next to a guess, stable or not, by Newton's method on all impacts.
 
         Args:
             impact_phase: phases of the impacts of one period (rad), in their order, shape (n,).
             axial_impact_velocity: their relative velocities, not positive, in units of g/omega, shape (n,).
-            drive: how the platform moves; ``None`` for the sine.
-            contact_periods: as of :func:`orbit_diagram`.
         """
         return native.refine(locals())
 
@@ -204,8 +220,6 @@ class PeriodicOrbit(Stored):
         impact_map: ImpactMap,
         *,
         samples: Int = 64,
-        drive: Drive | None = None,
-        contact_periods: Float | None = None,
         progress: Progress = None,
     ) -> float:
         """The radius within which a start counts as caught by this orbit: the proven one, or a larger one that samples
@@ -214,7 +228,6 @@ class PeriodicOrbit(Stored):
         Args:
             impact_map: the map that it is an orbit of.
             samples: starts on each circle that is tried.
-            drive, contact_periods: the platform and the contact, as of :func:`orbit_diagram`.
 
         Returns:
             In radians (a radian counts as much as the peak velocity of the platform).
@@ -234,22 +247,18 @@ def periodic_orbits(
     max_platform_periods: Int,
     phases: Int = 96,
     speeds: Int = 96,
-    drive: Drive | None = None,
-    contact_periods: Float | None = None,
     progress: Progress = None,
 ) -> list[PeriodicOrbit]:
     """The periodic orbits of few impacts, stable and unstable.
 
     Those of one impact come from a closed form and are complete, except with a contact time. All others are
-    found from a grid of starts, which cannot prove that the list is complete.
+    found from a grid of starts, which cannot prove that the list is complete. On a drive, orbits with an impact on a
+    kink are left out: they have no multipliers.
 
     Args:
         max_impacts: the most impacts of an orbit, in [1, 64].
         max_platform_periods: the most periods of the platform that it takes, in [1, 10000].
         phases, speeds: starts along each axis, in [2, 4096].
-        drive: how the platform moves; ``None`` for the sine. Orbits with an impact on a kink are left out: they
-            have no multipliers.
-        contact_periods: as of :func:`orbit_diagram`.
 
     Returns:
         By rising number of impacts, then of platform periods, then by falling speed of the fastest impact,
@@ -357,23 +366,21 @@ def continued(
     first_step: Float = 0.01,
     largest_step: Float = 0.05,
     max_points: Int = 10_000,
-    drive: Drive | None = None,
-    contact_periods: Float | None = None,
     progress: Progress = None,
 ) -> Branch:
     """The branch of periodic orbits through one of them, through folds and along unstable parts.
 
+    With a contact time the end of a branch is known to 1e-6.
+
     Args:
         orbit: an orbit of this map.
-        parameter: the parameter to vary: ``"axial_forcing"`` or ``"restitution"``; with a drive or a contact time also
-            ``"contact_periods"`` and each number of the drive's height by its place, as ``"fourier[1][0]"`` for the
-            amplitude of the second harmonic or ``"sawtooth"``.
+        parameter: the parameter to vary: ``"axial_forcing"`` or ``"restitution"``; on a map with a drive or a contact
+            time also ``"contact_periods"`` and each number of the drive's height by its place, as ``"fourier[1][0]"``
+            for the amplitude of the second harmonic or ``"sawtooth"``.
         parameter_range: its lowest and highest value.
         rising: whether it goes towards higher values at first.
         first_step, largest_step: arclength of the first and of the largest step, in [1e-9, 1].
         max_points: the most orbits, in [2, 1000000].
-        drive: how the platform moves; ``None`` for the sine.
-        contact_periods: as of :func:`orbit_diagram`. Where a branch ends there is known to 1e-6.
 
     Raises:
         InvalidError: ``"not-an-orbit"`` for an orbit of another map; ``"no-such-number"`` for a parameter that the
