@@ -119,7 +119,7 @@ pub trait BouncingMap: Clone + core::fmt::Debug + Send + Sync {
     /// The items of `observer` are the impacts before the refinement.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for `longest` or `tolerance`; those of a flight and of [`Self::refine`].
+    /// [`Error::OutOfRange`] for `longest` or `tolerance`; the errors of a flight and of [`Self::refine`].
     fn settled_orbit(
         &self,
         mut state: ImpactState,
