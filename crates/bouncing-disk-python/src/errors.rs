@@ -1,7 +1,5 @@
 //! From the errors of the library to the exceptions of `bouncing_disk._errors`, with all their numbers.
 
-use std::fmt::Debug;
-
 use bouncing_disk::Error;
 use bouncing_disk::core::Error as CoreError;
 use bouncing_disk::estimate::{FitError, MeasuredSpeedsError};
@@ -11,6 +9,8 @@ use pyo3::exceptions::{PyOSError, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{IntoPyDict, PyDict, PyMapping};
+use pythonize::pythonize;
+use serde::Serialize;
 
 /// The exception of a class of the module of errors.
 fn raise<'py>(py: Python<'py>, class: &str, arguments: impl PyCallArgs<'py>) -> PyErr {
@@ -49,45 +49,17 @@ const INVALID: [&str; 23] = [
     "load-in-time",
 ];
 
-/// The kind of an error, which is the library's name of it in small letters, and the numbers that it carries: as
-/// they stand in its `Debug`, such as `NoLiftOff { phase: 1.5, peak_acceleration: 0.9 }`.
-fn kind_and_details<'py>(py: Python<'py>, error: &dyn Debug) -> PyResult<(String, Bound<'py, PyDict>)> {
-    let text = format!("{error:?}");
-    let (name, fields) = text.split_once(" { ").unwrap_or((&text, ""));
-    let mut kind = String::new();
-    for letter in name.chars() {
-        if letter.is_uppercase() && !kind.is_empty() {
-            kind.push('-');
-        }
-        kind.extend(letter.to_lowercase());
-    }
-    let (details, mut start, mut depth, mut is_quoted) = (PyDict::new(py), 0, 0, false);
-    let fields = fields.strip_suffix(" }").unwrap_or(fields);
-    for (place, letter) in fields.char_indices().chain([(fields.len(), ',')]) {
-        match letter {
-            '"' => is_quoted = !is_quoted,
-            '(' | '{' | '[' => depth += 1,
-            ')' | '}' | ']' => depth -= 1,
-            ',' if depth == 0 && !is_quoted => {
-                if let Some((name, value)) = fields[start..place].trim().split_once(": ") {
-                    if let Ok(count) = value.parse::<u64>() {
-                        details.set_item(name, count)?;
-                    } else if let Ok(number) = value.parse::<f64>() {
-                        details.set_item(name, number)?;
-                    } else {
-                        details.set_item(name, value.trim_matches('"'))?;
-                    }
-                }
-                start = place + 1;
-            }
-            _ => {}
-        }
-    }
+/// The kind of an error, which is the library's name of it in small letters, and the numbers that it carries.
+fn kind_and_details<'py>(py: Python<'py>, error: &impl Serialize) -> PyResult<(String, Bound<'py, PyDict>)> {
+    let given = pythonize(py, error)?;
+    // Without numbers it is the kind alone.
+    let Ok(given) = given.cast::<PyDict>() else { return Ok((given.extract()?, PyDict::new(py))) };
+    let (kind, details) = given.items().get_item(0)?.extract()?;
     Ok((kind, details))
 }
 
 /// The exception of an error by its kind.
-pub(crate) fn of_kind(py: Python<'_>, message: String, error: &dyn Debug) -> PyErr {
+pub(crate) fn of_kind(py: Python<'_>, message: String, error: &impl Serialize) -> PyErr {
     match kind_and_details(py, error) {
         Ok((kind, details)) => {
             let is_invalid = INVALID.contains(&kind.as_str());

@@ -13,6 +13,12 @@ import pytest
 from good_calls import MOTOR
 
 
+def test_a_setting_that_is_none_is_refused() -> None:
+    misspelt: dict[str, Any] = {"relative_eror": 0.1}
+    with pytest.raises(TypeError, match="unexpected keyword argument 'relative_eror'"):
+        bd.stall_load(MOTOR, **misspelt)
+
+
 def test_a_data_sheet_is_its_system() -> None:
     system = bd.System.motor()
     assert MOTOR.system == system

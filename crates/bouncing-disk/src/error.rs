@@ -5,6 +5,8 @@
 /// The texts print numbers with all their digits, and very small or large ones in scientific notation; whole
 /// ones of a range, such as counts, without a fraction.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 #[non_exhaustive]
 pub enum Error {
     /// A parameter or an argument lies outside its legal range.

@@ -194,6 +194,8 @@ pub enum NoTangency {
 
 /// Why no crisis was found, with the observation instead.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 #[non_exhaustive]
 pub enum NoCrisis {
     /// The periodic orbit that would lead to the attractor is not yet born.

@@ -5,11 +5,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, TypedDict
 
 from bouncing_disk import _native as native
 from bouncing_disk._base import *
 from bouncing_disk._system import Drive, System
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 __all__ = [
     "Best",
@@ -21,6 +24,7 @@ __all__ = [
     "MotorReport",
     "NearestTrap",
     "OperatingPoints",
+    "OperatingSettings",
     "StallLoad",
     "TorqueSpeedCurve",
     "best",
@@ -250,6 +254,25 @@ class Motor(Parameters):
         return Motor._holding(native.known_motor("json", readable(json)))
 
 
+class OperatingSettings(TypedDict, total=False):
+    """How a steady operation is computed: keywords of all functions that run a motor.
+
+    Args:
+        relative_error: requested standard error of the mean speed, relative to the larger of the speed without load and itself,
+            in [1e-6, 0.5]; 0.01 unless given.
+        members: vertical motions to average over, in [4, 4096]; 16 unless given.
+        most_impacts: most impacts of all members together, in [1, 1e15]; 20 million unless given.
+        relaunch_perturbation: size of the relaunch perturbation in units of g/omega, in (0, 1]; 0.001 unless given.
+        seed: seed of the perturbations; 1 unless given.
+    """
+
+    relative_error: Float
+    members: Int
+    most_impacts: Int
+    relaunch_perturbation: Float
+    seed: Int
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class OperatingPoints(Result):
     """How motors run under their loads: arrays of one shape.
@@ -354,28 +377,19 @@ def torque_speed_curve(
     motor: Motor,
     *,
     load_torques: ArrayLike,
-    relative_error: Float = 0.01,
-    members: Int = 16,
-    most_impacts: Int = 20_000_000,
-    relaunch_perturbation: Float = 0.001,
-    seed: Int = 1,
     drive: Drive | None = None,
     contact_time: Float | None = None,
     progress: Progress = None,
+    **settings: Unpack[OperatingSettings],
 ) -> TorqueSpeedCurve:
     """Speed, power and efficiency of a motor against its load.
 
     Args:
         load_torques: load torques (N m) in place of that of the data sheet, and on top of its ``load``, shape (n,).
-        relative_error: requested standard error of the mean speed, relative to the larger of the speed without load and itself,
-            in [1e-6, 0.5].
-        members: vertical motions to average over, in [4, 4096].
-        most_impacts: most impacts of all members together, in [1, 1e15].
-        relaunch_perturbation: size of the relaunch perturbation in units of g/omega, in (0, 1].
-        seed: seed of the perturbations.
         drive: how the stator moves, in place of the drive of the data sheet; the sine is the only one of a stator that
             yields.
         contact_time: how long an impact lasts (s), positive; ``None`` for rigid impacts.
+        settings: those of :class:`OperatingSettings`, as keywords.
     """
     return native.torque_speed_curve(locals())
 
@@ -412,19 +426,15 @@ class StallLoad:
 def stall_load(
     motor: Motor,
     *,
-    relative_error: Float = 0.01,
-    members: Int = 16,
-    most_impacts: Int = 20_000_000,
-    relaunch_perturbation: Float = 0.001,
-    seed: Int = 1,
     contact_time: Float | None = None,
     progress: Progress = None,
+    **settings: Unpack[OperatingSettings],
 ) -> StallLoad:
     """The load at which a motor stops.
 
     Args:
-        relative_error, members, most_impacts, relaunch_perturbation, seed, contact_time: as of
-            :func:`torque_speed_curve`.
+        contact_time: as of :func:`torque_speed_curve`.
+        settings: those of :class:`OperatingSettings`, as keywords.
     """
     return native.stall_load(locals())
 
@@ -462,12 +472,8 @@ def input_spreads(
     tolerance: Float = 0.01,
     perturbation_decades: Float = 1.0,
     draws: Int = 39,
-    relative_error: Float = 0.01,
-    members: Int = 16,
-    most_impacts: Int = 20_000_000,
-    relaunch_perturbation: Float = 0.001,
-    seed: Int = 1,
     progress: Progress = None,
+    **settings: Unpack[OperatingSettings],
 ) -> list[InputSpread | None]:
     """The spread of the speeds or the stall load of a motor over the tolerances of its inputs.
 
@@ -479,7 +485,7 @@ def input_spreads(
         tolerance: relative tolerance of preload and amplitude, in [0, 0.5].
         perturbation_decades: decades over which the size of the relaunch perturbation is drawn, in [0, 6].
         draws: motors that are drawn, in [8, 10000].
-        relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`torque_speed_curve`.
+        settings: those of :class:`OperatingSettings`, as keywords.
 
     Returns:
         One for each load, or that of the stall load alone; None where fewer than four draws have a speed.
@@ -520,12 +526,8 @@ def best(
     *,
     over: Mapping[str, ArrayLike],
     where: Sequence[str] = (),
-    relative_error: Float = 0.01,
-    members: Int = 16,
-    most_impacts: Int = 20_000_000,
-    relaunch_perturbation: Float = 0.001,
-    seed: Int = 1,
     progress: Progress = None,
+    **settings: Unpack[OperatingSettings],
 ) -> Best:
     """The best speed, torque, power or efficiency over one or two fields of the data sheet.
 
@@ -537,7 +539,7 @@ def best(
         over: one or two arguments of :class:`Motor`, each with its least and its largest value (SI). A ``phase_lag`` over a
             whole turn has no ends.
         where: bounds on quantities of the same operation, at most two: ``"speed >= 5"``.
-        relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`torque_speed_curve`.
+        settings: those of :class:`OperatingSettings`, as keywords.
 
     >>> import bouncing_disk as bd
     >>> found = bd.best(bd.Motor.paper_70_khz(), "speed", over={"phase_lag": (-1.0, 1.0)}, relative_error=0.05)
@@ -572,12 +574,8 @@ def motor_map(
     *,
     axes: Mapping[str, ArrayLike],
     continued: bool = False,
-    relative_error: Float = 0.01,
-    members: Int = 16,
-    most_impacts: Int = 20_000_000,
-    relaunch_perturbation: Float = 0.001,
-    seed: Int = 1,
     progress: Progress = None,
+    **settings: Unpack[OperatingSettings],
 ) -> MotorMap:
     """Speed, power and efficiency of a motor over one or two parameters of its data sheet.
 
@@ -594,7 +592,7 @@ def motor_map(
             the rotor begins anew. All other fields of the sheet are held: over ``drive_frequency`` its volts, its force or
             its amplitude without a rotor, the preload and the phase lag. Where members are in several states, their mean
             is that of none.
-        relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`torque_speed_curve`.
+        settings: those of :class:`OperatingSettings`, as keywords.
 
     >>> import bouncing_disk as bd
     >>> motor = bd.Motor(drive_frequency=70e3, amplitude=1e-8, peak_angular_speed=30.0, mass=1e-3,
@@ -736,12 +734,8 @@ def local_sensitivities(
     quantity: Literal["steady-speed", "stall-torque"] = "steady-speed",
     half_range: Float = 0.2,
     points: Int = 24,
-    relative_error: Float = 0.01,
-    members: Int = 16,
-    most_impacts: Int = 20_000_000,
-    relaunch_perturbation: Float = 0.001,
-    seed: Int = 1,
     progress: Progress = None,
+    **settings: Unpack[OperatingSettings],
 ) -> LocalSensitivities:
     """How the steady speed or the stall torque of a motor depends on its parameters next to its data sheet.
 
@@ -753,7 +747,7 @@ def local_sensitivities(
         half_range: half the range, in the logarithm of a parameter of the vertical motion, over which motors
             are drawn, in (0, 2].
         points: motors that are drawn over it, in [5, 10000].
-        relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`torque_speed_curve`.
+        settings: those of :class:`OperatingSettings`, as keywords.
 
     >>> import bouncing_disk as bd
     >>> motor = bd.Motor(drive_frequency=70e3, amplitude=1e-8, peak_angular_speed=30.0, mass=1e-3,
