@@ -15,7 +15,7 @@ use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::orbits::OrbitSearch;
 use bouncing_disk_core::sweep::{orbit_diagram, survival_times};
 use bouncing_disk_core::{
-    BouncingMap as _, ChatterPolicy, Error, ImpactMap, ImpactState, Unobserved, Vibration,
+    BouncingMap as _, ChatterPolicy, Error, ImpactMap, ImpactState, Phase, Unobserved, Vibration,
 };
 use bouncing_disk_drives::{Drive, DrivenMap};
 
@@ -432,6 +432,20 @@ fn verdicts_on_smooth_shapes_are_those_of_a_march() {
 
 /// Half of them sums, half cubics.
 const SMOOTH_MAPS: u32 = 24;
+
+/// An orbit that wanders comes nearer to periodic ones by chance, and ends on none of these.
+#[test]
+fn orbits_that_wander_are_on_their_way_to_none() {
+    for (a, r, phase, velocity) in [
+        (0.220_123_688_145_340_72, 1.0 - 2e-3, 3.763_669_019_056_795_4, -1.805_291_612_313_229),
+        (0.028_071_521_921_365_87, 1.0 - 1e-3, 2.712_156_061_444_463_5, -1.709_974_626_307_158_7),
+    ] {
+        let (map, phase) = (driven(Drive::triangle(a).unwrap(), r), Phase::new(phase).unwrap());
+        let settings = VerdictSettings { transient: 500, impacts: 4_000, ..VerdictSettings::default() };
+        let verdict = map.verdict(ImpactState::new(phase, velocity).unwrap(), settings).unwrap();
+        assert!(matches!(verdict, Verdict::Undecided { .. }), "{verdict:?}");
+    }
+}
 
 /// The general code on the sine as a sum, against the sine's own.
 #[test]

@@ -19,6 +19,12 @@ const ROUNDING_DISTANCE: f64 = 1.0e-11;
 /// Most impacts over which an orbit must come nearer.
 const MOST_CONFIRMING: u64 = 8_192;
 
+/// An orbit that is farther from a periodic one than this may come nearer by chance: it wanders, or goes round it.
+const NEAR: f64 = 1.0e-2;
+
+/// By what factor an orbit that was farther may go away again while it comes nearer.
+const MOST_DETOUR: f64 = 10.0;
+
 /// How near an orbit must stay to a neutral one that it was on (rad).
 const STAYS_WITHIN: f64 = 2.0e-6;
 
@@ -92,19 +98,37 @@ fn prime(map: &impl BouncingMap, orbit: PeriodicOrbit) -> PeriodicOrbit {
 
 /// Whether the orbit from `state` comes nearer to the periodic one, after whole periods of it: by at least
 /// half of the decrease that the multipliers predict, within about twice the time in which they shrink a
-/// distance to a third, or within [`MOST_CONFIRMING`] impacts if these are fewer.
-fn comes_nearer(map: &impl BouncingMap, orbit: &PeriodicOrbit, state: ImpactState, from: f64) -> bool {
+/// distance to a third, or within [`MOST_CONFIRMING`] impacts if these are fewer. One that is far away must come
+/// [near](NEAR) first, and then not go away again.
+fn comes_nearer(
+    map: &impl BouncingMap,
+    orbit: &PeriodicOrbit,
+    mut state: ImpactState,
+    mut from: f64,
+) -> bool {
+    let period = orbit.period() as u64;
+    let most_rounds = (MOST_CONFIRMING / period).max(1);
+    let farthest = if from > NEAR { MOST_DETOUR * NEAR } else { f64::INFINITY };
+    for _ in 0..most_rounds {
+        if from <= NEAR {
+            break;
+        }
+        let Ok(next) = map.steps(state, period) else { return false };
+        (state, from) = (next, orbit.distance(next, map.speed_scale()));
+    }
+    if from > NEAR {
+        return false;
+    }
     if from <= ROUNDING_DISTANCE {
         return true;
     }
-    let period = orbit.period() as u64;
     let radius = orbit.multipliers().spectral_radius();
     let periods = 2.0 / (1.0 - radius) + 2.0;
-    let rounds = (MOST_CONFIRMING / period).max(1).min(periods as u64);
+    let rounds = most_rounds.min(periods as u64);
     let promised = if radius > 0.0 { exp(rounds as f64 * ln(radius)) } else { 0.0 };
     let near = 0.5 * (1.0 + promised) * from;
-    let mut distances = distances(map, orbit, state).take(rounds as usize);
-    distances.any(|distance| distance.is_some_and(|distance| distance <= near))
+    let distances = distances(map, orbit, state).take(rounds as usize);
+    distances.map_while(|distance| distance.filter(|own| *own <= farthest)).any(|own| own <= near)
 }
 
 /// Whether the orbit from `state` stays so near to the periodic one over the most impacts of a proof.
