@@ -5,7 +5,7 @@ use super::VerdictSettings;
 use crate::map::impact_map::ImpactState;
 use crate::numerics::elementary::{exp, ln};
 use crate::orbits::periodic::newton::repetitions;
-use crate::orbits::periodic::{PeriodicOrbit, Stability};
+use crate::orbits::periodic::{Multipliers, PeriodicOrbit, Stability};
 use crate::sweep::bouncing_map::BouncingMap;
 
 /// If the parts of a solution repeat each other to within this (rad, relative speed), the code looks for the
@@ -24,6 +24,13 @@ const NEAR: f64 = 1.0e-2;
 
 /// By what factor an orbit that was farther may go away again while it comes nearer.
 const MOST_DETOUR: f64 = 10.0;
+
+/// An orbit that turns about a periodic one is not seen to come nearer where the multipliers leave more than this share of the
+/// distance, unless it is as near as [`LINEAR`].
+const UNSEEN: f64 = 0.9;
+
+/// So near (rad) no other orbit attracts.
+const LINEAR: f64 = 1.0e-5;
 
 /// How near an orbit must stay to a neutral one that it was on (rad).
 const STAYS_WITHIN: f64 = 2.0e-6;
@@ -126,6 +133,10 @@ fn comes_nearer(
     let periods = 2.0 / (1.0 - radius) + 2.0;
     let rounds = most_rounds.min(periods as u64);
     let promised = if radius > 0.0 { exp(rounds as f64 * ln(radius)) } else { 0.0 };
+    let turns = matches!(orbit.multipliers(), Multipliers::Complex { .. });
+    if turns && promised > UNSEEN && from > LINEAR {
+        return false;
+    }
     let near = 0.5 * (1.0 + promised) * from;
     let distances = distances(map, orbit, state).take(rounds as usize);
     distances.map_while(|distance| distance.filter(|own| *own <= farthest)).any(|own| own <= near)
