@@ -10,12 +10,12 @@ use bouncing_disk_core::attractors::{
     BasinSettings, Grid, KnownOrbit, Verdict, VerdictSettings, verdicts,
 };
 use bouncing_disk_core::chaos::{LyapunovOutcome, lyapunov_exponents, lyapunov_spectra};
-use bouncing_disk_core::numerics::elementary::{cos, hypot, ln, sin};
+use bouncing_disk_core::numerics::elementary::{atan2, cos, hypot, ln, sin};
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::orbits::OrbitSearch;
 use bouncing_disk_core::sweep::{orbit_diagram, survival_times};
 use bouncing_disk_core::{
-    BouncingMap as _, ChatterPolicy, Error, ImpactMap, ImpactState, Phase, Unobserved, Vibration,
+    BouncingMap as _, ChatterPolicy, Error, ImpactMap, ImpactState, OrbitEvent, Phase, Unobserved, Vibration,
 };
 use bouncing_disk_drives::{Drive, DrivenMap};
 
@@ -40,6 +40,15 @@ struct Followed {
     /// Of each separation, its phase, with the impacts, the long flights and the periods before it.
     separations: Vec<(f64, usize, usize, u64)>,
     rests_for_ever: bool,
+}
+
+/// Where an orbit ends.
+#[derive(Debug, PartialEq)]
+enum End {
+    Rest,
+    /// On a periodic orbit through this impact.
+    Cycle(f64, f64),
+    Other,
 }
 
 impl Parabolas {
@@ -114,69 +123,86 @@ trait Followable {
         followed
     }
 
-    /// The growth of a small difference per impact, renewed in each.
-    fn exponent(&self, at: &mut (f64, f64), r: f64, impacts: u32) -> f64 {
-        let (mut phase, mut velocity) = *at;
-        let (mut x, mut y, mut sum, mut counted) = (1.0, 0.0, 0.0, 0);
-        while counted < impacts {
-            let size = 1e-8;
-            // No difference survives a rest.
-            if let Motion::Rest(since) = self.after(phase, -r * velocity, r) {
-                let Some((_, _, Motion::Launch(from, speed))) = self.leave(since.rem_euclid(TAU), r) else {
-                    break;
-                };
-                (phase, velocity, _) = self.fly(from, speed);
-                continue;
-            }
-            let (next, fast, _) = self.fly(phase, -r * velocity);
-            let (there, other, _) = self.fly((phase + size * x).rem_euclid(TAU), -r * (velocity + size * y));
-            let away = (there - next + PI).rem_euclid(TAU) - PI;
-            let grown = hypot(away, other - fast) / size;
-            sum += ln(grown);
-            (x, y) = (away / size / grown, (other - fast) / size / grown);
-            (phase, velocity) = (next, fast);
-            counted += 1;
+    /// The growth of a small difference by the next impact, and its direction after it; `None` at a rest.
+    fn grow(&self, at: &mut (f64, f64), ahead: &mut (f64, f64), r: f64) -> Option<f64> {
+        let ((phase, velocity), size) = (*at, 1e-8);
+        if let Motion::Rest(_) = self.after(phase, -r * velocity, r) {
+            return None;
         }
-        *at = (phase, velocity);
-        sum / f64::from(counted)
+        let (next, fast, _) = self.fly(phase, -r * velocity);
+        let beside = ((phase + size * ahead.0).rem_euclid(TAU), -r * (velocity + size * ahead.1));
+        let (there, other, _) = self.fly(beside.0, beside.1);
+        let away = (there - next + PI).rem_euclid(TAU) - PI;
+        let grown = hypot(away, other - fast) / size;
+        *ahead = (away / size / grown, (other - fast) / size / grown);
+        *at = (next, fast);
+        Some(grown)
+    }
+
+    /// The exponent of an orbit that goes on irregularly for 20 parts of so many impacts, and the error of their mean; or
+    /// what becomes of it.
+    fn exponent(&self, mut at: (f64, f64), r: f64, impacts: u64) -> Result<(f64, f64), End> {
+        let (mut ahead, mut parts) = ((1.0, 0.0), [0.0; 20]);
+        for part in &mut parts {
+            for _ in 0..impacts {
+                *part += ln(self.grow(&mut at, &mut ahead, r).ok_or(End::Rest)?) / impacts as f64;
+            }
+            if *part <= 0.0 {
+                return Err(End::Cycle(at.0, at.1));
+            }
+        }
+        let mean = parts.iter().sum::<f64>() / 20.0;
+        let squares: f64 = parts.iter().map(|part| (part - mean) * (part - mean)).sum();
+        Ok((mean, (squares / (19.0 * 20.0)).sqrt()))
+    }
+
+    /// At which impact an orbit is after so many, or that it rests for ever; `None` where rounding may have moved it by more
+    /// than 1e-4.
+    fn known(&self, mut at: (f64, f64), r: f64, impacts: u64) -> Option<End> {
+        let (mut ahead, mut error) = ((1.0, 0.0), 0.0);
+        for _ in 0..impacts {
+            if let Some(grown) = self.grow(&mut at, &mut ahead, r) {
+                error = error * grown + 1e-13;
+            } else if let Motion::Rest(since) = self.after(at.0, -r * at.1, r) {
+                let mut motion = Motion::Rest(since);
+                for _ in 0..5 {
+                    let Motion::Rest(since) = motion else { break };
+                    let Some(left) = self.leave(since.rem_euclid(TAU), r) else { return Some(End::Rest) };
+                    motion = left.2;
+                }
+                let Motion::Launch(from, speed) = motion else { return Some(End::Other) };
+                let (to, velocity, _) = self.fly(from, speed);
+                // No difference survives a rest.
+                (at, error) = ((to, velocity), 1e-9);
+            }
+            if error > 1e-4 {
+                return None;
+            }
+        }
+        Some(End::Cycle(at.0, at.1))
     }
 }
 
 impl Followable for Parabolas {
     fn fly(&self, phase: f64, speed: f64) -> (f64, f64, u64) {
-        let mut piece = self.piece(phase);
-        let [_, platform, half] = self.at(piece, phase);
-        // The gap over this piece is h (speed - h bend).
-        let bend = 0.5 + half;
-        let root = speed / bend;
-        if root > 0.0 && phase + root < self.end(piece) {
-            return (phase + root, speed - 2.0 * bend * root, 0);
-        }
-        let z = self.at(piece, phase)[0];
-        let (mut time, mut turns) = (self.end(piece) - phase, 0);
+        let (mut piece, mut from, mut turns) = (self.piece(phase), phase, 0);
+        // Heights do not enter: gaps may be below their rounding.
+        let (mut gap, mut b) = (0.0_f64, speed);
         loop {
+            // gap + b s - c s^2 = 0, where the disk comes down.
+            let c = 0.5 + self.0[piece].1[2];
+            let discriminant = (b * b + 4.0 * c * gap).sqrt();
+            let s = if b > 0.0 { 0.5 * (b + discriminant) / c } else { 2.0 * gap / (discriminant - b) };
+            let length = self.end(piece) - from;
+            if s >= 0.0 && s < length {
+                return (from + s, -discriminant, turns);
+            }
+            gap = (gap + length * (b - length * c)).max(0.0);
+            let before = self.at(piece, self.end(piece))[1];
             piece = (piece + 1) % self.0.len();
             turns += u64::from(piece == 0);
-            let (start, [height, velocity, half]) = self.0[piece];
-            let length = self.end(piece) - start;
-            let own = platform + speed - time;
-            let gap = z + time * (platform + speed - 0.5 * time) - height;
-            // gap + (own - velocity) s - (1/2 + half) s^2 = 0.
-            let (b, c) = (own - velocity, 0.5 + half);
-            let discriminant = b * b + 4.0 * c * gap;
-            if discriminant >= 0.0 {
-                let sum = b.abs() + discriminant.sqrt();
-                let roots = if b > 0.0 {
-                    [0.5 * sum / c, -2.0 * gap / sum]
-                } else {
-                    [2.0 * gap / sum, -0.5 * sum / c]
-                };
-                let inside = |root: &f64| *root > 0.0 && *root < length;
-                if let Some(s) = roots.into_iter().filter(inside).min_by(f64::total_cmp) {
-                    return (start + s, b - 2.0 * c * s, turns);
-                }
-            }
-            time += length;
+            from = self.0[piece].0;
+            b += before - self.0[piece].1[1] - 2.0 * c * length;
         }
     }
 
@@ -184,11 +210,18 @@ impl Followable for Parabolas {
         let piece = self.piece(phase);
         let pull = 1.0 + 2.0 * self.at(piece, phase)[2];
         let rest = phase + 2.0 * speed / (pull * (1.0 - r));
-        if pull > 0.0 && rest < self.end(piece) { Motion::Rest(rest) } else { Motion::Launch(phase, speed) }
+        // A long flight counts.
+        let flight = 2.0 * speed / pull;
+        if pull > 0.0 && flight < PI && rest < self.end(piece) {
+            Motion::Rest(rest)
+        } else {
+            Motion::Launch(phase, speed)
+        }
     }
 
     fn leave(&self, phase: f64, r: f64) -> Option<(f64, u64, Motion)> {
         let (mut piece, mut turns) = (self.piece(phase), 0);
+        let room = 1e-12 * self.0.iter().map(|(_, [_, velocity, _])| velocity.abs()).fold(0.0, f64::max);
         for _ in 0..=self.0.len() {
             let end = self.end(piece);
             let before = self.at(piece, end)[1];
@@ -196,10 +229,10 @@ impl Followable for Parabolas {
             turns += u64::from(piece == 0);
             let (start, [_, velocity, half]) = self.0[piece];
             let jump = velocity - before;
-            if jump < -1e-12 {
+            if jump < -room {
                 return Some((start, turns, Motion::Launch(start, -jump)));
             }
-            if jump > 1e-12 {
+            if jump > room {
                 return Some((start, turns, self.after(start, r * jump, r)));
             }
             if 0.5 + half < 0.0 {
@@ -213,14 +246,15 @@ impl Followable for Parabolas {
 /// A shape that is marched over: the largest acceleration, and height, velocity and acceleration at a phase.
 struct Marched {
     most: f64,
+    top: f64,
     at: Box<dyn Fn(f64) -> [f64; 3]>,
 }
 
 /// Steps of the march in a period.
-const STEPS: f64 = 256.0;
+const STEPS: f64 = 128.0;
 
 fn bisected(mut low: f64, mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
-    for _ in 0..80 {
+    for _ in 0..60 {
         let middle = 0.5 * (low + high);
         if holds(middle) { low = middle } else { high = middle }
     }
@@ -231,13 +265,14 @@ impl Marched {
     fn sum(harmonics: [(f64, f64); 3]) -> Self {
         let terms = move || harmonics.into_iter().zip(1..).map(|((a, phase), j)| (a, f64::from(j), phase));
         let most = terms().map(|(a, j, _)| a.abs() * j * j).sum();
+        let top = terms().map(|(a, _, _)| a.abs()).sum();
         let at = move |t: f64| {
             terms().fold([0.0; 3], |[z, v, acceleration], (a, j, phase)| {
                 let (s, c) = (sin(j * t + phase), cos(j * t + phase));
                 [z + a * s, v + a * j * c, acceleration - a * j * j * s]
             })
         };
-        Self { most, at: Box::new(at) }
+        Self { most, top, at: Box::new(at) }
     }
 
     /// In each quarter (3 y - y^3)/2 of the way y from a zero to an extreme: no slope there, no bend at the zero.
@@ -253,7 +288,7 @@ impl Marched {
                 -sign * 3.0 * y / (unit * unit),
             ]
         };
-        Self { most: 12.0 * a / (PI * PI), at: Box::new(at) }
+        Self { most: 12.0 * a / (PI * PI), top: a, at: Box::new(at) }
     }
 }
 
@@ -264,7 +299,13 @@ impl Followable for Marched {
         let slope = |t: f64| v + speed - t - (self.at)(phase + t)[1];
         // It rises for at least this long.
         let mut low = if speed > 0.0 { (speed / (1.0 + self.most)).min(TAU / STEPS) } else { 1e-4 };
+        // Above all of the platform nothing is hit.
+        let up = v + speed;
+        let above = (up * up + 2.0 * (z - self.top)).sqrt();
         let root = loop {
+            if up - above <= low {
+                low = low.max(up + above - 1e-9);
+            }
             let high = low + TAU / STEPS;
             if gap(high) <= 0.0 {
                 break bisected(low, high, |t| gap(t) > 0.0);
@@ -294,7 +335,7 @@ impl Followable for Marched {
     fn leave(&self, phase: f64, _r: f64) -> Option<(f64, u64, Motion)> {
         let pull = |t: f64| 1.0 + (self.at)(phase + t)[2];
         // The platform may leave the disk behind for a moment only.
-        let step = TAU / (64.0 * STEPS);
+        let step = TAU / (128.0 * STEPS);
         let before =
             (0..).map(|k| f64::from(k) * step).take_while(|t| *t < TAU).find(|t| pull(t + step) < 0.0)?;
         let at = phase + bisected(before, before + step, |t| pull(t) >= 0.0);
@@ -321,63 +362,127 @@ fn random_map(case: usize, random: &mut SplitMix64) -> (Parabolas, DrivenMap, [f
     (exact, DrivenMap::new(drive.unwrap(), r).unwrap(), [a, r])
 }
 
+/// The map of a shape, with what follows it: triangles, sawteeth, parabolas, sums of three harmonics, cubics.
+fn map_of(kind: u32, a: f64, r: f64, shape: [f64; 4]) -> (Box<dyn Followable>, DrivenMap) {
+    let (exact, drive): (Box<dyn Followable>, _) = match kind {
+        0 => (Box::new(Parabolas::triangle(a, 0.5)), Drive::triangle(a)),
+        1 => {
+            let rise = 0.1 + 0.8 * shape[0];
+            (Box::new(Parabolas::triangle(a, rise)), Drive::sawtooth(a, rise))
+        }
+        2 => (Box::new(Parabolas::arcs(a)), Drive::parabolas(a)),
+        3 => {
+            let [second, lag, third, another] = shape;
+            let harmonics = [(a, 0.0), (0.3 * a * second, TAU * lag), (0.15 * a * third, TAU * another)];
+            (Box::new(Marched::sum(harmonics)), Drive::fourier(&harmonics))
+        }
+        _ => (Box::new(Marched::cubics(a)), Drive::cubics(a)),
+    };
+    (exact, DrivenMap::new(drive.unwrap(), r).unwrap())
+}
+
 /// How many verdicts of each kind there are.
 #[derive(Debug, Default)]
 struct Seen {
+    /// Exponents, and those within one and two stated errors of that of a much longer orbit.
     exponents: u32,
-    covered: u32,
+    within: [u32; 2],
+    after_rests: u32,
+    /// Irregular motions that rest, or settle, later.
+    rest: u32,
+    settle: u32,
     periodic: u32,
+    from_start: u32,
     chaotic: u32,
     chattering: u32,
     undecided: u32,
 }
 
+impl Seen {
+    /// Compares an exponent with that of 20 times as many impacts, which follow those that it was measured over, so that they
+    /// are on the same attractor. A motion that rests or settles then has no other exponent. Returns by how many errors, both
+    /// together, it is off.
+    fn exponent(
+        &mut self,
+        exact: &dyn Followable,
+        (map, start): (&DrivenMap, ImpactState),
+        settings: VerdictSettings,
+        verdict: Verdict,
+    ) -> Option<f64> {
+        let Verdict::Chaotic { exponent, standard_error, rests, .. } = verdict else { return None };
+        let (mut orbit, mut impacts, mut at) = (map.orbit(start, ChatterPolicy::Complete), 0, (0.0, 0.0));
+        while impacts < settings.transient + settings.impacts {
+            match orbit.advance().unwrap().unwrap() {
+                OrbitEvent::Impact(impact) => {
+                    impacts += 1;
+                    at = (impact.phase.angle(), impact.velocity);
+                }
+                OrbitEvent::Separation(_) | OrbitEvent::Kick(_) => impacts = 0,
+                _ => {}
+            }
+        }
+        match exact.exponent(at, map.restitution(), settings.impacts) {
+            Ok((own, error)) => {
+                let away = (own - exponent).abs();
+                self.exponents += 1;
+                self.after_rests += u32::from(rests > 0);
+                for (within, errors) in self.within.iter_mut().zip([1.0, 2.0]) {
+                    *within += u32::from(away < errors * standard_error);
+                }
+                Some((own - exponent) / hypot(standard_error, error))
+            }
+            Err(end) => {
+                *(if end == End::Rest { &mut self.rest } else { &mut self.settle }) += 1;
+                None
+            }
+        }
+    }
+}
+
 /// The verdict of one start, against what a followed orbit does.
-fn check_verdict(
-    exact: &dyn Followable,
-    map: &DrivenMap,
-    random: &mut SplitMix64,
-    context: &str,
-    seen: &mut Seen,
-) {
+fn check_verdict(exact: &dyn Followable, map: &DrivenMap, start: (f64, f64), context: &str, seen: &mut Seen) {
     let (settings, r) =
         (VerdictSettings { transient: 500, impacts: 4_000, ..VerdictSettings::default() }, map.restitution());
-    let start = (TAU * random.unit(), -2.0 * PI * random.unit());
     let verdict = map.verdict(state(start.0, start.1), settings).unwrap();
     let context = format!("{context}: r = {r}, {start:?}, {verdict:?}");
     match verdict {
-        Verdict::Periodic { impacts, platform_periods, state, .. } => {
+        Verdict::Periodic { impacts, platform_periods, state, distance, after, .. } => {
             seen.periodic += 1;
-            // The transient may be irregular and lose its start in any program; what it settled on attracts from beside.
+            // What it settled on attracts from beside.
             let beside = (state.phase().angle() + 1e-6, state.velocity());
             let followed = exact.follow(beside, r, 20_000).impacts;
             assert_eq!(followed.len(), 20_000, "{context}");
             let (last, before) = (followed[19_999], followed[19_999 - impacts as usize]);
             assert!((last.1 - before.1).abs() < 1e-6, "{context}: {last:?} {before:?}");
             assert_eq!(last.2 - before.2, platform_periods, "{context}");
-        }
-        Verdict::Chaotic { exponent, standard_error, rests, .. } => {
-            seen.chaotic += 1;
-            let followed = exact.follow(start, r, 2_000);
-            // Of a chatter before a rest both count another number of impacts.
-            if rests > 0 || !followed.separations.is_empty() {
-                return;
+            // Also the start ends there, unless the way is so irregular that it loses its start in any program.
+            match exact.known(start, r, after + 500) {
+                Some(End::Cycle(phase, velocity)) => {
+                    seen.from_start += 1;
+                    let room = distance + 1e-3;
+                    let near = |own: &(f64, f64, u64)| {
+                        let apart = (own.0 - phase + PI).rem_euclid(TAU) - PI;
+                        apart.abs() < room && (own.1 - velocity).abs() < room * (1.0 + velocity.abs())
+                    };
+                    assert!(
+                        followed[20_000 - impacts as usize..].iter().any(near),
+                        "{context}: {phase} {velocity}"
+                    );
+                }
+                end => assert_eq!(end, None, "{context}"),
             }
-            let (phase, velocity, _) = followed.impacts[1_999];
-            // As long as it is irregular: the orbit may leave the transient that the verdict has seen.
-            let mut at = (phase, velocity);
-            let parts = (0..20).map(|_| exact.exponent(&mut at, r, 1_000)).take_while(|own| *own > 0.0);
-            let parts: Vec<f64> = parts.collect();
-            let own = parts.iter().sum::<f64>() / parts.len() as f64;
-            assert!((own - exponent).abs() < 5.0 * standard_error + 0.02, "{context}: {own}");
-            seen.exponents += 1;
-            seen.covered += u32::from((own - exponent).abs() < 2.0 * hypot(standard_error, OWN_ERROR));
         }
-        Verdict::Chattering { cycle, .. } => {
+        Verdict::Chaotic { .. } => {
+            seen.chaotic += 1;
+            let errors = seen.exponent(exact, (map, self::state(start.0, start.1)), settings, verdict);
+            assert!(errors.is_none_or(|errors| errors.abs() < 5.0), "{context}: {errors:?}");
+        }
+        Verdict::Chattering { cycle, after } => {
             seen.chattering += 1;
             let followed = exact.follow(start, r, 100_000);
-            assert!(!followed.separations.is_empty(), "{context}");
-            if cycle.is_exact() {
+            let rests = !followed.separations.is_empty();
+            assert!(rests || exact.known(start, r, after + 500).is_none(), "{context}");
+            if rests && cycle.is_exact() {
                 assert_eq!(followed.separations.len(), 5, "{context}");
                 // The round from a separation to the next at the same phase.
                 let last = followed.separations.last().unwrap();
@@ -387,22 +492,21 @@ fn check_verdict(
                 assert_eq!((last.2 - earlier.2) as u64, cycle.long_flights, "{context}: {followed:?}");
             }
         }
-        Verdict::AtRest { .. } => {
-            assert!(exact.follow(start, r, 100_000).rests_for_ever, "{context}");
+        Verdict::AtRest { after, .. } => {
+            let rests = exact.follow(start, r, after as usize + 20_000).rests_for_ever;
+            assert!(rests || exact.known(start, r, after + 500).is_none(), "{context}");
         }
         _ => seen.undecided += 1,
     }
 }
-
-/// The error of an exponent over 20,000 impacts.
-const OWN_ERROR: f64 = 0.01;
 
 #[test]
 fn verdicts_on_parabolas_are_those_of_quadratics() {
     let (mut seen, mut random) = (Seen::default(), SplitMix64::new(70));
     for case in 0..120 {
         let (exact, map, [a, _]) = random_map(case, &mut random);
-        check_verdict(&exact, &map, &mut random, &format!("{case}: a = {a}"), &mut seen);
+        let start = (TAU * random.unit(), -2.0 * PI * random.unit());
+        check_verdict(&exact, &map, start, &format!("{case}: a = {a}"), &mut seen);
     }
     assert!(seen.chattering > 30 && seen.periodic + seen.chaotic > 10, "{seen:?}");
     assert!(seen.undecided < 30, "{seen:?}");
@@ -414,15 +518,10 @@ fn verdicts_on_smooth_shapes_are_those_of_a_march() {
     let (mut seen, mut random) = (Seen::default(), SplitMix64::new(72));
     for case in 0..SMOOTH_MAPS {
         let (a, r) = (0.6 + 2.4 * random.unit(), 0.3 + 0.6 * random.unit());
-        let (exact, drive) = if case % 2 == 0 {
-            let mut harmonic = |most: f64| (most * a * random.unit(), TAU * random.unit());
-            let harmonics = [(a, 0.0), harmonic(0.3), harmonic(0.15)];
-            (Marched::sum(harmonics), Drive::fourier(&harmonics))
-        } else {
-            (Marched::cubics(a), Drive::cubics(a))
-        };
-        let map = DrivenMap::new(drive.unwrap(), r).unwrap();
-        check_verdict(&exact, &map, &mut random, &format!("{case}: a = {a}"), &mut seen);
+        let shape = core::array::from_fn(|_| if case % 2 == 0 { random.unit() } else { 0.0 });
+        let (exact, map) = map_of(3 + case % 2, a, r, shape);
+        let start = (TAU * random.unit(), -2.0 * PI * random.unit());
+        check_verdict(&*exact, &map, start, &format!("{case}: a = {a}"), &mut seen);
     }
     assert!(
         seen.chattering > 3 && seen.periodic + seen.chaotic > 3 && seen.undecided < SMOOTH_MAPS / 4,
@@ -432,6 +531,122 @@ fn verdicts_on_smooth_shapes_are_those_of_a_march() {
 
 /// Half of them sums, half cubics.
 const SMOOTH_MAPS: u32 = 24;
+
+/// The amplitude at which irregular motion begins, from above: within a share of 2^-4 to 2^-9 of it.
+fn beginning(
+    kind: u32,
+    r: f64,
+    shape: [f64; 4],
+    start: ImpactState,
+    settings: VerdictSettings,
+) -> Option<f64> {
+    let verdict = |a: f64| map_of(kind, a, r, shape).1.verdict(start, settings).unwrap();
+    let irregular = |a: f64| matches!(verdict(a), Verdict::Chaotic { .. });
+    let first = 0.3 + shape[0];
+    let mut steps = (0..20).map(|k| first * (1.0 + 0.05 * f64::from(k)));
+    let mut low = steps.find(|a| matches!(verdict(*a), Verdict::Periodic { .. }))?;
+    let mut high = steps.find(|a| irregular(*a))?;
+    for _ in 0..(4.0 + 6.0 * shape[1]) as u32 {
+        let middle = 0.5 * (low + high);
+        *(if irregular(middle) { &mut high } else { &mut low }) = middle;
+    }
+    Some(high)
+}
+
+/// Exponents of `maps` irregular motions of a kind, each other where irregular motion begins.
+fn exponents_of(kind: u32, maps: u32, impacts: u64) -> Seen {
+    let (mut seen, mut random) = (Seen::default(), SplitMix64::new(76 + u64::from(kind)));
+    let settings = VerdictSettings { impacts, ..VerdictSettings::default() };
+    while seen.exponents < maps {
+        let (r, shape) = (0.3 + 0.67 * random.unit(), core::array::from_fn(|_| random.unit()));
+        let (a, start) = (0.3 + 4.0 * random.unit(), state(TAU * random.unit(), -TAU * random.unit()));
+        let beginning = || beginning(kind, r, shape, start, settings);
+        let Some(a) = (if seen.exponents % 2 == 0 { Some(a) } else { beginning() }) else { continue };
+        let (exact, map) = map_of(kind, a, r, shape);
+        let verdict = map.verdict(start, settings).unwrap();
+        seen.exponent(&*exact, (&map, start), settings, verdict);
+    }
+    seen
+}
+
+/// Of the exponents of each kind, how many lie within one and two stated errors and how many were measured after a rest; and
+/// how many motions were left out, for they rest or settle later.
+fn stated_errors(maps: u32, impacts: u64) -> [[u32; 5]; 5] {
+    [0, 1, 2, 3, 4].map(|kind| {
+        let Seen { within: [one, two], after_rests, rest, settle, .. } = exponents_of(kind, maps, impacts);
+        [one, two, after_rests, rest, settle]
+    })
+}
+
+/// A stated error is a standard error: two of it hold the exponent in at least 90 of 100 irregular motions.
+#[test]
+fn stated_errors_hold_the_exponents() {
+    let found = stated_errors(6, 400);
+    let two: u32 = found.iter().map(|kind| kind[1]).sum();
+    assert!(two >= 27, "{found:?}");
+}
+
+/// Triangles, sawteeth, parabolas, sums and cubics. What two errors do not hold is nearly all intermittent.
+#[test]
+#[ignore = "minutes: 550 exponents"]
+fn stated_errors_hold_the_exponents_of_many_maps() {
+    let found = [(60, 400), (50, 4_000)].map(|(maps, impacts)| stated_errors(maps, impacts));
+    let recorded = [
+        [
+            [44, 56, 8, 48, 3],
+            [41, 58, 8, 29, 1],
+            [47, 56, 3, 59, 0],
+            [42, 56, 3, 45, 29],
+            [51, 58, 12, 51, 1],
+        ],
+        [
+            [40, 47, 4, 19, 4],
+            [36, 48, 6, 30, 16],
+            [35, 47, 1, 63, 0],
+            [42, 49, 7, 67, 22],
+            [37, 48, 5, 41, 2],
+        ],
+    ];
+    assert_eq!(found, recorded);
+}
+
+/// Restitutions from 0 to the last number below 1, amplitudes and starts from the smallest number on, and kinks that are hit.
+fn check_margins(cases: u32, seed: u64) -> Seen {
+    let (mut seen, mut random) = (Seen::default(), SplitMix64::new(seed));
+    let mut pick = |list: &[f64]| list[(random.unit() * list.len() as f64) as usize];
+    let least = f64::from_bits(1);
+    for case in 0..cases {
+        let r = pick(&[0.0, 0.3, 0.5, 0.9, 0.99, 0.999, 1.0 - 1e-6, 1.0_f64.next_down()]);
+        let a = pick(&[1e-310, 1e-160, 1e-12, 1e-8, 0.01, 0.3, 0.8, 1.0, 1.3, 2.0, 2.9, 4.0, 30.0]);
+        let phase = pick(&[0.0, least, 1e-310, 0.5 * PI, PI, PI.next_down(), 1.5 * PI, 0.7, 5.0]);
+        let velocity = -pick(&[0.0, least, 1e-310, 1e-160, 1e-12, 1e-6, 0.1, 1.0, 0.5 * PI, 4.0, 30.0]);
+        let (exact, map) =
+            map_of(case % 5, a, r, core::array::from_fn(|_| pick(&[0.0, 0.1, 0.25, 0.5, 0.9])));
+        let context = format!("{case}: a = {a:e}");
+        if case % 5 < 3 || a > 1e-3 {
+            check_verdict(&*exact, &map, (phase, velocity), &context, &mut seen);
+        } else {
+            // A march does not see such heights. They throw the disk where it loses even less.
+            let settings = VerdictSettings { transient: 100, impacts: 400, ..VerdictSettings::default() };
+            let verdict = map.verdict(state(phase, velocity), settings).unwrap();
+            let rests = matches!(verdict, Verdict::AtRest { .. } | Verdict::Undecided { .. });
+            assert!(rests || a > 0.1 * (1.0 - r), "{context}: r = {r}, {phase} {velocity}: {verdict:?}");
+        }
+    }
+    seen
+}
+
+#[test]
+fn verdicts_at_the_margins_are_those_of_the_others() {
+    let seen = check_margins(100, 77);
+    assert!(seen.chattering > 10 && seen.periodic + seen.chaotic > 5, "{seen:?}");
+}
+
+#[test]
+#[ignore = "minutes: 10,000 maps"]
+fn verdicts_at_many_margins_are_those_of_the_others() {
+    check_margins(10_000, 78);
+}
 
 /// An orbit that wanders comes nearer to periodic ones by chance, and ends on none of these.
 #[test]
@@ -444,6 +659,65 @@ fn orbits_that_wander_are_on_their_way_to_none() {
         let settings = VerdictSettings { transient: 500, impacts: 4_000, ..VerdictSettings::default() };
         let verdict = map.verdict(ImpactState::new(phase, velocity).unwrap(), settings).unwrap();
         assert!(matches!(verdict, Verdict::Undecided { .. }), "{verdict:?}");
+    }
+}
+
+/// A shape by its amplitude: at which phase it rises with a speed and slows down; at which amplitude it first has this
+/// speed, and at which it has this deceleration there.
+struct Family {
+    drive: fn(f64) -> Drive,
+    phase: fn(f64, f64) -> f64,
+    birth: fn(f64) -> f64,
+    doubling: fn(f64, f64) -> f64,
+}
+
+const FAMILIES: [Family; 3] = [
+    Family {
+        drive: |a| Drive::fourier(&[(a, 0.0)]).unwrap(),
+        phase: |a, v| atan2((a * a - v * v).max(0.0).sqrt(), v),
+        birth: |v| v,
+        doubling: |v, d| hypot(v, d),
+    },
+    Family {
+        drive: |a| Drive::parabolas(a).unwrap(),
+        phase: |a, v| (4.0 * a / PI - v) * PI * PI / (8.0 * a),
+        birth: |v| v * PI / 4.0,
+        doubling: |_, d| d * PI * PI / 8.0,
+    },
+    Family {
+        drive: |a| Drive::cubics(a).unwrap(),
+        phase: |a, v| 0.5 * PI * (1.0 - v * PI / (3.0 * a)).max(0.0).sqrt(),
+        birth: |v| v * PI / 3.0,
+        // a (1 - y^2) = b, a y = c.
+        doubling: |v, d| {
+            let (b, c) = (v * PI / 3.0, d * PI * PI / 12.0);
+            0.5 * (b + hypot(b, 2.0 * c))
+        },
+    },
+];
+
+/// An orbit of one impact in each period needs the speed pi (1 - r)/(1 + r), where the platform slows down, and doubles at
+/// the deceleration 2 (1 + r^2)/(1 + r)^2: at 1e-6 of either the verdict is right, nearer to it there may be none.
+#[test]
+fn verdicts_beside_births_and_doublings() {
+    let settings = VerdictSettings { transient: 500, impacts: 1_000, ..VerdictSettings::default() };
+    for (family, r) in FAMILIES.iter().flat_map(|family| [0.5, 0.95].map(|r| (family, r))) {
+        let speed = PI * (1.0 - r) / (1.0 + r);
+        let doubling = (family.doubling)(speed, 2.0 * (1.0 + r * r) / ((1.0 + r) * (1.0 + r)));
+        for (seam, inside) in [((family.birth)(speed), 1.0), (doubling, -1.0)] {
+            for beside in [1e-6, 1e-8, 1e-12, f64::EPSILON] {
+                for (side, off) in [(1.0, 0.0), (-1.0, 0.0), (-1.0, 1e-3)] {
+                    let a = seam * (1.0 + inside * side * beside);
+                    let map = DrivenMap::new((family.drive)(a), r).unwrap();
+                    let start = state((family.phase)(a, speed) + off, -TAU / (1.0 + r));
+                    let verdict = map.verdict(start, settings).unwrap();
+                    let one = matches!(verdict, Verdict::Periodic { impacts: 1, platform_periods: 1, .. });
+                    let context = format!("{:?}, {r}, {inside} {side} {beside}: {verdict:?}", map.drive());
+                    assert!(side > 0.0 || !one, "{context}");
+                    assert!(side < 0.0 || beside < 1e-6 || off > 0.0 || one, "{context}");
+                }
+            }
+        }
     }
 }
 
@@ -665,15 +939,6 @@ fn a_disk_that_is_only_kicked_has_no_impacts_and_a_cycle() {
         let Verdict::Chattering { cycle, .. } = verdict else { panic!("{r}: {verdict:?}") };
         assert_eq!((cycle.impacts, cycle.platform_periods), (1, 1), "{r}: {cycle:?}");
     }
-}
-
-/// Where an orbit of the quadratics ends.
-#[derive(Debug, PartialEq)]
-enum End {
-    Rest,
-    /// On a periodic orbit through this impact.
-    Cycle(f64, f64),
-    Other,
 }
 
 impl Parabolas {
