@@ -9,11 +9,14 @@ import io
 import json
 import os
 import re
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import bouncing_disk as bd
+import numpy as np
 import pytest
 
 
@@ -102,9 +105,29 @@ def test_the_page_prints_what_it_says(tmp_path: Path, monkeypatch: pytest.Monkey
 @pytest.mark.skipif(not PAGE.exists(), reason="the tests were copied without the docs")
 def test_the_programs_for_clusters_are_python() -> None:
     programs = [text for language, text in blocks() if language == "python no-run"]
-    assert len(programs) == 3
+    assert len(programs) == 4
     for program in programs:
         compile(program, "docs/python.md", "exec")
+
+
+@pytest.mark.skipif(not PAGE.exists(), reason="the tests were copied without the docs")
+def test_motors_on_a_cluster_resume_and_are_those_of_one_call(tmp_path: Path) -> None:
+    needs("dask.array", "dask.distributed")
+    (program,) = [text for language, text in blocks() if "motor_map" in text and language == "python no-run"]
+    few = program.replace("100, chunks=5", "4, chunks=2").replace("100, chunks=100", "10, chunks=10")
+    assert few != program
+    (tmp_path / "motors.py").write_text(few)
+    run = [sys.executable, "motors.py"]
+    printed = [subprocess.run(run, cwd=tmp_path, check=True, capture_output=True, text=True).stdout]
+    first, second = sorted(tmp_path.glob("*.npy"))
+    kept, time = np.load(first), second.stat().st_mtime_ns
+    first.unlink()
+    printed.append(subprocess.run(run, cwd=tmp_path, check=True, capture_output=True, text=True).stdout)
+    assert printed[0] == printed[1] and printed[0].startswith("40 of 40 motors have a speed")
+    assert np.load(first).tobytes() == kept.tobytes() and second.stat().st_mtime_ns == time
+    axes = {"preload_force": np.linspace(3.0, 6.0, 4), "friction": np.linspace(0.05, 0.3, 10)}
+    whole = bd.motor_map(bd.Motor.paper_70_khz(), axes=axes, relative_error=0.3, members=4).speed
+    assert np.concatenate([kept, np.load(second)]).tobytes() == whole.tobytes()
 
 
 @pytest.mark.skipif(not PAGE.exists(), reason="the tests were copied without the docs")
