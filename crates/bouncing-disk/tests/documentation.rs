@@ -535,19 +535,3 @@ fn every_module_is_a_room_in_its_place() {
     }
     faults.report();
 }
-
-#[test]
-fn the_readme_lists_every_chapter_on_how_to_use_it_and_how_it_is_computed() {
-    let mut faults = Faults::default();
-    let (contents, readme) = (read("docs/SUMMARY.md"), read("README.md"));
-    let (_, book) = readme.split_once("\n## The book\n").expect("a section");
-    let parts = contents.split("\n# ");
-    let wanted = |part: &&str| part.starts_with("Getting started") || part.starts_with("How it is computed");
-    for part in parts.filter(wanted) {
-        for page in part.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
-            let listed = book.contains(&format!("](docs/{page})"));
-            faults.check(listed, || format!("README.md does not list docs/{page}"));
-        }
-    }
-    faults.report();
-}
