@@ -81,28 +81,30 @@ pub(crate) trait GridJob: Serialize + DeserializeOwned {
     fn report<'a>(&'a self, prepared: &'a Self::Prepared, rows: &'a [Self::Row]) -> Result<Report<'a>>;
 }
 
-/// Computes a job, or its part, and delivers the result; `inputs` are the files that the job was read
-/// from.
-pub(crate) fn run<J: GridJob>(
-    job: J,
-    inputs: &[&Path],
-    grid: &GridArgs,
-    output: &OutputArgs,
-    context: Context,
-) -> Result<()> {
-    let journal = grid.journal.as_deref();
-    output.check(true, inputs, journal)?;
-    if let Some(path) = journal {
-        check_place(path).map_err(|why| Failure::Usage(format!("--journal: {why}")))?;
+impl GridArgs {
+    pub(crate) fn journal(&self) -> Option<&Path> {
+        self.journal.as_deref()
     }
-    if grid.chunk.is_some() && !matches!(&output.out[..], [target] if target.kind == Kind::Json) {
-        return Err(Failure::Usage("--chunk needs one --out FILE.json for its part".to_owned()));
+
+    /// Whether the journal, or the part, can be written.
+    pub(crate) fn check(&self, output: &OutputArgs) -> Result<()> {
+        if let Some(path) = self.journal() {
+            check_place(path).map_err(|why| Failure::Usage(format!("--journal: {why}")))?;
+        }
+        if self.chunk.is_some() && !matches!(&output.out[..], [target] if target.kind == Kind::Json) {
+            return Err(Failure::Usage("--chunk needs one --out FILE.json for its part".to_owned()));
+        }
+        Ok(())
     }
+}
+
+/// Computes a job, or its part, and delivers the result.
+pub(crate) fn run<J: GridJob>(job: J, grid: &GridArgs, output: &OutputArgs, context: Context) -> Result<()> {
     let rows = job.rows();
     let range = grid.chunk.map_or(0..rows, |chunk| rows_of(chunk, rows));
     let watcher = context.watch(J::COMMAND);
     let prepared = job.prepare(&watcher)?;
-    let finished = compute_all(&job, &prepared, range.clone(), journal, watcher)?;
+    let finished = compute_all(&job, &prepared, range.clone(), grid.journal(), watcher)?;
     if grid.chunk.is_none() {
         return job.report(&prepared, &finished.into_results()?)?.deliver(output, context);
     }

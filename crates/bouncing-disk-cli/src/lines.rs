@@ -15,11 +15,3 @@ pub(crate) fn say(text: &str) -> io::Result<()> {
 pub(crate) fn complain(text: &str) {
     let _ = io::stderr().write_all(format!("{text}\n").as_bytes());
 }
-
-/// A text from elsewhere (a key, a name of a file) on one line, with everything escaped that a terminal would
-/// obey.
-pub(crate) fn visible(text: &str) -> String {
-    text.chars()
-        .flat_map(|letter| if letter.is_control() { letter.escape_debug().collect() } else { vec![letter] })
-        .collect()
-}

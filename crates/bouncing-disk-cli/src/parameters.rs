@@ -10,13 +10,12 @@ use std::path::{Path, PathBuf};
 use bouncing_disk::parameters::DriveParameters;
 use bouncing_disk::regular_file;
 use clap::{Args, ValueEnum};
-use serde::de::DeserializeOwned;
 
 use crate::context::Context;
 use crate::failure::{Failure, Result, unreadable};
-use crate::lines::visible;
+use crate::grid::GridArgs;
 use crate::output::OutputArgs;
-use crate::range::{Words, one_of};
+use crate::range::{Words, assignment, one_of};
 
 pub(crate) trait Described: Clone + Debug + Send + Sync + 'static {
     /// Those of the paper; the first are the default ones.
@@ -59,7 +58,7 @@ pub(crate) struct SourceArgs<D: Described> {
 }
 
 impl<D: Described> SourceArgs<D> {
-    pub(crate) fn inputs(&self) -> Vec<&Path> {
+    fn inputs(&self) -> Vec<&Path> {
         self.file.as_deref().into_iter().collect()
     }
 
@@ -103,10 +102,18 @@ impl<D: Described> SourceArgs<D> {
         Ok(Some(parameters))
     }
 
-    /// [`Self::unless_template`], if the result can be written.
-    pub(crate) fn begin(&self, output: &OutputArgs, picture: bool, context: Context) -> Result<Option<D>> {
+    /// [`Self::unless_template`], if the result can be written: of a command that makes a picture, or not, and
+    /// that computes in parts, or not.
+    pub(crate) fn begin(
+        &self,
+        output: &OutputArgs,
+        picture: bool,
+        grid: Option<&GridArgs>,
+        context: Context,
+    ) -> Result<Option<D>> {
         if !self.template {
-            output.check(picture, &self.inputs(), None)?;
+            output.check(picture, &self.inputs(), grid.and_then(GridArgs::journal))?;
+            grid.map_or(Ok(()), |grid| grid.check(output))?;
         }
         self.unless_template(output, context)
     }
@@ -148,27 +155,9 @@ const LOAD: &str = "
 pub(crate) type Setting = (String, f64);
 
 pub(crate) fn setting(text: &str) -> Result<Setting, String> {
-    let form = || "a setting is KEY=VALUE, such as disk.friction=0.2".to_owned();
-    let (key, value) = text.split_once('=').ok_or_else(form)?;
-    let number = value.trim().parse();
-    let value = number.map_err(|_| format!("{:?} is no number", visible(value.trim())))?;
-    Ok((key.trim().to_owned(), value))
-}
-
-/// That there is no such key, and which one may be meant: also who leaves out the table is shown the whole
-/// path.
-fn unknown<'k>(key: &str, known: impl Iterator<Item = &'k str>) -> String {
-    let known: Vec<&str> = known.collect();
-    let likeness = |path: &str| {
-        let name = path.rsplit('.').next().unwrap_or(path);
-        strsim::jaro_winkler(path, key).max(strsim::jaro_winkler(name, key))
-    };
-    let best = known.iter().copied().max_by(|one, other| likeness(one).total_cmp(&likeness(other)));
-    let shown = visible(&key.chars().take(60).collect::<String>());
-    match best.filter(|name| likeness(name) > 0.8) {
-        Some(name) => format!("the key \"{shown}\" is unknown; did you mean \"{name}\"?"),
-        None => format!("the key \"{shown}\" is unknown; the known ones are {}", known.join(", ")),
-    }
+    let (key, value) = assignment(text, "a setting is KEY=VALUE, such as disk.friction=0.2")?;
+    let value = value.trim();
+    Ok((key.to_owned(), value.parse().map_err(|_| format!("{value:?} is no number"))?))
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -187,36 +176,5 @@ fn read_text(path: &Path) -> Result<(String, Format)> {
         .map_err(|_| Failure::Usage(format!("{name}: a file of parameters ends in .json or .toml")))?;
     let bytes = regular_file::read(path, LARGEST).map_err(|error| unreadable(path, error))?;
     let text = String::from_utf8(bytes).map_err(|_| unreadable(path, "it is no text in UTF-8"))?;
-    // Some editors put a byte-order mark before the text.
-    Ok((text.trim_start_matches('\u{feff}').to_owned(), format))
-}
-
-/// Reads the table of a text.
-fn parse<T: DeserializeOwned>(text: &str, format: Format) -> Result<T, String> {
-    match format {
-        Format::Json => serde_json::from_str(text).map_err(|error| {
-            let whole = error.to_string();
-            // The reader appends the place.
-            let place = format!(" at line {} column {}", error.line(), error.column());
-            let reason = whole.strip_suffix(&place).unwrap_or(&whole);
-            format!("line {}: {}", error.line().max(1), in_words(reason))
-        }),
-        Format::Toml => toml::from_str(text).map_err(|error| {
-            let place = error.span().map_or(0, |span| span.start);
-            let line = 1 + text.bytes().take(place).filter(|byte| *byte == b'\n').count();
-            format!("line {line}: {}", in_words(error.message().trim()))
-        }),
-    }
-}
-
-/// The words of a reader; those on an unknown key or name, which list the known ones, name the nearest.
-fn in_words(reason: &str) -> String {
-    match reason.strip_prefix("unknown field ").or_else(|| reason.strip_prefix("unknown variant ")) {
-        Some(keys) => {
-            let mut keys = keys.split('`').skip(1).step_by(2);
-            unknown(keys.next().unwrap_or_default(), keys)
-        }
-        // The types are a programmer's words.
-        None => visible(&reason.replace("expected f64", "expected a number").replace("a sequence", "a list")),
-    }
+    Ok((text, format))
 }

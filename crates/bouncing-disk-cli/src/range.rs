@@ -100,6 +100,11 @@ impl Range {
     }
 }
 
+/// Name and value of NAME=VALUE; `form` says what else there should be.
+pub(crate) fn assignment<'t>(text: &'t str, form: &str) -> Result<(&'t str, &'t str), String> {
+    text.split_once('=').map(|(name, value)| (name.trim(), value)).ok_or_else(|| form.to_owned())
+}
+
 /// A number as a person writes it.
 pub(crate) fn number(text: &str) -> Result<f64, String> {
     let value: f64 = text.trim().parse().map_err(|_| format!("{text:?} is no number"))?;

@@ -65,6 +65,9 @@ pub mod parameters;
 #[cfg(feature = "csv")]
 #[doc(hidden)]
 pub mod regular_file;
+// So does the command line, whose files of systems are read as data sheets are.
+#[doc(hidden)]
+pub mod sheet_text;
 mod statistics;
 pub mod stator;
 #[cfg(feature = "storage")]

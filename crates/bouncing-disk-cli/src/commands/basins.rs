@@ -10,7 +10,7 @@ use bouncing_disk::parameters::Waveform;
 use bouncing_disk::{Observer, Progress};
 use serde::{Deserialize, Serialize};
 
-use super::map::{ContactArgs, MapArgs, VERTICAL, and_shape, driven_map, is_rigid_sine, is_sine, map, shape};
+use super::map::{ContactArgs, MapArgs, VERTICAL, and_shape, driven_map, is_rigid_sine, is_sine, map};
 use super::prelude::*;
 
 /// The forcing of the paper's Fig. 7(b), which has two attractors beside the rest.
@@ -61,8 +61,8 @@ pub(crate) struct BasinsArgs {
 }
 
 pub(super) fn run(args: &BasinsArgs, context: Context) -> Result<()> {
-    let given = args.map.system.unless_template(&args.output, context)?;
-    let Some((system, drive)) = given.map(DrivenDisk::rigid).transpose()? else { return Ok(()) };
+    let given = args.map.begin(&args.output, Some(&args.grid), context)?;
+    let Some((system, drive)) = given else { return Ok(()) };
     let (axial_forcing, restitution) = args.map.pair(&system, args.axial_forcing, FORCING)?;
     let job = BasinsJob {
         axial_forcing,
@@ -72,10 +72,10 @@ pub(super) fn run(args: &BasinsArgs, context: Context) -> Result<()> {
         normalised_speed: args.speed,
         settings: BasinSettings { max_impacts: args.impacts, ..BasinSettings::default() },
         search: AttractorSearch::default().with_starts(args.starts)?,
-        drive: shape(&system, &drive)?,
+        drive,
         contact_periods: args.contact.contact_periods,
     };
-    grid::run(job, &args.map.system.inputs(), &args.grid, &args.output, context)
+    grid::run(job, &args.grid, &args.output, context)
 }
 
 #[derive(Debug, Clone, Serialize, Deserialize)]

@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 
 use super::map::{
     ContactArgs, MapArgs, NO_PERIOD_ONE, STARTS, Start, VERTICAL, and_shape, driven_map, is_rigid_sine,
-    is_sine, map, shape, single,
+    is_sine, map, single,
 };
 use super::prelude::*;
 
@@ -59,9 +59,9 @@ pub(crate) struct DiagramArgs {
 }
 
 pub(super) fn run(args: &DiagramArgs, context: Context) -> Result<()> {
-    let given = args.map.system.unless_template(&args.output, context)?;
-    let Some((system, drive)) = given.map(DrivenDisk::rigid).transpose()? else { return Ok(()) };
-    let (drive, contact_periods) = (shape(&system, &drive)?, args.contact.contact_periods);
+    let given = args.map.begin(&args.output, Some(&args.grid), context)?;
+    let Some((system, drive)) = given else { return Ok(()) };
+    let contact_periods = args.contact.contact_periods;
     let otherwise = FORCINGS.parse().map_err(Failure::Usage)?;
     let (axial_forcings, restitutions) = args.map.values(&system, args.axial_forcing, otherwise);
     let starts = match (&args.start[..], is_rigid_sine(&drive, contact_periods)) {
@@ -79,7 +79,7 @@ pub(super) fn run(args: &DiagramArgs, context: Context) -> Result<()> {
         drive,
         contact_periods,
     };
-    grid::run(job, &args.map.system.inputs(), &args.grid, &args.output, context)
+    grid::run(job, &args.grid, &args.output, context)
 }
 
 /// Phases nearer than this count as one (periods).

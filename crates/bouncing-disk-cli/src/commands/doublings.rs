@@ -7,7 +7,7 @@ use bouncing_disk::drives::driven_doubling_cascade;
 
 use bouncing_disk_plot::rounded;
 
-use super::map::{ContactArgs, MapArgs, driven_map, is_rigid_sine, is_sine, shape};
+use super::map::{ContactArgs, MapArgs, driven_map, is_rigid_sine, with_shape};
 use super::prelude::*;
 
 /// The period-doubling cascade, forcing by forcing, with Feigenbaum's constants
@@ -33,9 +33,8 @@ pub(crate) struct DoublingsArgs {
 }
 
 pub(super) fn run(args: &DoublingsArgs, context: Context) -> Result<()> {
-    let given = args.map.system.begin(&args.output, true, context)?;
-    let Some((system, drive)) = given.map(DrivenDisk::rigid).transpose()? else { return Ok(()) };
-    let (drive, contact_periods) = (shape(&system, &drive)?, args.contact.contact_periods);
+    let Some((system, drive)) = args.map.begin(&args.output, None, context)? else { return Ok(()) };
+    let contact_periods = args.contact.contact_periods;
     let (_, restitution) = args.map.pair(&system, None, 0.0)?;
     let watch = context.watch("doublings");
     let cascade = if is_rigid_sine(&drive, contact_periods) {
@@ -52,13 +51,7 @@ pub(super) fn run(args: &DoublingsArgs, context: Context) -> Result<()> {
     let of = |doubling: &CascadeDoubling| estimates.iter().find(|own| own.number == doubling.number).copied();
     let forcings: Vec<f64> = found.iter().map(|doubling| doubling.axial_forcing).collect();
     let rows = found.iter().map(|doubling| (*doubling, of(doubling))).collect();
-    let mut job = json!({ "restitution": restitution, "count": args.count });
-    if !is_sine(&drive) {
-        job["drive"] = json!(drive);
-    }
-    if let Some(periods) = contact_periods {
-        job["contact_periods"] = json!(periods);
-    }
+    let job = with_shape(json!({ "restitution": restitution, "count": args.count }), &drive, contact_periods);
     let report = Report {
         provenance: provenance("bouncing-disk doublings", &job)?,
         text: text(&found, &estimates, ended_by.as_deref()),

@@ -84,10 +84,9 @@ pub(crate) struct FitArgs {
 }
 
 fn fitted(text: &str) -> Result<FitRange, String> {
-    let form = || "a fitted parameter is FIELD=LOW:HIGH, such as friction=0.05:0.4".to_owned();
-    let (name, range) = text.split_once('=').ok_or_else(form)?;
+    let (name, range) = assignment(text, "a fitted parameter is FIELD=LOW:HIGH, such as friction=0.05:0.4")?;
     let parameter =
-        FitParameter::ALL.into_iter().find(|parameter| parameter.name() == name.trim()).ok_or_else(|| {
+        FitParameter::ALL.into_iter().find(|parameter| parameter.name() == name).ok_or_else(|| {
             format!(
                 "{name:?} cannot be fitted; possible are {}",
                 FitParameter::ALL.map(FitParameter::name).join(", ")

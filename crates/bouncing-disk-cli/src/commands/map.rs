@@ -7,8 +7,9 @@ use std::str::FromStr;
 use bouncing_disk::System;
 use bouncing_disk::core::{Error, ImpactMap, ImpactState, Phase, Vibration};
 use bouncing_disk::drives::DrivenMap;
-use bouncing_disk::parameters::{DriveParameters, DrivenPlatform, Waveform};
+use bouncing_disk::parameters::{DimensionlessSystem, DrivenPlatform, Waveform};
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 use super::prelude::*;
 use crate::range::number;
@@ -26,10 +27,25 @@ pub(super) struct MapArgs {
     #[arg(long, short, value_name = "EPSILON", allow_hyphen_values = true)]
     restitution: Option<Range>,
     #[command(flatten)]
-    pub(super) system: SystemArgs,
+    system: SystemArgs,
 }
 
 impl MapArgs {
+    /// The system, whose impacts are rigid, and the shape of its height, which alone decides their motion; `None` if
+    /// the template was asked for.
+    pub(super) fn begin(
+        &self,
+        output: &OutputArgs,
+        grid: Option<&GridArgs>,
+        context: Context,
+    ) -> Result<Option<(System, Waveform)>> {
+        let Some(DrivenDisk { system, drive }) = self.system.begin(output, true, grid, context)? else {
+            return Ok(None);
+        };
+        DimensionlessSystem::try_from(system)?;
+        Ok(Some((system, DrivenPlatform::of_drive(*system.platform(), &drive)?.height().clone())))
+    }
+
     /// Forcings and restitutions: those that are given, else those of the system if any was given, else
     /// `otherwise` and the restitution of the toss.
     pub(super) fn values(&self, system: &System, given: Option<Range>, otherwise: Range) -> (Range, Range) {
@@ -76,11 +92,6 @@ pub(super) fn driven_map(
     Ok(shape.map(&map(axial_forcing, restitution)?, contact_periods)?)
 }
 
-/// The shape of the height, which alone decides the vertical motion of rigid impacts.
-pub(super) fn shape(system: &System, drive: &DriveParameters) -> Result<Waveform> {
-    Ok(DrivenPlatform::of_drive(*system.platform(), drive)?.height().clone())
-}
-
 /// A field of a job that a sine leaves out.
 pub(super) fn is_sine(shape: &Waveform) -> bool {
     *shape == Waveform::Sine
@@ -95,6 +106,17 @@ pub(super) fn is_rigid_sine(shape: &Waveform, contact_periods: Option<f64>) -> b
 pub(super) fn and_shape(shape: &Waveform, contact_periods: Option<f64>) -> String {
     let shape = if is_sine(shape) { String::new() } else { format!(", {shape}") };
     shape + &contact_periods.map_or_else(String::new, |periods| format!(", contact time {periods} periods"))
+}
+
+/// The parameters of a job, with shape and contact where they are not the paper's.
+pub(super) fn with_shape(mut job: Value, shape: &Waveform, contact_periods: Option<f64>) -> Value {
+    if !is_sine(shape) {
+        job["drive"] = json!(shape);
+    }
+    if let Some(periods) = contact_periods {
+        job["contact_periods"] = json!(periods);
+    }
+    job
 }
 
 pub(super) const NO_PERIOD_ONE: &str =

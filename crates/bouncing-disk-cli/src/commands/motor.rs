@@ -57,7 +57,7 @@ pub(crate) struct ReportArgs {
 }
 
 fn report(args: &ReportArgs, context: Context) -> Result<()> {
-    let Some(motor) = args.motor.begin(&args.output, false, context)? else { return Ok(()) };
+    let Some(motor) = args.motor.begin(&args.output, false, None, context)? else { return Ok(()) };
     if let Some(report) = motor.stator_report() {
         return of_stator(&motor, &report)?.deliver(&args.output, context);
     }

@@ -3,7 +3,7 @@
 use bouncing_disk::core::orbits::{OrbitCoverage, OrbitSearch, PeriodicOrbit, Stability};
 use bouncing_disk_plot::Figure;
 
-use super::map::{ContactArgs, MapArgs, VERTICAL, and_shape, driven_map, is_rigid_sine, is_sine, map, shape};
+use super::map::{ContactArgs, MapArgs, VERTICAL, and_shape, driven_map, is_rigid_sine, map, with_shape};
 use super::prelude::*;
 
 /// Past the second period doubling.
@@ -43,9 +43,8 @@ pub(crate) struct OrbitsArgs {
 }
 
 pub(super) fn run(args: &OrbitsArgs, context: Context) -> Result<()> {
-    let given = args.map.system.begin(&args.output, true, context)?;
-    let Some((system, drive)) = given.map(DrivenDisk::rigid).transpose()? else { return Ok(()) };
-    let (drive, contact_periods) = (shape(&system, &drive)?, args.contact.contact_periods);
+    let Some((system, drive)) = args.map.begin(&args.output, None, context)? else { return Ok(()) };
+    let contact_periods = args.contact.contact_periods;
     let (axial_forcing, restitution) = args.map.pair(&system, args.axial_forcing, FORCING)?;
     let search =
         OrbitSearch::new(args.impacts, args.platform_periods)?.with_starts(args.starts, args.starts)?;
@@ -60,13 +59,11 @@ pub(super) fn run(args: &OrbitsArgs, context: Context) -> Result<()> {
             None,
         )
     };
-    let mut job = json!({ "axial_forcing": axial_forcing, "restitution": restitution, "search": search });
-    if !is_sine(&drive) {
-        job["drive"] = json!(drive);
-    }
-    if let Some(periods) = contact_periods {
-        job["contact_periods"] = json!(periods);
-    }
+    let job = with_shape(
+        json!({ "axial_forcing": axial_forcing, "restitution": restitution, "search": search }),
+        &drive,
+        contact_periods,
+    );
     let numbered = orbits.iter().enumerate();
     let rows = numbered
         .flat_map(|(number, orbit)| (0..orbit.states.len()).map(move |impact| (number, orbit, impact)))

@@ -12,7 +12,7 @@ pub(super) use crate::grid::{self, GridArgs, GridJob, Rows};
 pub(super) use crate::output::{Columns, OutputArgs, Quantities, Report, json, provenance, stored};
 pub(super) use crate::parameters::motor::MotorArgs;
 pub(super) use crate::parameters::system::{DrivenDisk, SystemArgs};
-pub(super) use crate::range::{Range, Words, interval, one_of};
+pub(super) use crate::range::{Range, Words, assignment, interval, one_of};
 
 /// The heading of what is a command's own.
 pub(super) const OWN: &str = "Computation";

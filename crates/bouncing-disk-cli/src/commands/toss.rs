@@ -75,7 +75,7 @@ pub(crate) struct TossArgs {
 }
 
 pub(super) fn run(args: &TossArgs, context: Context) -> Result<()> {
-    let given = args.system.begin(&args.output, true, context)?;
+    let given = args.system.begin(&args.output, true, None, context)?;
     let Some(DrivenDisk { system, drive }) = given else { return Ok(()) };
     if !drive.is_sine() || system.soft_contact().is_some() {
         return driven::run(&system, &drive, args, context);

@@ -11,7 +11,6 @@ use serde::{Deserialize, Serialize};
 
 use super::map::{
     ContactArgs, MapArgs, NO_PERIOD_ONE, STARTS, Start, VERTICAL, driven_map, is_rigid_sine, is_sine, map,
-    shape,
 };
 use super::prelude::*;
 
@@ -71,9 +70,9 @@ pub(crate) struct VerdictsArgs {
 }
 
 pub(super) fn run(args: &VerdictsArgs, context: Context) -> Result<()> {
-    let given = args.map.system.unless_template(&args.output, context)?;
-    let Some((system, drive)) = given.map(DrivenDisk::rigid).transpose()? else { return Ok(()) };
-    let (drive, contact_periods) = (shape(&system, &drive)?, args.contact.contact_periods);
+    let given = args.map.begin(&args.output, Some(&args.grid), context)?;
+    let Some((system, drive)) = given else { return Ok(()) };
+    let contact_periods = args.contact.contact_periods;
     if args.start == Start::PeriodOne && !is_rigid_sine(&drive, contact_periods) {
         return Err(Failure::Usage(NO_PERIOD_ONE.to_owned()));
     }
@@ -93,7 +92,7 @@ pub(super) fn run(args: &VerdictsArgs, context: Context) -> Result<()> {
         drive,
         contact_periods,
     };
-    grid::run(job, &args.map.system.inputs(), &args.grid, &args.output, context)
+    grid::run(job, &args.grid, &args.output, context)
 }
 
 #[derive(Debug, Clone, Serialize, Deserialize)]

@@ -1,11 +1,12 @@
 //! A disk on a platform: what a file and `--set` have for the commands of tosses and orbits.
 
 use bouncing_disk::System;
-use bouncing_disk::parameters::{Contact, DimensionlessSystem, DriveParameters, StatorParameters};
+use bouncing_disk::parameters::{Contact, DriveParameters, StatorParameters};
+use bouncing_disk::sheet_text;
 use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
-use super::{Described, Format, Setting, SourceArgs, parse, unknown};
+use super::{Described, Format, Setting, SourceArgs};
 use crate::range::Words;
 
 pub(crate) type SystemArgs = SourceArgs<DrivenDisk>;
@@ -15,14 +16,6 @@ pub(crate) type SystemArgs = SourceArgs<DrivenDisk>;
 pub(crate) struct DrivenDisk {
     pub(crate) system: System,
     pub(crate) drive: DriveParameters,
-}
-
-impl DrivenDisk {
-    /// System and drive, if impacts are rigid.
-    pub(crate) fn rigid(self) -> Result<(System, DriveParameters), bouncing_disk::Error> {
-        DimensionlessSystem::try_from(self.system)?;
-        Ok((self.system, self.drive))
-    }
 }
 
 const PIZZA_TOSS: fn() -> DrivenDisk = || DrivenDisk::from(System::pizza_toss());
@@ -90,12 +83,10 @@ fn tables(of: &impl Serialize) -> Result<Table, String> {
 
 /// Sets values, and checks all.
 fn build(mut tables: Table, settings: &[Setting]) -> Result<System, String> {
-    let paths = || FIELDS.iter().map(|(path, ..)| *path);
+    let paths = FIELDS.map(|(path, ..)| path);
     for (key, value) in settings {
-        let Some((table, name)) = paths().find(|path| path == key).and_then(|path| path.split_once('.'))
-        else {
-            return Err(unknown(key, paths()));
-        };
+        let known = paths.iter().find(|path| *path == key).and_then(|path| path.split_once('.'));
+        let Some((table, name)) = known else { return Err(sheet_text::unknown_key(key, &paths)) };
         // A time takes the place of materials.
         if table == "contact" {
             let law = tables.get(table).and_then(|contact| contact.get("law").cloned());
@@ -118,7 +109,11 @@ impl Described for DrivenDisk {
     ];
 
     fn read(text: &str, format: Format, settings: &[Setting]) -> Result<Self, String> {
-        let mut file: File = parse(text, format)?;
+        let file = match format {
+            Format::Json => sheet_text::from_json::<File>(text),
+            Format::Toml => sheet_text::from_toml(text),
+        };
+        let mut file = file.map_err(|error| error.to_string())?;
         // A file may leave it out.
         file.disk.load_acceleration.get_or_insert(0.0);
         file.drive.check().map_err(|error| error.to_string())?;

@@ -5,7 +5,7 @@ use bouncing_disk::motor::{InputSpread, MotorField, OperatingRow, Operation, Swe
 use bouncing_disk_plot::{Figure, rounded};
 
 use super::settings::{
-    SettingsArgs, SpreadArgs, interval, life, lock_note, motion, shown_life, state, warn, with_details,
+    SettingsArgs, SpreadArgs, begin, interval, life, lock_note, motion, shown_life, state, with_details,
 };
 use crate::commands::prelude::*;
 
@@ -39,8 +39,7 @@ pub(crate) struct CurveArgs {
 }
 
 pub(super) fn run(args: &CurveArgs, context: Context) -> Result<()> {
-    let Some(motor) = args.motor.begin(&args.output, true, context)? else { return Ok(()) };
-    warn(&motor, context);
+    let Some(motor) = begin(&args.motor, &args.output, true, None, context)? else { return Ok(()) };
     // A law of the load has a torque already.
     let has_law = motor.load().is_some();
     let load_torques = match args.loads {

@@ -9,7 +9,7 @@ use bouncing_disk::motor::{
 };
 use serde_json::Value;
 
-use super::settings::{SettingsArgs, SpreadArgs, lock_note, motion, named, state, warn};
+use super::settings::{SettingsArgs, SpreadArgs, begin, lock_note, motion, named, state};
 use crate::commands::prelude::*;
 
 /// The arguments of a command that looks for one operation of a motor.
@@ -26,9 +26,7 @@ pub(super) struct OperationArgs {
 impl OperationArgs {
     /// The motor, if the result can be written; `None` where the template was asked for, and has been written.
     fn begin(&self, context: Context) -> Result<Option<Motor>> {
-        let given = self.motor.begin(&self.output, false, context)?;
-        given.iter().for_each(|motor| warn(motor, context));
-        Ok(given)
+        begin(&self.motor, &self.output, false, None, context)
     }
 
     /// What the answer depends on.
@@ -146,14 +144,12 @@ fn search_range(text: &str) -> Result<SearchRange, String> {
     let form = || format!("a range is FIELD=LOW:HIGH, such as preload_force=2:10, not {text:?}");
     let (name, ends) = text.split_once('=').map_or((text, None), |(name, ends)| (name, Some(ends)));
     let field = name.trim().parse::<MotorField>().map_err(|unknown| unknown.to_string())?;
-    let number = |text: &str| text.trim().parse::<f64>().map_err(|_| form());
-    match ends.map(|ends| ends.split_once(':')) {
-        None if field == MotorField::PhaseLag => {
-            Ok(SearchRange { field, low: 0.0, high: std::f64::consts::TAU })
-        }
-        Some(Some((low, high))) => Ok(SearchRange { field, low: number(low)?, high: number(high)? }),
-        _ => Err(form()),
-    }
+    let [low, high] = match ends {
+        None if field == MotorField::PhaseLag => [0.0, std::f64::consts::TAU],
+        Some(ends) => interval(ends)?,
+        None => return Err(form()),
+    };
+    Ok(SearchRange { field, low, high })
 }
 
 pub(super) fn best(args: &BestArgs, context: Context) -> Result<()> {

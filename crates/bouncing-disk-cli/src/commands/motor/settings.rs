@@ -78,9 +78,18 @@ impl SpreadArgs {
     }
 }
 
-/// Prints warnings of values in a data sheet that are legal and yet unlikely to be meant.
-pub(super) fn warn(motor: &Motor, context: Context) {
-    motor.warnings().iter().for_each(|warning| context.note(&format!("warning: {warning}")));
+/// The motor, with warnings of values in its data sheet that are legal and yet unlikely to be meant.
+pub(super) fn begin(
+    motor: &MotorArgs,
+    output: &OutputArgs,
+    picture: bool,
+    grid: Option<&GridArgs>,
+    context: Context,
+) -> Result<Option<Motor>> {
+    let given = motor.begin(output, picture, grid, context)?;
+    let warnings = given.iter().flat_map(Motor::warnings);
+    warnings.for_each(|warning| context.note(&format!("warning: {warning}")));
+    Ok(given)
 }
 
 /// A line on a motor that is locked: its errors are tiny, and hold at exactly its inputs.

@@ -10,7 +10,7 @@ use bouncing_disk_plot::{Figure, SINGLE_COLUMN, rounded};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::settings::{SettingsArgs, interval, motion, shown_life, shown_unit, state, warn, with_details};
+use super::settings::{SettingsArgs, begin, interval, motion, shown_life, shown_unit, state, with_details};
 use crate::commands::prelude::*;
 
 /// A motor over one or two fields of its data sheet
@@ -59,9 +59,9 @@ struct Over {
 }
 
 fn over(text: &str) -> Result<Over, String> {
-    let form = || "an axis is FIELD=FIRST:LAST:POINTS, such as load_torque=0:30e-6:7".to_owned();
-    let (field, values) = text.split_once('=').ok_or_else(form)?;
-    let field = field.trim().parse::<MotorField>().map_err(|unknown| unknown.to_string())?;
+    let (field, values) =
+        assignment(text, "an axis is FIELD=FIRST:LAST:POINTS, such as load_torque=0:30e-6:7")?;
+    let field = field.parse::<MotorField>().map_err(|unknown| unknown.to_string())?;
     Ok(Over { field, values: values.parse()? })
 }
 
@@ -92,8 +92,8 @@ const PICTURES: Words<SweepQuantity> = &[
 ];
 
 pub(super) fn run(args: &SweepArgs, context: Context) -> Result<()> {
-    let Some(motor) = args.motor.unless_template(&args.output, context)? else { return Ok(()) };
-    warn(&motor, context);
+    let given = begin(&args.motor, &args.output, true, Some(&args.grid), context)?;
+    let Some(motor) = given else { return Ok(()) };
     let job = SweepJob {
         motor,
         axes: args.over.clone(),
@@ -107,7 +107,7 @@ pub(super) fn run(args: &SweepArgs, context: Context) -> Result<()> {
     let replaced = sweep.replaced();
     replaced.iter().for_each(|field| context.note(&format!("the {field} of the data sheet is left out")));
     let job = SweepJob { groups: sweep.groups().len(), ..job };
-    grid::run(job, &args.motor.inputs(), &args.grid, &args.output, context)
+    grid::run(job, &args.grid, &args.output, context)
 }
 
 #[derive(Debug, Clone, Serialize, Deserialize)]

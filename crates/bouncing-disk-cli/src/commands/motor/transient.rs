@@ -7,7 +7,7 @@ use bouncing_disk::{Motor, Observer};
 use bouncing_disk_plot::Figure;
 use serde::{Deserialize, Serialize};
 
-use super::settings::warn;
+use super::settings::begin;
 use crate::commands::fit::{estimates, fitted_curve, refusal};
 use crate::commands::prelude::*;
 
@@ -46,8 +46,8 @@ pub(crate) struct TransientArgs {
 }
 
 pub(super) fn run(args: &TransientArgs, context: Context) -> Result<()> {
-    let Some(motor) = args.motor.unless_template(&args.output, context)? else { return Ok(()) };
-    warn(&motor, context);
+    let given = begin(&args.motor, &args.output, true, Some(&args.grid), context)?;
+    let Some(motor) = given else { return Ok(()) };
     let job = TransientJob {
         motor,
         members: args.members,
@@ -59,7 +59,7 @@ pub(super) fn run(args: &TransientArgs, context: Context) -> Result<()> {
             ..TransientSettings::default()
         },
     };
-    grid::run(job, &args.motor.inputs(), &args.grid, &args.output, context)
+    grid::run(job, &args.grid, &args.output, context)
 }
 
 #[derive(Debug, Clone, Serialize, Deserialize)]

@@ -3,17 +3,18 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use serde::de::{Deserializer, Error as _, MapAccess, Visitor};
+use serde::de::{Deserialize, Deserializer, Error as _, MapAccess, Visitor};
 use serde_json::Value;
 
 use crate::error::Error;
 use crate::motor::data_sheet::Motor;
-use crate::motor::data_sheet::motor_field::{MotorField, UnknownMotorField, distance};
+use crate::motor::data_sheet::motor_field::{MotorField, UnknownMotorField};
 use crate::motor::data_sheet::parameters::MotorParameters;
 use crate::parameters::contact::Contact;
 use crate::parameters::driven_platform::DriveParameters;
 use crate::parameters::load::LoadLaw;
 use crate::parameters::stator::StatorParameters;
+use crate::sheet_text::{self, SheetTextError, distance};
 
 /// Why the text of a data sheet gives no motor.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -34,20 +35,9 @@ pub enum MotorFileError {
     Illegal(#[from] Error),
 }
 
-impl MotorFileError {
-    fn text(line: usize, column: usize, reason: &str) -> Self {
-        // The readers speak of their own types, and of texts where somebody wrote a unit.
-        let reason = match reason {
-            "string values must be quoted, expected literal string" => {
-                "a value must be a number without a unit, such as 40e3".to_owned()
-            }
-            other => nearest_word(other)
-                .unwrap_or_else(|| {
-                    other.replace("expected f64", "expected a number").replace("a sequence", "a list")
-                })
-                .replace(char::is_control, " "),
-        };
-        Self::Text { line: line.max(1), column: column.max(1), reason }
+impl From<SheetTextError> for MotorFileError {
+    fn from(SheetTextError { line, column, reason }: SheetTextError) -> Self {
+        Self::Text { line, column, reason }
     }
 }
 
@@ -78,16 +68,7 @@ impl Motor {
     /// As [`Self::from_json`].
     #[cfg(feature = "json")]
     pub fn from_json_with(text: &str, changes: &[(MotorField, f64)]) -> Result<Self, MotorFileError> {
-        let mut reader = serde_json::Deserializer::from_str(without_mark(text));
-        let given = reader.deserialize_map(Entries).and_then(|given| reader.end().map(|()| given));
-        let given = given.map_err(|error| {
-            let whole = error.to_string();
-            // The reader appends the place, which has fields of its own here.
-            let place = format!(" at line {} column {}", error.line(), error.column());
-            let reason = whole.strip_suffix(&place).unwrap_or(&whole);
-            MotorFileError::text(error.line(), error.column(), reason)
-        })?;
-        Ok(motor_of(given, changes)?)
+        Ok(motor_of(sheet_text::from_json(text)?, changes)?)
     }
 
     /// The data sheet as [`Self::from_json`] reads it, one field a line, to the last bit. The units are those
@@ -133,16 +114,7 @@ impl Motor {
     /// As [`Self::from_toml`].
     #[cfg(feature = "toml")]
     pub fn from_toml_with(text: &str, changes: &[(MotorField, f64)]) -> Result<Self, MotorFileError> {
-        let text = without_mark(text);
-        let given = toml::Deserializer::parse(text).and_then(|reader| reader.deserialize_map(Entries));
-        let given = given.map_err(|error| {
-            let place = error.span().map_or(0, |span| span.start);
-            let before = text.get(..place).unwrap_or_default();
-            let begun = before.rsplit('\n').next().unwrap_or_default();
-            let line = before.bytes().filter(|byte| *byte == b'\n').count() + 1;
-            MotorFileError::text(line, begun.chars().count() + 1, error.message())
-        })?;
-        Ok(motor_of(given, changes)?)
+        Ok(motor_of(sheet_text::from_toml(text)?, changes)?)
     }
 
     /// The data sheet as [`Self::from_toml`] reads it, to the last bit, with the units as comments.
@@ -189,9 +161,15 @@ impl TryFrom<String> for Key {
         let of_table = |table: &str| name.strip_prefix(table).is_some_and(|rest| rest.starts_with('.'));
         match TABLES.iter().position(|table| near(table) || of_table(table)) {
             Some(index) if name == TABLES[index] => Ok(Self::Table(index)),
-            Some(index) => Err(UnknownMotorField::instead_of(&name, TABLES[index])),
+            Some(index) => Err(UnknownMotorField::new(&name, Some(TABLES[index]))),
             None => name.parse().map(Self::Field),
         }
+    }
+}
+
+impl<'de> Deserialize<'de> for Given {
+    fn deserialize<D: Deserializer<'de>>(reader: D) -> Result<Self, D::Error> {
+        reader.deserialize_map(Entries)
     }
 }
 
@@ -244,23 +222,6 @@ fn motor_of(
         }
     }
     sheet.build()
-}
-
-/// The words on an unknown key or name of the drive, of which a reader lists all that are known.
-fn nearest_word(reason: &str) -> Option<String> {
-    let words = reason.strip_prefix("unknown field ").or_else(|| reason.strip_prefix("unknown variant "))?;
-    let mut words = words.split('`').skip(1).step_by(2);
-    let word = words.next()?;
-    let near =
-        words.clone().min_by_key(|known| distance(word, known)).filter(|near| distance(word, near) < 4);
-    let known = || format!("the known ones are {}", words.collect::<Vec<_>>().join(", "));
-    let hint = near.map_or_else(known, |near| format!("did you mean \"{near}\"?"));
-    Some(format!("\"{word}\" is unknown; {hint}"))
-}
-
-/// The text without a byte-order mark, which some editors put before it.
-fn without_mark(text: &str) -> &str {
-    text.strip_prefix('\u{feff}').unwrap_or(text)
 }
 
 /// The fields that a data sheet has outside of its tables, in their order.

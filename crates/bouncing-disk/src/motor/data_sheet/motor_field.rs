@@ -8,6 +8,7 @@ use std::str::FromStr;
 use crate::motor::data_sheet::parameters::MotorParameters;
 use crate::parameters::contact::Contact;
 use crate::parameters::stator::StatorParameters;
+use crate::sheet_text::{nearest, unknown};
 
 /// Another unit in which a number may have been meant.
 #[derive(Debug, Clone, Copy)]
@@ -279,25 +280,17 @@ impl Display for MotorField {
 /// A name that is not a field of a motor's data sheet. Its text is escaped as in Rust, so that it cannot
 /// disturb a terminal.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct UnknownMotorField {
-    name: String,
-    nearest: Option<&'static str>,
-}
+pub struct UnknownMotorField(String);
 
 impl UnknownMotorField {
-    #[cfg(any(feature = "json", feature = "toml"))]
-    pub(crate) fn instead_of(name: &str, nearest: &'static str) -> Self {
-        Self { name: excerpt(name), nearest: Some(nearest) }
+    pub(crate) fn new(name: &str, nearest: Option<&str>) -> Self {
+        Self(format!("the key {}", unknown(name, nearest, &MotorField::ALL.map(MotorField::name))))
     }
 }
 
 impl Display for UnknownMotorField {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(f, "the key {:?} is unknown; ", self.name)?;
-        match self.nearest {
-            Some(nearest) => write!(f, "did you mean \"{nearest}\"?"),
-            None => write!(f, "the known ones are {}", MotorField::ALL.map(MotorField::name).join(", ")),
-        }
+        f.write_str(&self.0)
     }
 }
 
@@ -308,7 +301,7 @@ impl FromStr for MotorField {
 
     fn from_str(name: &str) -> Result<Self, UnknownMotorField> {
         let known = Self::ALL.into_iter().find(|field| field.name() == name);
-        known.ok_or_else(|| UnknownMotorField { name: excerpt(name), nearest: nearest(name) })
+        known.ok_or_else(|| UnknownMotorField::new(name, nearest_field(name)))
     }
 }
 
@@ -326,63 +319,10 @@ impl From<MotorField> for &'static str {
     }
 }
 
-/// Longest key that is compared letter by letter: a longer one is like none.
-const LONGEST_KEY: usize = 64;
-
-/// Shortest part of a name that may stand for it: "load" for "load_torque".
-const SHORTEST_PART: usize = 4;
-
-/// Most characters of a user's text that an error repeats.
-const LONGEST_EXCERPT: usize = 60;
-
-/// The beginning of a user's text.
-fn excerpt(text: &str) -> String {
-    match text.char_indices().nth(LONGEST_EXCERPT) {
-        Some((end, _)) => format!("{}...", &text[..end]),
-        None => text.to_owned(),
-    }
-}
-
-/// The known key that is most like this one: that of the symbol or the other name that it is; that with the
-/// fewest changes of a letter, if they are less than half of its letters; that which it is a part of, or
-/// which is a part of it.
-fn nearest(key: &str) -> Option<&'static str> {
-    if key.is_empty() || key.len() > LONGEST_KEY {
-        return None;
-    }
-    if let Some(field) = FIELDS.iter().find(|field| field.also.contains(&key)) {
-        return Some(field.name);
-    }
-    let key = key.trim().to_ascii_lowercase().replace(['-', ' '], "_");
-    let near = FIELDS.iter().map(|field| (distance(&key, field.name), field.name)).min()?;
-    if 3 * near.0 <= key.chars().count() {
-        return Some(near.1);
-    }
-    let part = FIELDS
-        .iter()
-        .find(|field| key.contains(field.name) || key.len() >= SHORTEST_PART && field.name.contains(&key));
-    part.map(|field| field.name).or_else(|| (2 * near.0 < key.chars().count()).then_some(near.1))
-}
-
-/// The fewest letters to insert, to remove or to replace, two neighbours that are exchanged counting once
-/// (the optimal string alignment distance).
-pub(crate) fn distance(one: &str, other: &str) -> usize {
-    let (one, other): (Vec<char>, Vec<char>) = (one.chars().collect(), other.chars().collect());
-    let mut before_last: Vec<usize> = Vec::new();
-    let mut last: Vec<usize> = (0..=other.len()).collect();
-    for (i, letter) in one.iter().enumerate() {
-        let mut row = vec![i + 1];
-        for (j, wanted) in other.iter().enumerate() {
-            let replaced = last[j] + usize::from(letter != wanted);
-            let mut least = replaced.min(last[j + 1] + 1).min(row[j] + 1);
-            if i > 0 && j > 0 && *letter == other[j - 1] && one[i - 1] == *wanted {
-                least = least.min(before_last[j - 1] + 1);
-            }
-            row.push(least);
-        }
-        before_last = std::mem::replace(&mut last, row);
-    }
-    last[other.len()]
+/// The known key that is most like this one: that of the symbol or the other name that it is, else by its letters.
+fn nearest_field(key: &str) -> Option<&'static str> {
+    let named = FIELDS.iter().find(|field| field.also.contains(&key)).map(|field| field.name);
+    named.or_else(|| nearest(key, &MotorField::ALL.map(MotorField::name)))
 }
 
 #[cfg(test)]
@@ -419,24 +359,11 @@ mod tests {
 
     #[test]
     fn an_unknown_name_is_told_what_was_meant() {
-        for (one, other, expected) in [
-            ("", "", 0),
-            ("", "abc", 3),
-            ("abc", "", 3),
-            ("load_torqe", "load_torque", 1),
-            ("laod", "load", 1),
-            ("kitten", "sitting", 3),
-            ("ca", "abc", 3),
-            ("mü", "mu", 1),
-        ] {
-            assert_eq!(distance(one, other), expected, "{one} {other}");
-            assert_eq!(distance(other, one), expected, "{other} {one}");
-        }
         for field in FIELDS {
             for place in 0..field.name.len() {
                 let mut less = field.name.to_owned();
                 less.remove(place);
-                assert_eq!(nearest(&less), Some(field.name), "{less}");
+                assert_eq!(nearest_field(&less), Some(field.name), "{less}");
             }
         }
         for (key, expected) in [
@@ -455,10 +382,9 @@ mod tests {
             ("", None),
             ("€€€", None),
         ] {
-            let error = key.parse::<MotorField>().expect_err("unknown");
-            assert_eq!((error.name.as_str(), error.nearest), (key, expected));
+            assert_eq!(nearest_field(key), expected, "{key}");
         }
-        assert_eq!(nearest(&"load_torque".repeat(10)), None);
+        assert_eq!(nearest_field(&"load_torque".repeat(10)), None);
         let error = "\u{1b}[2J".repeat(100).parse::<MotorField>().expect_err("unknown");
         let text = error.to_string();
         assert!(!text.contains('\u{1b}') && text.len() < 900 && text.contains("load_torque"), "{text}");
