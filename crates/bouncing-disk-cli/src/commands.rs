@@ -81,11 +81,49 @@ pub(crate) fn run(command: Command, context: Context) -> Result<()> {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeMap;
+
     use super::*;
 
     #[test]
     fn the_command_line_is_consistent() {
         CommandLine::command().debug_assert();
+    }
+
+    /// The options of each command but those of files, with default and unit: a test of the Python package compares them
+    /// with its arguments. `UPDATE_DOCUMENTATION=1` writes the list.
+    #[test]
+    fn the_list_of_options_is_that_of_the_parser() {
+        fn collect(
+            command: &clap::Command,
+            name: &str,
+            found: &mut BTreeMap<String, BTreeMap<String, String>>,
+        ) {
+            for own in command.get_subcommands() {
+                collect(own, format!("{name} {}", own.get_name()).trim(), found);
+            }
+            let files = ["Parameters", "Result", "Long computations", "General"];
+            let options = command.get_arguments().filter_map(|option| {
+                let default = option.get_default_values().iter().map(|own| own.to_string_lossy());
+                let help = option.get_help()?.to_string();
+                let unit = ["s", "N", "N m"].into_iter().find(|unit| help.contains(&format!("({unit})")));
+                let is_file = option.get_help_heading().is_some_and(|own| files.contains(&own));
+                let said =
+                    default.collect::<String>() + &unit.map_or_else(String::new, |unit| format!(" {unit}"));
+                Some((option.get_long().filter(|_| !is_file)?.to_owned(), said))
+            });
+            if !command.has_subcommands() {
+                found.insert(name.to_owned(), options.collect());
+            }
+        }
+        let mut found = BTreeMap::new();
+        collect(&CommandLine::command(), "", &mut found);
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../data/command-line.json");
+        let text = serde_json::to_string_pretty(&found).unwrap() + "\n";
+        if std::env::var_os("UPDATE_DOCUMENTATION").is_some() {
+            std::fs::write(path, &text).unwrap();
+        }
+        assert!(std::fs::read_to_string(path).unwrap() == text, "UPDATE_DOCUMENTATION=1 writes {path}");
     }
 
     /// A word that begins with a minus may be the value of an option that takes numbers, and no option.

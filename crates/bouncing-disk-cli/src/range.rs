@@ -146,11 +146,12 @@ pub(crate) fn interval(text: &str) -> Result<[f64; 2], String> {
     if high < low { Err(format!("it is reversed: {high} is below {low}")) } else { Ok([low, high]) }
 }
 
-/// Words with their help and what they stand for.
+/// Words with their help and what they stand for; an old word, which has no help, is taken and not shown.
 pub(crate) type Words<T> = &'static [(&'static str, &'static str, T)];
 
 pub(crate) fn one_of<T: Copy + Send + Sync + 'static>(words: Words<T>) -> impl TypedValueParser<Value = T> {
-    let possible = words.iter().map(|(word, help, _)| PossibleValue::new(*word).help(*help));
+    let possible =
+        words.iter().map(|(word, help, _)| PossibleValue::new(*word).help(*help).hide(help.is_empty()));
     PossibleValuesParser::new(possible).try_map(move |word| {
         let found = words.iter().find(|(own, ..)| *own == word);
         found.map(|(.., value)| *value).ok_or("an unknown word")

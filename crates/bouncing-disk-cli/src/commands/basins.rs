@@ -26,7 +26,7 @@ as in Fig. 7 of the paper: phases in periods (tau_imp/2pi), speeds normalised, |
 
 Examples:
   bouncing-disk basins --out basins.png
-  bouncing-disk basins --axial-forcing 0.34 --cells 1000 --speed 0:5 --out basins.json
+  bouncing-disk basins --axial-forcing 0.34 --cells 1000 --speed-range 0:5 --out basins.json
   bouncing-disk basins --cells 10000 --chunk 3/50 --out part-3.json")]
 pub(crate) struct BasinsArgs {
     /// Axial forcing parameter Gamma = A omega^2/(pi g), a number. That of FILE, --preset or --set unless
@@ -41,16 +41,16 @@ pub(crate) struct BasinsArgs {
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = 300)]
     cells: usize,
     /// Impact phases of the window, in periods
-    #[arg(help_heading = OWN, long, value_name = "LOW:HIGH", default_value = "0:1", allow_hyphen_values = true,
+    #[arg(help_heading = OWN, long, alias = "phase", value_name = "LOW:HIGH", default_value = "0:1", allow_hyphen_values = true,
           value_parser = interval)]
-    phase: [f64; 2],
+    phase_range: [f64; 2],
     /// Normalised impact speeds of the window
-    #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "LOW:HIGH", default_value = "0:5",
+    #[arg(help_heading = OWN, long, alias = "speed", allow_hyphen_values = true, value_name = "LOW:HIGH", default_value = "0:3",
           value_parser = interval)]
-    speed: [f64; 2],
+    speed_range: [f64; 2],
     /// Impacts after which a start is left undecided
-    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = BasinSettings::default().max_impacts)]
-    impacts: u32,
+    #[arg(help_heading = OWN, long, alias = "impacts", allow_negative_numbers = true, value_name = "N", default_value_t = BasinSettings::default().max_impacts)]
+    max_impacts: u32,
     /// Starts from which attractors are looked for
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = AttractorSearch::default().starts())]
     starts: u32,
@@ -68,9 +68,9 @@ pub(super) fn run(args: &BasinsArgs, context: Context) -> Result<()> {
         axial_forcing,
         restitution,
         cells: args.cells,
-        phase_periods: args.phase,
-        normalised_speed: args.speed,
-        settings: BasinSettings { max_impacts: args.impacts, ..BasinSettings::default() },
+        phase_periods: args.phase_range,
+        normalised_speed: args.speed_range,
+        settings: BasinSettings { max_impacts: args.max_impacts, ..BasinSettings::default() },
         search: AttractorSearch::default().with_starts(args.starts)?,
         drive,
         contact_periods: args.contact.contact_periods,
@@ -130,7 +130,10 @@ impl BasinsJob {
                 "{option}: {cells} cells from {low:?} to {high:?} are nearer than numbers can be"
             )))
         };
-        Ok(Grid::new(axis("--phase", self.phase_periods)?, axis("--speed", self.normalised_speed)?)?)
+        Ok(Grid::new(
+            axis("--phase-range", self.phase_periods)?,
+            axis("--speed-range", self.normalised_speed)?,
+        )?)
     }
 }
 

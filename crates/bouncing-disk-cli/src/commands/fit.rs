@@ -66,9 +66,10 @@ pub(crate) struct FitArgs {
     /// With --parameter: gives a field of the data sheet another value
     #[arg(help_heading = OWN, long, value_name = "KEY=VALUE", requires = "parameter", value_parser = setting)]
     set: Vec<Setting>,
-    /// With --parameter: most places of the ranges at which the motor is computed, 8 to 400; default 200
-    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", requires = "parameter")]
-    evaluations: Option<usize>,
+    /// With --parameter: most places of the ranges at which the motor is computed, 8 to 400
+    #[arg(help_heading = OWN, long, alias = "evaluations", allow_negative_numbers = true, value_name = "N", requires = "parameter",
+          default_value_t = MotorFitSettings::default().most_evaluations)]
+    most_evaluations: usize,
     /// Of points: most impacts of all members of a computed speed, from 1 on
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", requires = "parameter",
           default_value_t = MotorFitSettings::default().operating.most_impacts)]
@@ -215,7 +216,7 @@ fn parameters(
         }
     }
     let mut settings = MotorFitSettings::default();
-    settings.most_evaluations = args.evaluations.unwrap_or(settings.most_evaluations);
+    settings.most_evaluations = args.most_evaluations;
     settings.operating =
         OperatingSettings { seed: args.seed, most_impacts: args.most_impacts, ..settings.operating };
     let watch = context.watch("fit");

@@ -19,7 +19,7 @@ docs/studying-the-dynamics.md, \"All periodic orbits\".
 
 Examples:
   bouncing-disk orbits --axial-forcing 0.535
-  bouncing-disk orbits --axial-forcing 0.535 --impacts 2 --out orbits.json")]
+  bouncing-disk orbits --axial-forcing 0.535 --max-impacts 2 --out orbits.json")]
 pub(crate) struct OrbitsArgs {
     /// Axial forcing parameter Gamma = A omega^2/(pi g), a number. That of FILE, --preset or --set unless
     /// given; without these 0.535, past the second period doubling
@@ -30,11 +30,11 @@ pub(crate) struct OrbitsArgs {
     #[command(flatten)]
     contact: ContactArgs,
     /// Most impacts of an orbit, in [1, 64]
-    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = 4)]
-    impacts: usize,
+    #[arg(help_heading = OWN, long, alias = "impacts", allow_negative_numbers = true, value_name = "N", default_value_t = 4)]
+    max_impacts: usize,
     /// Most periods of the platform that an orbit takes, in [1, 10000]
-    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = 4)]
-    platform_periods: u64,
+    #[arg(help_heading = OWN, long, alias = "platform-periods", allow_negative_numbers = true, value_name = "N", default_value_t = 4)]
+    max_platform_periods: u64,
     /// Starts along each axis, in [2, 4096]
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = 96)]
     starts: u32,
@@ -46,8 +46,8 @@ pub(super) fn run(args: &OrbitsArgs, context: Context) -> Result<()> {
     let Some((system, drive)) = args.map.begin(&args.output, None, context)? else { return Ok(()) };
     let contact_periods = args.contact.contact_periods;
     let (axial_forcing, restitution) = args.map.pair(&system, args.axial_forcing, FORCING)?;
-    let search =
-        OrbitSearch::new(args.impacts, args.platform_periods)?.with_starts(args.starts, args.starts)?;
+    let search = OrbitSearch::new(args.max_impacts, args.max_platform_periods)?
+        .with_starts(args.starts, args.starts)?;
     let watch = context.watch("orbits");
     let (orbits, coverage) = if is_rigid_sine(&drive, contact_periods) {
         let found = map(axial_forcing, restitution)?.periodic_orbits(&search, &watch)?;

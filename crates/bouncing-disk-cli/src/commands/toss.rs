@@ -21,7 +21,8 @@ use crate::output::WriteTable;
 /// How the disk turns at the start.
 pub(super) const SPINS: Words<InitialSpin> = &[
     ("absolute-rest", "It does not turn", InitialSpin::AbsoluteRest),
-    ("rest-relative-to-hand", "It turns with the platform", InitialSpin::RestRelativeToHand),
+    ("with-hand", "It turns with the platform", InitialSpin::RestRelativeToHand),
+    ("rest-relative-to-hand", "", InitialSpin::RestRelativeToHand),
 ];
 
 pub(super) const MOST_INSTANTS: i64 = 1_000_000;
@@ -52,8 +53,8 @@ pub(crate) struct TossArgs {
     #[command(flatten)]
     system: SystemArgs,
     /// How the disk turns at the start, at the lowest point of the platform unless its drive has a start_phase
-    #[arg(help_heading = OWN, long, value_name = "SPIN", default_value = "absolute-rest", value_parser = one_of(SPINS))]
-    spin: InitialSpin,
+    #[arg(help_heading = OWN, long, alias = "spin", value_name = "SPIN", default_value = "absolute-rest", value_parser = one_of(SPINS))]
+    initial_spin: InitialSpin,
     /// Follows the disk through many tosses, and says what it settles on
     #[arg(help_heading = OWN, long)]
     many: bool,
@@ -94,11 +95,11 @@ impl TossArgs {
 }
 
 fn single(system: &System, args: &TossArgs, context: Context) -> Result<()> {
-    let toss = single_toss(system, args.spin)?;
-    let trajectory = toss_trajectory(system, args.spin)?;
+    let toss = single_toss(system, args.initial_spin)?;
+    let trajectory = toss_trajectory(system, args.initial_spin)?;
     let periods = trajectory.end().since(&trajectory.start()).periods;
     let samples = samples(system, trajectory.uniform(instants(args.samples, periods) as usize));
-    let told = (String::new(), quantities(system, &toss), landing_speed(system, args.spin));
+    let told = (String::new(), quantities(system, &toss), landing_speed(system, args.initial_spin));
     deliver((system, None), args, context, &samples, told, ("performance", stored(&toss)?))
 }
 
@@ -122,14 +123,14 @@ pub(super) fn quantities(system: &System, toss: &TossPerformance) -> Quantities 
 
 fn many(system: &System, args: &TossArgs, context: Context) -> Result<()> {
     let settings = args.settings();
-    let start = start(system, args.spin)?;
+    let start = start(system, args.initial_spin)?;
     // Before the long part, so that an illegal number of periods is refused at once.
     let mut engine = Engine::new(system, start, ChatterPolicy::Complete)?;
     let span = PhaseSpan { periods: args.periods, remainder: 0.0 };
     let instants = instants(args.samples, args.periods) as usize;
     let motion = engine.sample(span, instants, &context.watch("motion of the toss"))?;
     let orbit = multi_toss(system, start, settings, &context.watch("toss"))?;
-    let told = (String::new(), described(system, &orbit), landing_speed(system, args.spin));
+    let told = (String::new(), described(system, &orbit), landing_speed(system, args.initial_spin));
     deliver((system, None), args, context, &samples(system, motion), told, ("orbit", stored(&orbit)?))
 }
 
@@ -237,7 +238,7 @@ fn deliver(
     let many = |value: u64| args.many.then_some(value);
     let mut job = json!({
         "system": system,
-        "spin": args.spin,
+        "spin": args.initial_spin,
         "many": args.many,
         "samples": samples.len(),
         "transient_impacts": many(args.transient as u64),

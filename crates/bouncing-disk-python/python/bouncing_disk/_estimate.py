@@ -66,7 +66,7 @@ class TransientEnsemble(Result):
 def ensemble(
     system: System | Motor,
     *,
-    members: Int,
+    members: Int = 10,
     duration: Float = 3.0,
     intervals: Int = 600,
     relaunch_perturbation: Float = 0.001,
@@ -215,7 +215,7 @@ def fit_rated_points(
     *,
     points: Sequence[Mapping[str, Float]],
     ranges: Mapping[str, Pair],
-    most_evaluations: Int = 120,
+    most_evaluations: Int = 200,
     most_impacts: Int = 500_000,
     seed: Int = 1,
     progress: Progress = None,

@@ -243,8 +243,8 @@ class PeriodicOrbit(Stored):
 def periodic_orbits(
     impact_map: ImpactMap,
     *,
-    max_impacts: Int,
-    max_platform_periods: Int,
+    max_impacts: Int = 4,
+    max_platform_periods: Int = 4,
     phases: Int = 96,
     speeds: Int = 96,
     progress: Progress = None,
@@ -430,7 +430,7 @@ class DoublingCascade(Result):
 def doubling_cascade(
     *,
     restitution: Float,
-    count: Int,
+    count: Int = 8,
     drive: Drive | None = None,
     contact_periods: Float | None = None,
     progress: Progress = None,

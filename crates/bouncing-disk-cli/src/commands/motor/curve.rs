@@ -21,15 +21,15 @@ load has its own vertical motion, as on a [stator] that yields; with one of thes
 
 Examples:
   bouncing-disk motor curve
-  bouncing-disk motor curve motor.toml --loads 0:40e-6:21 --out curve.png --out curve.csv
+  bouncing-disk motor curve motor.toml --load-torques 0:40e-6:21 --out curve.png --out curve.csv
   bouncing-disk motor curve --set contact.time=14e-6")]
 pub(crate) struct CurveArgs {
     #[command(flatten)]
     motor: MotorArgs,
     /// Load torques (N m), FIRST:LAST:POINTS, on top of a table [load]; eleven from none to the largest torque unless given,
     /// none with such a table
-    #[arg(help_heading = OWN, long, value_name = "LOADS", allow_hyphen_values = true)]
-    loads: Option<Range>,
+    #[arg(help_heading = OWN, long, alias = "loads", value_name = "LOADS", allow_hyphen_values = true)]
+    load_torques: Option<Range>,
     #[command(flatten)]
     settings: SettingsArgs,
     #[command(flatten)]
@@ -42,7 +42,7 @@ pub(super) fn run(args: &CurveArgs, context: Context) -> Result<()> {
     let Some(motor) = begin(&args.motor, &args.output, true, None, context)? else { return Ok(()) };
     // A law of the load has a torque already.
     let has_law = motor.load().is_some();
-    let load_torques = match args.loads {
+    let load_torques = match args.load_torques {
         Some(loads) => loads,
         None if has_law => Range::new(0.0, 0.0, 1).map_err(Failure::Usage)?,
         None if motor.largest_torque() == 0.0 => return Err(Failure::Usage(NO_FRICTION.to_owned())),

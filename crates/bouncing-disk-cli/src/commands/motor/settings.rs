@@ -24,8 +24,8 @@ pub(super) struct SettingsArgs {
     #[arg(long, allow_negative_numbers = true, value_name = "N", default_value_t = OperatingSettings::default().most_impacts)]
     most_impacts: u64,
     /// Size of the relaunch perturbation, in units of g/omega
-    #[arg(long, allow_hyphen_values = true, value_name = "SIZE", default_value_t = OperatingSettings::default().relaunch_perturbation)]
-    perturbation: f64,
+    #[arg(long, alias = "perturbation", allow_hyphen_values = true, value_name = "SIZE", default_value_t = OperatingSettings::default().relaunch_perturbation)]
+    relaunch_perturbation: f64,
     /// Seed of the perturbations
     #[arg(long, allow_negative_numbers = true, value_name = "SEED", default_value_t = OperatingSettings::default().seed)]
     seed: u64,
@@ -37,7 +37,7 @@ impl SettingsArgs {
             relative_error: self.relative_error,
             members: self.members,
             most_impacts: self.most_impacts,
-            relaunch_perturbation: self.perturbation,
+            relaunch_perturbation: self.relaunch_perturbation,
             seed: self.seed,
         }
     }

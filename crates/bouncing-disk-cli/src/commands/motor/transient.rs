@@ -31,11 +31,11 @@ pub(crate) struct TransientArgs {
     #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "SECONDS", default_value_t = TransientSettings::default().duration)]
     duration: f64,
     /// Equal intervals over which the speed is averaged
-    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = 200)]
+    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = TransientSettings::default().intervals)]
     intervals: usize,
     /// Size of the relaunch perturbation, in units of g/omega
-    #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "SIZE", default_value_t = TransientSettings::default().relaunch_perturbation)]
-    perturbation: f64,
+    #[arg(help_heading = OWN, long, alias = "perturbation", allow_hyphen_values = true, value_name = "SIZE", default_value_t = TransientSettings::default().relaunch_perturbation)]
+    relaunch_perturbation: f64,
     /// Seed of the perturbations and of the starting phases
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "SEED", default_value_t = TransientSettings::default().seed)]
     seed: u64,
@@ -54,7 +54,7 @@ pub(super) fn run(args: &TransientArgs, context: Context) -> Result<()> {
         settings: TransientSettings {
             duration: args.duration,
             intervals: args.intervals,
-            relaunch_perturbation: args.perturbation,
+            relaunch_perturbation: args.relaunch_perturbation,
             seed: args.seed,
             ..TransientSettings::default()
         },

@@ -24,7 +24,7 @@ pub(super) fn run(system: &System, drive: &DriveParameters, args: &TossArgs, con
     let platform = system.driven_platform(drive)?;
     let of_disk = DrivenSystem::new(&platform, system.disk())?;
     let phase = Phase::new(drive.start_phase.unwrap_or_else(|| of_disk.height().lowest_phase()))?;
-    let angular_speed = match args.spin {
+    let angular_speed = match args.initial_spin {
         InitialSpin::AbsoluteRest => 0.0,
         _ => of_disk.angle().velocity(phase.angle()),
     };
@@ -33,8 +33,11 @@ pub(super) fn run(system: &System, drive: &DriveParameters, args: &TossArgs, con
     let motion = Timed { engine, radians: 0.0, scales: platform.scales(system.disk()) };
     let landing = landing(motion.clone());
     let speed = landing.as_ref().ok().map(|(_, speed)| *speed);
-    let toss =
-        if args.many { None } else { Some(single_toss(&platform, system.disk(), Some(phase), args.spin)?) };
+    let toss = if args.many {
+        None
+    } else {
+        Some(single_toss(&platform, system.disk(), Some(phase), args.initial_spin)?)
+    };
     let end = if args.many { args.periods as f64 * period } else { landing?.0 };
     let samples = sampled(motion, end, instants(args.samples, (end / period) as u64) as usize)?;
     if let Some(toss) = toss {
