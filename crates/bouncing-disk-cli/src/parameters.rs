@@ -58,10 +58,6 @@ pub(crate) struct SourceArgs<D: Described> {
 }
 
 impl<D: Described> SourceArgs<D> {
-    fn inputs(&self) -> Vec<&Path> {
-        self.file.as_deref().into_iter().collect()
-    }
-
     /// Whether parameters are asked for; otherwise they are the default ones.
     pub(crate) fn is_given(&self) -> bool {
         self.file.is_some() || self.preset.is_some() || !self.set.is_empty()
@@ -112,7 +108,8 @@ impl<D: Described> SourceArgs<D> {
         context: Context,
     ) -> Result<Option<D>> {
         if !self.template {
-            output.check(picture, &self.inputs(), grid.and_then(GridArgs::journal))?;
+            let inputs: Vec<&Path> = self.file.as_deref().into_iter().collect();
+            output.check(picture, &inputs, grid.and_then(GridArgs::journal))?;
             grid.map_or(Ok(()), |grid| grid.check(output))?;
         }
         self.unless_template(output, context)

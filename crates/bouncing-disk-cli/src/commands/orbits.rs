@@ -53,17 +53,11 @@ pub(super) fn run(args: &OrbitsArgs, context: Context) -> Result<()> {
         let found = map(axial_forcing, restitution)?.periodic_orbits(&search, &watch)?;
         (found.orbits, Some(found.coverage))
     } else {
-        (
-            driven_map(&drive, contact_periods, axial_forcing, restitution)?
-                .periodic_orbits(&search, &watch)?,
-            None,
-        )
+        let map = driven_map(&drive, contact_periods, axial_forcing, restitution)?;
+        (map.periodic_orbits(&search, &watch)?, None)
     };
-    let job = with_shape(
-        json!({ "axial_forcing": axial_forcing, "restitution": restitution, "search": search }),
-        &drive,
-        contact_periods,
-    );
+    let job = json!({ "axial_forcing": axial_forcing, "restitution": restitution, "search": search });
+    let job = with_shape(job, &drive, contact_periods);
     let numbered = orbits.iter().enumerate();
     let rows = numbered
         .flat_map(|(number, orbit)| (0..orbit.states.len()).map(move |impact| (number, orbit, impact)))

@@ -99,7 +99,7 @@ fn single(system: &System, args: &TossArgs, context: Context) -> Result<()> {
     let trajectory = toss_trajectory(system, args.initial_spin)?;
     let periods = trajectory.end().since(&trajectory.start()).periods;
     let samples = samples(system, trajectory.uniform(instants(args.samples, periods) as usize));
-    let told = (String::new(), quantities(system, &toss), landing_speed(system, args.initial_spin));
+    let told = (quantities(system, &toss), landing_speed(system, args.initial_spin));
     deliver((system, None), args, context, &samples, told, ("performance", stored(&toss)?))
 }
 
@@ -130,7 +130,7 @@ fn many(system: &System, args: &TossArgs, context: Context) -> Result<()> {
     let instants = instants(args.samples, args.periods) as usize;
     let motion = engine.sample(span, instants, &context.watch("motion of the toss"))?;
     let orbit = multi_toss(system, start, settings, &context.watch("toss"))?;
-    let told = (String::new(), described(system, &orbit), landing_speed(system, args.initial_spin));
+    let told = (described(system, &orbit), landing_speed(system, args.initial_spin));
     deliver((system, None), args, context, &samples(system, motion), told, ("orbit", stored(&orbit)?))
 }
 
@@ -232,7 +232,7 @@ fn deliver(
     args: &TossArgs,
     context: Context,
     samples: &[Sample],
-    (table, mut list, landing_speed): (String, Quantities, Option<f64>),
+    (mut list, landing_speed): (Quantities, Option<f64>),
     found: (&'static str, json::Data<'_>),
 ) -> Result<()> {
     let many = |value: u64| args.many.then_some(value);
@@ -255,7 +255,7 @@ fn deliver(
     for warning in contact.iter().flat_map(ContactStatement::warnings) {
         list.push("warning", warning.to_string(), "1");
     }
-    let text = table + &list.to_text();
+    let text = list.to_text();
     let period = args.many.then(|| TAU / system.platform().angular_frequency());
     let report = Report {
         provenance: provenance("bouncing-disk toss", &job)?,

@@ -357,7 +357,7 @@ fn words_of_the_line_that_are_not_legal() {
         ("basins -G 0.1:0.2:3", "takes a single number"),
         ("basins --phase 1:0", "reversed"),
         ("basins --phase 0.5:0.5", "axis"),
-        ("basins --phase 0.5:0.5000000000000002", "--phase: 300 cells from 0.5 to 0.5000000000000002"),
+        ("basins --phase 0.5:0.5000000000000002", "--phase-range: 300 cells from 0.5 to 0.5000000000000002"),
         ("basins --speed 1:1.0000000000000002 --cells 9", "are nearer than numbers can be"),
         ("orbits --impacts 0", "impacts"),
         ("doublings --count 99", "count"),

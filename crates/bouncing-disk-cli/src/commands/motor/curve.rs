@@ -5,7 +5,8 @@ use bouncing_disk::motor::{InputSpread, MotorField, OperatingRow, Operation, Swe
 use bouncing_disk_plot::{Figure, rounded};
 
 use super::settings::{
-    SettingsArgs, SpreadArgs, begin, interval, life, lock_note, motion, shown_life, state, with_details,
+    SettingsArgs, SpreadArgs, begin, interval, life, lock_note, motion, needs_friction, shown_life, state,
+    with_details,
 };
 use crate::commands::prelude::*;
 
@@ -45,8 +46,10 @@ pub(super) fn run(args: &CurveArgs, context: Context) -> Result<()> {
     let load_torques = match args.load_torques {
         Some(loads) => loads,
         None if has_law => Range::new(0.0, 0.0, 1).map_err(Failure::Usage)?,
-        None if motor.largest_torque() == 0.0 => return Err(Failure::Usage(NO_FRICTION.to_owned())),
-        None => Range::new(0.0, motor.largest_torque(), 11).map_err(Failure::Usage)?,
+        None => {
+            needs_friction(&motor, "torque-speed curve")?;
+            Range::new(0.0, motor.largest_torque(), 11).map_err(Failure::Usage)?
+        }
     };
     let loads: Vec<f64> = load_torques.values().collect();
     let settings = args.settings.settings();
@@ -90,8 +93,6 @@ pub(super) fn run(args: &CurveArgs, context: Context) -> Result<()> {
     };
     report.deliver(&args.output, context)
 }
-
-const NO_FRICTION: &str = "without friction the largest torque is 0, so there is no torque-speed curve";
 
 fn draw(largest_torque: f64, found: &[OperatingRow], spreads: &[Option<InputSpread>]) -> Figure {
     let point = |operation: &Operation, spread: Option<InputSpread>| {

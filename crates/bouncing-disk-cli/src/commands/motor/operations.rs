@@ -9,7 +9,7 @@ use bouncing_disk::motor::{
 };
 use serde_json::Value;
 
-use super::settings::{SettingsArgs, SpreadArgs, begin, lock_note, motion, named, state};
+use super::settings::{SettingsArgs, SpreadArgs, begin, lock_note, motion, named, needs_friction, state};
 use crate::commands::prelude::*;
 
 /// The arguments of a command that looks for one operation of a motor.
@@ -103,15 +103,6 @@ fn push_stall(list: &mut Quantities, prefix: &str, stall: &StallLoad) {
         list.push(&format!("{prefix}blocked_torque"), blocked.value, "N m");
         list.push(&format!("{prefix}blocked_torque_error"), blocked.standard_error, "N m");
     }
-}
-
-/// Refuses a motor that nothing turns, whose speed would be that of rounding.
-fn needs_friction(motor: &Motor, sought: &str) -> Result<()> {
-    if motor.largest_torque() == 0.0 {
-        let told = format!("without friction the largest torque is 0, so there is no {sought}");
-        return Err(Failure::Usage(told));
-    }
-    Ok(())
 }
 
 /// The best speed, torque, power or efficiency over one or two fields of the data sheet

@@ -92,6 +92,12 @@ pub(super) fn begin(
     Ok(given)
 }
 
+/// Refuses a motor that nothing turns, whose speed would be that of rounding.
+pub(super) fn needs_friction(motor: &Motor, sought: &str) -> Result<()> {
+    let told = || format!("without friction the largest torque is 0, so there is no {sought}");
+    (motor.largest_torque() != 0.0).then_some(()).ok_or_else(|| Failure::Usage(told()))
+}
+
 /// A line on a motor that is locked: its errors are tiny, and hold at exactly its inputs.
 pub(super) fn lock_note(motor: &Motor) -> Result<String> {
     if motor.rigid_sine().is_err() {

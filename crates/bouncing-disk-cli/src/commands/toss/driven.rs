@@ -33,19 +33,16 @@ pub(super) fn run(system: &System, drive: &DriveParameters, args: &TossArgs, con
     let motion = Timed { engine, radians: 0.0, scales: platform.scales(system.disk()) };
     let landing = landing(motion.clone());
     let speed = landing.as_ref().ok().map(|(_, speed)| *speed);
-    let toss = if args.many {
-        None
-    } else {
-        Some(single_toss(&platform, system.disk(), Some(phase), args.initial_spin)?)
-    };
+    let single = || single_toss(&platform, system.disk(), Some(phase), args.initial_spin);
+    let toss = (!args.many).then(single).transpose()?;
     let end = if args.many { args.periods as f64 * period } else { landing?.0 };
     let samples = sampled(motion, end, instants(args.samples, (end / period) as u64) as usize)?;
     if let Some(toss) = toss {
-        let told = (String::new(), quantities(system, &toss), speed);
+        let told = (quantities(system, &toss), speed);
         return deliver(own, args, context, &samples, told, ("performance", stored(&toss)?));
     }
     let orbit = multi_toss(of_disk, start, &args.settings(), &context.watch("toss"))?;
-    let told = (String::new(), described(system, &orbit), speed);
+    let told = (described(system, &orbit), speed);
     deliver(own, args, context, &samples, told, ("orbit", stored(&orbit)?))
 }
 
