@@ -412,7 +412,7 @@ fn verdicts_on_a_map() {
 #[test]
 fn basins_with_a_chaotic_attractor() {
     let search = AttractorSearch::default().with_starts(100).unwrap();
-    let grid = Grid::new(Axis::new(0.0, 1.0, 21).unwrap(), Axis::new(0.0, 5.0, 21).unwrap()).unwrap();
+    let grid = Grid::new(Axis::new(0.0, 1.0, 21).unwrap(), Axis::new(0.0, 3.0, 21).unwrap()).unwrap();
     let settings = BasinSettings { max_impacts: 400, ..BasinSettings::default() };
     let basins =
         map(0.55, 0.5).attractors(&search, &Unobserved).unwrap().basins(grid, settings, &Unobserved).unwrap();
