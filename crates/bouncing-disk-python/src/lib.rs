@@ -35,8 +35,8 @@ mod _native {
     use crate::estimate::{ensemble, fit_rated_points, fit_transients, read_speeds};
     #[pymodule_export]
     use crate::motor::{
-        best, input_spreads, local_sensitivities, low_period_traps, motor_map, nearest_trap, report,
-        stall_load, stator_report, torque_speed_curve,
+        best, default_settings, input_spreads, local_sensitivities, low_period_traps, motor_map,
+        nearest_trap, report, stall_load, stator_report, torque_speed_curve,
     };
     #[pymodule_export]
     use crate::orbits::{

@@ -10,6 +10,7 @@ use numpy::PyArray1;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString, PyTuple};
+use pythonize::pythonize;
 
 use crate::arguments::{Arguments, Made, row};
 use crate::parameters::Motor;
@@ -182,6 +183,12 @@ fn settings(a: &Arguments<'_>) -> PyResult<OperatingSettings> {
     // Errors name them as arguments of the call.
     a.0.update(given.0.as_mapping())?;
     Ok(settings)
+}
+
+/// The settings of a call without any.
+#[pyfunction]
+pub(crate) fn default_settings(py: Python<'_>) -> Made<'_> {
+    Ok(pythonize(py, &OperatingSettings::default())?)
 }
 
 /// Speed, power and efficiency of a motor against its load.

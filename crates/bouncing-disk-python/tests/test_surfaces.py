@@ -17,6 +17,7 @@ from typing import Any
 
 import bouncing_disk as bd
 import pytest
+from bouncing_disk import _native as native
 
 ROOT = Path(__file__).parents[3]
 PAGE = ROOT / "docs" / "architecture.md"
@@ -91,6 +92,13 @@ def plain(default: object) -> list[float | str]:
     return numbers
 
 
+def arguments(function: str) -> dict[str, object]:
+    """The arguments of a function with their defaults, those of a motor's settings among them."""
+    parameters = inspect.signature(operator.attrgetter(function)(bd)).parameters
+    own = {name: parameter.default for name, parameter in parameters.items()}
+    return own | (native.default_settings() if "settings" in parameters else {})
+
+
 def unit_of(name: str, function: str) -> str:
     """The unit that a docstring states of an argument, or "" """
     text = inspect.getdoc(operator.attrgetter(function)(bd)) or ""
@@ -104,16 +112,16 @@ def test_options_are_arguments_by_name_unit_and_default() -> None:
     for command, options in read("command-line.json").items():
         own = [row for row in rows if command_of(row) == command]
         names = [name for row in own for name in functions(row)]
-        signatures = [(own, inspect.signature(operator.attrgetter(own)(bd)).parameters) for own in names]
+        signatures = [(own, arguments(own)) for own in names]
         reasons = {option for row in own for option in row.get("options", ())}
         assert reasons <= options.keys(), command
         for option, said in options.items() if names else ():
             default, _, unit = said.partition(" ")
             name = option.replace("-", "_")
             same = [
-                (plain(parameters[name].default), unit_of(name, function))
-                for function, parameters in signatures
-                if name in parameters
+                (plain(defaults[name]), unit_of(name, function))
+                for function, defaults in signatures
+                if name in defaults
             ]
             agrees = bool(same) and all(own == (plain(default), unit) for own in same)
             if agrees == (option in reasons):
