@@ -95,7 +95,16 @@ fn bound(options: &Options, target: &Path, folder: &Path) -> Result<()> {
     let wasm_bindgen = tools::wasm_bindgen(&target.join("explorer-tools"))?;
     succeed(
         Command::new(wasm_bindgen)
-            .args(["--target", "no-modules", "--no-typescript", "--out-name", LIBRARY, "--out-dir"])
+            .args([
+                "--target",
+                "no-modules",
+                "--no-typescript",
+                "--remove-name-section",
+                "--remove-producers-section",
+                "--out-name",
+                LIBRARY,
+                "--out-dir",
+            ])
             .arg(folder)
             .arg(module),
     )
