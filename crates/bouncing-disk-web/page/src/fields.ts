@@ -1,7 +1,7 @@
 /** A field of one number, or of several with semicolons between them: a comma may belong to a number. */
 
 import { element } from "./elements";
-import { mayBeThousands, typed, written } from "./numbers";
+import { typed, written, type Untold } from "./numbers";
 import { say, WORDS } from "./words";
 
 interface Field {
@@ -46,7 +46,7 @@ export class NumberField {
     const { most = 1 } = this.field;
     if (this.input.value === this.printed) return [...this.values];
     const texts = most === 1 ? [this.input.value] : this.input.value.split(/;|,\s/);
-    const numbers = texts.flatMap((text) => typed(text, this.meaning.unit, this.meaning.angle) ?? []);
+    const numbers = texts.map((text) => this.typed(text)).filter((value) => typeof value === "number");
     return numbers.length === texts.length && numbers.length <= most ? numbers : null;
   }
 
@@ -69,10 +69,12 @@ export class NumberField {
     const { most = 1, take } = this.field;
     const values = this.numbers();
     const text = this.input.value.slice(0, 24);
-    const { numbers, thousands, no_angle, no_number } = WORDS.fields;
-    const single = mayBeThousands(text) ? thousands : this.meaning.angle ? no_angle : no_number;
-    const problem = values === null ? say(most > 1 ? numbers : single, { most, text }) : take(values);
-    this.complain(problem ?? null);
+    const why = most > 1 ? "numbers" : (this.typed(this.input.value) as Untold);
+    this.complain((values === null ? say(WORDS.fields[why], { most, text }) : take(values)) ?? null);
+  }
+
+  private typed(text: string): number | Untold {
+    return typed(text, this.meaning.unit, this.meaning.angle);
   }
 
   private reset(): void {

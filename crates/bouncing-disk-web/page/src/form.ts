@@ -1,7 +1,7 @@
 /** The form of all parameters, and the numbers that follow from them. Which values are legal is for the module to say. */
 
 import type { Change, State } from "./contract";
-import { element, Facts, symbol } from "./elements";
+import { element, Facts, isNarrow, symbol } from "./elements";
 import { NumberField } from "./fields";
 import { quantity, shown } from "./numbers";
 import type { Range, Refusal, Summary, SystemParameters } from "./protocol";
@@ -182,7 +182,7 @@ export class Parameters {
 
   constructor(host: HTMLElement, propose: Propose) {
     const group = (name: string, title: string, ...parts: HTMLElement[]) =>
-      element("details", { class: `group ${name}`, open: name === "essentials" }, element("summary", {}, title), ...parts);
+      element("details", { class: `group ${name}`, open: name === "essentials" && !isNarrow() }, element("summary", {}, title), ...parts);
     for (const [name, parameters] of Object.entries(GROUPS)) {
       const fields = parameters.map((parameter) => new Field(parameter, propose));
       this.fields.push(...fields);
@@ -223,9 +223,12 @@ class Field {
   private readonly field: NumberField;
   private readonly hint = element("span", { class: "hint" });
   private readonly error: HTMLElement;
+  private readonly doubt = element("p", { class: "caution", role: "status", hidden: true });
   private readonly logarithmic: boolean;
   private state: State | null = null;
   private range: Range = [0, 1];
+  /** Typed in metres, which are few people's unit of a hand or a motor. */
+  private doubted = NaN;
 
   constructor(
     private readonly parameter: Parameter,
@@ -240,7 +243,7 @@ class Field {
     }); // prettier-ignore
     this.field = new NumberField({
       attributes: { id: `field-${name}`, inputmode: "decimal", "aria-describedby": `error-${name}` },
-      take: ([value = NaN]) => this.ask(value, true),
+      take: ([value = NaN]) => this.ask(value, true, true),
       tell: (problem) => {
         this.error.textContent = problem;
         this.error.hidden = problem === null;
@@ -252,7 +255,7 @@ class Field {
       "div",
       { class: "field", "data-name": name },
       element("label", { for: `field-${name}` }, ...words),
-      ...[this.hint, this.slider, this.field.input, element("span", { class: "unit" }, unit), this.error],
+      ...[this.hint, this.slider, this.field.input, element("span", { class: "unit" }, unit), this.error, this.doubt],
     );
   }
 
@@ -262,6 +265,7 @@ class Field {
     const value = this.parameter.value(state, summary);
     if (value === null) return;
     this.field.show([value], this.parameter, fresh);
+    if (value !== this.doubted) this.doubt.hidden = true;
     if (fresh || value < this.range[0] || value > this.range[1]) this.range = this.suitable(value, state);
     this.slider.value = String(this.position(value));
     this.slider.setAttribute("aria-valuetext", `${shown(value)} ${this.parameter.unit}`);
@@ -291,14 +295,17 @@ class Field {
     this.ask(Number((Math.round(exact / digit) * digit).toPrecision(12)), settled);
   }
 
-  private ask(value: number, settled: boolean): void {
+  private ask(value: number, settled: boolean, isTyped = false): void {
     if (this.state === null) return;
+    this.doubted = isTyped && this.parameter.unit === "m" && value >= 1 ? value : NaN;
     this.propose(this.parameter.change(value, this.state), {
       settled,
       refused: (refusal) => this.field.complain(this.words(refusal, value)),
       taken: () => {
         this.field.complain(null);
         this.field.print();
+        this.doubt.hidden = Number.isNaN(this.doubted);
+        this.doubt.textContent = say(WORDS.fields.doubt, { value });
       },
     });
   }
@@ -308,6 +315,12 @@ class Field {
     const ranges: Readonly<Record<string, string>> = tables.ranges;
     const range = refusedAs?.includes(quantity ?? "") ? (ranges[name] ?? null) : quantity === name ? own : null;
     if (range === null) return `${message}${/[.!]$/.test(message) ? "" : "."}`;
-    return say(WORDS.form.refused, { value: shown(value), name: shortLabelOf(this.parameter), range });
+    return say(WORDS.form.refused, { value: shown(value), name: shortLabelOf(this.parameter), range: legal(range) });
   }
+}
+/** A range of the library in words: "[0, inf)" is "0 or more". */
+function legal(range: string): string {
+  const [, from = "", low = "", high = "", to = ""] = /^([[(])(.+), (.+)([\])])$/.exec(range) ?? [];
+  const texts: Readonly<Record<string, string>> = WORDS.form.ranges;
+  return say(texts[from + (high === "inf" ? high : to)] ?? range, { low, high });
 }

@@ -1,6 +1,7 @@
 /** Numbers as people type and read them. The value itself is never rounded: only what is shown of it is. */
 
-import { readNumber } from "./state";
+import { DECIMAL, isLost } from "./state";
+import type { WORDS } from "./words";
 
 /** About so many significant digits, without zeros that say nothing. */
 export const shown = (value: number, digits = 5): string =>
@@ -34,35 +35,36 @@ const UNITS: Readonly<Record<string, Readonly<Record<string, number>>>> = {
   "": { "%": 1e-2 },
 }; // prettier-ignore
 
+/** Why a text is no number that a field takes: the name of the sentence in `words.json`. */
+export type Untold = Exclude<keyof typeof WORDS.fields, "numbers" | "doubt">;
+
 /**
  * A typed number in the unit of its field: `0.5`, `0,5`, `1e-8`, `62 mm`, with a true minus sign, and `0.26π` or `pi/2` where
- * multiples of pi are meant. `null` for what is none, or may be two.
+ * multiples of pi are meant.
  */
-export function typed(text: string, unit = "none", multiplesOfPi = false): number | null {
+export function typed(text: string, unit = "none", multiplesOfPi = false): number | Untold {
   const plain = text.trim().replaceAll("−", "-").replaceAll("μ", "µ").replace(/\s+/g, " ");
-  if (mayBeThousands(plain)) return null;
+  if (/^[+-]?[1-9]\d{0,2}(,\d{3})+(?!\d)/.test(plain)) return "thousands"; // In English, and decimals elsewhere.
   const pointed = plain.includes(".") ? plain : plain.replace(",", ".");
-  const direct = readNumber(pointed);
-  if (direct !== null) return direct;
-  const [, factorOf = "", unitOf = ""] = /^([+-]?[\d.]+(?:e[+-]?\d+)?) ?(\D.*)$/i.exec(pointed) ?? [];
+  if (DECIMAL.test(pointed)) return held(Number(pointed), pointed);
+  const [, factor = "", unitOf = ""] = /^([+-]?[\d.]+(?:e[+-]?\d+)?) ?(\D.*)$/i.exec(pointed) ?? [];
   const sizes = UNITS[unit] ?? {};
-  const [factor, size] = [readNumber(factorOf), Object.hasOwn(sizes, unitOf) ? sizes[unitOf] : undefined];
+  const size = Object.hasOwn(sizes, unitOf) ? (sizes[unitOf] as number) : NaN;
   // 62 mm is 0.062 to the bit, and 15 digits are more than anybody types before a unit.
-  if (factor !== null && size !== undefined) return finite(size === 1 ? factor : Number((factor * size).toPrecision(15)));
-  if (!multiplesOfPi) return null;
-  const parts = /^([+-]?)([\d.e+-]*) ?\*? ?(?:π|pi)(?: ?\/ ?([\d.]+))?$/i.exec(pointed);
-  if (parts === null) return null;
-  const [, sign, factorText, divisorText] = parts;
-  const times = factorText ? readNumber(factorText) : 1;
-  const divisor = divisorText ? readNumber(divisorText) : 1;
-  if (times === null || divisor === null || divisor === 0) return null;
-  return finite(((sign === "-" ? -1 : 1) * times * Math.PI) / divisor);
+  if (DECIMAL.test(factor) && size > 0)
+    return held(size === 1 ? Number(factor) : Number((Number(factor) * size).toPrecision(15)), factor);
+  if (!multiplesOfPi) return "no_number";
+  const [, sign, times = "", divisor = "1"] = /^([+-]?)([\d.e+-]*) ?\*? ?(?:π|pi)(?: ?\/ ?([\d.]+))?$/i.exec(pointed) ?? [];
+  const number = times || "1";
+  if (sign === undefined || !DECIMAL.test(number) || !(Number(divisor) > 0)) return "no_angle";
+  return held(((sign === "-" ? -1 : 1) * Number(number) * Math.PI) / Number(divisor), number);
 }
 
-const finite = (value: number): number | null => (Number.isFinite(value) ? value : null);
-
-/** A comma before three digits parts thousands in English, and decimals elsewhere. */
-export const mayBeThousands = (text: string): boolean => /^[+−-]?[1-9]\d{0,2}(,\d{3})+(?!\d)/.test(text.trim());
+/** The value of these digits, unless a double cannot hold it: 1e400, or 1e-400, which would be 0. */
+function held(value: number, digits: string): number | Untold {
+  if (!Number.isFinite(value)) return "too_large";
+  return value === 0 && isLost(digits) ? "too_small" : value;
+}
 
 export const minus = (text: string): string => text.replace("-", "\u2212");
 

@@ -50,7 +50,7 @@ export const DEFAULT_STATE: State = {
   diagram: { axial_forcing: [0.32, 0.62], quantity: "impact_phase", range: null, branches: true, drive: "sine" },
   basins: { phase_periods: [0, 1], normalised_speed: [0, 5] },
   motor: { rise_times: 6, stator: null },
-  compare: { parameter: "normalised_speed", value: 0, periods: 120, from: null },
+  compare: { parameter: "normalised_speed", value: 0, periods: 160, from: null },
   scan: {
     over: "amplitude_angle",
     range: [0, 1.2],
@@ -74,11 +74,15 @@ export function changed(state: State, change: Change): State {
 /** The shortest digits that give the same bits back. JavaScript prints a negative zero without its sign. */
 const printed = (value: number): string => (Object.is(value, -0) ? "-0" : String(value));
 
-/** A decimal number with all of its text used; `null` for anything else, hexadecimal digits and infinities included. */
-export function readNumber(text: string): number | null {
-  if (!/^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(text)) return null;
-  const value = Number(text);
-  return Number.isFinite(value) ? value : null;
+export const DECIMAL = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i;
+
+/** Whether digits that make 0 have another one among them, as 1e-400 has. */
+export const isLost = (digits: string): boolean => /^[^e]*[1-9]/i.test(digits);
+
+/** A decimal number with all of its text used; `null` for anything else, and for what no double holds. */
+function readNumber(text: string): number | null {
+  const value = DECIMAL.test(text) ? Number(text) : NaN;
+  return Number.isFinite(value) && (value !== 0 || !isLost(text)) ? value : null;
 }
 
 /** Text that is not what a part of the address has to be; the message says what that is. */
@@ -229,6 +233,9 @@ const KEYS: Readonly<Record<string, Key>> = {
   scan_values: of("scan", "values", VALUES),
 };
 
+/** Links of before had the forcing in the place of the amplitude. */
+const OLD_FORCING = "axial_forcing";
+
 /** `#view=toss&amplitude=0.0616&...`: all of the state, so that a link outlives other defaults. */
 export function toHash(state: State): string {
   const parts = Object.entries(KEYS).map(([name, key]) => `${name}=${key.print(state)}`);
@@ -241,12 +248,15 @@ export function fromHash(hash: string): { state: State; problems: string[] } {
   let state = DEFAULT_STATE;
   // The start that an address has beside a throw does not take the place of it, wherever it stands.
   let thrown = state.thrown;
+  let forcing: number | undefined;
   const seen = new Set<string>();
   for (const part of hash.replace(/^#/, "").split("&")) {
     if (part === "") continue;
     const [name = "", text = ""] = unescaped(part).split(/=(.*)/s);
     const key = Object.hasOwn(KEYS, name) ? KEYS[name] : undefined;
-    if (key === undefined) {
+    if (name === OLD_FORCING && readNumber(text) !== null) {
+      forcing ??= readNumber(text) as number;
+    } else if (key === undefined) {
       problems.push(say(WORDS.address.unknown, { part: shortened(part) }));
     } else if (seen.has(name)) {
       problems.push(say(WORDS.address.twice, { name }));
@@ -263,6 +273,8 @@ export function fromHash(hash: string): { state: State; problems: string[] } {
       }
     }
   }
+  if (forcing !== undefined && !seen.has("amplitude"))
+    state = changed(state, { system: { amplitude: amplitudeOf(forcing, state.system) } });
   return { state: changed(state, { thrown }), problems };
 }
 

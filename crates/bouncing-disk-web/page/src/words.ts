@@ -14,3 +14,18 @@ export const say = (text: string, values: Readonly<Record<string, string | numbe
 /** A number with its noun, in the form that goes with it. */
 export const counted = (forms: Readonly<Record<"one" | "many", string>>, count: number): string =>
   say(count === 1 ? forms.one : forms.many, { count });
+
+/** "1 impact per period", "4 impacts in 2 periods". */
+export function roundOf(impacts: number, periods: number): string {
+  const { one, many } = WORDS.diagram.periods;
+  return say(periods === 1 ? one : many, { count: counted(WORDS.diagram.impacts, impacts), periods });
+}
+
+/** A sentence of the library, which writes for terminals, too. */
+export const told = (text: string): string =>
+  text
+    .replaceAll("+-", "±")
+    .replaceAll(" -", " −")
+    .replace(" in 1 period", " per period")
+    .replace(/impacts (\d+), platform periods (\d+)/, (_, impacts, periods) => roundOf(Number(impacts), Number(periods)))
+    .replace(/platform periods (\d+)/, (_, periods) => counted(WORDS.diagram.every, Number(periods)));

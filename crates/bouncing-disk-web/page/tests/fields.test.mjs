@@ -6,14 +6,15 @@ import { isCalm, onPage, settled, stateOf, type, valueOf, whenAddress, whenValue
 const NO_NUMBER = /is not a number\. Write it like 0\.5/;
 const TAKEN = null;
 /** What each field does with a text; those that are no numbers are tried in one number and one angle. */
-const POSITIVE = { 0: /has to be in \(0, inf\)/, "-0": /has to be in \(0, inf\)/, "-1": /has to be in \(0, inf\)/ };
-const ATLEAST0 = { 0: TAKEN, "-0": TAKEN, "1e-310": TAKEN, "-1e-310": /\[0, inf\)/, "-1": /\[0, inf\)/ };
+const POSITIVE = { 0: /must be more than 0\.$/, "-0": /must be more than 0\.$/, "-1": /must be more than 0\.$/ };
+const ATLEAST0 = { 0: TAKEN, "-0": TAKEN, "1e-310": TAKEN, "-1e-310": /must be 0 or more\.$/, "-1": /must be 0 or more\.$/ };
 const ANY = { 0: TAKEN, "-0": TAKEN, "1e-310": TAKEN, "-1e-310": TAKEN, "-1": TAKEN };
-const FORCING = /is refused: the axial forcing has to be in \[0, 3\.18e7\]/;
+const FORCING = /is refused: the axial forcing must be from 0 to 3\.18e7\./;
 const FIELDS = {
   axial_forcing: { "0": TAKEN, "-0": TAKEN, "1e-310": TAKEN, "-1": FORCING, "3e7": TAKEN, "4e7": FORCING },
   restitution: {
-    "0": TAKEN, "-0": TAKEN, "1e-310": TAKEN, "0.9999999999999999": TAKEN, "1": /\[0, 1\)/, "-1e-310": /\[0, 1\)/,
+    "0": TAKEN, "-0": TAKEN, "1e-310": TAKEN, "0.9999999999999999": TAKEN, "1": /at least 0 and less than 1\./, "-1e-310": /less than 1\./,
+    "1e400": /^"1e400" is too large/, "1e-400": /too small to be told from 0/, "1e-323 %": /too small/,
   },
   friction: { ...ATLEAST0, "1e90": TAKEN, "1e101": /\[0, 1e100\]/ },
   amplitude: { ...ATLEAST0, "4e6": TAKEN, "5e6": /\[0, 1e8\]/ },
@@ -23,7 +24,7 @@ const FIELDS = {
   angular_frequency: { ...POSITIVE, "1e-310": /legal range/, "1e-3": TAKEN, "1e5": TAKEN, "1e6": /\[0, 1e8\]/ },
   phase_lag: { ...ANY, "1e300": TAKEN, "-1e300": TAKEN },
   contact_time: {
-    "0": TAKEN, "-0": TAKEN, "1e-310": TAKEN, "1e3": TAKEN, "2e3": /the contact time has to be in \[0, 1590\]/, "-1": /\[0, 1590\]/,
+    "0": TAKEN, "-0": TAKEN, "1e-310": TAKEN, "1e3": TAKEN, "2e3": /the contact time must be from 0 to 1590\./, "-1": /from 0 to 1590/,
   },
   contact_radius: { ...POSITIVE, "1e-310": /1e100\]/, "1e-12": TAKEN, "1e8": TAKEN },
   gyration_radius: { ...POSITIVE, "1e-310": /legal range/, "1e-6": TAKEN, "1e8": TAKEN, "1e300": /1e100\]/ },
@@ -34,7 +35,7 @@ const FIELDS = {
   normalised_speed: { ...ATLEAST0, "1e8": TAKEN, "1e300": /more than the largest duration/ },
   angular_speed: { ...ANY, "1e8": TAKEN, "1e300": /1e100/, "-1e300": /1e100/ },
 }; // prettier-ignore
-for (const t of ["", "inf", "1e400", "1,5,1", "1 5", "0x1p3", "0.5 mm"]) FIELDS.restitution[t] = FIELDS.phase_lag[t] = NO_NUMBER;
+for (const t of ["", "inf", "1,5,1", "1 5", "0x1p3", "0.5 mm"]) FIELDS.restitution[t] = FIELDS.phase_lag[t] = NO_NUMBER;
 for (const expected of Object.values(FIELDS)) expected.NaN = NO_NUMBER;
 
 onPage("the list of fields is that of the page", "#view=toss", async (page) => {
@@ -58,6 +59,17 @@ onPage("numbers are understood with a decimal comma, a true minus sign, multiple
       else assert.match(await page.textContent(`#error-${name}`), /thousands or decimals|not a number/, text);
     }
   await whenAddress(page, "amplitude", String((0.5 * Math.PI * 9.8) / 225));
+});
+
+onPage("a metre for a hand is questioned, and 62 mm are not", "#view=toss", async (page) => {
+  const told = () => page.locator(".field[data-name='amplitude'] .caution");
+  await type(page, "amplitude", "62");
+  await told().waitFor({ state: "visible" });
+  assert.match(await told().textContent(), /^62 m is large.*type “62 mm”/);
+  assert.equal((await whenValue(page, "amplitude", "62"), await page.isVisible("#error-amplitude")), false);
+  await type(page, "amplitude", "62 mm");
+  await whenValue(page, "amplitude", "0.062");
+  await told().waitFor({ state: "hidden" });
 });
 
 /** What has become of what was typed: the sentence of its refusal, or null once the state has this number. */

@@ -43,7 +43,7 @@ onPage("states with awkward numbers come back to the bit", {}, async (page) => {
   }
 });
 
-const UNREADABLE = ["throw has to be none, or", "four numbers"];
+const UNREADABLE = ["throw must be none, or", "four numbers"];
 /** Links, the parts of the state that they lead to, and what is said of them. */
 const LINKS = [
   [
@@ -79,6 +79,11 @@ const LINKS = [
     ["1.5", "weight", "scan_family", "up to 5 numbers"],
   ],
   ["restitution=0&contact_time=0.03&friction=0.3", { restitution: "0.5", friction: "0.3" }, ["restitution of a contact"]],
+  // No double holds the first, and the second would silently be 0.
+  ["friction=1e400&restitution=1e-400", { friction: "0.6", restitution: "0.5" }, ["1e400", "1e-400"]],
+  // Links of before: the forcing sets the amplitude, unless there is one.
+  ["axial_forcing=0.5&angular_frequency=15", { amplitude: String((0.5 * Math.PI * 9.8) / 225) }, []],
+  ["axial_forcing=0.5&amplitude=0.06", { amplitude: "0.06" }, []],
   ["motor_stator={&friction=0.3", { motor_stator: "none", friction: "0.3" }, ["the table of a stator"]],
   ['motor_stator={"mass":-1,"quality":9}&friction=0.3', { motor_stator: "none", friction: "0.3" }, ["stator.mass"]],
   ['motor_stator={"mess":1}&friction=0.3', { motor_stator: "none", friction: "0.3" }, ["mess"]],
