@@ -4,7 +4,7 @@ import { Cancelled, messageOf, type Context, type Offer, type State } from "../c
 import { clamp, extent } from "../drawing/axes";
 import { chartOffers, ScreenChart, type Chart } from "../drawing/chart";
 import { ONE_COLUMN, PARTS, tableOffers } from "../drawing/files";
-import { button, div, element, oncePerFrame, rich, setText } from "../elements";
+import { button, div, element, oncePerFrame, rich, roomBelow, setText } from "../elements";
 import { nextDouble, plain } from "../numbers";
 import { bouncing } from "../presets";
 import type { MotionJson, Range, VerdictJson } from "../protocol";
@@ -18,7 +18,7 @@ import { exactText, settings, LabelledField, parameterChoice, valueIn, varied, w
 const SAMPLES = 48;
 /** Periods that the heights and spins are shown for, and how many of them before the parting. */
 const SHOWN = 14;
-const BEFORE = 2;
+const BEFORE = 3;
 /** Points of the chart of the difference: more of them nobody sees. */
 const MOST_DRAWN = 2500;
 /** The next double of a parameter may give the same system, where that follows from it by rounding. */
@@ -26,6 +26,8 @@ const MOST_STEPS = 64;
 
 /** Heights differ from this share of the amplitude on, and below that one rounding makes the difference. */
 const APART = 0.01;
+/** From this share of the amplitude on one sees it. */
+const SEEN = 0.1;
 const ROUNDED = 1e-13;
 
 const TEXT = WORDS.compare;
@@ -39,7 +41,9 @@ interface Pair {
   readonly motions: Both<Recording>;
   /** |difference of heights| over the amplitude of A. */
   readonly apart: Float64Array;
-  /** Periods until the heights differ; null if they never do. */
+  /** Periods until the heights first differ; null if they never do. */
+  readonly first: number | null;
+  /** The period from which on they are seen to differ in each; null if there is none. */
   readonly parting: number | null;
   /** The value that A has of the parameter. */
   readonly own: number;
@@ -48,13 +52,13 @@ interface Pair {
 }
 
 export class CompareView extends ComputingView {
-  private readonly charts = [0, 1, 2].map(() => new ScreenChart(() => clamp(window.innerHeight / 2 - 230, 210, 520)));
+  private readonly charts: ScreenChart[] = [0, 1, 2].map(
+    () => new ScreenChart(() => clamp(roomBelow(this.charts[0]?.root as Element) / 2 - 64, 170, 520)),
+  );
   private readonly parameter = parameterChoice(TEXT.parameter, (name) => this.attempt(() => this.choose(name)));
   private readonly value = new LabelledField(TEXT.value, this.context, ([value = 0]) => this.change({ value }));
   private readonly periods = new LabelledField(TEXT.periods, this.context, ([periods = 0]) => this.follow(periods));
-  private readonly from = new LabelledField(TEXT.from, this.context, ([from = 0]) =>
-    this.change({ from: clamp(from, 0, this.context.state().compare.periods) }),
-  );
+  private readonly from = new LabelledField(TEXT.from, this.context, ([from = 0]) => this.showFrom(from));
   private readonly sentence = element("p", { class: "differs" });
   private readonly words = element("ul", { class: "remark optima", "aria-live": "polite" });
   private readonly asked = new Asked<void>();
@@ -107,6 +111,12 @@ export class CompareView extends ComputingView {
     const legal = Number.isInteger(periods) && periods >= 1 && periods <= MOST_PERIODS;
     if (!legal) return say(TEXT.wrongPeriods, { most: MOST_PERIODS });
     this.change({ periods });
+  }
+
+  private showFrom(from: number): string | void {
+    const most = this.context.state().compare.periods - 1;
+    if (!(from >= 0 && from <= most)) return say(TEXT.wrongFrom, { most });
+    this.change({ from });
   }
 
   /** Another parameter of B, which is A as long as nobody gives it another value. */
@@ -176,9 +186,10 @@ export class CompareView extends ComputingView {
   }
 
   /** The periods that heights and spins are shown for. */
-  private windowOf({ parting, state: { compare } }: Pair): Range {
-    const start = this.context.state().compare.from ?? Math.floor((parting ?? 0) - BEFORE);
-    const low = clamp(Math.floor(start), 0, Math.max(compare.periods - SHOWN, 0));
+  private windowOf({ first, parting, state: { compare } }: Pair): Range {
+    const { from } = this.context.state().compare;
+    const wanted = Math.floor((parting ?? first ?? 0) - BEFORE);
+    const low = from ?? clamp(wanted, 0, Math.max(compare.periods - SHOWN, 0));
     return [low, low + SHOWN];
   }
 
@@ -254,18 +265,28 @@ async function pairOf(context: Context, state: State): Promise<Pair> {
   const verdicts = judged ? await both((one, slot) => verdictOf(context, slot, mapOf(one), impactOf(one))) : null;
   const ends = verdicts && ([endOf(verdicts[0]), endOf(verdicts[1])] as const);
   const first = apart.findIndex((value) => value > APART);
-  return { state, motions, apart, own, parting: first < 0 ? null : first / SAMPLES, ends };
+  return { state, motions, apart, own, first: first < 0 ? null : first / SAMPLES, parting: partingOf(apart), ends };
+}
+
+/** The period after the last one in which nobody sees a difference. */
+function partingOf(apart: Float64Array): number | null {
+  const periods = Math.floor(apart.length / SAMPLES);
+  const isSeen = (period: number) => apart.subarray(period * SAMPLES, (period + 1) * SAMPLES).some((one) => one > SEEN);
+  let parting = periods;
+  while (parting > 0 && isSeen(parting - 1)) parting -= 1;
+  return parting < periods ? parting : null;
 }
 
 const endOf = (verdict: VerdictJson): string => behaviour(verdict) + (verdict.rounding_dependent ? TEXT.rounding : "");
 
 /** What there is to say of two motions. */
-function describe({ apart, parting, ends, state: { compare } }: Pair): string[] {
+function describe({ apart, first, parting, ends, state: { compare } }: Pair): string[] {
   const { periods } = compare;
   const lasting = ends === null ? TEXT.noVerdict : say(TEXT.ends, { a: ends[0], b: ends[1] });
   const [, most] = extent(apart) as Range;
   if (most === 0) return [say(TEXT.identical, { periods, samples: SAMPLES }), lasting];
   if (most < ROUNDED) return [lasting, say(TEXT.rounded, { periods })];
-  if (parting === null) return [lasting, say(TEXT.together, { periods, largest: plain(most, 2) })];
-  return [lasting, parting * SAMPLES < 2 ? TEXT.atOnce : say(TEXT.apart, { first: plain(parting, 3) })];
+  if (first === null) return [lasting, say(TEXT.together, { periods, largest: plain(most, 2) })];
+  const said = first * SAMPLES < 2 ? TEXT.atOnce : say(TEXT.apart, { first: plain(first, 3) });
+  return [lasting, parting ? `${said} ${say(TEXT.parted, { parting })}` : said];
 }
