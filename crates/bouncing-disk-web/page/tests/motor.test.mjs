@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { fact, hashOf, stateOf, textOf, type, whenAddress, whenText, within as open } from "./browser.mjs";
+import { fact, hashOf, onPage, preset, stateOf, svgOf, textOf, type, whenAddress, whenText, within as open } from "./browser.mjs";
 import { sourceOf } from "./module.mjs";
 
 const words = await sourceOf("views/motor/words.ts");
@@ -111,7 +111,8 @@ test("motions that coexist are curves, sentences and lines of their own", async 
   assert.doesNotMatch(curves({}, {})[0], /coexist/);
   const told = [
     ["Contact", "the rotor stays on the stator"],
-    [{ Periodic: { periods: 3, impacts: 2 } }, "periodic: impacts to periods of the drive as 2 to 3"],
+    [{ Periodic: { periods: 3, impacts: 2 } }, "periodic: 2 impacts in 3 periods of the drive"],
+    [{ Periodic: { periods: 1, impacts: 1 } }, "periodic: 1 impact per period of the drive"],
     [irregular, "irregular, for 250 ms on average until another motion follows"],
     [{ Irregular: { life: { NoneEndedIn: 4 } } }, "irregular; none was seen to end in 4.00 s"],
   ];
@@ -123,6 +124,17 @@ test("motions that coexist are curves, sentences and lines of their own", async 
     lines.slice(-3).map((line) => line.split(",").slice(0, 4)),
     [["0", "1", "contact", ""], ["0", "2", "irregular", "0.25"], ["0.00001", "1", "", ""]],
   );
+});
+
+onPage("no curve runs through the words beside a line", {}, async (page) => {
+  await preset(page, "table3");
+  await whenText(page, "#view-motor", /Time constant: 8\d\d ms/);
+  const svg = await svgOf(page, "motor run-up");
+  const text = /<text x="([\d.]+)" y="([\d.]+)" text-anchor="start" fill="[^"]*" font-size="([\d.]+)" xml[^>]*><tspan>time constant/;
+  const [, x, y, size] = text.exec(svg).map(Number);
+  const places = [...svg.matchAll(/[ML]([\d.]+) ([\d.]+)/g)].map(([, ...at]) => at.map(Number));
+  assert.ok(places.length > 150);
+  assert.deepEqual(places.filter((at) => at[0] > x && at[0] < x + 6 * size && at[1] > y - size && at[1] < y), []);
 });
 
 test("points at zero stand inside the frame where there is nothing but zero", async () => {
@@ -219,7 +231,7 @@ onPage("the view of the motor starts with a motor, and the disk comes back", "#v
 /** Bounces once in every period from the shared start, and chatters from rest. */
 const BISTABLE = "#view=motor&amplitude=0.0616&phase_lag=-0.8168&impact_phase=0.4&normalised_speed=1.4";
 onPage("where the run-up and the other views end on two attractors, the page says so", BISTABLE, async (page) => {
-  const said = /starts from rest, and ends with: rest after .*end with: 1 impact in 1 period of the platform\./;
+  const said = /starts from rest, and ends with: rest after .*end with: 1 impact per period of the platform\./;
   await whenText(page, "#view-motor .caution:not([hidden])", said);
   await type(page, "normalised_speed", "0.1");
   await page.waitForFunction(() => document.querySelector("#view-motor .caution").hidden);

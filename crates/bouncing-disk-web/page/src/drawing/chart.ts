@@ -8,7 +8,7 @@ import { say, WORDS } from "../words";
 import { clamp, crossAt, extent, inside, layOut, padded, paintAxes, pixelX, pixelY, valueX } from "./axes";
 import type { Axis, Plot } from "./axes";
 import { ONE_COLUMN, pictureOffers, PRINT_SIZE, type Basis } from "./files";
-import { plainText, type Pen } from "./pen";
+import { plainText, type Box, type Pen } from "./pen";
 import { Layers } from "./window";
 
 export interface Curve {
@@ -62,7 +62,7 @@ function layOutChart(pen: Pen, { x, y, curves }: Chart, width: number, height: n
 
 function paintChart(pen: Pen, chart: Chart, plot: Plot): void {
   pen.clipped(plot, () => {
-    for (const stretch of chart.stretches ?? []) paintStretch(pen, stretch, plot, chart.curves.length);
+    for (const stretch of chart.stretches ?? []) paintStretch(pen, stretch, chart, plot);
     const [left, zero, right] = [plot.left, pixelY(plot, 0), plot.left + plot.width];
     if (inside(plot, left, zero)) pen.path([left, zero, right, zero], { stroke: "--picture-muted", width: 1 });
     for (const { x, y, form, colour } of chart.marks ?? []) {
@@ -78,19 +78,47 @@ function paintChart(pen: Pen, chart: Chart, plot: Plot): void {
   if (chart.curves.length > 1) paintLegend(pen, chart, plot);
 }
 
-function paintStretch(pen: Pen, { range, at, label, colour }: Stretch, plot: Plot, curves: number): void {
+function paintStretch(pen: Pen, { range, at, label, colour }: Stretch, chart: Chart, plot: Plot): void {
   const { left, top, width, height, size } = plot;
   const [from = NaN, to = NaN] = range.map((end) => clamp(pixelX(plot, end), left, left + width));
   pen.rect(from, top, to - from, height, { fill: colour, opacity: at === undefined ? 1 : 0.25 });
-  const line = at === undefined ? (from + to) / 2 : pixelX(plot, at);
-  if (at !== undefined) pen.path([line, top, line, top + height], { stroke: colour, width: 1.2, dash: [5, 3] });
-  if (at === undefined && to - from <= size) return;
-  // Away from the zero, where the marks of runaway loads stand.
-  const below = pixelY(plot, 0) < top + height / 2;
-  const style = { colour: "--picture-text", size, anchor: below ? "start" : "end", upwards: true } as const;
-  const beside = at === undefined ? 0.3 * size : line - left < 2 * size ? 1.1 * size : -0.4 * size;
-  const above = top + size * (curves > 1 ? 1.3 * curves + 1.5 : 0.5); // Below the legend, where there is one.
-  pen.text(label, line + beside, below ? top + height - size * 0.5 : above, style);
+  const style = { colour: "--picture-text", size } as const;
+  const [first, last] = [top + size * (legendLines(chart) + 0.5), top + height - size * 0.5];
+  if (at === undefined) {
+    // Away from the zero, where the marks of runaway loads stand.
+    const below = pixelY(plot, 0) < top + height / 2;
+    const place = { ...style, anchor: below ? "start" : "end", upwards: true } as const;
+    if (to - from > size) pen.text(label, (from + to) / 2 + 0.3 * size, below ? last : first, place);
+    return;
+  }
+  const line = pixelX(plot, at);
+  pen.path([line, top, line, top + height], { stroke: colour, width: 1.2, dash: [5, 3] });
+  // Beside the line, at the lowest place that no curve runs through.
+  const long = pen.measure(label, size);
+  const sides = [line + 0.5 * size, line - 0.5 * size - long].filter((x) => x > left && x + long < left + width);
+  const levels = Array.from({ length: Math.max(Math.floor((last - first) / size), 1) }, (_, row) => last - row * size);
+  const places = levels.flatMap((y) => (sides.length > 0 ? sides : [left]).map((x) => ({ x, y })));
+  const crowds = places.map(({ x, y }) => crowdOf(chart, plot, { left: x, top: y - size, width: long, height: 1.3 * size }));
+  const { x, y } = places[crowds.indexOf(Math.min(...crowds))] as (typeof places)[number];
+  pen.text(label, x, y, style);
+}
+
+/** How high the legend is, in letters: a legend of one curve is none. */
+const legendLines = ({ curves: { length } }: Chart): number => (length > 1 ? 1.3 * length + 1 : 0);
+
+/** How much of the curves and marks of a chart lies in a box. */
+function crowdOf({ at, curves, marks = [] }: Chart, plot: Plot, box: Box): number {
+  const zero = inside(box, box.left, pixelY(plot, 0)) ? 1 : 0;
+  let count = zero + marks.filter(({ x, y }) => inside(box, pixelX(plot, x), pixelY(plot, y))).length;
+  for (const { y } of curves)
+    for (let index = 1; index < at.length; index += 1) {
+      const xs = [index - 1, index].map((place) => pixelX(plot, at[place] as number)) as Range;
+      const ys = [index - 1, index].map((place) => pixelY(plot, y[place] as number)) as Range;
+      if (xs[1] < box.left || xs[0] > box.left + box.width) continue;
+      for (let share = 0; share <= 1; share += 1 / 16)
+        if (inside(box, xs[0] + share * (xs[1] - xs[0]), ys[0] + share * (ys[1] - ys[0]))) count += 1;
+    }
+  return count;
 }
 
 /** Two standard errors on either side of a value, or its interval. */
