@@ -57,6 +57,7 @@ const SHARES = "scan_over=axial_forcing&scan_range=0.3,0.51&scan_points=4&scan_r
 scan("shares have intervals, and another kind of the same starts comes without computing", SHARES, async (page) => {
   assert.match((await optima(page))[0], /is 0\.97\d \(95 %: 0\.9\d+ to 0\.9\d+\) at Γ = 0\.51\..* end of the range/);
   assert.match(await remark(page), /^At 1 of 4 points \(the first is Γ = 0\.51\) a disk that comes to rest/);
+  assert.match(await svgOf(page, "scan"), /rest leads elsewhere/);
   await select(page, 0, "share_rest");
   await whenText(page, "#view-scan .optima", /^The largest of 4 computed points is 1\.00 .* at Γ = 0\.3\./, 1000);
 });
@@ -91,7 +92,17 @@ test("an optimum says from how many points it is, and which of them its error do
 });
 
 const compared = (page) => page.locator("#view-compare .optima li").allTextContents();
+const FROM = '#view-compare input[aria-label="Show from period"]';
 const OTHER = '#view-compare input[aria-label="value of B"]';
+
+onPage("the periods that are asked for are shown, or refused", "#view=compare&compare_from=155", async (page) => {
+  assert.equal(await page.inputValue(FROM), "155");
+  await enter(page, FROM, "160");
+  await whenText(page, "#status", /must be from 0 to 159/);
+  await enter(page, FROM, "150");
+  await whenAddress(page, "compare_from", "150");
+  assert.equal(await page.inputValue(FROM), "150");
+});
 
 onPage("a disk at rest and one that is thrown end differently, by the library", "#view=compare", async (page) => {
   assert.match(await page.textContent("#view-compare .differs"), /wA: 0 πg\/ω instead of 1\.4 πg\/ω/);
@@ -104,14 +115,20 @@ onPage("the sixteenth digit: chaos shows it, the same number does nothing, anoth
   await whenText(page, "#view-compare .differs", /ε: 0\.5000000000000001 instead of 0\.5\./);
   assert.equal(await page.inputValue("#view-compare input[aria-label^='value of B']"), "0.5000000000000001");
   await whenText(page, "#view-compare .optima", /for the first time after/);
+  // The window is that of the parting, which one sees.
+  const [, parting] = /From period (\d+) on one sees it/.exec((await compared(page))[1]);
+  assert.equal(await page.inputValue(FROM), String(parting - 3));
   const { columns, rows } = await saved(page, "comparison");
   const apart = rows.map((row) => row[columns.indexOf("difference_over_A")]);
   const first = apart.findIndex((value) => value > 0.01);
   assert.match((await compared(page))[1], new RegExp(`after ${(first / 48).toFixed(1)} periods`));
   const amplitude = Number((await stateOf(page)).amplitude);
+  const most = (period) => Math.max(...apart.slice(period * 48, (period + 1) * 48));
+  const seen = Array.from({ length: 160 }, (_, period) => most(period) > 0.1);
+  assert.equal(seen.lastIndexOf(false) + 1, Number(parting));
   for (const row of [0, first, 3000]) assert.equal(Math.abs(rows[row][1] - rows[row][2]) / amplitude, apart[row]);
   await enter(page, OTHER, "0.5");
-  await whenText(page, "#view-compare .optima", /^Not one bit of the heights differs in 120 periods/);
+  await whenText(page, "#view-compare .optima", /^Not one bit of the heights differs in 160 periods/);
   await page.click("text=One unit in the last place");
   await whenAddress(page, "compare_value", "0.5000000000000001");
   await settled(page);

@@ -4,7 +4,7 @@ import { Cancelled, type Change, type Context, type Offer, type State } from "..
 import { clamp, evenly } from "../drawing/axes";
 import { chartOffers, ScreenChart } from "../drawing/chart";
 import { ONE_COLUMN, PARTS, statorWords, tableOffers } from "../drawing/files";
-import { choice, div, element, oncePerFrame, rich } from "../elements";
+import { choice, div, element, oncePerFrame, rich, roomBelow } from "../elements";
 import { bouncing, motor, toss } from "../presets";
 import type { Range } from "../protocol";
 import { axialForcing, changed, DEFAULT_STATE, MOST_POINTS, MOST_VALUES } from "../state";
@@ -22,7 +22,7 @@ const TEXT = WORDS.scan;
 const short = (value: number): number => Number(value.toPrecision(3));
 
 export class ScanView extends ComputingView {
-  private readonly chart = new ScreenChart(() => clamp(window.innerHeight - this.chart.root.offsetTop - 230, 300, 1100), {
+  private readonly chart = new ScreenChart(() => clamp(roomBelow(this.chart.root) - 190, 300, 1100), {
     keys: TEXT.keys,
     hint: (curve) => say(TEXT.hint, { curve }),
     pick: (at, curve) => this.pick(at, curve),

@@ -2,7 +2,7 @@
 
 import type { State } from "../../contract";
 import { evenly, padded, prefixed } from "../../drawing/axes";
-import { spanOf, type Chart } from "../../drawing/chart";
+import { spanOf, type Chart, type Stretch } from "../../drawing/chart";
 import { plain, shown, withError } from "../../numbers";
 import type { Range } from "../../protocol";
 import { say, WORDS } from "../../words";
@@ -76,6 +76,7 @@ export function chartOf({ scan, at, lines }: Plan, readings: readonly (readonly 
     y: unit === "W" ? prefixed(`${words} ({prefix}W)`, range) : { label, range },
     at,
     curves,
+    stretches: readings.flatMap((line) => jumpsOf(at, line)),
     marks: readings.flatMap((line, index) => {
       const best = bestOf(line);
       const colour = COLOURS[index] ?? COLOURS[0];
@@ -87,6 +88,17 @@ export function chartOf({ scan, at, lines }: Plan, readings: readonly (readonly 
     }),
   };
 }
+
+/** Where a share jumps, because a disk at rest is thrown onto another attractor: each run of such points, with its neighbours. */
+const jumpsOf = (at: readonly number[], line: readonly (Reading | null)[]): Stretch[] =>
+  line.flatMap((reading, place) => {
+    if (!reading?.moved || line[place - 1]?.moved) return [];
+    let last = place;
+    while (line[last + 1]?.moved) last += 1;
+    const [first, end] = [at[place] as number, at[last] as number];
+    const range: Range = [at[place - 1] ?? first, at[last + 1] ?? end];
+    return [{ range, at: (first + end) / 2, label: WORDS.scan.jump, colour: "--picture-muted" }];
+  });
 
 /** What rounding may change of a number, as a share of it. */
 const ROUNDING = 1e-12;
