@@ -36,6 +36,8 @@ onPage("no cell of another map stands under this legend", { hash: DOUBLING, scri
   const before = await coloured(page);
   assert.ok(before > 10_000, `${before}`);
   assert.match(await caption(page), /^The starts/);
+  const [all] = await page.locator("#view-basins .attractors small").allTextContents();
+  assert.match(all, /^Of starts at speeds up to 2\.3: 65\.8 %/);
   // As long as the attractors are looked for, both are faint.
   await hold(page, "attractors", "basins");
   await type(page, "axial_forcing", "0.5");

@@ -7,6 +7,7 @@ import { asker, sourceOf, WORDS } from "./module.mjs";
 
 const { COURSES } = await sourceOf("courses.ts");
 const { axialForcing } = await sourceOf("state.ts");
+const { told } = await sourceOf("words.ts");
 const { ask, motion } = asker();
 
 /** A step by the order in which it comes: its state, and what it says, of which all `words` have to be a part. */
@@ -45,6 +46,15 @@ test("what a lesson names stands on the page", () => {
   for (const [, name] of strings(courses).join().matchAll(/“(.*?)”/g)) assert.ok(known.has(name), name);
 });
 
+test("tour: the third attractor of the plane of starts", async () => {
+  const { state, says } = step("tour", 5);
+  const third = (await attractorsOf(state))[2];
+  assert.equal(told(third.text), "periodic orbit: 4 impacts in 2 periods");
+  const cells = await cellsOf(state);
+  const share = cells.filter((label) => label === third.label).length / cells.length;
+  says(`a third attractor, 4 impacts in 2 periods, with ${(100 * share).toFixed(0)} % of these starts`);
+});
+
 test("doubling: period one, period two, and the multiplier between them", async () => {
   const { state, says } = step("doubling", 3);
   for (const [number, impacts] of [[1, 1], [2, 1], [4, 2]])
@@ -53,8 +63,8 @@ test("doubling: period one, period two, and the multiplier between them", async 
   const { json } = await ask({ call: "branches", restitution: 0.5, axial_forcing: state.diagram.axial_forcing });
   const [{ axial_forcing }] = json.bifurcations.filter(({ kind }) => kind === "doubling");
   says(`At Γ = ${axial_forcing.toFixed(3)}.`, "−1 there");
-  for (const [forcing, words] of [[0.484, "1 impact in 1 period"], [0.488, "2 impacts in 2 periods"]]) {
-    assert.ok((await orbitOf(state, forcing)).text.startsWith(words), words);
+  for (const [forcing, words] of [[0.484, "1 impact per period"], [0.488, "2 impacts in 2 periods"]]) {
+    assert.ok(told((await orbitOf(state, forcing)).text).startsWith(words), words);
     says(words);
   }
   for (const forcing of [0.48, 0.485]) {

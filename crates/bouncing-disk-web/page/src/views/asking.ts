@@ -4,7 +4,7 @@ import { Cancelled, messageOf, type Context, type Offer, type State, type View }
 import { debounced, element } from "../elements";
 import type { ImpactStart, MotionStart, VerdictJson } from "../protocol";
 import { axialForcing, contactPeriods } from "../state";
-import { say, WORDS } from "../words";
+import { say, told, WORDS } from "../words";
 
 /** The map of the vertical motion of the shared system. */
 export const mapOf = ({ system }: State) => ({
@@ -132,6 +132,6 @@ export const attractorsCaution = (): Caution =>
     const rest = await verdictOf(context, "attractors-rest", mapOf(state), REST);
     const decided = own.kind !== "undecided" && rest.kind !== "undecided";
     if (!decided || (own.kind === rest.kind && own.impacts === rest.impacts)) return null;
-    const [first = "", other = ""] = [rest, own].map(({ text }) => text.replace(/, multipliers.*|\.$/s, ""));
+    const [first = "", other = ""] = [rest, own].map(({ text }) => told(text).replace(/, multipliers.*|\.$/s, ""));
     return say(WORDS.asking.two_attractors, { rest: first, start: other });
   });

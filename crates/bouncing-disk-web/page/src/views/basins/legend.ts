@@ -3,7 +3,7 @@
 import { element, section, setText } from "../../elements";
 import { brief, grouped, percent } from "../../numbers";
 import type { AttractorJson, AttractorsJson } from "../../protocol";
-import { say, WORDS } from "../../words";
+import { say, told, WORDS } from "../../words";
 import { categoryColour } from "./cells";
 
 type Shares = ReadonlyMap<number, number>;
@@ -53,14 +53,15 @@ const UNDECIDED = "--undecided";
 
 /** The attractors in the order of their colours, numbered as their texts name each other, and what is undecided. */
 function entriesOf(found: AttractorsJson, shares: Shares | null): Entry[] {
+  const fastest = brief(found.fastest_start, 3);
   const known = found.attractors.map((attractor, index) => {
     const [share = "", low = "", high = ""] = [attractor.share, ...attractor.interval].map((one) => percent(one));
     const own = shares === null || attractor.label === null ? null : (shares.get(attractor.label) ?? 0);
-    const all = say(TEXTS.all, { share, low, high });
+    const all = say(TEXTS.all, { share, low, high, fastest });
     const words = say(TEXTS.numbered, { number: String(index + 1), text: describe(attractor, found) });
     return { colour: categoryColour(index), words, share: own, all };
   });
-  const all = say(TEXTS.all_undecided, { share: percent(found.undecided) });
+  const all = say(TEXTS.all_undecided, { share: percent(found.undecided), fastest });
   return [...known, { colour: UNDECIDED, words: TEXTS.undecided, share: undecidedShare(found, shares), all }];
 }
 
@@ -80,10 +81,10 @@ export const labelsOf = (found: AttractorsJson): number[] =>
   found.attractors.flatMap(({ label }) => (label === null ? [] : [label]));
 
 export function describe(attractor: AttractorJson, found: AttractorsJson): string {
-  const text = attractor.text.replace(/\.$/, "");
+  const text = told(attractor.text).replace(/\.$/, "");
   if (attractor.lasts) return say(TEXTS.lasts, { text });
   if (attractor.leads_to === null) return say(TEXTS.ends, { text });
-  const target = found.attractors[attractor.leads_to]?.text.replace(/\.$/, "") ?? TEXTS.another;
+  const target = told(found.attractors[attractor.leads_to]?.text ?? TEXTS.another).replace(/\.$/, "");
   return say(TEXTS.leads, { text, target });
 }
 

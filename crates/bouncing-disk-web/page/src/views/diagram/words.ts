@@ -5,7 +5,7 @@ import { debounced, element, Facts, section, setText } from "../../elements";
 import { brief, grouped, minus, plain, withError } from "../../numbers";
 import type { DiagramJson, Range, VerdictJson } from "../../protocol";
 import { contactPeriods } from "../../state";
-import { counted, say, WORDS } from "../../words";
+import { counted, roundOf, say, told, WORDS } from "../../words";
 import { impactOf, mapOf, tellFailure, verdictOf } from "../asking";
 import { areDrawn, isPlain, type Branches } from "./branches";
 import { RECORDED, TRANSIENT } from "./columns";
@@ -64,13 +64,11 @@ export class Verdict {
   private tell(forcing: number, verdict: VerdictJson): void {
     const { impacts, platform_periods } = verdict;
     const orbit = TEXTS.kinds[verdict.kind];
-    const periods = counted(TEXTS.periods, platform_periods ?? 0);
-    const round = impacts === null ? "–" : say(TEXTS.round, { impacts: counted(TEXTS.impacts, impacts), periods });
+    const period = impacts === null ? "–" : roundOf(impacts, platform_periods ?? 0);
     const multipliers = verdict.multipliers?.map(complex).join(", ") ?? "–";
     const exponent = withError(verdict.exponent, verdict.exponent_error);
-    this.facts.set({ orbit, period: round, multipliers, exponent });
-    // The library writes for terminals, too.
-    setText(this.sentence, `Γ ${plain(forcing, 4)}: ${verdict.text.replaceAll("+-", "±").replaceAll(" -", " −")}`);
+    this.facts.set({ orbit, period, multipliers, exponent });
+    setText(this.sentence, `Γ ${plain(forcing, 4)}: ${told(verdict.text)}`);
     this.caution.hidden = !verdict.rounding_dependent;
   }
 }

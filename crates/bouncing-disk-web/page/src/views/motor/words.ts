@@ -3,7 +3,7 @@
 import { element, Facts, section, setText } from "../../elements";
 import { grouped, plain, prefixOf, quantity, shown, withError } from "../../numbers";
 import type { AxialMotionJson, IntervalJson, ReportJson, StallJson, TrapJson } from "../../protocol";
-import { say, WORDS } from "../../words";
+import { roundOf, say, WORDS } from "../../words";
 import type { Known, Operation, Row, Transient } from "./requests";
 
 const TEXTS = WORDS.motor;
@@ -46,7 +46,10 @@ export class ReportPanel {
 export function describeMotion(motion: AxialMotionJson | null): string {
   if (motion === null) return TEXTS.motions.none;
   if (motion === "Contact") return TEXTS.motions.contact;
-  if ("Periodic" in motion) return say(TEXTS.motions.periodic, motion.Periodic);
+  if ("Periodic" in motion) {
+    const { impacts, periods } = motion.Periodic;
+    return say(TEXTS.motions.periodic, { round: roundOf(impacts, periods) });
+  }
   const { life } = motion.Irregular;
   if ("Mean" in life) return say(TEXTS.motions.mean, { life: quantity(life.Mean, "s") });
   return say(TEXTS.motions.lasting, { time: quantity(life.NoneEndedIn, "s") });
