@@ -20,7 +20,7 @@ export async function printSheet(state: State, offers: readonly Offer[]): Promis
   const address = local ? toHash(state) : link(state);
   const numbers = div("printed-numbers", element("dl", {}, ...parameters(state)));
   // A code of a whole link has some 90 modules in a row, of 0.65 mm: telephones read half of that.
-  if (!local) numbers.insertAdjacentHTML("beforeend", renderSVG(address, { ecc: "L", border: 4 }));
+  numbers.insertAdjacentHTML("beforeend", renderSVG(address, { ecc: "L", border: 4 }));
   const sheet = element(
     "section",
     { class: "printed" },
