@@ -83,7 +83,7 @@ export class CoursePanel {
   private readonly text = element("div", { class: "text" });
   private readonly back = button(TEXTS.back, () => this.go(this.step - 1));
   private readonly next = button("", () => this.go(this.step + 1), { class: "primary" });
-  /** What tasks have opened of the form. */
+  /** What steps have opened of the form. */
   private readonly opened: HTMLDetailsElement[] = [];
   private course: Course | null = null;
   private step = 0;
@@ -145,9 +145,10 @@ export class CoursePanel {
     if (task) parts.push(element("p", {}, element("b", {}, TEXTS.task), " ", ...whole(task)));
     if (answer) parts.push(element("details", {}, element("summary", {}, TEXTS.answer), paragraph(answer)));
     this.text.replaceChildren(...parts);
-    // A part of the form that the task names stands open.
+    // A part of the form that the step names stands open.
     for (const one of document.querySelectorAll<HTMLDetailsElement>(".group:not([open])"))
-      if (task?.includes(`“${one.firstElementChild?.textContent}”`)) this.opened.push(Object.assign(one, { open: true }));
+      if (`${text} ${task}`.includes(`“${one.firstElementChild?.textContent}”`)) this.opened.push(Object.assign(one, { open: true }));
+    for (const one of document.querySelectorAll<HTMLDetailsElement>(".settings")) one.open = false;
     this.back.disabled = step === 0;
     setText(this.next, step === steps.length - 1 ? TEXTS.finish : TEXTS.next);
     this.open(shown.state);

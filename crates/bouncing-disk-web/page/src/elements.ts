@@ -159,3 +159,10 @@ export function choice<Name extends string>(
 
 /** Whether the form stands below the view, as in `screens.css`. */
 export const isNarrow = (): boolean => window.matchMedia("(max-width: 860px)").matches;
+
+/** How far the window reaches below the top of an element, wherever it has been scrolled to. */
+export const roomBelow = (place: Element): number =>
+  window.innerHeight - place.getBoundingClientRect().top - window.scrollY - byId("main").scrollTop;
+
+/** Whether settings would leave no room for a picture: on a narrow screen, and below the words of a lesson. */
+export const isCrowded = (): boolean => isNarrow() || document.querySelector(".tour:not([hidden])") !== null;

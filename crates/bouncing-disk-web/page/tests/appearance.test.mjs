@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { coloursOf, onPage, settled, VIEWS, visit } from "./browser.mjs";
+import { coloursOf, onPage, pixelsOf, settled, VIEWS, visit } from "./browser.mjs";
 
 /** What the Web Content Accessibility Guidelines ask of text, and of lines and marks that carry meaning. */
 const TEXT = 4.5;
@@ -118,10 +118,12 @@ onPage("on a telephone the picture comes first, and what is tapped has 40 pixels
     assert.ok(seen.top < 250, `${view} begins at ${seen.top}`);
     assert.ok(seen.right <= 360 && Math.max(...seen.tabs) <= 360, JSON.stringify(seen));
     assert.ok(seen.form > seen.top + 250, `${view}: the form is at ${seen.form}`);
-    // The three sliders stay under the thumb.
-    assert.deepEqual([seen.open, seen.sliders], [["group essentials"], 740]);
+    // The three sliders wait under the thumb.
+    assert.deepEqual([seen.open, seen.sliders], [[], 740]);
     await isLarge(view);
   }
+  await page.tap(".essentials summary");
+  assert.equal(await page.locator(".essentials").evaluate((group) => group.getBoundingClientRect().bottom), 740);
   await page.locator("aside details").evaluateAll((all) => all.forEach((one) => (one.open = true)));
   await isLarge("all fields");
   await page.tap("#presets-button");
@@ -132,4 +134,12 @@ onPage("on a telephone the picture comes first, and what is tapped has 40 pixels
   await page.tap("#courses-button");
   await page.tap("[data-course='doubling']");
   await isLarge("lesson");
+});
+
+onPage("on a telephone the inset leaves the disk free", { ...PHONE, reducedMotion: "reduce" }, async (page) => {
+  const canvas = "#view-toss .picture-scene canvas";
+  const disk = await pixelsOf(page, canvas, ["--disk"]);
+  const path = await pixelsOf(page, canvas, ["--platform-line"], 39);
+  const [right, left] = [Math.max(...disk.map(([x]) => x)), Math.min(...path.map(([x]) => x))];
+  assert.ok(path.length > 20 && right < left, `${right}, ${left}`);
 });

@@ -44,7 +44,7 @@ onPage("a cycle that rounding chose is called so under the cursor", ONE_FORCING,
   assert.match(await panel.textContent(), /\(chosen by rounding\)/);
 });
 
-for (const [view, host] of [["basins", ".panel"], ["toss", ".toss-left"]])
+for (const [view, host] of [["basins", ".panel"], ["toss", ".toss"]])
   onPage(`a cycle that rounding chose is called so in ${view}`, `#view=${view}&${ROUNDED}`, async (page) => {
     const caution = page.locator(`#view-${view} ${host} .caution`);
     await caution.waitFor({ state: "visible" });

@@ -50,12 +50,17 @@ for (const { id, steps } of COURSES)
     const open = () => page.locator(".group[open]").count();
     const before = [await hashOf(page), await open()];
     await course(page, id);
-    for (const [step, { state, task, answer }] of steps.entries()) {
+    for (const [step, { state, text, task, answer }] of steps.entries()) {
       const place = patternOf(WORDS.course.place, { step: step + 1, steps: steps.length });
       await whenText(page, ".tour .place", new RegExp(`^${place}$`));
       await page.waitForFunction((hash) => location.hash === hash, toHash(state));
       await isCalm(page);
-      if (task?.includes("“First impact”")) assert.equal(await open(), before[1] + 1, "what the task names stands open");
+      const names = /“(First impact|Platform)”/.test(`${text} ${task}`);
+      if (names) assert.equal(await open(), before[1] + 1, "what the step names stands open");
+      await settled(page);
+      const pictures = page.locator(".view:not([hidden]) .picture");
+      const ends = await pictures.evaluateAll((all) => all.map((one) => one.getBoundingClientRect().bottom));
+      assert.ok(ends.length > 0 && Math.max(...ends) <= 800, `pictures of step ${step + 1} end at ${ends}`);
       const seen = await page.locator(".tour details p").evaluateAll((all) => all.map((one) => one.checkVisibility()));
       assert.deepEqual(seen, answer ? [false] : [], "an answer waits until somebody asks for it");
       assert.equal(await page.locator("#main").evaluate(({ scrollTop }) => scrollTop), 0);

@@ -108,7 +108,7 @@ onPage("a throw is in the address, and a link of it shows the same motion", {}, 
 onPage("Fig. 2: the path of a point of the platform is drawn, and opens with the lag", {}, async (page) => {
   await preset(page, "fig02", 0);
   await page.click(".controls .play");
-  assert.match(await page.textContent("#view-toss .toss-left"), /path of a point of the platform, .* to 1\.31 rad and 177 mm on both sides/);
+  assert.match(await page.textContent("#view-toss .toss"), /path of a point of the platform, .* to 1\.31 rad and 177 mm on both sides/);
   /** The area that the exported path encloses, as a share of its own box. */
   const area = async () => {
     const [, path] = /<path d="M([^"]*)Z"[^>]*fill="none"/.exec(await svgOf(page, "path of the platform"));
@@ -129,7 +129,7 @@ onPage("Fig. 2: the path of a point of the platform is drawn, and opens with the
   const pixels = await pixelsOf(page, "#view-toss .picture-scene canvas", ["--platform-line"], 39);
   const [width, side] = await page.$eval(".picture-scene canvas", (canvas) => [canvas.width, 110 * devicePixelRatio]);
   const drawn = pixels.filter(([x, y]) => x >= width - side && y < side).length;
-  assert.ok(drawn > 60, `${drawn} pixels`);
+  assert.ok(drawn > 20, `${drawn} pixels`);
 }); // prettier-ignore
 
 onPage("printed time traces stand on one axis of time", {}, async (page) => {
@@ -143,7 +143,7 @@ onPage("the plot of impacts is read by keyboard, and the wheel over it scrolls t
   const plot = page.locator("#view-toss .picture-portrait canvas").last();
   await plot.focus();
   await page.keyboard.press("Shift+ArrowRight");
-  await whenText(page, "#view-toss .toss-right .reading", /^phase 0\.520 periods, speed [\d.]+$/);
+  await whenText(page, "#view-toss .toss > :nth-child(4) .reading", /^phase 0\.520 periods, speed [\d.]+$/);
   await plot.hover();
   await page.mouse.wheel(0, 60);
   await page.waitForFunction(() => document.getElementById("main").scrollTop > 0);

@@ -4,7 +4,7 @@ import { Cancelled, messageOf, type Context, type Offer, type State } from "../c
 import { clamp, evenly } from "../drawing/axes";
 import { ScreenChart, type Chart } from "../drawing/chart";
 import { PARTS, rowsOf, statorWords } from "../drawing/files";
-import { div, element, oncePerFrame, section, setText } from "../elements";
+import { byId, div, element, oncePerFrame, roomBelow, section, setText } from "../elements";
 import { percent } from "../numbers";
 import { changed, MOST_RISE_TIMES } from "../state";
 import { TRANSIENT_COLUMNS, type MotorSheet, type ReportJson, type SheetJson } from "../protocol";
@@ -26,7 +26,7 @@ const NEAR = 0.05;
 const LENGTHENINGS = 3;
 
 /** Two charts above each other fill a window of any height, as far as they can still be read. */
-const chartHeight = (): number => clamp(window.innerHeight / 2 - 150, 230, 560);
+const chartHeight = (): number => clamp(roomBelow(byId("views")) / 2 - 108, 180, 560);
 
 export class MotorView extends ComputingView {
   private readonly sheetPanel: SheetPanel;

@@ -33,8 +33,8 @@ const COLUMNS = [
   "platform_angle_rad", "platform_velocity_m_per_s", "platform_angular_speed_rad_per_s", "mode",
 ]; // prettier-ignore
 
-/** Both charts have half of the window's height together, beside the scene or below it. */
-const chartHeight = (): number => clamp(window.innerHeight / 4, 190, 480);
+/** Both charts together are as high as the scene, beside it or below it. */
+const chartHeight = (): number => clamp(window.innerHeight * 0.235, 150, 480);
 
 export class TossView implements View {
   private readonly scene = new Layers("picture-scene", TEXTS.scene);
@@ -90,13 +90,12 @@ export class TossView implements View {
       const [fastest] = passed.sort((one, other) => other.normalised_speed - one.normalised_speed);
       if (fastest !== undefined) this.sound.play(fastest);
     };
-    const scene = [this.scene.root, this.controls.root, this.gains, this.thrown, this.rounding.root, this.alternative];
+    const controls = element("div", {}, this.controls.root, this.thrown, this.rounding.root, this.alternative);
     const charts = section(TEXTS.traces, null, this.heights.root, this.spins.root);
-    const readings = section(TEXTS.readings, "panel", ...this.readings.elements);
+    const readings = section(TEXTS.readings, "panel", ...this.readings.elements, this.gains);
     const key = element("p", { class: "remark" }, TEXTS.impacts_key);
     const parts = [element("h3", {}, TEXTS.impacts), this.portrait.picture.layers.root, this.portrait.reading, key];
-    const right = div("toss-right", readings, section(TEXTS.portrait, null, ...parts));
-    host.append(div("toss", div("toss-left", element("div", {}, ...scene), charts), right));
+    host.append(div("toss", this.scene.root, controls, charts, section(TEXTS.portrait, null, ...parts), readings));
   }
 
   show(state: State, fresh: boolean): void {
@@ -230,7 +229,7 @@ export class TossView implements View {
     if (resized || this.stage === null) this.stage = this.stageOf(recording);
     const pen = this.scene.data();
     this.stage.paint(pen, moment);
-    paintPathInset(pen, recording, moment, this.scene.width);
+    paintPathInset(pen, recording, moment, this.scene.width, this.stage.pixels);
     this.controls.show(recording.periods);
     const impacts = recording.impactsUntil(player.now * recording.period);
     this.readings.show(moment, player.now, impacts, recording);

@@ -2,7 +2,7 @@
 
 import type { Change, Context, State } from "../contract";
 import { marked } from "../drawing/pen";
-import { button, choice, div, element, isNarrow, labelled } from "../elements";
+import { button, choice, div, element, isCrowded, labelled } from "../elements";
 import { NumberField } from "../fields";
 import { PARAMETERS, shortLabelOf, type Parameter } from "../form";
 import { minus, written } from "../numbers";
@@ -49,7 +49,7 @@ export function parameterChoice(label: string, choose: (name: string) => void, n
   return choice<string>(label, { ...(none !== undefined && { "": none }), ...Object.fromEntries(all) }, choose);
 }
 
-/** What is chosen stands above the picture, and folded on a narrow screen, where the picture comes first. */
+/** What is chosen stands above the picture, and folded where the picture would not be seen with it. */
 export function settings(
   title: string,
   { change }: Context,
@@ -58,7 +58,7 @@ export function settings(
 ): HTMLElement {
   const buttons = ready.map((one) => button(one.label, () => change({ motor: { stator: null }, ...one.change })));
   const first = div("bar", element("span", {}, WORDS.varied.ready), ...buttons);
-  return element("details", { open: !isNarrow() }, element("summary", {}, title), first, ...bars);
+  return element("details", { class: "settings", open: !isCrowded() }, element("summary", {}, title), first, ...bars);
 }
 
 /** A field in a bar, with its label and unit; what is wrong stands in the line below the view. */

@@ -1,6 +1,6 @@
 /** Disk and platform in perspective, and the path of a point of the platform, drawn on a canvas. */
 
-import { padded, pixelX, pixelY, prefixed, roundUp, type Axes, type Plot } from "../../drawing/axes";
+import { clamp, padded, pixelX, pixelY, prefixed, roundUp, type Axes, type Plot } from "../../drawing/axes";
 import type { Pen } from "../../drawing/pen";
 import { plain, quantity } from "../../numbers";
 import type { Range, SystemParameters } from "../../protocol";
@@ -140,8 +140,10 @@ const roundDown = (value: number): number => 1 / roundUp(1 / value);
 
 type Platform = Pick<SystemParameters, "amplitude" | "twist_amplitude">;
 
-/** How wide and high the inset with the path is. */
+/** How wide and high the inset with the path is, if the scene has room for it. */
 const SIDE = 100;
+/** Perspective enlarges a disk that flies high by as much. */
+const NEAREST = 1.13;
 
 /** Angles from this on are told in radians and not in thousandths of them (rad). */
 const LARGE = 0.05;
@@ -153,9 +155,10 @@ export function pathAxes({ amplitude, twist_amplitude }: Platform): Axes {
   return { x, y: prefixed(height, heights) };
 }
 
-/** In the upper right corner of the scene, with a dot where the point is now. */
-export function paintPathInset(pen: Pen, recording: Recording, now: Moment, right: number): void {
-  const box = { left: right - SIDE - 6, top: 6, width: SIDE, height: SIDE };
+/** In the upper right corner of the scene, beside the disk, with a dot where the point is now. */
+export function paintPathInset(pen: Pen, recording: Recording, now: Moment, right: number, disk: number): void {
+  const side = clamp(right / 2 - NEAREST * disk - 10, 40, SIDE);
+  const box = { left: right - side - 6, top: 6, width: side, height: side };
   const plot = { ...box, ...pathAxes(recording.system), xTicks: [], yTicks: [], size: 0 };
   const frame = { fill: "--picture-paper", stroke: "--picture-frame", width: 1 };
   pen.rect(box.left, box.top, box.width, box.height, frame);
