@@ -21,6 +21,7 @@ pub(crate) fn summary(system: &System) -> Result<Reply, Refusal> {
         "period": TAU / system.platform().angular_frequency(),
         "peak_acceleration": system.peak_acceleration(),
         "stroke": system.stroke().stroke,
+        "amplitude_angle": system.stroke().amplitude_angle,
         "rise_time": Some(system.rise_time()).filter(|time| time.is_finite() && *time > 0.0),
         "bounces": system.dimensionless().vibration().separation_phase().is_some(),
         "contact": system.contact_statement(None).map(|own| ContactStatement::rows(Some(&own))),

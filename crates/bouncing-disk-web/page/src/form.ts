@@ -33,14 +33,8 @@ export interface Parameter {
 
 const LOGARITHMIC = "logarithmic";
 
-/** The number with the fewest digits that `sets` the same parameter: what was typed, if that set it. */
-function asTyped(exact: number, sets: (shorter: number) => boolean): number {
-  for (let digits = 1; digits < 17; digits += 1) {
-    const shorter = Number(exact.toPrecision(digits));
-    if (sets(shorter)) return shorter;
-  }
-  return exact;
-}
+/** Without the last digit, which rounding makes: what was typed, if that set it. */
+const asTyped = (exact: number): number => Number(exact.toPrecision(15));
 
 const contactTime = (periods: number, { angular_frequency }: Readonly<SystemParameters>): number =>
   (periods * 2 * Math.PI) / angular_frequency;
@@ -69,30 +63,13 @@ const twistSpeed = ({ system }: State): number => system.angular_frequency * sys
 const frictionScale = ({ system }: State): number =>
   (system.friction * system.contact_radius * system.preload_acceleration) / system.gyration_radius ** 2 || 1;
 
-/** Stroke and angle that set A = c cos(phi_L) and a_e Phi = c sin(phi_L), Eq. (13): as they were typed, if these did. */
-function strokeOf(system: Readonly<SystemParameters>): StrokeSides {
-  const known = STROKES.get(system);
-  if (known !== undefined) return known;
-  const { amplitude, twist_amplitude, contact_radius } = system;
-  const [up, around] = [amplitude, contact_radius * twist_amplitude];
-  const exact = { stroke: Math.hypot(up, around), angle: Math.atan2(around, up) };
-  let found = exact;
-  asTyped(exact.stroke, (stroke) => {
-    const angle = asTyped(exact.angle, (one) => stroke * Math.cos(one) === up);
-    const sets = stroke * Math.cos(angle) === up && (stroke * Math.sin(angle)) / contact_radius === twist_amplitude;
-    if (sets) found = { stroke, angle };
-    return sets;
-  });
-  STROKES.set(system, found);
-  return found;
+/** Stroke and angle that set A = c cos(phi_L) and a_e Phi = c sin(phi_L), Eq. (13). */
+function strokeOf({ amplitude: up, twist_amplitude, contact_radius }: State["system"]) {
+  const around = contact_radius * twist_amplitude;
+  return { stroke: Math.hypot(up, around), angle: Math.atan2(around, up) };
 }
 
-/** A scan asks a thousand times for that of one system. */
-const STROKES = new WeakMap<Readonly<SystemParameters>, StrokeSides>();
-
-type StrokeSides = Readonly<Record<"stroke" | "angle", number>>;
-
-function ofStroke({ stroke, angle }: StrokeSides, { contact_radius }: State["system"]): Change {
+function ofStroke({ stroke, angle }: ReturnType<typeof strokeOf>, { contact_radius }: State["system"]): Change {
   const twist_amplitude = (stroke * Math.sin(angle)) / contact_radius;
   return { system: { amplitude: stroke * Math.cos(angle), twist_amplitude } };
 }
@@ -106,8 +83,7 @@ const FORCING: Parameter = {
     const forcing = axialForcing(system);
     return forcing >= CASCADE[0] && forcing <= CASCADE[1] ? CASCADE : [0, 2 * forcing || 1];
   },
-  value: ({ system }, summary) =>
-    summary && asTyped(summary.axial_forcing, (forcing) => amplitudeOf(forcing, system) === system.amplitude),
+  value: (_, summary) => summary && asTyped(summary.axial_forcing),
   // Gamma = A omega²/(pi g) is a definition (Sec. I); what comes of it is checked like any amplitude.
   change: (value, { system }) => ({ system: { amplitude: amplitudeOf(value, system) } }),
 };
@@ -123,13 +99,13 @@ const GROUPS: Readonly<Record<keyof typeof WORDS.form.groups, readonly Parameter
     }),
     {
       ...{ name: "stroke", symbol: "c", unit: "m", slider: LOGARITHMIC, hint: metres },
-      value: ({ system }) => strokeOf(system).stroke,
+      value: (_, summary) => summary && asTyped(summary.stroke),
       change: (stroke, { system }) => ofStroke({ ...strokeOf(system), stroke }, system),
     },
     {
       ...{ name: "amplitude_angle", symbol: "φ_L", unit: "rad", angle: true, hint: degrees },
       slider: () => [0, Math.PI / 2],
-      value: ({ system }) => strokeOf(system).angle,
+      value: (_, summary) => summary && summary.amplitude_angle,
       change: (angle, { system }) => ofStroke({ ...strokeOf(system), angle }, system),
     },
     ofSystem("angular_frequency", "ω", "rad/s", LOGARITHMIC, { hint: hertz }),
@@ -139,8 +115,7 @@ const GROUPS: Readonly<Record<keyof typeof WORDS.form.groups, readonly Parameter
     {
       ...{ name: "contact_time", symbol: "T_c", unit: "2π/ω", refusedAs: ["contact.time", "contact time", "contact_periods"] },
       slider: () => [0, 2],
-      value: ({ system }) =>
-        asTyped(contactPeriods(system), (periods) => contactTime(periods, system) === system.contact_time),
+      value: ({ system }) => asTyped(contactPeriods(system)),
       change: (value, { system }) => ({ system: { contact_time: contactTime(value, system) } }),
       hint: (_, { system }) => (system.contact_time === 0 ? WORDS.form.rigid : quantity(system.contact_time, "s", 4)),
     },

@@ -19,7 +19,7 @@ export function abridged(value: number): string {
 /** A value as people would write it: a short multiple of π where it is one of an angle. */
 export function written(value: number, angle = false): string {
   const factor = Number((value / Math.PI).toPrecision(3));
-  return angle && value !== 0 && factor * Math.PI === value ? `${factor}π` : abridged(value);
+  return angle && value !== 0 && Math.abs(factor * Math.PI - value) < 1e-15 ? `${factor}π` : abridged(value);
 }
 
 /** What people write behind a number, and how many of the field's units it is. */

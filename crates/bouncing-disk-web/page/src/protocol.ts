@@ -78,7 +78,7 @@ export type ContactJson = readonly [[string, string], [string, string]];
 type Numbers<Name extends string> = Readonly<Record<Name, number>>;
 type Nullable<Name extends string> = Readonly<Record<Name, number | null>>;
 
-export type Summary = Numbers<"axial_forcing" | "period" | "peak_acceleration" | "stroke"> &
+export type Summary = Numbers<"axial_forcing" | "period" | "peak_acceleration" | "stroke" | "amplitude_angle"> &
   Nullable<"angular_forcing" | "rise_time"> & { readonly bounces: boolean; readonly contact: ContactJson | null };
 
 export type MotionJson = Numbers<"samples" | "events"> & {
