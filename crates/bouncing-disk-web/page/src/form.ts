@@ -295,7 +295,7 @@ class Field {
 }
 /** A range of the library in words: "[0, inf)" is "0 or more". */
 function legal(range: string): string {
-  const [, from = "", low = "", high = "", to = ""] = /^([[(])(.+), (.+)([\])])$/.exec(range) ?? [];
+  const [whole = "", from = "", low = "", high = "", to = ""] = /^([[(])(.+?), (.+?)([\])])/.exec(range) ?? [];
   const texts: Readonly<Record<string, string>> = WORDS.form.ranges;
-  return say(texts[from + (high === "inf" ? high : to)] ?? range, { low, high });
+  return say(texts[from + (high === "inf" ? high : to)] ?? whole, { low, high }) + range.slice(whole.length);
 }

@@ -16,7 +16,7 @@ const FIELDS = {
     "0": TAKEN, "-0": TAKEN, "1e-310": TAKEN, "0.9999999999999999": TAKEN, "1": /at least 0 and less than 1\./, "-1e-310": /less than 1\./,
     "1e400": /^"1e400" is too large/, "1e-400": /too small to be told from 0/, "1e-323 %": /too small/,
   },
-  friction: { ...ATLEAST0, "1e90": TAKEN, "1e101": /from 0 to 1e100\./ },
+  friction: { ...ATLEAST0, "1e90": TAKEN, "1e101": /must be from 0 to 1e100 \(dimensionless\)/ },
   amplitude: { ...ATLEAST0, "4e6": TAKEN, "5e6": /\[0, 1e8\]/ },
   twist_amplitude: { ...ATLEAST0, "1e90": TAKEN, "1e300": /1e100\]/ },
   stroke: { "1e-3": TAKEN, "-1": /amplitude/, "1e9": /legal range/ },

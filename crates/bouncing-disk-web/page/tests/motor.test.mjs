@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { fact, hashOf, onPage, preset, stateOf, svgOf, textOf, type, whenAddress, whenText, within as open } from "./browser.mjs";
+import { fact, hashOf, preset, stateOf, svgOf, textOf, type, whenAddress, whenText, within as open } from "./browser.mjs";
 import { sourceOf } from "./module.mjs";
 
 const words = await sourceOf("views/motor/words.ts");
@@ -126,7 +126,7 @@ test("motions that coexist are curves, sentences and lines of their own", async 
   );
 });
 
-onPage("no curve runs through the words beside a line", {}, async (page) => {
+onPage("no curve runs through the words beside a line", "", async (page) => {
   await preset(page, "table3");
   await whenText(page, "#view-motor", /Time constant: 8\d\d ms/);
   const svg = await svgOf(page, "motor run-up");
