@@ -77,6 +77,9 @@ fn the_sine_as_a_sum_has_the_branches_of_the_sine() {
             let range = (0.5 * fold, 1.2 * first);
             let own = family.continued(&orbit, &continuation(range.0, range.1, rising), &Unobserved).unwrap();
             check_points(&own);
+            let other = family.with_parameter(NUMBER, 1.001 * start).unwrap();
+            let refused = other.continued(&orbit, &continuation(range.0, range.1, rising), &Unobserved);
+            assert!(matches!(refused, Err(Error::NotAnOrbit { .. })), "{refused:?}");
             let settings = Continuation::new(ContinuationParameter::Forcing, range, rising).unwrap();
             let known = sine.continued(&orbit, &settings, &Unobserved).unwrap();
             assert_eq!(own.points.len(), known.points.len(), "{r} {:?} {:?}", own.end, known.end);
