@@ -90,8 +90,8 @@ mod tests {
         CommandLine::command().debug_assert();
     }
 
-    /// The options of each command but those of files, with default and unit: a test of the Python package compares them
-    /// with its arguments. `UPDATE_DOCUMENTATION=1` writes the list.
+    /// The options of each command except for files, with default and unit. A test of the Python package compares them with
+    /// its arguments. `UPDATE_DOCUMENTATION=1` writes the list.
     #[test]
     fn the_list_of_options_is_that_of_the_parser() {
         fn collect(

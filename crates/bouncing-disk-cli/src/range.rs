@@ -100,7 +100,7 @@ impl Range {
     }
 }
 
-/// Name and value of NAME=VALUE; `form` says what else there should be.
+/// Name and value of NAME=VALUE; `form` is the error for any other text.
 pub(crate) fn assignment<'t>(text: &'t str, form: &str) -> Result<(&'t str, &'t str), String> {
     text.split_once('=').map(|(name, value)| (name.trim(), value)).ok_or_else(|| form.to_owned())
 }
@@ -146,7 +146,7 @@ pub(crate) fn interval(text: &str) -> Result<[f64; 2], String> {
     if high < low { Err(format!("it is reversed: {high} is below {low}")) } else { Ok([low, high]) }
 }
 
-/// Words with their help and what they stand for; an old word, which has no help, is taken and not shown.
+/// Words, their help and their meaning. An old word is accepted; it has no help, and no list shows it.
 pub(crate) type Words<T> = &'static [(&'static str, &'static str, T)];
 
 pub(crate) fn one_of<T: Copy + Send + Sync + 'static>(words: Words<T>) -> impl TypedValueParser<Value = T> {

@@ -139,8 +139,8 @@ trait Followable {
         Some(grown)
     }
 
-    /// The exponent of an orbit that goes on irregularly for 20 parts of so many impacts, and the error of their mean; or
-    /// what becomes of it.
+    /// The mean exponent over 20 parts of so many impacts, and its error; or the end of an orbit that rests or settles
+    /// before.
     fn exponent(&self, mut at: (f64, f64), r: f64, impacts: u64) -> Result<(f64, f64), End> {
         let (mut ahead, mut parts) = ((1.0, 0.0), [0.0; 20]);
         for part in &mut parts {
@@ -362,7 +362,7 @@ fn random_map(case: usize, random: &mut SplitMix64) -> (Parabolas, DrivenMap, [f
     (exact, DrivenMap::new(drive.unwrap(), r).unwrap(), [a, r])
 }
 
-/// The map of a shape, with what follows it: triangles, sawteeth, parabolas, sums of three harmonics, cubics.
+/// The map of a shape, and the program that follows its orbits: triangles, sawteeth, parabolas, sums of three harmonics, cubics.
 fn map_of(kind: u32, a: f64, r: f64, shape: [f64; 4]) -> (Box<dyn Followable>, DrivenMap) {
     let (exact, drive): (Box<dyn Followable>, _) = match kind {
         0 => (Box::new(Parabolas::triangle(a, 0.5)), Drive::triangle(a)),
@@ -384,7 +384,7 @@ fn map_of(kind: u32, a: f64, r: f64, shape: [f64; 4]) -> (Box<dyn Followable>, D
 /// How many verdicts of each kind there are.
 #[derive(Debug, Default)]
 struct Seen {
-    /// Exponents, and those within one and two stated errors of that of a much longer orbit.
+    /// Exponents, and how many lie within one and two stated errors of the exponent of a much longer orbit.
     exponents: u32,
     within: [u32; 2],
     after_rests: u32,
@@ -399,9 +399,8 @@ struct Seen {
 }
 
 impl Seen {
-    /// Compares an exponent with that of 20 times as many impacts, which follow those that it was measured over, so that they
-    /// are on the same attractor. A motion that rests or settles then has no other exponent. Returns by how many errors, both
-    /// together, it is off.
+    /// Compares an exponent with the exponent of the next 20 times as many impacts, which are on the same attractor. A motion
+    /// that rests or settles then has none. Returns the difference in units of both errors together.
     fn exponent(
         &mut self,
         exact: &dyn Followable,
@@ -448,7 +447,7 @@ fn check_verdict(exact: &dyn Followable, map: &DrivenMap, start: (f64, f64), con
     match verdict {
         Verdict::Periodic { impacts, platform_periods, state, distance, after, .. } => {
             seen.periodic += 1;
-            // What it settled on attracts from beside.
+            // The orbit on which it settled attracts its neighbours.
             let beside = (state.phase().angle() + 1e-6, state.velocity());
             let followed = exact.follow(beside, r, 20_000).impacts;
             assert_eq!(followed.len(), 20_000, "{context}");

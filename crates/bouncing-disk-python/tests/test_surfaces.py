@@ -93,7 +93,7 @@ def plain(default: object) -> list[float | str]:
 
 
 def arguments(function: str) -> dict[str, object]:
-    """The arguments of a function with their defaults, those of a motor's settings among them."""
+    """The arguments of a function with their defaults, including the settings of a motor."""
     parameters = inspect.signature(operator.attrgetter(function)(bd)).parameters
     own = {name: parameter.default for name, parameter in parameters.items()}
     return own | (native.default_settings() if "settings" in parameters else {})

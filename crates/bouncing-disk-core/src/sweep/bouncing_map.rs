@@ -245,15 +245,6 @@ impl BouncingMap for ImpactMap {
         self.steps(state, impacts)
     }
 
-    fn iterate(
-        &self,
-        state: ImpactState,
-        impacts: u64,
-        observer: &dyn Observer,
-    ) -> Result<ImpactState, Error> {
-        self.iterate(state, impacts, observer)
-    }
-
     fn settled_orbit(
         &self,
         state: ImpactState,

@@ -92,7 +92,7 @@ pub(super) fn begin(
     Ok(given)
 }
 
-/// Refuses a motor that nothing turns, whose speed would be that of rounding.
+/// Rejects a motor without friction: only rounding would turn it.
 pub(super) fn needs_friction(motor: &Motor, sought: &str) -> Result<()> {
     let told = || format!("without friction the largest torque is 0, so there is no {sought}");
     (motor.largest_torque() != 0.0).then_some(()).ok_or_else(|| Failure::Usage(told()))

@@ -54,8 +54,8 @@ const SMALLEST_STEP: f64 = 1.0e-10;
 /// angle.
 const CORNER: f64 = 1.0e-7;
 
-/// Where no next point is found, the map is asked again after this arclength. It has lost a flight if the duration is off
-/// by more than the second number (rad).
+/// If no next point is found, the walker asks the map again after this arclength. The map has lost a flight if the duration
+/// is off by more than the second number (rad).
 const BEYOND: f64 = 1.0e-7;
 const LOST: f64 = 1.0e-3;
 
