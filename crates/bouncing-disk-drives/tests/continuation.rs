@@ -4,6 +4,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use bouncing_disk_core::numerics::elementary::hypot;
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::orbits::{
     BifurcationKind, Branch, BranchEnd, BranchPoint, ClosingMap as _, Continuation, ContinuationParameter,
@@ -226,9 +227,37 @@ fn branches_begin_beside_folds_doublings_and_corners() {
     }
 }
 
+/// 40 restitutions, some of them round.
+fn restitutions(seed: u64) -> impl Iterator<Item = f64> {
+    let mut random = SplitMix64::new(seed);
+    [0.1, 0.3, 0.5, 0.8, 0.95].into_iter().chain((0..35).map(move |_| 0.1 + 0.85 * random.unit()))
+}
+
+/// A cubic that rises through 0 has the velocity 3 a (1 - y^2)/pi and the acceleration -12 a y/pi^2 at the phase pi y/2: its
+/// fold lies on the joint of two pieces.
+#[test]
+fn cubics_have_a_fold_and_a_doubling_by_hand() {
+    for r in restitutions(9) {
+        let slow = PI * PI * (1.0 - r) / (3.0 * (1.0 + r));
+        let brakes = PI * PI * (1.0 + r * r) / (6.0 * (1.0 + r) * (1.0 + r));
+        let (fold, double) = (slow / PI, 0.5 * (slow + hypot(slow, 2.0 * brakes)) / PI);
+        let start = 0.5 * (fold + double);
+        let with = move |forcing: f64| DrivenMap::new(Drive::cubics(PI * forcing).ok()?, r).ok();
+        let family = DrivenFamily::new(start, start, with).unwrap();
+        let up = branch(&family, 1, 1, &continuation(0.5 * fold, 1.2 * double, true));
+        check_points(&up);
+        let doublings = places(&up, BifurcationKind::Doubling);
+        assert!((doublings[0] - double).abs() < 1e-12, "{r}: {doublings:?} {double}");
+        let down = branch(&family, 1, 1, &continuation(0.5 * fold, start, false));
+        check_points(&down);
+        let folds = places(&down, BifurcationKind::Fold);
+        assert!((folds[0] - fold).abs() < 1e-12, "{r}: {folds:?} {fold} {:?}", down.end);
+    }
+}
+
 #[test]
 fn parabolas_have_a_corner_and_a_doubling_by_hand() {
-    for r in [0.1, 0.3, 0.5, 0.8, 0.95] {
+    for r in restitutions(8) {
         let corner = 0.25 * PI * (1.0 - r) / (1.0 + r);
         let double = 0.25 * PI * (1.0 + r * r) / ((1.0 + r) * (1.0 + r));
         let start = 0.5 * (corner + double);
