@@ -1,4 +1,4 @@
-"""Contacts that take time: the table of docs/contacts-that-take-time.md by the law of the force alone, in small steps (`equations.py`)."""
+"""Contacts that take time: the table of docs/contacts-and-stators.md by the law of the force alone, in small steps (`equations.py`)."""
 
 import math
 import pathlib

@@ -56,14 +56,14 @@ pub(crate) fn demo_entries() -> Vec<Experiment> {
     ]
 }
 
-/// The example of `docs/adding-a-figure.md` is this code, and it runs.
+/// The example of `docs/contributing.md` is this code, and it runs.
 #[test]
 fn the_example_of_a_figure_is_documented_as_it_is() {
     let example = Experiment { id: "fig15", title: "", discussion: "", make: fig15::fig15 };
     let made = example.compute(crate::Quality::Draft, &crate::Silent).expect("runs");
     assert_eq!(made.record.data["height_m"].as_array().map(Vec::len), Some(6));
     assert_eq!(made.record.claims[0].key.as_deref(), Some("section5.rebounds_fall"));
-    let page = include_str!("../../docs/adding-a-figure.md");
+    let page = include_str!("../../docs/contributing.md");
     let unindented: Vec<&str> = page.lines().map(|line| line.strip_prefix("    ").unwrap_or(line)).collect();
     assert!(unindented.join("\n").contains(include_str!("testing/fig15.rs").trim_end()));
 }

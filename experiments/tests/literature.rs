@@ -1,4 +1,4 @@
-//! What others have published on bouncing balls: `data/literature` and `docs/literature.md` against the exact
+//! What others have published on bouncing balls: `data/literature` and `data/literature/README.md` against the exact
 //! map.
 //!
 //! A statement with a `check` is computed here, and its row of the page must have that number and that
@@ -18,7 +18,7 @@ use bouncing_disk_experiments::claims::printed::PrintedNumber;
 use serde::Deserialize;
 use serde_json::Value;
 
-const PAGE: &str = include_str!("../../docs/literature.md");
+const PAGE: &str = include_str!("../../data/literature/README.md");
 
 /// The printed number of the page has six digits at least where it is compared, or five for a speed.
 const PAGE_PRECISION: f64 = 3e-5;

@@ -4,7 +4,7 @@
 //! snapshot holds caption, parameters, data and claims with their verdicts. Words, labels and integers are
 //! compared exactly, floats within [`RELATIVE_TOLERANCE`]. Long arrays are held as statistics, which a reader can
 //! judge, and a digest of all their bits, which is compared exactly: the arithmetic is the same on every machine
-//! (`docs/numerics/solver.md`).
+//! (`docs/numerics-impacts.md`).
 //!
 //! A new experiment is added to [`snapshots!`]; the tests fail as long as it is not there or has no snapshot.
 //! `INSTA_UPDATE=always cargo test -p bouncing-disk-experiments --test snapshots` writes the snapshots again.

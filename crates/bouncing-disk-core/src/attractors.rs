@@ -20,7 +20,7 @@
 //!
 //! [`verdicts`] tells whether single orbits rest, repeat or are chaotic; [`BasinEntropy`] and
 //! [`BoundaryScaling`] measure basins. The methods:
-//! docs/numerics/dynamics.md.
+//! docs/numerics-dynamics.md.
 
 mod attracting_map;
 pub(crate) mod attraction;

@@ -17,7 +17,7 @@
 //! ```
 //!
 //! Whether an exponent proves chaos is a [verdict](crate::attractors::Verdict). How it is computed:
-//! docs/numerics/dynamics.md.
+//! docs/numerics-dynamics.md.
 
 pub(crate) mod crisis;
 pub(crate) mod manifold;

@@ -3,7 +3,7 @@
 //! Flights and speeds shrink by the restitution r from one impact to the next, so that from a launch with the
 //! relative speed w the disk rests after about 2 w / (a (1 - r)), where a = 1 - P sin tau is the relative
 //! gravity. [`ChatterPolicy`](crate::ChatterPolicy) says how an orbit treats it: summed to the end, with a
-//! proven error bound, or cut off as in Sec. IV A of the paper (docs/numerics/chattering.md).
+//! proven error bound, or cut off as in Sec. IV A of the paper (docs/numerics-impacts.md).
 //!
 //! ```
 //! use bouncing_disk_core::{ImpactMap, Launch, Phase, Vibration};

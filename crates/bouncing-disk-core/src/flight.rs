@@ -3,7 +3,7 @@
 //! The gap between disk and platform after a flight of h radians is (w + P cos tau) h - h^2/2 - P (sin(tau +
 //! h) - sin tau), and its first zero h > 0 is the impact (Eq. 11 of Liu, Friend and Yeo).
 //! [`Vibration::first_impact`](crate::Vibration::first_impact) finds it with certainty
-//! (docs/numerics/solver.md); [`mod@reference`] finds it slowly by another way, as a check.
+//! (docs/numerics-impacts.md); [`mod@reference`] finds it slowly by another way, as a check.
 //!
 //! ```
 //! use bouncing_disk_core::{Launch, Phase, Vibration};

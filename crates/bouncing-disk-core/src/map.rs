@@ -3,7 +3,7 @@
 //! A disk that arrives with the velocity w' leaves with the speed -r w', and the next impact is the first
 //! zero of the gap of its flight. The map contracts areas of (phase, velocity) by r^2.
 //! [`ImpactMap`](crate::ImpactMap) steps, [`Orbit`](crate::Orbit) follows all events, chattering included.
-//! Laws of restitution other than a constant are [`RestitutionLaw`]s (docs/numerics/restitution.md).
+//! Laws of restitution other than a constant are [`RestitutionLaw`]s (docs/numerics-dynamics.md).
 //!
 //! ```
 //! use bouncing_disk_core::{ImpactMap, Vibration};

@@ -18,7 +18,7 @@
 //! ```
 //!
 //! [`ContinuedMap::continued`] follows an orbit over a parameter. The orbits on
-//! which a disk ends are in [`attractors`](crate::attractors). How it is computed: docs/numerics/dynamics.md.
+//! which a disk ends are in [`attractors`](crate::attractors). How it is computed: docs/numerics-dynamics.md.
 
 pub(crate) mod cascade;
 pub(crate) mod closing;

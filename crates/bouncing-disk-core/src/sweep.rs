@@ -2,7 +2,7 @@
 //! events.
 //!
 //! The events are those of each orbit by itself, to the bit, for any number of threads. The flights are
-//! computed several at a time in lockstep, in the lanes of vector instructions (docs/numerics/lockstep.md).
+//! computed several at a time in lockstep, in the lanes of vector instructions (docs/numerics-impacts.md).
 //!
 //! ```
 //! use bouncing_disk_core::sweep::orbit_diagram;

@@ -210,7 +210,7 @@ fn branch_of(impacts: usize, axial_forcing: f64, rising: bool) -> Branch {
 }
 
 /// Beyond the crisis orbits of 11, 12, 13 impacts in five periods are born in folds; a graze ends each, and
-/// there the next one loses an impact that vanishes (docs/numerics/dynamics.md).
+/// there the next one loses an impact that vanishes (docs/numerics-dynamics.md).
 #[test]
 fn orbits_beyond_the_crisis_are_born_in_folds_and_handed_on_in_grazes() {
     let first = |branch: &Branch, is_one: fn(&BifurcationKind) -> bool| {

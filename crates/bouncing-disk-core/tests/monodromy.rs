@@ -106,7 +106,7 @@ fn trace_and_determinant_are_those_of_differences_in_high_precision() {
     assert!(unstable > 50, "{unstable}");
 }
 
-/// The result is recorded in docs/numerics/dynamics.md.
+/// The result is recorded in docs/numerics-dynamics.md.
 #[test]
 #[ignore = "half a minute: run by hand, the result is recorded"]
 fn a_thousand_orbits_have_the_trace_and_determinant_of_differences() {

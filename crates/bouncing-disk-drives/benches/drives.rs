@@ -28,7 +28,7 @@ fn launches(peak: f64, low: f64, high: f64) -> Vec<(Vibration, Launch)> {
         .collect()
 }
 
-/// The same launches on the sine and on drives: the cost of a drive is the ratio (docs/numerics/drives.md).
+/// The same launches on the sine and on drives: the cost of a drive is the ratio (docs/numerics-impacts.md).
 fn drives(c: &mut Criterion) {
     let peak = 1.8;
     let launches = launches(peak, 0.0, 2.0);

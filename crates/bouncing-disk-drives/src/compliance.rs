@@ -11,7 +11,7 @@
 //! still in between: what the two agree on does not depend on the damping.
 //!
 //! Between two events all is polynomials and damped sines, and the events are their first roots
-//! (docs/numerics/contacts.md). The platform is a Fourier sum.
+//! (docs/numerics-dynamics.md). The platform is a Fourier sum.
 
 use core::f64::consts::{E, FRAC_PI_2, TAU};
 

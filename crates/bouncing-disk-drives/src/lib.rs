@@ -25,7 +25,7 @@
 //! | [`drive`] | the motions of a platform, and the first impact on them |
 //! | [`compliance`] | compliant contacts |
 //!
-//! How it is computed: docs/numerics/drives.md and docs/numerics/contacts.md.
+//! How it is computed: docs/numerics-impacts.md and docs/numerics-dynamics.md.
 
 mod analyses;
 mod cascade;

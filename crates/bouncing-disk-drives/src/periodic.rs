@@ -1,5 +1,5 @@
 //! Periodic orbits on a drive: Newton's method by multiple shooting, and a search from a grid of starts
-//! (docs/numerics/drives.md, "Periodic orbits").
+//! (docs/numerics-impacts.md, "Periodic orbits").
 
 use core::f64::consts::TAU;
 use core::ops::RangeInclusive;

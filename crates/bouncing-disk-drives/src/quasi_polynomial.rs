@@ -2,7 +2,7 @@
 //!
 //! A step from t is certain where the cubic Taylor polynomial less the largest remainder M4 h^4/24 stays
 //! above zero; a root is certain to be the first one where the cubic plus that remainder ends below zero on a
-//! stretch on which the function falls, or is concave, all the way (docs/numerics/drives.md).
+//! stretch on which the function falls, or is concave, all the way (docs/numerics-impacts.md).
 
 use core::ops::{Add, Mul};
 

@@ -1,4 +1,4 @@
-"""Python, the command line and the table of both in docs/architecture.md agree.
+"""Python, the command line and the table of both in docs/contributing.md agree.
 
 ``data/command-line.json`` lists the options of each command; a test of the command line keeps it. ``data/surfaces.json``
 lists the analyses: a text in place of a list, or of a command, is the reason of a gap. ``UPDATE_DOCUMENTATION=1``

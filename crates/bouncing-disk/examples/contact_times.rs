@@ -1,4 +1,4 @@
-//! The paper's motor on contacts that take time: the tables of docs/contacts-that-take-time.md.
+//! The paper's motor on contacts that take time: the tables of docs/contacts-and-stators.md.
 //!
 //! A rotor with little friction in each contact ends at the speed at which the force of the contact pushes it forwards as
 //! much as backwards (`NormalImpulses::of_contact`).

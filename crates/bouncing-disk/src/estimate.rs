@@ -15,7 +15,7 @@
 //!
 //! [`TransientFit`] fits run-ups, `MotorFit` (feature `fit`) finds the parameters of a motor that explain run-ups, braking tails and the
 //! points that a maker prints, and [`MeasuredSpeeds`] holds measurements, read from files with the feature `csv`. Run-ups of the
-//! model are in [`motor`](crate::motor). The derivation of the intervals: docs/numerics/motors.md.
+//! model are in [`motor`](crate::motor). The derivation of the intervals: docs/numerics-dynamics.md.
 
 pub(crate) mod braking_rotor;
 pub(crate) mod ensemble;

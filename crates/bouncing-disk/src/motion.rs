@@ -22,7 +22,7 @@
 //!
 //! [`SiState`] and [`SiEnergy`] are in SI units; [`Transition`] lists which event may follow which. The
 //! tosses made of such motions are in [`toss`](crate::toss). How chattering is summed:
-//! docs/numerics/chattering.md.
+//! docs/numerics-impacts.md.
 
 pub(crate) mod arc;
 pub(crate) mod chatter;

@@ -25,7 +25,7 @@
 //! [`Motor::transient`](crate::Motor::transient) computes the run-up of one rotor,
 //! [`Motor::transients`](crate::Motor::transients) of many; [`MotorSweep`] varies the
 //! data sheet. All of them take any sheet: stators that move by waveforms or yield, contacts that take time. Fits of run-ups, computed or measured, are in [`estimate`](crate::estimate). How far to trust
-//! the speeds: docs/numerics/motors.md.
+//! the speeds: docs/numerics-dynamics.md.
 
 pub(crate) mod batch;
 pub(crate) mod best;

@@ -25,7 +25,7 @@ const WINDOW: f64 = 5.0;
 ///
 /// `parameters` have been fitted. It is the larger one of two estimates: the sum of the autocorrelations up
 /// to five times their sum so far, which knows no model, and (1 + rho_1)/(1 - rho_1) of residuals of which
-/// each remembers only the one before, which has the smaller error (docs/numerics/motors.md, "Fits with
+/// each remembers only the one before, which has the smaller error (docs/numerics-dynamics.md, "Fits with
 /// intervals"). `None` where the window has not ended before a fourth of the residuals: they remember each
 /// other for too long.
 pub(crate) fn correlation_time(residuals: &[f64], parameters: usize) -> Option<f64> {
@@ -86,7 +86,7 @@ pub(crate) fn student_quantile(degrees: f64) -> f64 {
 
 /// How much wider than the bootstrap's an interval must be so that it holds for a sample of `size`
 /// independent values: the resampled variance lacks the factor size/(size - 1), and what is left has
-/// Student's distribution (docs/numerics/motors.md, "Fits with intervals").
+/// Student's distribution (docs/numerics-dynamics.md, "Fits with intervals").
 pub(crate) fn small_sample_widening(size: usize) -> f64 {
     let size = size as f64;
     (size / (size - 1.0)).sqrt() * student_quantile(size - 1.0) / NORMAL_975

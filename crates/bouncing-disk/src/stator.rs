@@ -9,7 +9,7 @@
 //!
 //! with the normal force N >= 0 and the torque T of friction on the disk. All that happens between two events is a
 //! linear flow, so that the first root of gap, force or slip is certain; an impact has the law of
-//! Routh and Stronge, which cannot create energy (docs/numerics/stators.md).
+//! Routh and Stronge, which cannot create energy (docs/numerics-dynamics.md).
 //!
 //! ```
 //! use bouncing_disk::System;

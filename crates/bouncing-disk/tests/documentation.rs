@@ -12,10 +12,10 @@ use bouncing_disk::core::sweep::{orbit_diagram, survival_times};
 use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Unobserved, Vibration};
 
 /// Pages that nobody writes by hand.
-const GENERATED: [&str; 3] = ["docs/results.md", "docs/errata.md", "docs/performance.md"];
+const GENERATED: [&str; 2] = ["docs/results.md", "docs/errata.md"];
 
 /// Lists of what was, with the names of its time.
-const RECORDS: [&str; 2] = ["CHANGELOG.md", "docs/mutants.md"];
+const RECORDS: [&str; 1] = ["CHANGELOG.md"];
 
 /// Files that a run writes, and that pages may name.
 const WRITTEN_BY_A_RUN: [&str; 4] = ["claims.json", "claims.schema.json", "index.html", "sums.json"];
@@ -108,7 +108,7 @@ fn code_words(line: &str) -> impl Iterator<Item = &str> {
     line.split('`').skip(1).step_by(2)
 }
 
-/// The figure that docs/adding-a-figure.md adds, which does not exist.
+/// The figure that docs/contributing.md adds, which does not exist.
 const EXAMPLE_FIGURE: &str = "fig15";
 
 fn is_file_name(word: &str) -> bool {
@@ -199,9 +199,9 @@ fn the_programs_of_the_tutorial_are_the_examples() {
 
 /// Examples whose program no page shows, and the page that has what they print.
 const TABLES: [(&str, &str); 3] = [
-    ("contact_times", "docs/contacts-that-take-time.md"),
-    ("yielding_stator", "docs/stators-that-yield.md"),
-    ("start_up", "docs/numerics/drives.md"),
+    ("contact_times", "docs/contacts-and-stators.md"),
+    ("yielding_stator", "docs/contacts-and-stators.md"),
+    ("start_up", "docs/numerics-impacts.md"),
 ];
 
 /// Every line that is printed: a sentence may be broken in two, and a row may go on.
@@ -353,7 +353,7 @@ fn definitions(text: &str) -> impl Iterator<Item = &str> {
 #[test]
 fn the_map_of_the_paper_is_right() {
     let mut faults = Faults::default();
-    let text = read("docs/architecture.md");
+    let text = read("docs/contributing.md");
     let (_, table) = text.split_once("## Where to find the paper's equations").expect("a section");
     let (table, _) = table.split_once("\n## ").expect("another one");
     let mut libraries = files();
@@ -469,7 +469,7 @@ fn public_modules(text: &str) -> BTreeSet<&str> {
     shown.filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';')).collect()
 }
 
-/// The libraries that have chapters and rooms: the name in docs/architecture.md, and the folder.
+/// The libraries that have chapters and rooms: the name in docs/contributing.md, and the folder.
 const LIBRARIES: [(&str, &str); 3] = [
     ("core", "crates/bouncing-disk-core/src"),
     ("drives", "crates/bouncing-disk-drives/src"),
@@ -514,7 +514,7 @@ fn modules_used_by<'a>(
 #[test]
 fn every_module_is_a_room_in_its_place() {
     let mut faults = Faults::default();
-    let architecture = read("docs/architecture.md");
+    let architecture = read("docs/contributing.md");
     for (name, folder) in LIBRARIES {
         let mut texts = files();
         texts.retain(|path| path.starts_with(folder) && path.ends_with(".rs"));

@@ -29,7 +29,7 @@ use launches::SplitMix;
 use seams::{angle, nearby, one_of, peak};
 use shards::Kind;
 
-/// Bound on the closure of the energy balance, relative to what was added up (docs/numerics/solver.md,
+/// Bound on the closure of the energy balance, relative to what was added up (docs/numerics-impacts.md,
 /// "Energy").
 const CLOSURE: f64 = 1.0e-13;
 
@@ -240,7 +240,7 @@ fn motions_from_seams_keep_time_and_energy() {
     assert!(tally.events > 1_000_000, "{tally:?}");
 }
 
-/// The engine's part of the campaign of docs/numerics/solver.md, "The attack on seams".
+/// The engine's part of the campaign of docs/numerics-impacts.md, "The attack on seams".
 ///
 /// `cargo test --release -p bouncing-disk --test seams -- --ignored campaign --nocapture`
 #[test]

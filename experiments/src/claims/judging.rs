@@ -1,6 +1,6 @@
 //! The rules by which a number or a statement of the paper is judged: one for each kind.
 //!
-//! `docs/judging.md` has them for readers; a test compares the two. Every entry of the
+//! `docs/reproducing.md` has them for readers; a test compares the two. Every entry of the
 //! [catalogue](super::catalogue) that the paper asserts names its kind, and the kind alone turns [`Cases`]
 //! into a [`Verdict`].
 
@@ -254,7 +254,7 @@ mod tests {
 
     #[test]
     fn the_page_has_these_rules() {
-        const PAGE: &str = include_str!("../../../docs/judging.md");
+        const PAGE: &str = include_str!("../../../docs/reproducing.md");
         for kind in Kind::ALL {
             let row = format!("| {} | {} |", kind.name(), kind.rule());
             assert!(PAGE.contains(&row), "{row}");

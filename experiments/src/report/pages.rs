@@ -4,7 +4,7 @@
 //! [`Digests`], written with the pictures, holds for each figure a digest of what it was made from in *both*
 //! qualities: data, drawing and section. A draft run sees every change of model, drawing, caption, claims and
 //! printed numbers. It does not see one that only the paper grids feel, nor one of the page's head
-//! (docs/architecture.md).
+//! (docs/contributing.md).
 
 use std::collections::BTreeMap;
 

@@ -28,7 +28,7 @@ pub(super) fn schema() -> Value {
                 "tolerance": {"type": ["number", "null"], "description": "The largest difference that agrees."},
                 "verdict": verdict,
                 "class": {"enum": Class::ALL, "description": "Only \"paper\" counts for or against the paper."},
-                "kind": {"enum": Kind::ALL, "description": "The rule that decides the verdict (docs/judging.md)."},
+                "kind": {"enum": Kind::ALL, "description": "The rule that decides the verdict (docs/reproducing.md)."},
                 "cause": {"type": "string", "description": "Why it differs; rows with one cause have one reason."},
                 "share": {"type": "number", "minimum": 0, "maximum": 1,
                     "description": "Of the inputs that print alike, or of single orbits, for which it holds."},

@@ -15,7 +15,7 @@ use super::prelude::*;
 #[command(after_help = "\
 The cascade starts from the orbit with one impact in each period of the platform, at the paper's Gamma_1, Gamma_2, ... From \
 the seventh doubling on there are estimates of Feigenbaum's constants. The error is what rounding may have moved a \
-forcing by. If the cascade ends early, the doublings found so far are printed with the reason. The command finds the forcings, so that there is no --axial-forcing; of a system it takes the restitution and the shape of the drive. With another drive or --contact-periods it begins with the attracting orbit of one impact per period at the lowest forcing, and the error is that of the trace. See docs/numerics/dynamics.md.
+forcing by. If the cascade ends early, the doublings found so far are printed with the reason. The command finds the forcings, so that there is no --axial-forcing; of a system it takes the restitution and the shape of the drive. With another drive or --contact-periods it begins with the attracting orbit of one impact per period at the lowest forcing, and the error is that of the trace. See docs/numerics-dynamics.md.
 
 Examples:
   bouncing-disk doublings

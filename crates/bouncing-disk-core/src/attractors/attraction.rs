@@ -1,5 +1,5 @@
 //! How near a start must come to an attracting periodic orbit to count as caught: a radius that is proven,
-//! and one that samples make wider (docs/numerics/dynamics.md, "Radii of attraction").
+//! and one that samples make wider (docs/numerics-dynamics.md, "Radii of attraction").
 //!
 //! Distances are in radians; a radian of phase counts as much as the speed P.
 

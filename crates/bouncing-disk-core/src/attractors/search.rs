@@ -1,4 +1,4 @@
-//! The attractors of a map, found without known orbits, and their basins (docs/numerics/dynamics.md,
+//! The attractors of a map, found without known orbits, and their basins (docs/numerics-dynamics.md,
 //! "Attractors").
 
 mod basins;

@@ -1,5 +1,5 @@
 //! The crisis in which a chaotic attractor is lost to rest: where orbits on it begin to come to rest, and the
-//! tangency of manifolds that is the reason (docs/numerics/dynamics.md, "Crises").
+//! tangency of manifolds that is the reason (docs/numerics-dynamics.md, "Crises").
 
 use crate::chaos::manifold::{Side, of_saddle};
 use crate::flight::platform::vibration::Vibration;

@@ -1,4 +1,4 @@
-//! Stable and unstable manifolds of the saddles of the impact map (docs/numerics/dynamics.md, "Invariant
+//! Stable and unstable manifolds of the saddles of the impact map (docs/numerics-dynamics.md, "Invariant
 //! manifolds of saddles").
 
 use crate::map::impact_map::{ImpactMap, ImpactState};

@@ -8,7 +8,7 @@
 //! -b, db/dtau = a - 1) the time to the accumulation point is a power series in the launch speed w whose
 //! coefficients (`expansion.rs`, with the bound on their error) satisfy T(tau, w) = h + T(tau + h,
 //! restitution * u), h the first flight and u its impact speed. The coefficients are derived in
-//! docs/numerics/chattering.md.
+//! docs/numerics-impacts.md.
 
 use core::f64::consts::TAU;
 
@@ -168,7 +168,7 @@ impl Vibration {
 
     /// Whether a chatter against a growing pull lasts at most [`COMPLETION_ERROR`]: without this a disk may
     /// hop for ever where the pull is a rounding and its flights are too short to change the phase
-    /// (docs/numerics/chattering.md, "No time left").
+    /// (docs/numerics-impacts.md, "No time left").
     #[cold]
     fn ends_within_a_rounding(&self, phase: Phase, speed: f64, restitution: f64) -> bool {
         let (peak, angle) = (self.peak_acceleration(), phase.angle());

@@ -4,7 +4,7 @@
 //! coordinate y in which an impact is a multiplication: R is a power series in y, and the n-th impact is at y
 //! = r^n. A quantity of an impact is then a power series in r^n, too, and its sums are geometric. The
 //! recurrence for the coefficients and the sums that do not cancel are derived in
-//! docs/numerics/chattering.md.
+//! docs/numerics-impacts.md.
 
 use crate::flight::platform::phase::Phase;
 use crate::flight::platform::vibration::Vibration;

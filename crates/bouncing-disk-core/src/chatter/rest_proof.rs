@@ -6,7 +6,7 @@
 //! least value at the next crest. Let G be the integral of the pull from the launch to that place: the
 //! impulse that is left to stop the disk. The proof shows for a certain share k of G: if a launch is slower
 //! than k G, so is the next one, with its own, smaller G. All later launches are then too slow to outlast the
-//! pull, and the disk comes to rest (docs/numerics/chattering.md, "The proof of rest").
+//! pull, and the disk comes to rest (docs/numerics-impacts.md, "The proof of rest").
 
 use core::f64::consts::{PI, TAU};
 

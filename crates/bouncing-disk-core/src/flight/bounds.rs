@@ -10,7 +10,7 @@ const BEND_SHARE: f64 = 0.0053;
 
 /// Whether a launch may land within [`SHORT_FLIGHT`], given P sin and P cos at launch. None that lands is
 /// missed: over half a radian the pull is at most its value at launch, less its drift, plus the curvature of
-/// the platform (docs/numerics/lockstep.md, "Tests that are certain when they answer").
+/// the platform (docs/numerics-impacts.md, "Tests that are certain when they answer").
 #[inline(always)]
 pub(crate) fn may_return_soon(peak: f64, sine: f64, cosine: f64, speed: f64) -> bool {
     let pull = 1.0 - sine;

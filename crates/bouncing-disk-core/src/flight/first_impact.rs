@@ -8,7 +8,7 @@
 //! ```
 //!
 //! Three facts make the first zero h > 0 certain and its cost independent of the length of the flight (proofs
-//! in docs/numerics/solver.md):
+//! in docs/numerics-impacts.md):
 //!
 //! 1. *One crest decides.* A disk below a crest of the platform (phase pi/2) is hit by that crest at the
 //!    latest. So the impact lies before the first crest after the launch that rises above the disk, or,
@@ -47,7 +47,7 @@ impl Vibration {
     /// The first impact after `launch` (Eq. 11).
     ///
     /// The impact phase is accurate to 1e-14 of a period or to the conditioning of the problem, whichever is
-    /// larger (docs/numerics/solver.md states the bound).
+    /// larger (docs/numerics-impacts.md states the bound).
     ///
     /// # Errors
     /// [`Error::NoLiftOff`] for a launch from rest where the platform does not fall away;
@@ -304,7 +304,7 @@ impl Vibration {
     /// launches.
     ///
     /// Over so short a flight the acceleration is c0 + c1 h - h^2/2, c1 = P cos tau, which integrates to
-    /// gap = h^2 (c0/2 + c1 h/6 - h^2/24) (docs/numerics/solver.md, "Brief flights").
+    /// gap = h^2 (c0/2 + c1 h/6 - h^2/24) (docs/numerics-impacts.md, "Brief flights").
     fn brief_flight_from_rest(&self, from: &Phase) -> Option<Impact> {
         let p = self.peak_acceleration();
         let angle = from.angle();
@@ -364,7 +364,7 @@ impl Vibration {
 #[cfg(debug_assertions)]
 impl Vibration {
     /// Asserts that the `duration` of a flight is what the velocities at its ends say: a disk in free flight
-    /// loses one unit of speed a radian, whatever the phases are (docs/numerics/solver.md, "The clock").
+    /// loses one unit of speed a radian, whatever the phases are (docs/numerics-impacts.md, "The clock").
     /// Debug builds only.
     ///
     /// An impact without velocity is a graze, whose slope is known to half of the digits only: it says

@@ -73,7 +73,7 @@ impl<L: RestitutionLaw> ImpactMap<L> {
     /// away: a bound on the error of a cut that puts the disk on the platform at this impact. `None` where no
     /// bound is known: where the law has no [`rebound_sum`](RestitutionLaw::rebound_sum), or where the
     /// chatter is so long that the pull 1 - P sin tau may change by much. For the pull that P and the carried
-    /// pair give (docs/numerics/restitution.md, "The error of a cut").
+    /// pair give (docs/numerics-dynamics.md, "The error of a cut").
     ///
     /// ```
     /// # use bouncing_disk_core::map::KuwabaraKono;

@@ -1,4 +1,4 @@
-//! The inverse of the impact map (docs/numerics/dynamics.md, "The inverse map").
+//! The inverse of the impact map (docs/numerics-dynamics.md, "The inverse map").
 
 use core::f64::consts::PI;
 

@@ -1,5 +1,5 @@
 //! Laws of restitution: the share of its speed that an impact leaves the disk, and the trait for laws of
-//! your own. Derived in docs/numerics/restitution.md.
+//! your own. Derived in docs/numerics-dynamics.md.
 
 use core::fmt::{self, Debug, Display};
 

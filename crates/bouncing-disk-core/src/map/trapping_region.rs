@@ -1,5 +1,5 @@
 //! Bounds on sustained speeds: no periodic orbit and no attractor is faster. Proven in
-//! docs/numerics/dynamics.md, "Bounded speeds".
+//! docs/numerics-dynamics.md, "Bounded speeds".
 
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::ImpactMap;

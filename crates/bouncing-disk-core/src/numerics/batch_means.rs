@@ -98,7 +98,7 @@ impl BatchMeans {
 
     /// The standard error of the mean; `None` for fewer than [`FEWEST_NUMBERS`].
     ///
-    /// It is the largest of these (docs/numerics/dynamics.md, "The standard error"):
+    /// It is the largest of these (docs/numerics-dynamics.md, "The standard error"):
     /// - the errors by batches of this length, twice and four times this length and so on, down to 16
     ///   batches: those shorter than the correlation give less;
     /// - half of the difference of the means of the two halves: the rest of a transient that ends in the

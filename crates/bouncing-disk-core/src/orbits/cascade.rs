@@ -1,5 +1,5 @@
 //! The period-doubling cascade to as many digits as the arithmetic carries: from one doubling to the next by
-//! Newton's iteration on the impact times (docs/numerics/dynamics.md, "The doubling cascade").
+//! Newton's iteration on the impact times (docs/numerics-dynamics.md, "The doubling cascade").
 
 pub(crate) mod branch;
 pub(crate) mod feigenbaum;
@@ -77,7 +77,7 @@ impl<R> DoublingCascade<R> {
 ///
 /// In doubles every forcing is the one of a multiplier of -1, within [`CascadeDoubling::forcing_error`]: at
 /// most 1.5e-13 at the thirteenth. The rounding error grows 6.6 times in the multiplier and 1.4 times in the
-/// forcing from one doubling to the next (docs/numerics/dynamics.md); the distances of the doublings
+/// forcing from one doubling to the next (docs/numerics-dynamics.md); the distances of the doublings
 /// shrink 4.67 times, so that ratios of distances have six digits at the twelfth.
 /// [`DoubleDouble`](crate::numerics::double_double::DoubleDouble) has sixteen more; then read a decimal
 /// restitution from a text, as the double `0.1` is not a tenth.

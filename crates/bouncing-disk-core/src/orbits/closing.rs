@@ -1,6 +1,6 @@
 //! The equations of a closed sequence of flights and of their derivatives by one parameter. With rigid impacts they
 //! ignore earlier impacts that would end a flight, and so are smooth through a graze
-//! (docs/numerics/dynamics.md, "Branches").
+//! (docs/numerics-dynamics.md, "Branches").
 
 use core::f64::consts::TAU;
 use core::fmt::Debug;

@@ -1,5 +1,5 @@
 //! Branches of periodic orbits in a parameter: through folds and along unstable parts, with the bifurcations
-//! on the way (docs/numerics/dynamics.md, "Branches").
+//! on the way (docs/numerics-dynamics.md, "Branches").
 
 use core::ops::ControlFlow;
 

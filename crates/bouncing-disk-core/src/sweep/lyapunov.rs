@@ -91,7 +91,7 @@ impl TangentGrowth {
 }
 
 /// How far rounding may move the logarithm of one growth, always to the same side: that of the two phases and
-/// the speeds which its derivative is made of (docs/numerics/dynamics.md, "The standard error").
+/// the speeds which its derivative is made of (docs/numerics-dynamics.md, "The standard error").
 const GROWTH_RESOLUTION: f64 = 16.0 * f64::EPSILON;
 
 /// How many standard errors decide.

@@ -1,7 +1,7 @@
 //! Launches and drops that land on seams, confirmed by a march or judged by the oracle, alone and in lanes.
 //!
 //! `cargo test` runs as many as fit into seconds; how the campaign is run stands in
-//! docs/numerics/solver.md, "The attack on seams".
+//! docs/numerics-impacts.md, "The attack on seams".
 
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
@@ -505,7 +505,7 @@ fn basins_on_seams_have_the_labels_of_single_starts() {
     assert!(labels.iter().all(|&count| count > 50), "{labels:?}");
 }
 
-/// The campaign of docs/numerics/solver.md, "The attack on seams".
+/// The campaign of docs/numerics-impacts.md, "The attack on seams".
 ///
 /// `cargo test --release -p bouncing-disk-core --test first_impact -- --ignored attack::campaign --nocapture`
 #[test]

@@ -1,6 +1,6 @@
 //! Many launches, each judged by the oracle: the impact is the first one, and as accurate as the data allow.
 //!
-//! What is asserted at the end of a campaign is what was measured, rounded up; docs/numerics/solver.md quotes
+//! What is asserted at the end of a campaign is what was measured, rounded up; docs/numerics-impacts.md quotes
 //! it.
 
 use bouncing_disk_core::Vibration;

@@ -1,7 +1,7 @@
 //! Digests of results, recorded before the work on speed: a faster solver may not change a bit of them.
 //!
 //! A digest that differs means that the arithmetic of a flight, or a decision in it, is another one. Such a
-//! change needs a reason of its own (docs/numerics/solver.md, "Same bits everywhere"); record the digests
+//! change needs a reason of its own (docs/numerics-impacts.md, "Same bits everywhere"); record the digests
 //! again only together with it.
 //!
 //! `crates/bouncing-disk/tests/same_bits.rs` compares them on other processors, too.
@@ -208,7 +208,7 @@ pub(crate) fn launches_of_every_regime() -> Vec<String> {
         .collect()
 }
 
-/// W1 of docs/performance.md. Every state of the orbit is a launch of its own for the lanes.
+/// W1 of data/performance/README.md. Every state of the orbit is a launch of its own for the lanes.
 pub(crate) fn chaotic_orbit() -> Vec<String> {
     let vibration = Vibration::from_axial_forcing(0.55).expect("legal");
     let map = ImpactMap::new(vibration, RESTITUTION).expect("legal");
@@ -247,7 +247,7 @@ pub(crate) fn orbits_with_chatter(paper_policy: ChatterPolicy) -> Vec<String> {
     one("orbits with chatter", digest, 0x4ef0_e214_d440_d948)
 }
 
-/// W3 of docs/performance.md on a smaller grid.
+/// W3 of data/performance/README.md on a smaller grid.
 pub(crate) fn basin_labels() -> Vec<String> {
     let vibration = Vibration::from_axial_forcing(0.5).expect("legal");
     let map = ImpactMap::new(vibration, RESTITUTION).expect("legal");

@@ -3,7 +3,7 @@
 //! While the parabola of the disk is above the highest point of the platform nothing is searched: a flight
 //! has two windows, before it has risen above that height and after it has come down to it. In each the gap
 //! is followed from the start of the window, so that a brief flight keeps its relative accuracy
-//! (docs/numerics/drives.md).
+//! (docs/numerics-impacts.md).
 
 use core::f64::consts::TAU;
 

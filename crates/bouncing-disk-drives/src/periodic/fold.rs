@@ -1,5 +1,5 @@
 //! Orbits next to a fold of a drive's map: whether they exist, how many they are, and where
-//! (docs/numerics/drives.md, "Periodic orbits").
+//! (docs/numerics-impacts.md, "Periodic orbits").
 
 use core::f64::consts::TAU;
 

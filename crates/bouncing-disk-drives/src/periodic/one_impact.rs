@@ -1,5 +1,5 @@
 //! The orbits of one impact on a drive with rigid impacts: the phases at which the velocity of the platform
-//! has one value (docs/numerics/drives.md, "Periodic orbits").
+//! has one value (docs/numerics-impacts.md, "Periodic orbits").
 
 use core::f64::consts::{PI, TAU};
 use core::ops::RangeInclusive;

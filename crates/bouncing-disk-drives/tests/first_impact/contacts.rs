@@ -286,7 +286,7 @@ impl Contact {
     }
 
     /// So small a pull counts as none where a disk lies on the platform without a force: twice what
-    /// docs/numerics/drives.md states.
+    /// docs/numerics-impacts.md states.
     fn pull(&self, from: RelativeState) -> f64 {
         let lies = from.gap == 0.0 && from.velocity == 0.0;
         if lies { 2e-12 * self.law.load() + 16.0 * U * TAU * self.law.size(3) } else { 0.0 }

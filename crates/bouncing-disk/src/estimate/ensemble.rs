@@ -269,7 +269,7 @@ mod tests {
     }
 
     /// Sizes from 1e-5 to 1e-1 agree within 3 %. Smaller ones do not: the first impacts after a relaunch are
-    /// then the same every time, the more of them the smaller the perturbation (docs/numerics/chattering.md,
+    /// then the same every time, the more of them the smaller the perturbation (docs/numerics-impacts.md,
     /// "Motors remember the rounding").
     #[test]
     fn steady_speed_does_not_depend_on_the_size_of_the_perturbation() {

@@ -2,7 +2,7 @@
 //! prints (rated torque and speed, speed without load, stall torque), each under its own conditions.
 //!
 //! A smooth stand-in for the motor is computed at some hundred places of the ranges; what the measurements exclude by it, and
-//! by its own errors, is excluded. docs/numerics/motors.md, "Parameters from measurements".
+//! by its own errors, is excluded. docs/numerics-dynamics.md, "Parameters from measurements".
 
 mod display;
 mod emulator;

@@ -1,7 +1,7 @@
 //! Fits of speed transients that state how far they can be trusted, or why they cannot.
 //!
 //! The mean curve of an ensemble is fitted, not its members one by one: the mean of fits to scattered curves
-//! is not the fit to their mean. Errors come from resampling. docs/numerics/motors.md, "Fits with intervals",
+//! is not the fit to their mean. Errors come from resampling. docs/numerics-dynamics.md, "Fits with intervals",
 //! derives how.
 
 mod blocks;

@@ -152,7 +152,7 @@ impl Motor {
     }
 
     /// A bound on the height of the rotor above its place on the stator at mid-height (m), for all flights of
-    /// a motor that starts from rest and of every attractor, as its stator moves as a sine (docs/numerics/motors.md, "How high a rotor
+    /// a motor that starts from rest and of every attractor, as its stator moves as a sine (docs/numerics-dynamics.md, "How high a rotor
     /// flies").
     #[must_use]
     pub fn highest_rise(&self) -> f64 {

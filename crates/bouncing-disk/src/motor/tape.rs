@@ -4,7 +4,7 @@
 //! presses on it and how hard. A tape holds this as [`Knot`]s: the phase of the drive, the impulse of contact over the
 //! step that ends there, in which the force counts as even and the stator's angular acceleration as constant, and the
 //! impulse of an impact at its end. A [`replay`] carries rotors of any inertia, friction, load, phase lag and twist
-//! along it (docs/numerics/motors.md, "The tape of the force").
+//! along it (docs/numerics-dynamics.md, "The tape of the force").
 
 pub(crate) mod cycle;
 mod engine;

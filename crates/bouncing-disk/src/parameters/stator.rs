@@ -1,5 +1,5 @@
 //! The table `[stator]` of a file: a stator that yields, by its modes and by what drives it. The circuit is derived
-//! in docs/numerics/motors.md, "A stator driven in volts".
+//! in docs/numerics-dynamics.md, "A stator driven in volts".
 
 use std::f64::consts::{PI, TAU};
 use std::ops::RangeInclusive;

@@ -3,7 +3,7 @@
 //!
 //! On a step of at most 1/rate, where no eigenvalue of A is larger than the rate, the Taylor polynomial of degree
 //! 18 is the solution to rounding, whether A has a basis of eigenvectors or not: critical damping, resonance and
-//! repeated eigenvalues are no special cases (docs/numerics/stators.md).
+//! repeated eigenvalues are no special cases (docs/numerics-dynamics.md).
 
 use core::array;
 

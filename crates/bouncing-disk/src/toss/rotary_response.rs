@@ -1,5 +1,5 @@
 //! How a disk turns on a periodic orbit of the vertical motion, stable or unstable: its steady spin and the
-//! rotary multiplier (docs/numerics/dynamics.md, "The spin on a periodic orbit").
+//! rotary multiplier (docs/numerics-dynamics.md, "The spin on a periodic orbit").
 
 use bouncing_disk_core::orbits::PeriodicOrbit;
 use bouncing_disk_core::{Error as CoreError, Phase};

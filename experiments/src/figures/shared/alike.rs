@@ -3,7 +3,7 @@
 //! What the authors measured is known to its last printed digit, and a number computed from it is judged over draws of all that rounds to it. What they
 //! set in a simulation is exact. For the motor no preload acceleration is printed, and its orbit hangs on it: at A = 1 nm and g = 9.8 m/s² to all digits
 //! A ω²/g is 2π², and the motor repeats a cycle that it does not have at 9.81. A statement about such an orbit is judged over many of them
-//! (`docs/judging.md`). This is the only place where they are drawn.
+//! (`docs/reproducing.md`). This is the only place where they are drawn.
 
 use std::f64::consts::TAU;
 

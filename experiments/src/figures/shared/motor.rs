@@ -144,7 +144,7 @@ impl MotorCase {
         let periods = whole.and_then(|own| own.time_over_period).unwrap_or_default();
         let [_, (_, depth)] = ContactStatement::rows(whole.as_ref());
         let words = ContactWarning::LongContact { periods };
-        let words = format!("{words}; m g/(k A) = {depth} (numerics/contacts.md)");
+        let words = format!("{words}; m g/(k A) = {depth} (docs/numerics-dynamics.md)");
         ("contact of a steel ball on an aluminium ring".to_owned(), words)
     }
 

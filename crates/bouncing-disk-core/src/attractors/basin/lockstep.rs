@@ -214,7 +214,7 @@ mod tests {
         counts
     }
 
-    /// The bound of docs/performance.md on the memory of a thread.
+    /// The bound of data/performance/README.md on the memory of a thread.
     #[test]
     fn lanes_take_less_than_512_kibibytes() {
         let (started, share) = ((BATCHES + 1) * LANES, size_of::<Share<'_>>() + 2 * size_of::<usize>());

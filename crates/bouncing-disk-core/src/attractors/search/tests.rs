@@ -284,7 +284,7 @@ fn a_motion_that_dissipation_has_not_acted_on_is_no_attractor() {
 /// The disk that comes to rest may never do so again.
 #[test]
 fn a_rest_that_leads_elsewhere_says_where() {
-    // The published statement that the disk always rests again fails here (docs/literature.md).
+    // The published statement that the disk always rests again fails here (data/literature/README.md).
     let own = stored(&found(0.51, 0.5, 200));
     let leading = match own.all()[0].kind {
         AttractorKind::Rest(AfterRest::LeadsTo(number)) => Some((number, own)),

@@ -16,7 +16,7 @@ const NEWTON_STEPS: u32 = 20;
 ///
 /// r is the solution in (0, 1] of r + x r^(3/5) = 1, with x proportional to |w_A|^(1/5): it has the first two
 /// terms of the exact series, 1 - x + (3/5) x^2 (Ramirez et al. 1999), and falls towards 0 as |w_A|^(-1/3) at
-/// any higher speed. The derivation is in docs/numerics/restitution.md.
+/// any higher speed. The derivation is in docs/numerics-dynamics.md.
 ///
 /// ```
 /// use bouncing_disk_core::map::{KuwabaraKono, RestitutionLaw};

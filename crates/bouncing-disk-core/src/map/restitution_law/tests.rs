@@ -70,7 +70,7 @@ fn integrated_restitution(gamma: f64) -> f64 {
     }
 }
 
-/// x = C1 gamma at speed 1, with C1 = 1.15344 of the exact series (docs/numerics/restitution.md); the third
+/// x = C1 gamma at speed 1, with C1 = 1.15344 of the exact series (docs/numerics-dynamics.md); the third
 /// order is not that of the law.
 #[test]
 fn the_law_has_two_orders_of_a_viscoelastic_impact() {

@@ -19,7 +19,7 @@ const ENLARGED_ROUNDING: f64 = 4.0;
 ///
 /// From doubling to doubling, the ratios' distances from their limits shrink by 1/delta and -1/alpha.
 /// This part is removed with the ratios' own values, for alpha also the part that shrinks by 1/alpha^2
-/// (docs/numerics/dynamics.md). The error is twice the larger of the last two changes of the extrapolated
+/// (docs/numerics-dynamics.md). The error is twice the larger of the last two changes of the extrapolated
 /// value, plus rounding: not a bound, but confirmed by the next doubling.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]

@@ -1,5 +1,5 @@
 //! All periodic orbits of few impacts, stable and unstable: a search that states its coverage
-//! (docs/numerics/dynamics.md, "The search for periodic orbits").
+//! (docs/numerics-dynamics.md, "The search for periodic orbits").
 
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{ImpactMap, ImpactState};

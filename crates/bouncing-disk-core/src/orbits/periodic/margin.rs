@@ -1,5 +1,5 @@
 //! Orbits next to a fold or a doubling: their positions to the last bit, and what rounding leaves undecided
-//! (docs/numerics/dynamics.md, "Orbits on the margin").
+//! (docs/numerics-dynamics.md, "Orbits on the margin").
 
 use core::f64::consts::TAU;
 

@@ -1,4 +1,4 @@
-//! The two orbits with one impact every k periods of the platform, in closed form (docs/numerics/dynamics.md,
+//! The two orbits with one impact every k periods of the platform, in closed form (docs/numerics-dynamics.md,
 //! "Orbits with one impact").
 
 use core::f64::consts::TAU;

@@ -5,7 +5,7 @@
 //! lanes that do not depend on each other, short enough for the processor to overlap many of them, and plain
 //! enough for the compiler to turn into vectors of whatever width the processor has ([`InstructionSet`]). A
 //! lane takes the vector path only where every decision on it is the one that the solver of one flight takes;
-//! the others are handed to that solver (docs/numerics/lockstep.md, "Why the bits are the same").
+//! the others are handed to that solver (docs/numerics-impacts.md, "Why the bits are the same").
 
 mod above;
 mod awaiting;

@@ -83,7 +83,7 @@ fn ranges_hold_the_truth() {
     assert!(counts.iter().all(|count| count[0] >= 4 && count[1] == 5), "{counts:?}");
 }
 
-/// Hours on one core; the figures, and what has not been run to its end, are in docs/numerics/motors.md, "Parameters from
+/// Hours on one core; the figures, and what has not been run to its end, are in docs/numerics-dynamics.md, "Parameters from
 /// measurements".
 #[test]
 #[ignore = "takes hours"]

@@ -23,7 +23,7 @@ const LEAST_SAMPLE: usize = 5;
 /// The most blocks: more would say hardly more about the error.
 const MOST_BLOCKS: usize = 64;
 
-/// Factor by which a block is longer than the correlation time (docs/numerics/motors.md, "Fits with
+/// Factor by which a block is longer than the correlation time (docs/numerics-dynamics.md, "Fits with
 /// intervals").
 const BLOCK_TIMES: f64 = 2.5;
 

@@ -56,7 +56,7 @@ pub(crate) struct Rise {
 /// Constants about that of a fit, from which the best one for the moments of a curve is chosen.
 ///
 /// For a given constant the best rise B is (f.y)/(f.f), and the sum of squares falls by G = (f.y)^2/(f.f);
-/// with any speed at the start f and y are taken from their means (docs/numerics/motors.md, "Fits with
+/// with any speed at the start f and y are taken from their means (docs/numerics-dynamics.md, "Fits with
 /// intervals").
 pub(crate) struct ShapeGrid {
     logs: Vec<f64>,

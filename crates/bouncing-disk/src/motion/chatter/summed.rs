@@ -11,7 +11,7 @@ use crate::motion::rotary_change::RotaryChange;
 use crate::motion::rotary_change::{change_in_flight, record_flight_load};
 use crate::parameters::dimensionless::DimensionlessSystem;
 
-/// Pieces that a chatter can have by the signs of what friction has to spare (docs/numerics/chattering.md,
+/// Pieces that a chatter can have by the signs of what friction has to spare (docs/numerics-impacts.md,
 /// "The rotary motion of a chatter"). More arise only where rounding decides at every impact whether friction
 /// holds; each of them is then twice as long as the one before.
 const USUAL_PIECES: u32 = 16;

@@ -4,7 +4,7 @@
 //! lag, twist amplitude, radii or mass share every flight, impact and rest: the orbit is computed once, and
 //! each rotor adds to an impact no more than a clamp and a few products. The rotors also share the
 //! perturbations of the relaunches: differences between them are more precise than their own values (common
-//! random numbers), and their errors are not independent. See docs/numerics/motors.md.
+//! random numbers), and their errors are not independent. See docs/numerics-dynamics.md.
 
 pub(crate) mod vertical;
 

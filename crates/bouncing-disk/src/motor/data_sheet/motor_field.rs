@@ -1,5 +1,5 @@
 //! The fields of a data sheet: their names, units and symbols, and their usual values in such motors. The
-//! ranges and their sources are in docs/numerics/motors.md, "Usual values of a data sheet".
+//! ranges and their sources are in docs/numerics-dynamics.md, "Usual values of a data sheet".
 
 use std::f64::consts::{PI, TAU};
 use std::fmt::{self, Display, Formatter};

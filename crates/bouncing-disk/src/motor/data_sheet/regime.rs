@@ -1,7 +1,7 @@
 //! The vertical motion of the rotor: whether it lifts off at all, and whether its flights repeat.
 //!
 //! The verdict comes from motions, not from formulas: from the orbit that the unperturbed model repeats, and
-//! from a perturbed motion that shows whether this orbit survives (docs/numerics/motors.md, "Regime").
+//! from a perturbed motion that shows whether this orbit survives (docs/numerics-dynamics.md, "Regime").
 
 use std::f64::consts::TAU;
 use std::fmt::{self, Display, Formatter};

@@ -1,4 +1,4 @@
-//! How high a rotor can fly: a bound for all flights, derived in docs/numerics/motors.md, "How high a rotor
+//! How high a rotor can fly: a bound for all flights, derived in docs/numerics-dynamics.md, "How high a rotor
 //! flies".
 
 /// Share by which the bound is raised for the rounding of its own few operations.

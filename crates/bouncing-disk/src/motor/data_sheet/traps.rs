@@ -2,7 +2,7 @@
 //! flights and rest. Its speed there is that of the cycle: from zero (the holes of Fig. 11) to more than the
 //! speed beside the trap.
 //!
-//! The vertical motion alone decides (docs/numerics/motors.md, "Low-period traps").
+//! The vertical motion alone decides (docs/numerics-dynamics.md, "Low-period traps").
 
 use std::f64::consts::{PI, TAU};
 

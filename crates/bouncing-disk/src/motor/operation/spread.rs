@@ -2,7 +2,7 @@
 //!
 //! Preload and amplitude of a motor are known to about a per cent, and its response to them is rough: it is
 //! trapped at one value and free at the next. Random draws show this, derivatives do not
-//! (docs/numerics/motors.md, "The spread over the tolerances of the inputs").
+//! (docs/numerics-dynamics.md, "The spread over the tolerances of the inputs").
 
 use std::f64::consts::LN_10;
 

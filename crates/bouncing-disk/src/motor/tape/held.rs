@@ -2,7 +2,7 @@
 //!
 //! Let the stator move as a sine of an amplitude A, whatever the disk does. The first harmonic of the contact force says
 //! which drive would keep it. Those amplitudes that ask for the drive that there is are nearly the steady ones, unstable
-//! ones and those that no run from rest comes to included (docs/numerics/motors.md, "The tape of the force").
+//! ones and those that no run from rest comes to included (docs/numerics-dynamics.md, "The tape of the force").
 
 mod branch;
 

@@ -2,7 +2,7 @@
 //!
 //! Since a touch the force is 1 + a cos t + b sin t + c u1 + d u2, with the two free oscillations u1, u2 of the
 //! spring and damper. These four functions are kept as polynomials on short pieces in Bernstein's form, whose
-//! coefficients decide on signs and roots (docs/numerics/contacts.md). What they do not decide is left to
+//! coefficients decide on signs and roots (docs/numerics-dynamics.md). What they do not decide is left to
 //! [`CompliantPlatform`].
 
 use core::f64::consts::TAU;

@@ -44,7 +44,7 @@ impl TwoFlights {
         [left(u0, u1 - h1, t0), left(u1, u0 - h0, t1)]
     }
 
-    /// All solutions: cells in which a Lipschitz bound allows a root (see docs/numerics/dynamics.md), halved
+    /// All solutions: cells in which a Lipschitz bound allows a root (see docs/numerics-dynamics.md), halved
     /// until they are small, then Newton steps.
     fn solutions(&self) -> Vec<(f64, f64)> {
         let (p, r) = (self.p, self.r);

@@ -19,7 +19,7 @@ fn starts(count: u64) -> Vec<(ImpactMap, ImpactState)> {
         .collect()
 }
 
-/// The sum is known exactly (docs/numerics/dynamics.md): the second exponent is found without it.
+/// The sum is known exactly (docs/numerics-dynamics.md): the second exponent is found without it.
 #[test]
 fn the_sum_of_the_exponents_is_the_exact_one() {
     let outcomes = lyapunov_spectra(&starts(300), 100, 3_000, &Unobserved).expect("no failure");

@@ -53,7 +53,7 @@ fn traps_of_a_single_flight_are_at_half_a_forcing() {
     }
 }
 
-/// The window begins just below the soft landing of docs/numerics/motors.md, and is a twentieth wide.
+/// The window begins just below the soft landing of docs/numerics-dynamics.md, and is a twentieth wide.
 #[test]
 fn windows_of_a_single_flight_begin_at_the_soft_landing() {
     for whole in [3.0, 6.0, 12.0, 100.0] {
