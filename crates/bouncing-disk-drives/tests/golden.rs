@@ -19,7 +19,8 @@ fn orbits_with_compliance() {
 
 #[test]
 fn periodic_orbits() {
-    assert_eq!(on_drives::periodic_orbits_on_drives(), [""; 0]);
+    let recorded = [0x4455_9a97_4f62_b38d, 0x24a4_243e_efa0_0d14];
+    assert_eq!(on_drives::periodic_orbits_on_drives(3, 40, recorded), [""; 0]);
 }
 
 #[test]

@@ -70,9 +70,10 @@ pub(crate) fn orbits_with_compliance() -> Vec<String> {
     one("orbits with compliance", digest, 0xafa7_04ee_08bb_0b1f)
 }
 
-/// Periodic orbits and basins, and those of contacts that take time.
-pub(crate) fn periodic_orbits_on_drives() -> Vec<String> {
-    let search = OrbitSearch::new(3, 3).expect("legal");
+/// Periodic orbits of up to this many impacts in as many periods, and basins on a grid of so many cells a side,
+/// of drives and a compliant contact. The recorded digests are of both.
+pub(crate) fn periodic_orbits_on_drives(most: u8, cells: u8, recorded: [u64; 2]) -> Vec<String> {
+    let search = OrbitSearch::new(most.into(), most.into()).expect("legal");
     let drives = [
         Drive::fourier(&[(1.4, 0.0), (0.2, 1.0), (0.1, 0.5)]),
         Drive::triangle(2.0),
@@ -82,7 +83,7 @@ pub(crate) fn periodic_orbits_on_drives() -> Vec<String> {
     let maps = drives.map(|drive| DrivenMap::new(drive.expect("legal"), RESTITUTION).expect("legal"));
     let soft = maps[0].clone().with_contact_time(0.3).expect("legal");
     let (mut orbits, mut labels) = (Digest::new(), Digest::new());
-    let axis = |high| Axis::new(0.0, high, 40).expect("legal");
+    let axis = |high| Axis::new(0.0, high, cells.into()).expect("legal");
     let grid = Grid::new(axis(1.0), axis(2.0)).expect("legal");
     let settings = BasinSettings { max_impacts: 300, policy: ChatterPolicy::Complete };
     for map in maps.iter().chain([&soft]) {
@@ -92,8 +93,8 @@ pub(crate) fn periodic_orbits_on_drives() -> Vec<String> {
         let known: Vec<_> = known.map(|orbit| KnownOrbit::new(orbit, 1.0e-3).expect("legal")).collect();
         labels.bytes(map.basins(grid, &known, settings, &Unobserved).expect("no failure").labels());
     }
-    let mut lines = one("periodic orbits on drives", orbits, 0x4455_9a97_4f62_b38d);
-    lines.extend(one("basins on drives", labels, 0x24a4_243e_efa0_0d14));
+    let mut lines = one("periodic orbits on drives", orbits, recorded[0]);
+    lines.extend(one("basins on drives", labels, recorded[1]));
     lines
 }
 
