@@ -11,7 +11,7 @@ import bouncing_disk as bd
 from equations import soft_motor, spring
 from test_judge import PAPER, TURN, of_sheet
 
-PAGE = (pathlib.Path(__file__).parents[2] / "docs" / "contacts-that-take-time.md").read_text("utf-8")
+PAGE = (pathlib.Path(__file__).parents[2] / "docs" / "contacts-and-stators.md").read_text("utf-8")
 NUMBER = r"(-?\d+\.\d+) ± (\d+\.\d+)"
 ROWS = re.findall(rf"^\| (\d\S*?)(, flights)? \| {NUMBER} \| {NUMBER} \| {NUMBER} \| {NUMBER} \|", PAGE, re.MULTILINE)
 LAGS = (0.0, -math.pi / 2)
