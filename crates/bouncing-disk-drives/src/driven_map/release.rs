@@ -1,5 +1,5 @@
 //! From one release of a contact that takes time to the next, with the derivative
-//! (docs/numerics-dynamics.md, "From release to release").
+//! (docs/numerics-dynamics.md, "The release map").
 
 use core::f64::consts::TAU;
 

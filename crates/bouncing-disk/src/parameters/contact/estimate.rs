@@ -1,5 +1,5 @@
 //! How long an impact lasts and how deep the weight sinks in: whether rigid impacts are a valid model. Derived in
-//! docs/numerics-dynamics.md, "How long a contact lasts".
+//! docs/numerics-dynamics.md, "Estimates of the contact time".
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 use std::fmt::{self, Display, Formatter};
