@@ -2,7 +2,7 @@
 //!
 //! A grid of places is computed roughly; those that may be the best are computed again with smaller errors, and finer grids lie
 //! about the best one. Lines through it show how wide the optimum is and where its top lies; the value is measured there, with
-//! other perturbations than those that chose the place. docs/numerics-dynamics.md, "The best of a quantity".
+//! other perturbations than those that chose the place. docs/numerics-dynamics.md, "Optimisation of a quantity".
 
 mod cubic;
 mod line;

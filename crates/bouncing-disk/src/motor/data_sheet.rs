@@ -152,8 +152,8 @@ impl Motor {
     }
 
     /// A bound on the height of the rotor above its place on the stator at mid-height (m), for all flights of
-    /// a motor that starts from rest and of every attractor, as its stator moves as a sine (docs/numerics-dynamics.md, "How high a rotor
-    /// flies").
+    /// a motor that starts from rest and of every attractor, as its stator moves as a sine (docs/numerics-dynamics.md, "A bound on
+    /// flight heights").
     #[must_use]
     pub fn highest_rise(&self) -> f64 {
         let system = &self.system;

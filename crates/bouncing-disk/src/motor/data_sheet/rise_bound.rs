@@ -1,5 +1,5 @@
-//! How high a rotor can fly: a bound for all flights, derived in docs/numerics-dynamics.md, "How high a rotor
-//! flies".
+//! How high a rotor can fly: a bound for all flights, derived in docs/numerics-dynamics.md, "A bound on flight
+//! heights".
 
 /// Share by which the bound is raised for the rounding of its own few operations.
 const ROUNDING: f64 = 1.0e-12;
