@@ -247,7 +247,8 @@ fn orbits_beyond_the_crisis_are_born_in_folds_and_handed_on_in_grazes() {
 #[test]
 fn words_count_attractors_from_one_as_labels_do() {
     // A disk that comes to rest is thrown onto another attractor here.
-    let found = map(0.51, 0.5).attractors(&AttractorSearch::default(), &Unobserved).expect("no failure");
+    let search = AttractorSearch::default().with_starts(64).expect("legal");
+    let found = map(0.51, 0.5).attractors(&search, &Unobserved).expect("no failure");
     let AttractorKind::Rest(after) = &found.all()[0].kind else { panic!("{:?}", found.all()[0]) };
     let index = after.leads_to().expect("it never rests again");
     let label = found.label(index).expect("an attractor");

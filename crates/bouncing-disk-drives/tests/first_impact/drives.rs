@@ -272,8 +272,8 @@ fn check(kind: Kind, seed: u64, launches: u64) {
 
 #[test]
 fn launches_on_seams_of_fourier_sums() {
-    check(Kind::ThreeHarmonics, 71, 8_000);
-    check(Kind::ManyHarmonics, 72, 1_000);
+    check(Kind::ThreeHarmonics, 71, 3_000);
+    check(Kind::ManyHarmonics, 72, 400);
 }
 
 #[test]
@@ -307,7 +307,7 @@ fn a_sine_as_a_fourier_sum_lands_where_the_sine_does() {
     let mut random = SplitMix::new(51);
     let mut worst = 0.0_f64;
     let seams = [0.0, f64::MIN_POSITIVE, TAU.next_down(), 0.25 * TAU, 0.5 * TAU, 0.75 * TAU];
-    for k in 0..1_000_000 {
+    for k in 0..250_000 {
         let peak = libm::exp10(3.0 * random.unit() - 1.0);
         let vibration = Vibration::new(peak).unwrap();
         let drive = Drive::fourier(&[(peak, 0.0)]).unwrap();

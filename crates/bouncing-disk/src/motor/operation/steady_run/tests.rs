@@ -378,7 +378,7 @@ fn stated_errors_hold_where_loose_ones_are_asked_for() {
             // What the perturbation changes may be more than is asked for.
             operation.point().unwrap_or_else(|| panic!("{operation:?}")).speed
         };
-        let (loose, long) = (speed(0.5, seed), speed(0.005, 100 + seed));
+        let (loose, long) = (speed(0.5, seed), speed(0.02, 100 + seed));
         let error = hypot(loose.standard_error, long.standard_error);
         // Of a motor that locks on one motion, and is known to far better than was asked for, nothing is
         // said.
