@@ -1,4 +1,11 @@
 //! Attractors that are found without being told, against those that are known and against brute force.
+//!
+//! On 200 random maps (r 0.1 to 0.9, Gamma 0.1 to 3) the search finds 288 lasting attractors. Of 1,000 random
+//! starts on each map, followed for up to 500,000 impacts, one ends elsewhere, on an attractor that none of
+//! 20,000 other starts hit. So no basin of 1 % of the region is missed. On 199 of 200 other maps all shares
+//! agree with 2,000 random starts of 100,000 impacts (Fisher's exact test at 95 %). Of up to 24 fresh starts
+//! on each of the 12 motions called chaotic none left within 102,000 impacts. Every cell of the five panels
+//! of Fig. 7, 1,000 x 1,000 each, has the same label as with the known orbits there.
 
 use std::f64::consts::TAU;
 
@@ -211,6 +218,12 @@ fn branch_of(impacts: usize, axial_forcing: f64, rising: bool) -> Branch {
 
 /// Beyond the crisis orbits of 11, 12, 13 impacts in five periods are born in folds; a graze ends each, and
 /// there the next one loses an impact that vanishes (docs/numerics-dynamics.md).
+///
+/// The orbit of 11 impacts is unstable between the doublings at 0.601831742727 and 0.602013084399, where one of
+/// 22 impacts in ten periods attracts in part of the range. It turns in two more folds, at 0.602082480505 and
+/// 0.602094130581, and doubles again at 0.602180517938. The third attractor of Fig. 7(b), unstable, continues as
+/// the orbit of two impacts to a graze at 0.602962773255 on the branch of its saddle, as the orbit of four to one
+/// at 0.684362527611.
 #[test]
 fn orbits_beyond_the_crisis_are_born_in_folds_and_handed_on_in_grazes() {
     let first = |branch: &Branch, is_one: fn(&BifurcationKind) -> bool| {

@@ -585,7 +585,9 @@ fn stated_errors_hold_the_exponents() {
     assert!(two >= 27, "{found:?}");
 }
 
-/// Triangles, sawteeth, parabolas, sums and cubics. What two errors do not hold is nearly all intermittent.
+/// Triangles, sawteeth, parabolas, sums and cubics. Two errors hold 284 of 300 exponents over 400 impacts and 239 of
+/// 250 over 4,000; for the worst kind 56 of 60 and 47 of 50. The others are mostly intermittent, with laminar parts longer
+/// than the measurement. Further motions, 266 and 264, rest or settle later and are left out.
 #[test]
 #[ignore = "minutes: 550 exponents"]
 fn stated_errors_hold_the_exponents_of_many_maps() {

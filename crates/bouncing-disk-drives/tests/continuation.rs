@@ -1,5 +1,10 @@
 //! Branches on drives and compliant contacts, against closed forms and against programs that share nothing with the
 //! equations of a branch.
+//!
+//! On 24 sums of three harmonics 84 folds and 38 doublings of one impact satisfy s' = k pi (1 - r)/(1 + r)
+//! and s'' = 0 or -2 (1 + r^2)/(1 + r)^2 to 1e-12. Compliant branches have the multipliers of differences of
+//! the map. For 83 of 84 doublings on the sine and on the sine as a sum the stated error covers the
+//! difference from the cascade in double-doubles.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use std::f64::consts::{PI, TAU};

@@ -1,5 +1,14 @@
 //! The period-doubling cascade to as many digits as the arithmetic carries: from one doubling to the next by
 //! Newton's iteration on the impact times (docs/numerics-dynamics.md, "The doubling cascade").
+//!
+//! No step iterates the map to convergence, so slow attraction does not matter. For r = 0.1, 0.5 and 0.8 no
+//! flight has another minimum of the gap; for r = 0.01 the orbit of the third doubling would dip through the
+//! platform.
+//!
+//! Doubles carry the forcings to n = 13: the stated error is 9e-14 at n = 12 for r = 0.1, and the differences
+//! from double-doubles are at most 6e-15 for r = 0.1, 0.5 and 0.8. The multiplier differs from -1 by up to
+//! 3e-6 there, and ratios of distances keep six digits at n = 12. Double-doubles give 3e-29 for the forcings
+//! and 4e-22 for the multiplier.
 
 pub(crate) mod branch;
 pub(crate) mod feigenbaum;

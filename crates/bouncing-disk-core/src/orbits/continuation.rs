@@ -1,5 +1,17 @@
 //! Branches of periodic orbits in a parameter: through folds and along unstable parts, with the bifurcations
 //! on the way (docs/numerics-dynamics.md, "Branches").
+//!
+//! The mean slope of the sine is computed as cos(tau + h/2) sin(h/2)/(h/2), without cancellation, and for
+//! other drives by `Drive::change`. Two branches of the equations meet at a birth: the parameter is a
+//! constant plus a square of the distance d of the halves, and is determined to eps/d only. The parameter of
+//! an orbit with d <= 1e-6 differs from the birth's by c 1e-12 only. An orbit on another drive ends where the
+//! map finds an earlier first impact. On parabolas all orbits of two impacts exist only at the forcing of the
+//! doubling, so a branch whose parameter is constant within 1e-11 over an arclength of 1e-3 to either side
+//! has no fold: rounding alone turns it.
+//!
+//! At a doubling, one component of the first impact of phi is set to 1, the choice that gives the shorter
+//! vector. In doubles the map misses a dip of v^2 below the root of the rounding, so a branch stops up to
+//! about 1e-8 of the parameter before an impact vanishes.
 
 use core::ops::ControlFlow;
 

@@ -272,7 +272,9 @@ impl PeriodicOrbit {
     }
 
     /// Phase space shrinks, so that the determinant is at most 1 in size. Where perturbations grow a lot, that of the
-    /// product of many matrices is all rounding and may have any size.
+    /// product of many matrices is all rounding and may have any size: over hundreds of impacts with multipliers up
+    /// to 1e18, 1e19 instead of 1e-140. Without the limit five chaotic orbits among 6,000 forcings near Gamma = 0.54509
+    /// (r = 0.5) would count as periodic.
     #[doc(hidden)]
     #[must_use]
     pub fn determinant(&self) -> f64 {

@@ -1,6 +1,9 @@
 //! How the share of cells with an uncertain fate falls as starts are known better: the uncertainty exponent
 //! of a basin boundary, and its dimension (S. W. McDonald, C. Grebogi, E. Ott, J. A. Yorke, Physica D 17, 125
 //! (1985)).
+//!
+//! Tests: a straight boundary, alternately coloured gaps of Cantor's set (1 + ln 2/ln 3, found to 0.02),
+//! and random cells (2).
 
 use std::collections::VecDeque;
 

@@ -1,4 +1,12 @@
 //! The search for attractors.
+//!
+//! Starts that come to the cells of a motion on which perturbations do not certainly grow, as below a fold or
+//! for periods above the longest one, are undecided like it. The 1,024 orbits about a motion begin a relative
+//! 1e-7 away from its impacts, because those share its future. A search covers the trapping region and not a
+//! plotted window, so the label of a start depends on the start alone.
+//!
+//! An orbit that creeps towards a marginal one as 1/n may pass it after about 1e8 impacts if rounding
+//! shifts the fold.
 
 use super::cells::VisitedCells;
 use super::follow::{

@@ -1,4 +1,10 @@
 //! Follows one orbit until there is a verdict on it.
+//!
+//! The rounding error of a cycle on a drive is the sum of the solver's bounds, each magnified, and 1e-9 rad
+//! for the phase of leaving; it is 1 if a graze is in doubt. A kick counts as an impact there.
+//!
+//! A cycle that cannot end within the allowed impacts is called chaotic; its number of rests tells where it
+//! began. A window whose period exceeds the longest one has a negative exponent and is undecided.
 
 use core::f64::consts::PI;
 use core::ops::ControlFlow;

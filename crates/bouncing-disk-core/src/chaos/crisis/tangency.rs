@@ -1,4 +1,13 @@
 //! The tangency itself: the fold of the unstable manifold on the stable one, by Newton's method in Gamma.
+//!
+//! The search for the touched saddle S takes the cycles that close most nearly before the rests, refines them
+//! by Newton's method, and tries those that a quarter of the orbits pass. Along the unstable manifold, with
+//! the parameter s on its first piece, the derivatives of the map give the coordinate xi along the unstable
+//! direction of S, and dxi/ds. Bisection finds a fold, dxi/ds = 0, and the secant method solves xi(fold) = 0
+//! for Gamma. Using the stable direction instead of the stable manifold causes an error of the square of the
+//! distance from S. So the equation is solved again after each further cycle along S until the fold is within
+//! 1e-7 of S: the distance shrinks by the small multiplier, and an error of Gamma grows by the large one.
+//! Orbits rest beyond the tangency by a sixty-fourth of the bracket, and none before.
 
 use glam::DVec2;
 

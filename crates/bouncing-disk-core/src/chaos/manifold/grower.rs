@@ -1,5 +1,13 @@
 //! How one branch of a manifold grows: generation by generation, each the image of the last one, with points
 //! inserted where it stretches or turns.
+//!
+//! The rounding of a double is about 1e-10 of the first piece; parts below 2^-28 of it are not divided. The
+//! piece is about (1e-5)^2 off the manifold, which shrinks by the other multiplier while distances along the
+//! curve grow: the curve converges to the manifold, with a slightly wrong parameter.
+//!
+//! Parts that cannot be divided and exceed a fiftieth of a chord are jumps. Next to a graze v goes like the
+//! square root of the distance on the first piece, so ends of pieces are accurate to about 2^-14 of their
+//! scale.
 
 use crate::chaos::manifold::saddle::Saddle;
 use crate::chaos::manifold::{

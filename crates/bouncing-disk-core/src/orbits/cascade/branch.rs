@@ -35,7 +35,7 @@ const NOISE_GROWTH: f64 = 6.619;
 /// How much the distance of the doublings shrinks from one to the next.
 const SHRINKING: f64 = 4.669;
 
-/// Roundings of the forcing at the first doubling, with room to spare: docs/numerics-dynamics.md has the
+/// Roundings of the forcing at the first doubling, with room to spare: the header of `cascade.rs` states the
 /// measured ones.
 const FIRST_ROUNDINGS: f64 = 8.0;
 

@@ -1,4 +1,17 @@
 //! Feigenbaum's two constants from the doublings of one cascade.
+//!
+//! The error of a ratio of distances shrinks as 1/delta, because an analytic family is analytic in the
+//! coordinate of the unstable direction; ratios of widths depend on the coordinate and have parts that shrink
+//! as -1/alpha and 1/alpha^2. For r = 0.1, 0.5 and 0.8 each interval from n = 7 on contains the next value
+//! and the known constant. At n = 13:
+//!
+//! | r | delta | error | alpha | error |
+//! | --- | --- | --- | --- | --- |
+//! | 0.1 | 4.669 201 609 10 | 3e-10 | 2.502 907 876 | 3e-8 |
+//! | 0.5 | 4.669 201 609 | 3e-8 | 2.502 907 874 | 3e-8 |
+//! | 0.8 | 4.669 201 6 | 9e-7 | 2.502 907 8 | 6e-7 |
+//!
+//! Near r = 1 the first doublings resemble doublings of area-preserving maps (ratios up to 7.9 at r = 0.95).
 
 use super::CascadeDoubling;
 use super::branch::width_rounding;

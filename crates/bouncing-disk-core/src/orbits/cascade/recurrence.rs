@@ -4,6 +4,17 @@
 //! them: with D = (sin b - sin a)/h the disk leaves with the speed P D + h/2 and arrives with P D - h/2. The
 //! law of restitution at every impact is then one equation in three successive times, and its linearisation a
 //! three-term recurrence. A flight needs one sine and cosine, and no equation has to be solved for it.
+//!
+//! With the relative launch speed w_i, the relative impact velocity u_i and the flight h_i after impact i,
+//! the law w_i + r u_i = 0 has the derivatives
+//!
+//! - by phase i - 1: r w_(i-1)/h_(i-1);
+//! - by phase i: w_i/h_i - 1 + (1 + r) P sin tau_i - r (u_i/h_(i-1) + 1);
+//! - by phase i + 1: -u_(i+1)/h_i, which is positive.
+//!
+//! Two homogeneous and two particular solutions, carried once around, solve the closed recurrence in O(n). On
+//! a cascade this is stable: no multiplier exceeds 1, and the growing parts grow like a power of the period.
+//! The determinants of the steps telescope to r^(2n), the determinant around the orbit in any coordinates.
 
 use crate::numerics::real::Real;
 

@@ -1,5 +1,20 @@
 //! All periodic orbits of few impacts, stable and unstable: a search that states its coverage
 //! (docs/numerics-dynamics.md, "The search for periodic orbits").
+//!
+//! The starts cover all impact speeds up to sqrt(U^2 + 2 P (1 - sin tau)) + P cos tau, with U = M, the bound
+//! on launch speeds. For orbits of at most K periods of the platform U may be less. A disk that lands rising
+//! is overtaken by the platform: 0 < V <= P, so u^2 <= P^2 + 4 P. Any other with u^2 > 4 P lands with V <=
+//! -sqrt(u^2 - 4 P), after a flight of at least u + sqrt(u^2 - 4 P). If that is at most 2 pi K, then u <= pi
+//! K + P/(pi K). U is the larger of these two bounds, and at most M.
+//!
+//! Coverage on 20 random maps (6 in the last line) with r 0.1 to 0.9 and Gamma 0.1 to 3; time on two cores:
+//!
+//! | most impacts, periods | starts | orbits found | by half the resolution | by one attempt | time for a map |
+//! | --- | --- | --- | --- | --- | --- |
+//! | 2, 4 | 96 x 96 | 196 | 196 | 0 | 0.15 s |
+//! | 4, 4 | 48 x 48 | 391 | 344 | 26 | 0.10 s |
+//! | 4, 4 | 96 x 96 | 402 | 381 | 12 | 0.25 s |
+//! | 6, 6 | 96 x 96 | 956 | 700 | 160 | 0.56 s |
 
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{ImpactMap, ImpactState};
