@@ -3,6 +3,13 @@
 //! A grid of places is computed roughly; those that may be the best are computed again with smaller errors, and finer grids lie
 //! about the best one. Lines through it show how wide the optimum is and where its top lies; the value is measured there, with
 //! other perturbations than those that chose the place. docs/numerics-dynamics.md, "Optimisation of a quantity".
+//!
+//! Eight seeds alternate along a line, because points of one seed may share a vertical motion and its errors. Each end
+//! of the range within 1 % moves inwards by its 95 % error: a jackknife over the seeds, with Student's quantile. The
+//! misses of the search that enlarge the stated error are 1.96 times the scatter of a line too rough for a cubic, and
+//! the height of a peak narrower than the grid: the excess of a point over its two neighbours, beyond errors and
+//! beyond their difference from the next ones. For two fields with rigid impacts on a sine, 400 points along each
+//! field that changes the vertical motion show such peaks.
 
 mod cubic;
 mod line;

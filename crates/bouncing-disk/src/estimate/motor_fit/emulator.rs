@@ -1,5 +1,11 @@
 //! A smooth response that is known with errors at some places, everywhere: a Gaussian process with a linear trend.
 //! Where no place is near, it says by how much it may be wrong.
+//!
+//! The errors of the computed values are known, the covariance is Matern's of order 5/2 with a length along each
+//! coordinate, and a rough variance represents motions that lock on a cycle. Lengths and variances maximise the
+//! likelihood. Motions may lock in one part of the ranges only: v and the rough variance are multiplied by the mean
+//! square of the leave-one-out errors nearby over its expectation, if above one; and by the square of Student's factor
+//! for the number of places.
 
 use bouncing_disk_core::numerics::elementary::{exp, ln};
 use bouncing_disk_core::numerics::statistics::NORMAL_975;

@@ -1,3 +1,28 @@
+//! Fits of motors with known parameters. Coverage, accepted ranges that contain the truth:
+//!
+//! Run-ups of a motor of 40 kHz with 71 mm of gyration and rigid impacts, 1.5 s, 150 points with errors of 0.05 rad/s,
+//! one run each; friction 0.13 in [0.05, 0.5] and restitution in [0.1, 0.9]; 20 sets of this library and 20 of an
+//! independent program. In brackets the determined ranges (one, with two ends), and how many of these hold:
+//!
+//! | restitution | friction, library | independent | restitution, library | independent |
+//! | --- | --- | --- | --- | --- |
+//! | 0.35 | 20 (0) | 20 (0) | 20 (2, 2) | 19 (3, 3) |
+//! | 0.42 | 20 (0) | 20 (0) | 20 (4, 4) | 19 (3, 2) |
+//! | 0.45 | 20 (1, 1) | 20 (0) | 20 (0) | 20 (1, 1) |
+//! | 0.60 | 20 (1, 1) | 20 (2, 2) | 20 (9, 9) | 20 (5, 5) |
+//!
+//! One run says little here; with a known restitution the friction is determined to about 20 %. Friction alone, 0.2
+//! (the motor of Table III, one run-up of 1.2 s with a clock that is off, a dead time or an initial speed): a test
+//! asserts 8 of 9, all determined.
+//!
+//! Rated points, with the threshold 3.84, which accepts less than with the roughness added: for the prescribed motor
+//! of Table III and three points (no load, 10 uN m, 20 uN m, known to 1 and 2 %), friction 97 and twist 96 of 100;
+//! restitution from the no-load speed alone, with motions that lock in half of the range, 95; friction and restitution
+//! from three points of a motor on a stator of 50 g in volts, 95 and 99 of 100. A test asserts 4 of 5 on the
+//! prescribed motor. Not measured: mass and quality of the stator, more than two parameters.
+//!
+//! Measured motors are as far from a smooth response as computed ones, some by three and four standard deviations.
+
 use bouncing_disk_core::Unobserved;
 
 use super::emulator::Emulator;
@@ -83,8 +108,7 @@ fn ranges_hold_the_truth() {
     assert!(counts.iter().all(|count| count[0] >= 4 && count[1] == 5), "{counts:?}");
 }
 
-/// Hours on one core; the figures, and what has not been run to its end, are in docs/numerics-dynamics.md, "Parameters from
-/// measurements".
+/// Hours on one core; the figures, and what has not been run to its end, are at the head of this file.
 #[test]
 #[ignore = "takes hours"]
 fn ninety_of_a_hundred_ranges_hold_the_truth() {

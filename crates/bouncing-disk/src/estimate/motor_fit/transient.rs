@@ -3,6 +3,11 @@
 //! Nobody knows to a few per cent of the rise when a motor was switched on. So a run is told from the instant at which it is
 //! half-way between its first and its last speed, as is each computed one: a clock that is off, a dead time and an initial speed
 //! change nothing. What is compared are means over windows of time on either side of that instant.
+//!
+//! There are two windows before it and five after, each later one twice as long as the one before. The half-way
+//! instant is that of the least integral of the distance from the level. Computed members are sampled at the measured
+//! instants, shifted by a random part of half a step, with the measured errors. The error of a point, if not given,
+//! comes from deviations from the line between its neighbours. A braking tail is compared in the same windows.
 
 use std::f64::consts::TAU;
 

@@ -2,6 +2,10 @@
 //!
 //! Every block stays in place, is scaled to the size of its neighbours, and is multiplied by +1 or -1 (a wild
 //! bootstrap): noise may vary along the curve.
+//!
+//! A block is first divided by 1 minus its leverage, the part that the fit has absorbed, and scaled to the mean square
+//! of the seven blocks about it. The small-sample factor uses a quarter of the blocks, at least five, because the rise
+//! determines t_c and the plateau alpha_ss.
 
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::run::WorkCount;

@@ -1,4 +1,12 @@
 //! Fits of a motor whose short and coarse transients gave speeds far above that of its stator.
+//!
+//! Coverage for this motor (40 kHz, 0.5 um, 12 rad/s, a lag of 30 degrees, 250 m/s^2) with members of 100 ms: steady
+//! speed 97 and time constant 95 of 100 with 16 members, 97 and 97 with 32; with 8 members, and so too few starting
+//! phases, 93 to 96 and 89 to 93 % (200 trials of 60 to 800 ms each). The time constant of the mean over 100 ensembles
+//! is 11.1 ms with 8 phases, 15.1 ms with 16, and 13.6 ms with 4000. An interval does not cover a wrong form: the
+//! motor approaches its steady speed more slowly than an exponential, and 4000 members of 60, 100, 400 and 800 ms give
+//! 7.76, 7.62, 7.53 and 7.52 rad/s. The mean over the fits of 32 members of 5 ms is 63 rad/s. The motor flies for 1 ms
+//! at a time, and fits of its first 0.1 ms gave 0.3 rad/s with a narrow interval.
 
 use super::*;
 use crate::estimate::ensemble::TransientEnsemble;

@@ -1,4 +1,21 @@
 //! Fits of synthetic curves, made of known parameters and seeded noise.
+//!
+//! Coverage: the number of 100 seeded intervals of steady speed, time constant and their quotient that contain the
+//! truth (the tests require 90), from rest; with any start:
+//!
+//! | curves | alpha_ss | t_c | alpha_ss/t_c |
+//! | --- | --- | --- | --- |
+//! | 5 members of 120 points | 96; 96 | 95; 97 | 95; 95 |
+//! | 16 members | 92; 94 | 93; 97 | 94; 98 |
+//! | one curve of 60 points | 96; 97 | 93; 94 | 94; 94 |
+//! | one curve of 400 points | 96; 98 | 97; 98 | 98; 95 |
+//! | one curve of 300 points, memory 0.6 | 98; 99 | 98; 97 | 96; 97 |
+//! | one curve of 2500 points, memory 0.9 | 93; 96 | 93; 93 | 92; 93 |
+//! | one curve of 100 points, noise that grows with time | 96; 96 | 96; 95 | 96; 97 |
+//! | the same, noise that falls with time | 97; 96 | 97; 92 | 97; 92 |
+//! | a clock 0.05 s early; a dead time of 0.02 s; of 0.2 s: five runs | 98; 98; 96 | 93; 95; 95 | 97; 95; 95 |
+//! | a dead time of one row; of four rows with much noise: one run | 97; 98 | 95; 94 | 96; 94 |
+//! | a start at half the steady speed, five runs; above it, one run | 98; 96 | 93; 94 | 95; 95 |
 
 use super::*;
 use crate::error::Error;

@@ -1,3 +1,7 @@
+//! Optima against independent grids: 400 points along one field, 20 by 20 over two. Of 60 ranges of random motors (25
+//! points in each, three times as accurate) 59 hold only points within 1 % of their best, and one holds points up to
+//! 1.1 % below it.
+
 use std::f64::consts::PI;
 
 use bouncing_disk_core::Unobserved;

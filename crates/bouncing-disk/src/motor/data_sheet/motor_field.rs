@@ -1,5 +1,29 @@
-//! The fields of a data sheet: their names, units and symbols, and their usual values in such motors. The
-//! ranges and their sources are in docs/numerics-dynamics.md, "Usual values of a data sheet".
+//! The fields of a data sheet: their names, units and symbols, and their usual values in such motors.
+//!
+//! A number causes a warning (`MotorWarning`) if it is more than a factor 1000 outside these ranges, or if it is
+//! outside but would be inside in another unit. The ranges are orders of magnitude, not statistics of motors. Zeros
+//! are accepted. A number outside by less than a factor 1000 that fits in no other unit causes no warning, like the
+//! paper's least preload, 80 mN.
+//!
+//! | field | usual | why | other units |
+//! | --- | --- | --- | --- |
+//! | `drive_frequency` | 20 to 200 kHz | above hearing; the paper: 70 and 184 kHz | kHz, rad/s, divided by 2 pi |
+//! | `amplitude` | 1 nm to 10 um | the paper: 1 to 100 nm; Tsujino's motor a few um | um, nm, mm |
+//! | `peak_angular_speed` | 0.1 to 1000 rad/s | the paper: 30 rad/s | rpm |
+//! | `twist_amplitude` | 1e-7 to 1e-2 rad | these speeds over these frequencies | |
+//! | `phase_lag` | -2 pi to 2 pi | an angle | degrees |
+//! | `mass` | 0.1 g to 1 kg | the paper: a ball of 20 mm, 33 g | g |
+//! | `stator.mass` | 0.1 g to 1 kg | as the rotor | g |
+//! | `stator.resonance` | 20 to 200 kHz | as the drive | kHz |
+//! | `density` | 1 to 20 g/cm^3 | polymers to tungsten | g/cm^3 |
+//! | radii, thickness | 0.1 to 100 mm | rotors that one can hold; the paper: 1.25 and 6.3 mm | mm |
+//! | `preload_force` | 0.1 to 500 N | the paper: 80 to 280 mN; travelling-wave motors about 100 N | mN, m/s^2 |
+//! | `preload_acceleration` | 9.8 to 1e5 m/s^2 | from the rotor's weight to 100 N on 1 g | N |
+//! | `spring_constant` | 10 to 1e7 N/m | these forces, deflections from 10 um to 10 mm and more | |
+//! | `friction` | 0.01 to 1 | lubricated to dry | |
+//!
+//! The paper's own scan of the preload, 0.1 to 10 m/s^2, causes a warning below 9.8, because 5 N given as 5 m/s^2
+//! looks the same. A number that is also usual in the wrong unit goes undetected: 40 kHz for 40 000 rad/s.
 
 use std::f64::consts::{PI, TAU};
 use std::fmt::{self, Display, Formatter};

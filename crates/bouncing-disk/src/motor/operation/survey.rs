@@ -1,8 +1,13 @@
-//! The vertical motions that coexist on a stator that does not yield, and how long irregular ones last.
+//! The vertical motions that coexist on a rigid stator, and how long irregular ones last.
 //!
-//! Only the disk is followed, so that a thousand contacts take a millisecond: from rest and from throws, until the motion
-//! repeats itself or was watched for long. Loads, lags and rotors share what is found. A disk with rigid impacts that comes
-//! to rest goes on as from rest, so that only throws that never rest are of interest there.
+//! Only the disk is followed, so a thousand contacts take a millisecond: from rest and from throws, until the motion
+//! repeats itself or the longest run ends. Loads, lags and rotors share the result. Compliant contacts have 8 starts
+//! from rest and 8 throws of up to three times the platform's largest speed; rigid impacts have 16 throws, because a
+//! disk that rests continues as from rest. A run has at most 20,000 touches on a sine with compliant contacts, which
+//! are in closed form, and 2,000 otherwise. Irregular motions last from touch 256 to the last touch more than 5 %
+//! away from the final cycle. Throws of compliant contacts continue, 16 at a time, until 64 irregular motions have
+//! ended, none of at least 16 has, or 600,000 touches or 256 starts are spent. Rigid impacts on a stator with kinks
+//! are not surveyed.
 
 use std::f64::consts::TAU;
 

@@ -1,4 +1,6 @@
 //! Ranges of the preload that trap a motor, and the nearest of them.
+//!
+//! The speeds inside a trap come from operating points near both edges and in the middle.
 
 use std::f64::consts::PI;
 

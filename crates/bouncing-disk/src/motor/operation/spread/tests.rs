@@ -1,3 +1,10 @@
+//! The spread over the tolerances of the inputs.
+//!
+//! At tolerances of zero 16 runs gave no spread in 7 cases, within its error of zero in 5 more, and beyond two errors
+//! in 2. If samples stopped when their own error is small, those that agree by luck would show spreads of up to 1.6
+//! errors, in each of eight seeds. At 5 N the 40 kHz motor (12 rad/s, radii of 12.5 and 10 mm) stalls at 3.715(21)
+//! mN m; the samples give 3.94(2) with a deviation of 0.08(1), from 3.72 to 4.09.
+
 use super::*;
 use crate::testing::{check_stops, refused};
 use bouncing_disk_core::Unobserved;

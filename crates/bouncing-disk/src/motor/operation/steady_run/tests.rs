@@ -1,3 +1,22 @@
+//! Steady runs: energies, limits, shortfalls, and whether the stated errors are true.
+//!
+//! Coverage: of 100 ensembles with other seeds, the number whose 95 % intervals contain the mean of three long ones
+//! (64 members, 0.2 %), whose own error is added (16 members and 1 % unless stated). Scatter and stated error in
+//! rad/s; the load over the largest torque.
+//!
+//! | motor | load | scatter | stated | hold |
+//! | --- | --- | --- | --- | --- |
+//! | Table III | 0 | 0.054 | 0.067 | 97 |
+//! | | 0.5 | 0.037 | 0.047 | 98 |
+//! | | 0.5, 4 members, 5 % | 0.156 | 0.193 | 94 |
+//! | | 0.8, driven back | 0.055 | 0.062 | 92 |
+//! | lag 0.5, forcing 3 | 0.5 | 0.078 | 0.123 | 100 |
+//! | 40 kHz, 0.5 um, 5 N, 12 rad/s, lag 30 degrees | 0.5 | 0.055 | 0.054 | 92 |
+//! | | 0.8 | 0.069 | 0.059 | 91 |
+//!
+//! Stall loads: 40 kHz, against four runs of 64 members at 0.2 %, 99 of 100 at 5 %, 95 at 2 %, 92 at 1 %; Table III
+//! at 5 %, against three runs at 0.3 %, 39 of 40.
+
 use std::f64::consts::{PI, TAU};
 
 use bouncing_disk_core::numerics::elementary::{exp, hypot};

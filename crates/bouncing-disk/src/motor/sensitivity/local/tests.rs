@@ -1,3 +1,11 @@
+//! Local sensitivities.
+//!
+//! Coverage: of 100 runs with other seeds, the number whose 95 % intervals contain the mean of all, for the steady
+//! speed at the default settings. Contact radius behaves like friction, and twist inversely. For the motor of Table
+//! III: friction 96, lag 92, radius of gyration 98, load 95. For 40 kHz, 0.5 um, 5 N, radii of 12.5 and 10 mm:
+//! friction 92, lag 94, radius of gyration 92, load 94, amplitude 96, preload 94, restitution 92, frequency 97. If the
+//! step with the least error was selected, intervals held in 11 of 14 runs.
+
 use SensitivityParameter as P;
 use bouncing_disk_core::Unobserved;
 

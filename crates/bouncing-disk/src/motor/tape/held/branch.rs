@@ -1,4 +1,7 @@
 //! Branches of the vertical motion on a stator whose amplitude is held: from one amplitude to the next.
+//!
+//! An irregular motion also counts if its needed drive has a minimum less than 10 % of 2/drive above the available
+//! drive, which the recoil of the real stator within a period can supply.
 
 use std::cell::Cell;
 

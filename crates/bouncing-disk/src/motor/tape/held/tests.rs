@@ -1,3 +1,15 @@
+//! Held amplitudes, for 40 kHz, 60 g, Q = 200 and contacts of 0.56 periods, against fourth-order integration in small
+//! steps with the amplitude held and free:
+//!
+//! | preload | held (nm) | small steps, held (nm) | small steps, free (nm) |
+//! | --- | --- | --- | --- |
+//! | 12 N | 5.923 | 5.9235 | 5.9235 |
+//! | 8 N | 6.35 | 6.3423, 13.366 (unstable) | 6.3458, 16.27 |
+//! | 7 N | 7.33, 11.14 (unstable) | 7.2946, 11.161 (unstable) | |
+//!
+//! At 8 N the branch with the unstable amplitude is lost on the way up; the run from the nearby minimum of the drive
+//! (13.1 nm) reaches the state of 16.3 nm.
+
 use bouncing_disk_core::Unobserved;
 use bouncing_disk_core::run::Watch;
 
