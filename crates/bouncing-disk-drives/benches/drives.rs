@@ -1,4 +1,7 @@
 //! First impacts on drives.
+//!
+//! Costs at P = 1.8 in multiples of the sine's 109 ns (AMD EPYC with AVX-512): one harmonic 3.3, three 4.9,
+//! triangle 1.6, parabolas 1.5, cubics 2.3, a spline of 16,384 samples 25.
 #![allow(missing_docs, reason = "criterion generates an undocumented function")]
 
 use std::f64::consts::TAU;
@@ -28,7 +31,7 @@ fn launches(peak: f64, low: f64, high: f64) -> Vec<(Vibration, Launch)> {
         .collect()
 }
 
-/// The same launches on the sine and on drives: the cost of a drive is the ratio (docs/numerics-impacts.md).
+/// The same launches on the sine and on drives: the cost of a drive is the ratio.
 fn drives(c: &mut Criterion) {
     let peak = 1.8;
     let launches = launches(peak, 0.0, 2.0);

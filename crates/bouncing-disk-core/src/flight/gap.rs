@@ -10,8 +10,9 @@ use crate::numerics::error::Error;
 /// Flights up to this long (rad) are solved through the series of gap(h)/h; longer ones through the pair.
 pub(crate) const SHORT_FLIGHT: f64 = 0.5;
 
-/// Bounds the last step (rad) times one plus its relative curvature. The error of the sixth-order series
-/// reversal is then below twice the seventh power, 4e-17 rad.
+/// Bounds the last step (rad) times one plus its relative curvature. The remainder of the fifth-order series
+/// reversal is then below 0.6 times the sixth power, 2.5e-15 rad (docs/numerics-impacts.md, "The first impact
+/// is certain").
 const LAST_STEP: f64 = 4.0e-3;
 
 /// Relative size of the last Newton step on gap/h: the remaining error is its square.
@@ -141,7 +142,7 @@ impl GapTaylor {
         rest / (root - rest_slope)
     }
 
-    /// The step from a point near the root to the root, by series reversal to the sixth order.
+    /// The step from a point near the root to the root, by series reversal to the fifth order.
     #[inline(always)]
     pub(crate) fn last_step(&self) -> f64 {
         let inverse = 1.0 / self.slope;
@@ -177,7 +178,7 @@ pub(crate) trait GapForm: Copy {
     /// The root in `bracket`, which must hold exactly one, the gap falling through it, from a first `guess`.
     ///
     /// Each step is the root of the quadratic model with the next two terms as a correction, kept inside the
-    /// shrinking bracket by bisection; the last one is the sixth-order series reversal, whose smallness
+    /// shrinking bracket by bisection; the last one is the fifth-order series reversal, whose smallness
     /// criterion bounds what it leaves.
     #[inline(always)]
     fn root(&self, mut bracket: Bracket, guess: f64, evaluations: u32) -> Result<Root, Error> {

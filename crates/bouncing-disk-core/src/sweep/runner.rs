@@ -11,8 +11,7 @@ use crate::sweep::bouncing_map::{BouncingOrbit, OrbitOutcome};
 use crate::sweep::lockstep::lanes::{Batch, FlightScheduler, InstructionSet, LANES, Purpose};
 
 /// With fewer orbits under way they are advanced one by one: a step of the lanes costs nearly the same
-/// however many of them are in use, as much as about this many single flights (docs/numerics-impacts.md,
-/// "Sweeps").
+/// however many of them are in use, as much as about this many single flights.
 const FEWEST: usize = 12;
 
 /// Batches of lanes of one thread.

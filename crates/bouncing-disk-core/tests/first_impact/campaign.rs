@@ -1,7 +1,11 @@
 //! Many launches, each judged by the oracle: the impact is the first one, and as accurate as the data allow.
 //!
-//! What is asserted at the end of a campaign is what was measured, rounded up; docs/numerics-impacts.md quotes
-//! it.
+//! More than 1e5 random launches (P from 0 to 1e6, flights from 1e-9 to 5e5 periods) and 12,000 that graze a
+//! crest with a gap of +-1e-2 to 1e-15. What is asserted is what was measured, rounded up. The largest
+//! error/limit is 2.7 for random and 5.8 for near-grazing launches, the largest phase error of well-conditioned
+//! launches 1.4e-15 rad. 1.2 % of the near-grazing launches are undecidable. Without the term u P of the limit
+//! 3 of 12,000 near-grazing launches exceed the bound, by up to 1.5 times (docs/numerics-impacts.md, "Accuracy
+//! and conditioning").
 
 use bouncing_disk_core::Vibration;
 

@@ -2,8 +2,8 @@
 //! piece ends, numbers that a threshold is made of, exact binary fractions, and the neighbours of all of them
 //! in units of the last place.
 //!
-//! Random numbers never meet such a place: 87 million random launches did not find what the first thousand of
-//! these did.
+//! Random numbers never meet such a place: none of 87 million random launches, 29 million of them built to
+//! graze, showed the flights that lose a period at a seam; the first thousand of these did.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 

@@ -1,4 +1,30 @@
 //! Flights above drives of every kind, judged by the oracle.
+//!
+//! The oracle of flights (`drive_oracle.rs`) demands that the stated error of each root is true, that no root is
+//! earlier, and that at each doubt rounding hides the sign. The launches cover joints and their neighbours,
+//! speeds from 1e-280 to flights of 1e4 periods, and grazes of crests and corners.
+//!
+//! In the campaign the oracle judges in 256 bits 500 launches of each drive, its first 500 doubts and its first
+//! 500 impacts on kinks:
+//!
+//! ```text
+//! CAMPAIGN_SIZE=1000000 cargo test -p bouncing-disk-drives --test first_impact -- --ignored drive_campaign --nocapture
+//! ```
+//!
+//! | drive | launches | doubts | on kinks | most evaluations | doubts in 256 bits | true hits | otherwise |
+//! | --- | --- | --- | --- | --- | --- | --- | --- |
+//! | 3 harmonics | 1,000,006 | 24,671 | 0 | 58 | 513 | 338 | 47 |
+//! | 32 harmonics | 1,000,014 | 22,340 | 0 | 117 | 515 | 312 | 39 |
+//! | triangle | 1,000,015 | 8,239 | 20,065 | 6 | 502 | 407 | 29 |
+//! | sawtooth | 1,000,015 | 8,551 | 20,016 | 6 | 506 | 370 | 42 |
+//! | parabolas | 1,000,004 | 16,933 | 0 | 5 | 509 | 385 | 38 |
+//! | cubics | 1,000,006 | 17,050 | 0 | 469 | 512 | 355 | 57 |
+//! | cubic arcs with kinks | 1,000,001 | 22,712 | 100,653 | 251 | 509 | 362 | 42 |
+//! | spline, 8 to 207 samples | 1,000,008 | 25,070 | 0 | 880 | 520 | 320 | 96 |
+//!
+//! Amplitudes are 1e-2 to 1e4, and three launches in ten are grazes with gaps of 1e-16 to 1e-2. No impact was
+//! missed or invented. In 256 bits (9,144 launches) each doubt is confirmed; the last two columns count how many
+//! truly hit, and how many go otherwise than the double decides.
 
 use std::f64::consts::TAU;
 

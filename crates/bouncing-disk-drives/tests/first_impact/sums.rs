@@ -1,7 +1,8 @@
 //! Sums of a polynomial and damped sines, judged by an oracle.
 //!
 //! It knows the sum in double-doubles and a bound on its curvature, halves intervals until each is
-//! positive, and shares nothing with the solver.
+//! positive: |G(m)| > |G'(m)| d + max|G''| d^2/2 on each. It shares nothing with the solver. Among the sums are
+//! nearly cancelling frequencies, and minima at 1e-16 to 1e-3 from zero.
 
 use bouncing_disk_drives::quasi_polynomial::{DampedSine, FirstRoot, QuasiPolynomial};
 

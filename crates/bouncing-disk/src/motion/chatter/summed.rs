@@ -16,7 +16,8 @@ use crate::parameters::dimensionless::DimensionlessSystem;
 /// holds; each of them is then twice as long as the one before.
 const USUAL_PIECES: u32 = 16;
 
-/// Pieces after which that has led to the end: 2^64 impacts.
+/// Pieces after which that has led to the end: 2^64 impacts. The largest numbers seen are 5 pieces by the signs,
+/// and 22 with rounding, at r = 1 - 2^-53.
 const MAX_PIECES: u32 = USUAL_PIECES + 64;
 
 impl Chatter {

