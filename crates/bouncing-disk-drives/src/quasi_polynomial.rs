@@ -2,7 +2,13 @@
 //!
 //! A step from t is certain where the cubic Taylor polynomial less the largest remainder M4 h^4/24 stays
 //! above zero; a root is certain to be the first one where the cubic plus that remainder ends below zero on a
-//! stretch on which the function falls, or is concave, all the way (docs/numerics-impacts.md).
+//! stretch on which the function falls, or is concave, all the way (docs/numerics-impacts.md, "The first root of a
+//! polynomial and damped sines").
+//!
+//! Next to a simple root a step leaves at most a fifth of the way. Next to a minimum of height m it leaves a tenth
+//! of the way until the way is of the order sqrt(m/G''), so that the rounding e bounds the number of steps by a
+//! multiple of log(1/e). Far from roots a step is at least (G/M4)^(1/4). The campaign on drives needed 880
+//! evaluations at most.
 
 use core::ops::{Add, Mul};
 

@@ -3,8 +3,21 @@
 //! The accumulation point is the same from impact to impact, and near it the remaining time R has a
 //! coordinate y in which an impact is a multiplication: R is a power series in y, and the n-th impact is at y
 //! = r^n. A quantity of an impact is then a power series in r^n, too, and its sums are geometric. The
-//! recurrence for the coefficients and the sums that do not cancel are derived in
-//! docs/numerics-impacts.md.
+//! recurrence for the coefficients is derived in docs/numerics-impacts.md, "Every impact at once".
+//!
+//! A quantity f(y) without constant term sums to sum f_k (y_m^k - y_n^k)/(1 - r^k) over the impacts m + 1 to n.
+//! With `[k]` = 1 + r + ... + r^(k-1), the coefficients of flights and speeds omit their common factor 1 - r, so
+//! f_k/(1 - r^k) becomes `f_k/[k]`. The difference y_m^k - y_n^k is y_m^k (1 - x)(1 + x + ... + x^(k-1)) with
+//! x = r^(n-m) and 1 - x from `expm1`. Work and angle need a sum of f times the decrease of a second series g
+//! since impact m, which contains (1 - r) sum y^a (1 - r y) over y = 1, r, r^2, ... In closed form, with z = r x,
+//!
+//! ```text
+//! (1 - x^a)/[a] - r (1 - x^(a+1))/[a+1]
+//!     = (1 - x)(1 - z) sum_(i < a) x^i (1 + z + ... + z^(a-i-1)) / ([a][a+1]),
+//! ```
+//!
+//! without a difference of nearly equal numbers: sums over one impact, over ten and over all have the same
+//! relative accuracy.
 
 use crate::flight::platform::phase::Phase;
 use crate::flight::platform::vibration::Vibration;

@@ -1,4 +1,47 @@
-//! Cheap tests that spare a search: certain when they answer, silent otherwise.
+//! Cheap sufficient tests that avoid a root search; failing one proves nothing.
+//!
+//! **Short flights** ([`may_return_soon`]). Let a = 1 - P sin tau and b = P cos tau. Over a time t the pull on a
+//! disk launched at tau is 1 - P sin(tau + t) <= a - b t + P t^2/2, so
+//!
+//! ```text
+//! gap(t)/t >= w - (a t/2 - b t^2/6) - P t^3/24.
+//! ```
+//!
+//! For a < 0 take a = 0. The bracket is largest at t = 3 a/(2 b) if that comes before half a radian, that is for
+//! b > 3 a: there it is (3/8) a^2/b < a/8. Otherwise it is largest at t = 1/2: a/4 - b/24, which is at least a/8.
+//! A launch faster than the larger of a/8 and a/4 - b/24, plus the last term at t = 1/2, cannot land within half a
+//! radian. 1/24 is rounded down to 0.0416 and 1/192 up to 0.0053; the latter adds 2e-5 P more than the former may
+//! lack where b < 0.
+//!
+//! **The first crest** (`Crests::surely_cleared`). Let t_c be the time to the crest, kappa the time from
+//! separation to crest, u the disk's speed at launch and f its speed when it comes down to the height of the
+//! crests. At the crest the disk has the speed e = u - t_c, and f^2 - e^2 is twice its height above it. No
+//! impact occurs between half a radian and the crest
+//!
+//! 1. if t_c <= kappa: launched while the platform falls away, the disk moves away from it until the crest,
+//!    because the gap is convex;
+//!
+//! 2. if e >= P cos sigma - kappa: at the separation the disk is not slower than the platform. From the
+//!    launch to the separation the slope of the gap only falls (or first rises, behind the last crest), from
+//!    w >= 0 to a value that is not negative; from there to the crest it rises. So the gap grows all the way.
+//!    The test requires 1e-9 (1 + P) more, which is then the least slope, so that after half a radian the gap
+//!    is beyond any rounding. (Behind the last crest the slope loses more in the concave piece than it gains
+//!    before: w is larger still.)
+//!
+//! 3. if e <= 0 and f + e > 0: the disk is above the crest when the platform is there, and falls. In the
+//!    convex piece before the crest the slope is then negative throughout, and the gap larger than at its
+//!    end. In the concave piece before that it is positive at both ends (a disk launched behind the last
+//!    crest first moves away). The test requires f + e >= 1e-5 (1 + P) = d, in case 2, too. The gap at the
+//!    crest, (f - e)(f + e)/2 >= d^2/2, is then 5e-11 (1 + P)^2, thousands of times the rounding of u^2 <=
+//!    t_c^2.
+//!
+//! There remain launches that are slower than the platform at the separation and faster at the crest, and
+//! launches that are hit.
+//!
+//! **Dips before the crest** ([`clears_by_tangents`]). Between the separation and the crest the gap is
+//! convex, so it lies above the tangents at both ends. Its slopes there are u - t_s - P cos sigma and u -
+//! t_c, with t_s and t_c the times to separation and crest. If the gap is positive at both ends and where the
+//! tangents meet, no dip exists; all three must exceed 1e-9 (1 + P).
 
 use crate::flight::gap::{CrestForm, SHORT_FLIGHT};
 use crate::flight::platform::vibration::CLEAR;
@@ -10,7 +53,7 @@ const BEND_SHARE: f64 = 0.0053;
 
 /// Whether a launch may land within [`SHORT_FLIGHT`], given P sin and P cos at launch. None that lands is
 /// missed: over half a radian the pull is at most its value at launch, less its drift, plus the curvature of
-/// the platform (docs/numerics-impacts.md, "Tests that are certain when they answer").
+/// the platform.
 #[inline(always)]
 pub(crate) fn may_return_soon(peak: f64, sine: f64, cosine: f64, speed: f64) -> bool {
     let pull = 1.0 - sine;

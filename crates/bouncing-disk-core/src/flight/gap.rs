@@ -94,8 +94,9 @@ impl GapTaylor {
     }
 
     /// Whether [`Self::is_near_root`] holds for certain, which takes half the time: both of its conditions
-    /// follow from
-    /// |x| (1 + (|curvature| + (|third| + |platform|)/6)/|slope|) being small, and the sum is at most sqrt(2) `peak`.
+    /// follow from |x| (|s| + |c| + m) <= L |s|, with the Newton step x, slope s, curvature c, third and fourth
+    /// derivative p and q, m = (|p| + |q|)/6 and L = [`LAST_STEP`]: since (|s| + m)^2 >= 4 |s| m,
+    /// x^2 (|p| + |q|) <= L^2 s^2 (6 m)/(4 |s| m) = 3 L^2 |s|/2. For all of them m = 0.24 P > sqrt(2) P/6 serves.
     #[inline(always)]
     pub(crate) fn is_surely_near_root(&self, peak: f64) -> bool {
         let fall = -self.slope;

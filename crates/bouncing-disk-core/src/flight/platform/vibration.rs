@@ -179,7 +179,7 @@ impl Crests {
     }
 
     /// Whether a launch is certain not to be hit before the first crest, unless within half a radian
-    /// (docs/numerics-impacts.md, "Tests that are certain when they answer"): `disk_speed` is that at
+    /// (proof at the head of `flight/bounds.rs`): `disk_speed` is that at
     /// launch, `arc_speed` the one, negative, with which it comes down to the height of the crests, not a
     /// number where it stays below.
     #[inline(always)]

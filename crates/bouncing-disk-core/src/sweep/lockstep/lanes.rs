@@ -8,6 +8,20 @@
 //! the others are handed to that solver (docs/numerics-impacts.md, "Why the bits are the same"): 2.2 % of the
 //! flights of the basin W3 and 2.3 % of the motor W2 (data/performance/README.md).
 //!
+//! The loops use the functions of the one-flight solver (`GapTaylor`, `CrestForm`, `LaunchForm`, `ShortForm`) in
+//! the same order. A lane takes the same *decisions*:
+//!
+//! - *Above the crests.* A lane takes the step of the model if it stays before the next crest, by 1e-9 turns, so
+//!   that rounding cannot decide otherwise. Else it takes Newton's step, or half the way to the crest, by the
+//!   solver's rule and from the same numbers. Disks that may come down behind a crest where the platform falls
+//!   away faster have two windows. They, and flights not near their root after the second or third evaluation,
+//!   continue for four evaluations with the windows, steps and brackets of the solver.
+//! - *Short.* Newton's iteration of `ShortForm`. Lanes that leave the first piece of constant curvature continue
+//!   if the gap is positive at the end of the pieces within half a radian and the slopes or the tangents there
+//!   exclude a dip.
+//! - *Low.* The same comparisons, with gaps beyond doubt, give the window before the first crest; four
+//!   evaluations follow.
+//!
 //! The first step sorts all launches by the kind of flight that follows (`root.rs`). A batch that rises above
 //! the crests as a whole is computed in place; otherwise each kind is collected until [`LANES`] flights fill
 //! the vectors (`scheduler.rs`). `sweep/orbit_batch.rs` compares all bits of three million launches of every
