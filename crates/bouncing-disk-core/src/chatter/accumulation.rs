@@ -280,8 +280,10 @@ fn window_holds_all(peak: f64, pull: f64, drift: f64, speed: f64, restitution: f
 }
 
 /// [`window_holds_all`] where `1 - ratio` would cancel or the speed has lost digits: with the window 3 w/(a
-/// (1 - r)) the condition 2 w <= window least (1 - ratio) has no speed in it, and the root is taken of a
-/// number less 1.
+/// (1 - r)) the condition 2 w <= window least (1 - ratio) has no speed in it: it becomes
+/// 2 <= 3 (least/a) (1 - r - r e)/(1 - r) with e = sqrt(most/least) - 1. With s = 2 change/least, e is formed as
+/// s/(sqrt(1 + s) + 1): nothing cancels, and no product of the speed underflows. It follows that least >= (2/3) a,
+/// and a rounded pair that gives less next to a separation is rejected.
 #[cold]
 fn window_holds_every_impact(pull: f64, change: f64, restitution: f64) -> bool {
     let least = pull - change;

@@ -3,10 +3,20 @@
 //! The accumulation point is the same from impact to impact, and near it the remaining time R has a
 //! coordinate y in which an impact is a multiplication: R is a power series in y, and the n-th impact is at y
 //! = r^n. A quantity of an impact is then a power series in r^n, too, and its sums are geometric. The
-//! recurrence for the coefficients is derived in docs/numerics-impacts.md, "Every impact at once".
+//! recurrence r (p - q) sum c_k M_k(q, p) = (q - o) sum c_k M_k(q, o) for the remaining times p, q, o at three
+//! successive impacts is derived in docs/numerics-impacts.md, "Every impact at once". With `[k]` = 1 + r + ... +
+//! r^(k-1) and r (1 - r)^2 divided out, it gives the coefficients rho_m of R:
+//!
+//! ```text
+//! rho_m [m][m-1]/2 = - the coefficient of y^m in  D B + H E  (rho_m = 0 there),
+//! H_k = rho_k [k],   D_k = rho_k [k][k-1],   B = sum c_k M_k(q, o)/alpha,
+//! E = sum c_k/(alpha (k+1)(k+2)) sum_(1 <= j <= k) (k + 1 - j) q^(k-j) (p^j - o^j)/(1 - r),
+//! ```
+//!
+//! and (p^j - o^j)/(1 - r) has the coefficients `[2k]` of p^j: nothing cancels, however near r is to 1.
 //!
 //! A quantity f(y) without constant term sums to sum f_k (y_m^k - y_n^k)/(1 - r^k) over the impacts m + 1 to n.
-//! With `[k]` = 1 + r + ... + r^(k-1), the coefficients of flights and speeds omit their common factor 1 - r, so
+//! The coefficients of flights and speeds omit their common factor 1 - r, so
 //! f_k/(1 - r^k) becomes `f_k/[k]`. The difference y_m^k - y_n^k is y_m^k (1 - x)(1 + x + ... + x^(k-1)) with
 //! x = r^(n-m) and 1 - x from `expm1`. Work and angle need a sum of f times the decrease of a second series g
 //! since impact m, which contains (1 - r) sum y^a (1 - r y) over y = 1, r, r^2, ... In closed form, with z = r x,

@@ -1,5 +1,13 @@
 //! A disk in contact with a platform that moves in any way: when it leaves, and when a chatter brings it to
 //! rest.
+//!
+//! If the flight from the end of a contact ended at once, the disk would rest at the same time, leave again, and
+//! alternate for ever: the end of the contact and the flight decide by different roundings. That can happen if the
+//! force comes down to zero within its rounding e = 1e-12 (1 + max|s''|) + 4 u (2 pi + t) max|s'''| and rises
+//! again. So a contact ends by the force only if the force gets below -e. It does if it is there already; if it
+//! falls at a rate c > sqrt(2 e M), M a bound on s'''', and so by c^2/(2 M) > e; or, in pieces, if the end of the
+//! piece is below -e. The flight then lasts for 4 c/M and more, far above a rounding of the time. A shallower dip
+//! presses on, up to a fall through -2 e.
 
 use core::f64::consts::TAU;
 

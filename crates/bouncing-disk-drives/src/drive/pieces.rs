@@ -1,5 +1,10 @@
 //! A period as pieces of polynomials of degree at most 3: the first impact piece by piece, in closed form
 //! where the gap is of degree 2.
+//!
+//! Gap, velocity and their errors are carried across a joint, so a flight of 1e-12 rad over a joint keeps its
+//! digits. After 0.05 rad whole blocks of pieces are passed over: a parabola is nowhere lower in an interval than
+//! at its lower end, and a tree holds the highest points of 1, 2, 4, ... pieces. From there on the gap is the
+//! difference of two heights.
 
 use core::f64::consts::TAU;
 use std::sync::Arc;
