@@ -2,7 +2,7 @@
 //! of the standard output whether it was refused, the digest of the answer and its JSON. The tests of the
 //! page compare the digests with those of WebAssembly.
 //!
-//!     echo '{"call": "orbit", "axial_forcing": 0.45, "restitution": 0.5,
+//!     echo '{"call": "orbit", "map": {"axial_forcing": 0.45, "restitution": 0.5},
 //!            "start": {"impact_phase": 1.2, "normalised_speed": 1.3}}' | tr -d '\n' |
 //!     cargo run --release --package bouncing-disk-web --example respond
 #![allow(clippy::print_stdout, reason = "a program shows its result")]

@@ -4,7 +4,7 @@
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::reply::{Refusal, Reply};
-use crate::request::{Request, rigid};
+use crate::request::Request;
 use crate::shared_basins::SharedAttractors;
 use crate::{branches, diagram, motion, motor, orbit};
 
@@ -36,21 +36,15 @@ impl Explorer {
 impl Explorer {
     fn answer(&mut self, request: Request) -> Result<Reply, Refusal> {
         match request {
-            Request::Check { system } => orbit::summary(&system.build()?),
+            Request::Check { system, mass } => orbit::summary(&system.build()?, mass),
             Request::Motion { system, start, periods, samples_per_period } => {
                 motion::answer(&system.build()?, start, periods, samples_per_period)
             }
             Request::Toss { system } => orbit::toss(&system.build()?),
             Request::Diagram(request) => diagram::answer(&request),
-            Request::Orbit { axial_forcing, restitution, contact_periods, start } => {
-                rigid(contact_periods)?;
-                orbit::verdict(axial_forcing, restitution, start)
-            }
+            Request::Orbit { map, start } => orbit::verdict(&map.build()?, start),
             Request::Branches { restitution, axial_forcing } => branches::answer(restitution, axial_forcing),
-            Request::Attractors { axial_forcing, restitution, contact_periods } => {
-                rigid(contact_periods)?;
-                self.attractors.list(axial_forcing, restitution)
-            }
+            Request::Attractors { map } => self.attractors.list(map.build()?),
             Request::Basins(request) => self.attractors.rows(&request),
             Request::MotorReport { sheet } => motor::report(sheet),
             Request::MotorTransient(request) => motor::transient(&request),

@@ -8,7 +8,7 @@
 //! ```
 //! use bouncing_disk_web::Explorer;
 //!
-//! let request = r#"{"call": "orbit", "axial_forcing": 0.45, "restitution": 0.5,
+//! let request = r#"{"call": "orbit", "map": {"axial_forcing": 0.45, "restitution": 0.5},
 //!                   "start": {"impact_phase": 1.2, "normalised_speed": 1.3}}"#;
 //! let reply = Explorer::new().respond(request);
 //! assert!(!reply.refused && reply.json.contains("\"kind\":\"periodic\""));

@@ -1,30 +1,43 @@
 //! Derived quantities of a system, its single toss, and the long-term motion of one orbit.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use bouncing_disk::System;
+use bouncing_disk::core::ImpactMap;
 use bouncing_disk::core::attractors::{UndecidedReason, Verdict, VerdictSettings};
+use bouncing_disk::motor::MotorParameters;
 use bouncing_disk::parameters::ContactStatement;
 use bouncing_disk::toss::{InitialSpin, single_toss};
 use serde_json::json;
 
 use crate::reply::{Refusal, Reply};
-use crate::request::{ImpactStart, map};
+use crate::request::{ImpactStart, SystemParameters};
 
-/// The angular forcing is null without friction, the rise time (that of a motor without load) where nothing
-/// turns; the peak acceleration is in units of the preload. A platform that `bounces` leaves a disk at rest.
-/// The contact time over the period and the indentation are null where no time is given.
-pub(crate) fn summary(system: &System) -> Result<Reply, Refusal> {
+/// The parameters, and what follows from them. The angular forcing is null without friction, the rise time (that
+/// of a motor without load) where nothing turns; the peak acceleration is in units of the preload, and an impact
+/// with the normalised speed 1 has the speed unit (m/s); the load torque is that on a disk of this mass (kg). A platform that `bounces` leaves a disk at rest. The
+/// contact time over the period and the indentation are null where no time is given.
+pub(crate) fn summary(system: &System, mass: f64) -> Result<Reply, Refusal> {
+    // The mass is that of no system: it is legal where a load can be its torque.
+    system.disk().parameters().with_load_torque(0.0, mass)?;
+    let period = TAU / system.platform().angular_frequency();
+    let parameters = SystemParameters::from(system);
     Reply::short(&json!({
         "axial_forcing": system.axial_forcing(),
         "angular_forcing": system.angular_forcing(),
-        "period": TAU / system.platform().angular_frequency(),
+        "period": period,
+        "contact_periods": parameters.contact_time / period,
         "peak_acceleration": system.peak_acceleration(),
+        "speed_unit": PI * system.scales().velocity,
+        "twist_speed": system.platform().peak_angular_speed(),
+        "friction_acceleration": system.disk().friction_acceleration(),
+        "load_torque": MotorParameters::of_system(system, mass).load_torque,
         "stroke": system.stroke().stroke,
         "amplitude_angle": system.stroke().amplitude_angle,
         "rise_time": Some(system.rise_time()).filter(|time| time.is_finite() && *time > 0.0),
         "bounces": system.dimensionless().vibration().separation_phase().is_some(),
         "contact": system.contact_statement(None).map(|own| ContactStatement::rows(Some(&own))),
+        "system": parameters,
     }))
 }
 
@@ -38,8 +51,7 @@ pub(crate) fn toss(system: &System) -> Result<Reply, Refusal> {
 /// pairs of real and imaginary parts. The exponent is the growth per impact with its standard error; that of
 /// a periodic orbit follows from its multipliers and has none. `rounding_dependent`: the cycle after a rest
 /// was chosen by rounding.
-pub(crate) fn verdict(axial_forcing: f64, restitution: f64, start: ImpactStart) -> Result<Reply, Refusal> {
-    let map = map(axial_forcing, restitution)?;
+pub(crate) fn verdict(map: &ImpactMap, start: ImpactStart) -> Result<Reply, Refusal> {
     let verdict = map.verdict(start.state()?, VerdictSettings::default())?;
     let (mut round, mut multipliers, mut exponent, mut exponent_error) = (None, None, None, None);
     let mut rounding_dependent = false;

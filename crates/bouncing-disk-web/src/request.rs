@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 use crate::reply::Refusal;
 
 /// Platform and disk in SI units, in one flat table, with the time of a contact with a damper; 0 is rigid.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SystemParameters {
     #[serde(flatten)]
@@ -22,21 +22,77 @@ pub(crate) struct SystemParameters {
     #[serde(flatten)]
     disk: DiskParameters,
     #[serde(default)]
-    contact_time: f64,
+    pub(crate) contact_time: f64,
+    /// What is set to a value, one after the other: a quantity that follows from the parameters, or one of them.
+    #[serde(default, skip_serializing)]
+    set: Vec<(String, f64)>,
 }
 
 impl SystemParameters {
-    pub(crate) fn build(self) -> Result<System, Refusal> {
+    pub(crate) fn build(&self) -> Result<System, Refusal> {
         let time = Some(self.contact_time).filter(|time| *time != 0.0);
         let contact = time.map(|_| Contact { time, ..Contact::default() });
-        Ok(System::new(self.platform.build()?, self.disk.build()?)?.with_contact(contact)?)
+        let system = System::new(self.platform.build()?, self.disk.build()?)?.with_contact(contact)?;
+        self.set.iter().try_fold(system, |system, (name, value)| set(&system, name, *value))
     }
+}
+
+/// The same system with another value of a quantity or parameter.
+fn set(system: &System, name: &str, value: f64) -> Result<System, Refusal> {
+    let stroke = system.stroke();
+    Ok(match name {
+        "axial_forcing" => system.with_axial_forcing(value)?,
+        "stroke" => system.with_stroke(value, stroke.amplitude_angle)?,
+        "amplitude_angle" => system.with_stroke(stroke.stroke, value)?,
+        "contact_periods" => {
+            let most = 10.0 * (Compliance::CONTACT_TIMES[1] / TAU / 10.0).floor();
+            if !(0.0..=most).contains(&value) {
+                return Err(Refusal::out_of_range("contact_periods", value, "[0, 1590]"));
+            }
+            let time = value * TAU / system.platform().angular_frequency();
+            return set(system, "contact_time", time);
+        }
+        _ => {
+            let parameters = SystemParameters::from(system);
+            let table = serde_json::to_value(parameters).and_then(|mut table| {
+                table[name] = value.into();
+                serde_json::from_value::<SystemParameters>(table)
+            });
+            table.map_err(|error| Refusal::of_request(&error))?.build()?
+        }
+    })
 }
 
 impl From<&System> for SystemParameters {
     fn from(system: &System) -> Self {
         let contact_time = system.contact().and_then(|contact| contact.time).unwrap_or(0.0);
-        Self { platform: system.platform().parameters(), disk: system.disk().parameters(), contact_time }
+        let (platform, disk) = (system.platform().parameters(), system.disk().parameters());
+        Self { platform, disk, contact_time, set: Vec::new() }
+    }
+}
+
+/// The map of the vertical motion: that of a system, or of these two numbers.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(untagged)]
+pub(crate) enum MapParameters {
+    OfSystem(SystemParameters),
+    OfForcing { axial_forcing: f64, restitution: f64 },
+}
+
+impl MapParameters {
+    /// Contacts that take time are refused, unless the time is too short to matter ([`System::soft_contact`]).
+    pub(crate) fn build(&self) -> Result<ImpactMap, Refusal> {
+        match self {
+            Self::OfSystem(system) => {
+                let system = system.build()?;
+                if system.soft_contact().is_none() {
+                    return Ok(*system.dimensionless().map());
+                }
+                let message = "verdicts and basins are those of rigid impacts: set the contact time to 0";
+                Err(Refusal::new("computation", message.to_owned()))
+            }
+            Self::OfForcing { axial_forcing, restitution } => map(*axial_forcing, *restitution),
+        }
     }
 }
 
@@ -72,18 +128,18 @@ pub(crate) enum MotionStart {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(tag = "call", rename_all = "snake_case", deny_unknown_fields)]
 pub(crate) enum Request {
-    // Are these parameters legal, and what follows from them?
-    Check { system: SystemParameters },
+    // Are these parameters legal, which are they once all is set, and what follows from them?
+    Check { system: SystemParameters, mass: f64 },
     Motion { system: SystemParameters, start: MotionStart, periods: u64, samples_per_period: u64 },
     // The single toss of a disk that rests on the platform at its lowest point.
     Toss { system: SystemParameters },
     Diagram(DiagramRequest),
     // The long-term motion of the orbit from a start.
-    Orbit { axial_forcing: f64, restitution: f64, contact_periods: Option<f64>, start: ImpactStart },
+    Orbit { map: MapParameters, start: ImpactStart },
     // The branches of one impact every few periods in a range, stable and unstable, with their doublings.
     Branches { restitution: f64, axial_forcing: [f64; 2] },
     // All attractors of a map with the shares of the starts that end on them.
-    Attractors { axial_forcing: f64, restitution: f64, contact_periods: Option<f64> },
+    Attractors { map: MapParameters },
     Basins(BasinsRequest),
     // The report of a data sheet before anything turns.
     MotorReport { sheet: MotorParameters },
@@ -121,9 +177,7 @@ pub(crate) struct DiagramRequest {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BasinsRequest {
-    pub(crate) axial_forcing: f64,
-    pub(crate) restitution: f64,
-    pub(crate) contact_periods: Option<f64>,
+    pub(crate) map: MapParameters,
     pub(crate) phase_periods: [f64; 2],
     pub(crate) phases: usize,
     pub(crate) normalised_speed: [f64; 2],
@@ -152,15 +206,6 @@ pub(crate) struct LoadsRequest {
     /// Most impacts that the answer may take, up to 20 million.
     pub(crate) most_impacts: u64,
     pub(crate) seed: u64,
-}
-
-/// Refuses a contact time of so many periods, none if they are not given, unless it is too short to matter ([`System::soft_contact`]).
-pub(crate) fn rigid(contact_periods: Option<f64>) -> Result<(), Refusal> {
-    if TAU * contact_periods.unwrap_or(0.0) < Compliance::CONTACT_TIMES[0] {
-        return Ok(());
-    }
-    let message = "verdicts and basins are those of rigid impacts: set the contact time to 0";
-    Err(Refusal::new("computation", message.to_owned()))
 }
 
 pub(crate) fn map(axial_forcing: f64, restitution: f64) -> Result<ImpactMap, Refusal> {

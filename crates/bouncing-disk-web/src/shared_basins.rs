@@ -1,14 +1,14 @@
 //! The attractors of a map, and rows of their basins.
 
-use bouncing_disk::core::Unobserved;
 use bouncing_disk::core::attractors::{
     Attractor, AttractorKind, AttractorSearch, Attractors, Axis, BasinSettings, Grid,
 };
 use bouncing_disk::core::numerics::fraction::Fraction;
+use bouncing_disk::core::{ImpactMap, Unobserved};
 use serde_json::{Value, json};
 
 use crate::reply::{Refusal, Reply};
-use crate::request::{BasinsRequest, ImpactStart, map, rigid};
+use crate::request::{BasinsRequest, ImpactStart};
 
 /// A search that takes a second where there is chaos: it follows 1,024 orbits for a tenth of the impacts of the default,
 /// and says for how many.
@@ -21,8 +21,7 @@ fn quick_search() -> Result<AttractorSearch, Refusal> {
 pub(crate) struct SharedAttractors(Option<Attractors>);
 
 impl SharedAttractors {
-    fn of(&mut self, axial_forcing: f64, restitution: f64) -> Result<&Attractors, Refusal> {
-        let map = map(axial_forcing, restitution)?;
+    fn of(&mut self, map: ImpactMap) -> Result<&Attractors, Refusal> {
         let found = match self.0.take() {
             Some(found) if *found.map() == map => found,
             _ => map.attractors(&quick_search()?, &Unobserved)?,
@@ -36,8 +35,8 @@ impl SharedAttractors {
     /// sample has so many starts, evenly over all phases and the speeds up to the bound that no attractor
     /// exceeds at that phase; `fastest_start` is the largest of that bound. `kinds` has the share, and its interval,
     /// of the starts that rest, are periodic or chaotic for good: where a rest leads to another attractor, that counts.
-    pub(crate) fn list(&mut self, axial_forcing: f64, restitution: f64) -> Result<Reply, Refusal> {
-        let found = self.of(axial_forcing, restitution)?;
+    pub(crate) fn list(&mut self, map: ImpactMap) -> Result<Reply, Refusal> {
+        let found = self.of(map)?;
         let attractors = found.all().iter().enumerate();
         let attractors: Vec<_> =
             attractors.map(|(number, one)| described(found.label(number), one)).collect();
@@ -52,14 +51,14 @@ impl SharedAttractors {
 
     /// Bytes: the labels of rows of a grid of starts, with the phase along a row, from the lowest speed up.
     pub(crate) fn rows(&mut self, request: &BasinsRequest) -> Result<Reply, Refusal> {
-        rigid(request.contact_periods)?;
+        let map = request.map.build()?;
         let ([low, high], [slow, fast]) = (request.phase_periods, request.normalised_speed);
         let grid = Grid::new(Axis::new(low, high, request.phases)?, Axis::new(slow, fast, request.speeds)?)?;
         let [from, to] = request.rows;
         if from > to || to > request.speeds {
             return Err(Refusal::out_of_range("rows", to as f64, "from the first to the number of speeds"));
         }
-        let found = self.of(request.axial_forcing, request.restitution)?;
+        let found = self.of(map)?;
         let basins = found.basins_of_rows(grid, from..to, BasinSettings::default(), &Unobserved)?;
         Reply::new(&(), Vec::new(), basins.labels().to_vec())
     }

@@ -5,9 +5,8 @@ use std::f64::consts::TAU;
 use bouncing_disk::core::numerics::elementary::ln;
 use bouncing_disk::core::{Phase, Unobserved};
 use bouncing_disk::driven;
-use bouncing_disk::drives::compliance::Compliance;
 use bouncing_disk::motor::OperatingSettings;
-use bouncing_disk::parameters::{ContactLaw, DrivenPlatform, Stroke};
+use bouncing_disk::parameters::{ContactLaw, DrivenPlatform};
 use bouncing_disk::toss::{InitialSpin, TOSS_START, single_toss};
 use bouncing_disk::{Motor, System};
 use bouncing_disk_web::{Explorer, Reply, branches_over_forcing};
@@ -41,6 +40,11 @@ fn motor(changes: Value) -> Value {
     json!({ "sheet": with(sheet(), changes) })
 }
 
+/// The map of this forcing.
+fn forced(axial_forcing: f64) -> Value {
+    json!({ "map": { "axial_forcing": axial_forcing, "restitution": 0.5 } })
+}
+
 /// The disk lies on the platform.
 fn at_rest() -> Value {
     json!({ "kind": "impact", "impact_phase": 0.0, "normalised_speed": 0.0, "angular_speed": 0.0 })
@@ -48,10 +52,11 @@ fn at_rest() -> Value {
 
 /// A legal request, with changes.
 fn request(call: &str, changes: Value) -> Value {
-    let map = json!({ "axial_forcing": 0.486, "restitution": 0.5 });
+    let map = forced(0.486);
     let start = json!({ "impact_phase": 1.2, "normalised_speed": 1.3 });
     let usual = match call {
-        "check" | "toss" => system(json!({})),
+        "check" => with(system(json!({})), json!({ "mass": 0.4 })),
+        "toss" => system(json!({})),
         "motion" => json!({ "system": pizza(), "start": at_rest(), "periods": 3, "samples_per_period": 60 }),
         "diagram" => json!({
             "system": pizza(), "axial_forcing": [0.3, 0.62], "count": 40, "columns": [0, 40], "start": start,
@@ -105,32 +110,6 @@ fn bits(numbers: &[f64]) -> Vec<u64> {
     numbers.iter().map(|number| number.to_bits()).collect()
 }
 
-/// The legal ranges of what the form shows in place of a number of the system: the forcing, and the contact time in
-/// periods.
-fn ranges() -> Value {
-    let forcing = refused("orbit", json!({ "axial_forcing": -1.0 }))["range"].clone();
-    let forcing = forcing.as_str().and_then(|range| range.split(" (").next());
-    let periods = 10.0 * (Compliance::CONTACT_TIMES[1] / TAU / 10.0).floor();
-    json!({ "axial_forcing": forcing, "contact_time": format!("[0, {periods}]") })
-}
-
-/// Tables I and III and the legal ranges, as the page imports them: the library is the one place in which they are typed.
-#[test]
-fn the_tables_of_the_page_are_those_of_the_library() {
-    let (hand, dough, motor) = (Stroke::pizza_toss(), System::pizza_toss(), Motor::paper_70_khz());
-    let motion = json!({
-        "stroke": hand.stroke, "amplitude_angle": hand.amplitude_angle, "angular_frequency": hand.angular_frequency
-    });
-    let tables =
-        json!({ "table_one": with(json!(dough.disk()), motion), "table_three": motor, "ranges": ranges() });
-    let text = serde_json::to_string_pretty(&tables).expect("storable") + "\n";
-    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/page/src/tables.json");
-    if std::env::var_os("UPDATE_DOCUMENTATION").is_some() {
-        std::fs::write(file, &text).expect("writable");
-    }
-    assert_eq!(std::fs::read_to_string(file).expect("there"), text, "UPDATE_DOCUMENTATION=1 writes it");
-}
-
 #[test]
 fn what_follows_from_a_system_is_told() {
     let (summary, _) = answered("check", json!({}));
@@ -143,14 +122,46 @@ fn what_follows_from_a_system_is_told() {
 }
 
 #[test]
+fn what_is_set_is_set_one_after_the_other() {
+    let checked = |set: Value| answered("check", system(json!({ "set": set }))).0;
+    let quantities = ["axial_forcing", "stroke", "amplitude_angle", "contact_periods"];
+    for (name, value) in quantities.into_iter().zip([0.45, 0.3, 1.2, 0.25]) {
+        let summary = checked(json!([["friction", 0.3], [name, value]]));
+        assert!((number(&summary, name) - value).abs() < 1e-15, "{summary}");
+        assert_eq!(number(&summary, "/system/friction"), 0.3);
+    }
+    let [slow, fast] = [
+        json!([["angular_frequency", 30.0], ["axial_forcing", 0.45]]),
+        json!([["axial_forcing", 0.45], ["angular_frequency", 30.0]]),
+    ]
+    .map(|set| number(&checked(set), "axial_forcing"));
+    assert!((slow - 0.45).abs() < 1e-15 && (fast - 1.8).abs() < 1e-14, "{slow} {fast}");
+    let (own, _) = answered("check", json!({}));
+    let [orbit, other] =
+        [json!(own["system"]), json!({ "axial_forcing": own["axial_forcing"], "restitution": 0.5 })]
+            .map(|map| answered("orbit", json!({ "map": map })).0);
+    assert_eq!(orbit["kind"], other["kind"]);
+}
+
+#[test]
 fn what_is_no_request_is_told() {
     let deep = "[".repeat(100_000);
     // JavaScript writes a number that is none, or infinite, as null.
     let wrong = [json!({ "colour": 1.0 }), json!({ "friction": null })];
     let [colour, none] = wrong.map(|wrong| request("check", system(wrong)).to_string());
-    for text in
-        ["", "null", "{}", r#"{"call": "nothing"}"#, r#"{"call": "check"}"#, "\0", &deep, &colour, &none]
-    {
+    let set = request("check", system(json!({ "set": [["colour", 1.0]] }))).to_string();
+    for text in [
+        "",
+        "null",
+        "{}",
+        r#"{"call": "nothing"}"#,
+        r#"{"call": "check"}"#,
+        "\0",
+        &deep,
+        &colour,
+        &none,
+        &set,
+    ] {
         let reply = Explorer::new().respond(text);
         assert!(reply.refused && reply.json.contains("\"kind\":\"request\""), "{}", reply.json);
     }
@@ -159,6 +170,7 @@ fn what_is_no_request_is_told() {
 /// A value out of its range, with the name under which the form shows that, and the value in the sentence.
 #[test]
 fn a_value_out_of_its_range_is_named() {
+    let set = |name: &str, value: f64| system(json!({ "set": [[name, value]] }));
     let samples = |periods: u64, samples: u64| json!({ "periods": periods, "samples_per_period": samples });
     let under = json!({ "kind": "flight", "phase": 0.0, "gap": -0.3, "relative_velocity": 0.0, "angular_speed": 0.0 });
     let negative = json!({ "system": pizza(), "mass": 1.0, "stator": { "mass": -1.0 } });
@@ -169,6 +181,11 @@ fn a_value_out_of_its_range_is_named() {
         ("check", system(json!({ "angular_frequency": 0.0 })), "angular_frequency", "0"),
         ("check", system(json!({ "contact_time": -0.1 })), "contact.time", "-0.1"),
         ("check", system(json!({ "contact_time": 1e4 })), "contact time", "150000"),
+        ("check", json!({ "mass": 0.0 }), "mass", "0"),
+        ("check", set("axial_forcing", 4e7), "axial_forcing", "40000000"),
+        ("check", set("contact_periods", 2e3), "contact_periods", "2000"),
+        ("check", set("amplitude_angle", 2.0), "amplitude_angle", "2"),
+        ("check", set("restitution", 2.0), "restitution", "2"),
         ("motion", samples(0, 60), "periods", "0"),
         ("motion", samples(200_000, 1), "periods", "200000"),
         ("motion", samples(u64::MAX, u64::MAX), "periods", "1.844674"),
@@ -200,7 +217,8 @@ fn a_value_out_of_its_range_is_named() {
 
 #[test]
 fn what_does_not_belong_together_is_refused() {
-    let (late, soft) = (json!({ "contact_time": 0.03 }), json!({ "contact_periods": 0.1 }));
+    let (late, soft) =
+        (json!({ "contact_time": 0.03 }), json!({ "map": with(pizza(), json!({ "contact_time": 0.03 })) }));
     let text = |changes: Value| json!({ "text": with(sheet(), changes).to_string() });
     let hysteretic = json!({ "contact": { "time": 2e-5, "law": "hysteresis" } });
     let varies = json!({ "load": { "speeds": [0.0], "torques": [1e-6] } });
@@ -355,7 +373,7 @@ fn shares_of_kinds_are_those_of_the_attractors_that_starts_end_on() {
     // At 0.51 a disk at rest is thrown onto a periodic orbit, whose share has that of the rest.
     let known = [(0.45, "rest periodic"), (0.55, "rest chaotic"), (0.2, "rest"), (0.51, "periodic chaotic")];
     for (forcing, lasting) in known {
-        let (json, _) = answered("attractors", json!({ "axial_forcing": forcing }));
+        let (json, _) = answered("attractors", forced(forcing));
         let all = json["attractors"].as_array().expect("a list");
         assert_eq!(all[0]["leads_to"].is_null(), lasting.contains("rest"), "{json}");
         for kind in ["rest", "periodic", "chaotic"] {
@@ -374,7 +392,7 @@ fn shares_of_kinds_are_those_of_the_attractors_that_starts_end_on() {
 /// The page numbers the list from one.
 #[test]
 fn the_text_of_a_rest_names_the_place_of_its_target_in_the_list() {
-    let (json, _) = answered("attractors", json!({ "axial_forcing": 0.51 }));
+    let (json, _) = answered("attractors", forced(0.51));
     let rest = &json["attractors"][0];
     let place = 1 + rest["leads_to"].as_u64().expect("it does not last");
     assert_eq!(rest["text"], format!("comes to rest, then attractor {place}"));
@@ -406,7 +424,7 @@ fn rows_of_basins_do_not_depend_on_which_are_asked_for_together() {
     for rows in [[0, 1], [1, 13], [13, 20]] {
         labels.extend(explorer.respond(&request("basins", json!({ "rows": rows })).to_string()).bytes);
         // Another map in between: its attractors are not taken for those of this one.
-        explorer.respond(&request("attractors", json!({ "axial_forcing": 0.35 })).to_string());
+        explorer.respond(&request("attractors", forced(0.35)).to_string());
     }
     assert_eq!((whole.bytes.len(), &whole.bytes), (600, &labels));
     let (json, _) = answered("attractors", json!({}));
@@ -444,7 +462,7 @@ fn the_rows_of_branches_are_those_of_the_library() {
 
 #[test]
 fn an_orbit_is_judged_as_by_the_library() {
-    let judged = |forcing: f64| answered("orbit", json!({ "axial_forcing": forcing })).0;
+    let judged = |forcing: f64| answered("orbit", forced(forcing)).0;
     let kinds = [0.45, 0.553, 0.62, 0.2].map(|forcing| judged(forcing)["kind"].clone());
     assert_eq!(kinds, ["periodic", "chaotic", "chattering", "at-rest"]);
     // Two impacts: each has half of the logarithm.

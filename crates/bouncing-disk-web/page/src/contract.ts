@@ -1,7 +1,7 @@
 /** What the parts of the page have in common: the state that a link reproduces, and what a view is. */
 
 import type { WORDS } from "./words";
-import type { FlightStart, ImpactStart, Range, Refusal, Request, Response, Stator, SystemParameters } from "./protocol";
+import type { FlightStart, ImpactStart, Range, Refusal, Request, Response, Stator, Summary, SystemParameters } from "./protocol";
 
 /** In the order of their tabs. */
 export const VIEW_NAMES = ["toss", "diagram", "basins", "motor", "compare", "scan"] as const;
@@ -20,6 +20,8 @@ export type ResultName = keyof typeof WORDS.scan.results;
 export interface State {
   readonly view: ViewName;
   readonly system: Readonly<SystemParameters>;
+  /** What follows from the system; null until the library has said it. */
+  readonly summary: Summary | null;
   /** Mass of the disk (kg), which only the motor's torques and powers depend on. */
   readonly mass: number;
   /** How the motion of the first view and the orbits of the others begin. */
@@ -44,7 +46,7 @@ export interface State {
   >; // prettier-ignore
 }
 
-export type Change = { [Key in keyof State]?: State[Key] extends object ? Partial<State[Key]> : State[Key] };
+export type Change = { [Key in keyof Omit<State, "summary">]?: State[Key] extends object ? Partial<State[Key]> : State[Key] };
 
 /** A request that a later one with the same slot has replaced, or whose view is hidden. */
 export class Cancelled extends Error {}
@@ -87,7 +89,7 @@ export interface Context {
   state(): State;
   /** Another state: the page, the address and all views follow. `settled: false` while a drag or a wheel goes on, when
    * the address is replaced and no entry of the history made. */
-  change(change: Change, options?: { settled?: boolean }): void;
+  change(change: Change, options?: { settled?: boolean; taken?: () => void }): void;
   /** One line under the view, which screen readers say, politely; with errors of computations. */
   status(text: string, kind?: "busy" | "done" | "error"): void;
 }

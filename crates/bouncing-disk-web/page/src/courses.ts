@@ -2,73 +2,21 @@
 
 import type { Change, State } from "./contract";
 import { byId, button, element, rich, setText } from "./elements";
-import { nextDouble } from "./numbers";
-import { basins, bouncing, diagram, motor, multipleToss, REST, stateOf } from "./presets";
-import { toss, tossOf, withForcing, withTwist } from "./presets";
-import type { Range } from "./protocol";
+import { stateOf, STEPS } from "./presets";
 import { say, WORDS } from "./words";
 
-type Words = typeof WORDS.courses;
-type Id = keyof Words;
-
-const { PI } = Math;
 const TEXTS = WORDS.course;
-
-/** Phases of impacts over the forcing from `low` to `high`, for a system with the first number as its own. */
-function cascade(forcing: number, low: number, high: number, range: Range | null = null): Change {
-  const { diagram: window, ...change } = diagram("impact_phase", withForcing(multipleToss, forcing), [low, high]);
-  return { ...change, diagram: { ...window, range } };
-}
-
-/** Starts that are nearly at rest. */
-const SLOW = { ...basins(0.45), basins: { phase_periods: [0, 1], normalised_speed: [0, 0.6] } } satisfies Change;
-
-const LAGS: Change["scan"] = { over: "phase_lag", family: null, range: [-PI / 2, PI / 2], points: 17 };
-
-/** The states of the steps, from the defaults; all have their words. */
-const STEPS: { readonly [Course in Id]: Readonly<Record<keyof Words[Course]["steps"], Change>> } = {
-  tour: {
-    toss: toss({}),
-    bounce: bouncing(0.45),
-    road: cascade(0.45, 0.32, 0.58),
-    chaos: bouncing(0.55),
-    starts: basins(0.486),
-    rest: bouncing(0.45, REST),
-    motor: motor({}),
-    lag: diagram("angular_speed", withTwist(withForcing(multipleToss, 0.486), 1), [0.32, 0.58]),
-  },
-  doubling: { one: bouncing(0.45), two: bouncing(0.48), diagram: cascade(0.48, 0.44, 0.53), multiplier: bouncing(0.5) },
-  feigenbaum: {
-    cascade: cascade(0.53, 0.48, 0.545),
-    ratios: cascade(0.5424, 0.542, 0.5427, [0.19, 0.235]),
-    limit: cascade(0.543, 0.538, 0.546, [0.15, 0.25]),
-  },
-  rest: { plane: basins(0.45), edge: SLOW, flight: bouncing(0.45, REST), push: bouncing(0.45, REST) },
-  hand: {
-    release: toss({}),
-    lag: { ...toss(tossOf({ angle: 0.323 * PI })), view: "scan", scan: LAGS },
-    scan: { ...toss({}), view: "scan", scan: { family: "phase_lag", range: [0, 1.4] } },
-  },
-  motor: { sheet: motor({}), runup: motor({}), curve: motor({}), friction: motor({ friction: 0.2 }) },
-  sensitivity: {
-    chaos: bouncing(0.55),
-    exponent: cascade(0.55, 0.54999, 0.55001),
-    compare: { ...bouncing(0.55), view: "compare", compare: { parameter: "restitution", value: nextDouble(0.5) } },
-    order: cascade(0.45, 0.44, 0.46),
-    bits: bouncing(0.55),
-  },
-};
 
 /** A task is something to do on the page, and its answer what comes of it. */
 type StepWords = Readonly<Record<"title" | "text", string> & Partial<Record<"task" | "answer", string>>>;
 
 /** In the order in which they are offered. */
-export const COURSES = (Object.keys(STEPS) as Id[]).map((id) => {
+export const COURSES = (Object.keys(WORDS.courses) as (keyof typeof STEPS)[]).map((id) => {
   const words: { readonly title: string; readonly note: string; readonly steps: object } = WORDS.courses[id];
-  const said = words.steps as Readonly<Record<string, StepWords>>;
-  const steps = Object.entries<Change>(STEPS[id]).map(([name, change]) => ({
-    ...(said[name] as StepWords),
-    state: stateOf({ change }),
+  const changes: Readonly<Record<string, Change>> = STEPS[id];
+  const steps = Object.entries<StepWords>({ ...words.steps }).map(([name, said]) => ({
+    ...said,
+    state: stateOf({ change: changes[name] as Change }),
   }));
   return { id, title: words.title, note: words.note, steps };
 });

@@ -4,17 +4,17 @@ import type { Change, State } from "./contract";
 import { element, Facts, isNarrow, symbol } from "./elements";
 import { NumberField } from "./fields";
 import { quantity, shown } from "./numbers";
-import type { Range, Refusal, Summary, SystemParameters } from "./protocol";
-import { amplitudeOf, axialForcing, contactPeriods } from "./state";
+import type { Range, Refusal, Summary } from "./protocol";
 import type { ChangeOptions } from "./store";
-import tables from "./tables.json";
 import { say, WORDS } from "./words";
 
 type Propose = (change: Change, options: ChangeOptions) => void;
 
+type Name = keyof typeof WORDS.form.labels;
+
 export interface Parameter {
-  /** The name in the state; refusals of the module use the same one, and `words.json` has its label. */
-  readonly name: keyof typeof WORDS.form.labels;
+  /** The name in the state; `words.json` has its label. */
+  readonly name: Name;
   /** As in the paper; what follows an underscore is a subscript. */
   readonly symbol: string;
   readonly unit: string;
@@ -23,10 +23,10 @@ export interface Parameter {
   /** True where people think in multiples of pi. */
   readonly angle?: boolean;
   /** `null` until the module has said it. */
-  value(state: State, summary: Summary | null): number | null;
-  change(value: number, state: State): Change;
-  /** Names in refusals of what follows from this number, whose own range stands in the tables of the library. */
-  readonly refusedAs?: readonly string[];
+  value(state: State): number | null;
+  change(value: number): Change;
+  /** The name in the requests of the module and in its refusals, where that is another one. */
+  readonly asked?: string;
   /** The same in another unit, for orientation. */
   hint?(value: number, state: State): string;
 }
@@ -36,9 +36,6 @@ const LOGARITHMIC = "logarithmic";
 /** Without the last digit, which rounding makes: what was typed, if that set it. */
 const asTyped = (exact: number): number => Number(exact.toPrecision(15));
 
-const contactTime = (periods: number, { angular_frequency }: Readonly<SystemParameters>): number =>
-  (periods * 2 * Math.PI) / angular_frequency;
-
 const degrees = (value: number): string => (value === 0 ? "" : `${shown((value * 180) / Math.PI, 4)}°`);
 
 const metres = (value: number): string => (value === 0 || Math.abs(value) >= 1e-2 ? "" : quantity(value, "m", 4));
@@ -46,47 +43,39 @@ const hertz = (value: number): string => quantity(value / (2 * Math.PI), "Hz", 4
 
 type Words = [symbol: string, unit: string, Parameter["slider"], more?: Pick<Parameter, "angle" | "hint">];
 
-const parametersOf =
-  <Part extends "system" | "start">(part: Part) =>
-  (name: keyof State[Part] & Parameter["name"], ...[symbol, unit, slider, more]: Words): Parameter => ({
-    ...{ name, symbol, unit, slider, ...more },
-    value: (state) => state[part][name] as number,
-    change: (value) => ({ [part]: { [name]: value } }),
-  });
-const ofSystem = parametersOf("system");
-const ofStart = parametersOf("start");
+/** What the library sets, so that what it means for others is its business. */
+const ofSystem = (name: Name & keyof Summary["system"], ...[symbol, unit, slider, more]: Words): Parameter => ({
+  ...{ name, symbol, unit, slider, ...more },
+  value: ({ system }) => system[name],
+  change: (value) => ({ system: { set: [[name, value]] } }),
+});
 
-/** The largest angular speed of the platform, or 1 rad/s where it does not turn: the scale of a slider. */
-const twistSpeed = ({ system }: State): number => system.angular_frequency * system.twist_amplitude || 1;
+/** What follows from the parameters. */
+const following = (name: Name, asked: "axial_forcing" | "stroke" | "amplitude_angle" | "contact_periods", ...[symbol, unit, slider, more]: Words): Parameter => ({
+  ...{ name, asked, symbol, unit, slider, ...more },
+  value: ({ summary }) => summary && (more?.angle ? summary[asked] : asTyped(summary[asked])),
+  change: (value) => ({ system: { set: [[asked, value]] } }),
+});
 
-/** What friction can do at most, or 1 rad/s²: the scale of the load's slider. */
-const frictionScale = ({ system }: State): number =>
-  (system.friction * system.contact_radius * system.preload_acceleration) / system.gyration_radius ** 2 || 1;
+const ofStart = (name: Name & keyof State["start"], ...[symbol, unit, slider, more]: Words): Parameter => ({
+  ...{ name, symbol, unit, slider, ...more },
+  value: ({ start }) => start[name],
+  change: (value) => ({ start: { [name]: value } }),
+});
 
-/** Stroke and angle that set A = c cos(phi_L) and a_e Phi = c sin(phi_L), Eq. (13). */
-function strokeOf({ amplitude: up, twist_amplitude, contact_radius }: State["system"]) {
-  const around = contact_radius * twist_amplitude;
-  return { stroke: Math.hypot(up, around), angle: Math.atan2(around, up) };
-}
-
-function ofStroke({ stroke, angle }: ReturnType<typeof strokeOf>, { contact_radius }: State["system"]): Change {
-  const twist_amplitude = (stroke * Math.sin(angle)) / contact_radius;
-  return { system: { amplitude: stroke * Math.cos(angle), twist_amplitude } };
-}
+/** The scale of a slider: what a motion reaches at most, or 1 where it reaches nothing. */
+const about = (most: (summary: Summary) => number) => ({ summary }: State): Range => {
+  const scale = (summary && most(summary)) || 1;
+  return [-scale, scale];
+};
 
 /** Forcings between which a disk bounces once, twice, and so on up to chaos. */
 const CASCADE: Range = [0.25, 0.75];
 
-const FORCING: Parameter = {
-  ...{ name: "axial_forcing", symbol: "Γ", unit: "", refusedAs: ["amplitude", "peak_acceleration"] },
-  slider: ({ system }) => {
-    const forcing = axialForcing(system);
-    return forcing >= CASCADE[0] && forcing <= CASCADE[1] ? CASCADE : [0, 2 * forcing || 1];
-  },
-  value: (_, summary) => summary && asTyped(summary.axial_forcing),
-  // Gamma = A omega²/(pi g) is a definition (Sec. I); what comes of it is checked like any amplitude.
-  change: (value, { system }) => ({ system: { amplitude: amplitudeOf(value, system) } }),
-};
+const FORCING = following("axial_forcing", "axial_forcing", "Γ", "", ({ summary }) => {
+  const forcing = summary?.axial_forcing ?? 0;
+  return forcing >= CASCADE[0] && forcing <= CASCADE[1] ? CASCADE : [0, 2 * forcing || 1];
+});
 
 /** What a newcomer changes first stands open; the rest is folded. */
 const GROUPS: Readonly<Record<keyof typeof WORDS.form.groups, readonly Parameter[]>> = {
@@ -95,36 +84,22 @@ const GROUPS: Readonly<Record<keyof typeof WORDS.form.groups, readonly Parameter
     ofSystem("amplitude", "A", "m", LOGARITHMIC, { hint: metres }),
     ofSystem("twist_amplitude", "Φ", "rad", LOGARITHMIC, {
       angle: true,
-      hint: (_, { system }) => `ωΦ ${shown(system.angular_frequency * system.twist_amplitude, 4)} rad/s`,
+      hint: (_, { summary }) => `ωΦ ${shown(summary?.twist_speed ?? NaN, 4)} rad/s`,
     }),
-    {
-      ...{ name: "stroke", symbol: "c", unit: "m", slider: LOGARITHMIC, hint: metres },
-      value: (_, summary) => summary && asTyped(summary.stroke),
-      change: (stroke, { system }) => ofStroke({ ...strokeOf(system), stroke }, system),
-    },
-    {
-      ...{ name: "amplitude_angle", symbol: "φ_L", unit: "rad", angle: true, hint: degrees },
-      slider: () => [0, Math.PI / 2],
-      value: (_, summary) => summary && summary.amplitude_angle,
-      change: (angle, { system }) => ofStroke({ ...strokeOf(system), angle }, system),
-    },
+    following("stroke", "stroke", "c", "m", LOGARITHMIC, { hint: metres }),
+    following("amplitude_angle", "amplitude_angle", "φ_L", "rad", () => [0, Math.PI / 2], { angle: true, hint: degrees }),
     ofSystem("angular_frequency", "ω", "rad/s", LOGARITHMIC, { hint: hertz }),
     ofSystem("phase_lag", "θ", "rad", () => [-Math.PI, Math.PI], { angle: true, hint: degrees }),
   ],
   disk: [
-    {
-      ...{ name: "contact_time", symbol: "T_c", unit: "2π/ω", refusedAs: ["contact.time", "contact time", "contact_periods"] },
-      slider: () => [0, 2],
-      value: ({ system }) => asTyped(contactPeriods(system)),
-      change: (value, { system }) => ({ system: { contact_time: contactTime(value, system) } }),
+    following("contact_time", "contact_periods", "T_c", "2π/ω", () => [0, 2], {
       hint: (_, { system }) => (system.contact_time === 0 ? WORDS.form.rigid : quantity(system.contact_time, "s", 4)),
-    },
+    }),
     ofSystem("contact_radius", "a_e", "m", LOGARITHMIC, { hint: metres }),
     ofSystem("gyration_radius", "a_g", "m", LOGARITHMIC, { hint: metres }),
     ofSystem("preload_acceleration", "g", "m/s²", LOGARITHMIC),
-    ofSystem("load_acceleration", "α_L", "rad/s²", (state) => [-frictionScale(state), frictionScale(state)], {
-      hint: (value, { system: { gyration_radius }, mass }) =>
-        value === 0 ? "" : `${shown(value * mass * gyration_radius ** 2, 3)} N m`,
+    ofSystem("load_acceleration", "α_L", "rad/s²", about(({ friction_acceleration }) => friction_acceleration), {
+      hint: (value, { summary }) => (value === 0 ? "" : `${shown(summary?.load_torque ?? NaN, 3)} N m`),
     }),
     {
       ...{ name: "mass", symbol: "m", unit: "kg", slider: LOGARITHMIC },
@@ -135,10 +110,9 @@ const GROUPS: Readonly<Record<keyof typeof WORDS.form.groups, readonly Parameter
   start: [
     ofStart("impact_phase", "τ_imp", "rad", () => [0, 2 * Math.PI], { angle: true, hint: degrees }),
     ofStart("normalised_speed", "w_A", "πg/ω", () => [0, 5], {
-      hint: (value, { system }) =>
-        `${shown((value * Math.PI * system.preload_acceleration) / system.angular_frequency, 3)} m/s`,
+      hint: (value, { summary }) => `${shown(value * (summary?.speed_unit ?? NaN), 3)} m/s`,
     }),
-    ofStart("angular_speed", "α̇", "rad/s", (state) => [-twistSpeed(state), twistSpeed(state)]),
+    ofStart("angular_speed", "α̇", "rad/s", about(({ twist_speed }) => twist_speed)),
   ],
 };
 
@@ -153,7 +127,6 @@ export class Parameters {
   private readonly fields: Field[] = [];
   private readonly facts = new Facts(WORDS.form.readout.facts, WORDS.form.follows);
   private readonly sentence = element("p", { class: "bounces" });
-  private summary: Summary | null = null;
 
   constructor(host: HTMLElement, propose: Propose) {
     const group = (name: string, title: string, ...parts: HTMLElement[]) =>
@@ -166,9 +139,7 @@ export class Parameters {
     host.append(group("follows", WORDS.form.follows, this.facts.root, this.sentence));
   }
 
-  /** What follows from the state that is shown next, as the module gives it. */
-  follow(summary: Summary): void {
-    this.summary = summary;
+  private follow(summary: Summary): void {
     const { angular_forcing, rise_time, contact } = summary;
     const { readout } = WORDS.form;
     this.facts.set({
@@ -183,7 +154,8 @@ export class Parameters {
   }
 
   show(state: State, fresh: boolean): void {
-    for (const field of this.fields) field.show(state, this.summary, fresh);
+    if (state.summary !== null) this.follow(state.summary);
+    for (const field of this.fields) field.show(state, fresh);
   }
 }
 
@@ -235,9 +207,9 @@ class Field {
   }
 
   /** Shows the value of a state; `fresh` if the state comes from elsewhere, and what was typed is of no interest. */
-  show(state: State, summary: Summary | null, fresh: boolean): void {
+  show(state: State, fresh: boolean): void {
     this.state = state;
-    const value = this.parameter.value(state, summary);
+    const value = this.parameter.value(state);
     if (value === null) return;
     this.field.show([value], this.parameter, fresh);
     if (value !== this.doubted) this.doubt.hidden = true;
@@ -273,7 +245,7 @@ class Field {
   private ask(value: number, settled: boolean, isTyped = false): void {
     if (this.state === null) return;
     this.doubted = isTyped && this.parameter.unit === "m" && value >= 1 ? value : NaN;
-    this.propose(this.parameter.change(value, this.state), {
+    this.propose(this.parameter.change(value), {
       settled,
       refused: (refusal) => this.field.complain(this.words(refusal, value)),
       taken: () => {
@@ -286,9 +258,8 @@ class Field {
   }
 
   private words({ quantity, message, range: own }: Refusal, value: number): string {
-    const { name, refusedAs } = this.parameter;
-    const ranges: Readonly<Record<string, string>> = tables.ranges;
-    const range = refusedAs?.includes(quantity ?? "") ? (ranges[name] ?? null) : quantity === name ? own : null;
+    const { name, asked = name } = this.parameter;
+    const range = quantity === asked ? own : null;
     if (range === null) return `${message}${/[.!]$/.test(message) ? "" : "."}`;
     return say(WORDS.form.refused, { value: shown(value), name: shortLabelOf(this.parameter), range: legal(range) });
   }

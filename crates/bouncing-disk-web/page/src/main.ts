@@ -14,7 +14,7 @@ import { fileName, save } from "./drawing/files";
 import { byId, copy } from "./elements";
 import { Parameters } from "./form";
 import { Notes, Problems, showOpening } from "./notes";
-import { openingPanel, PRESETS, stateOf, type Panel, type Preset } from "./presets";
+import { openingPanel, PRESETS, stateOf, STEPS, type Panel, type Preset } from "./presets";
 import { printSheet } from "./sheet";
 import { choices, helpDialog, Stage } from "./shell";
 import { toHash, type fromHash } from "./state";
@@ -34,7 +34,7 @@ const VIEWS: Readonly<Record<ViewName, ViewClass>> = {
 
 /** No ultrasonic motor has a drive as slow as this (rad/s). */
 const SLOWEST_MOTOR = 2e3 * Math.PI;
-const MOTOR_STATE = stateOf(openingPanel(PRESETS.find(({ id }) => id === "table3") as Preset));
+const MOTOR_STATE = stateOf({ change: STEPS.motor.sheet });
 
 function begin(): void {
   const client = makeClient(byId("worker-script").textContent ?? "", byId("module-base64").textContent ?? "");
@@ -53,7 +53,6 @@ function begin(): void {
       showInFull(state);
       fresh = false;
     },
-    summary: (summary) => parameters.follow(summary),
     refused: (message) => problems.add(message),
   });
   const open = (state: State): void => {

@@ -6,14 +6,16 @@ import { PRESETS, stateOf, type Panel, type Preset } from "./presets";
 import { DEFAULT_STATE, toHash } from "./state";
 import { WORDS } from "./words";
 
-/** The preset and panel of a state, so that links, reloads and going back show the card as well. */
-const BY_HASH = new Map<string, { preset: Preset; panel: Panel }>(
-  [...PRESETS].reverse().flatMap((preset) => preset.panels.map((panel) => [toHash(stateOf(panel)), { preset, panel }])),
-);
+/** What a note speaks of: settings of comparisons and scans change none of it, nor does the last digit of a number. */
+const keyOf = (state: State): string => {
+  const { compare, scan } = DEFAULT_STATE;
+  return toHash({ ...state, compare, scan }).replace(/\d+\.\d{14,}/g, (number) => Number(number).toPrecision(14));
+};
 
-/** What a note speaks of: settings of comparisons and scans change none of it. */
-const hashOf = (state: State): string =>
-  toHash({ ...state, compare: DEFAULT_STATE.compare, scan: DEFAULT_STATE.scan });
+/** The preset and panel of a state, so that links, reloads and going back show the card as well. */
+const BY_KEY = new Map<string, { preset: Preset; panel: Panel }>(
+  [...PRESETS].reverse().flatMap((preset) => preset.panels.map((panel) => [keyOf(stateOf(panel)), { preset, panel }])),
+);
 
 export class Notes {
   private shown: { preset: Preset; panel: Panel } | null = null;
@@ -31,9 +33,9 @@ export class Notes {
   /** Nothing while a course explains the same states in its own way. */
   show(state: State, quiet: boolean): void {
     const { shown } = this;
-    const hash = hashOf(state);
-    const own = shown?.preset.panels.find((panel) => toHash(stateOf(panel)) === hash);
-    const found = shown && own ? { preset: shown.preset, panel: own } : BY_HASH.get(hash);
+    const key = keyOf(state);
+    const own = shown?.preset.panels.find((panel) => keyOf(stateOf(panel)) === key);
+    const found = shown && own ? { preset: shown.preset, panel: own } : BY_KEY.get(key);
     const near = shown !== null && state.view === stateOf(shown.panel).view ? shown : null;
     this.shown = quiet ? null : (found ?? near);
     if (this.shown === null) this.close();

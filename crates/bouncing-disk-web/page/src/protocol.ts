@@ -12,7 +12,10 @@ export const SYSTEM_NAMES = [
   "amplitude", "twist_amplitude", "angular_frequency", "phase_lag", "contact_radius", "gyration_radius",
   "friction", "restitution", "preload_acceleration", "load_acceleration", "contact_time",
 ] as const; // prettier-ignore
-export type SystemParameters = Record<(typeof SYSTEM_NAMES)[number], number>;
+type Parameters = Record<(typeof SYSTEM_NAMES)[number], number>;
+
+/** Parameters, and what the library then sets to a value, one after the other: these, or what follows from them. */
+export type SystemParameters = Parameters & { set?: readonly (readonly [name: string, value: number])[] };
 
 /** A motor's data sheet, with one of each pair of alternatives; the library's `MotorParameters`. */
 export type MotorSheet = {
@@ -78,8 +81,14 @@ export type ContactJson = readonly [[string, string], [string, string]];
 type Numbers<Name extends string> = Readonly<Record<Name, number>>;
 type Nullable<Name extends string> = Readonly<Record<Name, number | null>>;
 
-export type Summary = Numbers<"axial_forcing" | "period" | "peak_acceleration" | "stroke" | "amplitude_angle"> &
-  Nullable<"angular_forcing" | "rise_time"> & { readonly bounces: boolean; readonly contact: ContactJson | null };
+/** What follows from a system, whose parameters are those once all is set. */
+export type Summary = Numbers<"axial_forcing" | "period" | "contact_periods" | "peak_acceleration"> &
+  Numbers<"speed_unit" | "twist_speed" | "friction_acceleration" | "load_torque" | "stroke" | "amplitude_angle"> &
+  Nullable<"angular_forcing" | "rise_time"> & {
+    readonly bounces: boolean;
+    readonly contact: ContactJson | null;
+    readonly system: Parameters;
+  };
 
 export type MotionJson = Numbers<"samples" | "events"> & {
   readonly energy: Numbers<"platform_work" | "restitution_loss" | "friction_loss" | "load_work" | "stored">;

@@ -1,8 +1,8 @@
 /** The state that a link reproduces: its defaults, changes of it, and its form in the hash of the address. */
 
 import { VIEW_NAMES, type Change, type State } from "./contract";
-import { SYSTEM_NAMES, type FlightStart, type Range, type Stator, type SystemParameters } from "./protocol";
-import tables from "./tables.json";
+import presets from "./presets.json";
+import { SYSTEM_NAMES, type FlightStart, type Range, type Stator } from "./protocol";
 import { say, WORDS } from "./words";
 
 export { VIEW_NAMES };
@@ -14,36 +14,10 @@ export const MOST_PERIODS = 500;
 /** Curves of a scan, which have to be told apart. */
 export const MOST_VALUES = 5;
 
-export const axialForcing = (system: Readonly<SystemParameters>): number =>
-  (system.amplitude * system.angular_frequency ** 2) / (Math.PI * system.preload_acceleration);
-
-/** How many periods of the platform a contact lasts. */
-export const contactPeriods = ({ contact_time, angular_frequency }: Readonly<SystemParameters>): number =>
-  (contact_time * angular_frequency) / (2 * Math.PI);
-
-export const amplitudeOf = (axialForcing: number, system: Readonly<SystemParameters>): number =>
-  (axialForcing * Math.PI * system.preload_acceleration) / system.angular_frequency ** 2;
-
-/** The parameters of a system among the numbers of a table, in the order of the address; 0 where the table has none. */
-export const systemOf = (table: Readonly<Record<string, number>>): SystemParameters =>
-  Object.fromEntries(SYSTEM_NAMES.map((name) => [name, table[name] ?? 0])) as SystemParameters;
-
-const HAND = systemOf(tables.table_one);
-
-/**
- * The hands and the dough of Table I, made to toss again and again at Gamma = 0.45, with the lag of Fig. 6(d): there
- * the disk can bounce once in every period, and all views have something to show.
- */
-export const DEFAULT_SYSTEM: Readonly<SystemParameters> = {
-  ...HAND,
-  amplitude: amplitudeOf(0.45, HAND),
-  twist_amplitude: 0.9,
-  phase_lag: -0.26 * Math.PI,
-};
-
 export const DEFAULT_STATE: State = {
   view: "toss",
-  system: DEFAULT_SYSTEM,
+  system: presets.usual,
+  summary: null,
   mass: 0.4,
   start: { impact_phase: 0.4, normalised_speed: 1.4, angular_speed: 0 },
   thrown: null,
@@ -61,14 +35,24 @@ export const DEFAULT_STATE: State = {
   },
 };
 
-/** A state with this change. A start that is chosen takes the place of a throw. */
+/**
+ * A state with this change. A start that is chosen takes the place of a throw, and an amplitude that of what the system
+ * sets.
+ */
 export function changed(state: State, change: Change): State {
   const parts = Object.entries(state).map(([name, old]: [string, unknown]) => {
-    const own: unknown = change[name as keyof State];
+    const own: unknown = change[name as keyof Change];
     return [name, typeof old === "object" ? { ...old, ...(own as object) } : (own ?? old)];
   });
-  const thrown = change.thrown !== undefined ? change.thrown : change.start === undefined ? state.thrown : null;
-  return { ...(Object.fromEntries(parts) as State), thrown };
+  const { system, mass, start } = change;
+  const set = [...((system?.amplitude === undefined && state.system.set) || []), ...(system?.set ?? [])];
+  const next = Object.fromEntries(parts) as State;
+  return {
+    ...next,
+    system: { ...next.system, set: set.length > 0 ? set : undefined },
+    summary: system === undefined && mass === undefined ? state.summary : null,
+    thrown: change.thrown !== undefined ? change.thrown : start === undefined ? state.thrown : null,
+  };
 }
 
 /** The shortest digits that give the same bits back. JavaScript prints a negative zero without its sign. */
@@ -192,7 +176,7 @@ const all = <Part extends "view" | "mass" | "thrown">(part: Part, { print, read 
   read: (text) => ({ [part]: read(text) }),
 });
 
-type Parts = Omit<State, "view" | "mass" | "thrown">;
+type Parts = Omit<State, "view" | "summary" | "mass" | "thrown">;
 
 const of = <Part extends keyof Parts, Name extends keyof Parts[Part]>(
   part: Part,
@@ -274,7 +258,7 @@ export function fromHash(hash: string): { state: State; problems: string[] } {
     }
   }
   if (forcing !== undefined && !seen.has("amplitude"))
-    state = changed(state, { system: { amplitude: amplitudeOf(forcing, state.system) } });
+    state = changed(state, { system: { set: [[OLD_FORCING, forcing]] } });
   return { state: changed(state, { thrown }), problems };
 }
 

@@ -16,7 +16,6 @@ export interface ChangeOptions {
 interface Listener {
   /** Another state; `cause` says whether the address follows it or it follows the address. */
   changed(state: State, cause: { settled: boolean; fromAddress: boolean }): void;
-  summary(summary: Summary): void;
   refused(message: string): void;
 }
 
@@ -36,8 +35,6 @@ export class Store {
   private opening = false;
   /** How many addresses there have been: what was asked for before the last one is of no interest any more. */
   private addresses = 0;
-  /** What follows from the system that was checked last. */
-  private summary: Summary | null = null;
 
   constructor(
     private readonly client: Client,
@@ -68,9 +65,11 @@ export class Store {
     let candidate = state;
     for (let tries = 0; tries < MOST_MENDINGS; tries++) {
       const { thrown, mass } = candidate;
-      const refusal = await this.refusalOf(candidate, { system: {}, start: {}, thrown, mass });
+      const checked = await this.checked(candidate, { system: {}, start: {}, thrown, mass });
       if (address !== this.addresses) return;
-      if (refusal === null) break;
+      const { refusal } = checked;
+      candidate = checked.state;
+      if (refusal === undefined) break;
       const broken = refusal.kind === BROKEN;
       this.listener.refused(broken ? refusal.message : say(WORDS.address.impossible, { message: refusal.message }));
       if (broken) break;
@@ -93,12 +92,12 @@ export class Store {
 
   /** What waited is checked as one change; only where that is refused, one by one. */
   private async take(batch: readonly Waiting[], address = this.addresses): Promise<void> {
-    const state = batch.reduce((before, { change }) => changed(before, change), this.present);
+    const wanted = batch.reduce((before, { change }) => changed(before, change), this.present);
     const change: Change = Object.assign({}, ...batch.map((waiting) => waiting.change));
-    const refusal = await this.refusalOf(state, change);
+    const { state, refusal } = await this.checked(wanted, change);
     if (address !== this.addresses) return;
     const [first] = batch as [Waiting];
-    if (refusal === null) this.commit(state, batch);
+    if (refusal === undefined) this.commit(state, batch);
     else if (batch.length > 1) {
       for (const waiting of batch) if (address === this.addresses) await this.take([waiting], address);
     } else if (first.options.refused) first.options.refused(refusal);
@@ -108,42 +107,46 @@ export class Store {
   private commit(state: State, batch: readonly Waiting[], fromAddress = false): void {
     this.present = state;
     const settled = fromAddress || batch.some((waiting) => waiting.options.settled !== false);
-    if (this.summary !== null) this.listener.summary(this.summary);
-    this.summary = null;
     this.listener.changed(state, { settled, fromAddress });
     for (const waiting of batch) waiting.options.taken?.();
   }
 
-  /** What the library says against a state, of which this change is new; `null` where it has nothing to say. */
-  private async refusalOf(state: State, change: Change): Promise<Refusal | null> {
-    const { system, mass, start, thrown, motor } = state;
+  /** A state as the library has it, of which this change is new; and what it says against it, if anything. */
+  private async checked(wanted: State, change: Change): Promise<{ state: State; refusal?: Refusal }> {
     const { client } = this;
+    let state = wanted;
     const motion = (slot: string, start: MotionStart) =>
-      client.ask(slot, { call: "motion", system, start, periods: 1, samples_per_period: 2 });
-    this.summary = null;
+      client.ask(slot, { call: "motion", system: state.system, start, periods: 1, samples_per_period: 2 });
     try {
-      if (change.system) this.summary = (await client.ask<Summary>("check", { call: "check", system })).json;
+      if (change.system || change.mass !== undefined) state = await resolved(client, "check", wanted);
+      const { system, mass, start, thrown, motor } = state;
       if (change.start)
         await only(motion("check start", { kind: "impact", ...start }), (refusal) => ofStart(refusal, change));
       if (change.thrown && thrown !== null) {
         const asked = motion("check throw", { kind: "flight", ...thrown });
         await only(asked, (refusal) => ({ ...refusal, quantity: "thrown" }));
       }
-      if (change.mass !== undefined || motor.stator !== null) {
-        const asked = client.ask("check mass", { call: "sheet_of_system", system, mass, stator: motor.stator });
+      const { stator } = motor;
+      if (stator !== null) {
+        const asked = client.ask("check stator", { call: "sheet_of_system", system, mass, stator });
         await only(asked, (refusal) => {
-          if (motor.stator === null) return refusal.quantity?.includes("mass") ? refusal : null;
           return { ...refusal, quantity: "stator", message: say(WORDS.form.stator, { message: refusal.message }) };
         });
       }
-      return null;
+      return { state };
     } catch (error) {
-      if (error instanceof Refused) return error.refusal;
-      if (error instanceof Cancelled) return null;
+      if (error instanceof Refused) return { state: wanted, refusal: error.refusal };
+      if (error instanceof Cancelled) return { state };
       // The module broke down: what it has not said to be legal does not become the state.
-      return { kind: BROKEN, quantity: null, range: null, message: messageOf(error) };
+      return { state, refusal: { kind: BROKEN, quantity: null, range: null, message: messageOf(error) } };
     }
   }
+}
+
+/** The state with all that its system sets, and with what follows from that. */
+export async function resolved(client: Client, slot: string, state: State): Promise<State & { summary: Summary }> {
+  const { json: summary } = await client.ask<Summary>(slot, { call: "check", system: state.system, mass: state.mass });
+  return { ...state, system: summary.system, summary };
 }
 
 /** Waits for an answer. A refusal counts as `of` sees it; others are the business of the view that meets them. */
@@ -181,7 +184,10 @@ const needsCheck = (change: Change): boolean =>
 /** The change that takes a refused quantity back to its default; after some tries, all that can be refused. */
 function mended(refusal: Refusal, tries: number): Change {
   const { system, mass, start } = DEFAULT_STATE;
-  const name = (refusal.quantity ?? "").replace(/^contact([ .]time|_periods)$/, "contact_time").replace(/^restitution .*/, "restitution");
+  const name = (refusal.quantity ?? "")
+    .replace(/^contact([ .]time|_periods)$/, "contact_time")
+    .replace(/^restitution .*/, "restitution")
+    .replace("axial_forcing", "amplitude");
   if (tries < MOST_MENDINGS / 2) {
     if (Object.hasOwn(system, name)) return { system: { [name]: system[name as keyof typeof system] } };
     if (Object.hasOwn(start, name)) return { start: { [name]: start[name as keyof typeof start] } };

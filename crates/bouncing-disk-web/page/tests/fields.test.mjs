@@ -9,7 +9,7 @@ const TAKEN = null;
 const POSITIVE = { 0: /must be more than 0\.$/, "-0": /must be more than 0\.$/, "-1": /must be more than 0\.$/ };
 const ATLEAST0 = { 0: TAKEN, "-0": TAKEN, "1e-310": TAKEN, "-1e-310": /must be 0 or more\.$/, "-1": /must be 0 or more\.$/ };
 const ANY = { 0: TAKEN, "-0": TAKEN, "1e-310": TAKEN, "-1e-310": TAKEN, "-1": TAKEN };
-const FORCING = /is refused: the axial forcing must be from 0 to 3\.18e7\./;
+const FORCING = /is refused: the axial forcing must be from 0 to 3\.18e7 \(A omega/;
 const FIELDS = {
   axial_forcing: { "0": TAKEN, "-0": TAKEN, "1e-310": TAKEN, "-1": FORCING, "3e7": TAKEN, "4e7": FORCING },
   restitution: {
@@ -19,8 +19,8 @@ const FIELDS = {
   friction: { ...ATLEAST0, "1e90": TAKEN, "1e101": /must be from 0 to 1e100 \(dimensionless\)/ },
   amplitude: { ...ATLEAST0, "4e6": TAKEN, "5e6": /\[0, 1e8\]/ },
   twist_amplitude: { ...ATLEAST0, "1e90": TAKEN, "1e300": /1e100\]/ },
-  stroke: { "1e-3": TAKEN, "-1": /amplitude/, "1e9": /legal range/ },
-  amplitude_angle: { "0": TAKEN, "30°": TAKEN, "2": /amplitude/ },
+  stroke: { "1e-3": TAKEN, "-1": /the stroke must be 0 or more/, "1e9": /legal range/ },
+  amplitude_angle: { "0": TAKEN, "30°": TAKEN, "2": /the angle of the stroke must be from 0 to pi\/2 \(rad\)/ },
   angular_frequency: { ...POSITIVE, "1e-310": /legal range/, "1e-3": TAKEN, "1e5": TAKEN, "1e6": /\[0, 1e8\]/ },
   phase_lag: { ...ANY, "1e300": TAKEN, "-1e300": TAKEN },
   contact_time: {

@@ -6,7 +6,6 @@ import { test } from "node:test";
 import { asker, sourceOf, WORDS } from "./module.mjs";
 
 const { COURSES } = await sourceOf("courses.ts");
-const { axialForcing } = await sourceOf("state.ts");
 const { told } = await sourceOf("words.ts");
 const { ask, motion } = asker();
 
@@ -19,19 +18,18 @@ function step(id, number) {
   return { state, says };
 }
 
-const mapOf = ({ system }, axial_forcing = axialForcing(system)) => ({
-  axial_forcing, restitution: system.restitution, contact_periods: 0,
-}); // prettier-ignore
+/** The map of a state, or of its platform at another forcing. */
+const mapOf = ({ system }, axial_forcing) => (axial_forcing ? { axial_forcing, restitution: system.restitution } : system);
 
 const orbitOf = async (state, forcing, { impact_phase, normalised_speed } = state.start) =>
-  (await ask({ call: "orbit", ...mapOf(state, forcing), start: { impact_phase, normalised_speed } })).json;
+  (await ask({ call: "orbit", map: mapOf(state, forcing), start: { impact_phase, normalised_speed } })).json;
 
-const attractorsOf = async (state) => (await ask({ call: "attractors", ...mapOf(state) })).json.attractors;
+const attractorsOf = async (state) => (await ask({ call: "attractors", map: state.system })).json.attractors;
 
 /** The labels of the cells of a window. */
 async function cellsOf(state) {
   const [phases, speeds] = [200, 100];
-  return (await ask({ call: "basins", ...mapOf(state), ...state.basins, phases, speeds, rows: [0, speeds] })).bytes;
+  return (await ask({ call: "basins", map: state.system, ...state.basins, phases, speeds, rows: [0, speeds] })).bytes;
 }
 
 /** The first separation of a motion. */
@@ -137,16 +135,14 @@ test("hand: the speeds of the tosses", async () => {
   const { angular_speed } = await thrown(lag.state, { phase_lag: 0.04 * Math.PI });
   assert.ok(Math.abs(angular_speed - printed.angular_speed) < 1e-9, `${angular_speed}`);
   lag.says(`for ${printed.points} lags`, `Of these ${printed.points} lags θ = ${Number(printed.at.toFixed(9))} is`, `with ${printed.text}`);
-  const { amplitude, contact_radius, twist_amplitude } = angle.state.system;
-  const stroke = Math.hypot(amplitude, contact_radius * twist_amplitude);
-  const at = (phase_lag) => (own) =>
-    ({ amplitude: stroke * Math.cos(own), twist_amplitude: (stroke * Math.sin(own)) / contact_radius, phase_lag });
+  const at = (phase_lag) => (own) => ({ phase_lag, set: [["amplitude_angle", own]] });
   const lags = angle.state.scan.values;
   const found = await Promise.all(lags.map((phase_lag) => fastest(angle.state, at(phase_lag))));
   const [best] = [...found].sort((one, other) => other.angular_speed - one.angular_speed);
   assert.equal(lags[found.indexOf(best)], 0);
   angle.says(`${best.text} at φ_L = ${best.at.toFixed(3)} (${(best.at / Math.PI).toFixed(3)}π)`);
-  angle.says(`Table I has φ_L = ${(Math.asin((contact_radius * twist_amplitude) / stroke) / Math.PI).toFixed(3)}π`);
+  const { amplitude_angle } = (await ask({ call: "check", system: angle.state.system, mass: 1 })).json;
+  angle.says(`Table I has φ_L = ${(amplitude_angle / Math.PI).toFixed(3)}π`);
   angle.says(`0.323π = ${(0.323 * Math.PI).toFixed(3)}`, `than the ${printed.text}`);
 }); // prettier-ignore
 

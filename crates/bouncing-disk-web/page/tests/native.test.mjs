@@ -2,7 +2,6 @@
 
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
-import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { promisify } from "node:util";
 import { isCalm, within } from "./browser.mjs";
@@ -10,7 +9,6 @@ import { asker, sourceOf } from "./module.mjs";
 
 /** The program `respond` of the crate, compiled for this machine. */
 const native = process.env.NATIVE_RESPOND;
-const tables = JSON.parse(readFileSync(new URL("../src/tables.json", import.meta.url), "utf8"));
 /** How long (ms) a state may take until all that its view asks for is answered. */
 const PATIENCE = 180_000;
 
@@ -29,7 +27,7 @@ function listen() {
         window.heard.push({ request: message.request, answer });
         window.quiet = performance.now();
         // What the page asks last of a state before it shows it.
-        if (message.request.includes('"sheet_of_system"')) window.shown = true;
+        if (message.request.includes('"samples_per_period":2}')) window.shown = true;
       };
       this.addEventListener("message", hear, { once: true });
     }
@@ -68,7 +66,10 @@ async function statesToShow() {
 }
 
 /** What no figure asks for: every regime of flights, drives, contacts and stators, up to the limits of the page. */
-async function requestsBeyond() {
+async function requestsBeyond(ask) {
+  const { PRESETS, stateOf } = await sourceOf("presets.ts");
+  const { system: rotor } = stateOf(PRESETS.find(({ id }) => id === "table3").panels[0]);
+  const { sheet } = (await ask({ call: "sheet_of_system", system: rotor, mass: 1e-3 })).json;
   const { system } = (await sourceOf("state.ts")).DEFAULT_STATE;
   const start = { impact_phase: 1.2, normalised_speed: 1.3 };
   const grid = { count: 200, columns: [0, 200], start, transient: 500, recorded: 20 };
@@ -93,10 +94,10 @@ async function requestsBeyond() {
     diagram([0.3, 20], {}, { rotation: true }),
     ...[0.1, 0.5, 0.99].map((restitution) => ({ ...turning, system: { ...system, restitution } })),
     { ...turning, system: { ...system, contact_time: 0.03 } },
-    ...forcings.map((axial_forcing) => ({ call: "orbit", axial_forcing, restitution: 0.5, start })),
+    ...forcings.map((axial_forcing) => ({ call: "orbit", map: { axial_forcing, restitution: 0.5 }, start })),
     ...[0.1, 0.9].map((restitution) => ({ call: "branches", restitution, axial_forcing: [0.03, 2] })),
-    { call: "basins", axial_forcing: 0.45, restitution: 0.5, ...axes },
-    ...stators.map((own) => ({ ...loads, sheet: { ...tables.table_three, mass: 1e-3, amplitude: 1e-7, ...own } })),
+    { call: "basins", map: { axial_forcing: 0.45, restitution: 0.5 }, ...axes },
+    ...stators.map((own) => ({ ...loads, sheet: { ...sheet, amplitude: 1e-7, ...own } })),
   ];
 }
 
@@ -133,7 +134,7 @@ test(TITLE, { skip: !native }, async (t) => {
   const calls = new Set([...heard.keys()].map((request) => JSON.parse(request).call));
   assert.deepEqual([...calls].sort(), CALLS);
   const { ask } = asker();
-  for (const request of await requestsBeyond())
+  for (const request of await requestsBeyond(ask))
     hear(JSON.stringify(request), `answered ${(await ask(request)).digest}`, "beyond");
   answers.child.stdin.end();
   const own = (await answers).stdout.trim().split("\n");

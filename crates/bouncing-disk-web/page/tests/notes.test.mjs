@@ -59,10 +59,7 @@ test("Fig. 4: the fastest toss, and θ = 0 is best", async () => {
   for (const label of ["θ = π/4", "θ = π/2"]) assert.ok((await thrown(state(label))) < printed, label);
   for (const angle of [0.29, 0.296, 0.306, 0.312]) {
     const { system, start } = state("φ_L = 0.301π");
-    // The stroke is that of the panel, c = 2 sqrt(A^2 + (a_e Phi)^2).
-    const half = Math.hypot(system.amplitude, system.contact_radius * system.twist_amplitude);
-    const twist_amplitude = (half * Math.sin(angle * Math.PI)) / system.contact_radius;
-    const other = { ...system, amplitude: half * Math.cos(angle * Math.PI), twist_amplitude };
+    const other = { ...system, set: [["amplitude_angle", angle * Math.PI]] };
     assert.ok((await thrown({ system: other, start })) < best, `${angle}`);
   }
 });
@@ -93,7 +90,7 @@ test("Fig. 6: doublings and the crisis", async () => {
   says(doublings.map(({ axial_forcing }) => axial_forcing.toFixed(3)).join(", "));
   // The last attractor beside rest, chaotic by then, is lost between these.
   const lasting = async (axial_forcing) => {
-    const found = await ask({ call: "attractors", axial_forcing, restitution: 0.5 });
+    const found = await ask({ call: "attractors", map: { axial_forcing, restitution: 0.5 } });
     return found.json.attractors.filter(({ lasts, kind }) => lasts && kind === "chaotic").length;
   };
   says("near 0.561");
@@ -104,8 +101,7 @@ test("Fig. 7: the basin grows to the doubling, and is gone beyond the crisis", a
   const { states } = preset("fig07");
   const shares = [];
   for (const { system } of states()) {
-    const forcing = (system.amplitude * system.angular_frequency ** 2) / (Math.PI * system.preload_acceleration);
-    const { json } = await ask({ call: "attractors", axial_forcing: forcing, restitution: system.restitution });
+    const { json } = await ask({ call: "attractors", map: system });
     const resting = json.attractors.filter(({ kind, lasts }) => kind === "rest" && lasts);
     shares.push(1 - resting.reduce((sum, { share }) => sum + share, 0));
   }

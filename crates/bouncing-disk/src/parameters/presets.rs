@@ -1,8 +1,10 @@
 //! The systems of the paper's tables, and others that differ from a system in a few parameters.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
-use crate::error::Error;
+use bouncing_disk_core::Vibration;
+
+use crate::error::{Error, moderate_not_negative};
 use crate::parameters::disk::DiskParameters;
 use crate::parameters::platform::{Platform, PlatformParameters};
 use crate::parameters::stroke::Stroke;
@@ -123,6 +125,40 @@ impl System {
         self.with_parts(*self.platform(), parameters.build()?)
     }
 
+    /// The same system with the amplitude that gives this axial forcing parameter Gamma = A omega^2/(pi g).
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] names the parameter, its value and its legal range.
+    pub fn with_axial_forcing(&self, axial_forcing: f64) -> Result<Self, Error> {
+        let peak_acceleration = Vibration::from_axial_forcing(axial_forcing)?.peak_acceleration();
+        let (preload, omega) = (self.disk().preload_acceleration(), self.platform().angular_frequency());
+        self.with_platform(|platform| platform.amplitude = peak_acceleration * preload / (omega * omega))
+    }
+
+    /// The same system with the twist amplitude that gives this angular forcing parameter Gamma_T = a_g^2
+    /// Phi omega^2/(a_e pi g mu); none without friction.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] names the parameter, its value and its legal range.
+    pub fn with_angular_forcing(&self, angular_forcing: f64) -> Result<Self, Error> {
+        moderate_not_negative("angular_forcing", angular_forcing)?;
+        let (disk, omega) = (self.disk(), self.platform().angular_frequency());
+        let friction = disk.contact_radius() * PI * disk.preload_acceleration() * disk.friction();
+        let inertia = disk.gyration_radius() * omega;
+        let unit = friction / (inertia * inertia);
+        self.with_platform(|platform| platform.twist_amplitude = angular_forcing * unit)
+    }
+
+    /// The same system with the amplitudes that give this stroke (m) and amplitude angle (rad) at the disk's
+    /// contact radius (Eq. 13).
+    ///
+    /// # Errors
+    /// Those of [`Platform::from_stroke`] and of [`Self::new`].
+    pub fn with_stroke(&self, stroke: f64, amplitude_angle: f64) -> Result<Self, Error> {
+        let platform = Platform::from_stroke(Stroke { stroke, amplitude_angle, ..self.stroke() })?;
+        self.with_parts(platform, *self.disk())
+    }
+
     /// The same system with a load `torque` (N m) on a disk of `mass` (kg).
     ///
     /// # Errors
@@ -146,6 +182,24 @@ mod tests {
         let motor = System::motor();
         assert!((motor.platform().peak_angular_speed() - 30.0).abs() < 1e-13);
         assert!((motor.axial_forcing() - 62.83).abs() < 0.01, "{}", motor.axial_forcing());
+    }
+
+    #[test]
+    fn a_system_has_the_forcings_and_the_stroke_that_it_is_given() {
+        let toss = System::pizza_toss();
+        let forced = toss.with_axial_forcing(0.45).and_then(|one| one.with_angular_forcing(1.3));
+        let forced = forced.expect("legal");
+        assert!((forced.axial_forcing() - 0.45).abs() < 1e-15);
+        assert!((forced.angular_forcing().expect("friction") - 1.3).abs() < 1e-15);
+        let stroke = forced.with_stroke(0.25, 0.55).expect("legal");
+        assert_eq!((stroke.platform(), stroke.disk()), (toss.platform(), toss.disk()));
+        for (name, wrong) in [
+            ("axial_forcing", toss.with_axial_forcing(4e7)),
+            ("angular_forcing", toss.with_angular_forcing(-1.0)),
+            ("amplitude_angle", toss.with_stroke(0.25, 2.0)),
+        ] {
+            assert!(wrong.expect_err("illegal").to_string().contains(name), "{name}");
+        }
     }
 
     #[test]

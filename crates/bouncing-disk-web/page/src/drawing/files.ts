@@ -5,8 +5,8 @@ import type { Offer, State } from "../contract";
 import { element } from "../elements";
 import { PARAMETERS, type Parameter } from "../form";
 import { shown } from "../numbers";
-import { SYSTEM_NAMES, type Summary } from "../protocol";
-import { axialForcing, toHash } from "../state";
+import { SYSTEM_NAMES } from "../protocol";
+import { toHash } from "../state";
 import { say, WORDS } from "../words";
 import { layOut, paintAxes, type Axes, type Plot } from "./axes";
 import { contextOf, marked, plainText, SvgPen, wrapped, type Pen } from "./pen";
@@ -48,9 +48,8 @@ export const statorWords = ({ motor: { stator } }: State): string[] =>
 
 /** Parameters as in the form, with their symbols in the markup of labels, and their values with units. */
 export function valuesOf({ state, names }: Basis): { parameter: Parameter; symbol: string; value: string }[] {
-  const summary = { axial_forcing: axialForcing(state.system) } as Summary;
   return PARAMETERS.filter(({ name }) => names.includes(name)).map((parameter) => {
-    const number = parameter.value(state, summary) ?? NaN;
+    const number = parameter.value(state) ?? NaN;
     // Units that are themselves quantities are factors.
     const unit = parameter.unit === "" || number === 0 ? "" : `${/[ωπ]/.test(parameter.unit) ? " ×" : ""} ${parameter.unit}`;
     const value = `${shown(number, 6)}${unit}`;

@@ -2,21 +2,20 @@
 
 import { Cancelled, messageOf, type Context, type Offer, type State, type View } from "../contract";
 import { debounced, element } from "../elements";
-import type { ImpactStart, MotionStart, VerdictJson } from "../protocol";
-import { axialForcing, contactPeriods } from "../state";
+import { REST } from "../presets";
+import type { ImpactStart, MotionStart, SystemParameters, VerdictJson } from "../protocol";
 import { say, told, WORDS } from "../words";
 
-/** The map of the vertical motion of the shared system. */
-export const mapOf = ({ system }: State) => ({
-  axial_forcing: axialForcing(system),
-  restitution: system.restitution,
-  contact_periods: contactPeriods(system),
-});
+/** What the vertical motion of a system depends on. */
+export const mapKey = ({ system }: State): string =>
+  JSON.stringify([MAP_NAMES.map((name) => system[name]), system.set]);
+const MAP_NAMES = ["amplitude", "angular_frequency", "preload_acceleration", "restitution", "contact_time"] as const;
 
-export type MapParameters = ReturnType<typeof mapOf>;
+/** The map of a system, or that of two numbers; the library refuses one with contacts that take time. */
+export type MapParameters = Readonly<SystemParameters> | Readonly<Record<"axial_forcing" | "restitution", number>>;
 
 /** The impact with which the orbits of a state begin. */
-export const impactOf = ({ start: { impact_phase, normalised_speed } }: State): ImpactStart => ({
+export const impactOf = ({ start: { impact_phase, normalised_speed } }: Pick<State, "start">): ImpactStart => ({
   impact_phase,
   normalised_speed,
 });
@@ -26,7 +25,7 @@ export const motionStartOf = ({ start, thrown }: State): MotionStart =>
   thrown === null ? { kind: "impact", ...start } : { kind: "flight", ...thrown };
 
 export async function verdictOf({ client }: Context, slot: string, map: MapParameters, start: ImpactStart) {
-  return (await client.ask<VerdictJson>(slot, { call: "orbit", ...map, start })).json;
+  return (await client.ask<VerdictJson>(slot, { call: "orbit", map, start })).json;
 }
 
 /** Says what went wrong; a request that another one replaced went not wrong. */
@@ -70,9 +69,6 @@ export abstract class ComputingView implements View {
   }
 }
 
-/** A disk at rest on the platform at its lowest point: the cycle after a rest does not depend on what was before. */
-const REST = { impact_phase: 1.5 * Math.PI, normalised_speed: 0 };
-
 /** An answer that is asked for once, and again only where something else is wanted or it did not come. */
 export class Asked<Value> {
   private key = "";
@@ -107,29 +103,28 @@ export class Caution {
   constructor(private readonly textOf: (context: Context, state: State) => Promise<string | null>) {}
 
   show(context: Context, state: State): void {
-    const map = mapOf(state);
     const ask = async () => {
       this.root.hidden = true;
-      const text = map.contact_periods > 0 ? null : await this.textOf(context, state);
+      const text = state.system.contact_time > 0 ? null : await this.textOf(context, state);
       this.root.hidden = text === null;
       this.root.textContent = text;
     };
-    this.asked.get([map, impactOf(state)], ask).catch(() => {});
+    this.asked.get([mapKey(state), impactOf(state)], ask).catch(() => {});
   }
 }
 
 /** Says so where rounding, and not the model, decides what a disk does after a rest. */
 export const roundingCaution = (slot: string, what: string): Caution =>
   new Caution(async (context, state) => {
-    const { rounding_dependent } = await verdictOf(context, slot, mapOf(state), REST);
+    const { rounding_dependent } = await verdictOf(context, slot, state.system, impactOf({ start: REST }));
     return rounding_dependent ? say(WORDS.asking.rounding, { what }) : null;
   });
 
 /** Says so where a motion from rest and the shared start end on two attractors: views that begin so then differ. */
 export const attractorsCaution = (): Caution =>
   new Caution(async (context, state) => {
-    const own = await verdictOf(context, "attractors-start", mapOf(state), impactOf(state));
-    const rest = await verdictOf(context, "attractors-rest", mapOf(state), REST);
+    const own = await verdictOf(context, "attractors-start", state.system, impactOf(state));
+    const rest = await verdictOf(context, "attractors-rest", state.system, impactOf({ start: REST }));
     const decided = own.kind !== "undecided" && rest.kind !== "undecided";
     if (!decided || (own.kind === rest.kind && own.impacts === rest.impacts)) return null;
     const [first = "", other = ""] = [rest, own].map(({ text }) => told(text).replace(/, multipliers.*|\.$/s, ""));

@@ -10,7 +10,7 @@ import { brief, percent, plain } from "../numbers";
 import { say, WORDS } from "../words";
 import type { AttractorsJson, ImpactStart, Range } from "../protocol";
 import { DEFAULT_STATE } from "../state";
-import { ComputingView, mapOf, roundingCaution, type MapParameters } from "./asking";
+import { ComputingView, mapKey, roundingCaution } from "./asking";
 import { Cells, computeCells, gridOf, type Grid } from "./basins/cells";
 import { describe, labelsOf, Legend, printedLegend } from "./basins/legend";
 
@@ -70,7 +70,7 @@ export class BasinsView extends ComputingView {
     return [
       ...tableOffers({
         name: TEXTS.file,
-        parameters: { picture: "basins", ...mapOf(state), basins, ...found },
+        parameters: { picture: "basins", ...valuesOf(state), basins, ...found },
         columns: ["phase_periods", "normalised_speed", "label"],
         rows: () => cells.rows(),
       }),
@@ -111,18 +111,19 @@ export class BasinsView extends ComputingView {
   protected async fetch(): Promise<void> {
     const laid = this.picture.layOut();
     if (laid === null) return;
-    const wanted = mapOf(this.context.state());
+    const state = this.context.state();
     const grid = gridOf(this.basins, laid.columns, laid.rows);
-    const key = JSON.stringify([wanted, grid]);
+    const key = JSON.stringify([mapKey(state), grid]);
     if (key === this.asked) return;
     this.asked = key;
     this.complete = false;
     this.context.status(TEXTS.computing, "busy");
-    const at = { forcing: brief(wanted.axial_forcing), restitution: brief(wanted.restitution) };
+    const { axial_forcing, restitution } = valuesOf(state);
+    const at = { forcing: brief(axial_forcing), restitution: brief(restitution) };
     setText(this.alternative, say(TEXTS.coming, at));
     const began = performance.now();
     try {
-      await this.fill(await this.attractorsOf(wanted), wanted, grid);
+      await this.fill(await this.attractorsOf(state), state, grid);
     } catch (error) {
       if (this.asked === key) this.asked = "";
       // Nor does a picture of another map stand where there is none of this one.
@@ -141,13 +142,13 @@ export class BasinsView extends ComputingView {
     setText(this.alternative, say(TEXTS.seen, { ...at, from, to, low, high }));
   }
 
-  private async attractorsOf(map: MapParameters): Promise<AttractorsJson> {
-    const name = JSON.stringify(map);
+  private async attractorsOf(state: State): Promise<AttractorsJson> {
+    const name = mapKey(state);
     this.stale = this.found === null || name !== this.mapFound;
     this.legend.dim(this.stale);
     this.draw();
     if (this.found !== null && !this.stale) return this.found;
-    const request = { call: "attractors", ...map } as const;
+    const request = { call: "attractors", map: state.system } as const;
     const { json } = await this.context.client.series<AttractorsJson>("basins", [request]);
     // No cell of another map stands under this legend.
     this.clear();
@@ -163,9 +164,9 @@ export class BasinsView extends ComputingView {
     this.legend.show(null, null);
   }
 
-  private async fill(found: AttractorsJson, map: MapParameters, grid: Grid): Promise<void> {
+  private async fill(found: AttractorsJson, state: State, grid: Grid): Promise<void> {
     const cells = new Cells(grid, labelsOf(found));
-    await computeCells(this.context, map, grid, (labels, from) => {
+    await computeCells(this.context, state, grid, (labels, from) => {
       if (this.cells !== cells) Object.assign(this, { previous: this.cells, cells });
       cells.add(labels, from);
       this.context.status(say(TEXTS.progress, { percent: percent(from / grid.speeds, 0) }), "busy");
@@ -201,6 +202,12 @@ export class BasinsView extends ComputingView {
     this.context.change({ start, view: "toss" });
   }
 }
+
+/** What a caption says of the map. */
+const valuesOf = ({ system: { restitution }, summary }: State) => ({
+  axial_forcing: summary?.axial_forcing ?? NaN,
+  restitution,
+});
 
 /** What the cells of a label end on; null where that is undecided. */
 function nameOf(label: number, found: AttractorsJson): string | null {

@@ -1,19 +1,20 @@
 /** Two states that differ in one parameter, side by side: the shared one, A, and B. */
 
-import { Cancelled, messageOf, type Context, type Offer, type State } from "../contract";
+import { Cancelled, messageOf, type Change, type Context, type Offer, type State } from "../contract";
 import { clamp, extent } from "../drawing/axes";
 import { chartOffers, ScreenChart, type Chart } from "../drawing/chart";
 import { ONE_COLUMN, PARTS, tableOffers } from "../drawing/files";
 import { button, div, element, oncePerFrame, rich, roomBelow, setText } from "../elements";
 import { nextDouble, plain } from "../numbers";
-import { bouncing } from "../presets";
+import { STEPS } from "../presets";
 import type { MotionJson, Range, VerdictJson } from "../protocol";
 import { DEFAULT_STATE, MOST_PERIODS } from "../state";
+import { resolved } from "../store";
 import { say, WORDS } from "../words";
-import { Asked, ComputingView, impactOf, mapOf, motionStartOf, verdictOf } from "./asking";
+import { Asked, ComputingView, impactOf, motionStartOf, verdictOf } from "./asking";
 import { behaviour } from "./diagram/words";
 import { Recording, traces, WIDEST, type Column } from "./toss/recording";
-import { exactText, settings, LabelledField, parameterChoice, valueIn, varied, withValue } from "./varied";
+import { exactText, settings, LabelledField, parameterChoice, varied, withValue } from "./varied";
 
 const SAMPLES = 48;
 /** Periods that the heights and spins are shown for, and how many of them before the parting. */
@@ -55,7 +56,7 @@ export class CompareView extends ComputingView {
   private readonly charts: ScreenChart[] = [0, 1, 2].map(
     () => new ScreenChart(() => clamp(roomBelow(this.charts[0]?.root as Element) / 2 - 64, 170, 520)),
   );
-  private readonly parameter = parameterChoice(TEXT.parameter, (name) => this.attempt(() => this.choose(name)));
+  private readonly parameter = parameterChoice(TEXT.parameter, (name) => this.choose(name));
   private readonly value = new LabelledField(TEXT.value, this.context, ([value = 0]) => this.change({ value }));
   private readonly periods = new LabelledField(TEXT.periods, this.context, ([periods = 0]) => this.follow(periods));
   private readonly from = new LabelledField(TEXT.from, this.context, ([from = 0]) => this.showFrom(from));
@@ -120,9 +121,8 @@ export class CompareView extends ComputingView {
   }
 
   /** Another parameter of B, which is A as long as nobody gives it another value. */
-  private async choose(parameter: string): Promise<void> {
-    const { context } = this;
-    this.change({ parameter, value: await valueIn(context, VALUE, varied(parameter), context.state()) });
+  private choose(parameter: string): void {
+    this.change({ parameter, value: varied(parameter).value(this.context.state()) ?? NaN });
   }
 
   /** The next value that is another system at all. */
@@ -130,10 +130,11 @@ export class CompareView extends ComputingView {
     const state = this.context.state();
     const parameter = varied(state.compare.parameter);
     const same = JSON.stringify(state);
-    let value = await valueIn(this.context, VALUE, parameter, state);
+    let value = parameter.value(state) ?? NaN;
     for (let step = 0; step < MOST_STEPS; step += 1) {
       value = nextDouble(value);
-      if (JSON.stringify(withValue(parameter, value, state)) !== same) break;
+      const other = await resolved(this.context.client, VALUE, withValue(parameter, value, state));
+      if (JSON.stringify(other) !== same) break;
     }
     this.change({ value });
   }
@@ -223,13 +224,13 @@ function differenceChart({ apart, state }: Pair, window: Range): Chart {
 }
 
 /** Why a disk at rest never reaches the fast orbit, and what the last digit of a number does to a chaotic one. */
-const ready = (label: string, forcing: number, parameter: string, value: number) => {
+const ready = (label: string, state: Change, parameter: string, value: number) => {
   const compare = { ...DEFAULT_STATE.compare, parameter, value };
-  return { label, change: { ...bouncing(forcing), view: "compare", compare } as const };
+  return { label, change: { ...state, view: "compare", compare } as const };
 };
 const READY = [
-  ready(TEXT.ready.rest, 0.45, "normalised_speed", 0),
-  ready(TEXT.ready.digit, 0.55, "restitution", nextDouble(0.5)),
+  ready(TEXT.ready.rest, STEPS.tour.bounce, "normalised_speed", 0),
+  ready(TEXT.ready.digit, STEPS.tour.chaos, "restitution", nextDouble(0.5)),
 ];
 
 const SLOTS = ["compare-a", "compare-b"] as const;
@@ -249,7 +250,7 @@ const columnsOf = ({ motions }: Pick<Pair, "motions">, name: Column): Both<Float
 
 async function pairOf(context: Context, state: State): Promise<Pair> {
   const { parameter, value, periods } = state.compare;
-  const other = withValue(varied(parameter), value, state);
+  const other = await resolved(context.client, VALUE, withValue(varied(parameter), value, state));
   const both = async <Value>(ask: (own: State, slot: string) => Promise<Value>): Promise<Both<Value>> =>
     Promise.all([ask(state, SLOTS[0]), ask(other, SLOTS[1])]);
   const motions = await both(async (own, slot) => {
@@ -259,10 +260,10 @@ async function pairOf(context: Context, state: State): Promise<Pair> {
   });
   const [a, b] = columnsOf({ motions }, "height");
   const apart = a.map((height, row) => Math.abs(height - (b[row] as number)) / state.system.amplitude);
-  const own = await valueIn(context, SLOTS[0], varied(parameter), state);
+  const own = varied(parameter).value(state) ?? NaN;
   // Contacts that take time have no verdict, nor has a disk that was thrown: it begins with no impact.
   const judged = [state, other].every(({ thrown, system }) => thrown === null && system.contact_time === 0);
-  const verdicts = judged ? await both((one, slot) => verdictOf(context, slot, mapOf(one), impactOf(one))) : null;
+  const verdicts = judged ? await both((one, slot) => verdictOf(context, slot, one.system, impactOf(one))) : null;
   const ends = verdicts && ([endOf(verdicts[0]), endOf(verdicts[1])] as const);
   const first = apart.findIndex((value) => value > APART);
   return { state, motions, apart, own, first: first < 0 ? null : first / SAMPLES, parting: partingOf(apart), ends };

@@ -9,7 +9,7 @@ import { button, choice, copy, div, element, setText } from "../elements";
 import { plain } from "../numbers";
 import { say, WORDS } from "../words";
 import { DIAGRAM_COLUMNS, type DiagramJson, type Range, type VerdictJson } from "../protocol";
-import { amplitudeOf, axialForcing, contactPeriods, DEFAULT_STATE } from "../state";
+import { DEFAULT_STATE } from "../state";
 import { Asked, ComputingView, impactOf } from "./asking";
 import { areDrawn, BRANCHES, branchesOf, isPlain, paintBranches, tablesOf, type Branches } from "./diagram/branches";
 import { computeColumns, DESCRIBED, distinctImpacts, LENGTHS, TRANSIENT, type Wanted } from "./diagram/columns";
@@ -220,7 +220,7 @@ export class DiagramView extends ComputingView {
   private paint(pen: Pen, plot: Plot): void {
     this.dots.paint(pen, plot, this.diagram.quantity);
     const state = this.context.state();
-    const x = pixelX(plot, axialForcing(state.system));
+    const x = pixelX(plot, state.summary?.axial_forcing ?? NaN);
     pen.path([x, plot.top, x, plot.top + plot.height], { stroke: "--picture-muted", width: 1, dash: [2, 3] });
     const lines = this.linesOf(state);
     if (lines !== null) paintBranches(pen, plot, lines, state.diagram.quantity);
@@ -229,9 +229,8 @@ export class DiagramView extends ComputingView {
   /** Gives the shared system the amplitude of this forcing. */
   private choose(forcing: number): void {
     const { state, change, status } = this.context;
-    const amplitude = amplitudeOf(forcing, state().system);
-    change({ system: { amplitude } });
-    status(say(TEXTS.chosen, { forcing: plain(forcing, 6), amplitude: plain(amplitude, 5) }));
+    const told = () => status(say(TEXTS.chosen, { forcing: plain(forcing, 6), amplitude: plain(state().system.amplitude, 5) }));
+    change({ system: { set: [["axial_forcing", forcing]] } }, { taken: told });
   }
 }
 
@@ -247,5 +246,6 @@ function basisOf(state: State, lines: Branches | null): Basis {
 /** What the columns depend on: the amplitude of the system does not count, for the forcing takes its place. */
 function keyOf({ system, ...others }: Wanted): string {
   const { amplitude: _, ...rest } = system;
-  return JSON.stringify([others, others.rotation ? rest : [system.restitution, contactPeriods(system)]]);
+  const { restitution, contact_time, angular_frequency } = system;
+  return JSON.stringify([others, others.rotation ? rest : [restitution, contact_time && [contact_time, angular_frequency]]]);
 }

@@ -5,14 +5,15 @@ import { clamp, evenly } from "../drawing/axes";
 import { chartOffers, ScreenChart } from "../drawing/chart";
 import { ONE_COLUMN, PARTS, statorWords, tableOffers } from "../drawing/files";
 import { choice, div, element, oncePerFrame, rich, roomBelow } from "../elements";
-import { bouncing, motor, toss } from "../presets";
+import { STEPS } from "../presets";
 import type { Range } from "../protocol";
-import { axialForcing, changed, DEFAULT_STATE, MOST_POINTS, MOST_VALUES } from "../state";
+import { changed, DEFAULT_STATE, MOST_POINTS, MOST_VALUES } from "../state";
+import { resolved } from "../store";
 import { say, WORDS } from "../words";
 import { Asked, ComputingView } from "./asking";
 import { chartOf, describeGaps, describeOptima, planOf, readingsOf, type Plan } from "./scan/curves";
 import { compute, RESULT, type Outcome } from "./scan/results";
-import { LabelledField, parameterChoice, rangeAbout, settings, valueIn, varied } from "./varied";
+import { LabelledField, parameterChoice, rangeAbout, settings, varied } from "./varied";
 
 /** Answers that are kept, so that another result or another curve of the same points comes at once. */
 const MOST_KNOWN = 3000;
@@ -116,10 +117,8 @@ export class ScanView extends ComputingView {
   private about(name: string, change: (range: Range) => Partial<State["scan"]>): void {
     const state = this.context.state();
     const parameter = varied(name);
-    this.attempt(async () => {
-      const value = await valueIn(this.context, "scan-value", parameter, state);
-      this.change(change(rangeAbout(value, parameter, state).map(short) as Range));
-    });
+    const value = parameter.value(state) ?? NaN;
+    this.change(change(rangeAbout(value, parameter, state).map(short) as Range));
   }
 
   protected async fetch(): Promise<void> {
@@ -177,11 +176,13 @@ export class ScanView extends ComputingView {
     const point = lines[curve]?.states[at];
     if (point === undefined) return;
     const { opens } = RESULT[scan.result];
-    const { system, mass, start, thrown, diagram } = changed(point, opens);
-    const forcing = axialForcing(system);
-    const [low, high] = diagram.axial_forcing;
-    const axial_forcing: Range = forcing > low && forcing < high ? [low, high] : [0.8 * forcing, 1.2 * forcing];
-    this.context.change({ ...opens, system, mass, start, thrown, diagram: { axial_forcing } });
+    this.attempt(async () => {
+      const opened = await resolved(this.context.client, "scan-point", changed(point, opens));
+      const { system, mass, start, thrown, diagram, summary } = opened;
+      const [forcing, [low, high]] = [summary.axial_forcing, diagram.axial_forcing];
+      const axial_forcing: Range = forcing > low && forcing < high ? [low, high] : [0.8 * forcing, 1.2 * forcing];
+      this.context.change({ ...opens, system, mass, start, thrown, diagram: { axial_forcing } });
+    });
   }
 }
 
@@ -194,9 +195,9 @@ const of = (label: string, system: Change, scan: Partial<State["scan"]>) => ({
 });
 
 const READY = [
-  of(best_hand, toss({}), { family: "phase_lag", range: [0, 1.4] }),
+  of(best_hand, STEPS.hand.release, { family: "phase_lag", range: [0, 1.4] }),
   // The range of Fig. 11, 80 to 280 mN.
-  of(preload, motor({}), { over: "preload_acceleration", range: [2.43, 8.51], points: 13, result: "motor_speed" }),
-  of(basin_share, bouncing(0.45), { over: "axial_forcing", range: [0.3, 0.62], points: 33, result: "share_periodic" }),
-  of(exponent, bouncing(0.45), { over: "axial_forcing", range: [0.34, 0.58], points: 121, result: "orbit_exponent" }),
+  of(preload, STEPS.motor.sheet, { over: "preload_acceleration", range: [2.43, 8.51], points: 13, result: "motor_speed" }),
+  of(basin_share, STEPS.tour.bounce, { over: "axial_forcing", range: [0.3, 0.62], points: 33, result: "share_periodic" }),
+  of(exponent, STEPS.tour.bounce, { over: "axial_forcing", range: [0.34, 0.58], points: 121, result: "orbit_exponent" }),
 ];

@@ -6,7 +6,7 @@ import { button, choice, div, element, isCrowded, labelled } from "../elements";
 import { NumberField } from "../fields";
 import { PARAMETERS, shortLabelOf, type Parameter } from "../form";
 import { minus, written } from "../numbers";
-import type { Range, Summary } from "../protocol";
+import type { Range } from "../protocol";
 import { changed } from "../state";
 import { WORDS } from "../words";
 
@@ -14,14 +14,9 @@ import { WORDS } from "../words";
 export const varied = (name: string): Parameter =>
   PARAMETERS.find((one) => one.name === name) ?? (PARAMETERS[0] as Parameter);
 
+/** A state in which the library sets a parameter to another value. */
 export const withValue = (parameter: Parameter, value: number, state: State): State =>
-  changed(state, parameter.change(value, state));
-
-/** The value that a state has, by the module's word where it follows from others. */
-export async function valueIn({ client }: Context, slot: string, parameter: Parameter, state: State): Promise<number> {
-  const { json } = await client.ask<Summary>(slot, { call: "check", system: state.system });
-  return parameter.value(state, json) ?? NaN;
-}
+  changed(state, parameter.change(value));
 
 /** Some range about a value that shows what a parameter does. */
 export const rangeAbout = (value: number, { slider }: Parameter, state: State): Range =>

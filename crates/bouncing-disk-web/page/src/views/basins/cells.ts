@@ -6,7 +6,6 @@ import { rounded } from "../../drawing/files";
 import type { Pen } from "../../drawing/pen";
 import { pixelWord, Raster } from "../../drawing/raster";
 import type { Range } from "../../protocol";
-import type { MapParameters } from "../asking";
 
 /** The label of a cell of which no row has come. */
 const UNKNOWN = 255;
@@ -112,14 +111,14 @@ export const gridOf = (window: State["basins"], columns: number, rows: number): 
 /** Gives the labels of some rows of the grid after the other to `take`. */
 export async function computeCells(
   context: Context,
-  map: MapParameters,
+  { system: map }: State,
   grid: Grid,
   take: (labels: Uint8Array, from: number) => void,
 ): Promise<void> {
   const step = Math.max(Math.floor(CELLS_AT_ONCE / grid.phases), 1);
   const requests = Array.from({ length: Math.ceil(grid.speeds / step) }, (_, part) => {
     const rows = [part * step, Math.min((part + 1) * step, grid.speeds)];
-    return { call: "basins", ...map, ...grid, rows };
+    return { call: "basins", map, ...grid, rows };
   });
   await context.client.series("basins", requests, ({ bytes }, part) => take(bytes, part * step));
 }

@@ -4,9 +4,8 @@ import type { Context, State } from "../../contract";
 import { debounced, element, Facts, section, setText } from "../../elements";
 import { brief, grouped, minus, plain, withError } from "../../numbers";
 import type { DiagramJson, Range, VerdictJson } from "../../protocol";
-import { contactPeriods } from "../../state";
 import { counted, roundOf, say, told, WORDS } from "../../words";
-import { impactOf, mapOf, tellFailure, verdictOf } from "../asking";
+import { impactOf, tellFailure, verdictOf } from "../asking";
 import { areDrawn, isPlain, type Branches } from "./branches";
 import { RECORDED, TRANSIENT } from "./columns";
 
@@ -53,9 +52,8 @@ export class Verdict {
   }
 
   private async fetch(forcing: number, state: State): Promise<void> {
-    const map = { ...mapOf(state), axial_forcing: forcing };
     try {
-      this.tell(forcing, await verdictOf(this.context, "diagram-orbit", map, impactOf(state)));
+      this.tell(forcing, await verdictOf(this.context, "diagram-orbit", mapAt(forcing, state), impactOf(state)));
     } catch (error) {
       tellFailure(this.context, error);
     }
@@ -78,6 +76,8 @@ function complex([real, imaginary]: readonly [number, number]): string {
   return `${plain(real, 3)} ${imaginary < 0 ? "\u2212" : "+"} ${plain(Math.abs(imaginary), 3)}i`;
 }
 
+const mapAt = (axial_forcing: number, { system: { restitution } }: State) => ({ axial_forcing, restitution });
+
 const SAMPLES = 5;
 export const SAMPLE_SLOTS = Array.from({ length: SAMPLES }, (_, sample) => `diagram-words-${sample}`);
 
@@ -85,7 +85,7 @@ export const SAMPLE_SLOTS = Array.from({ length: SAMPLES }, (_, sample) => `diag
 export function verdictsOf(context: Context, state: State): Promise<VerdictJson[]> {
   if (!isPlain(state)) return Promise.resolve([]);
   const asked = samplesOf(state).map((axial_forcing, sample) =>
-    verdictOf(context, SAMPLE_SLOTS[sample] ?? "", { ...mapOf(state), axial_forcing }, impactOf(state)),
+    verdictOf(context, SAMPLE_SLOTS[sample] ?? "", mapAt(axial_forcing, state), impactOf(state)),
   );
   return Promise.all(asked);
 }
@@ -102,7 +102,7 @@ export function describeDiagram(state: State, verdicts: VerdictJson[], count: nu
   );
   const driven = [
     say(TEXTS.driven, { drive: TEXTS.drives[drive] }),
-    ...(contact_time === 0 ? [] : [say(TEXTS.contact, { periods: brief(contactPeriods(state.system), 3) })]),
+    ...(contact_time === 0 ? [] : [say(TEXTS.contact, { periods: brief(state.summary?.contact_periods ?? NaN, 3) })]),
   ];
   return [
     say(TEXTS.seen, { quantity: TEXTS.quantities[quantity], low, high, restitution, recorded: RECORDED, transient }),

@@ -5,7 +5,7 @@ import type { Request, Response, RowJson, SheetJson } from "../../protocol";
 import type { AttractorsJson, TossJson, VerdictJson } from "../../protocol";
 import { say, WORDS } from "../../words";
 import { REST } from "../../presets";
-import { impactOf, mapOf } from "../asking";
+import { impactOf } from "../asking";
 import { rowOf, SEED, sheetRequest } from "../motor/requests";
 
 type Answer = Response<unknown>;
@@ -49,7 +49,7 @@ const ofToss = (unit: string, name: keyof TossJson): Result => ({
 const ofOrbit = (read: (verdict: VerdictJson) => Reading | null): Result => ({
   unit: "",
   opens: { view: "diagram" },
-  request: (state) => ({ call: "orbit", ...mapOf(state), start: impactOf(state) }),
+  request: (state) => ({ call: "orbit", map: state.system, start: impactOf(state) }),
   read({ json }) {
     const verdict = json as VerdictJson;
     return read(verdict) ?? missing(say(WORDS.scan.orbitIs, { kind: WORDS.scan.kinds[verdict.kind] }));
@@ -59,7 +59,7 @@ const ofOrbit = (read: (verdict: VerdictJson) => Reading | null): Result => ({
 const ofShare = (kind: keyof AttractorsJson["kinds"]): Result => ({
   unit: "",
   opens: { view: "basins" },
-  request: (state) => ({ call: "attractors", ...mapOf(state) }),
+  request: ({ system }) => ({ call: "attractors", map: system }),
   read({ json }) {
     const { kinds, attractors } = json as AttractorsJson;
     const { value, low, high } = kinds[kind];
