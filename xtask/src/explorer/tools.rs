@@ -22,8 +22,9 @@ pub(super) fn complain_of_missing(rustc: Option<&Path>, build_std: bool) -> Resu
     let mut missing = Vec::new();
     if !build_std && !has_target(rustc) {
         missing.push(format!(
-            "the target {TARGET} (rustup target add {TARGET}; without rustup, a distribution's compiler by \
-             --rustc /usr/bin/rustc --build-std --linker wasm-ld, from rustc-web, rust-web-src and lld on Debian)"
+            "the target {TARGET} (rustup target add {TARGET}; without rustup, a distribution's compiler, 1.95 or \
+             later, by --rustc /usr/bin/rustc --build-std --linker wasm-ld-16, from rustc-web, rust-web-src and \
+             lld-16 of an updated Debian 12)"
         ));
     }
     match node_version() {
