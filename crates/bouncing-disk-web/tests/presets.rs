@@ -111,10 +111,6 @@ fn braking(preload: f64) -> Value {
     with(still, json!({ "view": "toss", "start": start }))
 }
 
-fn table_three() -> Value {
-    motor(|_, _| {})
-}
-
 /// The panels of every figure and table.
 fn panels() -> Value {
     let (doubling, window) = (tossing(0.486), [0.3, 0.65]);
@@ -122,9 +118,10 @@ fn panels() -> Value {
     let slippery = slippery.with_angular_forcing(100.0).expect(LEGAL);
     let in_phase = slippery.with_platform(|hand| hand.phase_lag = 0.0).expect(LEGAL);
     let rubbed =
-        |friction: f64| toss(|hand, dough| (hand.amplitude_angle, dough.friction) = (0.323 * PI, friction));
-    let [fig07, fig09] =
-        [[0.34, 0.486, 0.5, 0.55, 0.6].map(basins).to_vec(), [9.8, 5.0, 2.4].map(braking).to_vec()];
+        |friction| toss(|hand, dough| (hand.amplitude_angle, dough.friction) = (0.323 * PI, friction));
+    let in_steps = |lag| [0.132, 0.323, 0.426].map(|angle| [angled(angle, 0.0), angled(angle, lag)]).concat();
+    let (fig05, fig09) = (in_steps(FRAC_PI_2), [9.8, 5.0, 2.4].map(braking));
+    let fig07 = [0.34, 0.486, 0.5, 0.55, 0.6].map(basins);
     json!({
         "fig01": [toss(|_, _| {})],
         "fig02": [
@@ -136,18 +133,13 @@ fn panels() -> Value {
             angled(0.301, 0.0), angled(0.323, 0.0), toss(|_, _| {}), angled(0.323, FRAC_PI_4),
             angled(0.323, FRAC_PI_2), rubbed(0.5), rubbed(0.7)
         ],
-        "fig05": [
-            angled(0.132, 0.0), angled(0.132, FRAC_PI_2), angled(0.323, 0.0), angled(0.323, FRAC_PI_2),
-            angled(0.426, 0.0), angled(0.426, FRAC_PI_2)
-        ],
+        "fig05": fig05,
         "fig06": [
-            diagram("impact_phase", &doubling, window, None),
-            diagram("normalised_speed", &doubling, window, None),
-            diagram("angular_speed", &in_phase, window, None),
-            diagram("angular_speed", &doubling, window, None),
+            diagram("impact_phase", &doubling, window, None), diagram("normalised_speed", &doubling, window, None),
+            diagram("angular_speed", &in_phase, window, None), diagram("angular_speed", &doubling, window, None)
         ],
         "fig07": fig07,
-        "fig08": [table_three()],
+        "fig08": [motor(|_, _| {})],
         "fig09": fig09,
         "fig10": [pressed(1e-9, 9.8), pressed(1e-8, 9.8), pressed(1e-7, 9.8)],
         "fig11": [
@@ -155,25 +147,18 @@ fn panels() -> Value {
         ],
         "fig12": [pressed(1e-7, 0.5), pressed(1e-8, 1.0)],
         "fig13": [
-            table_three(),
-            motor(|_, rotor| rotor.friction = 0.2),
-            motor(|_, rotor| rotor.restitution = 0.3),
-            motor(|_, rotor| rotor.restitution = 0.7),
-            motor(|stator, _| stator.phase_lag = FRAC_PI_4),
-            pressed(1e-7, 9.8),
-            driven(70e3, 15.0, 9.8),
+            motor(|_, _| {}), motor(|_, rotor| rotor.friction = 0.2), motor(|_, rotor| rotor.restitution = 0.3),
+            motor(|_, rotor| rotor.restitution = 0.7), motor(|stator, _| stator.phase_lag = FRAC_PI_4),
+            pressed(1e-7, 9.8), driven(70e3, 15.0, 9.8)
         ],
         "fig14": [bouncing(0.48, Some(json!({ "impact_phase": 0.7, "normalised_speed": 1.35 })))],
         "table1": [toss(|_, _| {})],
         "table2": [
-            toss(|hand, _| hand.stroke = 0.3),
-            toss(|hand, _| hand.angular_frequency = 20.0),
-            toss(|hand, _| hand.contact_radius = 0.15),
-            toss(|_, dough| dough.gyration_radius = 0.12),
-            toss(|_, dough| dough.friction = 0.7),
-            toss(|hand, _| hand.amplitude_angle = 0.69),
+            toss(|hand, _| hand.stroke = 0.3), toss(|hand, _| hand.angular_frequency = 20.0),
+            toss(|hand, _| hand.contact_radius = 0.15), toss(|_, dough| dough.gyration_radius = 0.12),
+            toss(|_, dough| dough.friction = 0.7), toss(|hand, _| hand.amplitude_angle = 0.69)
         ],
-        "table3": [table_three(), pressed(1e-8, 70.0)],
+        "table3": [motor(|_, _| {}), pressed(1e-8, 70.0)]
     })
 }
 
@@ -185,48 +170,30 @@ fn steps() -> Value {
     let slow = json!({ "basins": { "phase_periods": [0, 1], "normalised_speed": [0, 0.6] } });
     let next = json!({ "parameter": "restitution", "value": 0.5_f64.next_up() });
     let [calm, chaos] = [0.45, 0.55].map(|forcing| bouncing(forcing, None));
-    let resting = bouncing(0.45, Some(rest()));
+    let (hand, sheet, resting) = (toss(|_, _| {}), motor(|_, _| {}), bouncing(0.45, Some(rest())));
     json!({
         "tour": {
-            "toss": toss(|_, _| {}),
-            "bounce": calm,
-            "road": cascade(0.45, [0.32, 0.58], None),
-            "chaos": chaos,
-            "starts": basins(0.486),
-            "rest": resting,
-            "motor": table_three(),
-            "lag": diagram("angular_speed", &tossing(0.486), [0.32, 0.58], None),
+            "toss": hand, "bounce": calm, "road": cascade(0.45, [0.32, 0.58], None), "chaos": chaos,
+            "starts": basins(0.486), "rest": resting, "motor": sheet,
+            "lag": diagram("angular_speed", &tossing(0.486), [0.32, 0.58], None)
         },
         "doubling": {
-            "one": calm,
-            "two": bouncing(0.48, None),
-            "diagram": cascade(0.48, [0.44, 0.53], None),
-            "multiplier": bouncing(0.5, None),
+            "one": calm, "two": bouncing(0.48, None), "diagram": cascade(0.48, [0.44, 0.53], None),
+            "multiplier": bouncing(0.5, None)
         },
         "feigenbaum": {
             "cascade": cascade(0.53, [0.48, 0.545], None),
             "ratios": cascade(0.5424, [0.542, 0.5427], Some([0.19, 0.235])),
-            "limit": cascade(0.543, [0.538, 0.546], Some([0.15, 0.25])),
+            "limit": cascade(0.543, [0.538, 0.546], Some([0.15, 0.25]))
         },
         "rest": { "plane": basins(0.45), "edge": with(basins(0.45), slow), "flight": resting, "push": resting },
-        "hand": {
-            "release": toss(|_, _| {}),
-            "lag": scanned(angled(0.323, 0.0), lags),
-            "scan": scanned(toss(|_, _| {}), angles),
-        },
-        "motor": {
-            "sheet": table_three(),
-            "runup": table_three(),
-            "curve": table_three(),
-            "friction": motor(|_, rotor| rotor.friction = 0.2),
-        },
+        "hand": { "release": hand, "lag": scanned(angled(0.323, 0.0), lags), "scan": scanned(hand.clone(), angles) },
+        "motor": { "sheet": sheet, "runup": sheet, "curve": sheet, "friction": motor(|_, rotor| rotor.friction = 0.2) },
         "sensitivity": {
-            "chaos": chaos,
-            "exponent": cascade(0.55, [0.54999, 0.55001], None),
+            "chaos": chaos, "exponent": cascade(0.55, [0.54999, 0.55001], None),
             "compare": with(chaos.clone(), json!({ "view": "compare", "compare": next })),
-            "order": cascade(0.45, [0.44, 0.46], None),
-            "bits": chaos,
-        },
+            "order": cascade(0.45, [0.44, 0.46], None), "bits": chaos
+        }
     })
 }
 

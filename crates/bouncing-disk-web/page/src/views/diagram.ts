@@ -229,8 +229,10 @@ export class DiagramView extends ComputingView {
   /** Gives the shared system the amplitude of this forcing. */
   private choose(forcing: number): void {
     const { state, change, status } = this.context;
-    const told = () => status(say(TEXTS.chosen, { forcing: plain(forcing, 6), amplitude: plain(state().system.amplitude, 5) }));
-    change({ system: { set: [["axial_forcing", forcing]] } }, { taken: told });
+    change(
+      { system: { set: [["axial_forcing", forcing]] } },
+      { taken: () => status(say(TEXTS.chosen, { forcing: plain(forcing, 6), amplitude: plain(state().system.amplitude, 5) })) },
+    );
   }
 }
 
