@@ -11,7 +11,7 @@ use bouncing_disk::toss::{InitialSpin, single_toss};
 use serde_json::json;
 
 use crate::reply::{Refusal, Reply};
-use crate::request::{ImpactStart, SystemParameters};
+use crate::request::{ImpactStart, SystemParameters, forcing_of};
 
 /// The parameters, and what follows from them. The angular forcing is null without friction, the rise time (that
 /// of a motor without load) where nothing turns; the peak acceleration is in units of the preload, and an impact
@@ -23,7 +23,7 @@ pub(crate) fn summary(system: &System, mass: f64) -> Result<Reply, Refusal> {
     let period = TAU / system.platform().angular_frequency();
     let parameters = SystemParameters::from(system);
     Reply::short(&json!({
-        "axial_forcing": system.axial_forcing(),
+        "axial_forcing": forcing_of(system),
         "angular_forcing": system.angular_forcing(),
         "period": period,
         "contact_periods": parameters.contact_time / period,

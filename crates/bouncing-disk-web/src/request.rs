@@ -2,7 +2,7 @@
 //! periods of the platform, and the speeds of impacts are normalised by the amplitude of the platform's
 //! velocity, |w_A| Gamma/(A omega), as in Fig. 7 of the paper. A range goes from a low to a high number.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use bouncing_disk::core::{ImpactMap, ImpactState, Vibration};
 use bouncing_disk::drives::compliance::Compliance;
@@ -86,7 +86,7 @@ impl MapParameters {
             Self::OfSystem(system) => {
                 let system = system.build()?;
                 if system.soft_contact().is_none() {
-                    return Ok(*system.dimensionless().map());
+                    return map(forcing_of(&system), system.disk().restitution());
                 }
                 let message = "verdicts and basins are those of rigid impacts: set the contact time to 0";
                 Err(Refusal::new("computation", message.to_owned()))
@@ -206,6 +206,12 @@ pub(crate) struct LoadsRequest {
     /// Most impacts that the answer may take, up to 20 million.
     pub(crate) most_impacts: u64,
     pub(crate) seed: u64,
+}
+
+/// The axial forcing, by operations whose order mostly gives one that was set back to the bit.
+pub(crate) fn forcing_of(system: &System) -> f64 {
+    let omega = system.platform().angular_frequency();
+    system.platform().amplitude() * (omega * omega) / (PI * system.disk().preload_acceleration())
 }
 
 pub(crate) fn map(axial_forcing: f64, restitution: f64) -> Result<ImpactMap, Refusal> {

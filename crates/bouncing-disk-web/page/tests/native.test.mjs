@@ -82,7 +82,7 @@ async function requestsBeyond(ask) {
   const modes = { mass: 0.05, quality: 300 };
   const two = { ...modes, kind: "axial_and_torsional", inertia: 1e-6, torsional_quality: 100, resonance: 70.1e3 };
   const stators = [
-    { peak_angular_speed: null, stator: { ...modes, kind: "axial_twist", twist_per_height: 700 } },
+    { twist_amplitude: null, stator: { ...modes, kind: "axial_twist", twist_per_height: 700 } },
     { stator: two, contact: { time: 1e-5 } },
   ];
   const loads = { call: "motor_loads", load_torques: [0, 1e-5], relative_error: 0.3, most_impacts: 8000, seed: 1 };
