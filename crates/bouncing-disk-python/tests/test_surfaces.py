@@ -20,7 +20,7 @@ import pytest
 from bouncing_disk import _native as native
 
 ROOT = Path(__file__).parents[3]
-PAGE = ROOT / "docs" / "architecture.md"
+PAGE = ROOT / "docs" / "contributing.md"
 VIEWS = ("Toss and bounce", "Orbit diagram", "Basins", "Motor", "Compare", "Scan")
 
 pytestmark = pytest.mark.skipif(not PAGE.exists(), reason="the tests were copied without the docs")
