@@ -1,7 +1,30 @@
-"""Contacts that take time: the table of docs/contacts-and-stators.md by the law of the force alone, in small steps (`equations.py`)."""
+"""No-load speeds of the paper's motor with compliant contacts, by the law of the force alone, in small steps (`equations.py`).
+
+Speeds are in rad/s, at two phase lags; errors are rounded up to 0.01. Library: `motor curve` with four vertical motions
+and 2 %. Integrator: fourth-order steps of 1/1000 to 1/4000 period, stiffness and damper from trial impacts; each vertical
+motion carries a rotor from rest and one from omega Phi, and half of their remaining difference is part of the error. Trial:
+a program with one start, for which the contact time is half a period of the textbook's oscillator; its contacts last 0.86
+of this time and keep 0.55 of the speed.
+
+| T_c/T | library, θ = 0 | library, −π/2 | integrator, θ = 0 | integrator, −π/2 | trial, θ = 0 | trial, −π/2 |
+| --- | --- | --- | --- | --- | --- | --- |
+| 0.05 | 21.80 ± 0.37 | -1.20 ± 0.05 | 21.90 ± 0.06 | -1.10 ± 0.09 | 21 to 22 | about 0 |
+| 0.2 | 21.81 ± 0.14 | 2.01 ± 0.03 | 21.89 ± 0.03 | 1.98 ± 0.08 | 21 to 22 | about 0 |
+| 0.5 | 22.34 ± 0.04 | 11.26 ± 0.09 | 22.31 ± 0.02 | 11.30 ± 0.08 | 21 to 22 | 10 |
+| 0.6, flights | 21.98 ± 0.10 | 14.04 ± 0.38 | 21.87 ± 0.02 | 14.59 ± 0.06 | 21 | 12 |
+| 0.6 | 6.68 ± 0.01 | 29.25 ± 0.01 | 6.68 ± 0.01 | 29.25 ± 0.01 | 6 | 29 |
+| 0.8 | 7.93 ± 0.01 | 28.93 ± 0.01 | 7.93 ± 0.01 | 28.93 ± 0.01 | 7 | 29 |
+| 1 | 9.04 ± 0.01 | 28.60 ± 0.01 | 9.04 ± 0.01 | 28.60 ± 0.01 | 8 | 29 |
+| 2 | 13.35 ± 0.01 | 26.87 ± 0.01 | 13.35 ± 0.01 | 26.86 ± 0.01 | 12.6 | 27 |
+| 5 | 21.16 ± 0.01 | 21.26 ± 0.01 | 21.14 ± 0.04 | 21.25 ± 0.03 | 20.4 | 22 |
+| 18 | 25.14 ± 0.01 | 1.15 ± 0.03 | 25.14 ± 0.01 | 1.41 ± 0.28 | 25 | small |
+
+In the row of flights the library gives the limit of little friction (`NormalImpulses::of_contact`), and the integrator
+restarts flights that end. Apart from rotors that hardly turn, the trial differs by more than 15 % only in this row at -pi/2,
+for which the integrator with the trial's spring gives 12.0.
+"""
 
 import math
-import pathlib
 import re
 
 import numpy as np
@@ -11,9 +34,8 @@ import bouncing_disk as bd
 from equations import soft_motor, spring
 from test_judge import PAPER, TURN, of_sheet
 
-PAGE = (pathlib.Path(__file__).parents[2] / "docs" / "contacts-and-stators.md").read_text("utf-8")
 NUMBER = r"(-?\d+\.\d+) ± (\d+\.\d+)"
-ROWS = re.findall(rf"^\| (\d\S*?)(, flights)? \| {NUMBER} \| {NUMBER} \| {NUMBER} \| {NUMBER} \|", PAGE, re.MULTILINE)
+ROWS = re.findall(rf"^\| (\d\S*?)(, flights)? \| {NUMBER} \| {NUMBER} \| {NUMBER} \| {NUMBER} \|", __doc__, re.MULTILINE)
 LAGS = (0.0, -math.pi / 2)
 
 
@@ -40,7 +62,7 @@ def small_steps(contact_periods, flights, seconds, members):
 
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row[0] + row[1])
-def test_the_table_of_the_page(row):
+def test_the_table(row):
     contact_periods, flights, (*numbers,) = float(row[0]), row[1] != "", map(float, row[2:])
     printed = np.array(numbers).reshape(4, 2)
     long = flights or contact_periods < 0.55
