@@ -1,4 +1,4 @@
-//! The paper's motor on contacts that take time: the tables of docs/contacts-and-stators.md.
+//! The paper's motor with compliant contacts: the tables of docs/contacts-and-stators.md.
 //!
 //! A rotor with little friction in each contact ends at the speed at which the force of the contact pushes it forwards as
 //! much as backwards (`NormalImpulses::of_contact`).
@@ -39,7 +39,7 @@ fn impulses(system: &System, forcing: f64, time: Option<f64>) -> Result<NormalIm
         return NormalImpulses::of(&rigid, 4_000, 1e-3);
     };
     let map = map(forcing, restitution, time)?;
-    let platform = map.compliant().expect("its contacts take time");
+    let platform = map.compliant().expect("a compliant contact");
     let tapped = NormalImpulses::of_contact(platform, SETTLING, TAPPED)?;
     let flies = tapped.duration > TAU && 2 * tapped.landings.len() < TAPPED;
     if flies { NormalImpulses::of_contact(platform, SETTLING, FLOWN) } else { Ok(tapped) }
@@ -119,7 +119,7 @@ fn flights(motor: &Motor) -> Result<(), Error> {
     for k in 1..=32 {
         let forcing = system.axial_forcing() * (1.0 + 1e-9 * f64::from(k));
         let map = map(forcing, system.disk().restitution(), time)?;
-        let own = NormalImpulses::of_contact(map.compliant().expect("its contacts take time"), 500, PERIODS)?;
+        let own = NormalImpulses::of_contact(map.compliant().expect("a compliant contact"), 500, PERIODS)?;
         // A rotor that is tapped has a landing in each period.
         if own.landings.len() < PERIODS / 5 {
             histories.push(own);

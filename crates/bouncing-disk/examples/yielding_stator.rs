@@ -1,4 +1,4 @@
-//! Fig. 11 on a stator that yields: the tables of docs/contacts-and-stators.md.
+//! Fig. 11 with a compliant stator: the tables of docs/contacts-and-stators.md.
 //!
 //!     cargo run --release -p bouncing-disk --example yielding_stator
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
