@@ -24,13 +24,13 @@ const INTERVALS: usize = 500;
 const FIRST: usize = 200;
 const LAST: usize = INTERVALS - 1;
 
-/// A rotor in contacts that take time follows for so many periods; friction changes its speed by this share of the stator's
+/// A rotor in compliant contacts is followed for so many periods; friction changes its speed by this share of the stator's
 /// in a period. One whose speed is held has ten thousand times its own inertia.
 const PERIODS: f64 = 2_500.0;
 const LIGHT: f64 = 1.5e-3;
 const HELD: f64 = 1e4;
 
-/// A motor of the paper on a stator that yields.
+/// A motor of the paper with a compliant stator.
 struct Case {
     motor: Motor,
     twists: bool,
@@ -134,7 +134,7 @@ fn change_in_flight(preload: f64, flight: f64, power: f64) -> f64 {
     power * taken * (preload * flight * flight / 8.0) / (distance * preload)
 }
 
-/// Of rigid impacts at A₀ and a tenth of it, and of contacts that take time: at 33, 164 and 280 mN.
+/// Of rigid impacts at A₀ and a tenth of it, and of compliant contacts: at 33, 164 and 280 mN.
 fn magnet(rigid: &Case, soft: &Case) -> Result<(), Error> {
     for (name, case, scale) in
         [("rigid, 100 nm", rigid, 1.0), ("rigid, 10 nm", rigid, 0.1), ("4.3", soft, 1.0)]
