@@ -1,9 +1,17 @@
-//! Contacts that take time, judged event by event.
+//! Compliant contacts, judged event by event.
 //!
 //! The oracle knows the law, y'' + c y' + k y = -1 - s'', and integrates it by its Taylor series in
-//! double-doubles (a share in 77 digits): flights are k = c = 0, and no damping is special. On each piece of
+//! double-doubles (one start in 1000 in 77 digits): flights are k = c = 0, and no damping is special. On each piece of
 //! the series the function that ends the motion is a polynomial, which falls to zero where the oracle of
-//! flights says.
+//! flights says. Doubts are events that twice a stated rounding decides: 128 u times the sizes of value, slope and
+//! second derivative at the start, and of the largest force. Starts aim at grazes, resonances and the edges of lift-off
+//! and holding, with contact times of 1e-5 to 1e3 rad and restitutions of 0.001 to 1 - 1e-6, next to exp(-2) by ulps.
+//!
+//!     CAMPAIGN_SIZE=1000000 cargo test -p bouncing-disk-drives --test first_impact -- --ignored contact_campaign --nocapture
+//!
+//! saw 298,449 touches, 32,164 recontacts, 303,572 releases, turns to load (49,082), unload (161,321) and hold (82,686),
+//! 4,286 settlings, 68,686 motions followed to the end of the search, 4,284 doubts, 984 motions in 77 digits: none was
+//! missed or invented.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 

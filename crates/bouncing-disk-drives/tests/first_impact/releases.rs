@@ -1,5 +1,7 @@
 //! The map from release to release against an integration that knows only the law of the force, and its
 //! limit of brief contacts.
+//! For restitution 1/2 and contact times of 0.1, 0.01, 0.001 rad the first doubling lies 3.9e-3, 4.0e-4, 4.0e-5 from that of
+//! rigid impacts, Gamma_1 = 0.4860 (second law: 2.1e-3, 2.2e-4, 2.2e-5).
 
 use std::f64::consts::{PI, TAU};
 

@@ -1,4 +1,5 @@
-//! Taps against the engine, each from the same state.
+//! Taps against the engine, each from the same state: motors at 0.01 to 18 periods, random systems, and releases and rotors
+//! on seams.
 
 use bouncing_disk_core::ChatterPolicy;
 use bouncing_disk_core::numerics::elementary::{cos, exp, ln, sin};
