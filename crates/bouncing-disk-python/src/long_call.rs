@@ -57,6 +57,9 @@ impl Watched {
     }
 }
 
+/// What a long call computes.
+type Work<'a> = Box<dyn FnOnce(&dyn Observer) -> Result<(), FitError> + Send + 'a>;
+
 impl Arguments<'_> {
     /// Runs `work` on a pool of threads until it is done, Ctrl-C is pressed or `progress` raises.
     pub(crate) fn run<T: Send>(
@@ -67,10 +70,20 @@ impl Arguments<'_> {
     }
 
     /// The same for a fit, which may be refused.
-    pub(crate) fn run_fit<T: Send, E: Into<FitError> + Send>(
+    pub(crate) fn run_fit<T: Send, E: Into<FitError>>(
         &self,
         work: impl FnOnce(&dyn Observer) -> Result<T, E> + Send,
     ) -> PyResult<T> {
+        let mut value = None;
+        self.watch(Box::new(|observer| {
+            value = Some(work(observer).map_err(Into::into)?);
+            Ok(())
+        }))?;
+        value.ok_or_else(errors::defect)
+    }
+
+    /// The one body of these for all kinds of results, which is long to compile.
+    fn watch(&self, work: Work<'_>) -> PyResult<()> {
         let py = self.py();
         let progress = self.0.get_item(intern!(py, "progress"))?.filter(|callable| !callable.is_none());
         if progress.as_ref().is_some_and(|callable| !callable.is_callable()) {
@@ -106,13 +119,13 @@ impl Arguments<'_> {
                 (None, Some(Err(_)) | None) => Err(errors::defect()),
             }
         })?;
-        let value = outcome.map_err(|error| self.refused(error))?;
+        outcome.map_err(|error| self.refused(error))?;
         if let Some(progress) = progress {
             // Of nothing everything is done.
             let total = watched.total.load(Ordering::Relaxed);
             progress.call1(py, (total, total))?;
         }
-        Ok(value)
+        Ok(())
     }
 }
 

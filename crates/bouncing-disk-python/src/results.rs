@@ -17,10 +17,16 @@ use crate::errors;
 /// The result of a class with these fields, in their order.
 macro_rules! make {
     ($py:expr, $class:literal, $($field:expr),+ $(,)?) => {
-        $crate::results::made($py, $class, vec![$(pyo3::IntoPyObjectExt::into_bound_py_any($field, $py)?),+])
+        $crate::results::all(vec![$(pyo3::IntoPyObjectExt::into_bound_py_any($field, $py)),+])
+            .and_then(|fields| $crate::results::made($py, $class, fields))
     };
 }
 pub(crate) use make;
+
+/// The fields, unless one of them failed.
+pub(crate) fn all(fields: Vec<Made<'_>>) -> PyResult<Vec<Bound<'_, PyAny>>> {
+    fields.into_iter().collect()
+}
 
 /// The result of a class that is made of these fields.
 pub(crate) fn made<'py>(py: Python<'py>, class: &str, fields: Vec<Bound<'py, PyAny>>) -> Made<'py> {
@@ -64,7 +70,11 @@ pub(crate) fn column<'py, I, T: numpy::Element>(
     items: &[I],
     of: impl Fn(&I) -> T,
 ) -> Bound<'py, PyArray1<T>> {
-    array(py, items.iter().map(of).collect())
+    // One loop for all columns of a type: each of its own would be compiled apart.
+    fn collected<I, T>(items: &[I], of: &dyn Fn(&I) -> T) -> Vec<T> {
+        items.iter().map(of).collect()
+    }
+    array(py, collected(items, &of))
 }
 
 /// A count as NumPy's integers have it.
