@@ -332,7 +332,7 @@ impl CompliantPlatform {
     /// [`Error::NotOfKind`] for a drive that is not a periodic Fourier sum.
     pub fn new(drive: Drive, compliance: Compliance) -> Result<Self, Error> {
         if drive.next_joint(0.0).is_some() {
-            let expected = "a periodic Fourier sum: a contact that takes time has no other drive";
+            let expected = "the sine or a Fourier sum, the only drives of a contact that takes time";
             return Err(Error::NotOfKind { what: "drive", index: 0, count: 1, expected });
         }
         let sine = drive.as_vibration();

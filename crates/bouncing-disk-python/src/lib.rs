@@ -45,7 +45,8 @@ mod _native {
     };
     #[pymodule_export]
     use crate::parameters::{
-        chatter_cut, drive, excluded_by, impact_map, known_motor, known_system, motor, paper_cut, system,
+        chatter_cut, drive, excluded_by, impact_map, known_motor, known_system, map_of_system, motor,
+        paper_cut, system,
     };
     #[pymodule_export]
     use crate::threads::{set_threads, threads};

@@ -318,9 +318,9 @@ pub(crate) fn best(a: Arguments<'_>) -> Made<'_> {
 pub(crate) fn motor_map(a: Arguments<'_>) -> Made<'_> {
     let (motor, settings, py) = (a.motor()?, settings(&a)?, a.py());
     let (mut axes, values) = (Vec::new(), PyDict::new(py));
-    for (name, given) in a.entries("axes")? {
+    for (name, given) in a.entries("over")? {
         let parameter: MotorField =
-            name.parse().map_err(|unknown| PyValueError::new_err(format!("axes: {unknown}")))?;
+            name.parse().map_err(|unknown| PyValueError::new_err(format!("over: {unknown}")))?;
         let axis = SweepAxis::new(parameter, row(&given, &name)?);
         values.set_item(parameter.name(), column(py, &axis.values, |value| *value))?;
         axes.push(axis);

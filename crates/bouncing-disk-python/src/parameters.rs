@@ -444,36 +444,53 @@ pub(crate) fn excluded_by(name: &str) -> Vec<&'static str> {
 }
 
 /// A map by its arguments, one of the two forcings missing. They come one by one, which takes half the time
-/// of a dictionary.
+/// of a dictionary; the last two are there only if one of them is given.
 #[pyfunction]
+#[pyo3(signature = (axial_forcing, peak_acceleration, restitution, drive=None, contact_periods=None))]
 pub(crate) fn impact_map<'py>(
     py: Python<'py>,
     axial_forcing: &Bound<'py, PyAny>,
     peak_acceleration: &Bound<'py, PyAny>,
     restitution: &Bound<'py, PyAny>,
-    drive: &Bound<'py, PyAny>,
-    contact_periods: &Bound<'py, PyAny>,
+    drive: Option<&Bound<'py, PyAny>>,
+    contact_periods: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Map> {
     let (one, other, contact) = ("axial_forcing", "peak_acceleration", "contact_periods");
     let optional = |value, name| Ok::<_, PyErr>(extracted::<Option<Real>>(value, name)?.map(|real| real.0));
     let (forcing, peak) = (optional(axial_forcing, one)?, optional(peak_acceleration, other)?);
     let Real(restitution) = extracted(restitution, "restitution")?;
-    let (drive, periods) = (drive_of(drive)?, optional(contact_periods, contact)?);
-    let vibration = match (forcing, peak) {
-        (Some(forcing), None) => Vibration::from_axial_forcing(forcing).map_err(Error::from),
-        (None, Some(peak)) => Vibration::new(peak).map_err(Error::from),
-        (None, None) => Err(Error::NeitherGiven { one, other }),
-        (Some(_), Some(_)) => Err(Error::BothGiven { one, other }),
+    let periods =
+        contact_periods.map(|given| extracted::<Real>(given, contact)).transpose()?.map(|real| real.0);
+    // Of the sine, which loops make, no shape is moved about.
+    let is_sine = drive.is_none() && periods.is_none();
+    let drive = drive.map(drive_of).transpose()?.flatten().map(Box::new);
+    let sine = || {
+        let vibration = match (forcing, peak) {
+            (Some(forcing), None) => Vibration::from_axial_forcing(forcing)?,
+            (None, Some(peak)) => Vibration::new(peak)?,
+            (None, None) => return Err(Error::NeitherGiven { one, other }),
+            (Some(_), Some(_)) => return Err(Error::BothGiven { one, other }),
+        };
+        Ok(ImpactMap::new(vibration, restitution)?)
     };
-    let map = vibration.and_then(|vibration| {
-        let (sine, platform) = (ImpactMap::new(vibration, restitution)?, Platform::new(drive, periods)?);
-        let other = platform.map(|own| Ok::<_, Error>(Box::new((own.map(&sine)?, own)))).transpose()?;
-        Ok(Map { sine, forcing, other })
-    });
-    map.or_else(|error| {
+    let platform = |sine: &ImpactMap| {
+        let platform = Platform::new(drive.map(|own| *own), periods)?;
+        platform.map(|own| Ok(Box::new((own.map(sine)?, own)))).transpose()
+    };
+    let refused = |error: Error| {
         let given = [(one, forcing), (other, peak), ("restitution", Some(restitution)), (contact, periods)];
-        Err(Arguments(given.into_py_dict(py)?).refused(error))
-    })
+        given.into_py_dict(py).map_or_else(|failure| failure, |given| Arguments(given).refused(error))
+    };
+    let sine = sine().map_err(refused)?;
+    let other = if is_sine { None } else { platform(&sine).map_err(refused)? };
+    Ok(Map { sine, forcing, other })
+}
+
+/// The map of the vertical motion of a system.
+#[pyfunction]
+pub(crate) fn map_of_system(a: Arguments<'_>) -> Made<'_> {
+    let system = DimensionlessSystem::try_from(&a.system()?).map_err(|error| a.refused(error))?;
+    python_map(a.py(), system.map())
 }
 
 /// The map of the sine that the library has made, as Python has it.

@@ -172,7 +172,7 @@ def good() -> list[tuple[Callable[..., Any], list[Any], dict[str, Any]]]:
         (
             bd.motor_map,
             [MOTOR],
-            quick | {"axes": {"friction": [0.1, 0.2], "amplitude": [1e-8]}, "progress": None},
+            quick | {"over": {"friction": [0.1, 0.2], "amplitude": [1e-8]}, "progress": None},
         ),
         (
             bd.local_sensitivities,

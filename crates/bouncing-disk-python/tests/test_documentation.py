@@ -126,7 +126,7 @@ def test_motors_on_a_cluster_resume_and_are_those_of_one_call(tmp_path: Path) ->
     assert printed[0] == printed[1] and printed[0].startswith("40 of 40 motors have a speed")
     assert np.load(first).tobytes() == kept.tobytes() and second.stat().st_mtime_ns == time
     axes = {"preload_force": np.linspace(3.0, 6.0, 4), "friction": np.linspace(0.05, 0.3, 10)}
-    whole = bd.motor_map(bd.Motor.paper_70_khz(), axes=axes, relative_error=0.3, members=4).speed
+    whole = bd.motor_map(bd.Motor.paper_70_khz(), over=axes, relative_error=0.3, members=4).speed
     assert np.concatenate([kept, np.load(second)]).tobytes() == whole.tobytes()
 
 

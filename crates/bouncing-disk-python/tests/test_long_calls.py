@@ -45,7 +45,7 @@ ENDLESS = {
     "spectra": "bd.lyapunov_spectra(axial_forcing=0.56, impacts=10**12, **STARTS)",
     "manifold": "bd.manifold(bd.ImpactMap(axial_forcing=0.56, restitution=0.5), SADDLE, arclength=1e6,"
     " max_points=10**7, chord=1e-6, turn=0.001, max_generations=10**4)",
-    "motor map": "bd.motor_map(MOTOR, axes={'amplitude': np.linspace(1e-8, 2e-8, 50)}, relative_error=1e-6,"
+    "motor map": "bd.motor_map(MOTOR, over={'amplitude': np.linspace(1e-8, 2e-8, 50)}, relative_error=1e-6,"
     " most_impacts=10**15)",
     "sensitivities": "bd.local_sensitivities(MOTOR, relative_error=1e-6, most_impacts=10**15)",
     "crisis": "bd.crisis(restitution=0.5, axial_forcing=(0.55, 0.56), impacts=10**12)",

@@ -137,7 +137,7 @@ def test_the_best_lag_turns_the_motor_fastest() -> None:
         ({"over": {"phase": (0.0, 1.0)}}, "phase"),
         ({"over": {"phase_lag": (0.0,)}}, "1 ends"),
         ({"over": {"phase_lag": (1.0, 0.0)}}, "above its lower end"),
-        ({"over": {}}, "number of axes"),
+        ({"over": {}}, "over = 0 is outside"),
     ],
 )
 def test_searches_that_are_none_are_refused_by_name(wrong: dict[str, Any], told: str) -> None:
@@ -164,7 +164,7 @@ LOOSE: dict[str, Any] = {"relative_error": 0.05}
 
 def test_a_map_has_the_operating_points_of_its_cells() -> None:
     loads = np.array([0.0, 0.5, 1.5]) * MOTOR.largest_torque
-    found = bd.motor_map(MOTOR, axes={"friction": [0.1, 0.2], "load_torque": loads}, **LOOSE)
+    found = bd.motor_map(MOTOR, over={"friction": [0.1, 0.2], "load_torque": loads}, **LOOSE)
     assert found.motor == MOTOR and list(found.axes) == ["friction", "load_torque"]
     assert np.array_equal(found.axes["load_torque"], loads)
     assert found.speed.shape == found.status.shape == found.impacts.shape == (2, 3)
@@ -175,7 +175,7 @@ def test_a_map_has_the_operating_points_of_its_cells() -> None:
     one = bd.torque_speed_curve(MOTOR, load_torques=[0.0], **LOOSE)
     error = np.hypot(found.speed_error[0, 0], one.speed_error[0])
     assert abs(found.speed[0, 0] - one.speed[0]) < 6.0 * error + 0.5
-    line = bd.motor_map(MOTOR, axes={"amplitude": [1e-8]}, **LOOSE)
+    line = bd.motor_map(MOTOR, over={"amplitude": [1e-8]}, **LOOSE)
     assert line.speed.shape == (1,) and line.names() == [["steady"]]
 
 
@@ -188,20 +188,20 @@ def test_axes_that_are_refused_name_the_argument() -> None:
     ]
     for axes in outside:
         with pytest.raises(bd.OutOfRangeError) as refused:
-            bd.motor_map(MOTOR, axes=axes, **LOOSE)
-        assert refused.value.field == "axes"
+            bd.motor_map(MOTOR, over=axes, **LOOSE)
+        assert refused.value.field == "over"
     unfitting: dict[str, Any] = {"empty-axis": {"friction": []}}
     unfitting["both-given"] = {"mass": [1e-3], "density": [8e3]}
     for kind, axes in unfitting.items():
         with pytest.raises(bd.InvalidError) as invalid:
-            bd.motor_map(MOTOR, axes=axes, **LOOSE)
+            bd.motor_map(MOTOR, over=axes, **LOOSE)
         assert invalid.value.kind == kind
     with pytest.raises(ValueError, match="frikshun.*drive_frequency"):
-        bd.motor_map(MOTOR, axes={"frikshun": [0.1]}, **LOOSE)
+        bd.motor_map(MOTOR, over={"frikshun": [0.1]}, **LOOSE)
     with pytest.raises(ValueError, match="friction must be a 1-d array"):
-        bd.motor_map(MOTOR, axes={"friction": 0.1}, **LOOSE)
+        bd.motor_map(MOTOR, over={"friction": 0.1}, **LOOSE)
     with pytest.raises(bd.TooLargeError):
-        bd.motor_map(MOTOR, axes={"friction": np.full(1000, 0.1), "phase_lag": np.zeros(1000)}, **LOOSE)
+        bd.motor_map(MOTOR, over={"friction": np.full(1000, 0.1), "phase_lag": np.zeros(1000)}, **LOOSE)
 
 
 def test_local_sensitivities_are_those_of_the_speed() -> None:
@@ -243,7 +243,7 @@ def test_a_stator_that_yields_is_computed_or_refused() -> None:
     assert np.isnan(curve.speed_deviation).any() == np.isnan(curve.blocked_torque).any()
     prescribed = bd.torque_speed_curve(MOTOR, load_torques=[0.0], **loose)
     assert np.isnan(prescribed.stator_amplitude).all() and np.isfinite(prescribed.efficiency).all()
-    heavy = bd.motor_map(motor, axes={"stator.mass": [0.05, 0.5]}, **loose)
+    heavy = bd.motor_map(motor, over={"stator.mass": [0.05, 0.5]}, **loose)
     assert heavy.stator_amplitude[0] < heavy.stator_amplitude[1]
     short: dict[str, Any] = {"members": 2, "duration": 0.02, "intervals": 4}
     assert (bd.ensemble(motor, **short).speeds != bd.ensemble(motor.replace(stator=None), **short).speeds).any()

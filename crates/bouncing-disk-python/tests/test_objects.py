@@ -288,6 +288,11 @@ def test_the_map_of_a_system_is_its_vertical_motion() -> None:
     own = bd.ImpactMap.of_system(toss)
     assert own.peak_acceleration == toss.peak_acceleration
     assert math.isclose(own.axial_forcing, toss.axial_forcing, rel_tol=1e-15)
+    tables = {"soft-contact": {"contact": {"time": 0.01}}, "yielding-stator": {"stator": STATOR}}
+    for kind, table in tables.items():
+        with pytest.raises(bd.InvalidError) as refused:
+            bd.ImpactMap.of_system(toss.replace(**table))
+        assert refused.value.kind == kind
 
 
 def test_data_sheets_that_are_wrong_say_where() -> None:

@@ -115,7 +115,7 @@ def crisis(digest: Digest) -> None:
 
 def motor_sweep(digest: Digest) -> None:
     axes = {"friction": [0.1, 0.2], "amplitude": [1e-8, 1.1e-8]}
-    digest.numbers(*bd.motor_map(MOTOR, axes=axes, relative_error=0.05).speed.ravel())
+    digest.numbers(*bd.motor_map(MOTOR, over=axes, relative_error=0.05).speed.ravel())
 
 
 def local_sensitivities(digest: Digest) -> None:

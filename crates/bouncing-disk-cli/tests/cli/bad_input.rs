@@ -157,7 +157,7 @@ fn contacts() {
         let line = if command == "toss" { "toss triangle.toml" } else { "motor curve triangle.toml" };
         folder.all_refused(
             2,
-            &[(line, "a periodic Fourier sum: a contact that takes time has no other drive")],
+            &[(line, "drive number 0 of 1 is not the sine or a Fourier sum, the only drives of a contact that takes time")],
         );
     }
     let lines = [

@@ -572,7 +572,7 @@ class MotorMap(OperatingPoints):
 def motor_map(
     motor: Motor,
     *,
-    axes: Mapping[str, ArrayLike],
+    over: Mapping[str, ArrayLike],
     continued: bool = False,
     progress: Progress = None,
     **settings: Unpack[OperatingSettings],
@@ -585,7 +585,7 @@ def motor_map(
     over ``preload_force`` of a motor with a ``preload_acceleration`` has the force alone.
 
     Args:
-        axes: one or two arguments of :class:`Motor` with their values (SI); the first axis is that of the
+        over: one or two arguments of :class:`Motor` with their values (SI); the first axis is that of the
             rows, shape (n,).
         continued: whether each cell of one axis starts from where the one before was left, in place of from rest: of a
             ``stator`` that yields, whose state may depend on what was before. Height and modes go on; the speed of
@@ -597,8 +597,8 @@ def motor_map(
     >>> import bouncing_disk as bd
     >>> motor = bd.Motor(drive_frequency=70e3, amplitude=1e-8, peak_angular_speed=30.0, mass=1e-3,
     ...     contact_radius=1.25e-3, gyration_radius=6.3e-3, preload_acceleration=9.8, friction=0.1, restitution=0.5)
-    >>> axes = {"friction": [0.1, 0.2], "load_torque": [0.0, 0.5 * motor.largest_torque, 1.5 * motor.largest_torque]}
-    >>> found = bd.motor_map(motor, axes=axes, relative_error=0.05)
+    >>> over = {"friction": [0.1, 0.2], "load_torque": [0.0, 0.5 * motor.largest_torque, 1.5 * motor.largest_torque]}
+    >>> found = bd.motor_map(motor, over=over, relative_error=0.05)
     >>> found.speed.shape, found.names()[0]
     ((2, 3), ['steady', 'steady', 'runaway'])
     """

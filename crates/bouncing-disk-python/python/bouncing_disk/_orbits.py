@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from bouncing_disk import _native as native
 from bouncing_disk._base import *
+from bouncing_disk._native import impact_map
 from bouncing_disk._system import Drive, System
 
 __all__ = [
@@ -73,9 +74,10 @@ class ImpactMap(Parameters):
         drive: Drive | Table | None = None,
         contact_periods: Float | None = None,
     ) -> None:
-        self.__dict__["_native"] = native.impact_map(
-            axial_forcing, peak_acceleration, restitution, drive, contact_periods
-        )
+        if drive is None and contact_periods is None:
+            self.__dict__["_native"] = impact_map(axial_forcing, peak_acceleration, restitution)
+        else:
+            self.__dict__["_native"] = impact_map(axial_forcing, peak_acceleration, restitution, drive, contact_periods)
 
     def _key(self) -> object:
         # Two maps are equal that compute the same, whichever forcing was given.
@@ -84,8 +86,12 @@ class ImpactMap(Parameters):
 
     @staticmethod
     def of_system(system: System) -> ImpactMap:
-        """The vertical motion of a system."""
-        return ImpactMap(peak_acceleration=system.peak_acceleration, restitution=system.restitution)
+        """The vertical motion of a system with rigid impacts on a prescribed platform.
+
+        Raises:
+            InvalidError: ``"soft-contact"`` or ``"yielding-stator"`` for another system.
+        """
+        return native.map_of_system(locals())
 
     def step(self, *, impact_phase: Float, axial_impact_velocity: Float) -> tuple[float, float]:
         """The next impact.
