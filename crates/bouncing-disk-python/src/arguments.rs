@@ -5,8 +5,11 @@
 use std::fmt::{self, Display, Formatter};
 
 use bouncing_disk::Error;
+use bouncing_disk::core::attractors::AttractorSearch;
+use bouncing_disk::core::orbits::{Continuation, ContinuationParameter};
 use bouncing_disk::core::{ImpactMap, ImpactState, Vibration};
 use bouncing_disk::estimate::FitError;
+use bouncing_disk::motor::OperatingSettings;
 use numpy::{PyArrayDyn, PyArrayMethods, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::PyClass;
 use pyo3::exceptions::{PyKeyError, PyOverflowError, PyTypeError, PyValueError};
@@ -15,8 +18,10 @@ use pyo3::prelude::*;
 use pyo3::pyclass::boolean_struct::True;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{
-    PyBool, PyByteArray, PyBytes, PyDict, PyFloat, PyFrozenSet, PyMapping, PyMemoryView, PySet, PyString,
+    IntoPyDict, PyBool, PyByteArray, PyBytes, PyDict, PyFloat, PyFrozenSet, PyMapping, PyMemoryView, PySet,
+    PyString,
 };
+use pythonize::pythonize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
@@ -156,10 +161,45 @@ impl<'py> Arguments<'py> {
         held(&self.get(name)?, name)
     }
 
+    /// Makes arguments of the keywords `settings` of the call, the others at the defaults of this class.
+    pub(crate) fn take_settings(&self, class: &str) -> PyResult<()> {
+        let (all, given) = (default_settings(self.py(), class)?, self.of::<Bound<'_, PyDict>>("settings")?);
+        for name in given.keys() {
+            if !all.contains(&name)? {
+                return Err(PyTypeError::new_err(format!("unexpected keyword argument '{name}'")));
+            }
+        }
+        all.update(given.as_mapping())?;
+        self.0.update(all.as_mapping())
+    }
+
     /// The exception of an error of the library, in the words of this call.
     pub(crate) fn refused(&self, error: impl Into<FitError>) -> PyErr {
         errors::of_call(self.py(), error, &self.0)
     }
+}
+
+/// The defaults of the keywords that a class of settings has in Python: those of the library.
+#[pyfunction]
+pub(crate) fn default_settings<'py>(py: Python<'py>, class: &str) -> PyResult<Bound<'py, PyDict>> {
+    let (search, range) = (AttractorSearch::default(), (0.0, 1.0));
+    let all = match class {
+        "AttractorSearch" => {
+            let (starts, cells, longest) = (search.starts(), search.cells(), search.longest_period());
+            let all = [("starts", u64::from(starts)), ("transient", search.transient())];
+            let more = [("impacts", search.impacts()), ("longest_period", longest as u64)];
+            let last = [("cells", cells.into()), ("budget", search.budget())];
+            return [all, more, last].concat().into_py_dict(py);
+        }
+        "Continuation" => {
+            let own = Continuation::new(ContinuationParameter::Forcing, range, true);
+            pythonize(py, &own.map_err(|error| errors::of(py, error))?)?
+        }
+        _ => pythonize(py, &OperatingSettings::default())?,
+    };
+    let all = all.cast_into::<PyDict>()?;
+    ["parameter", "low", "high", "rising"].iter().for_each(|argument| _ = all.del_item(argument));
+    Ok(all)
 }
 
 /// The contents of an object of the package.

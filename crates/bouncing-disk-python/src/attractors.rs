@@ -87,6 +87,7 @@ fn shown_of<'py, M>(map: Bound<'py, PyAny>, found: &AttractorsModel<M>) -> Made<
 }
 
 fn search(a: &Arguments<'_>) -> PyResult<AttractorSearch> {
+    a.take_settings("AttractorSearch")?;
     let (starts, cells, longest) = (a.u32("starts")?, a.u32("cells")?, a.usize("longest_period")?);
     let (transient, impacts, budget) = (a.u64("transient")?, a.u64("impacts")?, a.u64("budget")?);
     AttractorSearch::default()

@@ -24,6 +24,8 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _native {
     #[pymodule_export]
+    use crate::arguments::default_settings;
+    #[pymodule_export]
     use crate::attractors::{
         Attractors, attractors, basin_entropy, basin_fractions_over, basins, basins_of, boundary_scaling,
     };
@@ -35,8 +37,8 @@ mod _native {
     use crate::estimate::{ensemble, fit_rated_points, fit_transients, read_speeds};
     #[pymodule_export]
     use crate::motor::{
-        best, default_settings, input_spreads, local_sensitivities, low_period_traps, motor_map,
-        nearest_trap, report, stall_load, stator_report, torque_speed_curve,
+        best, input_spreads, local_sensitivities, low_period_traps, motor_map, nearest_trap, report,
+        stall_load, stator_report, torque_speed_curve,
     };
     #[pymodule_export]
     use crate::orbits::{

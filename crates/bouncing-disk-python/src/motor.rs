@@ -10,7 +10,6 @@ use numpy::PyArray1;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString, PyTuple};
-use pythonize::pythonize;
 
 use crate::arguments::{Arguments, Made, row};
 use crate::parameters::Motor;
@@ -166,29 +165,16 @@ fn columns_of<'py>(
     fields.into_iter().map(shaped).collect()
 }
 
-/// The settings of a call that are keywords of their own, the others at their defaults.
+/// The settings of a call that runs a motor.
 fn settings(a: &Arguments<'_>) -> PyResult<OperatingSettings> {
-    let (given, mut settings) = (Arguments(a.of("settings")?), OperatingSettings::default());
-    for name in given.0.keys() {
-        let name: String = name.extract()?;
-        match name.as_str() {
-            "relative_error" => settings.relative_error = given.real(&name)?,
-            "members" => settings.members = given.usize(&name)?,
-            "most_impacts" => settings.most_impacts = given.u64(&name)?,
-            "relaunch_perturbation" => settings.relaunch_perturbation = given.real(&name)?,
-            "seed" => settings.seed = given.u64(&name)?,
-            _ => return Err(PyTypeError::new_err(format!("unexpected keyword argument '{name}'"))),
-        }
-    }
-    // Errors name them as arguments of the call.
-    a.0.update(given.0.as_mapping())?;
-    Ok(settings)
-}
-
-/// The settings of a call without any.
-#[pyfunction]
-pub(crate) fn default_settings(py: Python<'_>) -> Made<'_> {
-    Ok(pythonize(py, &OperatingSettings::default())?)
+    a.take_settings("OperatingSettings")?;
+    Ok(OperatingSettings {
+        relative_error: a.real("relative_error")?,
+        members: a.usize("members")?,
+        most_impacts: a.u64("most_impacts")?,
+        relaunch_perturbation: a.real("relaunch_perturbation")?,
+        seed: a.u64("seed")?,
+    })
 }
 
 /// Speed, power and efficiency of a motor against its load.

@@ -184,6 +184,7 @@ fn shown_branch<'py, M: ContinuedMap>(
 }
 
 fn continuation(a: &Arguments<'_>, parameter: ContinuationParameter, rising: bool) -> PyResult<Continuation> {
+    a.take_settings("Continuation")?;
     let (first, largest, points) = (a.real("first_step")?, a.real("largest_step")?, a.usize("max_points")?);
     Continuation::new(parameter, a.pair("parameter_range")?, rising)
         .and_then(|settings| settings.with_steps(first, largest, points))

@@ -37,7 +37,8 @@ EVERYTHING = everything()
 def test_every_kind_is_tried() -> None:
     # Those of calls that are not quick, and parts of results without a class of their own in a test.
     slow = {"Best", "StallLoad"}
-    parts = {"Energy", "FailedPoint", "IntervalEstimate", "Result", "RiseEstimate", "Spread", "OperatingSettings"}
+    parts = {"Energy", "FailedPoint", "IntervalEstimate", "Result", "RiseEstimate", "Spread"}
+    parts |= {"AttractorSearch", "Continuation", "OperatingSettings"}
     kinds = {name for name in bd.__all__ if inspect.isclass(getattr(bd, name))}
     errors = {name for name in kinds if issubclass(getattr(bd, name), Exception)}
     assert kinds - errors - slow - parts - {"OperatingPoints"} == set(EVERYTHING)
@@ -288,7 +289,7 @@ def test_the_map_of_a_system_is_its_vertical_motion() -> None:
     own = bd.ImpactMap.of_system(toss)
     assert own.peak_acceleration == toss.peak_acceleration
     assert math.isclose(own.axial_forcing, toss.axial_forcing, rel_tol=1e-15)
-    tables = {"soft-contact": {"contact": {"time": 0.01}}, "yielding-stator": {"stator": STATOR}}
+    tables: dict[str, Any] = {"soft-contact": {"contact": {"time": 0.01}}, "yielding-stator": {"stator": STATOR}}
     for kind, table in tables.items():
         with pytest.raises(bd.InvalidError) as refused:
             bd.ImpactMap.of_system(toss.replace(**table))

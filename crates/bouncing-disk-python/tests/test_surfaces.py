@@ -93,10 +93,11 @@ def plain(default: object) -> list[float | str]:
 
 
 def arguments(function: str) -> dict[str, object]:
-    """The arguments of a function with their defaults, including the settings of a motor."""
+    """The arguments of a function with their defaults, including those of its settings."""
     parameters = inspect.signature(operator.attrgetter(function)(bd)).parameters
     own = {name: parameter.default for name, parameter in parameters.items()}
-    return own | (native.default_settings() if "settings" in parameters else {})
+    settings = re.search(r"Unpack\[(\w+)\]", str(parameters.get("settings")))
+    return own | (native.default_settings(settings[1]) if settings else {})
 
 
 def unit_of(name: str, function: str) -> str:

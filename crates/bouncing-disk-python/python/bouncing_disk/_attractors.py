@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypedDict
 
 import numpy as np
 
@@ -13,9 +14,13 @@ from bouncing_disk._base import *
 from bouncing_disk._orbits import ImpactMap, PeriodicOrbit
 from bouncing_disk._system import ChatterCut
 
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
 __all__ = [
     "ATTACHED",
     "Attractor",
+    "AttractorSearch",
     "Attractors",
     "BasinEntropy",
     "BasinFractions",
@@ -152,27 +157,37 @@ class Attractors(Stored):
         return len(self.all)
 
 
+class AttractorSearch(TypedDict, total=False):
+    """How attractors are searched for: keywords of :func:`attractors` and :func:`basin_fractions_over`.
+
+    Args:
+        starts: starts, spread evenly over all impacts that an attractor can have, in [0, 2^18]; 1024 unless given.
+        transient: impacts that are skipped, at least 1; 2000 unless given.
+        impacts: impacts over which orbits of each aperiodic motion are followed, at least 64; 100000 unless given.
+        longest_period: the longest period, in impacts, in [1, 4096]; 256 unless given.
+        cells: cells along each axis of the grid that distinguishes aperiodic motions, in [8, 4096]; 256 unless given.
+        budget: approximate limit on the impacts of the whole search, in [256 a start, 2^50], 2^28 unless given; starts that
+            are still under way when it is used up are undecided. On a drive an impact counts as 32.
+    """
+
+    starts: Int
+    transient: Int
+    impacts: Int
+    longest_period: Int
+    cells: Int
+    budget: Int
+
+
 def attractors(
     impact_map: ImpactMap,
     *,
-    starts: Int = 1024,
-    transient: Int = 2000,
-    impacts: Int = 100_000,
-    longest_period: Int = 256,
-    cells: Int = 256,
-    budget: Int = 2**28,
     progress: Progress = None,
+    **settings: Unpack[AttractorSearch],
 ) -> Attractors:
     """The attractors of a map, found without known orbits.
 
     Args:
-        starts: starts, spread evenly over all impacts that an attractor can have, in [0, 2^18].
-        transient: impacts that are skipped, at least 1.
-        impacts: impacts over which orbits of each aperiodic motion are followed, at least 64.
-        longest_period: the longest period, in impacts, in [1, 4096].
-        cells: cells along each axis of the grid that distinguishes aperiodic motions, in [8, 4096].
-        budget: approximate limit on the impacts of the whole search, in [256 a start, 2^50]; starts that are
-            still under way when it is used up are undecided. On a drive an impact counts as 32.
+        settings: those of :class:`AttractorSearch`, as keywords.
 
     >>> import bouncing_disk as bd
     >>> found = bd.attractors(bd.ImpactMap(axial_forcing=0.486, restitution=0.5))
@@ -381,13 +396,8 @@ def basin_fractions_over(
     restitution: Float,
     axial_forcing: ArrayLike,
     reach: Float = 0.3,
-    starts: Int = 1024,
-    transient: Int = 2000,
-    impacts: Int = 100_000,
-    longest_period: Int = 256,
-    cells: Int = 256,
-    budget: Int = 2**28,
     progress: Progress = None,
+    **settings: Unpack[AttractorSearch],
 ) -> BasinFractions:
     """The attractors at each of some forcings, matched from one to the next, and the shares of their basins.
 
@@ -400,7 +410,7 @@ def basin_fractions_over(
         axial_forcing: axial forcing parameter Gamma, in the order in which attractors are to be followed; at
             most 65536, shape (n,).
         reach: how far an attractor may be from where it was at the forcing before (rad), in [0, 100].
-        starts, transient, impacts, longest_period, cells, budget: as of :func:`attractors`.
+        settings: those of :class:`AttractorSearch`, as keywords.
 
     The period-1 orbit appears at Gamma = 1/3, beside the disk at rest:
 

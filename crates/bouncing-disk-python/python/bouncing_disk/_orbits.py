@@ -4,15 +4,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypedDict
 
 from bouncing_disk import _native as native
 from bouncing_disk._base import *
 from bouncing_disk._native import impact_map
 from bouncing_disk._system import Drive, System
 
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
 __all__ = [
     "Bifurcation",
     "Branch",
+    "Continuation",
     "DoublingCascade",
     "ImpactMap",
     "PeriodicOrbit",
@@ -279,6 +284,19 @@ def periodic_orbits(
     return native.periodic_orbits(locals())
 
 
+class Continuation(TypedDict, total=False):
+    """The steps along a branch: keywords of :func:`continued` and :meth:`Branch.switched`.
+
+    Args:
+        first_step, largest_step: arclength of the first and of the largest step, in [1e-9, 1]; 0.01 and 0.05 unless given.
+        max_points: the most orbits, in [2, 1000000]; 10000 unless given.
+    """
+
+    first_step: Float
+    largest_step: Float
+    max_points: Int
+
+
 @dataclass(frozen=True, eq=False)
 class Bifurcation(Result):
     """A special point of a branch of periodic orbits.
@@ -343,17 +361,15 @@ class Branch(Stored):
         *,
         index: Int,
         parameter_range: Pair,
-        first_step: Float = 0.01,
-        largest_step: Float = 0.05,
-        max_points: Int = 10_000,
         progress: Progress = None,
+        **settings: Unpack[Continuation],
     ) -> Branch:
         """The branch of twice the period that begins at a doubling.
 
         Args:
             index: which of :attr:`bifurcations`.
             parameter_range: lowest and highest value of the parameter.
-            first_step, largest_step, max_points, progress: as of :func:`continued`.
+            settings: those of :class:`Continuation`, as keywords.
         """
         return native.switched(locals())
 
@@ -369,10 +385,8 @@ def continued(
     parameter: str = "axial_forcing",
     parameter_range: Pair,
     rising: bool = True,
-    first_step: Float = 0.01,
-    largest_step: Float = 0.05,
-    max_points: Int = 10_000,
     progress: Progress = None,
+    **settings: Unpack[Continuation],
 ) -> Branch:
     """The branch of periodic orbits through one of them, through folds and along unstable parts.
 
@@ -385,8 +399,7 @@ def continued(
             for the amplitude of the second harmonic or ``"sawtooth"``.
         parameter_range: its lowest and highest value.
         rising: whether it goes towards higher values at first.
-        first_step, largest_step: arclength of the first and of the largest step, in [1e-9, 1].
-        max_points: the most orbits, in [2, 1000000].
+        settings: those of :class:`Continuation`, as keywords.
 
     Raises:
         InvalidError: ``"not-an-orbit"`` for an orbit of another map; ``"no-such-number"`` for a parameter that the
