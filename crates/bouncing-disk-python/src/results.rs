@@ -3,7 +3,8 @@
 
 use bouncing_disk::Error;
 use bouncing_disk::core::Error as CoreError;
-use numpy::{Complex64, IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
+use numpy::ndarray::Array2;
+use numpy::{Complex64, IntoPyArray, PyArray1, PyArray2};
 use pyo3::PyClass;
 use pyo3::exceptions::PyValueError;
 use pyo3::intern;
@@ -17,16 +18,10 @@ use crate::errors;
 /// The result of a class with these fields, in their order.
 macro_rules! make {
     ($py:expr, $class:literal, $($field:expr),+ $(,)?) => {
-        $crate::results::all(vec![$(pyo3::IntoPyObjectExt::into_bound_py_any($field, $py)),+])
-            .and_then(|fields| $crate::results::made($py, $class, fields))
+        $crate::results::made($py, $class, vec![$(pyo3::IntoPyObjectExt::into_bound_py_any($field, $py)?),+])
     };
 }
 pub(crate) use make;
-
-/// The fields, unless one of them failed.
-pub(crate) fn all(fields: Vec<Made<'_>>) -> PyResult<Vec<Bound<'_, PyAny>>> {
-    fields.into_iter().collect()
-}
 
 /// The result of a class that is made of these fields.
 pub(crate) fn made<'py>(py: Python<'py>, class: &str, fields: Vec<Bound<'py, PyAny>>) -> Made<'py> {
@@ -61,7 +56,8 @@ pub(crate) fn matrix<T: numpy::Element>(
     numbers: Vec<T>,
     shape: [usize; 2],
 ) -> PyResult<Bound<'_, PyArray2<T>>> {
-    numbers.into_pyarray(py).reshape(shape)
+    let all = Array2::from_shape_vec(shape, numbers);
+    all.map(|all| all.into_pyarray(py)).map_err(|error| PyValueError::new_err(error.to_string()))
 }
 
 /// One number of each item, as an array.
