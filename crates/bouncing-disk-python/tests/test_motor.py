@@ -10,13 +10,16 @@ import bouncing_disk as bd
 import numpy as np
 import pytest
 
-from good_calls import MOTOR
+from good_calls import MAP, MOTOR
 
 
 def test_a_setting_that_is_none_is_refused() -> None:
     misspelt: dict[str, Any] = {"relative_eror": 0.1}
     with pytest.raises(TypeError, match="unexpected keyword argument 'relative_eror'"):
         bd.stall_load(MOTOR, **misspelt)
+    misspelt = {"stars": 4}
+    with pytest.raises(TypeError, match="unexpected keyword argument 'stars'"):
+        bd.attractors(MAP, **misspelt)
 
 
 def test_a_data_sheet_is_its_system() -> None:
