@@ -443,7 +443,9 @@ fn a_locked_motor_has_the_range_and_the_time_constant_of_its_flights() {
         .expect("legal");
     let period = TAU / system.platform().angular_frequency();
     let motors = [loaded(&system, 0.1), loaded(&system, 0.2)];
-    let rows = operate(&motors, &OperatingSettings::default(), &Unobserved).expect("no failure").rows;
+    // The locked branch is exact whatever error is asked for; the irregular one beside it is not looked at.
+    let settings = OperatingSettings { members: 4, relative_error: 0.2, ..OperatingSettings::default() };
+    let rows = operate(&motors, &settings, &Unobserved).expect("no failure").rows;
     for (motor, row) in motors.iter().zip(rows) {
         let points = row.branches.iter().filter_map(Operation::steady);
         let locked: Vec<_> = points
