@@ -156,31 +156,31 @@ macro_rules! kinds {
 
 kinds! {
     /// A printed number that follows from an equation, or from a simulation whose inputs are printed.
-    Number = "number", "Reproduced where ours, at exactly the printed inputs, agrees within half a unit of the last printed digit.";
+    Number = "number", "Reproduced if our value, at exactly the printed inputs, agrees within half a unit of the last printed digit.";
     /// A printed number that the authors computed from rounded measurements.
-    Measured = "measured", "Judged over inputs that all round to the printed ones: reproduced for 95 % of them or more, differing for 5 % or less, otherwise dependent on unprinted digits.";
+    Measured = "measured", "Judged over inputs that all round to the printed ones: reproduced if it agrees for at least 95 % of them, differs if for at most 5 %, otherwise depends on unprinted digits.";
     /// A reading from drawn curves: a maximum, its place, or the coincidence of two maxima.
-    Maximum = "maximum", "Of the drawn curves. A value is judged as a number; a place agrees where the curve there is lower than its maximum by no more than a line's width, a hundredth of what the curve spans. Where more than half of the drawn range, by its length, or of the drawn curves would agree, it is no data.";
+    Maximum = "maximum", "Read from the drawn curves. A value is judged as a number. A place agrees if the curve there lies below its maximum by at most a line's width, a hundredth of the curve's span. If more than half of the drawn range, by length, or of the drawn curves would agree, the verdict is no data.";
     /// A formula with an equality.
-    Equation = "equation", "Reproduced where both sides agree but for rounding.";
+    Equation = "equation", "Reproduced if both sides agree apart from rounding.";
     /// One thing is larger, slower, negligible, significant.
-    Comparison = "comparison", "Reproduced where ours stand in the stated relation. \"Negligible\" is at most what the paper's own two numbers may differ by, \"significant\" more than the printed uncertainty.";
+    Comparison = "comparison", "Reproduced if our values stand in the stated relation. A \"negligible\" difference is at most the one that the paper's own two numbers may have; a \"significant\" one exceeds the printed uncertainty.";
     /// Said of a whole range of parameters, or without any qualification.
-    Always = "always", "One counterexample inside the stated range makes it differ, if it is more than a point: it must persist under a small change of the inputs.";
+    Always = "always", "Differs if there is one counterexample inside the stated range, provided that it is not a single point: it must persist under a small change of the inputs.";
     /// "Can", "may", "possible", or one named case.
-    Exists = "exists", "One example makes it reproduced.";
+    Exists = "exists", "Reproduced if there is one example.";
     /// "Most", "predominantly", a regime that a range is named after.
-    Most = "most", "Reproduced where it holds for more than half.";
+    Most = "most", "Reproduced if it holds for more than half of the cases.";
     /// "Grows", "falls", "rises", "approaches".
-    Trend = "trend", "Reproduced where, of all pairs of points of the range that differ, more go the stated way than the other. A maximum or a turn is two trends.";
+    Trend = "trend", "Reproduced if, among all pairs of points of the range whose values differ, more change in the stated direction than in the other. A maximum or a turn is two trends.";
     /// "Much larger", "sufficiently", "eventually".
-    Limit = "limit", "Reproduced where the deviation falls to less than a hundredth in the stated limit.";
+    Limit = "limit", "Reproduced if the deviation falls below a hundredth in the stated limit.";
     /// "Appears", "seems", "can be seen".
-    Appears = "appears", "Reproduced where the picture that is referred to shows it at its resolution, over most of the range that is meant, whatever lies between its points.";
+    Appears = "appears", "Reproduced if the picture referred to shows it at its resolution, over most of the range meant, whatever lies between its points.";
     /// A speed, a torque, a form of transient or a trend of the motor.
-    Motor = "motor", "Two verdicts. The row counts by the mean of an ensemble of motors whose relaunch is perturbed; over many values of a parameter by the middle mean, or the middle exponent. Beside it stands that of single orbits that nothing perturbs: reproduced for 95 % of them or more, differing for 5 % or less.";
+    Motor = "motor", "Two verdicts. The first, which counts, is on the mean of an ensemble of motors with perturbed relaunch; over many values of a parameter, on the middle mean or the middle exponent. The second is on single unperturbed orbits: reproduced if it holds for at least 95 % of them, differs if for at most 5 %.";
     /// Which orbit one motor is on, and what follows from that.
-    Orbit = "orbit", "Judged over single orbits, as the second verdict of a motor.";
+    Orbit = "orbit", "Judged over single orbits, like the second verdict on a motor.";
 }
 
 impl Kind {
