@@ -161,7 +161,7 @@ impl Claim {
         let words = if self.verdict == Verdict::NotComputable {
             "undefined in the paper, and definitions tried differ"
         } else {
-            "undefined in the paper, so that the kindest definition counts"
+            "undefined in the paper; the most favourable definition counts"
         };
         self.note(words)
     }
@@ -195,10 +195,7 @@ impl Claim {
             true => Verdict::Reproduced,
             false => Verdict::Differs,
         };
-        self.note(format!(
-            "at the printed place lower than the maximum by {:.2} % of the span",
-            100.0 * lower
-        ))
+        self.note(format!("at the printed place {:.2} % of the span below the maximum", 100.0 * lower))
     }
 
     /// Names the cause for which it differs, if it does.

@@ -68,7 +68,7 @@ pub(crate) fn fig04(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
                 "sin τ_sep = g/(cω² cos φ_L) reaches 1 at the end of the range of φ_L; whether the journal or the extraction of its text has \
                  π/4 for π/2 is unknown",
             )
-            .cause("π/4 in the text for π/2"),
+            .cause("π/4 for π/2"),
     );
 
     // (e): the speed at each friction, and its maximum at less friction.

@@ -117,7 +117,7 @@ pub(crate) fn fig05(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
         "section3.no_slip_at_separation",
         fall && most < NEARLY_NOTHING,
         format!(
-            "of the hand's speed at separation the dough lacks a share of at most {most:.1e} at μ = {}, θ = 0, and less the larger μ is",
+            "at separation the dough is slower than the hand by a share of at most {most:.1e} at μ = {}, θ = 0, and by less the larger μ is",
             firmest.friction,
         ),
     ));

@@ -73,7 +73,7 @@ pub(crate) fn fig07(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
         "Basins of attraction, {cells} × {cells} cells a panel, ε = {restitution}. White: the chattering orbit (impacts: \
          black crosses in (a)–(c), red dots in (d), black dots in (e)). Black: the attractor of the period-doubling route \
          (white crosses, yellow dots in (d)). Gray: another attractor (red circles). The window is not printed; \
-         it ends at {WINDOW_TOP}, where both printed shares come out. (f) Share of the window [0, top] of the attractors in \
+         it ends at {WINDOW_TOP}, which gives both printed shares. (f) Share of the window [0, top] of the attractors in \
          (a) and (b) against its top; dashed: the printed {low:.1} % and {high:.1} %.",
     ));
     fig.draw(picture::draw(&panels, cells, &windows));

@@ -36,7 +36,7 @@ pub(crate) fn fig08(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
         "Geometric details of the ultrasonic motor, not to scale. The rotor is a steel ball of {} mm diameter, radius of gyration \
          a_g = {} mm. The stator, a pretwisted beam on an axially poled piezoelectric transducer, touches it along a circle of \
          radius a_e = {} mm (enlarged). At a resonance its tip moves as in Eq. (1), s up and down and β about the axis. A magnet \
-         above the ball reduces the preload mg; g is the acceleration that is left. All other dimensions are made up.",
+         above the ball reduces the preload mg; g is the remaining acceleration. All other dimensions are made up.",
         diameter, gyration_radius, contact_radius
     ));
     fig.parameter("ball diameter", format!("{diameter} mm"));

@@ -99,7 +99,7 @@ pub(crate) fn fig10(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
                 "A ω²/g, without the factor 1/π, is {:.1}: the printed 70 if that has one digit",
                 PI * tsujino
             ))
-            .cause("the π of Γ left out"),
+            .cause("a factor π missing from Γ"),
     );
     let merging = catalogue::number("section4.merging", 0)?.value;
     let motors = || alike.motors.iter().flatten().map(|motor| motor.axial_forcing);

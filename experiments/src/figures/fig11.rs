@@ -114,10 +114,10 @@ pub(crate) fn fig11(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
 
     let per_curve = curves.first().map_or(0, |curve| curve.points.len());
     fig.caption(format!(
-        "Effect of preload on steady-state speed and stall torque at (a), (b) {} and (c), (d) {} kHz, where the motor turns anticlockwise and speeds \
-         count in that sense. Dots: means of {}, {} and {} members at the three A, some with standard deviations; circles: {} motors on \
+        "Effect of preload on steady-state speed and stall torque at (a), (b) {} and (c), (d) {} kHz, where the motor turns anticlockwise (positive \
+         speeds). Dots: means of {}, {} and {} members at the three A, some with standard deviations; circles: {} motors on \
          low-period cycles, {} of one flight. Squares: the load that really stalls the motor at A = 10⁻⁸ m. Blue: 5 to 95 % of unperturbed \
-         orbits. Which g goes with which A, and the measured points, are not printed.",
+         orbits. The paper prints no measured points and no pairing of g and A.",
         motor.frequency_hz / 1e3,
         printed.frequencies_hz[1] / 1e3,
         members[0],

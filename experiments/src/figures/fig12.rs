@@ -86,7 +86,7 @@ pub(crate) fn fig12(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
             "section5.linear_rise",
             of_low_period(|motor| !motor.is_exponential()),
             format!(
-                "a linear rise to a constant fits better than the exponential; {} low-period orbits of {} drawn. In (d) the rise is {:.2} rad/s off one line at most",
+                "a linear rise to a constant fits better than the exponential; {} low-period orbits of {} sampled. In (d) the rise is within {:.2} rad/s of a line",
                 found.motors.len(),
                 found.drawn,
                 low.fits.farthest_from_line_rad_per_s,
@@ -107,7 +107,7 @@ pub(crate) fn fig12(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
         "section5.multiple_lines",
         is_seen(&drawn_lines),
         format!(
-            "in (e) lines stand apart by a twentieth of the rise in ten cycles; so do those of {} other orbits, in the whole transient by {:.2} % of ωΦ on the median",
+            "in (e) the lines are a twentieth of the rise in ten cycles apart, as in {} other orbits; over the whole transient the median is {:.2} % of ωΦ",
             Cases::of(found.lines.iter().map(is_seen)).words(),
             100.0 * median(found.lines.iter().map(|lines| lines.gap_over_peak_angular_speed)).unwrap_or(f64::NAN),
         ),
@@ -123,7 +123,7 @@ pub(crate) fn fig12(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
     fig.parameter("orbits judged for (d)–(f)", &orbits[1].inputs);
     fig.caption(format!(
         "Speed transients of the motor of Table III, unperturbed. (a)–(c) A = {:e} m, g = {} m/s²: long-period chattering. (d)–(f) \
-         g = {} m/s²: low-period chattering ({}) at an amplitude {:.1e} of the printed one away, where rounding chooses the \
+         g = {} m/s²: low-period chattering ({}) at an amplitude {:.1e} (relative) from the printed one, at which rounding selects the \
          cycle. (a), (d) Speed during each flight; dashed: exponential fit, and the prediction from the impulses of one cycle. \
          (b) Speed and (c), (f) height of the rotor in the blue windows. (e) Speed during each flight of ten cycles.",
         long.motor.amplitude_m,

@@ -86,7 +86,7 @@ pub(crate) fn fig13(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
         "Effect of (a) μ, (b) ε, (c) θ, (d) A and (e) ωΦ about the default motor (grey vertical lines) on steady-state speed (crosses, left) and \
          stall torque (dots, right; none for {left_out} motors without a meaningful fit). Means and standard deviations of {members} members; pale: \
          {low} motors on a low-period cycle. Dotted: prediction from the phases of the normal impulse, (f). Grey area and blue lines: 5 to 95 % of {} \
-         unperturbed motors that print alike. The paper does not print its ranges; these are ours.",
+         unperturbed motors whose inputs print alike. The paper does not print its ranges; these are ours.",
         study.alike.drawn,
     ));
     for sweep in &study.sweeps {

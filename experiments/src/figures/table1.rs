@@ -81,13 +81,13 @@ pub(crate) fn table1(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
                 arc.length_m, arc.half_m,
             ),
         )
-        .cause("half of the arc called the arc"),
+        .cause("half the arc called the arc"),
     );
     let separation = at_separation(&table_i, &section, &system, frequency.value)?;
     fig.claim(launch_without_slip(&separation));
 
     fig.caption(format!(
-        "The single toss as printed, the entries that the paper computes (φ_L, ω, μ) computed again, and the \
+        "The single toss as printed, the entries that the paper computes (φ_L, ω, μ) recomputed, and the \
          quantities that follow from the printed entries. Uncertainties are sums of the effects of the inputs of \
          a row, each half the difference of both ends. Eq. (14) takes the hand's largest speeds for those at \
          separation; with the factor cos τ_sep that it leaves out, ω is {:.2} rad/s.",
@@ -287,7 +287,7 @@ fn launch_without_slip(separation: &AtSeparation) -> Claim {
             separation.corrected_angular_frequency_rad_per_s.value,
         ),
     )
-    .cause("the hand's largest speeds taken for those at separation")
+    .cause("launch speeds taken at the wrong phase")
 }
 
 /// One line of the table.

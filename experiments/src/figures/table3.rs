@@ -77,8 +77,8 @@ pub(crate) fn table3(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
         "The default motor. Sec. V A announces {} inputs, the table prints {printed_inputs}: a column for ω is missing, and its \
          last column can be read in two ways, both computed here: g = {printed_preload} m/s² as printed, or ω/2π = {frequency_khz} kHz with \
          gravity for g. ω is 2π × {frequency_khz} kHz in both. Below the nine inputs: what follows from \
-         them. The load torque that stalls the motor is that at which the mean speed of {} members is zero; the paper takes \
-         α̇_ss/t_c for it.",
+         them. The load torque that stalls the motor makes the mean speed of {} members zero; the paper uses \
+         α̇_ss/t_c instead.",
         rows.len(),
         stalls[1].members,
     ));
@@ -427,7 +427,7 @@ impl Drop {
                     "√(2gh) with heights and g that round to the printed ones; with g up to the {highest} m/s² of the motor {} of {}",
                     self.agreement_to_highest.holding, self.agreement_to_highest.tried,
                 ))
-                .cause("a fall with another gravitational acceleration"),
+                .cause("another gravity in the fall of the ball"),
             // An inference from printed numbers; the text does not say which g was used.
             Claim::statement(
                 "table3",

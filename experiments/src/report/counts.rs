@@ -58,13 +58,13 @@ impl Counts {
         let motors = match reproduced + differs + depends {
             0 => String::new(),
             motors => format!(
-                " Of {motors} statements about the motor that count by the mean of an ensemble, single orbits reproduce {reproduced} and contradict \
-                 {differs}; for {depends} it depends on the orbit."
+                " Of {motors} statements about the motor that are judged by the mean of an ensemble, single orbits reproduce {reproduced} and contradict \
+                 {differs}; for {depends} the verdict depends on the orbit."
             ),
         };
         format!(
-            "Beside these and not counted with them: {fitted} numbers that we fitted, {inputs} inputs and quotations, {identities} \
-             identities, {this_work} findings of this work.{motors}"
+            "Not counted with these: {fitted} fitted numbers, {inputs} inputs and quotations, {identities} \
+             identities and {this_work} findings of this work.{motors}"
         )
     }
 }
@@ -87,6 +87,6 @@ mod tests {
         assert!(counts.headline().starts_with(
             "Of 2 numbers and statements of the paper, 1 are reproduced, 1 differ (for 1 causes)"
         ));
-        assert!(counts.beside().contains("1 numbers that we fitted"));
+        assert!(counts.beside().contains("1 fitted numbers"));
     }
 }

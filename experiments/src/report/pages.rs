@@ -317,16 +317,23 @@ mod tests {
         filled("{{ demo.none|number(\".1\") }}", &figure()).expect_err("no such number");
     }
 
-    /// The numbers of verdicts that the README names are those of the page.
+    /// The README and the book's page on the rules state the numbers of verdicts that the results count.
     #[test]
-    fn the_readme_counts_like_the_page() {
+    fn other_pages_count_like_the_results() {
         let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
         let read = |name: &str| std::fs::read_to_string(root.join(name)).expect("committed");
         let page = read("docs/results.md");
-        let headline =
+        let (headline, beside) =
             page.lines().find_map(|line| line.strip_prefix("**Of ")?.split_once("**")).expect("a headline");
-        let readme = read("README.md").replace('\n', " ");
-        assert!(readme.contains(&format!("Of {}", headline.0)), "{}", headline.0);
+        let motors = &beside[beside.find("Of ").expect("the motors")..];
+        for (name, sentences) in
+            [("README.md", vec![headline]), ("docs/reproducing.md", vec![headline, motors])]
+        {
+            let text = read(name).replace('\n', " ");
+            for sentence in sentences {
+                assert!(text.contains(sentence), "{name}: {sentence}");
+            }
+        }
     }
 
     #[test]

@@ -70,7 +70,7 @@ fn place(key: &str, computed: f64, printed: f64, curve: &Drawn) -> Claim {
     ))
 }
 
-/// `lossless` is the efficiency of the fastest toss if the energy lost in friction is not counted as put in.
+/// `lossless` is the efficiency of the fastest toss if friction losses do not count as input.
 pub(super) fn claims(
     fig: &mut Paper<'_>,
     data: &Curves,
@@ -110,7 +110,7 @@ pub(super) fn claims(
     let grid = &data.consistency.coarse_grid;
     let case = &grid.reading.parameters;
     let reason = format!(
-        "all come out with ω = {:.2} rad/s, a_g = {:.4} m and the best of {} steps of φ_L",
+        "all numbers result with ω = {:.2} rad/s, a_g = {:.4} m and the best of {} steps of φ_L",
         case.angular_frequency_rad_per_s, case.gyration_radius_m, grid.intervals
     );
     let (angle, ratio) =
@@ -121,7 +121,7 @@ pub(super) fn claims(
         place("section3.optimal_amplitude_ratio", tan(angle), atan(ratio.value), &of_speed),
         Claim::printed("section3.largest_airborne_speed", fastest.airborne_speed_rad_per_s),
         Claim::printed("section3.largest_efficiency", fastest.efficiency)
-            .note(format!("{lossless:.3} if the energy lost in friction is not counted as put in")),
+            .note(format!("{lossless:.3} if friction losses do not count as input")),
         Claim::printed("section3.speed_ratio_at_optimum", fastest.speed_ratio.unwrap_or(f64::NAN)),
     ];
     fig.claims(numbers.map(|claim| {
@@ -156,7 +156,7 @@ pub(super) fn claims(
     let as_high = ratios().filter(|ratio| largest - ratio <= LINE_WIDTH).count();
     fig.claim(
         Claim::printed("section3.largest_speed_ratio", largest)
-            .note(format!("of the curves drawn, θ = nπ/8, that of n = {}", firmest.n)),
+            .note(format!("among the curves θ = nπ/8 of the figure, the one for n = {}", firmest.n)),
     );
     let key = "section3.amplitude_angle_of_largest_speed_ratio";
     let printed_angle = catalogue::number(key, 0)?.value;

@@ -229,7 +229,7 @@ pub(super) fn chattering(
             "section4.coexistence",
             all(&periodic, |slice| diagram.rests_beside(slice) || restless(slice).is_some_and(Bouncing::chatters)),
             format!(
-                "at {} Γ with a periodic orbit; at {} of them a disk from rest never rests, and in {} its later rapid collision is slower. Beside chaos it does not chatter at {} Γ",
+                "at {} Γ with a periodic orbit; at {} of them a disk from rest never rests, and in {} its later rapid collision is slower. Next to chaos it does not chatter at {} Γ",
                 periodic.len(),
                 never.len(),
                 never.iter().map(|at| at.slower).sum::<Cases>().words(),
@@ -247,7 +247,7 @@ pub(super) fn chattering(
             "section4.chattering_is_periodic",
             (repeats.tried > 0).then(|| mostly(repeats)),
             format!(
-                "a rest repeats the cycle for ever; without one up to {LONGEST_PERIOD} impacts may repeat within a dot's width: in all at {} of {} Γ",
+                "after a rest the cycle repeats for ever; without one up to {LONGEST_PERIOD} impacts may repeat within a dot's width: in all at {} of {} Γ",
                 repeats.holding, repeats.tried,
             ),
         ),
@@ -261,7 +261,7 @@ pub(super) fn chattering(
             "section1.no_bouncing",
             axial_forcing * PI < 1.0,
             format!(
-                "a disk in contact stays there; one thrown up at ε = {restitution} and Γ = {axial_forcing} bounces on: period 1 attracts (multipliers {:.2}) from Γ = {:.3} on",
+                "a disk in contact stays there; one thrown up at ε = {restitution} and Γ = {axial_forcing} keeps bouncing: period 1 attracts (multipliers {:.2}) from Γ = {:.3} on",
                 radius.unwrap_or(f64::NAN),
                 in_closed_form(restitution),
             ),
@@ -283,7 +283,7 @@ pub(super) fn chattering(
                 )
             }),
         )
-        .cause("single tosses end at Γ = 0.5085"),
+        .cause("single tosses end earlier, at Γ = 0.5085"),
     );
     fig.record("single_tosses", &single)?;
 
@@ -304,7 +304,7 @@ pub(super) fn chattering(
     fig.claim(Claim::printed_statement(
         "section4.chattering_grows_complex",
         grows,
-        format!("of all pairs of Γ the higher one has the longer cycle in {}", grows.words()),
+        format!("the higher Γ of a pair has the longer cycle in {}", grows.words()),
     ));
     let low = section.axial_forcings_of_fig7[2];
     let longest = cycles().filter(|(forcing, _)| *forcing <= low).map(|(_, periods)| periods).max();

@@ -280,7 +280,7 @@ fn shadow(shadows: &[Shadow]) -> Claim {
         "section4.orbits_shadow_attractor",
         all(shadows, |of| of.share_near > of.share_of_plane),
         format!(
-            "next to the saddle lie {:.3} of the impacts from rest and {:.3} of the plane, on the mean of {} Γ; {:.1} times as many or more at each",
+            "next to the saddle lie {:.3} of the impacts from rest and {:.3} of the plane, on average over {} Γ; at each Γ {:.1} times as many or more",
             mean(|of| of.share_near),
             mean(|of| of.share_of_plane),
             shadows.len(),

@@ -21,7 +21,7 @@ const PRINTED_DOUBLINGS: usize = 5;
 /// The doublings whose ratio of distances is printed.
 const PRINTED_RATIOS: std::ops::RangeInclusive<usize> = 2..=4;
 /// Why the doublings and the ratios of their distances differ.
-const READ_OFF: &str = "misprinted doublings, perhaps read off a diagram";
+const READ_OFF: &str = "inaccurate doubling points, perhaps read off a diagram";
 /// The Feigenbaum constant.
 const FEIGENBAUM: f64 = 4.669_201_609_102_99;
 

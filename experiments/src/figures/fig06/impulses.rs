@@ -190,7 +190,7 @@ pub(super) fn transfers(fig: &mut Paper<'_>, diagram: &Diagram) -> Result<(), Ex
         "section4.transfer_in_impacts",
         mean.map_or_else(Cases::default, Cases::of_share),
         format!(
-            "{:.3} of all angular impulses, by size, on the mean over the orbits from rest, {least:.3} to {most:.3} by orbit; {:.3} in the motor of Table III",
+            "{:.3} of all angular impulses, by size, on average over the orbits from rest, {least:.3} to {most:.3} by orbit; {:.3} in the motor of Table III",
             mean.unwrap_or(f64::NAN),
             motor.unwrap_or(f64::NAN),
         ),

@@ -158,7 +158,7 @@ pub(super) fn equation_16(fig: &mut Paper<'_>, diagram: &Diagram) -> Result<(), 
             (scan.best_lag_rad + scan.impact_phase_rad).abs() <= 0.5 * scan.lag_step_rad
                 && (scan.speed_at_impact_phase - 1.0).abs() < SETTLED
         }),
-        "of all lags tried the fastest is next to it",
+        "the fastest of all lags tried is next to it",
     ));
     let (least, most) = extent(of.lags.iter().map(|scan| scan.speed_of_elliptical));
     fig.claim(Claim::printed_statement(
@@ -206,7 +206,7 @@ pub(super) fn equation_16(fig: &mut Paper<'_>, diagram: &Diagram) -> Result<(), 
         ends.map(|(_, last)| (least..=most).contains(&last.linear_mean)),
         ends.map_or_else(String::new, |(_, last)| {
             format!(
-                "{:.4} ωΦ; the cosine is {least:.4} to {most:.4} for what rounds to 0.26π",
+                "{:.4} ωΦ; the cosine is {least:.4} to {most:.4} for values that round to 0.26π",
                 last.linear_mean
             )
         }),
@@ -247,7 +247,7 @@ pub(super) fn equation_16(fig: &mut Paper<'_>, diagram: &Diagram) -> Result<(), 
         "section4.semielliptical_reaches_maximum",
         all(reached, |speed| speed >= least),
         format!(
-            "{:.7} ωΦ at the last period-1 orbit of (d), Γ = {:.4}; half a unit of the last digit of 0.26π lets it fall to {least:.7}",
+            "{:.7} ωΦ at the last period-1 orbit of (d), Γ = {:.4}; half a unit of the last digit of 0.26π reduces it to {least:.7}",
             reached.unwrap_or(f64::NAN),
             last.map_or(f64::NAN, |one| one.axial_forcing),
         ),

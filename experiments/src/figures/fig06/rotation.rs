@@ -250,7 +250,7 @@ fn oscillation(diagram: &Diagram, start: f64) -> [Claim; 2] {
             "section4.small_angular_forcing_tracks",
             all(&misses, |(large, small)| small < large),
             format!(
-                "after an impact the disk is off the platform's speed in it by {:.0e} ωΦ at most in (d), {:.4} ωΦ at least in (c), means of each orbit",
+                "after an impact the disk's speed differs from the platform's by {:.0e} ωΦ at most in (d), {:.4} ωΦ at least in (c), means of each orbit",
                 extent(misses.iter().map(|pair| pair.1)).1,
                 extent(misses.iter().map(|pair| pair.0)).0,
             ),

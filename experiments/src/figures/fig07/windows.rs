@@ -143,7 +143,7 @@ pub(super) fn claims(fig: &mut Paper<'_>, windows: &Windows, cells: usize, [a, b
     for ((key, panel), top) in keys.into_iter().zip([a, b]).zip([windows.top_for_a, windows.top_for_b]) {
         let share = panel.shares.attractor;
         let claim = Claim::printed(key, 100.0 * share);
-        fig.claim(claim.fitted("the window's top, 5, at which both printed shares come out").note(format!(
+        fig.claim(claim.fitted("the window's top, 5, which gives both printed shares").note(format!(
             "± {:.2} % (binomial); {:.1} % of the cells lie at a boundary; {} gives the printed share",
             100.0 * (share * (1.0 - share)).sqrt() / cells as f64,
             100.0 * panel.boundary_shares[0].1,

@@ -55,7 +55,10 @@ pub(super) fn claims(study: &Study) -> Vec<Claim> {
         Claim::printed_statement(
             "section5.smaller_restitution_gives_low_period",
             trend(prevalence.iter().map(|entry| (entry.restitution, entry.share_of_low_period)), -1.0),
-            format!("share of low period among {} motors that print alike: {falling}", study.alike.drawn),
+            format!(
+                "share of low period among {} motors whose inputs print alike: {falling}",
+                study.alike.drawn
+            ),
         )
         .by_definition(&by_flights),
         Claim::printed_statement(

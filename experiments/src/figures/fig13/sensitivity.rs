@@ -251,7 +251,7 @@ fn only_reduce(study: &Study, persisting: &[(Input<MotorCase>, f64)]) -> Claim {
             ramps.count(),
         ),
     )
-    .cause("an initial slope of a fit that is no acceleration")
+    .cause("a fitted slope that is no acceleration")
     .single_orbits(study.alike.prevalence.iter().map(|entry| entry.within_limit).sum())
 }
 
@@ -276,7 +276,7 @@ fn simplistic(study: &Study) -> Claim {
         "section5.scaling_fails_for_restitution",
         |of| of.stall_over_limit_rise.is_some_and(|rise| rise < 0.5 * predicted),
         format!(
-            "over the range of ε the scaling has α̇_ss/t_c rise by {:.0} %, its mean changes by {:.0} %: the interval is (1 + ε)w_A/g, and the factor cancels",
+            "over the range of ε the scaling raises α̇_ss/t_c by {:.0} %, its mean changes by {:.0} %: the interval is (1 + ε)w_A/g, and the factor cancels",
             100.0 * predicted,
             100.0 * study.mean.stall_over_limit_rise.unwrap_or(f64::NAN),
         ),
