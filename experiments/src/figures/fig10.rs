@@ -107,7 +107,7 @@ pub(crate) fn fig10(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
         "section4.motor_regime",
         Cases::of(motors().map(|forcing| forcing > merging)),
         format!(
-            "the lowest Γ is {:.2}, of all motors that print alike at the three A",
+            "the lowest Γ is {:.2}, of all motors whose inputs print alike at the three A",
             motors().fold(f64::INFINITY, f64::min)
         ),
     ));

@@ -107,7 +107,7 @@ pub(crate) fn fig12(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
         "section5.multiple_lines",
         is_seen(&drawn_lines),
         format!(
-            "in (e) the lines are a twentieth of the rise in ten cycles apart, as in {} other orbits; over the whole transient the median is {:.2} % of ωΦ",
+            "in (e) the lines are a twentieth of the rise in ten cycles apart, as in {} other orbits; over the whole transient the median distance is {:.2} % of ωΦ",
             Cases::of(found.lines.iter().map(is_seen)).words(),
             100.0 * median(found.lines.iter().map(|lines| lines.gap_over_peak_angular_speed)).unwrap_or(f64::NAN),
         ),
@@ -218,7 +218,7 @@ fn case(orbits: &[Alike; 2], case: usize, key: &str) -> Claim {
     Claim::printed_statement(
         key,
         cases(LOW_PERIOD_FLIGHTS),
-        format!("by the flights of a low period at most: {}", by_definition_words(&shares)),
+        format!("by the most flights of a low period: {}", by_definition_words(&shares)),
     )
     .by_shares(&shares)
 }

@@ -187,7 +187,7 @@ fn combined(key: &str, computed: &Propagated, inputs: &str) -> Claim {
     if squares == claim.verdict {
         return claim.note(note);
     }
-    claim.fitted("how the effects of the inputs add up, as a plain sum").note(note)
+    claim.fitted("the rule for adding the effects of the inputs, a plain sum").note(note)
 }
 
 /// The path of a point of the hand at the contact radius in Table I's toss, a straight line on the unrolled

@@ -315,7 +315,7 @@ fn reference_friction() -> Result<Claim, ExperimentError> {
         "section5.reference_friction_is_threefold",
         cases,
         format!(
-            "of the reference values 0.3 to 0.4 over what rounds to 0.10, {} are between 2.5 and 3.5",
+            "of the reference values 0.3 to 0.4 over values that round to 0.10, {} are between 2.5 and 3.5",
             cases.words()
         ),
     )
@@ -435,7 +435,7 @@ impl Drop {
                 "the printed impact speed is consistent with the g of 10 m/s² with which Sec. V B ends its range, and not with the 9.8 m/s² of Table I",
                 gives_printed_speed(highest) && !gives_printed_speed(gravity),
                 format!(
-                    "v²/(2h) is {least:.3} to {most:.3} m/s² for all that rounds to the printed speed and height. The authors may have \
+                    "v²/(2h) is {least:.3} to {most:.3} m/s² for everything that rounds to the printed speed and height. The authors may have \
                      taken {highest} m/s² for gravity, as for the full preload of Fig. 10",
                 ),
             ),

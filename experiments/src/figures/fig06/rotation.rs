@@ -134,7 +134,12 @@ fn mean_speeds(period_two: &[&Slice], period_four: &[&Slice]) -> [Claim; 4] {
         |slice| slice.semielliptical_mean,
         -1.0,
     );
-    [rises, rise_ends, falls, fall_ends.note("a kink: it falls on").cause("a kink called an extremum")]
+    [
+        rises,
+        rise_ends,
+        falls,
+        fall_ends.note("a kink: it continues to fall").cause("a kink called an extremum"),
+    ]
 }
 
 /// The Γ at which two branches of the period-4 orbit have the same speed in (d), between two slices each.

@@ -192,7 +192,7 @@ pub(super) fn speeds(
         "section4.merged_below_maximum",
         slower(&merged).map(|slower| slower && at_maximum == 0),
         format!(
-            "from rest {} at the best lag; where one impact has most of the impulse {:.5} ωΦ or less at Γ_T = {LARGE_ANGULAR_FORCING:e}, nearer as Γ_T grows, but equal to it at {at_maximum} of {} Γ",
+            "from rest {} at the best lag; if one impact carries most of the impulse {:.5} ωΦ or less at Γ_T = {LARGE_ANGULAR_FORCING:e}, nearer as Γ_T grows, but equal to it at {at_maximum} of {} Γ",
             words(&merged),
             range(&found).1,
             decides.as_ref().map_or(0, |decides| decides.tried),

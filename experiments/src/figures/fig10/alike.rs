@@ -107,7 +107,7 @@ pub(super) fn long_period(alike: &Alike) -> Claim {
     Claim::printed_statement(
         "section5.long_period_chattering",
         by_draw(LOW_PERIOD_FLIGHTS),
-        format!("by the flights of a low period at most: {}", by_definition_words(&shares)),
+        format!("by the most flights of a low period: {}", by_definition_words(&shares)),
     )
     .by_shares(&shares)
 }

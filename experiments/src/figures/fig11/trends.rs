@@ -217,7 +217,7 @@ pub(super) fn claims(trends: &[Trend], [first, second]: [f64; 2], plateau_mn: f6
             "section5.no_sharp_fall",
             all(default.iter().flat_map(|trend| trend.outside_over_inside), is_no_fall),
             format!(
-                "middle speeds of the outer quarters below and above the trends' preloads over that inside, by rising A: {}; sharp is {percent} %",
+                "middle speeds of the outer quarters below and above the trends' preloads over the one inside, by rising A: {}; sharp is {percent} %",
                 ratios(&default),
             ),
         )

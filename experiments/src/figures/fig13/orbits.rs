@@ -65,7 +65,7 @@ pub(super) fn claims(study: &Study) -> Vec<Claim> {
             "section5.reduced_restitution",
             any(lower.clone(), |entry| entry.share_of_low_period > 0.5),
             format!(
-                "up to {:.0} % of {} motors that print like Table III's are of low period at an ε below {printed}",
+                "up to {:.0} % of {} motors whose inputs print like Table III's are of low period at an ε below {printed}",
                 100.0 * extent(lower.map(|entry| entry.share_of_low_period)).1,
                 study.alike.drawn,
             ),

@@ -86,7 +86,7 @@ fn cosine(study: &Study) -> Claim {
         "section5.cosine_of_phase_lag",
         |of| is_cosine(of.speed_cosine) && is_cosine(of.stall_cosine),
         format!(
-            "{:.3} cos θ explains {:.1} % of the variance of speed/(ωΦ), {of_stall:.1} cos θ {:.1} % of that of α̇_ss/t_c; {:.0} % are asked for",
+            "{:.3} cos θ explains {:.1} % of the variance of speed/(ωΦ), {of_stall:.1} cos θ {:.1} % of that of α̇_ss/t_c; {:.0} % are required",
             of_speed / study.motor.peak_angular_speed_rad_per_s,
             100.0 * speed_explained,
             100.0 * stall_explained,
