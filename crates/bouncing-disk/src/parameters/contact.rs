@@ -1,15 +1,14 @@
-//! The table `[contact]` of a file: how long an impact takes, which makes contacts take time, or what that can be
-//! estimated from.
+//! The table `[contact]` of a file: the duration of an impact, which makes contacts compliant, or materials
+//! from which the duration is estimated.
 
 pub(crate) mod estimate;
 
 use crate::error::{Error, check, positive};
 
-/// Makes the enum of materials and its table.
+/// Defines the enum of materials and its table.
 macro_rules! materials {
     ($($(#[$doc:meta])* $variant:ident: $low:literal, $high:literal, $poisson:literal;)*) => {
-        /// A material, with the range of Young's modulus (GPa) of what goes by its name, and one Poisson's
-        /// ratio.
+        /// A material, with the range of Young's modulus (GPa) covered by its name and one Poisson's ratio.
         #[derive(Debug, Clone, Copy, PartialEq, Eq)]
         #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
         #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -57,13 +56,13 @@ materials! {
     Polyimide: 2.5, 3.0, 0.34;
     /// Cured, without filler: orders of magnitude, not taken from a table.
     Epoxy: 2.0, 4.0, 0.37;
-    /// Gere; so near to incompressible that the bulk modulus is 0.2 to 1.3 GPa.
+    /// Gere; nearly incompressible, with a bulk modulus of 0.2 to 1.3 GPa.
     Rubber: 0.0007, 0.004, 0.4995;
-    /// Wheat dough: three times a shear modulus of small oscillations of 1 to 30 kPa, by water and frequency;
-    /// orders of magnitude, not taken from a table. Bubbles make it compressible.
+    /// Wheat dough: three times a shear modulus of 1 to 30 kPa at small oscillations, depending on water and
+    /// frequency; orders of magnitude, not taken from a table. Bubbles make it compressible.
     Dough: 3.0e-6, 1.0e-4, 0.45;
-    /// From soft tissue, an order of magnitude that is not taken from a table, to epidermis (Geerligs et al.,
-    /// J. Biomech. 44, 1176 (2011)).
+    /// From soft tissue (an order of magnitude, not taken from a table) to epidermis (Geerligs et al., J.
+    /// Biomech. 44, 1176 (2011)).
     Skin: 5.0e-6, 2.0e-3, 0.45;
 }
 
@@ -80,34 +79,34 @@ pub enum Geometry {
     Layer,
 }
 
-/// What takes the energy of a contact that takes time.
+/// How a compliant contact loses energy.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum ContactLaw {
-    /// A damper beside the spring.
+    /// A damper parallel to the spring.
     #[default]
     Damper,
     /// The spring unloads at the square of the restitution times its stiffness.
     Hysteresis,
 }
 
-/// The table `[contact]` of a file. A time makes contacts take it in all that accepts such contacts (tosses,
-/// motors); the rest refuses it. Materials, geometry and sizes give a range, not
-/// a time: impacts stay rigid, and a report compares the range with the period. A system and a data sheet check
-/// it.
+/// The table `[contact]` of a file. With a time, contacts are compliant in all computations that support them
+/// (tosses, motors); the others return an error. Materials, geometry and sizes give a range instead of a
+/// time: impacts stay rigid, and a report compares the range with the period. A system and a data sheet check
+/// the table.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields, default, expecting = "the table contact"))]
 pub struct Contact {
-    /// How long an isolated impact on a platform that does not yield lasts (s), positive; in place of all the rest. Below 1e-6 rad of the
-    /// platform's vibration impacts are rigid, with a warning.
+    /// Duration (s) of an isolated impact on a rigid platform, positive; replaces all other entries. Below
+    /// 1e-6 rad of the platform's vibration, impacts are rigid, with a warning.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub time: Option<f64>,
-    /// What takes its energy; only with a time.
+    /// How the contact loses energy; only with a time.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub law: Option<ContactLaw>,
-    /// Of the disk and of the platform.
+    /// Materials of the disk and of the platform.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub materials: Option<[Material; 2]>,
     /// Where they touch; needed with materials.
@@ -116,7 +115,7 @@ pub struct Contact {
     /// Radius of the ball (m).
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub ball_radius: Option<f64>,
-    /// Radius of the circle on which the ball touches the ring (m), less than that of the ball.
+    /// Radius of the circle on which the ball touches the ring (m), less than the ball's.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub ring_radius: Option<f64>,
     /// Area of the layer (m^2).
@@ -125,13 +124,13 @@ pub struct Contact {
     /// Thickness of the layer (m).
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub thickness: Option<f64>,
-    /// Root mean square of the heights of both surfaces together (m); smooth surfaces if it is not given.
+    /// Combined root mean square height of both surfaces (m); smooth surfaces if absent.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub roughness: Option<f64>,
-    /// Mass of the disk (kg): needed with materials; a data sheet has its own.
+    /// Mass of the disk (kg): needed with materials, unless a data sheet states it.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub mass: Option<f64>,
-    /// Speed of the impact (m/s), in place of that of the rigid model.
+    /// Speed of the impact (m/s), instead of the rigid model's.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub speed: Option<f64>,
 }
@@ -152,13 +151,13 @@ impl Contact {
         speed: None,
     };
 
-    /// An impact that lasts for this time (s).
+    /// An impact of this duration (s).
     #[must_use]
     pub fn lasting(time: f64) -> Self {
         Self { time: Some(time), ..Self::default() }
     }
 
-    /// Checks the numbers, and that all that is needed is given and nothing else. The mass comes later.
+    /// Checks the numbers, and that everything needed is given and nothing else. The mass comes later.
     pub(crate) fn check(&self) -> Result<(), Error> {
         use Geometry::{Layer, Plane, Ring};
         let geometry = ("contact.geometry", self.geometry.is_some());

@@ -1,9 +1,9 @@
 //! The system in units that never degenerate: time 1/omega, length g/omega^2, angular speed g a_e/(a_g^2
 //! omega).
 //!
-//! The unit of angular speed is the change by a friction coefficient of 1 in one radian of phase. It contains
-//! neither the friction coefficient, so that a frictionless disk is legal, nor any amplitude, so that a
-//! platform at rest is.
+//! The unit of angular speed is the change caused by a friction coefficient of 1 in one radian of phase. It
+//! contains no friction coefficient, so a frictionless disk is legal, and no amplitude, so a platform at rest
+//! is legal.
 
 use std::f64::consts::PI;
 
@@ -36,7 +36,7 @@ impl DimensionlessParameters {
     /// Checks the ranges.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] or an error of the core names the field, its value and its legal range.
+    /// [`Error::OutOfRange`] or an error of the core, with the field, its value and its legal range.
     pub fn build(self) -> Result<DimensionlessSystem, Error> {
         let vibration = Vibration::new(self.peak_acceleration)?;
         let map = ImpactMap::new(vibration, self.restitution)?;
@@ -56,8 +56,8 @@ impl DimensionlessParameters {
 
 /// The four numbers of the paper's Sec. IV, not yet checked.
 ///
-/// A friction coefficient other than zero only scales the rotary motion, so it is set to 1 here: angular
-/// speeds then come in units of mu g a_e/(a_g^2 omega).
+/// A non-zero friction coefficient only scales the rotary motion, so it is set to 1 here; angular speeds are
+/// then in units of mu g a_e/(a_g^2 omega).
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ForcingParameters {
@@ -91,11 +91,11 @@ impl ForcingParameters {
     }
 }
 
-/// The dimensionless system, with which the engine computes.
+/// The dimensionless system that the engine computes.
 ///
-/// The equations of motion (Eq. 2) read, with N the normal force in units of the disk's weight under preload
-/// and f the friction torque in units of m g a_e: d(axial velocity)/d tau = N - 1,
-/// d(angular speed)/d tau = f - l.
+/// The equations of motion (Eq. 2), with the normal force N in units of the disk's weight under preload and
+/// the friction torque f in units of m g a_e, read: d(axial velocity)/d tau = N - 1, d(angular speed)/d tau =
+/// f - l.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "DimensionlessParameters", into = "DimensionlessParameters"))]
@@ -108,7 +108,7 @@ pub struct DimensionlessSystem {
 }
 
 impl DimensionlessSystem {
-    /// The parameters, to be changed and built again.
+    /// The parameters, which can be changed and built again.
     #[must_use]
     pub const fn parameters(&self) -> DimensionlessParameters {
         self.parameters

@@ -6,7 +6,7 @@ use std::fmt::{self, Display, Formatter};
 
 /// The parameters of a [`Disk`], not yet checked.
 ///
-/// The mass is not among them, as it multiplies every equation. Energies are per unit mass.
+/// The mass is not a parameter, as it multiplies every equation. Energies are per unit mass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -32,8 +32,8 @@ impl DiskParameters {
     /// mass is not needed elsewhere.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] names the torque if it is not finite, the mass if it is not positive, and the
-    /// moment of inertia m a_g^2 if no double holds it.
+    /// [`Error::OutOfRange`] for a torque that is not finite, a mass that is not positive, and a moment of
+    /// inertia m a_g^2 that a double cannot represent.
     pub fn with_load_torque(mut self, torque: f64, mass: f64) -> Result<Self, Error> {
         finite("torque", torque)?;
         positive("mass", mass)?;
@@ -44,8 +44,8 @@ impl DiskParameters {
         Ok(self)
     }
 
-    /// mu a_e g/a_g^2 (rad/s^2): the acceleration if friction pushed one way all the time. The normal impulse
-    /// per time is the weight, whatever the orbit; so nothing accelerates the disk more on average.
+    /// mu a_e g/a_g^2 (rad/s^2): the acceleration if friction always pushed one way. The mean normal force is
+    /// the weight, whatever the orbit, so no larger mean acceleration is possible.
     #[must_use]
     pub fn friction_acceleration(&self) -> f64 {
         self.friction * self.contact_radius * self.preload_acceleration
@@ -55,7 +55,7 @@ impl DiskParameters {
     /// Checks the ranges.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] names the field, its value and its legal range.
+    /// [`Error::OutOfRange`] with the field, its value and its legal range.
     pub fn build(self) -> Result<Disk, Error> {
         positive("contact_radius", self.contact_radius)?;
         positive("gyration_radius", self.gyration_radius)?;
@@ -76,7 +76,7 @@ pub struct Disk {
 }
 
 impl Disk {
-    /// The parameters, to be changed and built again.
+    /// The parameters, which can be changed and built again.
     #[must_use]
     pub const fn parameters(&self) -> DiskParameters {
         self.parameters

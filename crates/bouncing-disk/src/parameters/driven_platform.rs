@@ -1,4 +1,4 @@
-//! A platform that moves and turns in any periodic way, in SI units.
+//! A platform that moves and turns with any periodic motion, in SI units.
 
 use std::f64::consts::TAU;
 use std::fmt::{self, Display, Formatter};
@@ -15,14 +15,15 @@ use crate::parameters::disk::Disk;
 use crate::parameters::platform::Platform;
 use crate::parameters::scales::Scales;
 
-/// Most of [`Waveform::acceleration_change`]: 6 samples of a sine have 0.25, a corner 0.5, noise alone 0.8.
+/// Largest accepted [`Waveform::acceleration_change`]: 6 samples of a sine give 0.25, a corner 0.5, pure
+/// noise 0.8.
 const LARGEST_CHANGE: f64 = 0.3;
 
-/// How far apart two samples of the same instant may be, as a share of the range of all.
+/// Largest difference between two samples of the same instant, as a share of the range of all samples.
 const SAME_INSTANT: f64 = 1.0e-3;
 
-/// How many times the fourth difference without the last sample, and how many times the usual one, is that of a sample
-/// which is there twice. Smooth shapes of 16 samples have 2 and 4 at their turning points, and more elsewhere.
+/// The least ratios of the fourth difference with a duplicated last sample to the one without it, and to the
+/// usual one. Smooth shapes of 16 samples reach 2 and 4 at their turning points, and more elsewhere.
 const STANDS_OUT: [f64; 2] = [1.5, 3.0];
 
 /// The shape of a motion over one period tau = 0 to 2 pi: the height or the angle, divided by its amplitude.
@@ -40,24 +41,24 @@ pub enum Waveform {
     /// The pairs (a_j, phi_j) of a sum of a_j sin(j tau + phi_j) over j = 1, 2, ..., at most
     /// [`MAX_HARMONICS`](bouncing_disk_drives::drive::MAX_HARMONICS).
     Fourier(Vec<(f64, f64)>),
-    /// Pieces (duration, [c0, c1, c2, c3]), one after the other: c0 + c1 x + c2 x^2 + c3 x^3, x from the
-    /// start of the piece. x and the durations are in periods; the durations sum to 1. The height must be
-    /// continuous; the velocity may jump. At most [`MAX_PIECES`](bouncing_disk_drives::drive::MAX_PIECES).
+    /// Consecutive pieces (duration, [c0, c1, c2, c3]): c0 + c1 x + c2 x^2 + c3 x^3, x from the start of the
+    /// piece. x and the durations are in periods; the durations sum to 1. The height must be continuous; the
+    /// velocity may jump. At most [`MAX_PIECES`](bouncing_disk_drives::drive::MAX_PIECES).
     Pieces(Vec<(f64, [f64; 4])>),
-    /// The periodic cubic spline through at least 3 samples at equal distances over one period.
+    /// The periodic cubic spline through at least 3 equidistant samples over one period.
     Sampled(Vec<f64>),
     /// Straight lines through the zeros and extremes of the sine.
     Triangle,
-    /// Straight lines from 0 at tau = 0 to 1, to -1 and back to 0. They rise for this share of the period, in
-    /// [1e-9, 1 - 1e-9], and fall for the rest.
+    /// Straight lines from 0 at tau = 0 to 1, to -1 and back to 0. They rise for the given share of the
+    /// period, in [1e-9, 1 - 1e-9], and fall for the rest.
     Sawtooth(f64),
-    /// One parabola for each half of the period of the sine.
+    /// One parabola for each half-period of the sine.
     Parabolas,
-    /// One cubic for each quarter of the period: the spline through the zeros and extremes of the sine.
+    /// One cubic for each quarter-period: the spline through the zeros and extremes of the sine.
     Cubics,
 }
 
-/// A shape as a file has it; it takes any value, because the errors of serde speak of its own types.
+/// The serialised form of a shape; it accepts any value, because serde's own errors name Rust types.
 #[cfg(feature = "serde")]
 #[derive(serde::Deserialize)]
 #[serde(untagged, deny_unknown_fields)]
@@ -103,17 +104,17 @@ impl TryFrom<Given> for Waveform {
     }
 }
 
-/// A number in which the maps of a platform may differ.
+/// A parameter that varies over a family of maps.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum MapNumber {
     /// `axial_forcing`: the forcing Gamma.
     AxialForcing,
     /// `restitution`.
     Restitution,
-    /// `contact_periods`: how long a compliant contact lasts (periods).
+    /// `contact_periods`: the duration of a compliant contact (periods).
     ContactPeriods,
-    /// A number of the shape, by its name and place in a file, counted from 0: `sawtooth`, `fourier[1][0]` for the
-    /// amplitude of the second harmonic, `sampled[3]`.
+    /// A parameter of the shape, by its name and position in a file, counted from 0: `sawtooth`,
+    /// `fourier[1][0]` for the amplitude of the second harmonic, `sampled[3]`.
     OfShape((String, Vec<usize>)),
 }
 
@@ -132,7 +133,7 @@ impl FromStr for MapNumber {
     }
 }
 
-/// As it is read.
+/// Formats it as it is parsed.
 impl Display for MapNumber {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
@@ -163,7 +164,7 @@ impl Display for Waveform {
 }
 
 impl Waveform {
-    /// That the shape is that of Eq. (1).
+    /// Checks that the shape is the sine of Eq. (1).
     ///
     /// # Errors
     /// [`Error::DriveNotSine`].
@@ -171,13 +172,13 @@ impl Waveform {
         if *self == Self::Sine { Ok(()) } else { Err(Error::DriveNotSine) }
     }
 
-    /// The impact map of a height of this shape, with the amplitude and the restitution of `sine`; where an
-    /// impact takes `contact_periods` (periods), that from release to release
+    /// The impact map for a height of this shape, with the amplitude and the restitution of `sine`. If an
+    /// impact lasts `contact_periods` (periods), the map is from release to release
     /// ([`DrivenMap::with_contact_time`]).
     ///
     /// # Errors
-    /// Those of [`DrivenPlatform::new`] and [`DrivenMap::with_contact_time`]; [`Error::OutOfRange`] for a
-    /// contact time outside [1e-6, 1000] periods.
+    /// The errors of [`DrivenPlatform::new`] and [`DrivenMap::with_contact_time`]; [`Error::OutOfRange`] for
+    /// a contact time outside [1e-6, 1000] periods.
     pub fn map(&self, sine: &ImpactMap, contact_periods: Option<f64>) -> Result<DrivenMap, Error> {
         let track = self.track("height", sine.vibration().peak_acceleration(), 0.0)?;
         let map = DrivenMap::new(track, sine.restitution())?;
@@ -187,8 +188,8 @@ impl Waveform {
         Ok(map.with_contact_time(TAU * periods)?)
     }
 
-    /// The maps of [`Self::map`] that differ in one number: the forcing, the restitution, the contact time, or one of the
-    /// shape, by its place.
+    /// A family of [`Self::map`]s that differ in one parameter: the forcing, the restitution, the contact
+    /// time, or a parameter of the shape, by its position.
     ///
     /// ```
     /// use bouncing_disk::core::orbits::{
@@ -209,7 +210,7 @@ impl Waveform {
     /// ```
     ///
     /// # Errors
-    /// Those of [`Self::map`]; [`Error::NoSuchNumber`] for a place that the shape does not have.
+    /// The errors of [`Self::map`]; [`Error::NoSuchNumber`] for a position that the shape does not have.
     pub fn family(
         &self,
         sine: &ImpactMap,
@@ -239,7 +240,7 @@ impl Waveform {
         Ok(DrivenFamily::new(now, unit, with)?)
     }
 
-    /// A number of the shape by its place.
+    /// A parameter of the shape by its position.
     fn number(&mut self, place: &(String, Vec<usize>)) -> Option<&mut f64> {
         match (self, place.0.as_str(), &place.1[..]) {
             (Self::Sawtooth(rise), "sawtooth", []) => Some(rise),
@@ -252,7 +253,8 @@ impl Waveform {
         }
     }
 
-    /// How much the acceleration at the samples changes without every second sample, as a share of its peak.
+    /// The largest change of the acceleration at the samples if every second sample is removed, as a share of
+    /// its peak.
     fn acceleration_change(&self) -> Option<f64> {
         let Self::Sampled(samples) = self else { return None };
         let bend = |k: usize| {
@@ -268,9 +270,10 @@ impl Waveform {
         Some(change / peak)
     }
 
-    /// Whether the last sample is the first one again: both are as good as equal, also beside their neighbours, and there
-    /// the fourth differences stand out with the last sample, but not without it. Noise of a shape that rests at both ends
-    /// does not do this, as its fourth differences are as large all over.
+    /// Whether the last sample repeats the first: the two are nearly equal, also compared with their
+    /// neighbours, and the fourth differences there stand out with the last sample but not without it. Noise
+    /// on a shape that rests at both ends does not trigger this, as its fourth differences are equally large
+    /// everywhere.
     fn repeats_its_first_sample(&self) -> bool {
         let Self::Sampled(samples) = self else { return false };
         let count = samples.len();
@@ -292,7 +295,7 @@ impl Waveform {
         is_closed && with > STANDS_OUT[0] * without && with > STANDS_OUT[1] * typical
     }
 
-    /// The motion with this amplitude, `lag` (rad) earlier.
+    /// The motion with this amplitude, advanced by `lag` (rad).
     pub(crate) fn track(&self, of: &'static str, amplitude: f64, lag: f64) -> Result<Drive, Error> {
         let refuse = |source| match source {
             bouncing_disk_core::Error::HeightJump { piece, jump } => {
@@ -326,18 +329,18 @@ impl Waveform {
         track.and_then(|track| track.earlier(lag)).map_err(refuse)
     }
 
-    /// Checks what does not depend on amplitude and disk.
+    /// Checks that need neither amplitude nor disk.
     fn check(&self, of: &'static str) -> Result<(), Error> {
         if *self == Self::Sine {
             return Ok(());
         }
-        // So small that no acceleration is too large, and a power of two.
+        // A power of two, so small that no acceleration is too large.
         let amplitude = 1.0 / (1_u128 << 100) as f64;
         self.track(of, amplitude, 0.0).map(|_| ())
     }
 }
 
-/// Pieces whose times are in periods and that are made `size` times as large.
+/// Pieces with durations in periods, scaled in height by `size`.
 fn pieces_of(pieces: &[(f64, [f64; 4])], size: f64) -> Result<Drive, bouncing_disk_core::Error> {
     let scaled = |&(duration, [c0, c1, c2, c3]): &(f64, [f64; 4])| {
         let c = [c0 * size, c1 * size / TAU, c2 * size / (TAU * TAU), c3 * size / (TAU * TAU * TAU)];
@@ -346,9 +349,9 @@ fn pieces_of(pieces: &[(f64, [f64; 4])], size: f64) -> Result<Drive, bouncing_di
     Drive::pieces(&pieces.iter().map(scaled).collect::<Vec<_>>())
 }
 
-/// A [`Platform`] with any [`Waveform`]s f and h in place of its sines: the height is A f(tau), the angle
-/// Phi h(tau + theta). The axial forcing Gamma = A omega^2/(pi g) keeps its form: A multiplies f as it is, and is half
-/// of the stroke only if f goes from -1 to 1.
+/// A [`Platform`] with any [`Waveform`]s f and h instead of its sines: the height is A f(tau), the angle Phi
+/// h(tau + theta). The axial forcing Gamma = A omega^2/(pi g) keeps its form: A multiplies f as given, and is
+/// half the stroke only if f ranges from -1 to 1.
 ///
 /// ```
 /// use bouncing_disk::System;
@@ -369,11 +372,11 @@ pub struct DrivenPlatform {
 }
 
 impl DrivenPlatform {
-    /// A platform with these shapes of height and angle.
+    /// A platform with these waveforms of height and angle.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a number outside its range; [`Error::Waveform`] and [`Error::WaveformJump`] name
-    /// the waveform and its harmonic, piece or sample.
+    /// [`Error::OutOfRange`] for a number outside its range; [`Error::Waveform`] and [`Error::WaveformJump`]
+    /// for an invalid waveform, with its harmonic, piece or sample.
     pub fn new(platform: Platform, height: Waveform, angle: Waveform) -> Result<Self, Error> {
         height.check("height")?;
         angle.check("angle")?;
@@ -383,8 +386,7 @@ impl DrivenPlatform {
     /// This platform with the motion that the table `[drive]` of a file gives.
     ///
     /// # Errors
-    /// Those of [`Self::new`]; [`Error::StartPhase`] if the table has one: [`Self::new`] takes the
-    /// shapes alone.
+    /// The errors of [`Self::new`]; [`Error::StartPhase`] if the table has a start phase.
     pub fn of_drive(platform: Platform, drive: &DriveParameters) -> Result<Self, Error> {
         if drive.start_phase.is_some() {
             return Err(Error::StartPhase);
@@ -392,7 +394,7 @@ impl DrivenPlatform {
         Self::new(platform, drive.height.clone(), drive.angle.clone())
     }
 
-    /// This platform with contacts of this law and time (s), such as [`System::soft_contact`] has; `None` for
+    /// This platform with contacts of this law and duration (s), as from [`System::soft_contact`]; `None` for
     /// rigid impacts.
     ///
     /// [`System::soft_contact`]: crate::System::soft_contact
@@ -401,7 +403,7 @@ impl DrivenPlatform {
         Self { contact, ..self }
     }
 
-    /// The law and the time (s) of contacts that take time.
+    /// The law and the duration (s) of compliant contacts.
     #[must_use]
     pub const fn contact(&self) -> Option<(ContactLaw, f64)> {
         self.contact
@@ -439,21 +441,21 @@ impl From<Platform> for DrivenPlatform {
     }
 }
 
-/// The table `[drive]` of a file: the motion of the platform in place of the sine of Eq. (1).
+/// The table `[drive]` of a file: a motion of the platform other than the sine of Eq. (1).
 /// [`DrivenPlatform::of_drive`] checks it.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "GivenDrive"))]
 pub struct DriveParameters {
-    /// The shape of the height; the sine unless given, whatever the angle is.
+    /// The shape of the height; the sine by default, whatever the angle is.
     pub height: Waveform,
-    /// The shape of the angle; the sine unless given, whatever the height is.
+    /// The shape of the angle; the sine by default, whatever the height is.
     pub angle: Waveform,
     /// Phase at which a toss starts (rad); `None` is the lowest point of the height.
     pub start_phase: Option<f64>,
 }
 
-/// The table as a file has it, with the keys that are refused by name.
+/// The serialised form of the table, with the keys for which a specific error is returned.
 #[cfg(feature = "serde")]
 #[derive(serde::Deserialize, Default)]
 #[serde(deny_unknown_fields, default, expecting = "the table drive")]
@@ -489,7 +491,7 @@ impl DriveParameters {
         *self == Self::default()
     }
 
-    /// That the platform moves as in Eq. (1).
+    /// Checks that the platform moves as in Eq. (1).
     ///
     /// # Errors
     /// [`Error::DriveNotSine`]; [`Error::StartPhase`].
@@ -509,8 +511,8 @@ impl DriveParameters {
         self.angle.check("angle")
     }
 
-    /// What is legal but unlikely to be intended: samples of which the last one repeats the first, samples with noise or
-    /// corners, or too few of them.
+    /// Warnings about legal but probably unintended values: a last sample that repeats the first, samples
+    /// with noise or corners, or too few samples.
     pub fn warnings(&self) -> impl Iterator<Item = String> {
         let both = [("height", &self.height), ("angle", &self.angle)];
         both.into_iter().filter_map(|(of, shape)| {
@@ -539,7 +541,7 @@ mod tests {
         *crate::System::pizza_toss().platform()
     }
 
-    /// Each waveform some phase earlier is the same motion read later.
+    /// A waveform shifted by a phase is the same motion, sampled from a later start.
     #[test]
     fn a_phase_begins_the_period_elsewhere() {
         for shape in [
@@ -577,8 +579,8 @@ mod tests {
         assert!(!warned(64, 0.0, Waveform::Parabolas) && warned(64, 0.0, Waveform::Triangle));
     }
 
-    /// A sum of harmonics from any phase and a recording of a loop, with its first sample at the end and without it; and
-    /// shapes whose ends are equal, though no sample is there twice.
+    /// Covers a sum of harmonics from any phase, a recorded loop with and without its first sample repeated
+    /// at the end, and shapes whose ends are equal although no sample is repeated.
     #[test]
     fn a_first_sample_at_the_end_gives_a_warning_of_its_own() {
         let sums: [&[(f64, f64)]; 2] = [&[(1.0, 0.0)], &[(1.0, 0.4), (0.15, 0.9), (0.02, 0.0)]];
@@ -598,14 +600,14 @@ mod tests {
                 assert!(told.len() == 1 && told[0].contains("the last sample"), "{count} {start}: {told:?}");
             }
         }
-        // As few samples as can show it.
+        // The fewest samples that can show it.
         let few = DriveParameters {
             height: Waveform::Sampled(vec![0.0, 1.0, 0.0, -1.0, 0.0]),
             ..Default::default()
         };
         assert!(few.warnings().any(|told| told.contains("the last sample") && !told.contains("  ")));
         assert!(!Waveform::Sampled(vec![0.0, 1.0, 0.0, -1.0]).repeats_its_first_sample());
-        // A throw between two rests, with noise from a generator of its own.
+        // A throw between two rests, with noise from a separate generator.
         for (count, level) in [64_u32, 256, 1024]
             .into_iter()
             .flat_map(|count| [1e-6, 1e-5, 1e-4, 3e-4].map(|level| (count, level)))
@@ -624,7 +626,7 @@ mod tests {
                 assert!(!shape.repeats_its_first_sample(), "{count} {level:e} {draw}");
             }
         }
-        // The middle of the period between two samples; a trapezoid that rests at both ends.
+        // The middle of the period lies between two samples; a trapezoid rests at both ends.
         let cosine =
             |k: u32| bouncing_disk_core::numerics::elementary::cos(TAU * (f64::from(k) + 0.5) / 32.0);
         let trapezoid = |k: u32| (f64::from(k.min(31 - k)) / 8.0 - 0.5).clamp(0.0, 1.0);

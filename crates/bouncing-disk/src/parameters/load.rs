@@ -1,4 +1,4 @@
-//! The table `[load]` of a data sheet: the torque that a load takes, over speed and time.
+//! The table `[load]` of a data sheet: a load torque over speed and time.
 
 use crate::error::{Error, check, finite, not_negative, positive};
 
@@ -36,7 +36,7 @@ impl Nodes {
     }
 }
 
-/// A piece of a load's torque over the speed: `torque` + `slope` times the speed, from one speed to the other.
+/// A linear piece of a load's torque: `torque` + `slope` times the speed, from one speed to another.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct LoadSegment {
@@ -44,14 +44,15 @@ pub struct LoadSegment {
     pub from: f64,
     /// The upper speed (rad/s), or infinity.
     pub to: f64,
-    /// The torque of the line at speed 0 (N m), also where that is outside of the piece.
+    /// The torque extrapolated to speed 0 (N m), even if the piece does not reach it.
     pub torque: f64,
     /// Its slope (N m s/rad).
     pub slope: f64,
 }
 
-/// What a load takes, and when the drive is on: a torque over the speed, a factor of it over the time, and an
-/// inertia. A positive torque decelerates a positive rotation. Times count from the start of a run-up.
+/// A load law and a schedule of the drive: a torque over the speed, a factor over the time, an inertia, and
+/// when the drive is on. A positive torque decelerates a positive rotation. Times count from the start of a
+/// run-up.
 ///
 /// ```
 /// use bouncing_disk::parameters::LoadLaw;
@@ -73,12 +74,12 @@ pub struct LoadLaw {
 }
 
 impl LoadLaw {
-    /// A load whose torque (N m) is a line between these speeds (rad/s); beyond both ends the outermost lines go on. One
-    /// speed stands for a constant torque.
+    /// A load whose torque (N m) is interpolated linearly between these speeds (rad/s) and extrapolated
+    /// beyond both ends. A single speed means a constant torque.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for speeds that do not rise, for numbers that are not finite, a slope included, and for none
-    /// or more than [`MAX_LOAD_NODES`] speeds; [`Error::Lengths`] for another number of torques.
+    /// [`Error::OutOfRange`] for speeds that do not rise, for numbers or slopes that are not finite, for no
+    /// speed and for more than [`MAX_LOAD_NODES`]; [`Error::Lengths`] if the number of torques differs.
     pub fn new(speeds: &[f64], torques: &[f64]) -> Result<Self, Error> {
         let names = ["load.speeds", "load.torques", "number of load.speeds"];
         let torques = Nodes::new(names, speeds, torques, 1)?;
@@ -92,7 +93,7 @@ impl LoadLaw {
         Ok(law)
     }
 
-    /// A torque (N m) at all speeds, which also drives a rotor that turns the other way.
+    /// A torque (N m) at all speeds, which also drives a rotor that turns backwards.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a torque that is not finite.
@@ -100,11 +101,13 @@ impl LoadLaw {
         Self::new(&[0.0], &[torque])
     }
 
-    /// A fan, T |w| w/w_r^2 with the torque T (N m) at the rated speed w_r (rad/s), as `pieces` lines in each direction. It
-    /// takes up to T/(4 `pieces`^2) more than that up to the rated speed; above, its last line goes on.
+    /// A fan, T |w| w/w_r^2 with the torque T (N m) at the rated speed w_r (rad/s), as `pieces` linear pieces
+    /// in each direction. Up to the rated speed they exceed the exact torque by up to T/(4 `pieces`^2); above
+    /// it, the last line is extrapolated.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a speed or a torque that is not positive, and for no or more than seven pieces.
+    /// [`Error::OutOfRange`] for a speed or a torque that is not positive, and for 0 or more than seven
+    /// pieces.
     pub fn fan(rated_speed: f64, rated_torque: f64, pieces: usize) -> Result<Self, Error> {
         positive("rated_speed", rated_speed)?;
         positive("rated_torque", rated_torque)?;
@@ -115,24 +118,24 @@ impl LoadLaw {
         Self::new(&speeds, &torques)
     }
 
-    /// With a factor of the torque from each of these times (s) on; 1 before the first.
+    /// Multiplies the torque by a factor from each of these times (s) on; the factor is 1 before the first.
     ///
     /// # Errors
-    /// As [`Self::new`]; none of both is legal.
+    /// As [`Self::new`]; two empty lists are legal.
     pub fn with_factors(self, times: &[f64], factors: &[f64]) -> Result<Self, Error> {
         let names = ["load.times", "load.factors", "number of load.times"];
         Ok(Self { factors: Nodes::new(names, times, factors, 0)?, ..self })
     }
 
-    /// With an inertia on the shaft (kg m^2), which is added to that of the rotor.
+    /// Adds an inertia on the shaft (kg m^2) to the rotor's.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for one that is negative or not finite.
+    /// [`Error::OutOfRange`] if the inertia is negative or not finite.
     pub fn with_inertia(self, inertia: f64) -> Result<Self, Error> {
         Ok(Self { inertia: not_negative("load.inertia", inertia)?, ..self })
     }
 
-    /// With a drive that is on from one time to the other (s); they may be infinite.
+    /// Limits the drive to the time from `on` to `off` (s), which may be infinite.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] unless the first comes before the second.
@@ -142,7 +145,7 @@ impl LoadLaw {
         Ok(Self { drive: [on, off], ..self })
     }
 
-    /// The piece in which a speed (rad/s) lies; at a node it is the upper one.
+    /// The piece that contains a speed (rad/s); at a node, the upper one.
     #[must_use]
     pub fn segment_at(&self, speed: f64) -> LoadSegment {
         let nodes = self.torques.get();
@@ -242,7 +245,7 @@ mod tests {
     use super::*;
     use crate::testing::refused;
 
-    /// From 1 to 3 rad/s and beyond: lines that meet at the nodes and go on outside.
+    /// Nodes at 1 and 3 rad/s: lines meet at the nodes and are extrapolated outside.
     #[test]
     fn a_torque_is_a_line_between_its_speeds() {
         let law = LoadLaw::new(&[1.0, 2.0, 3.0], &[10.0, 30.0, 20.0]).expect("legal");
@@ -264,7 +267,7 @@ mod tests {
         assert!([0.0, 1.0, 1.5, 2.0, 3.0].iter().all(|speed| pair.segment_at(*speed) == whole));
     }
 
-    /// Its error is as stated, and no less.
+    /// The error is as stated, and no smaller.
     #[test]
     fn a_fan_takes_its_torque_within_the_stated_error() {
         for pieces in 1..=7 {

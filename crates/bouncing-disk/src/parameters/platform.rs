@@ -28,7 +28,7 @@ impl PlatformParameters {
     /// Checks the ranges.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] names the field, its value and its legal range.
+    /// [`Error::OutOfRange`] with the field, its value and its legal range.
     pub fn build(self) -> Result<Platform, Error> {
         not_negative("amplitude", self.amplitude)?;
         not_negative("twist_amplitude", self.twist_amplitude)?;
@@ -51,7 +51,7 @@ pub struct Platform {
 }
 
 impl Platform {
-    /// The parameters, to be changed and built again.
+    /// The parameters, which can be changed and built again.
     #[must_use]
     pub const fn parameters(&self) -> PlatformParameters {
         self.parameters

@@ -1,4 +1,4 @@
-//! The systems of the paper's tables, and others that differ from a system in a few parameters.
+//! The systems of the paper's tables, and systems derived from another by changing a few parameters.
 
 use std::f64::consts::{PI, TAU};
 
@@ -19,8 +19,8 @@ const HAND: Stroke = Stroke {
     phase_lag: 0.0,
 };
 
-/// The dough of Table I. The table has no restitution: a single toss does not depend on it, and 0.5 is that
-/// of Sec. IV.
+/// The dough of Table I. The table states no restitution, as a single toss does not depend on it; 0.5 is the
+/// value of Sec. IV.
 const DOUGH: DiskParameters = DiskParameters {
     contact_radius: 0.135,
     gyration_radius: 0.11,
@@ -50,7 +50,7 @@ pub(crate) const ROTOR: DiskParameters = DiskParameters {
 };
 
 impl Stroke {
-    /// The hand of Table I ([`System::pizza_toss`]), to be changed and made a platform
+    /// The hand of Table I ([`System::pizza_toss`]), which can be changed and made a platform
     /// ([`Platform::from_stroke`]).
     #[must_use]
     pub const fn pizza_toss() -> Self {
@@ -78,7 +78,7 @@ impl System {
     }
 
     /// The motor of Table III, its "70" read as the drive frequency in kHz: a stator with A = 10 nm that
-    /// turns with up to 30 rad/s in phase with its rise, and a rotor under its own weight.
+    /// turns at up to 30 rad/s in phase with its rise, and a rotor under its own weight.
     ///
     /// ```
     /// use bouncing_disk::System;
@@ -108,7 +108,7 @@ impl System {
     /// The same system with other parameters of the platform.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] names the parameter, its value and its legal range.
+    /// [`Error::OutOfRange`] with the parameter, its value and its legal range.
     pub fn with_platform(&self, change: impl FnOnce(&mut PlatformParameters)) -> Result<Self, Error> {
         let mut parameters = self.platform().parameters();
         change(&mut parameters);
@@ -118,7 +118,7 @@ impl System {
     /// The same system with other parameters of the disk.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] names the parameter, its value and its legal range.
+    /// [`Error::OutOfRange`] with the parameter, its value and its legal range.
     pub fn with_disk(&self, change: impl FnOnce(&mut DiskParameters)) -> Result<Self, Error> {
         let mut parameters = self.disk().parameters();
         change(&mut parameters);
@@ -162,7 +162,7 @@ impl System {
     /// The same system with a load `torque` (N m) on a disk of `mass` (kg).
     ///
     /// # Errors
-    /// Those of [`DiskParameters::with_load_torque`] and of [`Self::new`].
+    /// The errors of [`DiskParameters::with_load_torque`] and [`Self::new`].
     pub fn with_load_torque(&self, torque: f64, mass: f64) -> Result<Self, Error> {
         self.with_parts(*self.platform(), self.disk().parameters().with_load_torque(torque, mass)?.build()?)
     }
@@ -175,7 +175,7 @@ mod tests {
     #[test]
     fn the_presets_are_legal_and_those_of_the_tables() {
         let toss = System::pizza_toss();
-        // Table I: Gamma from its own numbers, A = c cos(phi_L).
+        // Table I: Gamma from the table's numbers, with A = c cos(phi_L).
         let expected =
             0.25 * bouncing_disk_core::numerics::elementary::cos(0.55) * 225.0 / (std::f64::consts::PI * 9.8);
         assert!((toss.axial_forcing() - expected).abs() < 1e-14, "{}", toss.axial_forcing());

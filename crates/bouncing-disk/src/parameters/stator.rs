@@ -1,5 +1,5 @@
-//! The table `[stator]` of a file: a stator that yields, by its modes and by what drives it. The circuit is derived
-//! in docs/numerics-dynamics.md, "A stator driven in volts".
+//! The table `[stator]` of a file: the modes and the drive of a compliant stator. The circuit is derived in
+//! docs/numerics-dynamics.md, "A stator driven in volts".
 
 use std::f64::consts::{PI, TAU};
 use std::ops::RangeInclusive;
@@ -9,11 +9,11 @@ use bouncing_disk_core::numerics::elementary::{atan2, hypot};
 use crate::error::{Error, check, finite, not_negative, positive};
 use crate::parameters::platform::{Platform, PlatformParameters};
 
-/// Quality factors of modes.
+/// Range of quality factors.
 pub(crate) const QUALITIES: RangeInclusive<f64> = 0.5..=1.0e5;
 pub(crate) const QUALITIES_IN_WORDS: &str = "[0.5, 1e5]";
 
-/// Which of the stator's motions yield.
+/// The motions of the stator that react to the rotor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -21,52 +21,52 @@ pub enum StatorKind {
     /// The height, in one mode; the twist is prescribed.
     #[default]
     Axial,
-    /// Both, in one mode whose tip turns as it rises: beta = kappa s, as of a pretwisted beam.
+    /// Both, in one mode whose tip turns as it rises: beta = kappa s, as for a pretwisted beam.
     AxialTwist,
     /// Both, each in a mode with its own resonance.
     AxialAndTorsional,
 }
 
-/// The table `[stator]` of a file: a stator whose motion the rotor changes. Exactly one drive is given: the
-/// amplitude without a rotor, outside of this table, [`Self::force`] or [`Self::volts`]. A system and a data sheet
-/// check it.
+/// The table `[stator]` of a file: a stator whose motion the rotor changes. Specify the drive once: by the
+/// amplitude without a rotor, outside this table, or by [`Self::force`] or [`Self::volts`]. A system and a
+/// data sheet check the table.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields, default, expecting = "the table stator"))]
 pub struct StatorParameters {
-    /// Which motions yield; the height alone by default.
+    /// The motions that react to the rotor; by default the height alone.
     pub kind: StatorKind,
-    /// Effective mass M of the axial mode at the tip (kg), positive; needed.
+    /// Effective mass M of the axial mode at the tip (kg), positive; required.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub mass: Option<f64>,
-    /// Its quality factor Q, in [0.5, 1e5]; needed.
+    /// Quality factor Q of the axial mode, in [0.5, 1e5]; required.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub quality: Option<f64>,
-    /// Its resonance omega_1/(2 pi) (Hz), positive, with the electrodes short-circuited. Default: the drive frequency,
-    /// whatever it is, so that a sweep over that needs it.
+    /// Resonance omega_1/(2 pi) of the axial mode (Hz) with short-circuited electrodes, positive. By default
+    /// it equals the drive frequency, so a sweep over that frequency needs an explicit value.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub resonance: Option<f64>,
-    /// kappa (rad/m), any finite number: the twist over the height of [`StatorKind::AxialTwist`], in place of twist
+    /// kappa (rad/m), any finite number: the twist per height of [`StatorKind::AxialTwist`], instead of twist
     /// amplitude, peak angular speed and phase lag.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub twist_per_height: Option<f64>,
     /// Effective moment of inertia of the torsional mode (kg m^2), positive.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub inertia: Option<f64>,
-    /// Its quality factor, in [0.5, 1e5].
+    /// Quality factor of the torsional mode, in [0.5, 1e5].
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub torsional_quality: Option<f64>,
-    /// Its resonance (Hz), positive. Default: the drive frequency.
+    /// Resonance of the torsional mode (Hz), positive. Default: the drive frequency.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub torsional_resonance: Option<f64>,
-    /// Amplitude of the torque that drives it (N m), not negative; in place of twist amplitude, peak angular speed and
-    /// phase lag.
+    /// Amplitude of the torque that drives the torsional mode (N m), not negative; instead of twist
+    /// amplitude, peak angular speed and phase lag.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub torque: Option<f64>,
-    /// By how much this torque leads the axial force (rad), any finite number. Default 0.
+    /// Phase by which this torque leads the axial force (rad), any finite number. Default 0.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub torque_phase: Option<f64>,
-    /// Torque per volt (N m/V) of the same electrodes, any finite number; in place of the torque.
+    /// Torque per volt (N m/V) from the same electrodes, any finite number; instead of the torque.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub torque_per_volt: Option<f64>,
     /// Amplitude of the axial force (N), not negative.
@@ -78,16 +78,16 @@ pub struct StatorParameters {
     /// Force per volt alpha (N/V), positive.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub force_per_volt: Option<f64>,
-    /// Anti-resonance (Hz), above the resonance: with the capacitance in place of the force per volt.
+    /// Anti-resonance (Hz), above the resonance; given with the capacitance instead of the force per volt.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub anti_resonance: Option<f64>,
-    /// Clamped capacitance C_0 (F), positive: without it the current is not known.
+    /// Clamped capacitance C_0 (F), positive; without it the current is unknown.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub capacitance: Option<f64>,
 }
 
-/// A mode of a stator: M (q'' + (omega_1/Q) q' + omega_1^2 q) = F sin(omega t + phase) and what the rotor adds. The
-/// tip's height is the sum of `height` q, its angle that of `angle` q.
+/// A mode of a stator: M (q'' + (omega_1/Q) q' + omega_1^2 q) = F sin(omega t + phase) plus the reaction of
+/// the rotor. The tip's height is the sum of `height` q, its angle the sum of `angle` q.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct VibrationMode {
@@ -103,12 +103,12 @@ pub struct VibrationMode {
     pub angle: f64,
     /// Amplitude F of the driving force (N), or torque (N m).
     pub force: f64,
-    /// Its phase (rad), where the tip's steady height without a rotor is A sin(omega t).
+    /// Phase of the force (rad), relative to the tip's steady height A sin(omega t) without a rotor.
     pub phase: f64,
 }
 
 impl VibrationMode {
-    /// The force over the coordinate at this angular frequency, a complex number (N/m, or N m/rad).
+    /// The complex ratio of force to coordinate at this angular frequency (N/m, or N m/rad).
     fn stiffness(&self, angular_frequency: f64) -> [f64; 2] {
         let (own, at) = (self.angular_frequency, angular_frequency);
         [self.mass * ((own - at) * (own + at)), self.mass * at * own / self.quality]
@@ -119,42 +119,43 @@ impl VibrationMode {
         (hypot(re, im), atan2(im, re))
     }
 
-    /// With the force at which the coordinate moves without a rotor by `amplitude` sin(omega t + `lag`).
+    /// This mode with the force that makes the coordinate, without a rotor, move as `amplitude` sin(omega t +
+    /// `lag`).
     fn moving(self, motion: &PlatformParameters, amplitude: f64, lag: f64) -> Self {
         let (size, angle) = self.stiffness_size_and_angle(motion.angular_frequency);
         Self { force: size * amplitude, phase: lag + angle, ..self }
     }
 }
 
-/// The equivalent circuit of Butterworth and Van Dyke, under V sin(omega t + phase). The current is C_0 dV/dt and,
-/// of each mode, its force per volt times dq/dt.
+/// The equivalent circuit of Butterworth and Van Dyke, under V sin(omega t + phase). The current is C_0 dV/dt
+/// plus, for each mode, its force per volt times dq/dt.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Circuit {
-    /// Amplitude V (V), given or what the force of the drive needs.
+    /// Amplitude V (V), given or computed from the force.
     pub volts: f64,
-    /// Phase of the voltage (rad), which is that of the axial force.
+    /// Phase of the voltage (rad), equal to the phase of the axial force.
     pub phase: f64,
     /// alpha of the axial mode (N/V).
     pub force_per_volt: f64,
-    /// That of the torsional mode (N m/V); 0 if the voltage does not drive it.
+    /// Torque per volt of the torsional mode (N m/V); 0 if the voltage does not drive it.
     pub torque_per_volt: f64,
     /// Clamped capacitance C_0 (F).
     pub capacitance: Option<f64>,
 }
 
-/// What a stator without a rotor takes from its supply.
+/// Current and power that a stator without a rotor draws from its supply.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct ElectricalInput {
-    /// Amplitude of the current (A), and by how much it leads the voltage (rad); `None` without a capacitance.
+    /// Amplitude of the current (A), and its lead over the voltage (rad); `None` without a capacitance.
     pub current: Option<(f64, f64)>,
     /// Mean power (W).
     pub power: f64,
 }
 
-/// A stator that yields, checked. Its steady motion without a rotor is that of the platform.
+/// A checked compliant stator. Without a rotor its steady motion is the platform's.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StatorModes {
     parameters: StatorParameters,
@@ -183,7 +184,7 @@ impl StatorModes {
         &self.modes[..1 + usize::from(both)]
     }
 
-    /// Whether the twist is that of [`Self::motion`] whatever the rotor does; otherwise it is that of the modes.
+    /// Whether the twist follows [`Self::motion`] whatever the rotor does; otherwise it follows the modes.
     #[must_use]
     pub fn prescribes_twist(&self) -> bool {
         self.parameters.kind == StatorKind::Axial
@@ -201,9 +202,10 @@ impl StatorModes {
         self.modes[0].force / self.modes[0].stiffness_size_and_angle(angular_frequency).0
     }
 
-    /// The preload (N) from which on the stator no longer lifts a rotor of this mass (kg) that lies on it, with rigid
-    /// impacts: the pair moves by F/|K - m omega^2| with the mode's K, and throws the rotor where that times omega^2
-    /// exceeds g. At the free resonance it is F/(1 + (M/(m Q))^2)^(1/2). `None` where friction acts on that mode, too.
+    /// The preload (N) above which the stator no longer lifts a rotor of this mass (kg) that lies on it, with
+    /// rigid impacts. Stator and rotor together move with the amplitude F/|K - m omega^2|, with the mode's
+    /// complex stiffness K; the rotor is thrown if that amplitude times omega^2 exceeds g. At the free
+    /// resonance the limit is F/(1 + (M/(m Q))^2)^(1/2). `None` if friction acts on the axial mode, too.
     #[must_use]
     pub fn lift_off_preload(&self, mass: f64) -> Option<f64> {
         let (axial, omega) = (&self.modes[0], self.motion.angular_frequency);
@@ -211,8 +213,8 @@ impl StatorModes {
         (axial.angle == 0.0).then(|| inertia * (axial.force / hypot(re - inertia, im)))
     }
 
-    /// Current and power without a rotor, under the same voltage at an angular frequency (rad/s); `None` without
-    /// a circuit. The power of a torque that is not the voltage's is not in it.
+    /// Current and power without a rotor, under the same voltage at an angular frequency (rad/s); `None`
+    /// without a circuit. Excludes the power of a torque that the voltage does not supply.
     #[must_use]
     pub fn electrical_input_at(&self, angular_frequency: f64) -> Option<ElectricalInput> {
         let Circuit { volts, force_per_volt, torque_per_volt, capacitance, .. } = self.circuit?;
@@ -232,7 +234,7 @@ impl StatorModes {
     }
 }
 
-/// What a file says about the steady motion without a rotor. What a stator computes is not given.
+/// The steady motion without a rotor as stated in a file. Values that a stator computes are absent.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct GivenMotion {
     pub(crate) angular_frequency: f64,
@@ -243,7 +245,7 @@ pub(crate) struct GivenMotion {
 }
 
 impl StatorParameters {
-    /// The fields that give the amplitude, and the twist with its phase.
+    /// The fields that determine the amplitude, and the twist with its phase.
     pub(crate) fn computes(&self) -> [Option<&'static str>; 2] {
         let first = |fields: [(_, Option<f64>); 3]| {
             fields.iter().find(|field| field.1.is_some()).map(|field| field.0)
@@ -258,7 +260,7 @@ impl StatorParameters {
         ]
     }
 
-    /// Checks the numbers, and that all that is needed is given and nothing else.
+    /// Checks the numbers, and that everything needed is given and nothing else.
     fn check(&self) -> Result<(), Error> {
         use StatorKind::{Axial, AxialAndTorsional, AxialTwist};
         type Legal = fn(&'static str, f64) -> Result<f64, Error>;
@@ -322,7 +324,7 @@ impl StatorParameters {
         }
     }
 
-    /// The stator whose steady motion without a rotor is this.
+    /// The stator with this steady motion without a rotor.
     pub(crate) fn build(self, given: GivenMotion) -> Result<StatorModes, Error> {
         let GivenMotion { angular_frequency, amplitude, twist_amplitude, phase_lag } = given;
         let exclude = |one: Option<&'static str>, other: Option<&'static str>| match (one, other) {
@@ -401,7 +403,7 @@ impl StatorParameters {
         Ok(stator)
     }
 
-    /// The stator of a platform, whose numbers must be those that this table gives.
+    /// The stator of a platform whose parameters must equal those computed from this table.
     pub(crate) fn of_platform(self, platform: &Platform) -> Result<StatorModes, Error> {
         let (own, [lifts, twists]) = (platform.parameters(), self.computes());
         let twist_amplitude = ("twist_amplitude", own.twist_amplitude);

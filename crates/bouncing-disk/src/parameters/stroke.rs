@@ -1,5 +1,5 @@
-//! A platform's motion from the length and the direction of its stroke, Eq. (13), and these from the speeds
-//! of a launch, Eq. (14).
+//! Converts between the amplitudes of a platform and the stroke's length and direction, Eq. (13), which may
+//! come from launch speeds, Eq. (14).
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -18,7 +18,7 @@ pub struct Stroke {
     pub stroke: f64,
     /// Amplitude angle phi_L (rad) in [0, pi/2]: 0 is a purely vertical motion, pi/2 a purely rotary one.
     pub amplitude_angle: f64,
-    /// Effective contact radius a_e (m), positive, on which the stroke is measured: that of the disk
+    /// Effective contact radius a_e (m), positive, at which the stroke is measured: the disk's
     /// ([`DiskParameters::contact_radius`](crate::DiskParameters::contact_radius)). Nothing checks that the
     /// two agree.
     pub contact_radius: f64,
@@ -28,7 +28,7 @@ pub struct Stroke {
     pub phase_lag: f64,
 }
 
-/// The input of Eq. (14), from a video: how fast the disk rises and turns as it leaves.
+/// The input of Eq. (14), taken from a video: the speeds at which the disk rises and turns as it leaves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LaunchSpeeds {
@@ -47,11 +47,11 @@ impl Stroke {
     /// (Eq. 14): omega^2 = (v/c)^2 + (a_e w/c)^2 and phi_L = arctan(a_e w/v) for axial and angular speeds v
     /// and w.
     ///
-    /// The disk leaves after the maximum of the platform's speed, slower by the factor cos tau_sep in both
-    /// components; Eq. (14) leaves this out. This does not affect phi_L, but makes omega too small.
+    /// The disk leaves after the platform's speed has passed its maximum, and both components are smaller by
+    /// the factor cos tau_sep. Eq. (14) neglects this, which makes omega too small but does not affect phi_L.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] names the field, its value and its legal range.
+    /// [`Error::OutOfRange`] with the field, its value and its legal range.
     pub fn from_launch_speeds(launch: LaunchSpeeds) -> Result<Self, Error> {
         positive("axial_speed", launch.axial_speed)?;
         not_negative("angular_speed", launch.angular_speed)?;
@@ -73,7 +73,7 @@ impl Platform {
     /// The motion with a given stroke and amplitude angle, (a_e Phi, A) = c (sin phi_L, cos phi_L) (Eq. 13).
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] names the field, its value and its legal range.
+    /// [`Error::OutOfRange`] with the field, its value and its legal range.
     pub fn from_stroke(stroke: Stroke) -> Result<Self, Error> {
         not_negative("stroke", stroke.stroke)?;
         positive("contact_radius", stroke.contact_radius)?;
@@ -92,8 +92,8 @@ impl Platform {
 
 impl System {
     /// Length and direction of the stroke, measured at the disk's contact radius: c = (A^2 + (a_e
-    /// Phi)^2)^(1/2) and phi_L = arctan(a_e Phi/A) (Eq. 13), 0 where nothing moves. [`Platform::from_stroke`]
-    /// goes back.
+    /// Phi)^2)^(1/2) and phi_L = arctan(a_e Phi/A) (Eq. 13), 0 if nothing moves. [`Platform::from_stroke`] is
+    /// the inverse.
     #[must_use]
     pub fn stroke(&self) -> Stroke {
         let (platform, contact_radius) = (self.platform(), self.disk().contact_radius());

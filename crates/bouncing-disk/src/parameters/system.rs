@@ -31,7 +31,7 @@ pub struct System {
     pub(crate) beyond: Beyond,
 }
 
-/// What the data sheet of a motor has that its system does not know.
+/// Features of a motor's data sheet that its system does not contain.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) enum Beyond {
     #[default]
@@ -51,7 +51,7 @@ impl System {
     /// for a double.
     pub fn new(platform: Platform, disk: Disk) -> Result<Self, Error> {
         let preload = disk.preload_acceleration();
-        // a_g^2/(a_e g): from angular accelerations to multiples of the friction's unit.
+        // a_g^2/(a_e g) converts angular accelerations to multiples of friction's unit.
         let inertia = disk.gyration_radius() * disk.gyration_radius() / (disk.contact_radius() * preload);
         let dimensionless = DimensionlessParameters {
             peak_acceleration: platform.peak_acceleration() / preload,
@@ -66,7 +66,7 @@ impl System {
         Ok(Self { platform, disk, dimensionless, contact: None, stator: None, beyond: Beyond::Nothing })
     }
 
-    /// The system of a file, whose platform must be that of Eq. (1).
+    /// The system of a file whose platform must be the one of Eq. (1).
     #[cfg_attr(not(feature = "serde"), allow(dead_code, reason = "only a file may have a drive"))]
     fn of_file(
         platform: Platform,
@@ -120,8 +120,8 @@ impl System {
         self.contact.as_ref()
     }
 
-    /// The law and the time (s) of contacts that take time. `None` where impacts are rigid: if no time is given,
-    /// and if it is below 1e-6 rad of the vibration.
+    /// The law and the duration (s) of compliant contacts. `None` if impacts are rigid, because no time is
+    /// given or it is below 1e-6 rad of the vibration.
     #[must_use]
     pub fn soft_contact(&self) -> Option<(ContactLaw, f64)> {
         let contact = self.contact.as_ref()?;
@@ -130,14 +130,15 @@ impl System {
         holds.then_some((contact.law.unwrap_or_default(), time))
     }
 
-    /// The stator that the platform is, if the rotor changes its motion.
+    /// The compliant stator, if the rotor changes the platform's motion.
     #[must_use]
     pub fn stator(&self) -> Option<StatorModes> {
-        // It was built before, when the table was checked.
+        // It could be built when the table was checked, so it can be built again.
         self.stator.and_then(|stator| stator.of_platform(&self.platform).ok())
     }
 
-    /// The same system, if the disk does not change the motion of the platform, which is a sine, and the load is constant.
+    /// The same system, if its platform moves as a sine that the disk does not change and the load is
+    /// constant.
     ///
     /// # Errors
     /// [`Error::YieldingStator`], [`Error::LoadLaw`], [`Error::DriveNotSine`].
@@ -150,10 +151,10 @@ impl System {
         }
     }
 
-    /// The platform with the contacts of this system, and with the motion that the table `[drive]` of a file gives.
+    /// The platform with the contacts of this system and the motion of a file's table `[drive]`.
     ///
     /// # Errors
-    /// Those of [`DrivenPlatform::new`]; [`Error::YieldingStator`].
+    /// The errors of [`DrivenPlatform::new`]; [`Error::YieldingStator`].
     pub fn driven_platform(&self, drive: &DriveParameters) -> Result<DrivenPlatform, Error> {
         let platform = *self.prescribed()?.platform();
         let platform = DrivenPlatform::new(platform, drive.height.clone(), drive.angle.clone())?;
@@ -163,8 +164,9 @@ impl System {
     /// The same system with another table `[contact]`.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a number that is not positive; [`Error::NeitherGiven`], [`Error::NotGiven`] and
-    /// [`Error::BothGiven`] name what is missing or too much. With a time those of [`Compliance::new`].
+    /// [`Error::OutOfRange`] for a number that is not positive; [`Error::NeitherGiven`], [`Error::NotGiven`]
+    /// and [`Error::BothGiven`] for missing or conflicting entries. With a time, also the errors of
+    /// [`Compliance::new`].
     pub fn with_contact(&self, contact: Option<Contact>) -> Result<Self, Error> {
         if let Some(contact) = contact {
             contact.check()?;
@@ -179,12 +181,12 @@ impl System {
         Ok(system)
     }
 
-    /// The same system with another table `[stator]`, whose steady motion without a rotor is that of the platform.
+    /// The same system with another table `[stator]`, whose steady motion without a rotor is the platform's.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`], [`Error::NotGiven`], [`Error::NeitherGiven`] and [`Error::BothGiven`] name what is wrong;
-    /// the last one also where force, volts, torque or the twist over the height give another motion than the
-    /// platform has.
+    /// [`Error::OutOfRange`], [`Error::NotGiven`], [`Error::NeitherGiven`] and [`Error::BothGiven`] for
+    /// invalid entries; the last one also if force, volts, torque or the twist per height imply a motion
+    /// other than the platform's.
     pub fn with_stator(&self, stator: Option<StatorParameters>) -> Result<Self, Error> {
         stator.map(|stator| stator.of_platform(&self.platform)).transpose()?;
         Ok(Self { stator, ..*self })
@@ -220,7 +222,7 @@ impl System {
 impl TryFrom<System> for DimensionlessSystem {
     type Error = Error;
 
-    /// As of a reference.
+    /// As for a reference.
     fn try_from(system: System) -> Result<Self, Error> {
         Self::try_from(&system)
     }
@@ -229,10 +231,10 @@ impl TryFrom<System> for DimensionlessSystem {
 impl TryFrom<&System> for DimensionlessSystem {
     type Error = Error;
 
-    /// The system whose impacts are rigid, on a platform that moves as a sine.
+    /// The system, if its impacts are rigid and its platform moves as a sine.
     ///
     /// # Errors
-    /// [`Error::SoftContact`], [`Error::YieldingStator`]; of the system of a [`Motor`](crate::Motor) also
+    /// [`Error::SoftContact`], [`Error::YieldingStator`]; for the system of a [`Motor`](crate::Motor) also
     /// [`Error::LoadLaw`] and [`Error::DriveNotSine`].
     fn try_from(system: &System) -> Result<Self, Error> {
         system.prescribed()?;
@@ -290,7 +292,7 @@ mod tests {
         System::new(PLATFORM.build().unwrap(), DISK.build().unwrap()).unwrap()
     }
 
-    /// The dimensionless platform, scaled back, is the SI one.
+    /// The dimensionless platform, scaled back, equals the SI one.
     #[test]
     fn scales_carry_the_motion_back_to_si() {
         let (system, scales) = (system(), system().scales());
@@ -381,7 +383,7 @@ mod tests {
         refused("mass", [(1.0, 0.0), (1.0, -0.05), (0.0, f64::INFINITY)], loaded);
         refused("torque", [(f64::NAN, 1.0)], loaded);
         refused("moment of inertia", [(1.0, 5e-324)], loaded);
-        // It overflows: the load would vanish.
+        // The overflow would make the load vanish.
         refused("moment of inertia", [1e10], |radius| turning(radius).with_load_torque(1.0, 1e300));
         refused("gyration_radius", [-0.11], |radius| turning(radius).with_load_torque(1.0, 1.0));
         let moved = |platform: PlatformParameters| {
@@ -389,7 +391,7 @@ mod tests {
         };
         let violent = moved(PlatformParameters { amplitude: 1e9, ..PLATFORM });
         assert!(matches!(violent, Err(Error::Core(_))));
-        // A period of more seconds than a double holds: a transient of such a motor never ended.
+        // The period in seconds exceeds the largest double, so a transient of such a motor would never end.
         let fast = |angular_frequency| PlatformParameters { angular_frequency, ..PLATFORM };
         refused("unit of time (s)", [fast(1e-310)], moved);
         let still = PlatformParameters { amplitude: 0.0, twist_amplitude: 0.0, ..fast(1e155) };
@@ -416,8 +418,8 @@ mod tests {
         assert_eq!(serde_json::from_str::<System>(&text).unwrap(), system());
         let illegal = text.replace("\"restitution\":0.5", "\"restitution\":1.5");
         refused(serde_json::from_str::<System>(&illegal).unwrap_err(), "restitution = 1.5");
-        // With its quotes, so that no longer key is hit that contains it: what is left out has to be the load
-        // alone, which has a default and was taken for none.
+        // The quotes prevent a match inside a longer key: only the load may be missing, which has a default and
+        // whose misspelling once counted as no load.
         let quoted = |key: &str| format!("\"{key}\"");
         for (key, misspelt) in
             [("load_acceleration", "load_aceleration"), ("phase_lag", "phase_leg"), ("disk", "disc")]

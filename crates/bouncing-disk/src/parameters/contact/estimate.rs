@@ -1,5 +1,5 @@
-//! How long an impact lasts and how deep the weight sinks in: whether rigid impacts are a valid model. Derived in
-//! docs/numerics-dynamics.md, "Estimates of the contact time".
+//! Estimates the duration of an impact and the indentation under the weight, to judge whether rigid impacts
+//! are a valid model. Derived in docs/numerics-dynamics.md, "Estimates of the contact time".
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 use std::fmt::{self, Display, Formatter};
@@ -11,47 +11,48 @@ use crate::display::rough;
 use crate::parameters::contact::{Contact, Geometry, Material};
 use crate::parameters::system::System;
 
-/// Contact time over maximal indentation over speed in Hertz's impact: (4/5) sqrt(pi) Gamma(2/5)/Gamma(9/10).
+/// Contact time times speed over maximal indentation in Hertz's impact: (4/5) sqrt(pi)
+/// Gamma(2/5)/Gamma(9/10).
 const HERTZ: f64 = 2.943_275_184_324_704_7;
 
-/// Contact times of more periods than this are too long for rigid impacts.
+/// The longest contact time, in periods, for which rigid impacts are a good model.
 const LONGEST: f64 = 0.1;
 
-/// The thickness of a rough layer, in root mean squares of its heights: a thousandth is higher.
+/// The thickness of a rough layer in root mean squares of its heights; a thousandth of the surface is higher.
 const LAYER: f64 = 3.0;
 
-/// How much softer than a half space a wedge of 90 degrees is that is loaded along one of its faces.
+/// Compliance of a 90 degree wedge loaded along one of its faces, over that of a half space.
 const WEDGE: f64 = 0.5 * FRAC_PI_2 * (1.0 / (FRAC_PI_4 + 0.5) + 1.0 / (FRAC_PI_4 - 0.5));
 
 /// The sharpest edge of a ring (m).
 const SHARPEST: f64 = 1.0e-6;
 
-/// Whether the contact lets a disk leave that rests on the vibrating platform.
+/// Whether a disk that rests on the vibrating platform can leave it in spite of the contact's compliance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum LiftOff {
-    /// It leaves, whatever is unknown.
+    /// It leaves, whatever the unknown values.
     Yes,
-    /// That depends on what is unknown.
+    /// It depends on the unknown values.
     Unknown,
-    /// It stays, whatever is unknown.
+    /// It stays, whatever the unknown values.
     No,
 }
 
-/// How long impacts last, and what that says about the rigid model ([`System::contact_statement`]). The ranges
-/// are from what the table `[contact]` leaves unknown.
+/// Estimated duration of impacts, and its consequences for the rigid model ([`System::contact_statement`]).
+/// The ranges cover everything that the table `[contact]` leaves unknown.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct ContactStatement {
     /// Contact time of an impact over the period of the platform; `None` if there are no impacts.
     pub time_over_period: Option<[f64; 2]>,
-    /// m g/(k A): how deep the weight sinks in, over the amplitude A. Infinite without an amplitude.
+    /// m g/(k A): the indentation under the weight over the amplitude A. Infinite if the amplitude is 0.
     pub indentation_over_amplitude: [f64; 2],
-    /// Whether the disk leaves the platform; `None` where the rigid one does not, either.
+    /// Whether the disk leaves the platform; `None` if not even a rigid disk does.
     pub lift_off: Option<LiftOff>,
-    /// Whether contacts take time in what is computed; `None` for a time that is too short for that.
+    /// Whether contacts are compliant in computations; `None` for a time that is too short.
     pub takes_time: Option<bool>,
 }
 
@@ -59,17 +60,17 @@ pub struct ContactStatement {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum ContactWarning {
-    /// Impacts last for more than a tenth of a period, by the upper end of the range.
+    /// Impacts last longer than a tenth of a period, by the upper end of the range.
     LongContact {
         /// The range of the contact time over the period.
         periods: [f64; 2],
     },
-    /// In a contact this soft the disk stays on the platform, or may stay.
+    /// In a contact this soft the disk stays, or may stay, on the platform.
     StaysInContact {
-        /// Whether it does at both ends of what is unknown.
+        /// Whether it stays at both ends of the range.
         certain: bool,
     },
-    /// The contact is too stiff for the numbers: impacts are rigid.
+    /// The contact is too stiff to be computed, so impacts are rigid.
     Stiff,
 }
 
@@ -96,7 +97,7 @@ fn range(ends: [f64; 2]) -> String {
 }
 
 impl ContactStatement {
-    /// The rows of a report: name and value, also where there is no table `[contact]`.
+    /// The rows of a report (name and value), even without a table `[contact]`.
     #[must_use]
     pub fn rows(statement: Option<&Self>) -> [(&'static str, String); 2] {
         let unknown = || "unknown: give time or materials in [contact]".to_owned();
@@ -127,7 +128,7 @@ impl ContactStatement {
     }
 }
 
-/// One end of what is unknown: contact time (s) at a speed, indentation under the weight (m), stiffness for
+/// One end of the unknown range: contact time (s) at a speed, indentation under the weight (m), stiffness for
 /// small motions about it (N/m).
 #[derive(Debug, Clone, Copy)]
 struct End {
@@ -137,14 +138,14 @@ struct End {
 }
 
 impl End {
-    /// A linear spring, with the contact time of an impact without loss.
+    /// A linear spring, with the contact time of a lossless impact.
     fn linear(stiffness: f64, mass: f64, weight: f64) -> Self {
         let time = PI * (mass / stiffness).sqrt();
         Self { time: Some(time), indentation: weight / stiffness, stiffness }
     }
 }
 
-/// Contact time (s) of Hertz's impact without loss: 2.87 (m^2/(R E*^2 v))^(1/5).
+/// Contact time (s) of Hertz's lossless impact: 2.87 (m^2/(R E*^2 v))^(1/5).
 fn hertz_time(mass: f64, radius: f64, modulus: f64, speed: f64) -> f64 {
     let share = 15.0 * mass * speed * speed / (16.0 * radius.sqrt() * modulus);
     HERTZ * pow(share, 0.4) / speed
@@ -160,13 +161,13 @@ fn plane(mass: f64, weight: f64, radius: f64, modulus: f64, speed: Option<f64>) 
 /// A ball on the edge of a ring.
 #[derive(Debug, Clone, Copy)]
 struct RingContact {
-    /// Radii of ball, of the circle of contact, and of the edge (m).
+    /// Radii of the ball, the circle of contact and the edge (m).
     ball: f64,
     ring: f64,
     edge: f64,
     /// 1/E' of ball and ring (1/Pa), E' = E/(1 - nu^2).
     compliances: [f64; 2],
-    /// How much softer than a half space the ring is.
+    /// Compliance of the ring over that of a half space.
     softer: f64,
 }
 
@@ -187,7 +188,7 @@ impl RingContact {
     fn end(&self, mass: f64, weight: f64, speed: Option<f64>) -> End {
         let (secant, logarithm) = self.stiffness(weight);
         let time = speed.map(|speed| {
-            // The logarithm hardly changes: each round makes the error ten times smaller.
+            // The logarithm hardly changes: each iteration reduces the error tenfold.
             let last = (0..20).fold(secant, |k, _| self.stiffness(speed * (mass * k).sqrt()).0);
             PI * (mass / last).sqrt()
         });
@@ -195,7 +196,7 @@ impl RingContact {
     }
 }
 
-/// The soft and the stiff end of a contact whose materials are given.
+/// The soft and the stiff end for a contact whose materials are given.
 fn ends(contact: &Contact, [disk, platform]: [Material; 2], weight: f64, speed: Option<f64>) -> [End; 2] {
     // A checked table has the sizes that its geometry needs.
     let given = |size: Option<f64>| size.unwrap_or(f64::NAN);
@@ -219,7 +220,7 @@ fn ends(contact: &Contact, [disk, platform]: [Material; 2], weight: f64, speed: 
                 };
                 let layer = [disk, platform].into_iter().min_by(softest).unwrap_or(disk);
                 let ratio = layer.poissons_ratio();
-                // The sides of the layer are free, or confined.
+                // The sides of the layer are either free or confined.
                 let confined = (1.0 - ratio) / ((1.0 + ratio) * (1.0 - 2.0 * ratio));
                 let modulus = layer.youngs_modulus()[end] * [1.0, confined][end];
                 End::linear(modulus * given(contact.area) / given(contact.thickness), mass, weight)
@@ -235,8 +236,8 @@ fn ends(contact: &Contact, [disk, platform]: [Material; 2], weight: f64, speed: 
     })
 }
 
-/// The largest ratio of the accelerations of disk and platform over a range of squares of the frequency in
-/// units of its own, and the least one, for a damping ratio.
+/// The largest and the least ratio of the disk's acceleration to the platform's, for a damping ratio and a
+/// range of squared frequencies in units of the contact's own.
 fn transmissibility(squares: [f64; 2], damping: f64) -> [f64; 2] {
     let four = 4.0 * damping * damping;
     let at = |square: f64| {
@@ -249,8 +250,9 @@ fn transmissibility(squares: [f64; 2], damping: f64) -> [f64; 2] {
 }
 
 impl System {
-    /// How long impacts last at this speed (m/s), from the table `[contact]`; `None` without one. The speed is
-    /// that of the motion of interest; the table may have another one. `None` if there are no impacts.
+    /// The estimated duration of impacts at this speed (m/s), from the table `[contact]`; `None` without a
+    /// table. The speed is the one of the motion under study; a speed in the table overrides it. If it is
+    /// `None`, there are no impacts.
     ///
     /// ```
     /// use bouncing_disk::System;
@@ -276,7 +278,7 @@ impl System {
             law(1.0, disk.restitution().clamp(least, most)).ok()
         };
         let damper = damped(Compliance::new)?;
-        // Units of m, 1/omega and g/omega^2 make the two ways to give a contact one.
+        // In units of m, 1/omega and g/omega^2 both ways to specify a contact coincide.
         let (time, indentation, stiffness) = match (contact.time, contact.materials) {
             (Some(time), _) => {
                 let length = time * omega;
@@ -329,7 +331,7 @@ mod tests {
 
     const MASS: f64 = 0.0329;
 
-    /// Contact time and largest force of a mass that meets a spring, by Runge-Kutta steps.
+    /// Contact time and largest force of a mass that hits a spring, by Runge-Kutta steps.
     fn integrated(mass: f64, speed: f64, step: f64, force: impl Fn(f64) -> f64) -> f64 {
         let slope = |(depth, rate): (f64, f64)| (rate, -force(depth) / mass);
         let moved = |(x, v): (f64, f64), (dx, dv): (f64, f64), h: f64| (x + h * dx, v + h * dv);
@@ -361,7 +363,7 @@ mod tests {
                     < 1e-3
             );
         }
-        // The static indentation is that of the same force.
+        // The static indentation corresponds to the same force.
         let ball = plane(MASS, 0.3224, 0.01, 59e9, None);
         let force = 4.0 / 3.0 * 59e9 * 0.1 * ball.indentation * ball.indentation.sqrt();
         assert!((force / 0.3224 - 1.0).abs() < 1e-12);
@@ -389,7 +391,7 @@ mod tests {
             let potential = (0..n).map(near).sum::<f64>() * TAU / f64::from(n);
             assert!((potential / (2.0 * ln(8.0 / d)) - 1.0).abs() < d, "{potential}");
         }
-        // The linearised impact against that with the logarithm in it.
+        // Compares the linearised impact with one that includes the logarithm.
         let ring = RingContact {
             ball: 0.01,
             ring: 1.25e-3,
@@ -399,7 +401,7 @@ mod tests {
         };
         let time = ring.end(MASS, 0.3224, Some(5.8e-3)).time.unwrap();
         let force = |depth: f64| {
-            // Of x = F/k(F).
+            // Solves x = F/k(F).
             let depth = depth.max(1e-30);
             (0..12).fold(depth * ring.stiffness(1.0).0, |force, _| depth * ring.stiffness(force).0)
         };
@@ -441,7 +443,7 @@ mod tests {
         assert!((thin.indentation_over_amplitude[1] / (0.3224 / stiffness / 1e-8) - 1.0).abs() < 1e-3);
     }
 
-    /// The response of a linear contact decides on lift-off; the core has the same contact.
+    /// The response of a linear contact decides on lift-off; the core's contact agrees.
     #[test]
     fn a_contact_that_is_soft_enough_is_never_left() {
         let of = |periods: f64| {
@@ -460,7 +462,7 @@ mod tests {
             assert!((low / periods - 1.0).abs() < 1e-12 && (high / periods - 1.0).abs() < 1e-12);
             assert_eq!(statement.warnings().is_empty(), periods < 0.1);
         }
-        // Beyond the restitutions of the core the damping of materials is that of the nearest one.
+        // Beyond the core's restitutions, the damping of materials is the nearest legal one.
         let elastic = Motor::paper_70_khz().with(|sheet| {
             (sheet.restitution, sheet.contact) = (1.0 - 1e-9, Some(Contact::PAPER));
         });
