@@ -1,10 +1,10 @@
 //! Tosses: a single one, and many in a row.
 //!
 //! A single toss starts at rest at the lowest point of the hand (Sec. III of Liu, Friend and Yeo). Its
-//! efficiency is the rotary energy over the work of the hand, its speed ratio the spin over the hand's
-//! largest angular speed. Many tosses (Sec. IV) end on an orbit; on one with an impact in each period the
-//! disk turns with the hand at the impact (Eq. 16): omega Phi cos(tau + theta), where
-//! cos tau = (1 - r)/((1 + r) Gamma).
+//! efficiency is the rotary energy divided by the work of the hand; its speed ratio is the spin divided by
+//! the hand's largest angular speed. Many tosses (Sec. IV) settle on an orbit. If it has one impact per
+//! period, the disk turns with the hand at the impact (Eq. 16), at omega Phi cos(tau + theta) with cos tau =
+//! (1 - r)/((1 + r) Gamma).
 //!
 //! ```
 //! use bouncing_disk::System;

@@ -3,25 +3,26 @@
 use std::f64::consts::PI;
 use std::fmt;
 
-/// A flight is long if it lasts longer than this (rad): half a period of the platform. The short ones of a
-/// chattering sequence get shorter without end, so that their number depends on how the sequence was cut
+/// A flight is long if it lasts longer than this (rad), half a period of the platform. The short ones of a
+/// chattering sequence get shorter without end, so their number depends on how the sequence was truncated
 /// rather than on the motion.
 pub const LONG_FLIGHT: f64 = PI;
 
-/// The mean time between separations agrees with the unperturbed cycle to this share: the cycle survives the
-/// perturbation. Longer cycles than those of [`LOCKED_FLIGHTS`] come near the mean by chance.
+/// Largest relative difference between the mean time between separations and the unperturbed cycle for which
+/// the cycle is judged to survive the perturbation. Cycles longer than [`LOCKED_FLIGHTS`] approach the mean
+/// by chance.
 pub const LOCKED_WITHIN: f64 = 0.05;
 /// See [`LOCKED_WITHIN`].
 pub const LOCKED_FLIGHTS: usize = 8;
 
-/// Impacts in which to look for an unperturbed cycle; a cycle of up to half of them is found.
+/// Impacts searched for an unperturbed cycle; a cycle of up to half of them is found.
 pub const EXAMINED_IMPACTS: usize = 2_048;
 
-/// One round of a disk that comes to rest on the platform again and again: from one separation to the next.
+/// One round of a disk that repeatedly comes to rest on the platform: from one separation to the next.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ChatteringCycle {
-    /// Impacts, without those that the complete policy sums.
+    /// Impacts, without those summed by the complete policy.
     pub impacts: usize,
     /// Periods of the platform.
     pub platform_periods: u64,

@@ -1,7 +1,7 @@
 //! The next-collision map (Sec. IV): from (tau_imp, w_A, w_T) at one impact to the same three numbers at the
 //! next.
 //!
-//! Its first two do not depend on the third: the derivative of the map is block triangular, and its rotary
+//! The first two do not depend on the third: the derivative of the map is block triangular, and its rotary
 //! entry is 0 for an impact in which the slip ends and 1 for one that slides throughout.
 
 use bouncing_disk_core::{ChatterPolicy, ImpactState, Phase};
@@ -44,7 +44,7 @@ impl CollisionState {
     /// The continuation of the motion: the rebound from this impact as a start of an [`Engine`].
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] or an error of the core for velocities that are not those of an impact.
+    /// [`Error::OutOfRange`] or an error of the core for velocities that no impact can have.
     pub fn rebound(&self, system: &DimensionlessSystem) -> Result<InitialCondition, Error> {
         let vertical = self.vertical()?;
         let slip = moderate("tangential_impact_velocity", self.tangential_impact_velocity)?;
@@ -65,15 +65,15 @@ impl CollisionState {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Collision {
-    /// When.
+    /// Time of the impact.
     pub time: PhaseTime,
-    /// The state just before.
+    /// State just before it.
     pub state: CollisionState,
-    /// The disk's angular speed just before, in units of g a_e/(a_g^2 omega).
+    /// The disk's angular speed just before it, in units of g a_e/(a_g^2 omega).
     pub angular_speed: f64,
-    /// The angle that the disk has turned, in units of g a_e/(a_g omega)^2.
+    /// Angle through which the disk has turned, in units of g a_e/(a_g omega)^2.
     pub angle: f64,
-    /// Whether friction ended the slip within the impact.
+    /// Whether friction ended the slip during the impact.
     pub capped: bool,
 }
 
@@ -86,35 +86,35 @@ pub enum CollisionEvent {
     Collision(Collision),
     /// The chattering has ended and the disk lies on the platform.
     Attachment {
-        /// When.
+        /// Time of the attachment.
         time: PhaseTime,
         /// Impacts summed by the complete policy, which are not reported singly.
         summed_impacts: u64,
     },
     /// The platform falls away from the disk.
     Separation {
-        /// When.
+        /// Time of the separation.
         time: PhaseTime,
         /// The disk's angular speed.
         angular_speed: f64,
-        /// The angle that the disk has turned.
+        /// Angle through which the disk has turned.
         angle: f64,
     },
 }
 
-/// The lazy sequence of the collisions (kicks among them), attachments and separations of a motion.
+/// The lazy sequence of a motion's collisions (including kicks), attachments and separations.
 ///
-/// It ends where the disk stays on the platform for ever, and after an error.
+/// It ends if the disk stays on the platform for ever, and after an error.
 #[derive(Debug, Clone)]
 pub struct Collisions<M = Engine> {
     motion: M,
 }
 
 impl Collisions {
-    /// The collisions of a [`crate::System`] or a [`DimensionlessSystem`] one from a start.
+    /// The collisions of a [`crate::System`] or [`DimensionlessSystem`] from a start.
     ///
     /// # Errors
-    /// Those of [`Engine::new`].
+    /// The errors of [`Engine::new`].
     pub fn new(
         system: impl TryInto<DimensionlessSystem, Error: Into<Error>>,
         start: InitialCondition,
@@ -123,10 +123,10 @@ impl Collisions {
         Ok(Self::of(Engine::new(system, start, policy)?))
     }
 
-    /// The collisions that follow the one in `state`; that one itself is not reported.
+    /// The collisions that follow the one in `state`, which is not itself reported.
     ///
     /// # Errors
-    /// Those of [`CollisionState::rebound`] and [`Engine::new`].
+    /// The errors of [`CollisionState::rebound`] and [`Engine::new`].
     pub fn after(
         system: impl TryInto<DimensionlessSystem, Error: Into<Error>>,
         state: CollisionState,
@@ -144,7 +144,7 @@ impl Collisions {
 }
 
 impl<M: Motion<Record = EventRecord>> Collisions<M> {
-    /// The collisions of this motion from here on.
+    /// The collisions of this motion from its current state on.
     #[must_use]
     pub const fn of(motion: M) -> Self {
         Self { motion }
@@ -153,7 +153,7 @@ impl<M: Motion<Record = EventRecord>> Collisions<M> {
     /// The next event, or `None` after the last one.
     ///
     /// # Errors
-    /// Those of [`Motion::advance`].
+    /// The errors of [`Motion::advance`].
     pub fn advance(&mut self) -> Result<Option<CollisionEvent>, Error> {
         while !self.motion.lies_for_ever() {
             let Some(record) = self.motion.advance()? else { break };

@@ -1,4 +1,4 @@
-//! Multiple tosses (Sec. IV): the orbit on which a motion settles, and its classification.
+//! Multiple tosses (Sec. IV): the orbit on which a motion settles, and its class.
 
 use crate::display::numbers;
 use std::f64::consts::{PI, TAU};
@@ -17,27 +17,27 @@ use crate::parameters::dimensionless::DimensionlessSystem;
 use crate::toss::chattering_cycle::{ChatteringCycle, LONG_FLIGHT};
 use crate::toss::collisions::{Collision, CollisionEvent, Collisions};
 
-/// Most impacts that [`multi_toss`] examines.
+/// Largest number of impacts that [`multi_toss`] examines.
 pub const MAX_EXAMINED: usize = 10_000_000;
 
-/// The work of an event, in flights: one that ends a chatter takes longer than a flight.
+/// The cost of an event, in flights: one that ends a chatter takes longer than a flight.
 const FLIGHTS_OF_EVENT: u64 = 4;
 
-/// How long a motion is followed, and when it counts as periodic.
+/// How long a motion is followed, and the criterion for a periodic one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MultiTossSettings {
     /// How a chattering sequence ends. Default [`ChatterPolicy::Complete`].
     pub policy: ChatterPolicy,
-    /// Impacts that are skipped. Default 4000.
+    /// Number of impacts that are skipped. Default 4000.
     pub transient_impacts: usize,
-    /// Impacts that are then examined, from 2 to [`MAX_EXAMINED`]. Default 1024.
+    /// Number of impacts that are then examined, from 2 to [`MAX_EXAMINED`]. Default 1024.
     pub examined_impacts: usize,
     /// The longest period (in impacts) that is recognised, up to [`MAX_PERIOD`]; at most half of the impacts
     /// examined are compared. Default 128.
     pub longest_period: usize,
-    /// Phases (rad) and speeds (relative to 1 + the speed, for the rotary ones to 1 + Q) that differ by no
-    /// more count as the same. Default 1e-9.
+    /// Largest difference of phases (rad) and speeds (relative to 1 + the speed, for rotary ones to 1 + Q)
+    /// that count as equal. Default 1e-9.
     pub tolerance: f64,
 }
 
@@ -68,8 +68,8 @@ impl MultiTossSettings {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub enum OrbitClass {
-    /// The collisions repeat: the last two rounds agree within the tolerance, and so does a Newton refinement
-    /// of the vertical orbit, which attracts ([`Stability::Stable`]).
+    /// The collisions repeat: the last two rounds agree within the tolerance, and a Newton refinement of the
+    /// vertical orbit also agrees and is attracting ([`Stability::Stable`]).
     Periodic {
         /// Impacts in one round.
         period: usize,
@@ -77,27 +77,28 @@ pub enum OrbitClass {
         platform_periods: u64,
         /// The two Floquet multipliers of the vertical motion.
         vertical: Multipliers,
-        /// The third one: 0 if the slip ends in an impact of the round, 1 if every impact slides.
+        /// The rotary multiplier: 0 if the slip ends in an impact of the round, 1 if every impact slides.
         rotary: f64,
     },
-    /// The disk comes to rest on the platform again and again. It leaves it in the same vertical state each
-    /// time, so the vertical motion is periodic from the first separation on: eventually periodic, as long as
-    /// the arithmetic is. (A long cycle depends on its rounding.)
+    /// The disk repeatedly comes to rest on the platform. It always leaves in the same vertical state, so the
+    /// vertical motion is periodic from the first separation on, exactly in theory and up to rounding in
+    /// practice. (A long cycle depends on its rounding.)
     Chattering(ChatteringCycle),
-    /// Small vertical perturbations grow for certain ([`LyapunovEstimate::grows`]), over enough impacts for
-    /// dissipation to act ([`BouncingMap::transient_impacts`](bouncing_disk_core::BouncingMap::transient_impacts)).
+    /// Small vertical perturbations certainly grow ([`LyapunovEstimate::grows`]), over enough impacts for
+    /// dissipation to act
+    /// ([`BouncingMap::transient_impacts`](bouncing_disk_core::BouncingMap::transient_impacts)).
     Chaotic {
         /// Growth rate of a small vertical perturbation per impact, from the derivatives of the map along the
         /// impacts examined.
         lyapunov_exponent: LyapunovEstimate,
     },
-    /// Not certainly any of these within the impacts examined: a long period, a slow approach, neutral
-    /// motion, or a transient.
+    /// None of these is certain from the impacts examined: a long period, a slow
+    /// approach, neutral motion, or a transient.
     Undecided {
         /// Impacts examined.
         impacts: usize,
-        /// The growth rate, if it is known: `None` if the disk attached or grazed on the way, or for fewer
-        /// than 17 impacts.
+        /// The growth rate, if known: `None` if the disk attached or grazed meanwhile, or for fewer than 17
+        /// impacts.
         lyapunov_exponent: Option<LyapunovEstimate>,
     },
     /// The disk rests on the platform for ever.
@@ -110,21 +111,21 @@ pub enum OrbitClass {
 pub struct TossOrbit {
     /// The class of the orbit.
     pub class: OrbitClass,
-    /// One round of a periodic orbit, one cycle of a chattering one, else all impacts examined.
+    /// One round of a periodic orbit, one cycle of a chattering one, otherwise all impacts examined.
     pub collisions: Vec<Collision>,
-    /// Mean angular speed over those, in units of g a_e/(a_g^2 omega); `None` at rest.
+    /// Mean angular speed over these collisions, in units of g a_e/(a_g^2 omega); `None` at rest.
     pub mean_angular_speed: Option<f64>,
-    /// Whether the angular speed, too, repeats from round to round; `None` where nothing repeats.
+    /// Whether the angular speed also repeats from round to round; `None` if nothing repeats.
     pub rotation_repeats: Option<bool>,
 }
 
 /// Follows a motion through its transient and classifies the orbit on which it settles.
 ///
-/// The items of `observer` are the impacts, of the transient and examined.
+/// The observer's items are the impacts, both transient and examined.
 ///
 /// # Errors
 /// [`Error::OutOfRange`] for the settings; an error of the core for more than [`MAX_EXAMINED`] impacts
-/// examined or more than memory can hold; those of [`Collisions`].
+/// examined or more than memory can hold; the errors of [`Collisions`].
 pub fn multi_toss(
     system: impl TryInto<DimensionlessSystem, Error: Into<Error>>,
     start: InitialCondition,
@@ -134,7 +135,7 @@ pub fn multi_toss(
     toss_orbit(system.try_into().map_err(Into::into)?, start, &settings, observer)
 }
 
-/// [`multi_toss`], compiled with this crate and not with its caller, which may not be optimised.
+/// [`multi_toss`], compiled in this crate, because the caller's crate may not be optimised.
 fn toss_orbit(
     system: DimensionlessSystem,
     start: InitialCondition,
@@ -184,7 +185,7 @@ pub(crate) fn settle<M: Motion<Record = EventRecord>>(
     Ok(orbit)
 }
 
-/// A separation, and how many collisions of the window came before it.
+/// A separation, and the number of collisions in the window before it.
 #[derive(Debug, Clone, Copy)]
 struct Leaving {
     before: usize,
@@ -218,7 +219,7 @@ impl Examined {
         settings: &MultiTossSettings,
         work: &mut WorkCount<'_>,
     ) -> Result<TossOrbit, Error> {
-        // How far angular speeds may differ that count as the same.
+        // Largest difference of angular speeds that count as equal.
         let near = settings.tolerance * (1.0 + twist_speed);
         if let Some((from, to)) = self.cycle(settings.tolerance) {
             return Ok(self.chattering(near, from, to));
@@ -227,7 +228,7 @@ impl Examined {
         periodic.map_or_else(|| self.without_period(map, settings, work), Ok)
     }
 
-    /// The last separation, and the one before it at the same phase: on a drive there may be others between.
+    /// The last separation, and the previous one at the same phase; on a drive others may come between.
     fn cycle(&self, tolerance: f64) -> Option<(Leaving, Leaving)> {
         let (to, before) = self.leavings.split_last()?;
         let same = |from: &&Leaving| {
@@ -320,7 +321,7 @@ impl Examined {
     }
 }
 
-/// Angle turned over time taken.
+/// Angle turned divided by time taken.
 fn mean_speed(from: (PhaseTime, f64), to: (PhaseTime, f64)) -> Option<f64> {
     let span = to.0.since(&from.0).radians();
     (span > 0.0).then(|| (to.1 - from.1) / span)
@@ -566,7 +567,7 @@ mod tests {
         assert!((rate.exponent - expected).abs() < 3.0 * rate.standard_error, "{rate:?} {expected}");
     }
 
-    /// On the orbit that is born in the fold perturbations neither grow nor shrink.
+    /// On the orbit born in the fold, perturbations neither grow nor shrink.
     #[test]
     fn neutral_motion_is_no_chaos() {
         for (forcing, restitution) in [(0.3333333333333333, 0.5), (0.25, 0.6)] {

@@ -14,18 +14,18 @@ use crate::parameters::dimensionless::DimensionlessSystem;
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub enum RotaryOutcome {
-    /// From any spin the disk comes to this steady one in finitely many impacts: the rotary multiplier is 0.
+    /// From any spin the disk reaches this steady one in finitely many impacts: the rotary multiplier is 0.
     Steady(RotaryResponse),
-    /// The load exactly balances all that friction can give in a period of the orbit. A disk that slides
-    /// through every impact in the direction in which the load drives it keeps its spin: such spins form a
-    /// continuum, and the rotary multiplier is 1.
+    /// The load exactly balances the largest impulse that friction can give in a period of the orbit. A disk
+    /// that slides through every impact in the direction in which the load drives it keeps its spin: such
+    /// spins form a continuum, and the rotary multiplier is 1.
     Kept {
-        /// Where the continuum ends: the angular speed before the first impact of the orbit, in units of g
+        /// The end of the continuum: the angular speed before the first impact of the orbit, in units of g
         /// a_e/(a_g^2 omega). Under a positive load all slower spins are kept, under a negative one all
         /// faster ones. `None` without friction and load: every spin is kept.
         limit: Option<f64>,
     },
-    /// The load exceeds friction: no spin repeats itself.
+    /// The load exceeds friction: no spin repeats.
     Runaway {
         /// The change of the angular speed in one period of the orbit once every impact slides, in units of
         /// g a_e/(a_g^2 omega).
@@ -34,7 +34,7 @@ pub enum RotaryOutcome {
 }
 
 impl RotaryOutcome {
-    /// The rotary multiplier of the orbit, 0 or 1; `None` where no spin repeats itself.
+    /// The rotary multiplier of the orbit, 0 or 1; `None` if no spin repeats.
     #[must_use]
     pub const fn multiplier(&self) -> Option<f64> {
         match self {
@@ -62,8 +62,7 @@ pub struct RotaryResponse {
     pub angular_speeds: Vec<f64>,
     /// Disk minus platform just before each impact, the paper's w_T, in the same units.
     pub slips: Vec<f64>,
-    /// The direction of the slip after each impact; `None` where the impact ends the slip, as at least one
-    /// does.
+    /// The direction of the slip after each impact; `None` if the impact ends the slip, as at least one does.
     pub sliding: Vec<Option<SlipDirection>>,
     /// The largest margin with which an impact ends the slip: the available angular impulse minus the needed
     /// one, in the same units. A smaller disturbance of the spin is forgotten within one period of the orbit.
@@ -87,8 +86,8 @@ impl RotaryResponse {
 pub struct RotaryRound {
     /// The angular speed before the first impact of the next period, in units of g a_e/(a_g^2 omega).
     pub angular_speed: f64,
-    /// The number of impacts that end the slip. If there are none, the derivative of the angular speed by
-    /// that one period before is 1, otherwise 0.
+    /// The number of impacts that end the slip. The derivative of this angular speed with respect to the one
+    /// a period before is 1 if there are none, otherwise 0.
     pub sticking_impacts: usize,
 }
 
@@ -120,8 +119,8 @@ pub fn period_one_rotary_speed(system: &DimensionlessSystem, impact_phase: Phase
 /// ```
 ///
 /// # Errors
-/// [`Error::NotAnOrbit`] if `orbit` is not an orbit of this system; [`Error::OutOfRange`] if it is empty;
-/// those of [`ImpactMap::step`](crate::core::ImpactMap::step).
+/// [`Error::NotAnOrbit`] if `orbit` is not an orbit of this system; [`Error::OutOfRange`] if it is empty; the
+/// errors of [`ImpactMap::step`](crate::core::ImpactMap::step).
 pub fn rotary_response(system: &DimensionlessSystem, orbit: &PeriodicOrbit) -> Result<RotaryOutcome, Error> {
     Ok(SpinMap::of(system, orbit)?.outcome())
 }
@@ -130,7 +129,7 @@ pub fn rotary_response(system: &DimensionlessSystem, orbit: &PeriodicOrbit) -> R
 /// first impact.
 ///
 /// # Errors
-/// Those of [`rotary_response`]; [`Error::OutOfRange`] for a speed that is not finite.
+/// The errors of [`rotary_response`]; [`Error::OutOfRange`] for a speed that is not finite.
 pub fn rotary_round(
     system: &DimensionlessSystem,
     orbit: &PeriodicOrbit,
@@ -147,7 +146,7 @@ pub fn rotary_round(
     Ok(RotaryRound { angular_speed: speed, sticking_impacts })
 }
 
-/// The rotary part of the next-collision map around one orbit: all that does not depend on the spin.
+/// The rotary part of the next-collision map around one orbit: everything that does not depend on the spin.
 #[derive(Debug, Clone)]
 struct SpinMap {
     /// The flight after each impact (rad).
@@ -158,7 +157,7 @@ struct SpinMap {
     platform_speeds: Vec<f64>,
     friction: f64,
     load: f64,
-    /// The impacts by falling `available`: the ones most likely to end the slip come first.
+    /// The impacts by decreasing `available`: the most likely to end the slip come first.
     order: Vec<usize>,
 }
 
@@ -196,8 +195,7 @@ impl SpinMap {
         self.load * self.durations[index]
     }
 
-    /// The angular speed after an impact that the disk meets with this `speed`, and the direction of the slip
-    /// that is left.
+    /// The angular speed after an impact met at this `speed`, and the direction of the remaining slip.
     fn impact(&self, index: usize, speed: f64) -> (f64, Option<SlipDirection>) {
         let slip = speed - self.platform_speeds[index];
         let available = self.available[index];
@@ -209,9 +207,9 @@ impl SpinMap {
         (speed - direction.sign() * available, Some(direction))
     }
 
-    /// Let the disk turn with the platform after the impact `stuck`, and go around the orbit once. By how
-    /// much does the impulse needed to end the slip at this impact exceed the available one? For the steady
-    /// spin it does not: the result is zero or negative.
+    /// If the disk turns with the platform after the impact `stuck` and goes around the orbit once, the
+    /// amount by which the impulse needed to end the slip at this impact exceeds the available one. For the
+    /// steady spin it is zero or negative.
     fn excess(&self, stuck: usize) -> f64 {
         let mut speed = self.platform_speeds[stuck];
         let mut index = stuck;
@@ -226,7 +224,7 @@ impl SpinMap {
     }
 
     /// An impact that ends the slip in the steady spin, for a load below friction. At least one does; if
-    /// rounding denies it for all of them, this is the one that comes closest.
+    /// rounding denies it for all of them, this is the closest one.
     fn sticking(&self) -> usize {
         let mut best = (f64::INFINITY, self.order[0]);
         for index in self.order.iter().copied() {

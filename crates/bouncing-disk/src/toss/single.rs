@@ -19,12 +19,12 @@ use crate::parameters::dimensionless::DimensionlessSystem;
 use crate::parameters::scales::Scales;
 use crate::parameters::system::System;
 
-/// Phase at which a toss starts on the sine of Eq. (1): the lowest point of the hand. That of other motions is
+/// Phase at which a toss starts on the sine of Eq. (1): the lowest point of the hand. For other motions it is
 /// [`Drive::lowest_phase`](bouncing_disk_drives::Drive::lowest_phase).
 pub const TOSS_START: f64 = 1.5 * PI;
 
-/// How the dough turns at the start of a toss. The two differ if the phase lag is not zero: the hand then
-/// turns at omega Phi sin theta as the toss starts.
+/// How the dough turns at the start of a toss. The two cases differ if the phase lag is not zero, because the
+/// hand then turns at omega Phi sin theta as the toss starts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -42,19 +42,20 @@ pub enum InitialSpin {
 pub struct TossPerformance {
     /// Airborne rotary speed of the dough (rad/s).
     pub airborne_speed: f64,
-    /// Rotary kinetic energy that the dough gains up to the separation, over the energy that the tossing
-    /// motion puts in up to then. The energy put in is the work of the hand, by normal force and by friction:
-    /// it goes into the dough's kinetic energy of rotation and of lift, its height above the lowest point,
-    /// and friction between hand and dough. The spin of a dough that starts with the hand counts as put in
-    /// by the hand and gained by the dough. Negative if a dough at rest is turned by a
-    /// hand that takes energy back. The formula is that of [`SiEnergy::efficiency`].
+    /// Rotary kinetic energy that the dough gains up to the separation, divided by the energy that the
+    /// tossing motion puts in by then. The input is the work of the hand, by normal force and friction: it
+    /// goes into the dough's rotation, lift and height above the lowest point, and into friction between hand
+    /// and dough. If the dough starts with the hand, its initial spin counts as supplied by the hand and
+    /// gained by the dough. The efficiency is negative if a dough at rest is turned by a hand that takes
+    /// energy back. For the formula see [`SiEnergy::efficiency`].
     #[cfg_attr(feature = "serde", serde(deserialize_with = "bouncing_disk_core::stored::nan_if_none"))]
     pub efficiency: f64,
-    /// Airborne rotary speed over the largest rotary speed of the hand, omega Phi for the sine; `None` without twist.
+    /// Airborne rotary speed divided by the largest rotary speed of the hand, omega Phi for the sine; `None`
+    /// without twist.
     pub speed_ratio: Option<f64>,
     /// Phase of the separation (rad).
     pub separation_phase: f64,
-    /// Whether the dough slides over the hand as it leaves.
+    /// Whether the dough slides on the hand as it leaves.
     pub sliding_at_separation: bool,
     /// Vertical speed of the dough as it leaves (m/s).
     pub launch_speed: f64,
@@ -116,7 +117,8 @@ fn toss_engine(system: &System, initial: InitialSpin) -> Result<Engine, Error> {
 }
 
 impl TossPerformance {
-    /// Of a disk that starts with the rotary energy `spin` (J/kg), on a hand with the angular speed `peak` (rad/s).
+    /// The performance for a disk that starts with the rotary energy `spin` (J/kg), on a hand with the peak
+    /// angular speed `peak` (rad/s).
     pub(crate) fn of(
         separation: &EventRecord,
         ledger: &EnergyLedger,
@@ -182,8 +184,8 @@ mod tests {
         assert!((toss.launch_speed - 3.1).abs() < 0.1, "{toss:?}");
     }
 
-    /// The work of the hand is in the rotation, the upward motion and the height of the dough, and in the
-    /// friction loss; a dough that starts with the hand keeps the spin from the hand.
+    /// The work of the hand goes into the rotation, the upward motion and the height of the dough, and into
+    /// friction; a dough that starts with the hand keeps the spin that the hand gave it.
     #[test]
     fn the_efficiency_is_the_share_of_the_rotation_in_what_the_hand_has_given() {
         for (lag, friction) in [(0.7, 0.6), (-1.2, 0.6), (0.4, 0.1), (0.3, 50.0), (0.0, 0.6)] {
@@ -207,7 +209,7 @@ mod tests {
                 assert!((toss.rotary_energy_gain - gain).abs() < 1e-12 * rotary, "{lag} {friction} {toss:?}");
             }
         }
-        // A hand that does not twist has no speed to compare with.
+        // For a hand that does not twist, the speed ratio is undefined.
         let flat = single_toss(&table_i(0.0, 0.7, 0.6), InitialSpin::AbsoluteRest).unwrap();
         assert_eq!((flat.speed_ratio, flat.airborne_speed.abs()), (None, 0.0));
     }
@@ -220,7 +222,7 @@ mod tests {
         let (last, before) = events.split_last().unwrap();
         assert!(matches!(last, Event::Impact { .. }) && before.last() == Some(&Event::Separation));
         assert!(!before.iter().any(|event| matches!(event, Event::Impact { .. })));
-        // The normal force goes to zero: whatever twists slides in the end, and what does not twist never
+        // The normal force goes to zero, so any twisting dough slides in the end, and without twist it never
         // does.
         let slides = |angle| {
             single_toss(&table_i(angle, 0.3, 0.6), InitialSpin::RestRelativeToHand)
@@ -230,7 +232,7 @@ mod tests {
         assert!(slides(0.55) && !slides(0.0));
     }
 
-    /// Fig. 4: the optimum that the paper's text gives for the speed (its amplitude angle is 0.323 pi).
+    /// Fig. 4: the optimum for the speed as stated in the paper's text (its amplitude angle is 0.323 pi).
     #[test]
     fn the_fastest_toss_reaches_twenty_two_radians_per_second() {
         let fastest = (0..=450)
@@ -245,7 +247,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig { max_global_rejects: 100_000, ..ProptestConfig::default() })]
 
-        /// Where the dough lags all the way the speed is the integral of the friction (physics of theta = 0).
+        /// If the dough lags throughout, the speed is the integral of the friction (physics of theta = 0).
         #[test]
         fn a_lagging_dough_has_the_closed_form_speed(angle in 0.0..1.5_f64, friction in 0.05..1.0_f64) {
             let system = table_i(angle, 0.0, friction);
