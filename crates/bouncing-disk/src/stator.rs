@@ -1,14 +1,15 @@
-//! A disk on a stator that yields: its vibration modes feel the impacts and the friction.
+//! A disk on a compliant stator, whose vibration modes react to the impacts and to friction.
 //!
-//! The tip of the stator has the height s = sum of phi_j q_j and the angle beta = sum of psi_j q_j. Without a disk the
-//! drive holds the steady sine of [`motion`](crate::motion); r_j is what the coordinate of a mode is away from that:
+//! The tip of the stator has the height s = sum of phi_j q_j and the angle beta = sum of psi_j q_j. Without a
+//! disk the drive maintains the steady sine of [`motion`](crate::motion). The deviation r_j of a mode's
+//! coordinate from that sine obeys
 //!
 //! ```text
 //! r_j'' + d_j r_j' + f_j^2 r_j = -(h_j N + l_j T)
 //! ```
 //!
-//! with the normal force N >= 0 and the torque T of friction on the disk. All that happens between two events is a
-//! linear flow, so that the first root of gap, force or slip is certain; an impact has the law of
+//! with the normal force N >= 0 and the torque T of friction on the disk. Between two events the motion is a
+//! linear flow, so the first root of gap, force or slip is found with certainty. Impacts obey the law of
 //! Routh and Stronge, which cannot create energy (docs/numerics-dynamics.md).
 //!
 //! ```
@@ -56,13 +57,14 @@ pub use crate::motion::stator_ledger::{MODES, StatorLedger};
 pub use record::{StatorEngine, StatorRecord, StatorState};
 use regime::{COS, ContactStiffness, DISPLACEMENTS, Regime, SIN, State, VELOCITIES};
 
-/// Least and largest time (rad) that an isolated impact lasts on a stator that yields.
+/// Least and largest duration (rad) of an isolated impact on a compliant stator.
 pub const CONTACT_TIMES: [f64; 2] = [1.0e-2, 1.0e4];
 
-/// Nearer to a jam than this share of the friction that jams, a disk moves too fast for steps.
+/// The largest share of the jamming friction that is accepted; closer to a jam a disk moves too fast for the
+/// steps.
 const NEAREST_JAM: f64 = 0.99;
 
-/// The modes of the disk, in the order in which the ways to move are kept.
+/// The modes of motion of the disk, in the order in which their flows are stored.
 const REGIMES: [Mode; 4] = [
     Mode::Flight,
     Mode::Sticking,
@@ -70,23 +72,23 @@ const REGIMES: [Mode; 4] = [
     Mode::Sliding(SlipDirection::Backward),
 ];
 
-/// Frequencies of modes, in units of that of the drive.
+/// Range of mode frequencies, in units of the drive frequency.
 const FREQUENCIES: [f64; 2] = [1.0e-3, 1.0e3];
 
-/// A mode of the stator that yields, without units.
+/// A mode of the compliant stator, without units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct YieldingMode {
-    /// Effective mass at the tip in units of that of the disk; of a mode that only twists the inertia, in units of that
-    /// of the disk. In [1e-6, 1e20].
+    /// Effective mass at the tip over the mass of the disk; for a mode that only twists, its inertia over the
+    /// disk's moment of inertia. In [1e-6, 1e20].
     pub mass: f64,
-    /// Resonance, in units of the frequency of the drive, in [1e-3, 1e3].
+    /// Resonance frequency over the drive frequency, in [1e-3, 1e3].
     pub frequency: f64,
     /// Quality factor, in [0.5, 1e5].
     pub quality: f64,
-    /// Height of the tip for one unit of the coordinate: 1, or 0 for a mode that only twists.
+    /// Height of the tip per unit of the coordinate: 1, or 0 for a mode that only twists.
     pub height: f64,
-    /// Angle of the tip for one unit of the coordinate, in units of a_e/a_g^2 for a mode that moves in height; 1 for a
-    /// mode that only twists.
+    /// Angle of the tip per unit of the coordinate, in units of a_e/a_g^2 for a mode that moves in height; 1
+    /// for a mode that only twists.
     pub angle: f64,
 }
 
@@ -104,20 +106,20 @@ impl YieldingMode {
     }
 }
 
-/// A line of a load: torque + slope times the speed, between two speeds.
+/// A linear piece of a load: torque + slope times the speed, between two speeds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoadLine {
     /// Lower end; minus infinity for the first line.
     pub from: f64,
     /// Upper end; infinity for the last line.
     pub to: f64,
-    /// Torque at speed 0, which may be outside of the line.
+    /// Torque at speed 0, even if the piece does not reach it.
     pub torque: f64,
-    /// Change of the torque with the speed.
+    /// Change of the torque per unit of speed.
     pub slope: f64,
 }
 
-/// A mode, as its equation of motion has it.
+/// The coefficients of a mode's equation of motion.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct ModeLaw {
     /// f^2 and d.
@@ -135,7 +137,8 @@ pub(crate) struct ModeLaw {
     pub(crate) steady: [f64; 2],
 }
 
-/// A disk on a stator that yields, without units, as [`DimensionlessSystem`] on one that does not.
+/// A disk on a compliant stator, without units; [`DimensionlessSystem`] is its counterpart on a prescribed
+/// platform.
 #[derive(Debug, Clone)]
 pub struct StatorSystem {
     pub(crate) base: DimensionlessSystem,
@@ -146,7 +149,7 @@ pub struct StatorSystem {
     /// (a_e/a_g)^2: rotary energy in units of axial energy.
     pub(crate) arm: f64,
     pub(crate) contact: ContactStiffness,
-    /// The load over the speed, by rising speeds, and how everything moves on each of its lines.
+    /// The pieces of the load by rising speed, and the flows on each of them.
     pub(crate) lines: Vec<LoadLine>,
     pub(crate) regimes: Arc<Vec<[Regime; 4]>>,
     given: Vec<YieldingMode>,
@@ -161,23 +164,24 @@ impl PartialEq for StatorSystem {
 }
 
 impl StatorSystem {
-    /// The system on a stator with these modes, at most two, whose steady motion without a disk is that of `system`.
-    /// What no mode moves is prescribed. Rigid impacts; the radii a_e and a_g are equal, which matters for modes that
-    /// move in height and twist ([`Self::build`]).
+    /// The system on a stator with these modes, at most two, whose steady motion without a disk is
+    /// `system`'s. A motion without a mode is prescribed. Impacts are rigid, and the radii a_e and a_g are
+    /// equal, which matters for modes that move in height and twist ([`Self::build`]).
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for numbers outside the ranges of [`YieldingMode`], for more than [`MODES`] modes, for a
-    /// mode that moves neither in height nor in angle, for two modes that move in height or two that twist, and for
+    /// [`Error::OutOfRange`] for numbers outside the ranges of [`YieldingMode`], more than [`MODES`] modes, a
+    /// mode that moves neither in height nor in angle, two modes that move in height or two that twist, and
     /// friction so strong that a sliding disk could jam.
     pub fn new(system: &DimensionlessSystem, modes: &[YieldingMode]) -> Result<Self, Error> {
         Self::build(system, modes, 1.0, None)
     }
 
-    /// As [`Self::new`], with `arm` = (a_e/a_g)^2 and, if given, contacts that take time: an isolated impact
-    /// on a platform that does not yield lasts for `contact_time` (rad of the drive) and has the system's restitution.
+    /// Like [`Self::new`], with `arm` = (a_e/a_g)^2 and optional compliant contacts: an isolated impact on a
+    /// rigid platform lasts `contact_time` (rad of the drive) and has the system's restitution.
     ///
     /// # Errors
-    /// As [`Self::new`]; for a contact time those of [`Compliance::new`], within [`CONTACT_TIMES`].
+    /// As [`Self::new`]; for a contact time, also the errors of [`Compliance::new`], within
+    /// [`CONTACT_TIMES`].
     pub fn build(
         system: &DimensionlessSystem,
         modes: &[YieldingMode],
@@ -221,7 +225,8 @@ impl StatorSystem {
                 steady: if axial { height } else { angle },
             };
         }
-        // One mode that moves in height and twists has one coordinate: the steady angle is that of the height.
+        // One mode that moves in height and twists has one coordinate, so the steady angle is proportional to
+        // the height.
         let angle = laws
             .iter()
             .find(|law| law.height != 0.0 && law.angle != 0.0)
@@ -269,12 +274,11 @@ impl StatorSystem {
         Arc::new(self.lines.iter().map(regimes).collect())
     }
 
-    /// This system with a load whose torque is a continuous line between speeds, besides the constant one. Torques and
-    /// speeds are in the units of the system.
+    /// This system with an additional load whose torque is continuous and piecewise linear in the speed.
+    /// Torques and speeds are in the units of the system.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for lines that do not follow each other, and or do not meet, and for slopes
-    /// outside of [-1, 1e3].
+    /// [`Error::OutOfRange`] for pieces that leave gaps or do not meet, and for slopes outside [-1, 1e3].
     pub fn with_load(mut self, lines: &[LoadLine]) -> Result<Self, Error> {
         let mut reached = f64::NEG_INFINITY;
         for line in lines {
@@ -287,7 +291,8 @@ impl StatorSystem {
         }
         for pair in lines.windows(2) {
             let [here, there] = [pair[0], pair[1]].map(|line| line.torque + line.slope * pair[1].from);
-            // Each torque at speed 0 is rounded in units of those at the ends of its line.
+            // Each torque at speed 0 has a rounding error proportional to the torques at the ends of its
+            // piece.
             let size = |line: &LoadLine| {
                 let ends = [line.from, line.to].into_iter().filter(|end| end.is_finite());
                 line.torque.abs() + ends.map(|end| (line.slope * end).abs()).fold(0.0, f64::max)
@@ -312,7 +317,7 @@ impl StatorSystem {
         Self::build(base, &self.given, self.arm, self.contact_time)?.with_load(&self.law())
     }
 
-    /// The load besides the constant one, if it does not depend on the speed.
+    /// The additional load if it does not depend on the speed.
     pub(crate) fn constant_law(&self) -> Option<f64> {
         let first = self.lines[0];
         let varies = self
@@ -338,38 +343,39 @@ impl StatorSystem {
         times.fold(0.0, f64::max)
     }
 
-    /// Mass in units of the disk's, times quality, of the mode that moves in height: a disk of this mass takes so many
-    /// radians to change its amplitude by what it weighs. Zero without such a mode.
+    /// Mass over the disk's, times quality, of the mode that moves in height: the disk needs about this many
+    /// radians to change the amplitude by its weight. Zero without such a mode.
     pub(crate) fn ringing(&self) -> f64 {
         let axial = self.given.iter().find(|mode| mode.height != 0.0);
         axial.map_or(0.0, |mode| mode.mass * mode.quality)
     }
 
-    /// How long (rad) an isolated contact takes on a platform that does not yield.
+    /// Duration (rad) of an isolated contact on a rigid platform.
     pub(crate) const fn contact_time(&self) -> Option<f64> {
         self.contact_time
     }
 
-    /// How long (rad) an isolated impact lasts on this stator, and what it keeps of its speed; `None` for rigid impacts.
+    /// Duration (rad) of an isolated impact on this stator, and the share of the speed that it preserves;
+    /// `None` for rigid impacts.
     pub(crate) fn isolated_contact(&self) -> Option<[f64; 2]> {
         let compliance = Compliance::new(self.contact_time?, self.base.restitution()).ok()?;
         let own = compliance.with_reduced_mass(1.0 / self.mobility()[0][0]).ok()?;
         Some([own.contact_time(), own.restitution()])
     }
 
-    /// The lines of the load besides the constant one.
+    /// The pieces of the additional load.
     pub(crate) fn law(&self) -> Vec<LoadLine> {
         let constant = self.base.load();
         self.lines.iter().map(|line| LoadLine { torque: line.torque - constant, ..*line }).collect()
     }
 
-    /// The same stator without the law of the load.
+    /// The same stator without the additional load.
     pub(crate) fn without_law(&self) -> Result<Self, Error> {
         let line = LoadLine { from: f64::NEG_INFINITY, to: f64::INFINITY, torque: 0.0, slope: 0.0 };
         self.clone().with_load(&[line])
     }
 
-    /// How far a contact is pressed in by the preload alone.
+    /// Indentation of a contact by the preload alone.
     pub(crate) const fn compression(&self) -> f64 {
         match self.contact {
             ContactStiffness::Rigid => 0.0,
@@ -377,22 +383,22 @@ impl StatorSystem {
         }
     }
 
-    /// Whether contacts take time.
+    /// Whether contacts are compliant.
     pub(crate) const fn takes_time(&self) -> bool {
         self.contact_time.is_some()
     }
 
-    /// The amplitude of a mode that loses so much in its damping in a time (rad), as if it moved as a sine with the
-    /// frequency of the drive.
+    /// The amplitude of a mode whose damping loses this energy in a time (rad), as if it moved sinusoidally
+    /// at the drive frequency.
     pub(crate) fn amplitude(&self, mode: usize, loss: f64, time: f64) -> f64 {
         let ModeLaw { weight, damping, .. } = self.modes[mode];
         (2.0 * loss / (weight * damping * time)).sqrt()
     }
 
-    /// The system of a disk of this mass (kg) on the stator that the system has.
+    /// The system of a disk of this mass (kg) on the stator of `system`.
     ///
     /// # Errors
-    /// Those of [`Self::build`]; [`Error::BothGiven`] for a contact that unloads at less stiffness.
+    /// The errors of [`Self::build`]; [`Error::BothGiven`] for a contact with hysteresis.
     pub fn of_system(system: &System, mass: f64) -> Result<Self, Error> {
         let (disk, omega) = (system.disk(), system.platform().angular_frequency());
         let gyration = disk.gyration_radius();
@@ -424,7 +430,8 @@ impl StatorSystem {
         Self::build(system.dimensionless(), &modes, arm * arm, contact_time)
     }
 
-    /// The unit forces: how impulses P and T change the relative speeds, [[w by P, w by T], [u by P, u by T]].
+    /// The mobility matrix: relative speeds per unit of the impulses P and T, [[w by P, w by T], [u by P, u
+    /// by T]].
     pub(crate) fn mobility(&self) -> [[f64; 2]; 2] {
         let mut b = [[1.0, 0.0], [0.0, 1.0]];
         for mode in &self.modes {
@@ -436,7 +443,7 @@ impl StatorSystem {
         b
     }
 
-    /// Friction must not stop the disk by the force that it makes itself (Painleve's paradox).
+    /// Rejects friction so strong that the force it causes could stop the disk (Painleve's paradox).
     fn check_jam(&self) -> Result<(), Error> {
         let b = self.mobility();
         let (friction, own) = (self.base.friction() * b[0][1].abs(), b[0][0]);
@@ -449,7 +456,7 @@ impl StatorSystem {
         Ok(())
     }
 
-    /// The system on a stator that does not yield.
+    /// The system on a rigid stator.
     #[must_use]
     pub const fn base(&self) -> &DimensionlessSystem {
         &self.base

@@ -16,11 +16,11 @@ use crate::motion::contact_motion::Lying;
 use crate::motion::engine::Stage;
 use crate::motion::state::SlipDirection;
 
-/// Where rounding calls what slips a stick and what sticks a slip, the present motion goes on for so long (rad).
+/// If rounding cannot tell stick from slip, the present motion continues for this time (rad).
 const TIE: f64 = 1.0e-6;
 
 impl StatorEngine {
-    /// The end of a contact, or of a slide or a stick in it.
+    /// The end of a contact, or of sliding or sticking within it.
     pub(super) fn contact_end(&mut self, slip: Option<SlipDirection>, limit: f64) -> Result<Next, Error> {
         if self.lies_for_ever() {
             return Ok(None);
@@ -69,7 +69,7 @@ impl StatorEngine {
                         Some((_, false)) => from = TIE,
                         Some((0, true)) => {}
                         Some((order, true)) if order < 4 => along = along.starting_with(&[0.0; 3][..order]),
-                        // It rests at zero, or leaves it too slowly to be told from that yet.
+                        // It rests at zero, or leaves it too slowly to tell yet.
                         _ => {
                             resting[index] = true;
                             continue;
@@ -94,17 +94,17 @@ impl StatorEngine {
                 return Ok(Some((passed + at, crossing)));
             }
             if left < step {
-                // What comes later in this step has not been looked for.
+                // Anything later in this step has not been searched.
                 return Ok(None);
             }
             steps += 1;
             passed = steps as f64 * step;
             state = regime.flow.advance(&state);
-            // A whole number of steps is a period.
+            // A whole number of steps makes a period.
             (state[SIN], state[COS]) = sin_cos(self.now.phase.angle() + (steps % whole) as f64 * step);
             if steps.is_multiple_of(whole) {
                 if repeats(&begun, &state) {
-                    // Whether the speed drifts to the end of the slide, or to another line of the load.
+                    // Whether the drifting speed reaches the end of the slide or another piece of the load.
                     let gained = state[SPEED] - begun[SPEED];
                     let drifts = gained.abs() > SAME * (1.0 + state[SPEED].abs());
                     let direction = slip.map_or(0.0, SlipDirection::sign);
@@ -123,7 +123,7 @@ impl StatorEngine {
         }
     }
 
-    /// Whether the force of a rigid contact falls below zero for less than a chatter that is cut: a flight that is no
+    /// Whether the force of a rigid contact is below zero for less time than a truncated chatter: a flight no
     /// higher than its rounding.
     fn touches(&self, state: &State) -> bool {
         let flow = &self.regime().flow;
@@ -139,10 +139,11 @@ impl StatorEngine {
         self.state[SPEED] - self.system.twist(&self.state)[1]
     }
 
-    /// Whether friction holds, or in which direction the disk slides; `spent`: the slide that has just ended.
+    /// Whether friction holds, or otherwise the direction in which the disk slides; `spent` is the slide that
+    /// has just ended.
     pub(super) fn onset(&self, spent: Option<SlipDirection>) -> Option<SlipDirection> {
         if self.system.base.friction() == 0.0 {
-            // Nothing holds it.
+            // Without friction nothing holds it.
             return Some(SlipDirection::Forward);
         }
         if spent.is_none()
@@ -162,7 +163,8 @@ impl StatorEngine {
             .map(|(_, direction)| direction)
     }
 
-    /// A disk on a rigid stator without relative velocity: it stays, or flies at once where the stator falls away.
+    /// A disk on a rigid stator without relative velocity: it stays, or flies at once if the stator falls
+    /// away.
     pub(super) fn lie_down(&mut self) {
         (self.state[GAP], self.state[CLOSING]) = (0.0, 0.0);
         self.settle_slip();
@@ -172,8 +174,8 @@ impl StatorEngine {
         }
     }
 
-    /// A disk in flight that touches a rigid stator: with a relative velocity of no more than rounding it flies if the
-    /// stator falls away.
+    /// A disk in flight that touches a rigid stator: if its relative velocity is no larger than rounding and
+    /// the stator falls away, it flies.
     pub(super) fn leave(&mut self) {
         let [_, tip] = self.system.tip(&self.state);
         if self.state[CLOSING].abs() > ROUNDING * tip.abs() {
@@ -191,7 +193,7 @@ impl StatorEngine {
         }
     }
 
-    /// A disk in a compliant contact, whether it sticks or slips.
+    /// A disk in a compliant contact, sticking or slipping.
     pub(super) fn press(&mut self) {
         self.settle_slip();
         self.stage = lying(self.onset(None));
@@ -200,7 +202,7 @@ impl StatorEngine {
         }
     }
 
-    /// A slip of no more than rounding is none.
+    /// A slip no larger than rounding counts as zero.
     fn settle_slip(&mut self) {
         let slip = self.system.regimes[self.line][0].slip.now();
         if dot(slip, &self.state).abs() <= 0.125 * ROUNDING * size(slip, &self.state) {
@@ -209,7 +211,7 @@ impl StatorEngine {
     }
 }
 
-/// Whether a contact is where it was a period before, but for the angle and the speed of the disk.
+/// Whether a contact has returned to its state one period before, apart from the disk's angle and speed.
 pub(super) fn repeats(before: &State, after: &State) -> bool {
     let size = after[..ANGLE].iter().fold(1.0, |size: f64, value| size.max(value.abs()));
     (0..ANGLE).all(|index| (after[index] - before[index]).abs() <= SAME * size)

@@ -13,7 +13,7 @@ use crate::motion::state::Mode;
 use crate::motion::stator_ledger::StatorLedger;
 
 impl StatorEngine {
-    /// The event, after which the engine is there.
+    /// Moves the engine to an event.
     pub(super) fn cross(&mut self, span: f64, crossing: Crossing) -> StatorRecord {
         let mut state = self.carried(span);
         let rigid = self.system.contact == ContactStiffness::Rigid;
@@ -27,7 +27,7 @@ impl StatorEngine {
         let flies_on = self.launches() && matches!(crossing, Crossing::LoadNode(_));
         self.aloft = if flies_on { self.aloft + span } else { 0.0 };
         self.now = self.now.after(PhaseSpan::from_radians(span));
-        // The phase of the clock decides.
+        // The phase of the clock takes precedence.
         (state[SIN], state[COS]) = (self.now.phase.sin(), self.now.phase.cos());
         self.state = state;
         self.searched = 0.0;
@@ -52,7 +52,7 @@ impl StatorEngine {
                 Event::Recontact
             }
             Crossing::Release => {
-                // The force falls through zero: so the gap opens, whatever rounding makes of its derivatives.
+                // The force falls through zero, so the gap opens, however its derivatives are rounded.
                 let regime = self.regime();
                 let falls = -dot(&regime.flow.derivative(regime.force.now()), &self.state);
                 self.stage = Stage::Flight(Launch::Release(0.0));
@@ -100,7 +100,7 @@ impl StatorEngine {
         StatorRecord { axial_impulse: axial, angular_impulse: angular, ..record }
     }
 
-    /// A rigid impact; the event, and its impulses.
+    /// A rigid impact; returns the event and its impulses.
     fn hit(
         &mut self,
         velocity: f64,
@@ -111,7 +111,7 @@ impl StatorEngine {
         let base = self.system.base;
         let mobility = self.system.mobility();
         let mut done = impact(mobility, base.friction(), base.restitution(), [velocity, slip]);
-        // Free of each other, disk and stator approach with this acceleration.
+        // While separate, disk and stator approach with this acceleration.
         let mut thrown = self.state;
         for (index, mode) in self.system.modes.iter().enumerate() {
             thrown[VELOCITIES[index]] -= mode.by_force * done.normal + mode.by_torque * done.friction;

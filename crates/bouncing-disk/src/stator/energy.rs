@@ -32,7 +32,7 @@ impl StatorEngine {
             let load = torque * (state[ANGLE] - self.state[ANGLE]);
             ledger.record_load(load, load.abs() + (torque * turned).abs());
         } else if matches!(self.stage, Stage::Flight(_)) {
-            // Nothing else turns the disk.
+            // No other force turns the disk.
             let [from, to] = [start.angular_speed, end.angular_speed];
             let load = 0.5 * (from - to) * (from + to);
             ledger.record_load(load, load.abs());
@@ -40,7 +40,7 @@ impl StatorEngine {
         self.record_modes(&mut stator, &self.state, state);
         match self.stage {
             Stage::Lying(_) => self.record_contact(span, &mut ledger, &mut stator),
-            // In a short flight the closed forms are differences of two works of almost a whole period.
+            // In a short flight the closed forms are differences of two works over almost a whole period.
             _ if span < self.regime().flow.step() => {
                 let Regime { flow, works, .. } = self.regime();
                 works.record_part(flow, &self.state, span, (&mut ledger, &mut stator));
@@ -52,22 +52,22 @@ impl StatorEngine {
             let (from, to) = (energy(self.state[GAP]), energy(state[GAP]));
             ledger.record_spring([from, to]);
             if !matches!(self.stage, Stage::Lying(_)) {
-                // Where no force acts the damper takes it.
+                // Without a contact force the damper takes it.
                 ledger.record_normal(0.0, from - to);
             }
         }
         (ledger, stator)
     }
 
-    /// Work of the drive and loss in the modes over a flight, in closed form.
+    /// Work of the drive and loss in the modes during a flight, in closed form.
     fn record_flight(&self, span: f64, state: &State, stator: &mut StatorLedger) {
         for (index, mode) in self.system.modes.iter().enumerate().filter(|(_, mode)| mode.weight > 0.0) {
             let (f, d) = (mode.stiffness, mode.damping);
             let ringing = |state: &State| [state[DISPLACEMENTS[index]], state[VELOCITIES[index]]];
             let (from, to) = (ringing(&self.state), ringing(state));
             let energy = |[r, v]: [f64; 2]| 0.5 * (v * v + f * r * r);
-            // In the steady motion (u, u'): integrals of u'^2, u' r' and u r', the last two by
-            // (exp(i tau) x)' = (B + i) exp(i tau) x for the ringing x' = B x.
+            // In the steady motion (u, u'): integrals of u'^2, u' r' and u r'. The last two use (exp(i tau)
+            // x)' = (B + i) exp(i tau) x for the ringing x' = B x.
             let [a, b] = mode.steady;
             let (s0, c0, s1, c1) = (self.state[SIN], self.state[COS], state[SIN], state[COS]);
             let wave = |s: f64, c: f64| a * b * (s * s - c * c) * -0.5 + (a * a - b * b) * 0.5 * s * c;
@@ -79,7 +79,7 @@ impl StatorEngine {
             let speed = a * with_cos - b * with_sin;
             let place = a * with_sin + b * with_cos;
             let loss = d * (steady + 2.0 * speed) + (energy(from) - energy(to));
-            // The force of the drive is that of the steady motion: (f - 1) u + d u'.
+            // The drive's force is the one that sustains the steady motion: (f - 1) u + d u'.
             let [u0, u1] = [[s0, c0], [s1, c1]].map(|[s, c]| a * s + b * c);
             let drive = (f - 1.0) * (0.5 * (u1 - u0) * (u1 + u0) + place) + d * (steady + speed);
             stator.record(index, mode.weight * drive, mode.weight * loss, 0.0);
@@ -87,7 +87,7 @@ impl StatorEngine {
         }
     }
 
-    /// Works and losses over a contact.
+    /// Works and losses during a contact.
     fn record_contact(&self, span: f64, ledger: &mut EnergyLedger, stator: &mut StatorLedger) {
         let Regime { flow, works, .. } = self.regime();
         let (mut state, mut passed) = (self.state, 0.0);
@@ -100,8 +100,8 @@ impl StatorEngine {
     }
 }
 
-/// The integrals of cos(tau) r' and sin(tau) r' of a ringing x = (r, r') but for a constant: the second component of
-/// (B + i)^-1 x exp(i tau).
+/// The integrals of cos(tau) r' and sin(tau) r' of a ringing x = (r, r'), up to a constant: the second
+/// component of (B + i)^-1 x exp(i tau).
 fn cross_integral(stiffness: f64, damping: f64, [r, v]: [f64; 2], (cos, sin): (f64, f64)) -> (f64, f64) {
     // B + i = [[i, 1], [-f, i - d]]; its inverse has the second row [f, i]/(f - 1 - i d).
     let (re, im) = (stiffness * r, v);

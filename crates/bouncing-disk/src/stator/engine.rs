@@ -1,4 +1,4 @@
-//! The event engine of a disk on a stator that yields.
+//! The event engine of a disk on a compliant stator.
 
 use std::f64::consts::TAU;
 
@@ -19,8 +19,9 @@ use crate::motion::state::{DiskState, LongSum, Mode, SlipDirection};
 use crate::motion::stator_ledger::StatorLedger;
 
 impl StatorEngine {
-    /// An engine for a disk that starts in contact, by a launch or in the air, on a stator in its steady motion without
-    /// a disk. A disk in contact within a rounding of the stator's angular speed sticks or begins to slide.
+    /// An engine for a disk that starts in contact, with a launch or in the air, on a stator in its steady
+    /// motion without a disk. A disk in contact whose angular speed equals the stator's within rounding
+    /// sticks or begins to slide.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for an illegal start.
@@ -34,11 +35,12 @@ impl StatorEngine {
         Self::begin(system, PhaseTime::in_first_period(phase), state, parted.is_none())
     }
 
-    /// An engine that goes on with a motion, as [`Self::state_after`] gives it: in contact the height and velocity of the
-    /// disk on a rigid stator are those of the stator.
+    /// An engine that continues a motion from [`Self::state_after`]. In contact on a rigid stator, the disk
+    /// takes the stator's height and velocity.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for numbers that are not finite, and a disk below a rigid stator by more than rounding.
+    /// [`Error::OutOfRange`] for numbers that are not finite, and for a disk more than rounding below a rigid
+    /// stator.
     pub fn of_state(system: StatorSystem, time: PhaseTime, from: StatorState) -> Result<Self, Error> {
         let mut state = [0.0; N];
         let (sin, cos) = (time.phase.sin(), time.phase.cos());
@@ -84,7 +86,7 @@ impl StatorEngine {
             ContactStiffness::Rigid if lies => engine.lie_down(),
             ContactStiffness::Soft { stiffness, .. } if lies => {
                 if engine.state[GAP] == 0.0 && engine.state[CLOSING] == 0.0 {
-                    // The indentation that carries the disk on the stator that moves as it does without it.
+                    // The indentation that carries the disk on the stator in its motion without a disk.
                     let load = 1.0 - engine.system.height[0] * engine.state[SIN];
                     engine.state[GAP] = -load.max(0.0) / stiffness;
                 }
@@ -121,8 +123,8 @@ impl StatorEngine {
         self.stated(&self.state, self.mode())
     }
 
-    /// When, and disk and modes, `span` radians after the last event, if no event comes before. A negative span and NaN
-    /// count as zero.
+    /// Time, disk and modes `span` radians after the last event, if no event comes before. A negative span
+    /// and NaN count as zero.
     #[must_use]
     pub fn state_after(&self, span: f64) -> (PhaseTime, StatorState) {
         let span = legal_span(span);
@@ -137,13 +139,13 @@ impl StatorEngine {
         self.ledgers(span, &self.carried(span))
     }
 
-    /// Whether the disk never leaves the stator again, as far as is known, or the motion has ended.
+    /// Whether the disk is known never to leave the stator again, or the motion has ended.
     #[must_use]
     pub const fn lies_for_ever(&self) -> bool {
         matches!(self.stage, Stage::Lying(Lying { end: None, .. }) | Stage::Ended)
     }
 
-    /// Moves the origin of the present motion to `span` later, in which time no event comes.
+    /// Moves the origin of the present motion forward by `span`, during which no event may come.
     pub(crate) fn pause(&mut self, span: f64) -> StatorRecord {
         let span = legal_span(span);
         let state = self.carried(span);
@@ -163,7 +165,7 @@ impl StatorEngine {
         self.record(Event::Joint, self.state(), (ledger, stator), span)
     }
 
-    /// The record of an event after which the disk is where it is now, without impulses.
+    /// The record of an event without impulses that leaves the disk in its current state.
     pub(super) fn record(
         &self,
         event: Event,
@@ -184,9 +186,9 @@ impl StatorEngine {
         }
     }
 
-    /// Moves a disk that lies for ever by whole periods, in which all repeats but the angle and a speed that drifts; the
-    /// energies of one of them. `None` where it does not lie for ever, has not settled yet, or a load changes with a speed
-    /// that drifts.
+    /// Moves a disk that lies for ever by whole periods, in which everything repeats except the angle and a
+    /// drifting speed; returns the energies of one period. `None` if it does not lie for ever or has not
+    /// settled yet, or if a load depends on a drifting speed.
     pub(crate) fn skip_periods(&mut self, periods: u64) -> Option<StatorRecord> {
         let Stage::Lying(Lying { end: None, .. }) = self.stage else { return None };
         let mut after = self.clone();
@@ -207,15 +209,15 @@ impl StatorEngine {
         Some(record)
     }
 
-    /// Ends the present motion `span` radians after the last event, if no event comes before, and goes on with another
-    /// system of the same units: the drive is switched, or the load changes. Modes and
-    /// disk are continuous; what no mode moves jumps, and the disk keeps its distance.
+    /// Ends the present motion `span` radians after the last event, if no event comes before, and continues
+    /// with another system in the same units, for example when the drive is switched or the load changes.
+    /// Modes and disk are continuous; motions without a mode jump, and the disk keeps its distance.
     pub fn switch(&mut self, span: f64, to: StatorSystem) -> StatorRecord {
         self.switch_units(span, to, 1.0)
     }
 
-    /// [`Self::switch`] to a system whose drive is so many times `faster`, in whose units the record says what is after
-    /// it.
+    /// [`Self::switch`] to a system whose drive is `faster` times as fast; the record states the values after
+    /// it in that system's units.
     pub(crate) fn switch_units(&mut self, span: f64, to: StatorSystem, faster: f64) -> StatorRecord {
         let mut record = self.pause(span);
         let phase = (self.state[SIN], self.state[COS]);
@@ -237,7 +239,7 @@ impl StatorEngine {
         record
     }
 
-    /// With another system or other modes.
+    /// Continues with another system or other modes.
     pub(super) fn go_on(&mut self) {
         self.line = self.line_at(self.state[SPEED]);
         match (self.stage, self.system.contact) {
@@ -251,7 +253,7 @@ impl StatorEngine {
     /// The next event, or `None` after the last one.
     ///
     /// # Errors
-    /// An error of the core where a root does not converge. An error ends the motion.
+    /// An error of the core if a root search does not converge. An error ends the motion.
     pub fn advance(&mut self) -> Result<Option<StatorRecord>, Error> {
         self.advance_within(f64::INFINITY)
     }
@@ -260,7 +262,7 @@ impl StatorEngine {
         self.stage.mode()
     }
 
-    /// The place of the present way to move among the regimes of a line of the load.
+    /// The index of the present flow among the regimes of a piece of the load.
     pub(super) const fn regime_index(&self) -> usize {
         match self.mode() {
             Mode::Flight => 0,
@@ -384,7 +386,7 @@ impl SteeredMotion for StatorEngine {
         if !matches!(self.stage, Stage::Lying(_)) {
             return Box::new(|span| self.disk_after(span).axial_velocity);
         }
-        // One expansion for all times within a step.
+        // One expansion serves all times within a step.
         let flow = &self.regime().flow;
         let (mut state, mut passed, mut expanded) = (self.state, 0, flow.expand(&self.state, flow.step()));
         Box::new(move |span| {

@@ -11,15 +11,15 @@ use super::regime::{
 use crate::error::Error;
 use crate::motion::engine::Stage;
 
-/// Bounds of the stator's height and of its acceleration.
+/// Bounds on the stator's height and on its acceleration.
 pub(super) struct Bounds {
     pub(super) height: f64,
     acceleration: f64,
 }
 
 impl StatorEngine {
-    /// The first impact of a flight, or the return of the force of a soft contact, when there is none in what is
-    /// `searched` of the flight.
+    /// The first impact of a flight, or the return of a compliant contact's force, given that there is none
+    /// in the part already `searched`.
     pub(super) fn flight_end(&self, launch: Launch, limit: f64, searched: &mut f64) -> Result<Next, Error> {
         let regime = self.regime();
         let step = regime.flow.step();
@@ -37,7 +37,7 @@ impl StatorEngine {
         if passed > 0.0 {
             state = self.flown(passed);
         }
-        // A soft contact ends before its spring is free: below the stator the force may set in again.
+        // A compliant contact ends before its spring is free: below the stator the force may return.
         let mut inside = soft && passed == 0.0 && self.state[GAP] < 0.0;
         loop {
             if !inside && passed < limit {
@@ -56,7 +56,7 @@ impl StatorEngine {
                 };
                 return Err(error.into());
             }
-            // The parabola is rounded in units of its terms.
+            // The rounding of the parabola is proportional to its terms.
             let error = if passed > 0.0 {
                 0.125 * ROUNDING * (x.abs() + passed * (v.abs() + passed) + highest)
             } else {
@@ -85,7 +85,7 @@ impl StatorEngine {
                 }
                 if let Some(at) = free {
                     inside = false;
-                    // On from where the gap is zero.
+                    // Continue from the root of the gap.
                     state = self.flown(passed + at);
                     passed += at;
                     state[GAP] = 0.0;
@@ -115,7 +115,7 @@ impl StatorEngine {
         }
     }
 
-    /// Bounds on what the stator does from a state on, while its modes ring down.
+    /// Bounds on the stator's motion after a given state, while its modes ring down.
     pub(super) fn bounds(&self, state: &State) -> Bounds {
         let [a, b] = self.system.height;
         let steady = (a * a + b * b).sqrt();
@@ -131,14 +131,14 @@ impl StatorEngine {
         bounds
     }
 
-    /// The same for a time (rad) from a state on, by what steady motion and ringing are together: on a stator that a disk
-    /// has slowed down they nearly cancel, and stay so while their phases hardly part.
+    /// The same for a limited time (rad), with steady motion and ringing taken together. On a stator that a
+    /// disk has slowed down they nearly cancel, and keep doing so while their phases hardly part.
     fn bounds_within(&self, state: &State, time: f64) -> Bounds {
         let always = self.bounds(state);
         if !self.bounds_closely {
             return always;
         }
-        // Both as real parts of complex numbers that turn with the drive.
+        // Both as real parts of complex numbers that rotate with the drive.
         let [a, b] = self.system.height;
         let (sin, cos) = (state[SIN], state[COS]);
         let steady = [a * sin + b * cos, b * sin - a * cos];
@@ -166,18 +166,19 @@ impl StatorEngine {
         }
     }
 
-    /// The time from which on a disk that flies `passed` after the last event may touch the stator again, and the state
-    /// then: it is higher than the stator comes, or the gap cannot close yet with the largest acceleration.
+    /// The time from which on a disk that has flown for `passed` since the last event may touch the stator
+    /// again, and the state then. Before it, the disk is higher than the stator's maximum, or even the
+    /// largest acceleration cannot close the gap.
     fn cleared(&self, mut passed: f64, mut state: State) -> (f64, State) {
         let step = self.regime().flow.step();
         loop {
             let [height, velocity] = self.system.tip(&state);
-            // When a fall from this height with this velocity ends.
+            // The end of a fall from this height with this velocity.
             let lands = |above: f64, velocity: f64, pull: f64| {
                 (velocity + (velocity * velocity + 2.0 * pull * above.max(0.0)).sqrt()) / pull
             };
             let v = state[CLOSING] + velocity;
-            // Up to a fall to the mean height of the stator, which comes no lower than that at its highest.
+            // Until the disk falls to the mean height of the stator, whose highest position is no lower.
             let within = lands(state[GAP] + height, v, 1.0);
             let Bounds { height: highest, acceleration } = self.bounds_within(&state, within);
             let above = state[GAP] + height - highest;
@@ -193,10 +194,10 @@ impl StatorEngine {
         }
     }
 
-    /// Disk and modes so long after the last event, if no event comes before.
+    /// Disk and modes at this time after the last event, if no event comes before.
     pub(super) fn carried(&self, time: f64) -> State {
         let flow = &self.regime().flow;
-        // In a shorter flight a low gap would be the difference of two heights.
+        // In a shorter flight a low gap would be a difference of two heights.
         if !matches!(self.stage, Stage::Lying(_)) && time > flow.step() {
             return self.flown(time);
         }
@@ -213,7 +214,7 @@ impl StatorEngine {
         state
     }
 
-    /// Disk and modes in flight, so long after the last event, in closed form.
+    /// Disk and modes in flight at this time after the last event, in closed form.
     pub(super) fn flown(&self, time: f64) -> State {
         let from = &self.state;
         let mut state = *from;
@@ -240,8 +241,8 @@ impl StatorEngine {
         state
     }
 
-    /// Sine and cosine of the phase so long after the last event. The sum of the phase and a short time is rounded by more
-    /// than an energy ledger allows where a mode turns back: so the phase is turned by the time.
+    /// Sine and cosine of the phase at this time after the last event. Adding a short time to the phase would
+    /// round by more than an energy ledger allows at a mode's turning point, so the pair is rotated instead.
     pub(super) fn phase_after(&self, time: f64) -> (f64, f64) {
         if time > 1.0 {
             return sin_cos(self.now.phase.angle() + time);
@@ -250,7 +251,7 @@ impl StatorEngine {
         (from_sin * cos + from_cos * sin, from_cos * cos - from_sin * sin)
     }
 
-    /// When a disk in flight reaches another line of the load.
+    /// The time at which a disk in flight reaches another piece of the load.
     pub(super) fn next_line(&self) -> Option<(f64, usize)> {
         let LoadLine { from, to, torque, slope } = self.system.lines[self.line];
         let speed = self.state[SPEED];
@@ -272,7 +273,7 @@ impl StatorEngine {
         Some((after, next))
     }
 
-    /// The line of the load at a speed; at a node that to which the load drives the disk.
+    /// The piece of the load at a speed; at a node, the one towards which the load drives the disk.
     pub(super) fn line_at(&self, speed: f64) -> usize {
         let lines = &self.system.lines;
         let index = lines.iter().rposition(|line| speed >= line.from).unwrap_or(0);
@@ -282,7 +283,7 @@ impl StatorEngine {
     }
 }
 
-/// A free oscillation of unit mass with this stiffness and damping, so long after the start.
+/// A free oscillation of unit mass with this stiffness and damping, at this time after the start.
 fn rung(stiffness: f64, damping: f64, [r, v]: [f64; 2], time: f64) -> [f64; 2] {
     if r == 0.0 && v == 0.0 {
         return [0.0; 2];
@@ -291,13 +292,13 @@ fn rung(stiffness: f64, damping: f64, [r, v]: [f64; 2], time: f64) -> [f64; 2] {
     let square = (stiffness - decay * decay).max(0.0);
     let frequency = square.sqrt();
     let (sin, cos) = sin_cos(frequency * time);
-    // sin(w t)/w, which is t where the damping is critical.
+    // sin(w t)/w, which tends to t at critical damping.
     let share = if frequency * time < 1.0e-9 { time } else { sin / frequency };
     let e = exp(-decay * time);
     [e * (cos * r + share * (v + decay * r)), e * (cos * v - share * (stiffness * r + decay * v))]
 }
 
-/// The integral of exp(-rate s) from 0 to `time`, and the integral of that.
+/// The integral of exp(-rate s) from 0 to `time`, and the integral of that integral.
 fn exponential_integrals(rate: f64, time: f64) -> (f64, f64) {
     let x = rate * time;
     if x == 0.0 {

@@ -1,26 +1,27 @@
-//! The impact of a disk on a stator that yields, where friction and normal force may act on one mode.
+//! The impact of a disk on a compliant stator, where friction and normal force may act on the same mode.
 //!
-//! Routh's method: the normal impulse p grows from 0; the disk slides by Coulomb's law until its slip ends, and then
-//! sticks if friction holds it, or slides the other way. Relative speeds are lines in p between these. The impact ends
-//! when the normal force has given back the share e^2 of the work that it took in compression (Stronge's energetic
-//! restitution): it can create no energy, because the normal force loses the share 1 - e^2 and friction always opposes
-//! the slip. Where no mode couples the two, that is Newton's law, w' = -e w.
+//! Routh's method: the normal impulse p grows from 0. The disk slides by Coulomb's law until its slip ends,
+//! and then sticks if friction holds it, or slides the other way. Between these changes the relative speeds
+//! are linear in p. The impact ends when the normal force has returned the share e^2 of the work it took
+//! during compression (Stronge's energetic restitution). It cannot create energy, because the normal force
+//! loses the share 1 - e^2 and friction always opposes the slip. If no mode couples the two, this is Newton's
+//! law, w' = -e w.
 
-/// What an impact does, for unit mass and moment of inertia of the disk.
+/// The result of an impact, for unit mass and moment of inertia of the disk.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Impulse {
-    /// Normal impulse and impulse of friction on the disk.
+    /// Normal impulse and friction impulse on the disk.
     pub(super) normal: f64,
     pub(super) friction: f64,
-    /// Relative velocity and slip after it.
+    /// Relative velocity and slip after the impact.
     pub(super) velocity: f64,
     pub(super) slip: f64,
-    /// Whether the slip ended within it and friction held.
+    /// Whether the slip ended during the impact and friction held.
     pub(super) capped: bool,
-    /// Lost by the normal force, and by friction.
+    /// Energy lost by the normal force and by friction.
     pub(super) normal_loss: f64,
     pub(super) friction_loss: f64,
-    /// Normal impulse and impulse of friction when the slip ended, if it did: the joint of two lines.
+    /// Normal impulse and friction impulse at the end of the slip, if it ended: the joint of two lines.
     pub(super) joint: [f64; 2],
 }
 
@@ -41,7 +42,7 @@ pub(super) fn impact(
         }
     };
     let direction = side(slip);
-    // Torque of friction for one unit of force, before and after the slip ends; whether it holds then.
+    // Torque of friction per unit of force, before and after the slip ends, and whether friction holds then.
     let first = -direction * friction;
     let holds = turn.abs() <= friction * rotary;
     let then = if holds { -turn / rotary } else { -side(turn) * friction };
@@ -55,7 +56,7 @@ pub(super) fn impact(
     let whole = if cross == 0.0 {
         (1.0 + restitution) * -velocity / normal
     } else {
-        // From speed w on, how much impulse takes or gives this energy.
+        // The impulse after which, starting at speed w, this energy has been taken or given.
         let given =
             |w: f64, slope: f64, energy: f64| 2.0 * energy / (w + (w * w + 2.0 * slope * energy).sqrt());
         let at_joint = velocity + before * joint;
@@ -105,7 +106,8 @@ mod tests {
 
     use super::*;
 
-    /// The impact in small steps of the normal impulse: Coulomb's law at each, and the work of the normal force.
+    /// The impact in small steps of the normal impulse, by Coulomb's law at each step, and the work of the
+    /// normal force.
     fn in_steps(b: [[f64; 2]; 2], friction: f64, restitution: f64, [w, u]: [f64; 2], step: f64) -> [f64; 4] {
         let (mut w, mut u, mut p, mut t) = (w, u, 0.0, 0.0);
         let (mut taken, mut given) = (0.0, 0.0);
@@ -153,7 +155,7 @@ mod tests {
                 "{done:?} {rebound}"
             );
             assert!((done.slip - slip).abs() < 4e-3 * turn, "{done:?} {slip}");
-            // Energy before, after and lost: that of the relative motion.
+            // Energy of the relative motion before, after and lost.
             let determinant = b[0][0] * b[1][1] - b[0][1] * b[1][0];
             let energy = |w: f64, u: f64| {
                 0.5 * (b[1][1] * w * w + arm * b[0][0] * u * u - 2.0 * b[0][1] * w * u) / determinant

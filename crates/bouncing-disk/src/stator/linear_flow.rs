@@ -1,9 +1,9 @@
-//! A linear system with constant coefficients, z' = A z, and the first root of a linear functional of its state, with
-//! no root missed.
+//! A linear system with constant coefficients, z' = A z, and the guaranteed first root of a linear functional
+//! of its state.
 //!
-//! On a step of at most 1/rate, where no eigenvalue of A is larger than the rate, the Taylor polynomial of degree
-//! 18 is the solution to rounding, whether A has a basis of eigenvectors or not: critical damping, resonance and
-//! repeated eigenvalues are no special cases (docs/numerics-dynamics.md).
+//! On a step of at most 1/rate, if no eigenvalue of A exceeds the rate, the Taylor polynomial of degree 18 is
+//! exact to rounding. It does not matter whether A has a basis of eigenvectors, so critical damping,
+//! resonance and repeated eigenvalues need no special treatment (docs/numerics-dynamics.md).
 
 use core::array;
 
@@ -13,10 +13,10 @@ use bouncing_disk_drives::quasi_polynomial::{FirstRoot, Jet, first_root};
 /// Degree of the Taylor polynomials: the next term is below 1/19! = 8e-18 of the state.
 const DEGREE: usize = 18;
 
-/// A share of a sum that is below its rounding.
+/// The share of a sum that is below its rounding.
 const NEGLIGIBLE: f64 = f64::EPSILON * (1.0 / 256.0);
 
-/// Rounding of a coefficient, in units of its terms: a product, and sums over the state and the degrees.
+/// Rounding of a coefficient relative to its terms: one product, and sums over the state and the degrees.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// A number for each component of the state: a state, or a linear functional of it.
@@ -25,7 +25,7 @@ pub(crate) type Vector<const N: usize> = [f64; N];
 /// z' = A z.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct LinearFlow<const N: usize> {
-    /// Row, column and value of the entries of A that are not zero.
+    /// Row, column and value of the non-zero entries of A.
     entries: Vec<(usize, usize, f64)>,
     step: f64,
     /// exp(A step).
@@ -36,26 +36,26 @@ pub(crate) struct LinearFlow<const N: usize> {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Functional<const N: usize> {
     now: Vector<N>,
-    /// For each component of the state its weights in the coefficients, up to the last one that it has.
+    /// For each component of the state, its weights in the coefficients, up to the last non-zero one.
     columns: Vec<Vec<f64>>,
-    /// The sums of their sizes.
+    /// The sums of their magnitudes.
     sizes: Vector<N>,
     step: f64,
 }
 
-/// The Taylor polynomial of a function on one step, in shares of the step.
+/// The Taylor polynomial of a function on one step, with time in units of the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct TaylorStep {
     coefficients: [f64; DEGREE + 1],
-    /// Sum of the sizes of the coefficients' terms.
+    /// Sum of the magnitudes of the coefficients' terms.
     size: f64,
     step: f64,
-    /// Error of the value at the start, besides that of the coefficients.
+    /// Error of the value at the start, in addition to the coefficients' rounding.
     error: f64,
     fourth: f64,
 }
 
-/// The state on a part of a step: its Taylor polynomial in shares of it.
+/// The state on a part of a step: its Taylor polynomial, with time in units of the step.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct StateStep<const N: usize> {
     terms: [Vector<N>; DEGREE + 1],
@@ -64,7 +64,7 @@ pub(crate) struct StateStep<const N: usize> {
     length: f64,
 }
 
-/// The sum of the sizes of the terms of a functional.
+/// The sum of the magnitudes of a functional's terms.
 pub(crate) fn size<const N: usize>(functional: &Vector<N>, state: &Vector<N>) -> f64 {
     functional.iter().zip(state).map(|(a, b)| (a * b).abs()).sum()
 }
@@ -80,7 +80,7 @@ pub(crate) fn dot<const N: usize>(functional: &Vector<N>, state: &Vector<N>) -> 
 }
 
 impl<const N: usize> LinearFlow<N> {
-    /// The flow of a matrix whose eigenvalues are at most `rate` in size. The step is a whole part of `period`.
+    /// The flow of a matrix whose eigenvalues have magnitudes of at most `rate`. The step divides `period`.
     #[must_use]
     pub(crate) fn new(matrix: [Vector<N>; N], rate: f64, period: f64) -> Self {
         let step = period / (period * rate).ceil().max(1.0);
@@ -140,10 +140,10 @@ impl<const N: usize> LinearFlow<N> {
         StateStep { terms, last, length }
     }
 
-    /// The degree from which on the terms of the solution are negligible after this time.
+    /// The degree above which the terms of the solution are negligible after this time.
     fn degree(&self, time: f64) -> usize {
         let (mut last, mut bound) = (0, 1.0);
-        // A gap that opens by its third derivative keeps its digits.
+        // A gap that opens by its third derivative must keep its digits.
         while last < DEGREE && (last < 4 || bound > NEGLIGIBLE) {
             last += 1;
             bound *= if last > 3 { time / (self.step * last as f64) } else { 1.0 };
@@ -159,7 +159,7 @@ impl<const N: usize> LinearFlow<N> {
         derivative
     }
 
-    /// The state after a time of at most a step.
+    /// The state after a time of at most one step.
     #[must_use]
     pub(crate) fn after(&self, state: &Vector<N>, time: f64) -> Vector<N> {
         self.expand(state, time).at_end()
@@ -186,7 +186,7 @@ impl<const N: usize> StateStep<N> {
         state
     }
 
-    /// The state at its end.
+    /// The state at the end.
     fn at_end(&self) -> Vector<N> {
         let mut state = self.terms[self.last];
         for row in self.terms[..self.last].iter().rev() {
@@ -203,7 +203,7 @@ impl<const N: usize> Functional<N> {
         &self.now
     }
 
-    /// The function on the step from this state on, which is known to rounding of its terms, but for an `error` of
+    /// The function on the step from this state on, exact to rounding of its terms except for an `error` of
     /// the value.
     #[must_use]
     pub(crate) fn along(&self, state: &Vector<N>, error: f64) -> TaylorStep {
@@ -230,7 +230,7 @@ impl TaylorStep {
         self
     }
 
-    /// The function that starts with exactly these values of itself and of its derivatives.
+    /// The function with these exact starting values of itself and its derivatives.
     #[must_use]
     pub(crate) fn starting_with(mut self, values: &[f64]) -> Self {
         let mut factor = 1.0;
@@ -242,8 +242,8 @@ impl TaylorStep {
         self
     }
 
-    /// This function, which starts with so many zeros, over that power of the share of the step: near the start it keeps
-    /// the digits of its roots, which are the same.
+    /// This function, which starts with the given number of zero derivatives, divided by that power of the
+    /// normalised time. It has the same roots, and keeps their digits near the start.
     #[must_use]
     pub(crate) fn deflated(mut self, zeros: usize) -> Self {
         self.coefficients[..zeros].fill(0.0);
@@ -258,7 +258,7 @@ impl TaylorStep {
         self
     }
 
-    /// Value and derivatives after a time of at most a step.
+    /// Value and derivatives after a time of at most one step.
     #[must_use]
     pub(crate) fn jet(&self, time: f64) -> Jet {
         let x = time / self.step;
@@ -272,7 +272,7 @@ impl TaylorStep {
         }
         let (per, twice) = (1.0 / self.step, 2.0 / (self.step * self.step));
         let rounding = ROUNDING * self.size;
-        // What starts at exactly zero is as exact near there as its slope.
+        // A function that starts at exactly zero is as exact near there as its slope.
         let near = if c[0] == 0.0 && self.error == 0.0 { x.min(1.0) } else { 1.0 };
         Jet {
             value,
@@ -286,8 +286,8 @@ impl TaylorStep {
         }
     }
 
-    /// The first fall through zero within `to`, at most a step: when, and the slope there. A touch that rounding hides is
-    /// none: the function stays above zero but for rounding.
+    /// The time of the first fall through zero within `to`, at most one step, and the slope there. A touch
+    /// hidden by rounding does not count: the function stays above zero except for rounding.
     ///
     /// # Errors
     /// [`Error::NoConvergence`] after 100,000 evaluations.
@@ -295,7 +295,7 @@ impl TaylorStep {
         self.first_fall_from(0.0, to)
     }
 
-    /// [`Self::first_fall`] from a time on; at once if the function is below zero then.
+    /// [`Self::first_fall`] from a later time on; immediate if the function is already below zero.
     ///
     /// # Errors
     /// As [`Self::first_fall`].

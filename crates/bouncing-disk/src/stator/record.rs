@@ -1,4 +1,4 @@
-//! A disk on a stator that yields: the state, the records of events, and what may come next.
+//! A disk on a compliant stator: its state, its event records, and the possible next events.
 
 use super::linear_flow::{LinearFlow, dot, size};
 use super::regime::{CLOSING, N, State};
@@ -11,14 +11,15 @@ use crate::motion::phase_time::{PhaseSpan, PhaseTime};
 use crate::motion::state::{DiskState, LongSum, SlipDirection};
 use crate::motion::stator_ledger::StatorLedger;
 
-/// A chatter that would last for less than this (rad) ends at once, and the momentum is kept. During that time the positions are
-/// off by its square, and after it the states are off by its third power.
+/// A chatter that would last less than this (rad) ends at once, with its momentum kept. During that time the
+/// positions are off by its square, and afterwards the states by its third power.
 pub(super) const CHATTER: f64 = 1.0e-7;
 
-/// Rounding of a functional at an event, in units of the sizes of its terms.
+/// Rounding of a functional at an event, relative to the magnitudes of its terms.
 pub(super) const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
-/// A contact whose modes come back to the same state after a period, within this share of it, repeats for ever.
+/// If the modes return to the same state after a period, within this share of it, the contact repeats for
+/// ever.
 pub(super) const SAME: f64 = 1.0e-13;
 
 /// Disk and modes at an instant.
@@ -28,11 +29,11 @@ pub(super) const SAME: f64 = 1.0e-13;
 pub struct StatorState {
     /// The disk.
     pub disk: DiskState,
-    /// Coordinate and speed of each mode, the steady motion included; zero for a mode that is not there.
+    /// Coordinate and speed of each mode, including the steady motion; zero for an absent mode.
     pub modes: [[f64; 2]; MODES],
 }
 
-/// An event, with what happened since the one before.
+/// An event, and the balances since the previous one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct StatorRecord {
@@ -40,24 +41,24 @@ pub struct StatorRecord {
     pub time: PhaseTime,
     /// The event.
     pub event: Event,
-    /// Just before.
+    /// State just before.
     pub before: StatorState,
-    /// Just after.
+    /// State just after.
     pub after: StatorState,
     /// Axial impulse per unit mass, and angular impulse per moment of inertia; zero without an impact.
     pub axial_impulse: f64,
-    /// The same by friction.
+    /// The part caused by friction.
     pub angular_impulse: f64,
     /// Energy balance of the disk.
     pub ledger: EnergyLedger,
     /// Energy balance of the modes.
     pub stator: StatorLedger,
-    /// Since the event before.
+    /// Time since the previous event.
     pub span: PhaseSpan,
 }
 
 impl StatorRecord {
-    /// The largest of the closures of both ledgers, relative to the sizes of the added terms.
+    /// The larger of the two ledgers' closures, relative to the magnitudes of their terms.
     #[must_use]
     pub fn relative_closure(&self) -> f64 {
         let least = f64::MIN_POSITIVE / f64::EPSILON;
@@ -65,25 +66,25 @@ impl StatorRecord {
     }
 }
 
-/// How a flight begins, which says which derivatives of the gap vanish at its start.
+/// How a flight begins, which determines the derivatives of the gap that vanish at its start.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Launch {
     /// Above the platform.
     Air,
     /// From the platform with a speed.
     Rebound,
-    /// By a force that falls to zero: in a rigid contact with no acceleration, in a soft one below the platform.
-    /// With its third derivative.
+    /// By a force that falls to zero: in a rigid contact without acceleration, in a compliant one below the
+    /// platform. Contains the third derivative of the gap.
     Release(f64),
-    /// Below the platform of a soft contact, where spring and damper would pull.
+    /// Below the platform of a compliant contact, where spring and damper would pull.
     Below,
 }
 
-/// What the disk does until the next event.
+/// The disk's motion until the next event.
 pub(super) type StatorStage = Stage<Launch, Sometime>;
 
-/// The motion of a disk on a stator that yields, as a lazy sequence of [`StatorRecord`]s. It ends where nothing more
-/// can happen, and after an error.
+/// The motion of a disk on a compliant stator, as a lazy sequence of [`StatorRecord`]s. It ends when no
+/// further event is possible, and after an error.
 #[derive(Debug, Clone)]
 pub struct StatorEngine {
     pub(super) system: StatorSystem,
@@ -91,18 +92,18 @@ pub struct StatorEngine {
     pub(super) now: PhaseTime,
     pub(super) state: State,
     pub(super) angle: LongSum,
-    /// The line of the load.
+    /// The piece of the load.
     pub(super) line: usize,
     /// Changes between stick and slide at the same instant.
     pub(super) ties: u32,
-    /// So long after the last event the disk flies without another one.
+    /// Time after the last event up to which the flight is known to have no event.
     pub(super) searched: f64,
-    /// So long the disk has flown before `now`.
+    /// Duration of the flight before `now`.
     pub(super) aloft: f64,
-    /// Without it ledgers stay empty.
+    /// If false, ledgers stay empty.
     pub(crate) with_energy: bool,
-    /// Whether long flights are searched from where the stator can come on them, which needs many times less time and rounds
-    /// otherwise than a run-up, whose bits stay.
+    /// Whether a long flight is searched only from the time at which the stator can reach the disk. That is
+    /// many times faster but rounds differently; run-ups do without it so that their bits do not change.
     pub(crate) bounds_closely: bool,
 }
 
@@ -124,27 +125,27 @@ impl MotionRecord for StatorRecord {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Sometime;
 
-/// A disk that lies on the stator, and slides in this direction or sticks.
+/// A disk that lies on the stator, sliding in this direction or sticking.
 pub(super) const fn lying(slip: Option<SlipDirection>) -> StatorStage {
     Stage::Lying(Lying { slip, end: Some(Sometime) })
 }
 
-/// The next event of a stage: after which time, and which.
+/// The next event of a stage, with the time until it.
 pub(super) type Next = Option<(f64, Crossing)>;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Crossing {
     /// The gap closes, with this relative velocity.
     Touch(f64),
-    /// The force of a soft contact sets in before the spring is free.
+    /// The force of a compliant contact returns before the spring is free.
     Recontact,
     /// The normal force falls to zero.
     Release,
     /// The slip ends.
     SlipEnd,
-    /// Friction gives way, and the disk slides so.
+    /// Friction gives way, and the disk slides in this direction.
     Slips(SlipDirection),
-    /// The speed reaches another line of the load.
+    /// The speed reaches another piece of the load.
     LoadNode(usize),
 }
 
@@ -154,7 +155,8 @@ impl Crossing {
     }
 }
 
-/// Which derivative of a functional is the first one beyond rounding, and whether it is positive; `None` if none is.
+/// The lowest derivative of a functional that exceeds rounding, and whether it is positive; `None` if all are
+/// below rounding.
 pub(super) fn first_sign(flow: &LinearFlow<N>, functional: &State, state: &State) -> Option<(usize, bool)> {
     let mut of = *functional;
     for order in 0..6 {

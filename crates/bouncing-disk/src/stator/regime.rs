@@ -1,7 +1,7 @@
-//! The ways in which disk and stator move between two events, each as a linear flow.
+//! The joint motions of disk and stator between two events, each as a linear flow.
 //!
-//! The accelerations of the modes, the normal force N and the torque T of friction on the disk follow from one small
-//! system of linear equations, whose right sides are functionals of the state:
+//! The accelerations of the modes, the normal force N and the torque T of friction on the disk follow from
+//! one small system of linear equations, whose right-hand sides are functionals of the state:
 //!
 //! ```text
 //! r_j'' + h_j N + l_j T = -d_j r_j' - f_j^2 r_j
@@ -9,8 +9,8 @@
 //! T = 0,   T = -+mu N,        or   T - sum of psi_j r_j'' = load + beta''
 //! ```
 //!
-//! with the steady height s and angle beta: in flight, in a contact that takes time, in one that is rigid; in flight,
-//! in a slide forwards or backwards, and where friction holds.
+//! with the steady height s and angle beta. There is one system each for flight, a compliant and a rigid
+//! contact, combined with flight, sliding forwards or backwards, and sticking.
 
 use std::f64::consts::TAU;
 
@@ -37,28 +37,28 @@ pub(crate) const ONE: usize = 10;
 
 pub(crate) type State = Vector<N>;
 
-/// How disk and stator touch.
+/// The kind of contact between disk and stator.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum ContactStiffness {
     Rigid,
     Soft { stiffness: f64, damping: f64 },
 }
 
-/// A flow, and the functionals whose first falls end it.
+/// A flow, and the functionals that end it when they first fall below zero.
 #[derive(Debug, Clone)]
 pub(crate) struct Regime {
     pub(crate) flow: LinearFlow<N>,
     /// The gap.
     pub(crate) gap: Functional<N>,
-    /// -k y - c y', the force of a soft contact before it is cut off; N in a contact.
+    /// -k y - c y', the force of a compliant contact before it is cut off; N in a contact.
     pub(crate) force: Functional<N>,
     /// The slip in the direction of a slide.
     pub(crate) slip: Functional<N>,
-    /// mu N - T and mu N + T where friction holds.
+    /// mu N - T and mu N + T while friction holds.
     pub(crate) hold: [Functional<N>; 2],
-    /// How far the speed is above the lower end of the line of the load, and below its upper end.
+    /// Distances of the speed from the lower and the upper end of the piece of the load.
     pub(crate) nodes: [Option<Functional<N>>; 2],
-    /// Works and losses while it lasts.
+    /// Works and losses during the regime.
     pub(super) works: Works,
 }
 
@@ -80,7 +80,7 @@ fn steady_acceleration([a, b]: [f64; 2]) -> State {
 }
 
 impl Regime {
-    /// On a line of the load, in this mode.
+    /// The regime of this mode on a piece of the load.
     pub(crate) fn new(system: &StatorSystem, line: &LoadLine, mode: Mode) -> Self {
         let friction = system.base.friction();
         let load = sum(&unit(ONE).map(|one| line.torque * one), &unit(SPEED), line.slope);
@@ -130,7 +130,8 @@ impl Regime {
         (matrix[SIN][COS], matrix[COS][SIN]) = (1.0, -1.0);
         (matrix[ANGLE], matrix[SPEED]) = (unit(SPEED), sum(&torque, &load, -1.0));
         if mode == Mode::Sticking {
-            // The same without the load, whose rounding would let the disk drift from a stator that hardly turns.
+            // The same without the load, whose rounding would make the disk drift relative to a stator that
+            // hardly turns.
             let modes = system.modes.iter().zip(&solution);
             matrix[SPEED] = modes.fold(steady_acceleration(system.angle), |turns, (mode, acceleration)| {
                 sum(&turns, acceleration, mode.angle)
@@ -173,7 +174,8 @@ impl Regime {
     }
 }
 
-/// A bound on the eigenvalues: the modes, the drive, and the spring and damper with all that moves along.
+/// A bound on the eigenvalues: from the modes, the drive, and the spring and damper with all masses that they
+/// move.
 fn rate(system: &StatorSystem, line: &LoadLine, mode: Mode) -> f64 {
     let mobility = system.mobility();
     let mut rate = line.slope.abs().max(1.0);
@@ -181,7 +183,7 @@ fn rate(system: &StatorSystem, line: &LoadLine, mode: Mode) -> f64 {
         rate = rate.max(mode.stiffness.sqrt() + mode.damping);
     }
     if mode != Mode::Flight {
-        // In a slide the disk may take inertia away.
+        // In a slide the disk may reduce the effective inertia.
         rate /= (mobility[0][0] - system.base.friction() * mobility[0][1].abs()).min(1.0);
     }
     if mode != Mode::Flight
@@ -193,7 +195,8 @@ fn rate(system: &StatorSystem, line: &LoadLine, mode: Mode) -> f64 {
     rate
 }
 
-/// The solution of a small system of equations, by elimination with pivots; one that has none is refused before.
+/// The solution of a small system of equations, by elimination with pivots; singular systems were rejected
+/// earlier.
 fn solved<const M: usize>(mut left: [[f64; M]; M], mut right: [State; M]) -> [State; M] {
     for column in 0..M {
         let best = (column..M).fold(column, |best, row| {

@@ -10,13 +10,13 @@ use super::{LoadLine, MODES};
 use crate::motion::contact_motion::Lying;
 use crate::motion::engine::Stage;
 
-/// The motion of a mode at an instant, as a sine about its mean place.
+/// The motion of a mode at an instant, as a sine about its mean position.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Vibration {
-    /// Of the coordinate from its mean place.
+    /// Distance of the coordinate from its mean position.
     pub(crate) distance: f64,
     pub(crate) speed: f64,
-    /// Of the sine, in units of that of the drive.
+    /// Frequency of the sine, in units of the drive frequency.
     pub(crate) frequency: f64,
 }
 
@@ -27,8 +27,8 @@ impl Vibration {
 }
 
 impl StatorEngine {
-    /// How each mode vibrates so long after the last event: at the frequency of the drive, or at its own resonance if
-    /// nothing drives the modes.
+    /// The vibration of each mode at this time after the last event: at the drive frequency, or at its own
+    /// resonance if nothing drives the modes.
     pub(crate) fn vibration_after(&self, span: f64) -> [Vibration; MODES] {
         let state = if span > 0.0 { self.carried(span) } else { self.state };
         let means = self.bent(self.mean_forces(&state, self.aloft + span));
@@ -40,8 +40,9 @@ impl StatorEngine {
         })
     }
 
-    /// The mean normal force and the mean torque of friction on a disk in this state that is `aloft` for so long: its
-    /// weight, and what holds against the load or slips; nothing in a flight that is longer than a period.
+    /// The mean normal force and the mean friction torque on a disk in this state that is `aloft` for this
+    /// time: its weight, and the torque that holds against the load or results from slip; zero in a flight
+    /// longer than a period.
     fn mean_forces(&self, state: &State, aloft: f64) -> [f64; 2] {
         match self.stage {
             Stage::Flight(_) if aloft > TAU => [0.0; 2],
@@ -59,7 +60,7 @@ impl StatorEngine {
         (torque + slope * state[SPEED]).clamp(-friction, friction)
     }
 
-    /// Where a constant normal force and torque bend each mode to.
+    /// The deflection of each mode by a constant normal force and torque.
     fn bent(&self, [force, torque]: [f64; 2]) -> [f64; MODES] {
         self.system.modes.map(|mode| {
             if mode.stiffness == 0.0 {
@@ -69,7 +70,7 @@ impl StatorEngine {
         })
     }
 
-    /// Stills the modes under a disk that lies at rest, where its weight and its load bend them to.
+    /// Stops the modes under a disk at rest, at their deflections by its weight and load.
     pub(crate) fn calm(&mut self) {
         let means = self.bent([1.0, self.held_load(&self.state)]);
         for (index, mean) in means.into_iter().enumerate() {

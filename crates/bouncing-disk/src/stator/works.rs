@@ -1,8 +1,9 @@
-//! Works and losses in a contact: integrals of products of two linear functionals of the state, by the rule of eight points.
+//! Works and losses in a contact: integrals of products of two linear functionals of the state, by the
+//! eight-point rule.
 //!
-//! On a whole step the functionals at the points are functionals of the state at its start, which are computed once. (The
-//! integral would be a quadratic form of that state; but in a product of two small differences of its components a form
-//! loses the digits of both.)
+//! On a whole step the functionals at the points are functionals of the state at its start, computed once.
+//! (The integral is a quadratic form of that state, but in a product of two small differences of components a
+//! form would lose the digits of both.)
 
 use std::array;
 use std::sync::OnceLock;
@@ -15,45 +16,45 @@ use crate::motion::gauss::EIGHT_POINTS;
 use crate::motion::state::Mode;
 use crate::motion::stator_ledger::StatorLedger;
 
-/// Most functionals: eight of the disk and its load, and three of each mode.
+/// Largest number of functionals: eight of the disk and its load, and three of each mode.
 const MOST: usize = 8 + 3 * MODES;
 
 /// A value at each point of the rule.
 type AtPoints = [f64; 8];
 
-/// What a product is.
+/// The quantity that a product contributes to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Work {
-    /// Of the platform by the normal force, and the loss in the damper of the contact.
+    /// Work of the platform by the normal force, and the loss in the damper of the contact.
     Normal,
     Damper,
-    /// Of the platform by friction, and the loss in friction.
+    /// Work of the platform by friction, and the loss in friction.
     Friction,
     Slip,
-    /// Against a load that changes with the speed.
+    /// Work against a load that changes with the speed.
     Load,
-    /// Of the drive on a mode, the loss in its damping, and its work on the disk.
+    /// Work of the drive on a mode, the loss in its damping, and its work on the disk.
     Drive(usize),
     Damping(usize),
     Given(usize),
 }
 
-/// All works and losses of a way to move.
+/// All works and losses of a regime.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Works {
     functionals: Vec<State>,
-    /// Each with a factor and the places of its functionals.
+    /// Each product with a factor and the indices of its functionals.
     products: Vec<(Work, f64, [usize; 2])>,
-    /// Torque of friction and slip, whose terms round the work of friction.
+    /// Friction torque and slip, whose terms determine the rounding of the work of friction.
     rounding: [State; 2],
-    /// For each component of the state its weights in the functionals at the points of a whole step, once one was asked
-    /// for.
+    /// For each component of the state, its weights in the functionals at the points of a whole step,
+    /// computed at first use.
     at_points: OnceLock<Box<[[AtPoints; MOST]; N]>>,
 }
 
 impl Works {
-    /// Of a way to move, with its functionals of the force, of the torque of friction and of the slip. The load is a fourth one
-    /// if it changes with the speed.
+    /// The works of a regime, with its functionals of the force, the friction torque and the slip. The load
+    /// is a fourth one if it changes with the speed.
     pub(super) fn new(
         system: &StatorSystem,
         mode: Mode,
@@ -107,7 +108,7 @@ impl Works {
         self.products.push((work, factor, places));
     }
 
-    /// Adds what happens from this state on in a whole step, and gives the state at its end.
+    /// Adds the works and losses of a whole step from this state on, and returns the state at its end.
     pub(super) fn record_step(
         &self,
         flow: &LinearFlow<N>,
@@ -129,7 +130,7 @@ impl Works {
         end
     }
 
-    /// Adds what happens from this state on in a part of a step.
+    /// Adds the works and losses of part of a step from this state on.
     pub(super) fn record_part(
         &self,
         flow: &LinearFlow<N>,
@@ -152,7 +153,7 @@ impl Works {
         self.record(&values, length, rounding, ledgers);
     }
 
-    /// Size of the terms of the power of friction.
+    /// Sum of the magnitudes of the terms of friction's power.
     fn rounding_at(&self, state: &State) -> f64 {
         size(&self.rounding[0], state) * size(&self.rounding[1], state)
     }
