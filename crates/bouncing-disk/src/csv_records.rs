@@ -1,9 +1,9 @@
 //! The records of a file of separated values with their line numbers, whatever the columns mean.
 //!
-//! Accepted besides the plain form: a byte-order mark, line ends of either kind, blank lines, lines that
-//! begin with `#`, `%` or `//`, blanks and one pair of double quotes around a field.
+//! It also accepts a byte-order mark, line ends of either kind, blank lines, lines that begin with `#`, `%`
+//! or `//`, and blanks and one pair of double quotes around a field.
 
-/// A fault of the form alone. Lines, bytes and fields are counted from 1.
+/// An error in the format of a file. Lines, bytes and fields are counted from 1.
 #[derive(Debug, thiserror::Error)]
 pub enum RecordFault {
     /// The file is not text in UTF-8.
@@ -14,7 +14,7 @@ pub enum RecordFault {
         /// The byte in the line.
         byte: usize,
     },
-    /// A quotation mark begins a field and nothing ends it on the line.
+    /// A quotation mark begins a field but is not closed on the line.
     #[error("line {line}, field {field}: a quotation mark is not closed on its line")]
     OpenQuote {
         /// The line.
@@ -28,7 +28,7 @@ pub enum RecordFault {
 ///
 /// # Errors
 ///
-/// [`RecordFault::NotText`] locates the first byte that is not UTF-8.
+/// [`RecordFault::NotText`] gives the position of the first byte that is not UTF-8.
 pub fn text(bytes: &[u8]) -> Result<&str, RecordFault> {
     let text = std::str::from_utf8(bytes).map_err(|error| {
         let before = &bytes[..error.valid_up_to()];
@@ -88,7 +88,7 @@ pub fn plain(field: &str) -> &str {
     unquoted.unwrap_or(field).trim()
 }
 
-/// Why a field holds no usable number.
+/// Why a field does not hold a usable number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NumberFault {
     /// It is not written as a number; "inf" and "NaN" are not.

@@ -1,12 +1,12 @@
-//! Numbers as people write them: with six significant digits, or as many as the precision says: `{:.3}`
-//! prints three.
+//! Readable numbers: six significant digits by default, or as many as the precision requests (`{:.3}` prints
+//! three).
 
 use std::fmt::{self, Display, Formatter};
 
 /// Significant digits if no precision is requested.
 const DIGITS: usize = 6;
 
-/// A number as a person writes it.
+/// A number in readable form.
 pub(crate) struct Number {
     value: f64,
     digits: usize,
@@ -28,12 +28,12 @@ pub(crate) fn number(value: f64) -> impl Display {
     Number { value, digits: DIGITS }
 }
 
-/// A number with three significant digits: a statistic, or a bound.
+/// A number with three significant digits, for statistics and bounds.
 pub(crate) fn rough(value: f64) -> impl Display {
     Number { value, digits: 3 }
 }
 
-/// Numbers with the precision that a formatter asks for.
+/// Numbers with the precision that the formatter requests.
 pub(crate) fn numbers(f: &Formatter<'_>) -> impl Fn(f64) -> Number + use<> {
     let digits = f.precision().unwrap_or(DIGITS);
     move |value| Number { value, digits }

@@ -1,11 +1,11 @@
-//! A disk on a platform that moves in any way: Fourier sums, pieces of polynomials, measured waveforms.
+//! A disk on a platform with any periodic motion: Fourier sums, piecewise polynomials, measured waveforms.
 //!
-//! The laws are those of [`motion`](crate::motion), with the height s and the angle beta of any platform in
-//! place of Eq. (1): in contact the force is N = 1 + s'' (Eq. 3), the acceleration of a disk that slides is
-//! -sgn(w_T) mu N - l (Eqs. 4 and 12), and an impact has the impulses of Eqs. (5) to (10). Unlike the sine, a
-//! drive may have *kinks*, where its velocity jumps. Where the velocity of the height falls, the platform
-//! leaves the disk behind; where it rises, the platform hits a disk in contact
-//! ([`Event::Kick`](crate::Event::Kick)); where the angular speed jumps, friction cannot follow.
+//! The laws are the same as in [`motion`](crate::motion), but the height s and the angle beta may be any
+//! periodic functions. In contact the force is N = 1 + s'' (Eq. 3), and a sliding disk accelerates at
+//! -sgn(w_T) mu N - l (Eqs. 4 and 12). Impacts follow Eqs. (5) to (10). Unlike the sine, a drive may have
+//! *kinks*, at which its velocity jumps. If the height's velocity jumps down, the platform leaves the disk
+//! behind; if it jumps up, the platform hits a disk in contact ([`Event::Kick`](crate::Event::Kick)); if the
+//! angular speed jumps, friction cannot follow.
 //!
 //! ```
 //! use bouncing_disk::System;
@@ -24,9 +24,10 @@
 //! # Ok::<(), bouncing_disk::Error>(())
 //! ```
 //!
-//! [`single_toss`] and [`multi_toss`] compute the tosses of such a hand, and a
-//! [`Motor`](crate::Motor) whose sheet has a [drive](crate::motor::MotorParameters::drive) has such a stator. Where one motion
-//! follows another, as in a start-up, [`DrivenEngine::of_state`] goes on from the state of the one before. The core's [`DrivenMap`](crate::drives::DrivenMap) has the vertical motion alone.
+//! [`single_toss`] and [`multi_toss`] compute the tosses of such a hand; a [`Motor`](crate::Motor) has such a
+//! stator if its sheet has a [drive](crate::motor::MotorParameters::drive). If one motion follows another, as
+//! in a start-up, [`DrivenEngine::of_state`] continues from the state at the end of the previous one. The
+//! core's [`DrivenMap`](crate::drives::DrivenMap) describes the vertical motion alone.
 
 use bouncing_disk_drives::Drive;
 use bouncing_disk_drives::compliance::{Compliance, CompliantPlatform};
@@ -48,8 +49,9 @@ pub use crate::motion::initial_condition::InitialCondition as DrivenStart;
 pub use ground::{DrivenEngine, DrivenGround};
 pub use toss::{multi_toss, single_toss};
 
-/// A disk on a platform with any drives of height and angle, without units, as [`DimensionlessSystem`] for
-/// the sine. Time is in radians of the fundamental, length in g/omega^2, angle in g a_e/(a_g omega)^2.
+/// A disk on a platform with any drives of height and angle, without units; [`DimensionlessSystem`] is its
+/// counterpart for the sine. Time is in radians of the fundamental, length in g/omega^2, angle in g a_e/(a_g
+/// omega)^2.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DrivenSystem {
     pub(crate) height: Drive,
@@ -57,7 +59,7 @@ pub struct DrivenSystem {
     pub(crate) friction: f64,
     pub(crate) restitution: f64,
     pub(crate) load: f64,
-    /// A contact that takes time, in place of the law of impact.
+    /// A compliant contact instead of the law of impact.
     pub(crate) compliance: Option<CompliantPlatform>,
 }
 
@@ -65,8 +67,9 @@ impl DrivenSystem {
     /// The system of this platform and this disk; [`DrivenPlatform::scales`] gives its units.
     ///
     /// # Errors
-    /// [`Error::Waveform`] for accelerations beyond 1e8 preloads; [`Error::OutOfRange`] if a unit is too small or
-    /// too large for a double. With contacts that take time those of [`Self::with_contact_time`].
+    /// [`Error::Waveform`] for accelerations beyond 1e8 preloads; [`Error::OutOfRange`] if a unit is too
+    /// small or too large for a double. With compliant contacts, also the errors of
+    /// [`Self::with_contact_time`].
     pub fn new(platform: &DrivenPlatform, disk: &Disk) -> Result<Self, Error> {
         let scales = platform.scales(disk);
         scales.check()?;
@@ -83,7 +86,8 @@ impl DrivenSystem {
         rigid.with_contact(platform.contact(), sine.angular_frequency())
     }
 
-    /// This system with contacts of this law and time (s), on a platform of this angular frequency.
+    /// This system with compliant contacts of this law and duration (s), on a platform of this angular
+    /// frequency.
     fn with_contact(self, contact: Option<(ContactLaw, f64)>, angular_frequency: f64) -> Result<Self, Error> {
         match contact {
             None => Ok(self),
@@ -92,7 +96,7 @@ impl DrivenSystem {
         }
     }
 
-    /// This system of a stator with the load, friction and phase lag of another motor on it.
+    /// This system with the load, friction and phase lag of another motor on the same stator.
     pub(crate) fn for_motor(&self, stator: &DrivenPlatform, motor: &System) -> Result<Self, Error> {
         let own = motor.dimensionless();
         let (lag, known) = (motor.platform().phase_lag(), stator.platform().phase_lag());
@@ -105,19 +109,19 @@ impl DrivenSystem {
         Ok(Self { angle, friction: own.friction(), load: own.load(), ..self.clone() })
     }
 
-    /// This system with a contact that takes time: an isolated impact lasts for `contact_time` (rad) and has
-    /// the system's restitution. A [`ChatterPolicy`](crate::core::ChatterPolicy) has no effect on it: a chatter
-    /// is a finite number of contacts. [`multi_toss`] refuses it.
+    /// This system with a compliant contact: an isolated impact lasts `contact_time` (rad) and has the
+    /// system's restitution. A [`ChatterPolicy`](crate::core::ChatterPolicy) has no effect, because a chatter
+    /// is then a finite number of contacts. [`multi_toss`] returns an error for such a system.
     ///
     /// # Errors
-    /// Those of [`Compliance::new`] and [`CompliantPlatform::new`].
+    /// The errors of [`Compliance::new`] and [`CompliantPlatform::new`].
     pub fn with_contact_time(self, contact_time: f64) -> Result<Self, Error> {
         let compliance = Compliance::new(contact_time, self.restitution)?;
         self.with_compliance(compliance)
     }
 
-    /// As [`Self::with_contact_time`], with a spring that [unloads](Compliance::hysteretic) at less stiffness
-    /// in place of a damper.
+    /// As [`Self::with_contact_time`], with a spring that [unloads](Compliance::hysteretic) at a lower
+    /// stiffness instead of a damper.
     ///
     /// # Errors
     /// As for [`Self::with_contact_time`].

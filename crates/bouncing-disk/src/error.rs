@@ -2,8 +2,8 @@
 
 /// An error of the model. Every variant carries the numbers needed to see why it occurred.
 ///
-/// The texts print numbers with all their digits, and very small or large ones in scientific notation; whole
-/// ones of a range, such as counts, without a fraction.
+/// Messages print numbers with all their digits, very small or large ones in scientific notation, and counts
+/// without a fraction.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
@@ -27,7 +27,7 @@ pub enum Error {
         /// Peak acceleration of the platform in units of the preload acceleration.
         peak_acceleration: f64,
     },
-    /// A segment of sliding would last longer than its end can be resolved.
+    /// A segment of sliding lasts so long that its end cannot be resolved.
     #[error("the disk slides for {duration:?} rad, more than the largest duration {limit:?} rad")]
     SlipTooLong {
         /// Estimated duration in radians.
@@ -35,14 +35,14 @@ pub enum Error {
         /// The largest duration in radians.
         limit: f64,
     },
-    /// Rotors that are to share one vertical motion differ in something on which it depends.
+    /// Rotors that are to share one vertical motion differ in a quantity that affects it.
     #[error("rotors that share one vertical motion differ in {field}: {one:?} and {other:?}")]
     NotShared {
         /// The quantity that must be equal.
         field: &'static str,
         /// Its value for the first rotor.
         one: f64,
-        /// Its value for another one.
+        /// Its value for another rotor.
         other: f64,
     },
     /// A quantity of a turning motor was requested, but the motor does not turn.
@@ -65,30 +65,30 @@ pub enum Error {
         /// Its standard error (rad/s).
         standard_error: f64,
     },
-    /// The load accelerates a motor for ever, whatever is changed.
+    /// The load accelerates a motor for ever at every searched point.
     #[error("the load of {load:?} m g a_e exceeds what friction can give on average")]
     Overpowered {
         /// Load torque in units of m g a_e.
         load: f64,
     },
-    /// No place of the ranges that were searched keeps the bounds.
+    /// No point of the searched ranges satisfies the bounds.
     #[error("nowhere in the ranges is {quantity} surely {} {bound:?}: the nearest is {nearest:?}", if *is_least { ">=" } else { "<=" })]
     NotKept {
-        /// The quantity whose bound fails where the most is kept.
+        /// The quantity that violates its bound at the point that satisfies most bounds.
         quantity: &'static str,
-        /// Whether the bound is its least value.
+        /// Whether the bound is a lower one.
         is_least: bool,
         /// The bound.
         bound: f64,
-        /// The quantity there.
+        /// The quantity's value at that point.
         nearest: f64,
     },
-    /// A quantity whose largest value is sought is nowhere positive, as far as it is known.
+    /// A quantity to be maximised is positive nowhere, as far as it is known.
     #[error("{quantity} is nowhere surely positive in the ranges: its best value is {value:?}")]
     NotPositive {
         /// The quantity.
         quantity: &'static str,
-        /// Its best value; NaN where there is none, as of a runaway.
+        /// Its best value; NaN if there is none, as for a runaway.
         value: f64,
     },
     /// The given orbit is not a periodic orbit of this system.
@@ -96,11 +96,11 @@ pub enum Error {
     NotAnOrbit {
         /// The impact, from 0 on.
         impact: usize,
-        /// How far the impact that follows it is from the next one of the orbit (rad, or relative to 1 + the
+        /// Distance between the next impact and the next one of the orbit (rad, or relative to 1 + the
         /// largest impact speed of the orbit); infinite if the disk stays on the platform.
         distance: f64,
     },
-    /// Low-period traps leave too few motors of a range for a straight line.
+    /// So many motors of a range are in low-period traps that too few are left to fit a straight line.
     #[error("{traps} motors of the range are in low-period traps; {left} are left, but {needed} are needed")]
     TooFewMotors {
         /// Motors that are left.
@@ -116,7 +116,7 @@ pub enum Error {
         /// The name of the parameter.
         field: &'static str,
     },
-    /// One of two parameters is needed, and neither is given.
+    /// Neither of two parameters is given, of which one is needed.
     #[error("neither {one} nor {other} is given; one of them is needed")]
     NeitherGiven {
         /// The name of the first.
@@ -124,7 +124,7 @@ pub enum Error {
         /// The name of the second.
         other: &'static str,
     },
-    /// Two parameters that state the same quantity, perhaps differently.
+    /// Both of two alternative parameters are given.
     #[error("both {one} and {other} are given, which exclude each other; leave one of them out")]
     BothGiven {
         /// The name of the first.
@@ -140,23 +140,23 @@ pub enum Error {
     Lengths {
         /// The name of the first list.
         one: &'static str,
-        /// Its entries.
+        /// Its number of entries.
         count: usize,
         /// The name of the second list.
         other: &'static str,
-        /// Its entries.
+        /// Its number of entries.
         other_count: usize,
     },
-    /// A number of a stator's electrical side, without the force per volt that it acts by.
+    /// An electrical parameter of a stator is given, but not the force per volt it needs.
     #[error(
         "{field} needs stator.force_per_volt, or stator.anti_resonance with stator.capacitance; specify the drive once: amplitude \
          (no rotor, at the drive frequency), stator.force or stator.volts"
     )]
     NoForcePerVolt {
-        /// The name of the number.
+        /// The name of the parameter.
         field: &'static str,
     },
-    /// A load that switches the drive of a motion that is prescribed.
+    /// A load switches the drive, but the motion is prescribed.
     #[error(
         "load.on and load.off switch the drive, which needs a table [stator]: a motion that is prescribed would stop with a jump"
     )]
@@ -173,7 +173,7 @@ pub enum Error {
         /// The parameter.
         parameter: &'static str,
     },
-    /// The waveform of a platform's height or angle is not legal.
+    /// The waveform of a platform's height or angle is invalid.
     #[error("the {of}: {source}")]
     Waveform {
         /// Height or angle.
@@ -186,51 +186,51 @@ pub enum Error {
     WaveformJump {
         /// Height or angle.
         of: &'static str,
-        /// Which piece, from 0; the first one follows on the last.
+        /// Index of the piece, from 0; the first one follows the last.
         piece: usize,
-        /// By how much, in amplitudes.
+        /// Size of the jump, in amplitudes.
         jump: f64,
     },
-    /// A file with a drive where only the sine can be computed.
+    /// A file with another drive, for an analysis that needs the sine.
     #[error(
         "this analysis holds for the sine of Eq. (1) only, and the table [drive] gives another motion: remove the table, or use \
          one of the analyses that accept any drive: tosses, orbit diagrams, periodic orbits, doublings, verdicts, basins, motor transients, \
          torque-speed curves, stall, best values and sweeps"
     )]
     DriveNotSine,
-    /// A contact that takes time where only rigid impacts can be computed.
+    /// A compliant contact, for an analysis that needs rigid impacts.
     #[error(
         "this analysis holds for rigid impacts only, and the table [contact] has a time: remove the time, or use one of \
          the analyses that accept it: single tosses, motor transients, torque-speed curves, stall, best values, \
          sweeps and fits of parameters"
     )]
     SoftContact,
-    /// A stator whose motion the rotor changes where only a prescribed motion can be computed.
+    /// A compliant stator, for an analysis that needs a prescribed motion.
     #[error(
         "this analysis holds for a stator whose motion is prescribed only, and the table [stator] makes it yield: remove the \
          table, or use one of the analyses that accept it: motor transients, torque-speed curves, stall, best values \
          and sweeps"
     )]
     YieldingStator,
-    /// A load that varies where only a constant torque can be computed.
+    /// A varying load, for an analysis that needs a constant torque.
     #[error(
         "this analysis holds for a constant load only: replace the table [load] by load_torque, or use one of the analyses \
          that accept it: motor transients, torque-speed curves, stall, best values, sweeps and fits of rated points"
     )]
     LoadLaw,
-    /// A load that varies in time where only a steady operation is computed.
+    /// A time-dependent load, for an analysis of steady operation.
     #[error(
         "a steady operation knows no time, and the table [load] has times, on or off: leave them out, or compute a run-up \
          (`motor transient`)"
     )]
     LoadInTime,
-    /// A number of a map by a name that it does not have.
+    /// A map has no parameter of this name.
     #[error(
         "the platform has no number of this name: possible are axial_forcing, restitution, contact_periods where a contact \
          time is given, and the numbers of the shape by their places from 0, as sawtooth or fourier[1][0]"
     )]
     NoSuchNumber,
-    /// A phase at which a toss starts, where nothing is tossed.
+    /// A start phase of a toss, for an analysis without tosses.
     #[error("start_phase is where a toss starts, and nothing is tossed here: leave it out")]
     StartPhase,
     /// An error of the math core.
@@ -282,8 +282,8 @@ pub(crate) fn moderate(field: &'static str, value: f64) -> Result<f64, Error> {
     check(value.abs() <= LARGEST, field, value, "[-1e100, 1e100] (dimensionless)")
 }
 
-/// An empty vector with room for `count` <= `limit` items. It reserves the memory, so that a lack of memory
-/// is an error. The limit is needed because some systems promise memory that they do not have.
+/// An empty vector with room for `count` <= `limit` items. Memory is reserved now, so that a lack of it is an
+/// error. The limit is needed because some systems promise memory that they do not have.
 pub(crate) fn room_for<T>(what: &'static str, count: usize, limit: usize) -> Result<Vec<T>, Error> {
     within_limit(what, count, limit)?;
     let mut room = Vec::new();
@@ -293,7 +293,7 @@ pub(crate) fn room_for<T>(what: &'static str, count: usize, limit: usize) -> Res
     }
 }
 
-/// Checks that a number of items is one that there may be.
+/// Checks that a number of items does not exceed its limit.
 pub(crate) fn within_limit(what: &'static str, count: usize, limit: usize) -> Result<(), Error> {
     if count <= limit { Ok(()) } else { Err(too_large(what, count, limit)) }
 }
@@ -302,7 +302,7 @@ fn too_large(what: &'static str, count: usize, limit: usize) -> Error {
     bouncing_disk_core::Error::TooLarge { what, count: count as u64, limit: limit as u64 }.into()
 }
 
-/// The value, if it is legal; else the error that names field, value and the legal range in words.
+/// The value if it is legal, otherwise an error with field, value and legal range.
 pub(crate) fn check(legal: bool, field: &'static str, value: f64, range: &'static str) -> Result<f64, Error> {
     if legal { Ok(value) } else { Err(Error::OutOfRange { field, value, legal: range }) }
 }
@@ -311,7 +311,7 @@ pub(crate) fn check(legal: bool, field: &'static str, value: f64, range: &'stati
 mod tests {
     use super::*;
 
-    /// As in the core, an error states a number of any size in few digits, not with hundreds of zeros.
+    /// As in the core, an error prints a number of any size with few digits, not with hundreds of zeros.
     #[test]
     fn texts_tell_numbers_of_any_size_in_few_digits() {
         for number in [1.25e-300, 1.25e-121, 1.25e300] {

@@ -1,4 +1,5 @@
-//! Estimates from computed or measured speeds of a rotor, with intervals, or the reason why a fit is refused.
+//! Estimates from computed or measured speeds of a rotor, with intervals, or the reason why a fit was
+//! rejected.
 //!
 //! A run-up gives the steady speed and the time constant of alpha_ss (1 - exp(-t/t_c)), by least squares over
 //! its mean curve, with 95 % intervals by resampling. A braking curve with the angular acceleration alpha
@@ -13,9 +14,10 @@
 //! # Ok::<(), bouncing_disk::estimate::FitError>(())
 //! ```
 //!
-//! [`TransientFit`] fits run-ups, `MotorFit` (feature `fit`) finds the parameters of a motor that explain run-ups, braking tails and the
-//! points that a maker prints, and [`MeasuredSpeeds`] holds measurements, read from files with the feature `csv`. Run-ups of the
-//! model are in [`motor`](crate::motor). The derivation of the intervals: docs/numerics-dynamics.md.
+//! [`TransientFit`] fits run-ups, `MotorFit` (feature `fit`) finds the motor parameters that explain run-ups,
+//! braking tails and catalogue points, and [`MeasuredSpeeds`] holds measurements, read from files with the
+//! feature `csv`. Run-ups of the model are in [`motor`](crate::motor). The derivation of the intervals:
+//! docs/numerics-dynamics.md.
 
 pub(crate) mod braking_rotor;
 pub(crate) mod ensemble;

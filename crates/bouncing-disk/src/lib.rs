@@ -16,8 +16,8 @@
 //! # }
 //! ```
 //!
-//! The names at the root describe one disk on one platform. Everything else is in chapters, whose first
-//! pages each have an example and an equation:
+//! The names at the root describe one disk on one platform. Everything else is in modules, each of which
+//! begins with an example and an equation:
 //!
 //! | chapter | about |
 //! | --- | --- |
@@ -41,16 +41,16 @@
 //! | `fit` | no | what nobody knows of a motor from its transients, or from rated points |
 //! | `csv` | no | measured speeds from comma-separated files, sweeps written as such |
 //!
-//! Deserialising runs the same checks as construction: a value outside its range, a missing key of a
-//! required value and an unknown key are errors. An infinite error bound, or an undefined efficiency, is
-//! `null` in JSON, which has no such number. The feature `json` switches on `float_roundtrip` of
-//! `serde_json`; without either a third of all numbers change in the last bit when they are read as JSON.
+//! Deserialising runs the same checks as construction: a value outside its range, a missing required key and
+//! an unknown key are errors. JSON has no infinity or NaN, so an infinite error bound or an undefined
+//! efficiency is `null`. The feature `json` enables `float_roundtrip` of `serde_json`, without which a third
+//! of all numbers change in the last bit when read from JSON.
 //!
 //! Everything is deterministic to the last bit: the same parameters and start give the same events on every
 //! machine.
 
-// The experiments of the workspace read such files, too. It is no part of the documented interface, and may
-// change.
+// Public because the experiments of the workspace read such files, too. Not part of the documented interface;
+// may change.
 #[cfg(feature = "csv")]
 #[doc(hidden)]
 pub mod csv_records;
@@ -61,11 +61,11 @@ pub mod estimate;
 pub mod motion;
 pub mod motor;
 pub mod parameters;
-// Like `csv_records`, it also serves the experiments, and may change.
+// Public for the experiments, like `csv_records`; may change.
 #[cfg(feature = "csv")]
 #[doc(hidden)]
 pub mod regular_file;
-// So does the command line, whose files of systems are read as data sheets are.
+// Public for the command line, which reads files of systems as it reads data sheets.
 #[doc(hidden)]
 pub mod sheet_text;
 mod statistics;
@@ -78,7 +78,7 @@ pub mod toss;
 
 /// The math core: the vertical motion, its impact map and their analysis.
 pub use bouncing_disk_core as core;
-/// Platforms that move in any way and compliant contacts, for the same analyses.
+/// Platforms with any periodic motion and compliant contacts, for the same analyses.
 pub use bouncing_disk_drives as drives;
 
 pub use bouncing_disk_core::{Observer, Progress, Unobserved};

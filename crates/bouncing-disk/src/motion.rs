@@ -3,8 +3,8 @@
 //! In flight the disk falls and its spin is constant, except under a load. An impact turns the relative axial
 //! velocity w_A into -r w_A and gives the disk the angular impulse -sgn(w_T) min(mu a_e F, m a_g^2 |w_T|)
 //! against the slip w_T, where F = m (1 + r) |w_A| (Eqs. 5 to 10 of Liu, Friend and Yeo). In contact the disk
-//! sticks or slides by Coulomb's law (Eqs. 4 and 12). No event is missed: the first impact is proven, and
-//! the infinitely many impacts of a chattering sequence are summed.
+//! sticks or slides by Coulomb's law (Eqs. 4 and 12). No event is missed: each impact is proven to be the
+//! first, and the infinitely many impacts of a chattering sequence are summed.
 //!
 //! ```
 //! use bouncing_disk::core::{ChatterPolicy, Phase};
@@ -20,9 +20,8 @@
 //! # Ok::<(), bouncing_disk::Error>(())
 //! ```
 //!
-//! [`SiState`] and [`SiEnergy`] are in SI units; [`Transition`] lists which event may follow which. The
-//! tosses made of such motions are in [`toss`](crate::toss). How chattering is summed:
-//! docs/numerics-impacts.md.
+//! [`SiState`] and [`SiEnergy`] are in SI units; [`Transition`] lists which event may follow which. Tosses
+//! are in [`toss`](crate::toss). How chattering is summed: docs/numerics-impacts.md.
 
 pub(crate) mod arc;
 pub(crate) mod chatter;

@@ -1,9 +1,9 @@
 //! Ultrasonic motors: data sheet, run-up, speed under a load, sweeps and sensitivities.
 //!
-//! The stator throws the rotor and turns it by friction at each impact. Because the mean normal force is the
-//! preload, no motor gives more torque than mu m g a_e. From rest the mean speed rises about as alpha_ss (1 -
-//! exp(-t/t_c)) (Sec. V of Liu, Friend and Yeo). Single run-ups are chaotic, so speeds are means over
-//! ensembles, with standard errors.
+//! The stator throws the rotor, and friction turns it at each impact. Because the mean normal force equals
+//! the preload, no motor delivers more torque than mu m g a_e. From rest the mean speed rises about as
+//! alpha_ss (1 - exp(-t/t_c)) (Sec. V of Liu, Friend and Yeo). Single run-ups are chaotic, so speeds are
+//! means over ensembles, with standard errors.
 //!
 //! ```
 //! use bouncing_disk::core::Unobserved;
@@ -23,9 +23,9 @@
 //! ```
 //!
 //! [`Motor::transient`](crate::Motor::transient) computes the run-up of one rotor,
-//! [`Motor::transients`](crate::Motor::transients) of many; [`MotorSweep`] varies the
-//! data sheet. All of them take any sheet: stators that move by waveforms or yield, contacts that take time. Fits of run-ups, computed or measured, are in [`estimate`](crate::estimate). How far to trust
-//! the speeds: docs/numerics-dynamics.md.
+//! [`Motor::transients`](crate::Motor::transients) of many; [`MotorSweep`] varies the data sheet. All accept
+//! any sheet, including waveforms, compliant stators and compliant contacts. Fits of computed or measured
+//! run-ups are in [`estimate`](crate::estimate). How far to trust the speeds: docs/numerics-dynamics.md.
 
 pub(crate) mod batch;
 pub(crate) mod best;

@@ -1,4 +1,4 @@
-//! Reads files that somebody else may have replaced.
+//! Reads files that another program may have replaced.
 
 use std::fs::{self, File, FileType};
 use std::io::{self, ErrorKind, Read};
@@ -16,20 +16,20 @@ pub struct NotRegular {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("it has {bytes} bytes; at most {largest} are read")]
 pub struct TooLarge {
-    /// Its length, as far as it is known.
+    /// Its length, if known.
     pub bytes: u64,
-    /// The largest that is read.
+    /// The largest length that is read.
     pub largest: u64,
 }
 
-/// The content of a regular file, or of one that a symbolic link leads to, of at most `largest` bytes.
+/// The content of a regular file, also through a symbolic link, of at most `largest` bytes.
 ///
-/// The kind of file is checked before opening. Somebody who replaces it by a pipe in between makes this
-/// wait; the standard library has no portable way to open without waiting.
+/// The kind of file is checked before opening. If somebody replaces the file by a pipe in between, the call
+/// waits; the standard library has no portable way to open without waiting.
 ///
 /// # Errors
 ///
-/// Those of the system; with [`NotRegular`] or [`TooLarge`] inside if the file is one of these.
+/// Errors of the operating system, with [`NotRegular`] or [`TooLarge`] inside if the file is one of these.
 pub fn read(path: &Path, largest: u64) -> io::Result<Vec<u8>> {
     must_be_regular(fs::metadata(path)?.file_type())?;
     let file = File::open(path)?;
@@ -41,11 +41,11 @@ pub fn read(path: &Path, largest: u64) -> io::Result<Vec<u8>> {
     limited(file, largest)
 }
 
-/// The whole content of a reader, if it is at most `largest` bytes.
+/// The whole content of a reader if it is at most `largest` bytes.
 ///
 /// # Errors
 ///
-/// Those of the reader; with [`TooLarge`] inside if it gives more.
+/// Errors of the reader, with [`TooLarge`] inside if it returns more.
 pub fn limited(reader: impl Read, largest: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     // A file may grow while it is read, and some file systems state no length.
@@ -132,7 +132,7 @@ mod tests {
         symlink("/dev/zero", path.join("endless")).expect("writable");
         let error = read(&path.join("endless"), 9).expect_err("never ends");
         assert_eq!(error.to_string(), "it is a device, not a regular file");
-        // Made by the socket itself; a pipe needs a program of the system (xtask/tests/files.rs).
+        // The socket creates this file itself; a pipe needs an external program (xtask/tests/files.rs).
         let _socket = std::os::unix::net::UnixListener::bind(path.join("socket")).expect("writable");
         let error = read(&path.join("socket"), 9).expect_err("a socket");
         assert_eq!(error.to_string(), "it is a socket, not a regular file");

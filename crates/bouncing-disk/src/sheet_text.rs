@@ -1,9 +1,9 @@
-//! Sheets as text, which people write: objects of JSON and tables of TOML, and the answer to a misspelt name.
+//! Sheets as text that people write: JSON objects and TOML tables, with suggestions for misspelt names.
 
 #[cfg(any(feature = "json", feature = "toml"))]
 use serde::de::DeserializeOwned;
 
-/// Why a text is not a sheet of its kind.
+/// Why a text is not a valid sheet of its kind.
 #[cfg(any(feature = "json", feature = "toml"))]
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("line {line}: {reason}")]
@@ -12,7 +12,7 @@ pub struct SheetTextError {
     pub line: usize,
     /// The column, from 1.
     pub column: usize,
-    /// The message of the reader, without control characters that could disturb a terminal.
+    /// The parser's message, without control characters that could disturb a terminal.
     pub reason: String,
 }
 
@@ -23,7 +23,8 @@ impl SheetTextError {
             let mut names = reason.strip_prefix(prefix)?.split('`').skip(1).step_by(2);
             Some((names.next()?, names.collect::<Vec<_>>()))
         };
-        // The readers speak of their own types, and of texts where somebody wrote a unit.
+        // The parsers name Rust types that mean nothing to the user, and report a string if somebody wrote a
+        // unit.
         let reason = match (names("unknown field "), names("unknown variant ")) {
             (Some((key, known)), _) => unknown_key(key, &known),
             (_, Some((word, known))) => unknown(word, nearest(word, &known), &known),
@@ -36,22 +37,22 @@ impl SheetTextError {
     }
 }
 
-/// Reads an object of JSON.
+/// Reads a JSON object.
 ///
 /// # Errors
-/// [`SheetTextError`] for a text that is none, or not of this type.
+/// [`SheetTextError`] for a text that is not JSON, or not of this type.
 #[cfg(feature = "json")]
 pub fn from_json<T: DeserializeOwned>(text: &str) -> Result<T, SheetTextError> {
     serde_json::from_str(without_mark(text)).map_err(|error| {
         let whole = error.to_string();
-        // The reader appends the place, which has fields of its own here.
+        // The parser appends the position, which has its own fields here.
         let place = format!(" at line {} column {}", error.line(), error.column());
         let reason = whole.strip_suffix(&place).unwrap_or(&whole);
         SheetTextError::new(error.line(), error.column(), reason)
     })
 }
 
-/// Reads a table of TOML.
+/// Reads a TOML table.
 ///
 /// # Errors
 /// As [`from_json`].
@@ -72,13 +73,13 @@ fn without_mark(text: &str) -> &str {
     text.strip_prefix('\u{feff}').unwrap_or(text)
 }
 
-/// That there is no such key, and which of the known ones may be meant.
+/// The message that there is no such key, and which known one may be meant.
 #[must_use]
 pub fn unknown_key(key: &str, known: &[&str]) -> String {
     format!("the key {}", unknown(key, nearest(key, known), known))
 }
 
-/// That there is no such name, escaped as in Rust, and which one may be meant.
+/// The message that there is no such name, escaped as in Rust, and which one may be meant.
 pub(crate) fn unknown(name: &str, nearest: Option<&str>, known: &[&str]) -> String {
     let hint = match nearest {
         Some(nearest) => format!("did you mean \"{nearest}\"?"),
@@ -87,10 +88,10 @@ pub(crate) fn unknown(name: &str, nearest: Option<&str>, known: &[&str]) -> Stri
     format!("{:?} is unknown; {hint}", excerpt(name))
 }
 
-/// Longest name that is compared letter by letter: a longer one is like none.
+/// Longest name that is compared letter by letter; a longer one resembles no known name.
 const LONGEST_NAME: usize = 64;
 
-/// Shortest part of a name that may stand for it: "load" for "`load_torque`".
+/// Shortest part of a name that may stand for it, as "load" for "`load_torque`".
 const SHORTEST_PART: usize = 4;
 
 /// Most characters of a user's text that an error repeats.
@@ -104,9 +105,9 @@ fn excerpt(text: &str) -> String {
     }
 }
 
-/// The known name that is most like this one: that with the fewest changes of a letter, if they are a third of its
-/// letters at most; that which it is a part of, or which is a part of it; that which is as near without its table; that
-/// with the fewest changes, if they are less than half of its letters.
+/// The known name most similar to this one. In this order: the one with the fewest changed letters, if at
+/// most a third of its letters differ; one that contains the name or is contained in it; one that is as near
+/// without its table; the one with the fewest changes, if fewer than half of its letters differ.
 pub(crate) fn nearest<'k>(name: &str, known: &[&'k str]) -> Option<&'k str> {
     if name.is_empty() || name.len() > LONGEST_NAME {
         return None;
@@ -127,7 +128,7 @@ pub(crate) fn nearest<'k>(name: &str, known: &[&'k str]) -> Option<&'k str> {
         .or((2 * near.0 < letters).then_some(near.1))
 }
 
-/// The fewest letters to insert, to remove or to replace, two neighbours that are exchanged counting once
+/// The fewest insertions, deletions and substitutions of letters, with a swap of two neighbours counted once
 /// (the optimal string alignment distance).
 pub(crate) fn distance(one: &str, other: &str) -> usize {
     let (one, other): (Vec<char>, Vec<char>) = (one.chars().collect(), other.chars().collect());

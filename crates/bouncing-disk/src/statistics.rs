@@ -1,4 +1,4 @@
-//! Statistics of small and of correlated samples.
+//! Statistics of small and correlated samples.
 
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::numerics::statistics::NORMAL_975;
@@ -17,17 +17,17 @@ const STUDENT_QUANTILES: [f64; 10] = [
     2.228_138_851_964_94,
 ];
 
-/// The window of the autocorrelation ends after so many correlation times (Sokal).
+/// The window of the autocorrelation ends after this many correlation times (Sokal).
 const WINDOW: f64 = 5.0;
 
 /// The integrated correlation time of residuals, 1 + 2 (rho_1 + rho_2 + ...), in points: at least 1, and 1
 /// for independent ones.
 ///
-/// `parameters` have been fitted. It is the larger one of two estimates: the sum of the autocorrelations up
-/// to five times their sum so far, which knows no model, and (1 + rho_1)/(1 - rho_1) of residuals of which
-/// each remembers only the one before, which has the smaller error (docs/numerics-dynamics.md, "Fits with
-/// intervals"). `None` where the window has not ended before a fourth of the residuals: they remember each
-/// other for too long.
+/// `parameters` have been fitted. It is the larger of two estimates. The first, without a model, is the sum
+/// of the autocorrelations up to five times their sum so far. The second, with a smaller error, is (1 +
+/// rho_1)/(1 - rho_1) for residuals each of which depends only on the previous one
+/// (docs/numerics-dynamics.md, "Fits with intervals"). `None` if the window does not end within a fourth of
+/// the residuals: they are correlated for too long.
 pub(crate) fn correlation_time(residuals: &[f64], parameters: usize) -> Option<f64> {
     let n = residuals.len();
     let variance: f64 = residuals.iter().map(|value| value * value).sum();
@@ -53,7 +53,7 @@ pub(crate) fn correlation_time(residuals: &[f64], parameters: usize) -> Option<f
     if !ended {
         return None;
     }
-    // Each fitted parameter takes from the residuals what they have in common.
+    // Each fitted parameter removes part of what the residuals have in common.
     let unbiased = first + (1.0 + 3.0 * first.max(0.0)) * parameters as f64 / (2.0 * n as f64);
     if unbiased >= 1.0 {
         return None;
@@ -62,11 +62,10 @@ pub(crate) fn correlation_time(residuals: &[f64], parameters: usize) -> Option<f
     Some(sum.max(of_neighbours).max(1.0))
 }
 
-/// The 97.5 % quantile of Student's distribution, for the whole part of the degrees of freedom, at least 1.
+/// The 97.5 % quantile of Student's distribution for the integer part of the degrees of freedom, at least 1.
 ///
-/// Fewer degrees of freedom have the larger quantile, so that cutting off their fraction makes an interval
-/// wider. Beyond ten it is the expansion in the inverse degrees of freedom (Abramowitz and Stegun 26.7.5),
-/// off by less than 1e-6.
+/// Fewer degrees of freedom have a larger quantile, so truncation makes an interval wider. Beyond ten it is
+/// the expansion in the inverse degrees of freedom (Abramowitz and Stegun 26.7.5), with an error below 1e-6.
 pub(crate) fn student_quantile(degrees: f64) -> f64 {
     let whole = (degrees as u64).max(1);
     if let Some(quantile) = usize::try_from(whole - 1).ok().and_then(|index| STUDENT_QUANTILES.get(index)) {
@@ -84,15 +83,15 @@ pub(crate) fn student_quantile(degrees: f64) -> f64 {
     terms.iter().rev().fold(0.0, |sum, term| sum * inverse + term)
 }
 
-/// How much wider than the bootstrap's an interval must be so that it holds for a sample of `size`
-/// independent values: the resampled variance lacks the factor size/(size - 1), and what is left has
-/// Student's distribution (docs/numerics-dynamics.md, "Fits with intervals").
+/// The factor by which an interval must be wider than the bootstrap's to hold for a sample of `size`
+/// independent values. The resampled variance lacks the factor size/(size - 1), and the rest has Student's
+/// distribution (docs/numerics-dynamics.md, "Fits with intervals").
 pub(crate) fn small_sample_widening(size: usize) -> f64 {
     let size = size as f64;
     (size / (size - 1.0)).sqrt() * student_quantile(size - 1.0) / NORMAL_975
 }
 
-/// The value below which a share of sorted numbers lies, on the line between two of them.
+/// The quantile of sorted numbers at this share, interpolated linearly between neighbours.
 pub(crate) fn percentile(sorted: &[f64], share: f64) -> f64 {
     let place = share * (sorted.len() - 1) as f64;
     let left = (place as usize).min(sorted.len() - 1);
@@ -106,7 +105,7 @@ pub(crate) fn group_means(values: &[f64], group: usize, scale: f64) -> Vec<f64> 
     values.chunks(group).map(mean).collect()
 }
 
-/// An index below `count`, each as likely as the others.
+/// An index below `count`, uniformly distributed.
 pub(crate) fn drawn_index(random: &mut SplitMix64, count: usize) -> usize {
     ((random.unit() * count as f64) as usize).min(count.saturating_sub(1))
 }
@@ -126,8 +125,8 @@ mod tests {
     use super::*;
     use crate::testing::Noise;
 
-    /// The share of Student's distribution between -t and t, by Simpson's rule over the angle
-    /// atan(x/sqrt(degrees)), in which its density is a power of the cosine.
+    /// The probability that a variable of Student's distribution is between -t and t, by Simpson's rule over
+    /// the angle atan(x/sqrt(degrees)), in which its density is a power of the cosine.
     fn share_within(t: f64, degrees: f64) -> f64 {
         let end = bouncing_disk_core::numerics::elementary::atan(t / degrees.sqrt());
         let density = |angle: f64| pow(bouncing_disk_core::numerics::elementary::cos(angle), degrees - 1.0);
@@ -149,7 +148,7 @@ mod tests {
             assert!((share - 0.95).abs() < 1e-6, "{degrees}: {share}");
         }
         assert!((student_quantile(1e15) - NORMAL_975).abs() < 1e-12);
-        // Parts of a degree, none, and what is no number are the next legal degrees below.
+        // Fractions of a degree, zero and NaN count as the next legal degrees below.
         for (degrees, same) in [(7.9, 7.0), (0.3, 1.0), (-3.0, 1.0), (f64::NAN, 1.0)] {
             assert!((student_quantile(degrees) - student_quantile(same)).abs() <= 0.0, "{degrees}");
         }

@@ -1,9 +1,9 @@
 //! Files: their origin, and the journal from which a long computation resumes.
 //!
 //! A [`Provenance`] states program, version, format, parameters, seed and chatter policy, but neither time
-//! nor machine, so that the same computation writes the same bytes. A [`Journal`] has it in its first line
-//! and then one result in each line, with a digest: a killed computation loses the line under way and resumes
-//! to the same bits.
+//! nor machine, so that the same computation writes the same bytes. A [`Journal`] starts with a line of
+//! provenance, followed by one result per line, each with a digest. A killed computation loses only the line
+//! being written and resumes to the same bits.
 //!
 //! ```
 //! use bouncing_disk::System;
@@ -16,7 +16,7 @@
 //! # Ok::<(), bouncing_disk::store::StorageError>(())
 //! ```
 //!
-//! Which files the command line writes: docs/command-line.md.
+//! Files that the command line writes: docs/command-line.md.
 
 pub(crate) mod error;
 pub(crate) mod journal;

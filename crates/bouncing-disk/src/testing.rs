@@ -1,4 +1,4 @@
-//! Systems of tests: the motor of the paper, and random ones for property tests, biased to the legal limits.
+//! Systems for tests: the motor of the paper, and random ones for property tests, biased to the legal limits.
 
 pub(crate) mod small_steps;
 
@@ -26,7 +26,7 @@ pub(crate) fn motor(amplitude: f64, load_acceleration: f64) -> System {
         .expect("legal")
 }
 
-/// Table III on a stator of 50 g in volts, which it lifts.
+/// Table III driven in volts on a stator of 50 g, which lifts the rotor.
 pub(crate) fn in_volts() -> Motor {
     let table = StatorParameters {
         mass: Some(0.05),
@@ -44,8 +44,8 @@ pub(crate) fn in_volts() -> Motor {
     motor.expect("legal")
 }
 
-/// The motor on which a new user came to grief: 40 kHz, 0.5 um, 20 g, preload 5 N, 12 rad/s, lag 30 degrees;
-/// radii, friction and restitution of Table III.
+/// A motor that a new user tried, and for which results were misleading: 40 kHz, 0.5 um, 20 g, preload 5 N,
+/// 12 rad/s, lag 30 degrees; radii, friction and restitution of Table III.
 pub(crate) fn tried_motor() -> System {
     let angular_frequency = TAU * 40e3;
     System::motor()
@@ -59,12 +59,13 @@ pub(crate) fn tried_motor() -> System {
         .expect("legal")
 }
 
-/// What an error has to be.
+/// The expected content of an error.
 pub(crate) trait Told: Debug {
     fn is_told_by(&self, error: &FitError) -> bool;
 }
 
-/// The field of a number that is out of range, or a part of another text; with its value, a part of any text.
+/// The field of a number that is out of range, or a part of another message; with the value, a part of any
+/// message.
 impl Told for &str {
     fn is_told_by(&self, error: &FitError) -> bool {
         match error {
@@ -86,7 +87,7 @@ impl Told for FitRefusal {
     }
 }
 
-/// A row of a table of calls that are refused: `told` of each of these arguments.
+/// A row of a table of rejected calls: `told` for each of these arguments.
 pub(crate) fn refused<A, T: Debug, E: Into<FitError>>(
     told: impl Told,
     arguments: impl IntoIterator<Item = A>,
@@ -100,12 +101,12 @@ pub(crate) fn refused<A, T: Debug, E: Into<FitError>>(
     }
 }
 
-/// Breaks when it is asked for the nth time and from then on.
+/// Stops a computation at the nth call of the observer and after it.
 struct StopAfter {
     calls: u64,
-    /// Of how many items it has to be told, if that is known.
+    /// The number of items it must be given, if known.
     items: Option<u64>,
-    /// How often it was asked, and what it saw last.
+    /// The number of calls so far, and the last progress reported.
     seen: Mutex<(u64, Progress)>,
 }
 
@@ -133,7 +134,7 @@ fn on<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
     rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("starts").install(work)
 }
 
-/// Where a call was stopped, if that is why it failed.
+/// The progress at which a call was stopped, if that is why it failed.
 fn stopped<T>(result: &Result<T, FitError>) -> Option<Progress> {
     match result {
         Err(FitError::Model(Error::Core(bouncing_disk_core::Error::Stopped { done, total }))) => {
@@ -143,9 +144,9 @@ fn stopped<T>(result: &Result<T, FitError>) -> Option<Progress> {
     }
 }
 
-/// A call of so many items, if it is not one of several parts, on 1, 2 and 7 threads, stopped at calls of its
-/// observer from the first one to the last: it says where it was, or has the result that it has unwatched. How often
-/// one thread asks, and how much it had done.
+/// Checks a call with this many items, on 1, 2 and 7 threads (if it is not one of several parts), stopped at
+/// observer calls from the first to the last: it must report how far it was, or return the same result as
+/// without an observer. Returns how often one thread calls the observer, and its progress.
 pub(crate) fn check_stops<T: PartialEq + Debug + Send + Sync, E: Into<FitError>>(
     items: impl Into<Option<u64>>,
     call: impl Fn(&dyn Observer) -> Result<T, E> + Sync,
@@ -166,14 +167,14 @@ pub(crate) fn check_stops<T: PartialEq + Debug + Send + Sync, E: Into<FitError>>
             let at = format!("{threads} threads, stopped at call {calls} of {all}: {:?}", observer.seen());
             if let Ok(found) = &result {
                 assert!(*found == whole && calls > 1, "{at}");
-                // Of one part only an answer after all items does not matter.
+                // For a single part, only the answer after all items does not matter.
                 assert!(calls + 1 >= all || threads > 1 || items.is_none(), "{at}");
                 continue;
             }
             let Some(Progress { done, total }) = stopped(&result) else { panic!("{at}: {result:?}") };
             assert!(done <= total && items.is_none_or(|items| total == items), "{at}: {done} of {total}");
             assert!(done == 0 || calls > 1, "{at}: {done}");
-            // Nobody is asked again, but after the end of a part that was done all the same.
+            // The observer is not called again, except after a part that was completed anyway.
             assert!(threads > 1 || observer.seen().0 <= calls + 1, "{at}");
             stops += 1;
             if threads == 1 {
@@ -186,7 +187,7 @@ pub(crate) fn check_stops<T: PartialEq + Debug + Send + Sync, E: Into<FitError>>
     (asked, all_done)
 }
 
-/// A call of so many items whose first one would go on for a very long time, stopped on its way.
+/// Checks a call with this many items, the first of which would take a very long time, stopped on its way.
 pub(crate) fn check_endless<T: Debug + Send, E: Into<FitError>>(
     items: u64,
     call: impl Fn(&dyn Observer) -> Result<T, E> + Sync,
@@ -219,7 +220,7 @@ pub(crate) fn policy() -> impl Strategy<Value = ChatterPolicy> {
     prop_oneof![Just(ChatterPolicy::Complete), Just(crate::motion::PAPER_CHATTER)]
 }
 
-/// Systems of every kind: still, gentle, lively, violent; without twist, friction, rebound or load.
+/// Systems of every kind: still, gentle, lively or violent; without twist, friction, rebound or load.
 pub(crate) fn system() -> impl Strategy<Value = DimensionlessSystem> {
     let peak = prop_oneof![
         1 => Just(0.0),
@@ -272,8 +273,8 @@ pub(crate) fn start(system: DimensionlessSystem) -> impl Strategy<Value = Initia
 /// A system, a start and a policy.
 pub(crate) fn motion() -> impl Strategy<Value = (DimensionlessSystem, InitialCondition, ChatterPolicy)> {
     (system(), policy()).prop_flat_map(|(system, policy)| {
-        // The paper's cut has no rule for a disk that hits hard and does not rebound: the core reports
-        // NoLiftOff.
+        // The paper's cut has no rule for a disk that hits hard and does not rebound: the core returns
+        // `NoLiftOff`.
         (Just(system), start(system), Just(policy))
     })
 }
@@ -291,7 +292,7 @@ impl Noise {
         crate::statistics::normal(&mut self.0)
     }
 
-    /// Numbers of deviation 1 of which each remembers the share `memory` of the one before.
+    /// Autocorrelated numbers of deviation 1, each with the share `memory` of the previous one.
     pub(crate) fn correlated(&mut self, count: usize, memory: f64) -> Vec<f64> {
         let mut value = self.normal();
         let fresh = (1.0 - memory * memory).sqrt();
