@@ -1,4 +1,4 @@
-//! The integrals over a segment of contact, in forms that lose nothing in short segments and at large
+//! The integrals over a segment of contact, in forms that stay accurate for short segments and large
 //! accelerations.
 
 use std::iter::Sum;
@@ -8,12 +8,12 @@ use bouncing_disk_core::numerics::elementary::{sin_cos, sine_deficit_ratio};
 
 use crate::motion::phase_time::PhaseSpan;
 
-/// Below this (rad) t - sin t is summed as a series.
+/// Below this duration (rad) t - sin t is summed as a series.
 const SHORT: f64 = 0.5;
 
 /// A stretch of the platform's motion of duration t from a phase tau_0. Every integral is over tau in [tau_0,
-/// tau_0 + t], with N = 1 - P sin tau the normal force; all come from the start and the duration alone, so
-/// that what cancels between them cancels to rounding.
+/// tau_0 + t], with the normal force N = 1 - P sin tau. All are computed from the start and the duration
+/// alone, so that terms that should cancel do so to rounding.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Arc {
     peak: f64,
@@ -40,8 +40,8 @@ impl Arc {
         let duration = span.radians();
         let versine = 2.0 * sine_half * sine_half;
         let sin = 2.0 * sine_half * cosine_half;
-        // From the pair at the start, not from a rounded middle phase: next to a whole turn that would be
-        // less exact.
+        // Computed from the pair at the start, as a rounded middle phase would be less exact near a whole
+        // turn.
         let sine_change = from.cos() * sin - from.sin() * versine;
         let double_sine = 2.0 * sin * (1.0 - versine);
         Self {
@@ -64,7 +64,7 @@ impl Arc {
         Term::of([self.duration, self.peak * self.cosine_change])
     }
 
-    /// Integral of the integral of N up to tau.
+    /// The double integral of N: the integral of N up to tau, integrated again.
     pub(crate) fn force_twice(&self) -> Term {
         Term::of([0.5 * (self.duration * self.duration), self.peak * self.cosine_moment()])
     }
@@ -102,7 +102,7 @@ impl Arc {
     }
 }
 
-/// A sum and the sum of the sizes of what was added, to which its rounding error is relative.
+/// A sum with the sum of the magnitudes of its terms, to which its rounding error is relative.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Term {
     pub(crate) value: f64,

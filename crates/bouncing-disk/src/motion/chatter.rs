@@ -1,5 +1,5 @@
-//! The rotary motion and the energy of a complete chatter: infinitely many impacts, summed until they no
-//! longer count, or in closed form if there are too many.
+//! The rotary motion and the energy of a complete chatter: infinitely many impacts, summed one by one until
+//! they no longer count, or in closed form if there are too many.
 
 use bouncing_disk_core::chatter::{ChatterImpact, ChatterSeries};
 use bouncing_disk_core::{Launch, Phase};
@@ -12,7 +12,7 @@ use crate::parameters::dimensionless::DimensionlessSystem;
 
 mod summed;
 
-/// A chattering sequence followed up to some time: the state just after the last impact by then.
+/// A chattering sequence followed up to some time, with the state just after the last impact by then.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Chatter {
     /// Time of the last impact since the start (rad).
@@ -29,7 +29,8 @@ pub(crate) struct Chatter {
     pub(crate) impacts: u64,
     pub(crate) axial_impulse: f64,
     pub(crate) angular_impulse: f64,
-    /// Impacts and the load's work in the flights between them. The change of the axial energy is not in it.
+    /// The balance of the impacts and of the load's work in the flights between them, without the change of
+    /// the axial energy.
     pub(crate) ledger: EnergyLedger,
 }
 
@@ -47,7 +48,8 @@ impl Chatter {
         alone[0].1
     }
 
-    /// The sequences of rotors with their angular speeds on one vertical motion, each as of [`Self::new`].
+    /// The sequences of several rotors, given by their angular speeds, on one vertical motion, each as from
+    /// [`Self::new`].
     pub(crate) fn of_rotors<'a>(
         rotors: impl Iterator<Item = (&'a DimensionlessSystem, f64)>,
         phase: Phase,
@@ -86,7 +88,7 @@ impl Chatter {
         }
     }
 
-    /// The launch that a sequence starts with.
+    /// The launch that starts a sequence.
     pub(crate) fn before(phase: Phase, speed: f64, angular_speed: f64) -> Self {
         Self {
             time: 0.0,
@@ -110,8 +112,8 @@ impl Chatter {
         self.pair = next.pair;
     }
 
-    /// An impact so long after the start, which ends a flight of this duration, with this relative velocity,
-    /// velocity of the platform, and angular speed of the platform.
+    /// An impact at this time after the start, which ends a flight of this duration, with this relative
+    /// velocity and these velocity and angular speed of the platform.
     pub(crate) fn strike(
         &mut self,
         [friction, load, restitution]: [f64; 3],

@@ -1,8 +1,8 @@
 //! The motion of a disk on the platform from event to event: how it begins, which event comes next, and the
 //! state after it.
 //!
-//! Every contact event is decided here and nowhere else. The [`Engine`](crate::Engine) makes a record of each
-//! step, with its energy; the motor's rotor takes only the speed and the angle from it.
+//! Every contact event is decided here and nowhere else. The [`Engine`](crate::Engine) records each step with
+//! its energy; a motor's rotor uses only the speed and the angle.
 
 use std::cmp::Ordering;
 
@@ -17,8 +17,8 @@ use crate::motion::rotary_change::change_in_contact;
 use crate::motion::state::{Mode, SlipDirection};
 use crate::parameters::dimensionless::DimensionlessSystem;
 
-/// An angular speed this close to the platform's at the start, relative to the sum of both sizes and the
-/// platform's largest one, is the platform's: four units in the last place.
+/// An angular speed this close to the platform's at the start, relative to the sum of both magnitudes and the
+/// platform's largest speed, is set to the platform's: four units in the last place.
 pub(crate) const SAME_SPEED: f64 = 4.0 * f64::EPSILON;
 
 /// A disk that lies on the platform.
@@ -26,8 +26,8 @@ pub(crate) const SAME_SPEED: f64 = 4.0 * f64::EPSILON;
 pub struct Lying<End = PhaseTime> {
     /// The direction in which it slips; `None` while it sticks.
     pub(crate) slip: Option<SlipDirection>,
-    /// The end of the contact, if ever: on the sine when the platform falls away. On a compliant stator there is one
-    /// until the contact is known to last for ever.
+    /// The end of the contact, if ever: on the sine, the time at which the platform falls away. On a
+    /// compliant stator an end is assumed until the contact is known to last for ever.
     pub(crate) end: Option<End>,
 }
 
@@ -57,16 +57,16 @@ enum Due {
 /// A segment of contact, up to the event that ends it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ContactStep {
-    /// When the event happens.
+    /// Time of the event.
     pub(crate) time: PhaseTime,
     /// Duration of the segment.
     pub(crate) span: PhaseSpan,
-    /// The disk that lies on; `None` if the platform falls away.
+    /// The disk that remains in contact; `None` if the platform falls away.
     pub(crate) next: Option<Lying>,
-    /// The change over the segment by the closed forms. Where a slip ends, its speed differs from
+    /// The change over the segment by the closed forms. At the end of a slip, its speed differs from
     /// [`Self::speed`] by rounding.
     pub(crate) change: RotaryChange,
-    /// Angular speed at the event: that of the platform where friction ends a slip.
+    /// Angular speed at the event: the platform's if friction ends a slip.
     pub(crate) speed: f64,
 }
 
@@ -142,12 +142,12 @@ impl Lying {
             Due::Separation => (None, change.speed),
             Due::SlipStart(direction) => (sliding(Some(direction)), change.speed),
             Due::SlipEnd { direction, began_here } => {
-                // A slip that begins and ends at the same instant comes from rounding: the disk must not slip
+                // A slip that begins and ends at the same instant is due to rounding: the disk must not slip
                 // again here.
                 let idle = began_here && span == PhaseSpan::ZERO;
                 let spent = if idle { Spent::Both } else { Spent::One(direction) };
                 let next = sliding(friction.onset(time.phase, spent));
-                // Without friction the disk only passes through the platform's speed.
+                // Without friction the disk merely passes through the platform's speed.
                 let grips = system.friction() > 0.0;
                 (next, if grips { system.platform_angular_speed(time.phase) } else { change.speed })
             }
@@ -156,23 +156,23 @@ impl Lying {
     }
 }
 
-/// A disk that has been put on the platform.
+/// A disk that has been placed on the platform.
 #[derive(Debug, Clone)]
 pub(crate) struct Placed<L = Constant> {
-    /// The vertical motion from the separation on; `None` if the platform never falls away.
+    /// The vertical motion after the separation; `None` if the platform never falls away.
     pub(crate) orbit: Option<Orbit<L>>,
     /// `None` if the platform falls away at once and the disk flies.
     pub(crate) lying: Option<Lying>,
-    /// Angular speed: one within rounding of the platform's is the platform's.
+    /// Angular speed, set to the platform's if it is equal within rounding.
     pub(crate) speed: f64,
 }
 
 impl<L: RestitutionLaw> Placed<L> {
-    /// A disk with angular `speed` that is put on the platform at `phase`; the `map` may have another law of
+    /// A disk with angular `speed`, placed on the platform at `phase`; the `map` may have another law of
     /// restitution than the system.
     ///
     /// # Errors
-    /// Those of the core's launches.
+    /// The errors of the core's launches.
     pub(crate) fn new(
         system: &DimensionlessSystem,
         map: &ImpactMap<L>,

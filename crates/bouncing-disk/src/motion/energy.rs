@@ -1,17 +1,17 @@
-//! Where the energy comes from and where it goes.
+//! The energy balance of a disk: sources and losses.
 
 use std::iter::Sum;
 use std::ops::{Add, AddAssign};
 
-/// Below this size the terms of a balance have lost digits to underflow: their residual is then relative to
-/// this size.
+/// Below this magnitude the terms of a balance have lost digits to underflow, so their residual is taken
+/// relative to it.
 const LEAST_MAGNITUDE: f64 = f64::MIN_POSITIVE / f64::EPSILON;
 
 /// The energy balance of an interval, per unit mass.
 ///
-/// Every entry is computed by itself, from impulses and closed-form integrals, and none as the remainder of
-/// the others: the whole motion is tested by [`Self::axial_closure`] and [`Self::rotary_closure`] vanishing
-/// to rounding.
+/// Every entry is computed separately, from impulses and closed-form integrals, and none as the remainder of
+/// the others. Hence the whole motion can be tested by checking that [`Self::axial_closure`] and
+/// [`Self::rotary_closure`] vanish to rounding.
 ///
 /// Axial entries are in units of (g/omega)^2, in which the kinetic energy is v^2/2 and the potential energy
 /// is the height; rotary entries in units of (g a_e/(a_g omega))^2, in which the kinetic energy is q^2/2.
@@ -25,7 +25,7 @@ pub struct EnergyLedger {
     pub restitution_loss: f64,
     /// Axial: change of the kinetic energy.
     pub axial_kinetic_change: f64,
-    /// Axial: change of the potential energy, that of the spring of a contact that takes time included.
+    /// Axial: change of the potential energy, including the spring of a compliant contact.
     pub potential_change: f64,
     /// Rotary: work of the platform by friction, in contact and in impacts.
     pub friction_work: f64,
@@ -35,27 +35,27 @@ pub struct EnergyLedger {
     pub load_work: f64,
     /// Rotary: change of the kinetic energy.
     pub rotary_kinetic_change: f64,
-    /// Sum of the sizes of the axial terms that were added up, energy levels included: the axial closure's
-    /// rounding error is relative to this.
+    /// Sum of the magnitudes of all axial terms, including energy levels: the axial closure's rounding error
+    /// is relative to it.
     pub axial_magnitude: f64,
     /// The same for the rotary terms.
     pub rotary_magnitude: f64,
 }
 
 impl EnergyLedger {
-    /// Change of the axial energy minus the inflow: zero but for rounding.
+    /// Change of the axial energy minus the inflow: zero up to rounding.
     #[must_use]
     pub fn axial_closure(&self) -> f64 {
         (self.axial_kinetic_change + self.potential_change) - (self.normal_work - self.restitution_loss)
     }
 
-    /// Change of the rotary energy minus the inflow: zero but for rounding.
+    /// Change of the rotary energy minus the inflow: zero up to rounding.
     #[must_use]
     pub fn rotary_closure(&self) -> f64 {
         self.rotary_kinetic_change - (self.friction_work - self.friction_loss - self.load_work)
     }
 
-    /// The larger of the two closures relative to the sizes of the added terms; zero without terms, infinite
+    /// The larger of the two closures relative to the magnitudes of the terms; zero without terms, infinite
     /// if a term is not finite.
     #[must_use]
     pub fn relative_closure(&self) -> f64 {
@@ -84,8 +84,8 @@ impl EnergyLedger {
         self.axial_magnitude += before + after;
     }
 
-    /// Counts in that a platform velocity of up to `peak`, recomputed at the end of a chatter, rounds the
-    /// velocity.
+    /// Accounts for the rounding of a platform velocity of up to `peak` that is recomputed at the end of a
+    /// chatter.
     pub(crate) fn record_rounding(&mut self, peak: f64, velocity: f64) {
         self.axial_magnitude += peak * velocity.abs();
     }
@@ -96,15 +96,15 @@ impl EnergyLedger {
         self.rotary_magnitude += 0.5 * (before * before + after * after);
     }
 
-    /// Records work of the platform and a loss, axial.
+    /// Records axial work of the platform and an axial loss.
     pub(crate) fn record_normal(&mut self, work: f64, loss: f64) {
         self.normal_work += work;
         self.restitution_loss += loss;
         self.axial_magnitude += work.abs() + loss.abs();
     }
 
-    /// Records work of the platform and a loss, rotary; `magnitude` is the size of the terms they were formed
-    /// from.
+    /// Records rotary work of the platform and a rotary loss; `magnitude` is the sum of the magnitudes of
+    /// their terms.
     pub(crate) fn record_friction(&mut self, work: f64, loss: f64, magnitude: f64) {
         self.friction_work += work;
         self.friction_loss += loss;

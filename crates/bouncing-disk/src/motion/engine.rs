@@ -1,8 +1,8 @@
-//! The event engine: the motion of a disk from event to event, on a platform that moves as a sine or in any
-//! other way.
+//! The event engine: the motion of a disk from event to event, on a platform that moves as a sine or
+//! otherwise.
 //!
 //! A [`Ground`] finds the next event, in closed form or as a first root. The effect of an event on the disk,
-//! and its record with the energy, are the same on every ground and are written here.
+//! and its record with the energy, are the same on every ground and implemented here.
 
 pub(crate) mod sample;
 pub(crate) mod sine;
@@ -26,16 +26,16 @@ use crate::motion::state::{DiskState, LongSum, Mode, PlatformState};
 pub use sine::SineGround;
 pub(crate) use sine::chatter_speed;
 
-/// The platform under the disk: how one kind of platform moves, and which event it causes next.
+/// A kind of platform under the disk, which determines its motion and the next event.
 ///
-/// Sealed: [`SineGround`], and [`DrivenGround`](crate::driven::DrivenGround) for platforms that move in any
-/// way.
+/// Sealed: [`SineGround`], and [`DrivenGround`](crate::driven::DrivenGround) for platforms with any periodic
+/// motion.
 pub trait Ground: Debug + Clone {
     /// Disk and platform.
     type System: Debug + Clone;
     /// The data of a flight beyond the state of the disk.
     type Flight: Debug + Clone + Copy + PartialEq;
-    /// The end of a contact that ends.
+    /// The end of a contact that does end.
     type ContactEnd: Debug + Clone + Copy + PartialEq;
 
     /// The platform at a phase.
@@ -48,7 +48,7 @@ pub trait Ground: Debug + Clone {
     /// The event that ends a flight, if it comes within `limit` radians of the last event.
     ///
     /// # Errors
-    /// Those of the core's flights.
+    /// The errors of the core's flights.
     fn end_flight(
         engine: &mut Engine<Self>,
         flight: Self::Flight,
@@ -60,7 +60,7 @@ pub trait Ground: Debug + Clone {
     /// event.
     ///
     /// # Errors
-    /// [`Error::SlipTooLong`], and errors of the core's roots.
+    /// [`Error::SlipTooLong`], and errors of the core's root search.
     fn end_contact(
         engine: &mut Engine<Self>,
         lying: Lying<Self::ContactEnd>,
@@ -68,8 +68,8 @@ pub trait Ground: Debug + Clone {
     ) -> Result<Option<EventRecord>, Error>;
 }
 
-/// A system that an engine can start on: a [`System`](crate::System) or a
-/// [`DimensionlessSystem`](crate::parameters::DimensionlessSystem), or a
+/// A system on which an engine can start: a [`System`](crate::System), a
+/// [`DimensionlessSystem`](crate::parameters::DimensionlessSystem) or a
 /// [`DrivenSystem`](crate::driven::DrivenSystem).
 pub trait OnGround {
     /// The kind of platform.
@@ -78,7 +78,7 @@ pub trait OnGround {
     /// The engine of [`Engine::new`].
     ///
     /// # Errors
-    /// Those of [`Engine::new`].
+    /// The errors of [`Engine::new`].
     fn start(self, start: InitialCondition, policy: ChatterPolicy) -> Result<Engine<Self::Ground>, Error>;
 }
 
@@ -89,12 +89,12 @@ pub(crate) enum Stage<Flight, End> {
     Flight(Flight),
     /// It lies on the platform.
     Lying(Lying<End>),
-    /// Nothing more happens.
+    /// No further event.
     Ended,
 }
 
 impl<Flight, End> Stage<Flight, End> {
-    /// How the disk moves.
+    /// The disk's mode of motion.
     pub(crate) const fn mode(&self) -> Mode {
         match self {
             Self::Flight(_) | Self::Ended => Mode::Flight,
@@ -106,7 +106,7 @@ impl<Flight, End> Stage<Flight, End> {
 /// The [`Stage`] on a ground.
 pub(crate) type StageOn<G> = Stage<<G as Ground>::Flight, <G as Ground>::ContactEnd>;
 
-/// The way from the last event to the next one.
+/// The time from the last event to the next one.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Step {
     pub(crate) time: PhaseTime,
@@ -124,7 +124,7 @@ pub(crate) struct Passed {
     pub(crate) before: DiskState,
 }
 
-/// An impact, as the ground finds it.
+/// An impact as determined by the ground.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Hit<S> {
     /// Relative velocity before.
@@ -132,18 +132,18 @@ pub(crate) struct Hit<S> {
     pub(crate) restitution: f64,
     /// The stage that follows.
     pub(crate) next: S,
-    /// Whether a cut takes the rebound and lets the disk go at once, as the platform falls away.
+    /// Whether a cut removes the rebound and the disk flies at once, because the platform falls away.
     pub(crate) lets_go: bool,
 }
 
 /// The motion of a disk as a lazy sequence of [`EventRecord`]s.
 ///
-/// The sequence ends where nothing more can happen (a disk that rests and sticks for ever) and after an
-/// error. A disk that rests for ever may alternate between sticking and sliding for ever. Two engines with
-/// the same arguments give the same bits.
+/// The sequence ends when no further event is possible (a disk rests and sticks for ever) and after an error.
+/// A disk that rests for ever may alternate between sticking and sliding for ever. Two engines with the same
+/// arguments give the same bits.
 ///
-/// On the sine the restitution is the system's, a constant, or follows a law ([`Self::with_law`]).
-/// [`DrivenEngine`](crate::driven::DrivenEngine) is the engine on a platform that moves in any way.
+/// On the sine the restitution is the system's constant, or follows a law ([`Self::with_law`]).
+/// [`DrivenEngine`](crate::driven::DrivenEngine) is the engine on a platform with any periodic motion.
 #[derive(Debug, Clone)]
 pub struct Engine<G: Ground = SineGround> {
     pub(crate) system: G::System,
@@ -153,20 +153,20 @@ pub struct Engine<G: Ground = SineGround> {
     pub(crate) now: PhaseTime,
     pub(crate) state: DiskState,
     pub(crate) angle: LongSum,
-    /// Without it the ledgers of slides on a drive stay empty: a run-up does not need them.
+    /// If false, the ledgers of slides on a drive stay empty; a run-up does not need them.
     pub(crate) with_energy: bool,
 }
 
 impl<G: Ground> Engine<G> {
     /// An engine for a [`crate::System`], a [`DimensionlessSystem`](crate::parameters::DimensionlessSystem)
-    /// one or a [`DrivenSystem`](crate::driven::DrivenSystem), and a disk that starts in contact, by a launch
-    /// or in the air. If the platform falls away, a disk that starts in contact flies at once; its angular
-    /// speed counts as the platform's within rounding. The angle starts at the platform's.
+    /// or a [`DrivenSystem`](crate::driven::DrivenSystem), and a disk that starts in contact, with a launch
+    /// or in the air. If the platform falls away, a disk that starts in contact flies at once; an angular
+    /// speed within rounding of the platform's is set to it. The angle starts at the platform's.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] or an error of the core for an illegal start; the first event's own errors come
-    /// with that event, except that on the sine a start in the air computes its first impact at once, and on a drive a
-    /// start in contact its end.
+    /// [`Error::OutOfRange`] or an error of the core for an illegal start. Errors of the first event are
+    /// returned with that event, except that a start in the air on the sine computes its first impact at
+    /// once, and a start in contact on a drive the end of the contact.
     pub fn new<S: OnGround<Ground = G>>(
         system: S,
         start: InitialCondition,
@@ -175,7 +175,7 @@ impl<G: Ground> Engine<G> {
         system.start(start, policy)
     }
 
-    /// A disk that moves with the platform, before it is put down or takes off.
+    /// A disk that moves with the platform, before it is placed or takes off.
     pub(crate) fn begin(system: G::System, ground: G, now: PhaseTime) -> Self {
         let platform = G::platform(&system, now.phase);
         let state = DiskState {
@@ -218,8 +218,8 @@ impl<G: Ground> Engine<G> {
     /// The next event, or `None` after the last one.
     ///
     /// # Errors
-    /// Those of the core's flights and of a law of restitution; [`Error::SlipTooLong`]. An error ends the
-    /// motion.
+    /// The errors of the core's flights and of a law of restitution; [`Error::SlipTooLong`]. An error ends
+    /// the motion.
     pub fn advance(&mut self) -> Result<Option<EventRecord>, Error> {
         self.next_within(f64::INFINITY)
     }
@@ -237,8 +237,8 @@ impl<G: Ground> Engine<G> {
         result
     }
 
-    /// An impact at the end of a flight, or a kick at the end of a contact, whose motion is then given by
-    /// `passed`.
+    /// An impact at the end of a flight, or a kick at the end of a contact; `passed` describes the motion
+    /// before it.
     pub(crate) fn hit(&mut self, to: &Step, hit: Hit<StageOn<G>>, passed: Option<Passed>) -> EventRecord {
         let Hit { velocity, restitution, next, lets_go } = hit;
         let platform = G::platform(&self.system, to.time.phase);
@@ -294,8 +294,8 @@ impl<G: Ground> Engine<G> {
         record_flight_load(ledger, load, start.angular_speed, change);
     }
 
-    /// The record of an event with these impulses. Afterwards the engine stands at the event, with the disk
-    /// in the state `after`; its angle is counted here, and its mode follows from the `next` stage.
+    /// The record of an event with these impulses. It leaves the engine at the event with the disk in the
+    /// state `after`; the angle is accumulated here, and the mode follows from the `next` stage.
     pub(crate) fn moved(
         &mut self,
         to: &Step,
@@ -330,7 +330,7 @@ impl<G: Ground> Engine<G> {
     }
 }
 
-/// Records a jump of the velocities at one height.
+/// Records a jump of the velocities at constant height.
 pub(crate) fn record_jump(ledger: &mut EnergyLedger, before: &DiskState, after: &DiskState) {
     ledger.record_axial_change([before.axial_velocity, after.axial_velocity], [before.height, after.height]);
     ledger.record_rotary_change(before.angular_speed, after.angular_speed);

@@ -17,31 +17,32 @@ use std::ops::AddAssign;
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub enum Event {
-    /// The disk hits the platform. In a contact that takes time the contact begins: its impulses follow until
-    /// the separation.
+    /// The disk hits the platform. In a compliant contact this is the start of the contact: its impulses are
+    /// distributed until the separation.
     Impact {
-        /// Relative axial velocity w_A (disk minus platform) just before, <= 0, in units of g/omega.
+        /// Relative axial velocity w_A (disk minus platform) just before it, <= 0, in units of g/omega.
         axial_impact_velocity: f64,
-        /// Relative angular speed w_T (disk minus platform) just before, in units of g a_e/(a_g^2 omega).
+        /// Relative angular speed w_T (disk minus platform) just before it, in units of g a_e/(a_g^2 omega).
         tangential_impact_velocity: f64,
-        /// Whether friction ended the slip within the impact; otherwise the disk slid throughout.
+        /// Whether friction ended the slip during the impact; otherwise the disk slid throughout.
         capped: bool,
     },
     /// The disk comes to rest on the platform at the end of a chattering sequence, whose impulses the record
     /// sums.
     Attachment {
-        /// Impacts summed.
+        /// Number of impacts summed.
         impacts: u64,
-        /// Bound on the error of the attachment phase (rad); infinite for the cut of a chatter with constant
-        /// restitution, as in the paper, and where no bound is known. Zero for a contact that takes time: by
-        /// definition it attaches where its transient is 1e-18 of the force.
+        /// Bound on the error of the attachment phase (rad). Infinite if no bound is known, and for the cut
+        /// of a chatter with constant restitution, as in the paper. Zero for a compliant contact, for which
+        /// attachment is defined as the time at which the transient is 1e-18 of the force.
         #[cfg_attr(
             feature = "serde",
             serde(deserialize_with = "bouncing_disk_core::stored::infinite_if_none")
         )]
         error_bound: f64,
     },
-    /// The platform falls away from the disk; on a [driven](crate::driven) one its velocity may drop, too.
+    /// The platform falls away from the disk; on a [driven](crate::driven) platform its velocity may also
+    /// drop.
     Separation,
     /// Friction no longer holds the disk.
     StickToSlip(SlipDirection),
@@ -49,23 +50,23 @@ pub enum Event {
     SlipToStick,
     /// The slip ends, friction does not hold the disk, and it slips the other way, in this direction.
     SlipReversal(SlipDirection),
-    /// At a kink the velocity of the platform rises under the disk and hits it, at zero distance, by the law
-    /// of impact. The numbers are those of [`Self::Impact`].
+    /// The velocity of the platform jumps up under the disk at a kink and hits it, at zero distance, by the
+    /// law of impact. The fields are as in [`Self::Impact`].
     Kick {
-        /// Relative axial velocity just before, < 0.
+        /// Relative axial velocity just before it, < 0.
         axial_impact_velocity: f64,
-        /// Relative angular speed just before.
+        /// Relative angular speed just before it.
         tangential_impact_velocity: f64,
-        /// Whether friction ended the slip within the impact.
+        /// Whether friction ended the slip during the impact.
         capped: bool,
     },
-    /// The angular speed of the platform jumps, and the disk slides on in this direction.
+    /// The angular speed of the platform jumps, and the disk continues to slide, in this direction.
     SlipJump(SlipDirection),
-    /// In a contact that takes time: the force sets in again before the spring is free.
+    /// In a compliant contact, the force returns before the spring is free.
     Recontact,
-    /// In a contact that takes time without a damper: its spring begins to load, to unload, or to hold still.
+    /// In a compliant contact without a damper, the spring begins to load, to unload or to hold still.
     Turn,
-    /// The load or the drive of a stator that yields changes, as its table says.
+    /// The load or the drive of a compliant stator changes, as its table specifies.
     Joint,
 }
 
@@ -74,13 +75,13 @@ pub enum Event {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct EventRecord {
-    /// When it happened.
+    /// Time of the event.
     pub time: PhaseTime,
     /// The event.
     pub event: Event,
-    /// The disk just before.
+    /// The disk just before it.
     pub before: DiskState,
-    /// The disk just after.
+    /// The disk just after it.
     pub after: DiskState,
     /// Axial impulse per unit mass in units of g/omega, zero except in impacts and attachments. Not negative,
     /// except at the attachment of a cut ([`ChatterPolicy::Cut`](bouncing_disk_core::ChatterPolicy::Cut)),
@@ -90,9 +91,9 @@ pub struct EventRecord {
     pub angular_impulse: f64,
     /// Energy balance of the segment and the event.
     pub ledger: EnergyLedger,
-    /// The segment since the event before.
+    /// The segment since the previous event.
     pub segment: Segment,
-    /// Its duration.
+    /// Duration of the segment.
     pub span: PhaseSpan,
 }
 
@@ -114,13 +115,13 @@ impl AddAssign for Energies {
 
 /// The record of an event in any motion.
 pub trait MotionRecord {
-    /// When the event happened.
+    /// Time of the event.
     fn time(&self) -> PhaseTime;
 
     /// The event.
     fn event(&self) -> Event;
 
-    /// The energy balances since the event before, this one included.
+    /// The energy balances from the previous event to this one inclusive.
     fn energies(&self) -> Energies;
 }
 
@@ -138,8 +139,8 @@ impl MotionRecord for EventRecord {
     }
 }
 
-/// A motion as a sequence of events: of an [`Engine`](crate::Engine), of a
-/// [`DrivenEngine`](crate::driven::DrivenEngine), or of a [`StatorEngine`](crate::stator::StatorEngine).
+/// A motion as a sequence of events, from an [`Engine`](crate::Engine), a
+/// [`DrivenEngine`](crate::driven::DrivenEngine) or a [`StatorEngine`](crate::stator::StatorEngine).
 pub trait Motion {
     /// The record of an event.
     type Record: MotionRecord;
@@ -153,42 +154,42 @@ pub trait Motion {
     /// The next event, or `None` after the last one.
     ///
     /// # Errors
-    /// Those of the flights. An error ends the motion.
+    /// The errors of the flights. An error ends the motion.
     fn advance(&mut self) -> Result<Option<Self::Record>, Error>;
 
     /// Whether the disk lies on the platform and never leaves it again, or the motion has ended.
     fn lies_for_ever(&self) -> bool;
 }
 
-/// A motion that can be followed to any time and disturbed, as a motor needs it. All spans are in radians since the
-/// last event, and hold if no event comes before their end.
+/// A motion that can be followed to any time and perturbed, as needed by a motor. All spans are in radians
+/// since the last event, and hold if no event comes before their end.
 pub(crate) trait SteeredMotion: Motion + Send {
-    /// The next event if it comes within `limit`. Without one the motion stays at its last event.
+    /// The next event if it comes within `limit`. Otherwise the motion stays at its last event.
     fn advance_within(&mut self, limit: f64) -> Result<Option<Self::Record>, Error>;
 
     /// The disk `span` later.
     fn disk_after(&self, span: f64) -> DiskState;
 
-    /// The axial velocity of the disk at times `span` later that rise.
+    /// The axial velocity of the disk at increasing times `span` later.
     fn velocities(&self) -> Box<dyn FnMut(f64) -> f64 + '_> {
         Box::new(|span| self.disk_after(span).axial_velocity)
     }
 
-    /// The energy balances of this `span`.
+    /// The energy balances over this `span`.
     fn energies_after(&self, span: f64) -> Energies;
 
     /// The energy of the spring of a compliant contact `span` later, when the disk is in this `state`.
     fn spring_energy(&self, span: f64, state: &DiskState) -> f64;
 
-    /// Whether a flight begins now; on a compliant stator, whether the disk flies.
+    /// Whether a flight begins now; on a compliant stator, whether the disk is in flight.
     fn launches(&self) -> bool;
 
     /// Adds a relative speed >= 0 (g/omega) to a flight that starts now; does nothing at any other time.
     fn perturb_launch(&mut self, speed: f64);
 
-    /// Goes on from `span` later if the disk lies on a compliant stator, whose contact would else be followed
-    /// from the last event again, and returns the energy balances up to then. Every other motion stays at its
-    /// last event and returns `None`.
+    /// If the disk lies on a compliant stator, continues from `span` later and returns the energy balances up
+    /// to then; otherwise the contact would be followed from the last event again. Any other motion stays at
+    /// its last event and returns `None`.
     fn pause_contact(&mut self, _span: f64) -> Option<Energies> {
         None
     }
@@ -203,12 +204,12 @@ pub(crate) trait SteeredMotion: Motion + Send {
         None
     }
 
-    /// Leaves out the energies of records that take long to compute, which a run-up does not need.
+    /// Omits energies that take long to compute from the records; a run-up does not need them.
     fn skip_energies(&mut self);
 }
 
 impl EventRecord {
-    /// Disk and platform during the segment, `fraction` of it in [0, 1] after its start.
+    /// Disk and platform during the segment, at the given `fraction` of it in [0, 1] from its start.
     #[must_use]
     pub fn evaluate(&self, system: &DimensionlessSystem, fraction: f64) -> Snapshot {
         self.segment.evaluate(system, self.span, fraction)
@@ -216,7 +217,7 @@ impl EventRecord {
 }
 
 impl Display for Event {
-    /// With its numbers in the units of the motion.
+    /// Prints its numbers in the units of the motion.
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let n = numbers(f);
         write!(f, "{}", self.kind())?;

@@ -7,12 +7,12 @@
 //! dU/dtau = -(mu + s l) + mu P sin tau + s Q sin(tau + theta) = -decay + amplitude sin(tau + lead)
 //! ```
 //!
-//! A disk at the platform's speed begins to slip in direction s exactly where this is positive, and sticks
-//! where it is positive for neither direction; the two add up to -2 mu N, so in contact it is never positive
-//! for both. Each of the two is positive over one interval of the period, known in closed form. Where the
-//! phase lies relative to these intervals (the *windows*) decides whether friction holds and when a slip
-//! ends; the sign of a rounded force never does. The event that follows, and the state after it, are decided
-//! in `contact_motion.rs`.
+//! A disk at the platform's speed begins to slip in direction s exactly when this is positive, and sticks
+//! when it is positive for neither direction. The two add up to -2 mu N, so in contact they are never both
+//! positive. Each is positive over one interval of the period, known in closed form. The position of the
+//! phase relative to these intervals (the *windows*) decides whether friction holds and when a slip ends; the
+//! sign of a rounded force never does. The event that follows, and the state after it, are decided in
+//! `contact_motion.rs`.
 
 use std::cmp::Ordering;
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -31,16 +31,16 @@ use crate::parameters::dimensionless::DimensionlessSystem;
 /// Relative accuracy to which the end of a slip is located.
 const ROOT_ACCURACY: f64 = 2.0 * f64::EPSILON;
 
-/// A slip speed this small, relative to what it is computed from, may have the wrong sign: far above its
+/// A slip speed this small, relative to the terms of its computation, may have the wrong sign; far above its
 /// rounding.
 const DOUBTFUL_SPEED: f64 = 1.0e-12;
 
-/// Where in the period a slip speed grows.
+/// The part of the period in which a slip speed grows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Growth {
-    /// Nowhere.
+    /// Empty.
     Never,
-    /// Everywhere.
+    /// The whole period.
     Always,
     /// Over `width` radians from the phase whose negative is `shift`.
     Within { shift: f64, width: f64 },
@@ -58,14 +58,14 @@ struct Slip {
     growth: Growth,
 }
 
-/// Which windows of growth a disk at the platform's speed has just been through, so that it cannot slip there
-/// again before the next period. Without this, rounding could make a slip end and begin again at the same
+/// The windows of growth that a disk at the platform's speed has just been through, so that it cannot slip
+/// there again before the next period. Otherwise rounding could make a slip end and begin again at the same
 /// instant for ever.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Spent {
     /// Neither.
     None,
-    /// That of this direction.
+    /// The window of this direction.
     One(SlipDirection),
     /// Both.
     Both,
@@ -86,8 +86,8 @@ impl Spent {
 pub(crate) struct Friction {
     forward: Slip,
     backward: Slip,
-    /// Neither twist nor load: nothing pulls at the disk and friction holds it up to the separation, where
-    /// rounding would else let it slip an instant before.
+    /// Neither twist nor load: nothing pulls at the disk, and friction holds it up to the separation. Without
+    /// this flag rounding would let it slip an instant before.
     unloaded: bool,
     /// Without friction, but with a relative acceleration, the disk is never held.
     slippery: bool,
@@ -117,7 +117,7 @@ impl Friction {
         } else if slips(SlipDirection::Backward) {
             Some(SlipDirection::Backward)
         } else if self.slippery {
-            // The two windows fill the period; only rounding leaves a phase in neither.
+            // The two windows fill the period; only rounding can place a phase in neither.
             Some(if let Spent::One(direction) = spent {
                 direction.reversed()
             } else {
@@ -128,8 +128,8 @@ impl Friction {
         }
     }
 
-    /// Time in (0, 2 pi] for which a disk that friction holds at `phase` goes on sticking, and the direction
-    /// in which it then slips; `None` if it sticks for ever.
+    /// Time in (0, 2 pi] for which a disk that friction holds at `phase` continues to stick, and the
+    /// direction in which it then slips; `None` if it sticks for ever.
     pub(crate) fn stick_end(&self, phase: Phase) -> Option<(f64, SlipDirection)> {
         if self.unloaded {
             return None;
@@ -141,12 +141,12 @@ impl Friction {
         }
     }
 
-    /// Time until the slip in `direction` that has `speed` >= 0 at `phase` ends: the first return of the slip
-    /// speed to zero. `speed` zero means that the slip begins at `phase`, where [`Self::onset`] or
-    /// [`Self::stick_end`] said so. `None` if it does not end within `limit` radians, or never.
+    /// Time until the slip in `direction`, with `speed` >= 0 at `phase`, ends: the first return of the slip
+    /// speed to zero. A `speed` of zero means that the slip begins at `phase`, according to [`Self::onset`]
+    /// or [`Self::stick_end`]. `None` if it does not end within `limit` radians, or never.
     ///
     /// # Errors
-    /// [`Error::SlipTooLong`] without a limit, if the end is further off than its phase can be resolved.
+    /// [`Error::SlipTooLong`] without a limit, if the end is too far away for its phase to be resolved.
     pub(crate) fn slip_end(
         &self,
         direction: SlipDirection,
@@ -194,7 +194,7 @@ impl Slip {
         }
     }
 
-    /// Time in (0, 2 pi] to the next beginning of growth.
+    /// Time in (0, 2 pi] to the next start of growth.
     fn time_to_growth(&self, phase: Phase) -> Option<f64> {
         match self.growth {
             Growth::Never => None,
@@ -204,7 +204,7 @@ impl Slip {
         }
     }
 
-    /// The sign of a slip speed within a period of its value `start`, `Equal` where it may be rounding.
+    /// The sign of a slip speed that was `start` within the last period; `Equal` if it may be rounding.
     fn certain_sign(&self, start: f64, value: f64) -> Ordering {
         let doubt = DOUBTFUL_SPEED * (start.abs() + self.decay.abs() + self.amplitude);
         if value > doubt {
@@ -238,10 +238,10 @@ impl Slip {
             Growth::Within { shift, width } => {
                 let mut since = wrapped_angle(phase.angle() + shift);
                 if speed <= 0.0 && since >= width {
-                    // The slip begins here, so this is the beginning of the window but for rounding.
+                    // The slip begins here, so this is the start of the window up to rounding.
                     since = 0.0;
                 }
-                // Highest slip speed (in the past if negative) and lowest one of the first period.
+                // The highest slip speed (in the past if negative) and the lowest one of the first period.
                 let (highest, lowest) = (width - since, TAU - since);
                 let sign = match limit {
                     Some(limit) if limit <= highest => Ordering::Greater,
@@ -251,14 +251,15 @@ impl Slip {
                 if sign == Ordering::Greater {
                     return Ok(None);
                 }
-                // The slip speed goes on falling until then.
+                // The slip speed falls until then.
                 let least = if sign == Ordering::Less { -speed.abs() } else { path.at(lowest).0 };
                 if least <= 0.0 {
                     (0, path.falling_root(highest.max(0.0), lowest))
                 } else if self.decay <= 0.0 {
                     return Ok(None);
                 } else {
-                    // Each period takes 2 pi decay away: the first one whose lowest speed is not positive.
+                    // Each period reduces it by 2 pi decay; find the first one whose lowest speed is not
+                    // positive.
                     let loss = TAU * self.decay;
                     let estimate = (least / loss - 1.0).max(0.0) * TAU;
                     let Some(mut periods) = whole_periods(estimate, limit)? else { return Ok(None) };
@@ -332,7 +333,7 @@ impl SlipPath {
         Self { speed, rate, cosine_start, sine_start, decay: slip.decay }
     }
 
-    /// The same path seen from a whole number of periods later.
+    /// The same path, starting a whole number of periods later.
     fn later_by(mut self, periods: f64) -> Self {
         self.speed -= periods * (TAU * self.decay);
         self
@@ -359,9 +360,9 @@ impl SlipPath {
 /// Largest number of contact events (slips that begin, end or reverse) in one segment of contact of at most
 /// one period.
 ///
-/// A slip that begins at the platform's speed begins inside its direction's window and ends after it, and a
-/// segment that short meets each of the two windows at most twice (once cut in two by its ends): four slips,
-/// each with a beginning and an end, and the end of a slip that the segment began with.
+/// A slip that begins at the platform's speed begins inside its direction's window and ends after it. A
+/// segment this short meets each of the two windows at most twice (once cut in two by its ends). That makes
+/// four slips, each with a beginning and an end, and the end of a slip with which the segment began.
 pub const MAX_CONTACT_EVENTS: usize = 9;
 
 #[cfg(test)]
@@ -388,7 +389,7 @@ mod tests {
         Phase::new(angle).unwrap()
     }
 
-    /// With P = 0 and theta = 0 friction holds while |Q sin tau| <= mu.
+    /// With P = 0 and theta = 0, friction holds while |Q sin tau| <= mu.
     #[test]
     fn sticking_ends_where_the_envelope_is_left() {
         let friction = friction(GENTLE);
@@ -398,9 +399,9 @@ mod tests {
         assert!((time - PI / 6.0).abs() < 4e-15 && direction == SlipDirection::Backward);
     }
 
-    /// With P = 2 both windows begin at the separation if the twist turns there (theta = -pi/6): the one
-    /// instant at which they can, as the two forces that move the disk add up to -2 mu N. Where rounding
-    /// leaves them equal, the disk slips forward.
+    /// With P = 2 both windows begin at the separation if the twist reverses there (theta = -pi/6). It is the
+    /// only instant at which they can, as the two forces on the disk add up to -2 mu N. If rounding leaves
+    /// them equal, the disk slips forward.
     #[test]
     fn a_tie_of_both_directions_goes_forward() {
         let mut ties = 0;
@@ -421,7 +422,7 @@ mod tests {
         assert!(ties > 10, "{ties}");
     }
 
-    /// On the envelope itself the disk slips where the force grows and holds where it falls.
+    /// On the envelope itself the disk slips if the force grows and is held if it falls.
     #[test]
     fn on_the_envelope_the_derivative_decides() {
         let friction = friction(GENTLE);
@@ -472,7 +473,7 @@ mod tests {
         }
     }
 
-    /// A limit only drops the slips that last longer: it decides early, and never otherwise.
+    /// A limit only drops slips that last longer: it may decide early, but never otherwise.
     #[test]
     fn a_limit_changes_no_slip_within_it() {
         let (mut ended, mut dropped) = (0, 0);

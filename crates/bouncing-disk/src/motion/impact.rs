@@ -1,24 +1,24 @@
 //! The instant of an impact, Eqs. (5)-(10): restitution along the axis, friction about it, per unit mass and
 //! moment of inertia.
 
-/// Axial impulse of an impact with relative `velocity` <= 0 (Eq. 5 with the rebound law put in, Eq. 7).
+/// Axial impulse of an impact with relative `velocity` <= 0 (Eq. 5 with the rebound law of Eq. 7 inserted).
 #[inline(always)]
 pub(crate) fn axial_impulse(restitution: f64, velocity: f64) -> f64 {
     (1.0 + restitution) * -velocity
 }
 
-/// Relative axial velocity after an impact that had `velocity` before (Eq. 6).
+/// Relative axial velocity after an impact with `velocity` before (Eq. 6).
 pub(crate) fn rebound_velocity(restitution: f64, velocity: f64) -> f64 {
     -restitution * velocity
 }
 
-/// Angular impulse that friction would give if the disk slid throughout the impact (Eq. 8), as a size.
+/// Magnitude of the angular impulse that friction would give if the disk slid throughout the impact (Eq. 8).
 #[inline(always)]
 pub(crate) fn available_impulse(friction: f64, axial_impulse: f64) -> f64 {
     friction * axial_impulse
 }
 
-/// Angular impulse that ends a slip at `slip` (disk minus platform), the largest one possible (Eq. 9).
+/// Angular impulse that ends a slip of `slip` (disk minus platform), the largest one possible (Eq. 9).
 #[inline(always)]
 pub(crate) fn stopping_impulse(slip: f64) -> f64 {
     -slip
@@ -29,12 +29,12 @@ pub(crate) fn stopping_impulse(slip: f64) -> f64 {
 pub(crate) struct FrictionImpact {
     /// Angular impulse.
     pub(crate) impulse: f64,
-    /// Whether the slip ends within the impact; otherwise the disk slides throughout.
+    /// Whether the slip ends during the impact; otherwise the disk slides throughout.
     pub(crate) capped: bool,
 }
 
 impl FrictionImpact {
-    /// Angular speed after the impact of a disk that has `speed` before it.
+    /// Angular speed after the impact for a disk with `speed` before it.
     #[inline(always)]
     pub(crate) fn speed_after(self, speed: f64, platform_speed: f64) -> f64 {
         if self.capped { platform_speed } else { speed + self.impulse }

@@ -1,5 +1,5 @@
 //! The effects of an impact on the disk, and their energy: for single impacts, for the impacts of a chatter,
-//! and for the rest of a slip that rounding leaves at its end.
+//! and for the rounding residue at the end of a slip.
 
 use crate::motion::energy::EnergyLedger;
 use crate::motion::impact::{axial_impulse, friction_impact};
@@ -11,11 +11,11 @@ pub(crate) struct Impulses {
     pub(crate) axial: f64,
     /// Angular impulse per moment of inertia.
     pub(crate) rotary: f64,
-    /// Whether friction ends the slip within the impact.
+    /// Whether friction ends the slip during the impact.
     pub(crate) capped: bool,
-    /// The slip before.
+    /// The slip before the impact.
     pub(crate) slip: f64,
-    /// The angular speed after.
+    /// The angular speed after the impact.
     pub(crate) speed: f64,
 }
 
@@ -49,8 +49,8 @@ pub(crate) fn record_friction_impulse(
     ledger.record_friction(work, loss, work.abs() + (impulse * slip).abs());
 }
 
-/// Records that a disk with angular `speed` gets the platform's speed at the end of a slip, of which rounding
-/// has left this `slip`.
+/// Records that a disk with angular `speed` takes the platform's speed at the end of a slip, of which
+/// rounding has left this `slip`.
 pub(crate) fn record_slip_end(ledger: &mut EnergyLedger, speed: f64, slip: f64, platform_speed: f64) {
     let (work, loss) = (-slip * platform_speed, 0.5 * slip * slip);
     ledger.record_friction(work, loss, work.abs() + loss);

@@ -1,4 +1,4 @@
-//! How a motion starts.
+//! The start of a motion.
 
 use bouncing_disk_core::Phase;
 
@@ -9,13 +9,13 @@ use bouncing_disk_core::Phase;
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub enum InitialCondition {
-    /// The disk lies on the platform. An angular speed within rounding of the platform's counts as the
-    /// platform's. Where the platform falls away at once (P sin tau >= 1, tau before its end), the disk
-    /// starts in flight.
+    /// The disk lies on the platform. An angular speed within rounding of the platform's is set to the
+    /// platform's. If the platform falls away at once (P sin tau >= 1, tau before its end), the disk starts
+    /// in flight.
     Contact {
         /// Phase of the platform.
         phase: Phase,
-        /// Angular speed of the disk; that of the platform is
+        /// Angular speed of the disk; for the platform's see
         /// [`crate::parameters::DimensionlessSystem::platform_angular_speed`].
         angular_speed: f64,
     },
@@ -23,7 +23,7 @@ pub enum InitialCondition {
     Launch {
         /// Phase of the platform.
         phase: Phase,
-        /// Axial velocity relative to the platform, not negative; zero is legal only where the platform falls
+        /// Axial velocity relative to the platform, not negative; zero is legal only if the platform falls
         /// away.
         relative_speed: f64,
         /// Angular speed of the disk.
@@ -43,8 +43,7 @@ pub enum InitialCondition {
 }
 
 impl InitialCondition {
-    /// Phase and angular speed; of a disk that does not lie on the platform also its distance and its
-    /// relative velocity.
+    /// Phase and angular speed; for a disk off the platform also its distance and its relative velocity.
     pub(crate) const fn parts(&self) -> (Phase, f64, Option<[f64; 2]>) {
         match *self {
             Self::Contact { phase, angular_speed } => (phase, angular_speed, None),

@@ -38,7 +38,7 @@ impl PhaseTime {
         Self { periods, phase: phase_at(angle) }
     }
 
-    /// The time from `earlier` to this instant; zero if `earlier` is not earlier.
+    /// The time from `earlier` to this instant; zero if `earlier` is later.
     #[must_use]
     pub fn since(&self, earlier: &Self) -> PhaseSpan {
         if self.order(earlier) != Ordering::Greater {
@@ -53,7 +53,7 @@ impl PhaseTime {
         }
     }
 
-    /// This instant as a number of periods (rounded: the exact value is `periods` and `phase`).
+    /// This instant in periods (rounded: the exact value is `periods` and `phase`).
     #[must_use]
     pub fn cycles(&self) -> f64 {
         self.periods as f64 + self.phase.cycles()
@@ -68,25 +68,25 @@ impl PhaseTime {
 
 /// A duration: whole periods and a remainder in radians.
 ///
-/// Every function of a span accepts any and [normalises](Self::normalised) it.
+/// Every function of a span accepts any span and [normalises](Self::normalised) it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct PhaseSpan {
     /// Whole periods.
     pub periods: u64,
-    /// The rest in radians, in [0, 2 pi).
+    /// The remainder in radians, in [0, 2 pi).
     pub remainder: f64,
 }
 
 impl PhaseSpan {
-    /// No time at all.
+    /// The empty span.
     pub const ZERO: Self = Self { periods: 0, remainder: 0.0 };
 
     /// The longest span: `u64::MAX` whole periods.
     pub const LONGEST: Self = Self { periods: u64::MAX, remainder: 0.0 };
 
-    /// A span of `radians`; a negative number and NaN count as zero, and the most is [`Self::LONGEST`],
+    /// A span of `radians`; a negative number and NaN count as zero, and the maximum is [`Self::LONGEST`],
     /// 1.16e20 rad.
     #[must_use]
     pub fn from_radians(radians: f64) -> Self {
@@ -99,13 +99,13 @@ impl PhaseSpan {
             return Self::LONGEST;
         }
         let remainder = wrapped_angle(radians);
-        // Round: the difference is a whole number of periods up to rounding.
+        // Round, because the difference is a whole number of periods up to rounding.
         Self { periods: ((radians - remainder) / TAU + 0.5) as u64, remainder }
     }
 
-    /// The same span with its remainder in [0, 2 pi]: whole periods of a greater one are added to the
-    /// periods, up to [`Self::LONGEST`]; a negative one and NaN count as zero. A normalised span keeps its
-    /// bits.
+    /// The same span with its remainder in [0, 2 pi]: whole periods in a larger remainder are moved to the
+    /// periods, up to [`Self::LONGEST`]; a negative remainder and NaN count as zero. A normalised span keeps
+    /// its bits.
     #[must_use]
     pub fn normalised(self) -> Self {
         if (0.0..=TAU).contains(&self.remainder) {
@@ -126,14 +126,14 @@ impl PhaseSpan {
     }
 }
 
-/// A time ahead (rad): a negative one and NaN count as zero, a longer one than a flight can last as that.
+/// A time ahead (rad): a negative one and NaN count as zero, and it is limited to the longest flight.
 pub(crate) const fn legal_span(span: f64) -> f64 {
     if span > 0.0 { span.min(MAX_FLIGHT_DURATION) } else { 0.0 }
 }
 
 /// The phase at a finite angle.
 pub(crate) fn phase_at(angle: f64) -> Phase {
-    // Only a non-finite angle is refused, and none can arise from validated parameters.
+    // Only a non-finite angle is an error, and validated parameters cannot produce one.
     Phase::new(angle).unwrap_or_else(|_| unreachable!("angle {angle}"))
 }
 
@@ -180,7 +180,8 @@ mod tests {
         assert_eq!(PhaseSpan::from_radians(-1.0), PhaseSpan::ZERO);
     }
 
-    /// The remainder of a span is a public field; NaN in it was a panic, and many turns counted as one.
+    /// The remainder of a span is a public field; NaN in it once caused a panic, and many turns counted as
+    /// one.
     #[test]
     fn a_remainder_that_is_none_counts_as_what_it_is() {
         let now = PhaseTime { periods: 7, phase: phase_at(1.0) };

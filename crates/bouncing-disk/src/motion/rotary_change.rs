@@ -39,7 +39,7 @@ pub(crate) fn change_while_sliding(
 /// The rotary motion of a flight: only the load acts.
 #[inline(always)]
 pub(crate) fn change_in_flight(load: f64, speed: f64, duration: f64) -> RotaryChange {
-    // Neither number waits for the other: shared, the product costs a motor 3 % of its time.
+    // The two expressions are independent; sharing the product would cost a motor 3 % of its time.
     RotaryChange { speed: speed - load * duration, angle: duration * (speed - 0.5 * load * duration) }
 }
 
@@ -64,14 +64,14 @@ pub(crate) fn change_in_contact(
     }
 }
 
-/// Energy balance of a flight, or of the flights of a chatter, as far as the load goes.
+/// The load's part of the energy balance of a flight, or of the flights of a chatter.
 pub(crate) fn record_flight_load(ledger: &mut EnergyLedger, load: f64, speed: f64, change: &RotaryChange) {
     let work = load * change.angle;
     ledger.record_rotary_change(speed, change.speed);
     ledger.record_load(work, work.abs());
 }
 
-/// Energy balance of a segment of contact from `state` at `from` to `to`, where the disk has turned by
+/// Energy balance of a segment of contact from `state` at `from` to `to`, during which the disk has turned by
 /// `turn`.
 pub(crate) fn contact_ledger(
     system: &DimensionlessSystem,
@@ -95,8 +95,8 @@ pub(crate) fn contact_ledger(
     match state.mode {
         Mode::Sliding(direction) => {
             let mu = system.friction();
-            // Where friction all but holds the load, the angle is a small difference of what each of them
-            // would give alone.
+            // If friction nearly holds the load, the angle is a small difference of the angles that each
+            // would cause alone.
             let t = arc.duration;
             let angle_size =
                 t * (state.angular_speed.abs() + 0.5 * load.abs() * t) + mu * arc.force_twice().size;

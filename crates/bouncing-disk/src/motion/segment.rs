@@ -10,12 +10,12 @@ use crate::motion::rotary_change::{change_in_contact, change_in_flight, contact_
 use crate::motion::state::{DiskState, Mode, PlatformState, Snapshot};
 use crate::parameters::dimensionless::DimensionlessSystem;
 
-/// The motion of the disk between two events, open at its end: it holds until the next event.
+/// The motion of the disk between two events, valid until the next event.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Segment {
-    /// The instant of the event before.
+    /// The instant of the previous event.
     pub start: PhaseTime,
     /// The state just after that event.
     pub state: DiskState,
@@ -24,7 +24,7 @@ pub struct Segment {
 }
 
 impl Segment {
-    /// Disk and platform `fraction` of `span` after the start, `fraction` in [0, 1].
+    /// Disk and platform at the given `fraction`, in [0, 1], of `span` after the start.
     #[must_use]
     pub fn evaluate(&self, system: &DimensionlessSystem, span: PhaseSpan, fraction: f64) -> Snapshot {
         if fraction >= 1.0 {
@@ -33,8 +33,8 @@ impl Segment {
         self.state_after(system, PhaseSpan::from_radians(fraction * span.radians()))
     }
 
-    /// Disk and platform `span` after the start, on the assumption that no event comes before. A chatter
-    /// speed that starts no chattering sequence in this system counts as `None`.
+    /// Disk and platform `span` after the start, assuming that no event comes before. A chatter speed that
+    /// starts no chattering sequence in this system counts as `None`.
     #[must_use]
     pub fn state_after(&self, system: &DimensionlessSystem, span: PhaseSpan) -> Snapshot {
         let span = span.normalised();
@@ -63,9 +63,9 @@ impl Segment {
         Snapshot { time, disk, platform }
     }
 
-    /// The energy balance from the start to `span` later, on the assumption that no event comes before:
-    /// [`EventRecord::ledger`](crate::EventRecord) of a whole segment, without the impact that ends it. A
-    /// chatter speed counts as in [`Self::state_after`].
+    /// The energy balance from the start to `span` later, assuming that no event comes before; for a whole
+    /// segment it is [`EventRecord::ledger`](crate::EventRecord) without the impact that ends it. A chatter
+    /// speed is treated as in [`Self::state_after`].
     #[must_use]
     pub fn ledger_after(&self, system: &DimensionlessSystem, span: PhaseSpan) -> EnergyLedger {
         let span = span.normalised();
@@ -89,7 +89,7 @@ impl Segment {
                 let change = change_in_flight(system.load(), chatter.angular_speed, duration - chatter.time);
                 ledger = chatter.ledger;
                 record_flight_load(&mut ledger, system.load(), chatter.angular_speed, &change);
-                // The platform's velocity at the last impact is that of a rounded phase.
+                // The platform's velocity at the last impact is taken at a rounded phase.
                 ledger.record_rounding(system.peak_acceleration(), chatter.launch_velocity(system));
             }
         }
@@ -100,7 +100,7 @@ impl Segment {
         ledger
     }
 
-    /// The chatter speed, where it starts a chattering sequence: any other sequence might never end.
+    /// The chatter speed if it starts a chattering sequence: any other sequence might never end.
     fn chatter_of(&self, system: &DimensionlessSystem) -> Option<f64> {
         self.chatter_speed.filter(|speed| {
             let launch = Launch::new(self.start.phase, *speed);
@@ -150,7 +150,7 @@ mod tests {
     use crate::parameters::dimensionless::{DimensionlessParameters, ForcingParameters};
     use crate::testing;
 
-    /// What rounding leaves of a balance, relative to the sizes of what is added up.
+    /// Largest rounding residue of a balance, relative to the magnitudes of its terms.
     const CLOSURE: f64 = 1e-12;
 
     fn system() -> DimensionlessSystem {
@@ -197,7 +197,7 @@ mod tests {
         assert!(flights > 10 && chatters > 10 && contacts > 10, "{flights} {chatters} {contacts}");
     }
 
-    /// The sequence never came to an end.
+    /// Such a sequence once never came to an end.
     #[test]
     fn a_chatter_speed_that_starts_no_chatter_counts_as_none() {
         let phase = Phase::new(1.0).expect("finite");
@@ -229,7 +229,7 @@ mod tests {
                     "{:e} {segment:?} {span:?} {ledger:?}",
                     ledger.relative_closure(),
                 );
-                // What is balanced is what the disk has then.
+                // The balance must equal the change of the disk's energy.
                 let (now, then) = (segment.state_after(&system, span).disk, segment.state);
                 let gained = 0.5 * (now.angular_speed * now.angular_speed - then.angular_speed * then.angular_speed);
                 let size = 1.0 + now.angular_speed * now.angular_speed + then.angular_speed * then.angular_speed;
@@ -239,8 +239,8 @@ mod tests {
         }
     }
 
-    /// A rotor that brakes on a platform at rest: the contact never ends, and friction takes all that is
-    /// lost.
+    /// A rotor that brakes on a platform at rest: the contact never ends, and friction absorbs all the lost
+    /// energy.
     #[test]
     fn a_contact_without_end_loses_what_its_disk_loses() {
         let still = DimensionlessParameters {

@@ -19,7 +19,7 @@ pub struct SiState {
     pub angular_speed: f64,
 }
 
-/// An [`EnergyLedger`] in SI units per unit mass (J/kg), axial and rotary parts together where both have one.
+/// An [`EnergyLedger`] in SI units per unit mass (J/kg); axial and rotary parts are added where both exist.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SiEnergy {
@@ -83,9 +83,9 @@ impl Scales {
 
 impl SiEnergy {
     /// The efficiency of a toss (Sec. III A): eta = (dE + E_0)/(W + E_0), the rotary kinetic energy gained by
-    /// the disk over the energy put in by the platform. dE is [`Self::rotary_kinetic_change`], W
-    /// is [`Self::platform_work`] and E_0 (J/kg, not negative) is the rotary kinetic energy of the disk at
-    /// the start, also given by the platform; zero for a disk at rest. NaN if no energy was put in.
+    /// the disk divided by the energy put in by the platform. dE is [`Self::rotary_kinetic_change`] and W is
+    /// [`Self::platform_work`]. E_0 (J/kg, not negative) is the rotary kinetic energy of the disk at the
+    /// start, also given by the platform; zero for a disk at rest. NaN if no energy was put in.
     #[must_use]
     pub fn efficiency(&self, initial_rotary_energy: f64) -> f64 {
         (self.rotary_kinetic_change + initial_rotary_energy) / (self.platform_work() + initial_rotary_energy)

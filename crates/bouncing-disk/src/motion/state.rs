@@ -6,7 +6,7 @@ use std::fmt::{self, Display, Formatter};
 use crate::motion::phase_time::PhaseTime;
 use crate::parameters::dimensionless::DimensionlessSystem;
 
-/// Which way the disk slips over the platform.
+/// The direction in which the disk slides on the platform.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum SlipDirection {
@@ -47,7 +47,7 @@ impl SlipDirection {
     }
 }
 
-/// How the disk moves between two events.
+/// The mode of motion of the disk between two events.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Mode {
@@ -55,7 +55,7 @@ pub enum Mode {
     Flight,
     /// On the platform and turning with it.
     Sticking,
-    /// On the platform and turning faster or slower.
+    /// On the platform and turning faster or slower than it.
     Sliding(SlipDirection),
 }
 
@@ -64,22 +64,22 @@ pub enum Mode {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct DiskState {
-    /// How it moves.
+    /// The mode of motion.
     pub mode: Mode,
     /// Height above the platform's mean height, in units of g/omega^2.
     pub height: f64,
     /// Axial velocity, in units of g/omega.
     pub axial_velocity: f64,
-    /// Angle turned, in units of g a_e/(a_g omega)^2. It is not wrapped, and it starts at the platform's own
-    /// angle: marks on disk and platform lie together at the start. The engine sums it in two doubles, so
-    /// that its error does not grow with the number of events.
+    /// Angle turned, in units of g a_e/(a_g omega)^2. It is not wrapped. It starts at the platform's own
+    /// angle, so marks on disk and platform coincide at the start. The engine sums it in two doubles, so that
+    /// its error does not grow with the number of events.
     pub angle: f64,
     /// Angular speed, in units of g a_e/(a_g^2 omega).
     pub angular_speed: f64,
 }
 
 impl DiskState {
-    /// In flight, with the angle zero.
+    /// A disk in flight with angle zero.
     pub(crate) const fn flying(height: f64, axial_velocity: f64, angular_speed: f64) -> Self {
         Self { mode: Mode::Flight, height, axial_velocity, angle: 0.0, angular_speed }
     }
@@ -144,7 +144,7 @@ impl LongSum {
         self.low += lost;
     }
 
-    /// In another unit.
+    /// The sum in another unit.
     pub(crate) fn scale(&mut self, factor: f64) {
         (self.high, self.low) = (self.high * factor, self.low * factor);
     }

@@ -1,12 +1,12 @@
-//! Where the energy of a stator comes from and where it goes.
+//! The energy balance of a stator: sources and losses.
 
 use std::ops::{AddAssign, Sub};
 
-/// Most modes of a stator.
+/// Largest number of modes of a stator.
 pub const MODES: usize = 2;
 
-/// The energy balance of the modes of a stator in an interval, in units of m (g/omega)^2. Every entry is computed by
-/// itself.
+/// The energy balance of the modes of a stator in an interval, in units of m (g/omega)^2. Every entry is
+/// computed separately.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct StatorLedger {
@@ -18,14 +18,15 @@ pub struct StatorLedger {
     pub disk_work: f64,
     /// Change of the energy of the modes.
     pub energy_change: f64,
-    /// Sum of the sizes of the terms that were added up, energy levels included.
+    /// Sum of the magnitudes of all terms, including energy levels.
     pub magnitude: f64,
-    /// Angular impulse that the load took from the disk, per moment of inertia: its mean torque times the time.
+    /// Angular impulse that the load took from the disk, per moment of inertia: the mean load torque times
+    /// the time.
     pub load_impulse: f64,
 }
 
 impl StatorLedger {
-    /// Change of the energy minus the inflow: zero but for rounding.
+    /// Change of the energy minus the inflow: zero up to rounding.
     #[must_use]
     pub fn closure(&self) -> f64 {
         self.energy_change - (self.drive_work - self.damping_loss.iter().sum::<f64>() - self.disk_work)

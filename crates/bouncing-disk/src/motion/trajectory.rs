@@ -14,7 +14,7 @@ use crate::motion::segment::Segment;
 use crate::motion::state::Snapshot;
 use crate::parameters::dimensionless::DimensionlessSystem;
 
-/// The events of a motion up to some point, and the motion between them; up to an instant if no event
+/// The events of a motion up to some point, and the motion between them, or up to an instant if no event
 /// follows.
 ///
 /// Deserialising checks that the times do not decrease.
@@ -25,7 +25,7 @@ pub struct Trajectory {
     system: DimensionlessSystem,
     start: PhaseTime,
     records: Vec<EventRecord>,
-    /// The motion after the last event, where nothing more happens, and its end.
+    /// The motion after the last event, if no further event follows, and its end.
     eventless: Option<(Segment, PhaseTime)>,
 }
 
@@ -37,7 +37,7 @@ read_checked!(Trajectory as UncheckedTrajectory {
 });
 
 impl Trajectory {
-    /// Checks what is read.
+    /// Checks a deserialised trajectory.
     fn check(&self) -> Result<(), Error> {
         let mut last = self.start;
         let recorded = self.records.iter().map(|EventRecord { time, segment, .. }| [segment.start, *time]);
@@ -50,12 +50,12 @@ impl Trajectory {
         Ok(())
     }
 
-    /// Runs `engine` until `last` is true for an event, which is still recorded, or until the motion ends.
+    /// Runs `engine` until `last` is true for an event, which is included, or until the motion ends.
     ///
-    /// A disk that bounces or slips for ever needs a `last` that becomes true.
+    /// For a disk that bounces or slips for ever, `last` must eventually be true.
     ///
     /// # Errors
-    /// Those of [`Engine::advance`].
+    /// The errors of [`Engine::advance`].
     pub fn record<L: RestitutionLaw>(
         engine: &mut Engine<SineGround<L>>,
         last: impl FnMut(&EventRecord) -> bool,
@@ -64,11 +64,11 @@ impl Trajectory {
         Self::record_until(engine, now, last)
     }
 
-    /// [`Self::record`]; after the last event the disk is followed until `end`: it sticks or slides for ever,
-    /// or for longer than an event can be located.
+    /// [`Self::record`], which then follows the disk until `end` if it sticks or slides for ever, or for
+    /// longer than an event can be located.
     ///
     /// # Errors
-    /// Those of [`Self::record`].
+    /// The errors of [`Self::record`].
     pub fn record_until<L: RestitutionLaw>(
         engine: &mut Engine<SineGround<L>>,
         end: PhaseTime,
@@ -111,7 +111,7 @@ impl Trajectory {
         self.start
     }
 
-    /// The end of a motion without events; else the last event, or the start if there is none.
+    /// The end of a motion without further events; otherwise the last event, or the start if there is none.
     #[must_use]
     pub fn end(&self) -> PhaseTime {
         let last = self.records.last().map_or(self.start, |record| record.time);
@@ -127,7 +127,7 @@ impl Trajectory {
         self.records.iter().map(|record| record.ledger).chain(eventless).sum()
     }
 
-    /// Disk and platform at `time`, at an event just after it. `None` outside the recorded motion.
+    /// Disk and platform at `time`; at an event, just after it. `None` outside the recorded motion.
     #[must_use]
     pub fn at(&self, time: PhaseTime) -> Option<Snapshot> {
         if time.order(&self.start) == Ordering::Less || time.order(&self.end()) == Ordering::Greater {
@@ -146,12 +146,12 @@ impl Trajectory {
         Some(record.segment.state_after(&self.system, time.since(&record.segment.start)))
     }
 
-    /// Disk and platform at those of `times` that lie within the recorded motion.
+    /// Disk and platform at each of `times` within the recorded motion.
     pub fn sample(&self, times: impl IntoIterator<Item = PhaseTime>) -> impl Iterator<Item = Snapshot> {
         times.into_iter().filter_map(|time| self.at(time))
     }
 
-    /// Disk and platform at `count` >= 2 instants at equal distances from the start to the end.
+    /// Disk and platform at `count` >= 2 equidistant instants from the start to the end.
     pub fn uniform(&self, count: usize) -> impl Iterator<Item = Snapshot> {
         let total = self.end().since(&self.start).radians();
         let steps = count.saturating_sub(1).max(1);
@@ -219,9 +219,9 @@ mod tests {
         assert!(trajectory.ledger().relative_closure() < 1e-14);
     }
 
-    /// Loads, frictions and twists with which nothing, or nothing more, happens; the speeds follow from Eq.
-    /// (4): with the load l and the friction k (rad/s^2) a disk slides at l -+ k, and one that no friction
-    /// acts on knows its load only.
+    /// Loads, frictions and twists for which no further event happens. The speeds follow from Eq. (4): with
+    /// the load l and the friction k (rad/s^2) a disk slides at l -+ k, and without friction only the load
+    /// acts.
     #[test]
     fn motions_without_events_are_followed_to_their_end() {
         let of = |amplitude: f64, twist_amplitude: f64, friction: f64, load: f64, speed: f64, end: f64| {
@@ -253,21 +253,22 @@ mod tests {
             motion.records().len()
         };
         let friction = 0.3 * 9.81 * 0.1 / (0.07 * 0.07);
-        // More load than friction holds: it slides for ever, from rest or after it has come to a stop.
+        // The load exceeds friction: the disk slides for ever, from rest or after it has stopped.
         assert_eq!(of(0.0, 0.0, 0.3, 120.12, 0.0, friction - 120.12), 0);
         let stop = 50.0 / (120.12 + friction);
         assert_eq!(of(0.0, 0.0, 0.3, 120.12, 50.0, (1.0 - stop) * (friction - 120.12)), 1);
-        // Less: it stops and sticks for ever; a platform that moves a little changes nothing of it.
+        // The load is smaller: the disk stops and sticks for ever, and a slight motion of the platform does
+        // not change this.
         assert_eq!(of(0.0, 0.0, 0.3, 30.0, 10.0, 0.0), 1);
         assert_eq!(of(1e-5, 0.0, 0.3, 30.0, 0.0, 0.0), 0);
-        // Without friction: the load alone, and without a load nothing.
+        // Without friction only the load acts; without load, nothing.
         assert_eq!(of(0.0, 0.0, 0.0, 5.0, 3.0, -2.0), 1);
         assert_eq!(of(5e-4, 0.0, 0.0, 0.0, 3.0, 3.0), 0);
-        // A slip that ends after more periods than a phase can be followed for.
+        // A slip that ends after more periods than a phase can be followed.
         assert_eq!(of(0.0, 0.0, 1e-12, 0.0, 10.0, 10.0 - 1e-12 / 0.3 * friction), 0);
     }
 
-    /// Without friction a twist passes by the disk, which keeps its speed to the bit.
+    /// Without friction a twist does not affect the disk, which keeps its speed to the bit.
     #[test]
     fn no_friction_leaves_a_speed_as_it_is() {
         let slippery = DimensionlessParameters {

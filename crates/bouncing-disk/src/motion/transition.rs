@@ -1,4 +1,4 @@
-//! Which events lead from which mode to which: the flow chart of the simulation (Sec. II B, Fig. 3).
+//! The events that lead from each mode to the next: the flow chart of the simulation (Sec. II B, Fig. 3).
 
 use crate::motion::event::{Event, EventRecord};
 use crate::motion::state::Mode;
@@ -97,7 +97,7 @@ impl Transition {
         Self { from, event, to }
     }
 
-    /// Whether the equations of motion allow it on the platform of Eq. (1).
+    /// Whether the equations of motion allow this transition on the platform of Eq. (1).
     #[must_use]
     pub fn is_legal(&self) -> bool {
         Self::LEGAL.contains(self)
@@ -117,8 +117,8 @@ impl Mode {
 }
 
 impl Event {
-    /// Whether it launches a disk that lay on the platform: a separation, as the platform falls away, or a kick, as
-    /// it hits the disk. Every such relaunch is perturbed alike.
+    /// Whether the event relaunches a disk that lay on the platform: a separation, as the platform falls
+    /// away, or a kick, as it hits the disk. All such relaunches are perturbed alike.
     pub(crate) const fn is_relaunch(&self) -> bool {
         matches!(self, Self::Separation | Self::Kick { .. })
     }

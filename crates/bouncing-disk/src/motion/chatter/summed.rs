@@ -19,9 +19,9 @@ use crate::motion::rotary_change::RotaryChange;
 use crate::motion::rotary_change::{change_in_flight, record_flight_load};
 use crate::parameters::dimensionless::DimensionlessSystem;
 
-/// Pieces that a chatter can have by the signs of what friction has to spare (docs/numerics-impacts.md,
-/// "The rotary motion of a chatter"). More arise only where rounding decides at every impact whether friction
-/// holds; each of them is then twice as long as the one before.
+/// Largest number of pieces that a chatter can have according to the signs of friction's margin
+/// (docs/numerics-impacts.md, "The rotary motion of a chatter"). More arise only if rounding decides at every
+/// impact whether friction holds; each of them is then twice as long as the previous one.
 const USUAL_PIECES: u32 = 16;
 
 /// Pieces after which that has led to the end: 2^64 impacts. The largest numbers seen are 5 pieces by the signs,
@@ -31,7 +31,7 @@ const MAX_PIECES: u32 = USUAL_PIECES + 64;
 impl Chatter {
     /// The whole sequence up to `duration` at once; returns the number of pieces.
     pub(super) fn sum(&mut self, system: &DimensionlessSystem, phase: Phase, duration: f64) -> u32 {
-        // A launch speed is never negative; that of a segment made by hand may be anything.
+        // A launch speed is never negative, but a segment constructed by hand may contain any number.
         let Ok(launch) = Launch::new(phase, self.launch_speed) else { return 0 };
         let series = system.map().chatter_series(launch);
         let end = series.impacts_by(duration);
@@ -63,13 +63,13 @@ impl Chatter {
         let (restitution, peak) = (system.restitution(), system.peak_acceleration());
         let impulse = series.impact_speed().scaled(1.0 + restitution);
         self.axial_impulse = all.sum(&impulse);
-        // The platform's velocity is that at the start less what it has lost since.
+        // The platform's velocity is its initial value minus its loss since then.
         let lost = peak * all.moment(&impulse, series.pair_changes().1);
         let start = peak * self.pair.1;
         let squares = all.product(series.impact_speed(), series.impact_speed());
         let loss = 0.5 * ((1.0 - restitution) * (1.0 + restitution)) * squares;
         self.ledger.record_normal(start * self.axial_impulse - lost, loss);
-        // The phase at the end is rounded as its angle is, and with it the platform's height.
+        // The phase at the end is rounded like its angle, and with it the platform's height.
         self.ledger.record_rounding(angle, start);
     }
 }
@@ -79,13 +79,13 @@ struct Rotation<'a> {
     system: &'a DimensionlessSystem,
     series: &'a ChatterSeries,
     chatter: &'a mut Chatter,
-    /// Axial impulse of an impact per 1 - r, and what is still to come of it.
+    /// Axial impulse of an impact per 1 - r, and the total impulse still to come.
     impulse: PowerSeries,
     impulses: PowerSeries,
     flight: PowerSeries,
-    /// Angular speed of the platform less a constant.
+    /// Angular speed of the platform minus a constant.
     platform: PowerSeries,
-    /// The increase of the slip by the platform and the load, until the end and in a flight (per 1 - r).
+    /// The increase of the slip by the platform and the load, until the end and during a flight (per 1 - r).
     gain: PowerSeries,
     flight_gain: PowerSeries,
     /// Angular speed of the platform at the start.
@@ -121,13 +121,13 @@ impl<'a> Rotation<'a> {
         }
     }
 
-    /// Goes on to impact `end`, or to the accumulation point; returns the number of pieces.
+    /// Continues to impact `end`, or to the accumulation point; returns the number of pieces.
     fn run(mut self, end: Option<u64>) -> u32 {
         for pieces in 0..MAX_PIECES {
             if end == Some(self.impacts) {
                 return pieces;
             }
-            // Whether this impact ends the slip decides how the impacts after it continue.
+            // Whether this impact ends the slip decides how the later impacts continue.
             self.strike();
             let held = self.slip == 0.0;
             let until = if held { self.first_slip() } else { self.slip_end() };
@@ -154,7 +154,7 @@ impl<'a> Rotation<'a> {
         MAX_PIECES
     }
 
-    /// Takes away what slip there is.
+    /// Removes the remaining slip.
     fn stop(&mut self) {
         let before = self.chatter.angular_speed;
         let platform_speed = before - self.slip;
@@ -164,21 +164,21 @@ impl<'a> Rotation<'a> {
         self.slip = 0.0;
     }
 
-    /// The last launch that comes before the impact which does not hold a disk that follows the platform.
+    /// The last launch before the impact that fails to hold a disk that follows the platform.
     fn first_slip(&self) -> Option<u64> {
         let share = self.series.share(Some(self.impacts));
         [1.0, -1.0]
             .into_iter()
             .filter_map(|sign| {
                 let spare = self.spare(sign);
-                // The spare impulse of an impact per r^n, which does not vanish with it.
+                // The margin in the impulse per r^n, which does not vanish with r^n.
                 let spare = self.series.per_flight(&spare).per_share();
                 self.series.first_negative(self.impacts, spare.at(share), &spare)
             })
             .min()
     }
 
-    /// The last impact with which a disk that slides goes on sliding.
+    /// The last impact after which a sliding disk is still sliding.
     fn slip_end(&self) -> Option<u64> {
         let sign = self.slip.signum();
         self.series
@@ -186,7 +186,8 @@ impl<'a> Rotation<'a> {
             .map(|impact| impact.saturating_sub(1).max(self.impacts))
     }
 
-    /// By how much friction can reduce a slip with this `sign`, less the increase of the slip, until the end.
+    /// Friction's margin: the reduction of a slip with this `sign` that friction can achieve, minus the
+    /// increase of the slip, until the end.
     fn spare(&self, sign: f64) -> PowerSeries {
         self.impulses.scaled(self.system.friction()).plus(&self.gain.scaled(-sign))
     }
@@ -195,7 +196,7 @@ impl<'a> Rotation<'a> {
         self.platform_start - self.series.range(0, impacts).change(&self.platform)
     }
 
-    /// The next impact by itself, as [`Chatter::advance`] does it.
+    /// The next impact by itself, as in [`Chatter::advance`].
     fn strike(&mut self) {
         let range = self.series.range(self.impacts, Some(self.impacts + 1));
         let duration = range.change(self.series.remaining());
@@ -217,7 +218,7 @@ impl<'a> Rotation<'a> {
         self.impacts += 1;
     }
 
-    /// Slides on to impact `until`.
+    /// Continues sliding to impact `until`.
     fn slide(&mut self, until: Option<u64>) {
         let (load, grip) = (self.system.load(), self.slip.signum() * self.system.friction());
         let range = self.series.range(self.impacts, until);
@@ -243,7 +244,7 @@ impl<'a> Rotation<'a> {
         self.chatter.angular_impulse += rotary;
         self.chatter.angular_speed = change.speed;
         let slip = self.slip + (range.change(&self.gain) + rotary);
-        // At the accumulation point a slip that has not ended before it may do so.
+        // A slip that has not ended before may end at the accumulation point.
         self.chatter.capped = until.is_none() && slip * self.slip <= 0.0;
         self.slip = if self.chatter.capped { 0.0 } else { slip };
         self.impacts = until.unwrap_or(self.impacts);
@@ -260,7 +261,7 @@ impl<'a> Rotation<'a> {
         let slowed = range.moment(&self.flight_gain, &self.platform);
         let work = [rotary * before, slowed];
         let loss = 0.5 * range.product(&self.flight_gain, &self.flight_gain);
-        // The disk keeps in a flight the platform's speed at the launch.
+        // During a flight the disk keeps the platform's speed at the launch.
         let lag = range.moment(&self.flight, &self.platform)
             - range.product(&self.flight, &self.series.per_flight(&self.platform));
         let change = RotaryChange {

@@ -1,4 +1,4 @@
-//! States at equal distances in time, all that is kept of a long motion.
+//! States at equidistant times, instead of a full record, of a long motion.
 
 use std::cmp::Ordering;
 
@@ -11,25 +11,25 @@ use crate::motion::engine::{Engine, SineGround};
 use crate::motion::phase_time::PhaseSpan;
 use crate::motion::state::Snapshot;
 
-/// Most states that [`Engine::sample`] gives: each takes some 100 bytes.
+/// Most states that [`Engine::sample`] returns; each takes about 100 bytes.
 pub const MAX_SAMPLES: usize = 1 << 24;
 
-/// Most periods of the platform that [`Engine::sample`] follows a motion for: with an impact in each
-/// they take many minutes, and no instant is rounded by more than a millionth of a period.
+/// Most periods of the platform for which [`Engine::sample`] follows a motion. With an impact in each they
+/// take many minutes, and no instant is rounded by more than a millionth of a period.
 pub const MAX_SAMPLED_PERIODS: u64 = 1 << 30;
 
-/// The work of an event, in flights: one that ends a chatter takes longer than a flight.
+/// The cost of an event, in flights: one that ends a chatter takes longer than a flight.
 const FLIGHTS_OF_EVENT: u64 = 4;
 
 impl<L: RestitutionLaw> Engine<SineGround<L>> {
-    /// Disk and platform at `count` instants at equal distances, from now to `span` later, both included.
-    /// Events are not kept, so that a long motion takes no more memory than a short one. Afterwards the
-    /// engine stands just after the first event at or after the last instant.
+    /// Disk and platform at `count` equidistant instants, from now to `span` later inclusive. Events are not
+    /// stored, so a long motion takes no more memory than a short one. Afterwards the engine stands just
+    /// after the first event at or after the last instant.
     ///
-    /// At an event, the state is that just after it, as in [`Trajectory::at`](crate::Trajectory::at). A
+    /// At an event, the state is the one just after it, as in [`Trajectory::at`](crate::Trajectory::at). A
     /// disk that rests for ever is followed as well.
     ///
-    /// The items of `observer` are the periods of the platform.
+    /// The observer's items are the periods of the platform.
     ///
     /// ```
     /// use bouncing_disk::core::{ChatterPolicy, Phase, Unobserved};
@@ -45,8 +45,8 @@ impl<L: RestitutionLaw> Engine<SineGround<L>> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for fewer than two instants, or for more than [`MAX_SAMPLED_PERIODS`]; an error
-    /// of the core for more than [`MAX_SAMPLES`] instants or than there is memory for; those of
+    /// [`Error::OutOfRange`] for fewer than two instants, or more than [`MAX_SAMPLED_PERIODS`]; an error of
+    /// the core for more than [`MAX_SAMPLES`] instants or insufficient memory; the errors of
     /// [`Self::advance`].
     pub fn sample(
         &mut self,
@@ -65,7 +65,7 @@ impl<L: RestitutionLaw> Engine<SineGround<L>> {
                 return end;
             }
             let time = start.after(PhaseSpan::from_radians(total * (index as f64 / last as f64)));
-            // Rounding puts none behind the end.
+            // Rounding must not put an instant past the end.
             if time.order(&end) == Ordering::Greater { end } else { time }
         };
         let watch = Watch::begin(observer, 0, span.periods)?;
@@ -73,13 +73,13 @@ impl<L: RestitutionLaw> Engine<SineGround<L>> {
         loop {
             let (segment, record) = self.advance_towards(&end)?;
             let until = record.map(|record| record.time);
-            // Up to the event, and all that are left where nothing more happens.
+            // Up to the event, or all remaining instants if no further event follows.
             while states.len() < count {
                 let time = instant(states.len());
                 if until.is_some_and(|until| time.order(&until) != Ordering::Less) {
                     break;
                 }
-                // The instant itself: the sum of the segment's start and what follows it is rounded.
+                // Use the instant itself, as the sum of the segment's start and the offset is rounded.
                 let state = segment.state_after(&self.system, time.since(&segment.start));
                 states.push(Snapshot { time, ..state });
             }
@@ -167,7 +167,7 @@ mod tests {
     }
 
     proptest! {
-        /// What a recorded motion says of the same instants, to the last bit.
+        /// The states equal those of a recorded motion at the same instants, to the last bit.
         #[test]
         fn states_are_those_of_the_trajectory(
             (system, start, policy) in testing::motion(), count in 2..40_usize, span in 0..6_u64,

@@ -1,7 +1,7 @@
 //! The ground of Eq. (1), a platform that moves as a sine.
 //!
-//! The vertical half of Eq. (2) comes entirely from the core's [`Orbit`] (its `flight/gap.rs` has the
-//! parabola of a flight). The rotary half (`rotary_change.rs`) and the changes between sticking and sliding
+//! The vertical half of Eq. (2) comes entirely from the core's [`Orbit`] (for the parabola of a flight see
+//! its `flight/gap.rs`). The rotary half (`rotary_change.rs`) and the changes between sticking and sliding
 //! (`contact_motion.rs`) are closed forms.
 
 use bouncing_disk_core::map::{Constant, RestitutionLaw};
@@ -42,9 +42,9 @@ impl<S: TryInto<DimensionlessSystem, Error: Into<Error>>> OnGround for S {
 }
 
 impl<L: RestitutionLaw> Engine<SineGround<L>> {
-    /// An engine for a system whose restitution follows a `law`; the constant one of the system is ignored. A
-    /// chatter ends by a `cut`, whose error (rad) is that of the [`Event::Attachment`]: infinite where no
-    /// bound is known.
+    /// An engine for a system whose restitution follows a `law`; the system's constant one is ignored. A
+    /// chatter ends by a `cut`, whose error (rad) is reported in [`Event::Attachment`]; infinite if no bound
+    /// is known.
     ///
     /// The law takes dimensionless speeds, in g/omega: divide a speed in m/s by
     /// [`Scales::velocity`](crate::parameters::Scales::velocity).
@@ -66,7 +66,7 @@ impl<L: RestitutionLaw> Engine<SineGround<L>> {
     /// ```
     ///
     /// # Errors
-    /// Those of [`Engine::new`].
+    /// The errors of [`Engine::new`].
     pub fn with_law(
         system: impl TryInto<DimensionlessSystem, Error: Into<Error>>,
         law: L,
@@ -113,16 +113,15 @@ impl<L: RestitutionLaw> Engine<SineGround<L>> {
         Ok(engine)
     }
 
-    /// Disk and platform `span` after the last event, on the assumption that the next event does not come
-    /// before.
+    /// Disk and platform `span` after the last event, assuming that no event comes before.
     #[must_use]
     pub fn state_after(&self, span: PhaseSpan) -> Snapshot {
         self.segment(None).state_after(&self.system, span)
     }
 
-    /// The energy balance from the last event, or the start, to `span` later, on the assumption that the next
-    /// event does not come before: that of an unfinished or endless segment. Added to the ledgers of the
-    /// events before, it gives the balance up to any instant.
+    /// The energy balance of an unfinished or endless segment: from the last event, or the start, to `span`
+    /// later, assuming that no event comes before. Added to the ledgers of the previous events, it gives the
+    /// balance up to any instant.
     ///
     /// ```
     /// use bouncing_disk::core::{ChatterPolicy, Phase};
@@ -151,7 +150,7 @@ impl<L: RestitutionLaw> Engine<SineGround<L>> {
     }
 
     /// Gives a flight that starts now ([`Self::launches`]) another relative speed >= 0, in units of g/omega;
-    /// does nothing at any other time. No ledger counts the energy of this kick.
+    /// does nothing at any other time. No ledger includes the energy of this kick.
     ///
     /// # Errors
     /// An error of the core for a negative or non-finite speed.
@@ -166,8 +165,7 @@ impl<L: RestitutionLaw> Engine<SineGround<L>> {
     }
 
     /// Comes to rest after an impact at `now` which left the disk in `state`, with the chatter and the
-    /// attachment that ends it: for those who compute the vertical motion elsewhere. The angle is counted from
-    /// that of `state`.
+    /// attachment that ends it, for a vertical motion computed elsewhere. The angle is counted from `state`.
     pub(crate) fn rest_after(
         &mut self,
         now: PhaseTime,
@@ -181,8 +179,8 @@ impl<L: RestitutionLaw> Engine<SineGround<L>> {
         self.attach(rest, chatter)
     }
 
-    /// The next event with the segment that it ends; without one, the segment that lasts until `end`: for
-    /// ever, or by a slip whose own end is further off than its phase can be resolved.
+    /// The next event with the segment that it ends. Without a next event, the segment that lasts until
+    /// `end`: for ever, or by a slip whose end is too far away for its phase to be resolved.
     pub(crate) fn advance_towards(
         &mut self,
         end: &PhaseTime,
@@ -244,7 +242,7 @@ impl<L: RestitutionLaw> Engine<SineGround<L>> {
         record
     }
 
-    /// The record of a step of contact, and the energy of it.
+    /// The record of a step of contact, with its energy.
     fn record_contact(&mut self, slip: Option<SlipDirection>, step: &ContactStep) -> EventRecord {
         let ContactStep { time, span, change, .. } = *step;
         let (system, phases) = (&self.system, (self.now.phase, time.phase));
@@ -263,7 +261,7 @@ impl<L: RestitutionLaw> Engine<SineGround<L>> {
             (Some(_), Some(Some(direction))) => Event::SlipReversal(direction),
         };
         if matches!(event, Event::SlipToStick | Event::SlipReversal(_)) {
-            // What rounding has left between the disk's speed at the end of a slip and the platform's.
+            // The rounding difference between the disk's speed at the end of a slip and the platform's.
             let slip = change.speed - step.speed;
             record_friction_impulse(&mut ledger, -slip, slip, step.speed);
             ledger.record_rotary_change(change.speed, step.speed);
@@ -327,13 +325,12 @@ impl<L: RestitutionLaw> Ground for SineGround<L> {
     }
 }
 
-/// A chatter that is summed lasts; one that is cut leaves a speed.
+/// Whether the chatter is cut: one that is summed has a duration, one that is cut leaves a speed.
 fn is_cut(rest: &Attachment) -> bool {
     rest.accumulation.duration <= 0.0 && rest.last_speed > 0.0
 }
 
-/// The launch speed of the chatter that is summed: the paper's cut takes the last one away by an impulse of
-/// its own.
+/// The launch speed of a summed chatter; the paper's cut removes the last one by a separate impulse.
 pub(crate) fn chatter_speed(rest: &Attachment) -> f64 {
     if is_cut(rest) { 0.0 } else { rest.last_speed }
 }
