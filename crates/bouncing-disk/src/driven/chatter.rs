@@ -1,18 +1,18 @@
-//! The end of a chatter whose duration is known: the impacts that are left, one by one, each flight by the
-//! pull and its derivative at the start.
+//! The end of a chatter of known duration: the remaining impacts one by one, with each flight computed from
+//! the pull and its derivative at its start.
 //!
-//! A chatter is completed where the first terms of its sum have an error below 1e-14 rad, which is where it
-//! lasts for some 1e-7 rad; what the neglected terms change in a flight is of the same order.
+//! A chatter is completed once the first terms of its sum have an error below 1e-14 rad, that is, once it
+//! lasts about 1e-7 rad; the neglected terms change a flight by the same order.
 
 use bouncing_disk_core::Phase;
 
 use super::DrivenSystem;
 use crate::motion::chatter::Chatter;
 
-/// Impacts that are followed; what is left of a chatter then counts as one.
+/// Most impacts that are followed; the rest of a chatter then counts as one.
 const MOST_IMPACTS: u64 = 100_000;
 
-/// A launch that is slower than this share of the first one belongs to the last impact.
+/// A launch slower than this share of the first one belongs to the last impact.
 const LEAST_SHARE: f64 = 1.0e-18;
 
 impl DrivenSystem {
@@ -39,7 +39,7 @@ impl DrivenSystem {
         if launch <= 0.0 {
             return chatter;
         }
-        // All the impacts that are left make one, which ends at rest.
+        // All remaining impacts are combined into one, which ends at rest.
         let (time, end) = (chatter.time, self.height.at(at + duration));
         let left = duration - time;
         let lifted = (end.velocity - start.velocity) - time * (start.acceleration + 0.5 * time * start.jerk);

@@ -1,4 +1,5 @@
-//! A disk on a driven platform: how long friction holds it, when a slip ends, and what a slide does.
+//! A disk on a driven platform: how long friction holds it, when a slip ends, and the motion and work of a
+//! slide.
 //!
 //! In direction d (+1: the disk is ahead) the slip speed U = d (q - beta') grows at the rate
 //!
@@ -6,8 +7,8 @@
 //! U' = -mu (1 + s'') - d (l + beta''),   U = U_0 - (mu + d l) t - mu (s' - s'_0) - d (beta' - beta'_0)
 //! ```
 //!
-//! A disk sticks while the rate is positive in neither direction. Both functions are polynomials and sines
-//! between two joints, so that the core's first root misses no event.
+//! A disk sticks while the rate is positive in neither direction. Between two joints both functions are
+//! polynomials and sines, so the core's first-root search misses no event.
 
 use std::f64::consts::TAU;
 
@@ -23,14 +24,14 @@ use crate::motion::gauss::EIGHT_POINTS;
 use crate::motion::rotary_change::RotaryChange;
 use crate::motion::state::{DiskState, SlipDirection};
 
-/// Rounding of a rate, in units of its terms.
+/// Rounding of a rate, relative to its terms.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// Radians of the fastest change after which integrals are taken in closed form: before, the sines of which
-/// force and slip are the sum are much larger than these, and so is their rounding.
+/// Radians of the fastest change above which integrals are taken in closed form. Below it, the sines that
+/// make up force and slip are much larger than their sums, and so is their rounding.
 const LONG: f64 = 4.0;
 
-/// The integrals of a slide that its energy needs: of N beta' and of N U, and the sizes of what was added.
+/// The integrals that the energy of a slide needs: of N beta' and of N U, with the magnitudes of their terms.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct SlideWork {
     pub(super) carried: f64,
@@ -38,7 +39,7 @@ pub(super) struct SlideWork {
     pub(super) size: f64,
 }
 
-/// What presses the disk on: a platform that it lies on, or a contact that takes time, so long after its
+/// The support of the disk: a platform on which it lies, or a compliant contact at a given time after its
 /// start.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Ride<'a> {
@@ -61,7 +62,7 @@ impl Ride<'_> {
         }
     }
 
-    /// Velocity (order 1) or acceleration (order 2) from `at` on, but for a constant in the velocity.
+    /// Velocity (order 1) or acceleration (order 2) from `at` on, up to a constant in the velocity.
     fn derivative(&self, order: u32, at: f64) -> QuasiPolynomial {
         match self {
             Self::Platform(drive) => drive.derivative(order, at),
@@ -96,7 +97,7 @@ impl Ride<'_> {
     }
 }
 
-/// A disk in contact: the system, and what presses it on.
+/// A disk in contact: the system and the support.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Touching<'a> {
     pub(super) system: &'a DrivenSystem,
@@ -135,20 +136,20 @@ impl Touching<'_> {
         self.system.angle.bounds().speed == 0.0 && self.system.load == 0.0
     }
 
-    /// How long friction holds a disk at `at`, if it gives way within `limit`, and in which direction it then
-    /// slips.
+    /// The time for which friction holds a disk at `at` and the direction in which it then slips, if friction
+    /// gives way within `limit`.
     pub(super) fn stick_end(&self, at: f64, limit: f64) -> Result<Option<(f64, SlipDirection)>, Error> {
         if self.is_unloaded() {
             return Ok(None);
         }
-        // What does not happen in a period never does.
+        // An event that does not happen within a period never does.
         let limit = if self.repeats() { limit.min(TAU) } else { limit };
         let mut first: Option<(f64, SlipDirection)> = None;
         for direction in [SlipDirection::Forward, SlipDirection::Backward] {
             let limit = first.map_or(limit, |(after, _)| after);
             let found = self.first_fall(at, limit, |here, _| {
                 let ([rate, change], [doubt, change_doubt]) = self.growth(direction, here);
-                // A hold that is rounding at its start has ended, or begins here.
+                // A hold that is pure rounding at its start has ended, or begins here.
                 let spare = match rate.abs() <= doubt {
                     true if change < -change_doubt => 0.0,
                     true if change <= change_doubt => doubt,
@@ -168,10 +169,10 @@ impl Touching<'_> {
         Ok(first)
     }
 
-    /// When the slip in `direction` that has `speed` >= 0 at `at` ends, if it does within `limit`.
+    /// The time at which the slip in `direction`, with `speed` >= 0 at `at`, ends, if within `limit`.
     ///
     /// # Errors
-    /// [`Error::SlipTooLong`] if its end is further off than it can be resolved.
+    /// [`Error::SlipTooLong`] if the end is too far away to be resolved.
     pub(super) fn slip_end(
         &self,
         direction: SlipDirection,
@@ -187,7 +188,7 @@ impl Touching<'_> {
         if window >= limit || loss <= 0.0 {
             return Ok(None);
         }
-        // Each period takes the loss away: the first one in which the slip ends, by bisection.
+        // Each period reduces the slip by the loss; bisection finds the first period in which it ends.
         let most = MAX_FLIGHT_DURATION / TAU + 2.0;
         let (mut lasts, mut ends) = (0.0, ceiling((speed / loss).min(most)).max(1.0));
         while ends - lasts > 1.0 {
@@ -199,7 +200,7 @@ impl Touching<'_> {
                 lasts = middle;
             }
         }
-        // Where nothing is left at its start, the slip ends in the period before, at its very end.
+        // If no slip is left at the start of a period, it ended at the very end of the one before.
         let left = speed - ends * loss;
         let within = if left > 0.0 { self.slip_end_within(direction, at, left, TAU)? } else { Some(0.0) };
         let duration = ends * TAU + within.unwrap_or(0.0);
@@ -231,11 +232,11 @@ impl Touching<'_> {
         })
     }
 
-    /// The slip speed from `here` on, with this value there and a rate known to `doubt`.
+    /// The slip speed from `here` on, with this initial value and a rate known to `doubt`.
     fn slip_from(&self, direction: SlipDirection, here: f64, value: f64, doubt: f64) -> QuasiPolynomial {
         let ([rate, _], _) = self.growth(direction, here);
         let (value, error) = if value > 0.0 { (value, ROUNDING * value) } else { (0.0, 0.0) };
-        // A slip that begins does not end by a rounding.
+        // Rounding must not end a slip that begins here.
         let rate = if value == 0.0 && rate.abs() <= doubt { 0.0 } else { rate };
         (self.pull_on(1, direction, here) * -1.0).starting_with([value, rate], [error, doubt])
     }
@@ -246,7 +247,7 @@ impl Touching<'_> {
             + self.system.angle.derivative(order, here) * direction.sign()
     }
 
-    /// The slip speed when a time has passed, from the `last` place, the time passed there, and the speed.
+    /// The slip speed after a time, from the `last` position, the time passed by then, and the speed there.
     fn carried(&self, direction: SlipDirection, last: (f64, f64, f64), passed: f64) -> f64 {
         let (at, then, speed) = last;
         let span = passed - then;
@@ -261,8 +262,8 @@ impl Touching<'_> {
                 + d * turned)
     }
 
-    /// The way from `at` over `span` from joint to joint of height or angle: the start of each stretch, the
-    /// time passed until then, and its length.
+    /// The interval of length `span` from `at`, divided at the joints of height and angle: for each stretch
+    /// its start, the time passed before it, and its length.
     fn stretches(&self, at: f64, span: f64) -> impl Iterator<Item = (f64, f64, f64)> {
         let mut next = Some((at, 0.0));
         std::iter::from_fn(move || {
@@ -275,8 +276,8 @@ impl Touching<'_> {
         })
     }
 
-    /// The first time at which a function falls through zero, joint by joint; `of` gives it from a time on
-    /// (and the time passed until then), and nothing where it has fallen already.
+    /// The first time at which a function falls through zero, searched joint by joint. `of` returns the
+    /// function from a time on (given also the time passed before it), or `None` if it has already fallen.
     fn first_fall(
         &self,
         at: f64,
@@ -290,7 +291,7 @@ impl Touching<'_> {
                 match function.first_root(from, step)? {
                     FirstRoot::Root(root) => return Ok(Some((passed + root.at).min(limit))),
                     FirstRoot::None { .. } => break,
-                    // A touch that rounding hides: the value decides.
+                    // A touch hidden by rounding: the sign of the value decides.
                     FirstRoot::Undecided { at, value, .. } if value < 0.0 => return Ok(Some(passed + at)),
                     FirstRoot::Undecided { until, .. } => from = until,
                 }
@@ -299,7 +300,7 @@ impl Touching<'_> {
         Ok(None)
     }
 
-    /// A slide from `at` on for `span` in `direction`, of a disk with angular `speed`.
+    /// A slide of length `span` from `at` in `direction`, for a disk with angular `speed`.
     pub(super) fn slide(&self, direction: SlipDirection, speed: f64, at: f64, span: f64) -> RotaryChange {
         let (velocity, lift) = self.ride.change(at, span);
         let (grip, load) = (direction.sign() * self.system.friction, self.system.load);
@@ -309,13 +310,14 @@ impl Touching<'_> {
         }
     }
 
-    /// The integrals of a slide that starts with this slip `speed` at `at` and lasts for `span`.
+    /// The integrals of a slide of length `span` that starts with this slip `speed` at `at`.
     pub(super) fn slide_work(&self, direction: SlipDirection, at: f64, speed: f64, span: f64) -> SlideWork {
         let periods = if self.repeats() { whole(span / TAU) } else { 0.0 };
         let mut work = SlideWork::default();
         if periods > 0.0 {
             let one = self.slide_work_within(direction, at, speed, TAU);
-            // The slip of each period is that of the one before less the loss; the force of a period is 2 pi.
+            // The slip in each period is that of the previous period minus the loss; the impulse of the force
+            // over a period is 2 pi.
             let loss = TAU * (self.system.friction + direction.sign() * self.system.load);
             work.carried = periods * one.carried;
             work.slipped = periods * one.slipped - TAU * loss * 0.5 * periods * (periods - 1.0);
@@ -337,7 +339,7 @@ impl Touching<'_> {
         let (mut last, mut work) = ((at, 0.0, speed), SlideWork::default());
         let stretches = self.stretches(at, span).take_while(|&(_, passed, _)| passed < span);
         for (here, passed, stretch) in stretches {
-            // A rule of eight points is exact to rounding over one radian of the highest harmonic.
+            // The eight-point rule is exact to rounding over one radian of the highest harmonic.
             let panels = whole(stretch * number) + 1.0;
             let value = self.carried(direction, last, passed);
             last = (here, passed, value);
@@ -357,7 +359,7 @@ impl Touching<'_> {
         work
     }
 
-    /// [`Self::slide_work`] in a contact that takes time, in closed form.
+    /// [`Self::slide_work`] in a compliant contact, in closed form.
     fn pressed_slide_work(
         &self,
         direction: SlipDirection,
@@ -375,7 +377,7 @@ impl Touching<'_> {
         let impulse = gained.at(span, span).value + span;
         let ahead = speed + d * self.system.angle.velocity(at);
         let slip = (gained * -mu + platform.clone() * -d).plus_line(ahead, -(mu + d * load));
-        // The impulse is a difference of the platform's speeds.
+        // The impulse is a difference of speeds of the platform.
         let carried = mu * (impulse.abs() + self.system.height.bounds().speed);
         let size = self.system.angle.bounds().speed + speed + carried + load.abs() * span;
         Some(SlideWork {
@@ -385,8 +387,8 @@ impl Touching<'_> {
         })
     }
 
-    /// In a contact that takes time: the work of the platform over the next `span`, what the damper takes,
-    /// and the gap at the start and at the end.
+    /// For a compliant contact: the work of the platform over the next `span`, the loss in the damper, and
+    /// the gap at the start and at the end.
     pub(super) fn normal_work(&self, start: &DiskState, at: f64, span: f64) -> (f64, f64, [f64; 2]) {
         let Some(compliant) = &self.system.compliance else { return (0.0, 0.0, [0.0; 2]) };
         let drive = compliant.drive();
@@ -407,7 +409,7 @@ impl Touching<'_> {
         if let Ride::Pressed(pressed, _) = self.ride
             && pressed.spring_state() == SpringState::Loading
         {
-            // What the spring takes while it loads and does not give back.
+            // Energy that the spring absorbs in loading and does not return.
             let kept = compliant.compliance().stiffness() - compliant.compliance().unloading_stiffness();
             lost += 0.5 * kept * (end - gap) * (end + gap);
         }
@@ -443,8 +445,7 @@ impl Touching<'_> {
     }
 }
 
-/// Calls `add` with each node, and its weight, of the rule of eight points in each of the equal panels of a
-/// span.
+/// Calls `add` with each node and weight of the eight-point rule in each of the equal panels of a span.
 fn at_nodes(span: f64, panels: f64, mut add: impl FnMut(f64, f64)) {
     let half = 0.5 * span / panels;
     let mut panel = 0.0;
@@ -464,7 +465,7 @@ fn whole(number: f64) -> f64 {
     if number < 9.0e15 { (number as u64) as f64 } else { number }
 }
 
-/// The next whole number from there on, of a number >= 0.
+/// The smallest whole number that is not less than a number >= 0.
 fn ceiling(number: f64) -> f64 {
     let floor = whole(number);
     if floor < number { floor + 1.0 } else { floor }

@@ -1,4 +1,4 @@
-//! Engines on a driven platform: how they start, how they go on from a state, and the motion between two
+//! Engines on a driven platform: their start, their continuation from a state, and the motion between two
 //! events.
 
 use std::f64::consts::TAU;
@@ -22,8 +22,8 @@ use crate::motion::rotary_change::RotaryChange;
 use crate::motion::state::{DiskState, LongSum, Mode, SlipDirection};
 use crate::motion::stator_ledger::StatorLedger;
 
-/// A height or velocity of a resumed disk that differs from the platform's by this share is the platform's:
-/// the change of units and the evaluation of the drive leave some roundings each.
+/// A resumed disk whose height or velocity agrees with the platform's to this share takes the platform's
+/// value: the change of units and the evaluation of the drive each leave a few rounding errors.
 const SAME_PLACE: f64 = 1.0e-12;
 
 impl OnGround for DrivenSystem {
@@ -31,7 +31,7 @@ impl OnGround for DrivenSystem {
 
     fn start(self, start: DrivenStart, policy: ChatterPolicy) -> Result<DrivenEngine, Error> {
         let (phase, speed, parted) = start.parts();
-        // A phase that was carried through an orbit may have a sine of its own.
+        // A phase carried through an orbit may have its own stored sine.
         let phase = phase_at(phase.angle());
         let mut engine = DrivenEngine::begin_at(self, DrivenGround::new(policy), phase, speed)?;
         match parted {
@@ -47,9 +47,10 @@ impl OnGround for DrivenSystem {
 }
 
 impl DrivenEngine {
-    /// An engine that goes on with a motion: the disk in `state`, as [`Self::state_after`] gives it. In
-    /// contact its height and axial velocity are those of the platform, whatever `state` has. How many short
-    /// flights a cut has counted, and a chatter that is being summed, are not in a state.
+    /// An engine that continues a motion with the disk in `state`, as returned by [`Self::state_after`]. In
+    /// contact its height and axial velocity are set to the platform's, whatever `state` contains. A state
+    /// includes neither the number of short flights that a cut has counted nor a chatter that is being
+    /// summed.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a height below the platform by more than rounding, and for numbers that are
@@ -115,8 +116,8 @@ impl DrivenEngine {
         Ok(())
     }
 
-    /// A disk that is put on the platform; one that moves with it within rounding keeps the `mode` it has
-    /// had.
+    /// A disk placed on the platform; if it moves with the platform within rounding, it keeps its previous
+    /// `mode`.
     pub(super) fn put_down(&mut self, mode: Option<Mode>) -> Result<(), Error> {
         let at = self.at();
         if let Some(compliant) = &self.system.compliance {
@@ -171,7 +172,7 @@ impl DrivenEngine {
         Ok(())
     }
 
-    /// A compliant contact from this state on, of a disk with this angular speed.
+    /// A compliant contact from this state on, for a disk with this angular speed.
     pub(super) fn pressed_from(
         &self,
         from: RelativeState,
@@ -194,7 +195,7 @@ impl DrivenEngine {
         Ok(Lying { slip, end: end.map(|ahead| DrivenEnd { ahead, then: Then::Leaves }) })
     }
 
-    /// What presses the disk on, `after` the last event.
+    /// The support of the disk, `after` the last event.
     pub(super) fn touching(&self, after: f64) -> Touching<'_> {
         let ride = match &self.ground.pressed {
             Some(pressed) => Ride::Pressed(pressed, after),
@@ -203,14 +204,14 @@ impl DrivenEngine {
         Touching { system: &self.system, ride }
     }
 
-    /// How the platform moves the disk that lies on it.
+    /// The drive of the platform on which the disk lies.
     fn ridden(&self) -> &Drive {
         self.ground.settled.as_ref().unwrap_or(&self.system.height)
     }
 
-    /// When, and the disk, `span` radians after the last event, if no event comes before. A chatter that is
-    /// being summed counts as rest. A negative span and NaN count as zero, a longer one than
-    /// [`MAX_FLIGHT_DURATION`](bouncing_disk_core::flight::MAX_FLIGHT_DURATION) as that.
+    /// The time and the disk `span` radians after the last event, if no event comes before. A chatter that is
+    /// being summed counts as rest. A negative span and NaN count as zero, and a span above
+    /// [`MAX_FLIGHT_DURATION`](bouncing_disk_core::flight::MAX_FLIGHT_DURATION) is reduced to it.
     #[must_use]
     pub fn state_after(&self, span: f64) -> (PhaseTime, DiskState) {
         let span = legal_span(span);
@@ -236,7 +237,7 @@ impl DrivenEngine {
         }
     }
 
-    /// Goes on from the release of a contact that takes time, or from any other flight, with the angle at
+    /// Continues from the release of a compliant contact, or from any other flight, with the angle reset to
     /// zero.
     pub(crate) fn fly_from(&mut self, time: PhaseTime, [gap, velocity]: [f64; 2], angular_speed: f64) {
         self.now = PhaseTime { phase: phase_at(time.phase.angle()), ..time };
@@ -252,13 +253,14 @@ impl DrivenEngine {
         self.now.phase.angle()
     }
 
-    /// The way to an event `duration` later, at which the drive is at `at` for the next time or after whole
+    /// The step to an event `duration` later, at which the drive is at `at`, for the next time or after whole
     /// periods.
     pub(super) fn step(&self, duration: f64, at: f64) -> Step {
         self.step_over(duration, at, ((self.at() + duration - at) / TAU + 0.5) as u64)
     }
 
-    /// The way to an event `duration` later, at which the drive is at `at` and has passed zero `turns` times.
+    /// The step to an event `duration` later, at which the drive is at `at` and has passed zero `turns`
+    /// times.
     pub(super) fn step_over(&self, duration: f64, at: f64, turns: u64) -> Step {
         let time = PhaseTime { periods: self.now.periods.saturating_add(turns), phase: phase_at(at) };
         Step { time, span: PhaseSpan::from_radians(duration), duration }
@@ -282,14 +284,14 @@ impl DrivenEngine {
         }
     }
 
-    /// The next `span` without an event, to the time `at` of the drive.
+    /// The motion over the next `span` without an event, to the time `at` of the drive.
     pub(super) fn passed(&self, span: f64, at: f64) -> Passed {
         let change = self.change(span, at);
         let before = self.drifted(span, at, change);
         Passed { change, ledger: self.ledger_of(span, at, &before, change), before }
     }
 
-    /// The disk then, without its angle.
+    /// The disk at that time, without its angle.
     fn drifted(&self, span: f64, at: f64, change: RotaryChange) -> DiskState {
         let (state, height) = (&self.state, &self.system.height);
         let (height, axial_velocity) = match (state.mode, self.stage) {
@@ -318,7 +320,7 @@ impl DrivenEngine {
         DiskState { mode: state.mode, height, axial_velocity, angle: 0.0, angular_speed: change.speed }
     }
 
-    /// The energy balance of the next `span` without an event, to the state `end`.
+    /// The energy balance of the next `span` without an event, up to the state `end`.
     fn ledger_of(&self, span: f64, at: f64, end: &DiskState, change: RotaryChange) -> EnergyLedger {
         let mut ledger = EnergyLedger::default();
         let start = self.state;
@@ -348,12 +350,12 @@ impl DrivenEngine {
                     mu * work.slipped,
                     mu * work.size,
                 );
-                // The angle is a small difference of what friction and load would give alone.
+                // The angle is a small difference of the angles that friction and load would cause alone.
                 let size = span * (start.angular_speed.abs() + (self.system.load.abs() + mu) * span);
                 ledger.record_load(0.0, self.system.load.abs() * size);
             }
         } else {
-            // The friction torque is l + beta'': integrated times beta'.
+            // The friction torque is l + beta''; its product with beta' is integrated.
             let (from, to) = (start.angular_speed, change.speed);
             let work = self.system.load * change.angle + 0.5 * (to - from) * (to + from);
             ledger.record_friction(work, 0.0, 0.5 * (to * to + from * from));
@@ -361,7 +363,7 @@ impl DrivenEngine {
         ledger
     }
 
-    /// The change of the spring's energy between two gaps, lost in the damper where no force acts.
+    /// The change of the spring's energy between two gaps, lost in the damper if no force acts.
     pub(super) fn record_spring(&self, ledger: &mut EnergyLedger, from: f64, to: f64, lost: bool) {
         let Some(compliant) = &self.system.compliance else { return };
         let energy = |gap| compliant.spring_energy(gap);

@@ -1,4 +1,5 @@
-//! The ground of a platform that moves in any way, with rigid or compliant contacts: its next event.
+//! The ground of a platform with any periodic motion and rigid or compliant contacts, which finds its next
+//! event.
 
 use bouncing_disk_core::chatter::ChatterDuration;
 use bouncing_disk_core::chatter::{AfterImpact, ShortFlightCount};
@@ -21,8 +22,8 @@ use crate::motion::phase_time::PhaseSpan;
 use crate::motion::rotary_change::RotaryChange;
 use crate::motion::state::{DiskState, Mode, PlatformState, SlipDirection};
 
-/// Events of friction that come this much before the end of a contact, relative to its time, are the end
-/// itself: both times are roots, each with an error of some roundings of the time.
+/// Friction events this close before the end of a contact, relative to its time, coincide with the end: both
+/// times are roots, each with an error of a few roundings of the time.
 pub(super) const JOINT: f64 = 16.0 * f64::EPSILON;
 
 /// A platform with any drives of height and angle.
@@ -32,24 +33,25 @@ pub struct DrivenGround {
     short_flights: ShortFlightCount,
     /// The compliant contact of a disk that lies on the platform.
     pub(super) pressed: Option<Pressed>,
-    /// The motion of a disk that never leaves a compliant contact.
+    /// The motion of a disk that never leaves a compliant contact again.
     pub(super) settled: Option<Drive>,
 }
 
 /// A flight over a drive.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum DrivenFlight {
-    /// From this far above the platform, with this velocity relative to it.
+    /// From this gap above the platform, with this velocity relative to it.
     Free { gap: f64, velocity: f64 },
-    /// From a contact that ends by a force that falls to zero.
+    /// From a contact whose force has fallen to zero.
     Separated,
-    /// Many short flights, from this launch speed to the rest.
+    /// Many short flights, from this launch speed to rest.
     Chatter { speed: f64, chatter: ChatterDuration },
-    /// Ended before it begins: a cut takes this launch speed, with this bound on the error of the phase.
+    /// A flight that ends before it begins: a cut removes this launch speed, with this bound on the error of
+    /// the phase.
     Cut { speed: f64, error: f64 },
 }
 
-/// The end of a contact with a drive, and the continuation.
+/// The end of a contact on a drive, and the continuation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DrivenEnd {
     pub(super) ahead: TimeAhead,
@@ -63,14 +65,14 @@ pub(super) enum Then {
     Leaves,
     /// The transient of a compliant contact is over: the disk never leaves.
     Settles,
-    /// The spring of a compliant contact does this.
+    /// The spring of a compliant contact changes to this state.
     Turns(SpringState),
 }
 
 /// The motion of a disk on a driven platform, as a lazy sequence of [`EventRecord`]s.
 ///
-/// The sequence ends where nothing more can happen, and after an error. A disk that rests for ever on a
-/// platform that moves may stick and slide for ever.
+/// The sequence ends when no further event is possible, and after an error. A disk that rests for ever on a
+/// moving platform may alternate between sticking and sliding for ever.
 pub type DrivenEngine = Engine<DrivenGround>;
 
 impl DrivenGround {
@@ -112,7 +114,7 @@ impl Ground for DrivenGround {
             DrivenFlight::Chatter { speed, chatter } if chatter.duration <= limit => {
                 engine.complete(speed, chatter).map(Some)
             }
-            // What cannot be completed in time is followed impact by impact.
+            // A chatter that cannot be completed in time is followed impact by impact.
             DrivenFlight::Chatter { speed, .. } => engine.fly(0.0, speed, limit),
             DrivenFlight::Cut { speed, error } => engine.cut(speed, error).map(Some),
         }
@@ -136,7 +138,7 @@ impl Ground for DrivenGround {
             }
             None => touching.stick_end(at, to)?,
         };
-        // Where nothing pulls at the disk, friction gives way as the contact ends.
+        // If nothing pulls at the disk, friction gives way only as the contact ends.
         let change = change.filter(|(span, _)| span + JOINT * (at + span + 1.0) < ends);
         if let Some((span, direction)) = change {
             let to = engine.later(span);
@@ -182,7 +184,7 @@ impl DrivenEngine {
             return Ok(Some(self.hit_by(&here, velocity, f64::INFINITY, None)));
         }
         if gap <= 0.0 && velocity == 0.0 && self.system.height.holds(at) {
-            // At a joint a disk may fly at zero distance: it lies on the platform.
+            // At a joint a disk may be in flight at zero distance: then it lies on the platform.
             self.put_down(None)?;
             return self.next_within(limit);
         }
@@ -204,7 +206,7 @@ impl DrivenEngine {
         self.hit(to, Hit { velocity, restitution, next, lets_go }, passed)
     }
 
-    /// What follows an impact with relative `velocity` that ends a flight of this duration.
+    /// The stage after an impact with relative `velocity` that ends a flight of this duration.
     fn stage_after(&mut self, at: f64, velocity: f64, flight: f64) -> StageOn<DrivenGround> {
         let surface = (&self.system.height, self.system.restitution);
         let speed = rebound_velocity(self.system.restitution, velocity);
@@ -241,7 +243,7 @@ impl DrivenEngine {
         Ok(record)
     }
 
-    /// A cut takes the rebound `speed` away.
+    /// A cut removes the rebound `speed`.
     fn cut(&mut self, speed: f64, error: f64) -> Result<EventRecord, Error> {
         let (at, before) = (self.at(), self.state);
         let platform = self.system.height.at(at).velocity;
@@ -297,7 +299,7 @@ impl DrivenEngine {
                     let next = pressed.platform().press_on(branch, pressed.turned(span));
                     let after = self.pressing(&next, before);
                     record_jump(&mut passed.ledger, &before, &after);
-                    // Where the force drops, friction may not hold any more.
+                    // If the force drops, friction may no longer hold.
                     let touching = Touching { system: &self.system, ride: Ride::Pressed(&next, 0.0) };
                     let lying = lying_pressed(&next, slip.or_else(|| touching.onset(at, None)))?;
                     self.ground.pressed = Some(next);
@@ -328,8 +330,8 @@ impl DrivenEngine {
         Ok(self.moved(&to, Event::Separation, passed, before, Stage::Flight(next), [0.0; 2]))
     }
 
-    /// `state` with the height and velocity at which a contact begins: what the roundings of long contacts
-    /// leave of the distance to the platform does not add up.
+    /// `state` with the height and velocity at which a contact begins, so that the rounding of long contacts
+    /// does not accumulate in the distance to the platform.
     fn pressing(&self, pressed: &Pressed, state: DiskState) -> DiskState {
         let from = pressed.from();
         let platform = self.system.height.at(from.time);
@@ -379,7 +381,7 @@ impl DrivenEngine {
     }
 }
 
-/// A disk that presses on a compliant contact, and slides there in this direction or sticks.
+/// A disk in a compliant contact, sliding in this direction or sticking.
 pub(super) fn lying_pressed(
     pressed: &Pressed,
     slip: Option<SlipDirection>,

@@ -1,4 +1,4 @@
-//! Tosses by a hand that moves in any way (Secs. III and IV).
+//! Tosses by a hand with any periodic motion (Secs. III and IV).
 
 use bouncing_disk_core::{ChatterPolicy, Observer, Phase};
 use bouncing_disk_drives::DrivenMap;
@@ -14,18 +14,19 @@ use crate::toss::collisions::Collisions;
 use crate::toss::multiple::settle;
 use crate::toss::{InitialSpin, MultiTossSettings, TossOrbit, TossPerformance};
 
-/// Most events without a departure after which a disk counts as one that never leaves: without restitution it
+/// Number of events without a separation after which a disk counts as never leaving: without restitution it
 /// may be hit at each kink for ever.
 const MOST_CONTACT_EVENTS: usize = 10_000;
 
-/// The toss of a disk that lies on the hand at `phase`, until the hand falls away from it or a kink throws it; `None`
-/// is the hand's [lowest point](bouncing_disk_drives::Drive::lowest_phase), at which a toss starts in the paper. Where
-/// the hand moves at `phase`, it has given the disk its velocity: a disk that starts on a kink moves with the hand
-/// after the kink, and is not hit. The speed ratio is to the hand's largest rotary speed with this waveform.
+/// The toss of a disk that lies on the hand at `phase`, until the hand falls away from it or a kink throws
+/// it. If `phase` is `None`, it starts at the hand's [lowest
+/// point](bouncing_disk_drives::Drive::lowest_phase), as in the paper. A hand that moves at `phase` has
+/// already given the disk its velocity: a disk that starts on a kink moves with the hand after the kink, and
+/// is not hit. The speed ratio uses the hand's largest rotary speed with this waveform.
 ///
 /// # Errors
-/// [`Error::NeverLeaves`] if it stays on the hand; [`Error::OutOfRange`] for a phase at which the hand already
-/// falls away; those of [`DrivenSystem::new`].
+/// [`Error::NeverLeaves`] if the dough stays on the hand; [`Error::OutOfRange`] for a phase at which the hand
+/// already falls away; the errors of [`DrivenSystem::new`].
 pub fn single_toss(
     platform: &DrivenPlatform,
     disk: &Disk,
@@ -36,7 +37,7 @@ pub fn single_toss(
     let phase = phase.map_or_else(|| Phase::new(system.height().lowest_phase()), Ok)?;
     let peak_acceleration = system.height().bounds().acceleration;
     let sine = platform.platform();
-    // Of the sine omega Phi to the last bit.
+    // For the sine this is omega Phi to the last bit.
     let nominal = sine.twist_amplitude() / scales.angle;
     let share = if nominal > 0.0 { system.angle().peak_speed() / nominal } else { 0.0 };
     let peak = share * sine.peak_angular_speed();
@@ -69,11 +70,11 @@ pub fn single_toss(
     Err(Error::NeverLeaves { peak_acceleration })
 }
 
-/// [`multi_toss`](crate::toss::multi_toss) on a platform that moves in any way; kicks count as impacts.
+/// [`multi_toss`](crate::toss::multi_toss) on a platform with any periodic motion; kicks count as impacts.
 ///
 /// # Errors
-/// As [`multi_toss`](crate::toss::multi_toss); those of [`DrivenEngine::new`] and [`DrivenMap::new`];
-/// [`Error::OutOfRange`] for a contact that takes time, as cycles and exponents are those of rigid impacts.
+/// As [`multi_toss`](crate::toss::multi_toss); the errors of [`DrivenEngine::new`] and [`DrivenMap::new`];
+/// [`Error::OutOfRange`] for a compliant contact, as cycles and exponents are defined for rigid impacts.
 pub fn multi_toss(
     system: DrivenSystem,
     start: DrivenStart,
@@ -145,7 +146,8 @@ mod tests {
         assert!(matches!(refused, Err(Error::OutOfRange { field: "contact time", .. })), "{refused:?}");
     }
 
-    /// By hand, on straight lines: 2 omega Phi/pi and 2 omega A/pi, by the work of both and of the lift.
+    /// Derived by hand for straight lines: 2 omega Phi/pi and 2 omega A/pi, from the work of friction and of
+    /// the lift.
     #[test]
     fn the_toss_of_a_triangle_is_as_derived_by_hand() {
         let system = System::pizza_toss();
@@ -164,15 +166,15 @@ mod tests {
         near(toss.efficiency, rotary / (rotary + axial + toss.energy.friction_loss));
     }
 
-    /// The hand of Table I, or one with another friction, with this shape of height and of angle.
+    /// The hand of Table I, or one with another friction, with these shapes of height and angle.
     fn thrown(height: Waveform, angle: Waveform, friction: f64) -> TossPerformance {
         let system = System::pizza_toss().with_disk(|dough| dough.friction = friction).expect("legal");
         let hand = DrivenPlatform::new(*system.platform(), height, angle).expect("legal");
         single_toss(&hand, system.disk(), None, InitialSpin::AbsoluteRest).expect("leaves")
     }
 
-    /// The dough moves with the hand from the kink at the bottom on: with its weight alone friction speeds it up for
-    /// 0.3 of a period, and it never reaches the hand.
+    /// The dough moves with the hand from the kink at the bottom on. Under its weight alone, friction
+    /// accelerates it for 0.3 of a period, and it never reaches the hand's speed.
     #[test]
     fn the_toss_of_a_sawtooth_is_as_derived_by_hand() {
         let sawtooth = Waveform::Sawtooth(0.3);
@@ -188,8 +190,8 @@ mod tests {
         near(toss.speed_ratio.expect("turns"), toss.airborne_speed / turns);
     }
 
-    /// With little friction the dough slides all the way up, and its speed is the impulse of friction: of the weight
-    /// from the lowest point to the separation, and of the vertical momentum.
+    /// With little friction the dough slides all the way up, and its speed is the impulse of friction: from
+    /// the weight between the lowest point and the separation, and from the vertical momentum.
     #[test]
     fn a_hand_with_two_harmonics_throws_from_its_lowest_point() {
         let toss = thrown(Waveform::Fourier(vec![(1.0, 0.0), (0.15, 0.5)]), Waveform::Sine, 0.05);
@@ -206,7 +208,7 @@ mod tests {
         assert!((toss.airborne_speed - 2.759).abs() < 5e-4, "{toss:?}");
     }
 
-    /// When a recording begins makes no difference.
+    /// The result does not depend on where a recording begins.
     #[test]
     fn a_shifted_hand_throws_alike() {
         let shifts = [
@@ -232,12 +234,12 @@ mod tests {
                 assert!((one - other).abs() < 1e-9 * other.abs(), "{one:?} {other:?}");
             }
         };
-        // The shape `shift` earlier.
+        // The shape advanced by `shift`.
         let pieces = |shift: f64| {
             let line = |from: f64, to: f64, share: f64| (share, [from, (to - from) / share, 0.0, 0.0]);
             let share = shift / TAU;
             let mut lines: Vec<(f64, [f64; 4])> = Vec::new();
-            // Up for 0.3 of a period to 1 at 0.15, down to -1 at 0.85, and up.
+            // Up for 0.3 of a period to 1 at 0.15, down to -1 at 0.85, and up again.
             let corners: [(f64, f64); 7] =
                 [(0.0, 0.0), (0.15, 1.0), (0.85, -1.0), (1.0, 0.0), (1.15, 1.0), (1.85, -1.0), (2.0, 0.0)];
             for [(from, low), (to, high)] in corners.windows(2).map(|two| [two[0], two[1]]) {
@@ -289,7 +291,7 @@ mod tests {
         near(known.speed_ratio.expect("turns"), known.airborne_speed / peak);
         let toss = thrown(sine.clone(), Waveform::Fourier(vec![(1.0, 0.0), (0.3, 0.0)]), 0.6);
         near(toss.speed_ratio.expect("turns"), toss.airborne_speed / (1.6 * peak));
-        // Of cos t + 0.6 sin(2 t) the largest value is where sin t = 1.2 cos(2 t).
+        // The maximum of cos t + 0.6 sin(2 t) is at sin t = 1.2 cos(2 t).
         let toss = thrown(sine.clone(), Waveform::Fourier(vec![(1.0, 0.0), (0.3, -0.5 * PI)]), 0.6);
         let sine_there = (-1.0 + (1.0 + 8.0 * 1.2 * 1.2_f64).sqrt()) / (4.0 * 1.2);
         let cosine = (1.0 - sine_there * sine_there).sqrt();
@@ -316,7 +318,7 @@ mod tests {
                 .with_platform(|hand| hand.amplitude *= 0.1 + 0.02 * f64::from(k))
                 .and_then(|system| system.with_disk(|dough| dough.restitution = restitution));
             let system = *system.expect("legal").dimensionless();
-            // Next to the orbit with one impact a period, where it exists.
+            // Next to the orbit with one impact per period, if it exists.
             let fast = system.map().period_one(1).map(|orbit| (orbit.phase(), -orbit.velocity()));
             let (phase, velocity) = fast.unwrap_or((Phase::new(1.0).expect("finite"), 1.0));
             let relative_speed = 1.01 * restitution * velocity;
@@ -339,7 +341,7 @@ mod tests {
                     if known.long_flights <= LOCKED_FLIGHTS =>
                 {
                     chattering += 1;
-                    // Of the short flights of a chatter less are summed.
+                    // Fewer of a chatter's short flights are summed.
                     assert_eq!(
                         (known.platform_periods, known.long_flights),
                         (own.platform_periods, own.long_flights)
@@ -357,7 +359,7 @@ mod tests {
         assert!(periodic > 2 && chattering > 2, "{periodic} {chattering}");
     }
 
-    /// On a second harmonic alone the disk leaves the hand twice in a period, at two phases.
+    /// On a second harmonic alone the disk leaves the hand twice per period, at two phases.
     #[test]
     fn a_cycle_is_from_a_separation_to_the_next_one_at_its_phase() {
         let settings = MultiTossSettings {
@@ -378,7 +380,7 @@ mod tests {
         let orbit = multi_toss(system.clone(), start, &settings, &Unobserved).expect("no failure");
         let OrbitClass::Chattering(cycle) = orbit.class else { panic!("{:?}", orbit.class) };
         assert_eq!(cycle.platform_periods, 1);
-        // The angle turned in the cycle, whose separations are at one phase.
+        // The angle turned in the cycle, which runs between separations at the same phase.
         let mut engine = DrivenEngine::new(system, start, settings.policy).expect("legal");
         let mut leavings = Vec::new();
         while leavings.len() < 402 {
