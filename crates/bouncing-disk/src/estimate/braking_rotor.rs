@@ -18,13 +18,13 @@ pub struct BrakingRotor {
 
 impl BrakingRotor {
     /// The coefficient of friction mu = -m a_g^2 alpha_brake/(a_e N) of a disk that brakes with this angular
-    /// acceleration alpha_brake (rad/s^2), Eq. (17): not positive for a disk with a positive angular speed,
-    /// since it slows down. The caption of Fig. 9 writes the same letter for its absolute value.
+    /// acceleration alpha_brake (rad/s^2), Eq. (17). The acceleration is not positive if the angular speed
+    /// is, since the disk slows down. The caption of Fig. 9 uses the same letter for its absolute value.
     ///
     /// It is Eq. (12) of a sliding disk, solved for mu.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] names the field, its value and its legal range.
+    /// [`Error::OutOfRange`] with the field, its value and its legal range.
     pub fn friction(&self, angular_acceleration: f64) -> Result<f64, Error> {
         let slowing = finite("angular_acceleration", angular_acceleration)?;
         check(slowing <= 0.0, "angular_acceleration", slowing, "(-inf, 0] (rad/s^2)")?;
@@ -64,11 +64,11 @@ mod tests {
             slowed(BrakingRotor { contact_radius, ..ROTOR })
         });
         refused("gyration_radius", [BrakingRotor { gyration_radius: f64::INFINITY, ..ROTOR }], slowed);
-        // A square that vanishes, and with it the friction did.
+        // The square underflows, and once made the friction vanish.
         refused("moment of inertia", [BrakingRotor { gyration_radius: 1e-170, ..ROTOR }], slowed);
         let product = "contact radius times normal force";
         refused(product, [BrakingRotor { contact_radius: 1e-320, ..ROTOR }], slowed);
-        // It overflows, and the friction vanished.
+        // The product overflows, and once made the friction vanish.
         refused(product, [BrakingRotor { contact_radius: 1e160, normal_force: 1e160, ..ROTOR }], slowed);
         refused("angular_acceleration", [20.0, f64::NAN], |acceleration| ROTOR.friction(acceleration));
     }

@@ -1,9 +1,9 @@
 //! The ultrasonic motor: ensembles of speed transients, and their fits (Sec. V).
 //!
-//! After every rest the disk leaves the platform in exactly the same vertical state, so the orbit of an ideal
-//! motor falls onto a cycle chosen by the rounding of the program. A speed, a torque or a time constant is
-//! therefore the mean over an ensemble whose relaunches are perturbed by a seeded, small relative velocity
-//! and whose members start at different phases; a single transient is a picture of one member.
+//! After every rest the disk leaves the platform in exactly the same vertical state, so the computed orbit of
+//! an ideal motor falls onto a cycle chosen by the program's rounding. A speed, a torque or a time constant
+//! is therefore a mean over an ensemble: each relaunch is perturbed by a small random relative velocity from
+//! a seeded stream, and the members start at different phases. A single transient is one random sample.
 
 use crate::display::numbers;
 use bouncing_disk_core::Observer;
@@ -25,7 +25,7 @@ use crate::parameters::system::System;
 pub struct Spread {
     /// Mean.
     pub mean: f64,
-    /// Standard deviation of the members (with n - 1).
+    /// Standard deviation of the members (with divisor n - 1).
     pub deviation: f64,
     /// Standard error of the mean.
     pub standard_error: f64,
@@ -35,8 +35,8 @@ impl Spread {
     /// The spread of at least one value, all finite.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] without values, for one that is not finite, or for a deviation that a double
-    /// cannot hold.
+    /// [`Error::OutOfRange`] without values, for a value that is not finite, or for a deviation that a double
+    /// cannot represent.
     pub fn of(values: &[f64]) -> Result<Self, Error> {
         check(!values.is_empty(), "number of values", 0.0, "[1, inf)")?;
         for &value in values {
@@ -51,7 +51,8 @@ impl Spread {
 /// An ensemble of transients of one motor.
 ///
 /// The fits of its members are meaningless if the duration is too short or the sampling too coarse. A
-/// [`TransientFit`](crate::estimate::TransientFit) refuses such curves, and fits their mean.
+/// [`TransientFit`](crate::estimate::TransientFit) rejects such curves, and fits the mean curve instead of
+/// the members.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct TransientEnsemble {
@@ -59,8 +60,8 @@ pub struct TransientEnsemble {
     pub curves: Vec<SpeedCurve>,
     /// The fit of each member.
     pub fits: Vec<ExponentialFit>,
-    /// Steady speed alpha_ss (rad/s), by the fits of all members. Near the load that stalls the motor a curve
-    /// hardly rises and its fit is meaningless: there, use [`SpeedCurve::mean_over_last`].
+    /// Steady speed alpha_ss (rad/s), from the fits of all members. Near the load that stalls the motor a
+    /// curve hardly rises and its fit is meaningless; use [`SpeedCurve::mean_over_last`] there.
     pub steady_speed: Spread,
     /// Time constant t_c (s).
     pub time_constant: Spread,
@@ -69,16 +70,15 @@ pub struct TransientEnsemble {
 }
 
 impl TransientEnsemble {
-    /// Computes `members` >= 1 transients with starting phases spread evenly over the cycle and seeds counted
-    /// up from `settings.seed` ([`TransientMember::of_ensemble`]). The result is the same for any number of
-    /// threads.
+    /// Computes `members` >= 1 transients with evenly spaced starting phases and consecutive seeds from
+    /// `settings.seed` ([`TransientMember::of_ensemble`]). The result is the same for any number of threads.
     ///
-    /// The items of `observer` are the members, counted once when their transients are computed, and once
-    /// more when they are fitted. The fit of one curve is not interrupted: it takes some 10 microseconds for
-    /// each interval.
+    /// The observer's items are the members, counted once when their transients are computed, and once more
+    /// when they are fitted. The fit of one curve is not interrupted: it takes about 10 microseconds for each
+    /// interval.
     ///
     /// # Errors
-    /// Those of [`TransientMember::of_ensemble`] and [`transient`](crate::motor::transient()).
+    /// The errors of [`TransientMember::of_ensemble`] and [`transient`](crate::motor::transient()).
     pub fn new(
         system: &System,
         settings: &TransientSettings,
@@ -91,10 +91,10 @@ impl TransientEnsemble {
 
     /// The ensemble of the [`transients`] of all members.
     ///
-    /// The items of `observer` are the fits.
+    /// The observer's items are the fits.
     ///
     /// # Errors
-    /// The first error of a member, in their order; [`Error::OutOfRange`] without members; those of
+    /// The first error of a member, in their order; [`Error::OutOfRange`] without members; the errors of
     /// [`ExponentialFit::new`].
     pub fn of_results(
         results: Vec<Result<SpeedCurve, Error>>,
@@ -102,7 +102,7 @@ impl TransientEnsemble {
     ) -> Result<Self, Error> {
         let members = results.len();
         let watch = Watch::begin(observer, 0, members as u64)?;
-        // Each thread counts its own work: between two calls of the observer it may fit many short curves.
+        // Each thread counts its own work, as it may fit many short curves between two calls of the observer.
         let fitted = |work: &mut WorkCount<'_>, curve: Result<SpeedCurve, Error>| {
             let curve = curve?;
             let fit = ExponentialFit::counted(&curve.times, &curve.speeds, work)?;
@@ -161,7 +161,7 @@ mod tests {
     use crate::testing::{check_stops, motor, refused};
     use crate::{Engine, InitialCondition};
 
-    /// The value is named, not a mean that comes to nothing because of it.
+    /// The error names the value, not a mean that is undefined because of it.
     #[test]
     fn a_value_that_is_not_finite_is_named() {
         for value in [f64::INFINITY, f64::NEG_INFINITY] {
@@ -179,19 +179,20 @@ mod tests {
         assert!((spread.mean - 5.0).abs() < 1e-15);
         assert!((spread.deviation - (32.0_f64 / 7.0).sqrt()).abs() < 1e-15);
         assert!((spread.standard_error - (4.0_f64 / 7.0).sqrt()).abs() < 1e-15);
-        // A single value has no known spread.
+        // A single value has no known deviation.
         let one = Spread { mean: -3.0, deviation: 0.0, standard_error: 0.0 };
         assert_eq!(Spread::of(&[-3.0]), Ok(one));
     }
 
-    /// As documented: a perturbation large enough to break the cycle that rounding selects, and too small to
-    /// see.
+    /// As documented, the perturbation is large enough to break the cycle that rounding selects, and too
+    /// small to be visible.
     #[test]
     fn relaunches_are_perturbed_by_a_thousandth_unless_told_otherwise() {
         assert!((TransientSettings::default().relaunch_perturbation - 1e-3).abs() < 1e-18);
     }
 
-    /// Phases evenly over the cycle, half a step off zero, and a stream of random numbers for each member.
+    /// Evenly spaced phases over the cycle, half a step off zero, and a stream of random numbers for each
+    /// member.
     #[test]
     fn members_are_the_transients_of_their_phases_and_seeds() {
         let system = motor(1e-8, 0.0);
@@ -208,7 +209,7 @@ mod tests {
             assert_eq!(*curve, own(seeds[k]), "{k}");
             assert_ne!(*curve, own(seeds[k ^ 1]), "the seed matters");
             assert_eq!(all.fits[k], curve.fit().expect("legal curve"));
-            // The middles of the intervals.
+            // The midpoints of the intervals.
             for (i, time) in curve.times.iter().enumerate() {
                 assert!((time - 0.005 * (2 * i + 1) as f64).abs() < 1e-15, "{i} {time}");
             }
@@ -236,7 +237,8 @@ mod tests {
                     assert_eq!(step, RotorStep::Ended);
                     break;
                 };
-                // The vertical motion to the bit; the speed up to the closed form of the chattering sums.
+                // The vertical motion agrees to the bit, the speed up to the closed form of the chattering
+                // sums.
                 assert_eq!(record.time, rotor.time());
                 let difference = (record.after.angular_speed - rotor.speed()).abs();
                 assert!(difference <= 1e-12 * system.dimensionless().twist_speed(), "{difference}");
@@ -244,8 +246,8 @@ mod tests {
         }
     }
 
-    /// At its lowest point the stator turns with the speed of the resting rotor, up to rounding. Friction
-    /// cannot hold the rotor there, and must not seem to.
+    /// At its lowest point the stator turns at the speed of the resting rotor, up to rounding. Friction
+    /// cannot hold the rotor there, and must not appear to.
     #[test]
     fn rotor_starts_as_the_engine_at_the_lowest_point() {
         let system = motor(1e-8, 0.0);
@@ -268,9 +270,9 @@ mod tests {
         }
     }
 
-    /// Sizes from 1e-5 to 1e-1 agree within 3 %. Smaller ones do not: the first impacts after a relaunch are
-    /// then the same every time, the more of them the smaller the perturbation (docs/numerics-impacts.md,
-    /// "Motors remember the rounding").
+    /// Perturbations from 1e-5 to 1e-1 agree within 3 %. Smaller ones do not: the first impacts after a
+    /// relaunch are then always the same, and the smaller the perturbation, the more of them
+    /// (docs/numerics-impacts.md, "Motors remember the rounding").
     #[test]
     fn steady_speed_does_not_depend_on_the_size_of_the_perturbation() {
         let system = motor(1e-8, 0.0);
@@ -333,7 +335,7 @@ mod tests {
         }
     }
 
-    /// Their squares overflowed or vanished.
+    /// The squares of such values once overflowed or vanished.
     #[test]
     fn values_of_any_size_have_a_spread() {
         for size in [1.0, 1e300, 1e-300, 1e-200] {

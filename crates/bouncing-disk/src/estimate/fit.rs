@@ -11,22 +11,22 @@ use std::fmt::{self, Display, Formatter};
 use crate::error::{Error, finite, not_negative, positive};
 use crate::motor::rotor::transient::{SpeedCurve, check_curve};
 
-/// Steps of the golden-section search: the interval shrinks by 0.618 each, to some 1e-9 of the time constant. The residual is flat
-/// at its least value, so that rounding hides smaller steps.
+/// Steps of the golden-section search. Each shrinks the interval by 0.618, down to about 1e-9 of the time
+/// constant; near its minimum the residual is so flat that rounding hides smaller steps.
 const GOLDEN_STEPS: u32 = 42;
 
-/// Trial time constants that bracket the best one: at least so many, and no two further apart than by this
-/// ratio's logarithm.
+/// Trial time constants that bracket the best one: at least this number, and no two further apart than the
+/// logarithm of this ratio.
 const TRIALS: u32 = 40;
 const WIDEST_STEP: f64 = 1.0;
 
-/// Points of a curve that a trial compares with in about the time of a flight.
+/// Points of a curve that a trial processes in about the time of a flight.
 const POINTS_OF_FLIGHT: usize = 2;
 
 /// The fit of alpha_ss (1 - exp(-t/t_c)) to a speed curve (Fig. 10, Fig. 11).
 ///
 /// It fits any curve and states no error. A [`TransientFit`](crate::estimate::TransientFit) has intervals,
-/// and refuses curves that determine no time constant.
+/// and rejects curves that determine no time constant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -40,16 +40,16 @@ pub struct ExponentialFit {
 }
 
 impl ExponentialFit {
-    /// Fits times (s, not negative, rising) and speeds (rad/s): at least three points.
+    /// Fits times (s, not negative, rising) and speeds (rad/s) of at least three points.
     ///
     /// The model is linear in the steady speed, so the search is over the time constant alone (variable
     /// projection), in its logarithm, from a tenth of the shortest to a hundred times the longest time.
     ///
-    /// A fit to a million points takes seconds. The one item of `observer` is the fit.
+    /// A fit to a million points takes seconds. The observer's only item is the fit.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for fewer than three points, lists of different lengths, times that do not rise
-    /// or numbers that are not finite; for a result that a double cannot hold.
+    /// [`Error::OutOfRange`] for fewer than three points, lists of different lengths, times that do not rise,
+    /// numbers that are not finite, or a result that a double cannot represent.
     pub fn new(times: &[f64], speeds: &[f64], observer: &dyn Observer) -> Result<Self, Error> {
         observed(observer, |work| Self::counted(times, speeds, work))
     }
@@ -62,7 +62,7 @@ impl ExponentialFit {
         Ok(Self { steady_speed: steady, time_constant: constant, residual })
     }
 
-    /// The shortest and the longest time constant (s) that the search reaches for these times.
+    /// The shortest and the longest time constant (s) that the search covers for these times.
     pub(crate) fn searched(times: &[f64]) -> (f64, f64) {
         let last = times[times.len() - 1];
         let first = times.iter().copied().find(|&time| time > 0.0).unwrap_or(last);
@@ -96,7 +96,7 @@ impl ExponentialFit {
 pub struct RampFit {
     /// Steady speed alpha_ss (rad/s).
     pub steady_speed: f64,
-    /// Time t_r (s) at which it is reached.
+    /// Time t_r (s) at which the steady speed is reached.
     pub rise_time: f64,
     /// Root mean square of the residuals (rad/s).
     pub residual: f64,
@@ -126,7 +126,7 @@ impl RampFit {
     }
 }
 
-/// A fit that is a call of its own.
+/// Runs a fit as a call of its own.
 fn observed<Fit>(
     observer: &dyn Observer,
     fit: impl FnOnce(&mut WorkCount<'_>) -> Result<Fit, Error>,
@@ -143,12 +143,12 @@ fn exponential(x: f64) -> f64 {
     -exp_m1(-x)
 }
 
-/// The known state of a motor where its rise begins.
+/// What is known of a motor's state at the start of its rise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Start {
     /// Speed zero at time zero.
     FromRest,
-    /// Nothing: the speed at time zero is fitted, too.
+    /// Nothing is known: the speed at time zero is fitted, too.
     AnySpeed,
 }
 
@@ -164,7 +164,7 @@ pub(crate) struct Saturation {
 }
 
 impl Saturation {
-    /// Of a legal curve, with its units.
+    /// The fit of a legal curve, with its units.
     pub(crate) fn of(
         times: &[f64],
         speeds: &[f64],
@@ -185,7 +185,7 @@ impl Saturation {
         })
     }
 
-    /// [`Self::of`] numbers whose squares neither overflow nor vanish.
+    /// [`Self::of`] for numbers whose squares neither overflow nor vanish.
     fn of_scaled(
         times: &[f64],
         speeds: &[f64],
@@ -200,7 +200,7 @@ impl Saturation {
         };
         let mean_speed = mean_of(speeds);
         let mut shapes = vec![0.0; n];
-        // The best speeds for a given constant, and the residual that they leave.
+        // The best speeds for a given constant, and the remaining residual.
         let mut at = |constant: f64| {
             for (value, &time) in shapes.iter_mut().zip(times) {
                 *value = shape(time / constant);
@@ -221,7 +221,7 @@ impl Saturation {
             Self { constant, steady: start_speed + rise, rise, residual: (sum / n as f64).sqrt() }
         };
         let first = times.iter().copied().find(|&time| time > 0.0).unwrap_or(times[n - 1]);
-        // Next to the longest time a tenth of a denormal one is as good as the smallest normal one.
+        // Next to the longest time, a tenth of a subnormal time is as good as the smallest normal number.
         let (low, high) = (ln((0.1 * first).max(f64::MIN_POSITIVE)), ln(100.0 * times[n - 1]));
         let mut cost = |log: f64| {
             work.spend(1 + (n / POINTS_OF_FLIGHT) as u64)?;
@@ -247,7 +247,7 @@ impl SpeedCurve {
     /// The fit of alpha_ss (1 - exp(-t/t_c)).
     ///
     /// # Errors
-    /// Those of [`ExponentialFit::new`].
+    /// The errors of [`ExponentialFit::new`].
     pub fn fit(&self) -> Result<ExponentialFit, Error> {
         ExponentialFit::new(&self.times, &self.speeds, &Unobserved)
     }
@@ -280,14 +280,14 @@ mod tests {
             let truth = ExponentialFit { steady_speed: steady, time_constant: constant, residual: 0.0 };
             let speeds: Vec<f64> = times.iter().map(|&time| truth.speed(time)).collect();
             let fit = ExponentialFit::new(&times, &speeds, &Unobserved).expect("legal curve");
-            // The residual is flat at its minimum: half of the digits of the time constant are lost.
+            // The residual is flat at its minimum, so half of the digits of the time constant are lost.
             assert!((fit.time_constant / constant - 1.0).abs() < 1e-5, "{fit:?}");
             assert!((fit.steady_speed / steady - 1.0).abs() < 1e-5, "{fit:?}");
             assert!((fit.stall_acceleration() - fit.steady_speed / fit.time_constant).abs() <= 0.0);
         }
     }
 
-    /// Root of the mean square by which a model misses a curve.
+    /// Root mean square difference between a model and a curve.
     fn misfit(times: &[f64], speeds: &[f64], model: impl Fn(f64) -> f64) -> f64 {
         let squares: Vec<f64> = times
             .iter()
@@ -297,8 +297,8 @@ mod tests {
         (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
     }
 
-    /// Neither parameter can be changed a little without the sum of squares growing, and the residual is its
-    /// mean's root.
+    /// A small change of either parameter increases the sum of squares, and the residual is the root of its
+    /// mean.
     #[test]
     fn a_fit_is_where_the_squares_are_least() {
         for (saturation, scatter) in [(0.3, 0.2), (2.0, 0.7), (6.0, 0.05)] {
@@ -332,8 +332,8 @@ mod tests {
         }
     }
 
-    /// A curve that has not begun to saturate, and one that has done so before its first point, end where the
-    /// search does.
+    /// For a curve that has not begun to saturate, or has done so before its first point, the fit ends at the
+    /// limit of the search.
     #[test]
     fn time_constants_lie_between_a_tenth_of_the_first_and_a_hundred_times_the_last_time() {
         let times = [0.0, 0.5, 1.0, 2.0, 4.0];
@@ -349,8 +349,8 @@ mod tests {
         assert!(still.steady_speed.abs() <= 0.0 && still.residual.abs() <= 0.0, "{still:?}");
     }
 
-    /// A fit to many points is asked about every trial and may be stopped at each; that changes nothing of
-    /// it.
+    /// The observer of a fit to many points is called at every trial and may stop it there; the result does
+    /// not depend on the observer.
     #[test]
     fn a_long_fit_can_be_stopped() {
         let times: Vec<f64> = (1..=20_000).map(|i| f64::from(i) * 0.02).collect();
@@ -383,7 +383,7 @@ mod tests {
         let fit = ExponentialFit { steady_speed: 30.0, time_constant: 0.25, residual: 0.0 };
         assert!((fit.stall_acceleration() - 120.0).abs() < 1e-12);
         assert!((fit.stall_torque(0.5, 0.2) - 0.5 * 0.04 * 120.0).abs() < 1e-12);
-        // After one time constant all but 1/e of the speed is there.
+        // After one time constant all but 1/e of the speed has been reached.
         assert!((fit.speed(0.25) - 30.0 * (1.0 - 0.367_879_441_171_442_3)).abs() < 1e-13);
         let ramp = RampFit { steady_speed: 30.0, rise_time: 0.5, residual: 0.0 };
         assert!((ramp.speed(0.125) - 7.5).abs() < 1e-13 && (ramp.speed(0.75) - 30.0).abs() < 1e-13);
@@ -405,8 +405,8 @@ mod tests {
         times.iter().map(|&time| truth.speed(time)).collect()
     }
 
-    /// Squares of speeds and a hundredfold of times overflowed, a tenth of times vanished: the fit was `Ok`
-    /// and not a number.
+    /// Squares of speeds and a hundred times the longest time once overflowed, a tenth of the shortest
+    /// vanished: the fit was `Ok` and NaN.
     #[test]
     fn curves_of_any_size_are_fitted() {
         let ordinary: Vec<f64> = (1..=200).map(|i| f64::from(i) * 0.02).collect();
@@ -447,7 +447,7 @@ mod tests {
         refused("number of speeds", [(&instants[..], &instants[..2])], fit);
         refused("times of the speed curve", [(&[0.0, 1.0, 1.0][..], &instants[..])], fit);
         refused("speed", [(&instants[..], &[0.0, f64::NAN, 1.0][..])], fit);
-        // Straight lines: the constant ends at a hundred times the longest time.
+        // Straight lines: the constant is at its limit, a hundred times the longest time.
         let line = |last: f64| [0.25, 0.5, 0.75, 1.0].map(|share| share * last);
         refused("fitted time (s)", [(&line(1.7e308)[..], &line(1.0)[..])], fit);
         refused("fitted steady speed (rad/s)", [(&line(1.0)[..], &line(1.7e308)[..])], fit);

@@ -26,7 +26,7 @@ impl IntervalEstimate {
         Ok(())
     }
 
-    /// The value with an interval that holds it, whatever the sample says of its ends.
+    /// The value with an interval that contains it, even if the sampled ends do not.
     pub(crate) fn about(value: f64, low: f64, high: f64) -> Result<Self, Error> {
         let estimate = Self { value, low: low.min(value), high: high.max(value) };
         estimate.check()?;

@@ -19,22 +19,22 @@ use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::warning::MotorWarning;
 use crate::motor::rotor::transient::check_rows;
 
-/// A measurement this many times above or below what the drive gives is in another unit.
+/// A measurement this many times above or below the drive's prediction is in another unit.
 const OTHER_SCALE: f64 = 100.0;
 
 /// One run: angular speed against time.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MeasuredRun {
-    /// Number by which the run is known; 0 where there is only one.
+    /// Number that identifies the run; 0 if there is only one.
     pub member: u32,
-    /// Times (s), rising, possibly below zero: the switch-on and a dead time need not be known.
+    /// Times (s), rising, possibly below zero: the switch-on and any dead time may be unknown.
     pub times: Vec<f64>,
     /// Angular speeds (rad/s).
     pub speeds: Vec<f64>,
 }
 
-/// Measured speeds of one motor, in one run or several.
+/// Measured speeds of one motor, in one or several runs.
 ///
 /// ```
 /// # use bouncing_disk::core::Unobserved;
@@ -58,11 +58,11 @@ pub struct MeasuredSpeeds {
 }
 
 impl MeasuredSpeeds {
-    /// The speeds of at least one run, with rising numbers.
+    /// The speeds of at least one run, with increasing numbers.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] without runs, for numbers that do not rise, fewer than three points in a run,
-    /// lists of different lengths, times that do not rise and numbers that are not finite; an error of the
+    /// lists of different lengths, times that do not rise, and numbers that are not finite; an error of the
     /// core for more than [`MAX_SPEEDS`] speeds.
     pub fn new(runs: Vec<MeasuredRun>) -> Result<Self, Error> {
         check(!runs.is_empty(), "runs", 0.0, "[1, inf)")?;
@@ -82,7 +82,7 @@ impl MeasuredSpeeds {
         &self.runs
     }
 
-    /// The units that the file had, from which times and speeds were converted.
+    /// The units of the file, from which times and speeds were converted.
     #[must_use]
     pub const fn file_units(&self) -> (TimeUnit, SpeedUnit) {
         self.units
@@ -90,10 +90,10 @@ impl MeasuredSpeeds {
 
     /// Steady speed and time constant with intervals, from all runs together ([`TransientFit::of_measured`]).
     ///
-    /// The items of `observer` are the resampled curves, once for each form.
+    /// The observer's items are the resampled curves, once for each form.
     ///
     /// # Errors
-    /// Those of [`TransientFit::of_measured`].
+    /// The errors of [`TransientFit::of_measured`].
     pub fn fit(&self, settings: &FitSettings, observer: &dyn Observer) -> Result<TransientFit, FitError> {
         let runs: Vec<_> =
             self.runs.iter().map(|run| (run.times.as_slice(), run.speeds.as_slice())).collect();
@@ -102,9 +102,9 @@ impl MeasuredSpeeds {
 }
 
 impl Motor {
-    /// Whether measured run-ups are a factor 100 faster or slower than the drive allows: the fastest speed
-    /// against omega Phi, and the time from the first row to half of it against the shortest rise
-    /// ([`System::rise_time`](crate::System::rise_time)).
+    /// Warnings if measured run-ups are a factor 100 faster or slower than the drive allows. The fastest
+    /// speed is compared with omega Phi, and the time from the first row to half that speed with the shortest
+    /// rise ([`System::rise_time`](crate::System::rise_time)).
     #[must_use]
     pub fn warnings_on(&self, speeds: &MeasuredSpeeds) -> Vec<MotorWarning> {
         let system = self.system();
@@ -116,7 +116,7 @@ impl Motor {
             for (measured, drive, unit) in
                 [(fastest, system.platform().peak_angular_speed(), "rad/s"), (rise, system.rise_time(), "s")]
             {
-                // Nothing measured, and a stator that does not twist, are no unit.
+                // A zero measurement, or a stator that does not twist, shows nothing about the unit.
                 let ratio = measured / drive;
                 if ratio > 0.0 && ratio.is_finite() && !(1.0 / OTHER_SCALE..=OTHER_SCALE).contains(&ratio) {
                     warnings.push(MotorWarning::OtherScale { measured, drive, unit });

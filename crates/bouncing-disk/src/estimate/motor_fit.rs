@@ -1,8 +1,9 @@
-//! What nobody knows of a motor, fitted to what was measured of it: run-ups, braking tails, and the few points that its maker
-//! prints (rated torque and speed, speed without load, stall torque), each under its own conditions.
+//! Fits of unknown motor parameters to measured run-ups, braking tails and the few points in a maker's
+//! catalogue (rated torque and speed, no-load speed, stall torque), each under its own conditions.
 //!
-//! A smooth stand-in for the motor is computed at some hundred places of the ranges; what the measurements exclude by it, and
-//! by its own errors, is excluded. docs/numerics-dynamics.md, "Parameters from measurements".
+//! A smooth emulator of the motor is computed from a few hundred points of the parameter ranges. Values that
+//! the measurements exclude, given the emulator's own errors, are excluded. docs/numerics-dynamics.md,
+//! "Parameters from measurements".
 
 mod display;
 mod emulator;
@@ -34,53 +35,55 @@ use crate::motor::operation::of_motor::operations;
 use crate::motor::operation::point::{Estimate, Operation, Shortfall};
 use crate::motor::operation::settings::OperatingSettings;
 
-/// Places that are computed at once, on machines with any number of threads: what is found depends on it.
+/// Points computed at once, for any number of threads, because the result depends on it.
 const BATCH: usize = 2;
 
-/// The same of transients.
+/// The same for transients.
 const BATCH_OF_TRANSIENTS: usize = 20;
 
-/// Most points of a fit.
+/// Most measured points of a fit.
 const MOST_POINTS: usize = 100;
 
-/// Most fitted parameters and uncertain conditions together: places of more coordinates would need more motors than
+/// Most fitted parameters and uncertain conditions together; more dimensions would need more motors than
 /// anybody computes.
 const MOST_COORDINATES: usize = 16;
 
-/// An uncertain condition is followed up to so many standard errors.
+/// Range of an uncertain condition, in standard errors.
 pub(crate) const ERRORS: f64 = 3.0;
 
-/// No speed counts as known better than this share of the stator's largest one.
+/// No speed counts as known better than this share of the stator's largest speed.
 const RESOLUTION: f64 = 1e-3;
 
 /// Most transients of a fit.
 const MOST_TRANSIENTS: usize = 100;
 
-/// The error of a computed curve between its points, as a share of the largest mean: no mean counts as known better.
+/// The interpolation error of a computed curve, as a share of the largest mean: no mean counts as known
+/// better.
 const CURVE_RESOLUTION: f64 = 1e-3;
 
-/// Places within this distance, as a share of half the ranges, tell what no smooth response explains near the truth.
+/// Points within this distance, as a share of half the ranges, are used to estimate the deviations from a
+/// smooth response near the truth.
 const NEAR: f64 = 0.5;
 
-/// An offset or a drift of the measured speeds, in its standard errors, beyond which the fit is refused.
+/// An offset or a drift of the measured speeds, in standard errors, beyond which the fit is rejected.
 const SIGNIFICANT: f64 = 4.0;
 
-/// The quantile of the normal distribution that one draw in 10,000 exceeds.
+/// The quantile of the normal distribution that one sample in 10,000 exceeds.
 const RARE: f64 = 3.719_016_485_455_709;
 
-/// Where the stand-in's variance is below this share of that of the points, it is good enough.
+/// The emulator is good enough if its variance is below this share of the points' variance.
 const SETTLED: f64 = 0.25;
 
-/// How parameters are fitted.
+/// Settings of a fit of motor parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MotorFitSettings {
-    /// Most places of the ranges at which all is computed, in [8, 400]. Default 200. Fewer are taken where these are
-    /// enough.
+    /// Most points of the ranges at which all measurements are computed, in [8, 400]. Default 200. Fewer are
+    /// used if they suffice.
     pub most_evaluations: usize,
     /// How a point is computed. Default: 6 members, an error of 0.02, at most 500,000 impacts.
     pub operating: OperatingSettings,
-    /// Computed members of each transient, from which the scatter of a run is known, in [16, 4096]. Default 32.
+    /// Computed members of each transient, which determine the scatter of a run, in [16, 4096]. Default 32.
     pub members: usize,
     /// The largest accepted sum of squares, as a multiple of the value that one of 10,000 sound fits exceeds, at least
     /// 1. Default 1.
@@ -99,25 +102,26 @@ impl Default for MotorFitSettings {
     }
 }
 
-/// A parameter, and what the measurements leave of its range.
+/// A parameter, and the part of its range that the measurements allow.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FittedParameter {
     /// The parameter, and the range that was searched.
     pub range: FitRange,
-    /// Its value in the data sheet (SI).
+    /// The data sheet's value (SI).
     pub nominal: f64,
-    /// The best value (SI), if there is one accepted range with two ends.
+    /// The best value (SI), if there is exactly one accepted range and it has two ends.
     pub value: Option<f64>,
-    /// The ranges that the measurements do not exclude with 95 % confidence, the lowest first; several are not decided between.
+    /// The ranges that the measurements do not exclude with 95 % confidence, in rising order; if there are
+    /// several, the data do not decide between them.
     pub accepted: Vec<AcceptedRange>,
 }
 
-/// A point as the fitted motor has it.
+/// A measured point compared with the fitted motor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FittedPoint {
-    /// The printed speed (rad/s).
+    /// The catalogue speed (rad/s).
     pub printed: f64,
     /// The speed of the fitted motor (rad/s).
     pub fitted: f64,
@@ -162,40 +166,42 @@ pub struct MotorFit {
     /// The combinations of parameters that the measurements do not determine near the best values, the least uncertain
     /// first.
     pub undetermined: Vec<UndeterminedDirection>,
-    /// The motor with the best values, one of many where something is not determined.
+    /// The motor with the best values, one of many if a combination is undetermined.
     pub motor: Motor,
-    /// The points, in their order.
+    /// The points, in the given order.
     pub points: Vec<FittedPoint>,
-    /// When the motor was switched on (s) on the clock of the first run of each transient; `None` of a braking tail.
+    /// Time at which the motor was switched on (s), on the clock of the first run of each transient; `None`
+    /// for a braking tail.
     pub switched_on: Vec<Option<Estimate>>,
     /// The remaining sum of weighted squares.
     pub misfit: f64,
-    /// Its expectation: the number of points and of means of the transients minus the number of determined directions, 0 or
-    /// more.
+    /// Its expectation: the number of points and of means of the transients minus the number of determined
+    /// directions, at least 0.
     pub degrees_of_freedom: usize,
-    /// Places at which all was computed.
+    /// Number of points of the ranges at which all measurements were computed.
     pub evaluations: usize,
-    /// Whether they were enough: otherwise more evaluations, or more impacts of each, would narrow the ranges.
+    /// Whether that number sufficed: otherwise more evaluations, or more impacts in each, would narrow the
+    /// ranges.
     pub settled: bool,
 }
 
-/// What is fitted.
+/// The fitted model.
 struct Model<'a> {
     nominal: &'a Motor,
     points: &'a [RatedPoint],
     transients: &'a [MeasuredTransient],
     observed: Vec<Observed>,
-    /// What makes their means independent.
+    /// The transformations that make their means independent.
     bases: Vec<Basis>,
     ranges: &'a [FitRange],
     settings: &'a MotorFitSettings,
-    /// Point and condition of each coordinate beyond the ranges.
+    /// Point and condition of each coordinate in addition to the ranges.
     uncertain: Vec<(usize, usize)>,
-    /// The speed (rad/s) at which the scale of each point bends.
+    /// The speed (rad/s) at which the scale of each point saturates.
     bends: Vec<f64>,
 }
 
-/// A speed on a scale that is bounded: a load that overpowers a motor has one end of it.
+/// A speed on a bounded scale: loads that overpower a motor all map to one end of it.
 fn bent(speed: f64, bend: f64) -> f64 {
     speed / (1.0 + (speed / bend) * (speed / bend)).sqrt()
 }
@@ -212,15 +218,16 @@ fn bending(speed: f64, bend: f64) -> f64 {
 }
 
 impl MotorFit {
-    /// Fits the parameters that have a range to points, transients or both. All else is taken from the data sheet.
+    /// Fits the parameters that have a range to points, transients or both. Everything else is taken from the
+    /// data sheet.
     ///
-    /// The items of `observer` are the evaluations that the search may take.
+    /// The observer's items are the evaluations that the search may use.
     ///
     /// # Errors
-    /// [`FitError::Refused`] for measurements that no parameters in their ranges explain, transients of too few points or
-    /// without a rise, speeds with an offset or a drift; [`Error::OutOfRange`] for illegal
-    /// settings, points and ranges, and for a parameter that the motor does not have; [`Error::BothGiven`] where a
-    /// condition of a point takes the place of a parameter. Those of [`operations`](crate::motor::operations).
+    /// [`FitError::Refused`] for measurements that no parameters in their ranges explain, transients with too
+    /// few points or without a rise, and speeds with an offset or a drift. [`Error::OutOfRange`] for illegal
+    /// settings, points and ranges, and for a parameter that the motor does not have; [`Error::BothGiven`] if
+    /// a condition of a point replaces a parameter. The errors of [`operations`](crate::motor::operations).
     pub fn new(
         nominal: &Motor,
         points: &[RatedPoint],
@@ -242,7 +249,7 @@ impl MotorFit {
             let profiles = surface.profiles(&|| watch.ask().is_ok());
             watch.ask()?;
             let left = settings.most_evaluations - nodes.len();
-            // A place of transients takes less time than the search for it.
+            // Computing transients at a point takes less time than the search for the point.
             let batch =
                 if transients.is_empty() { BATCH.max(1 + coordinates / 2) } else { BATCH_OF_TRANSIENTS };
             let more = surface.doubtful(&profiles, batch.min(left));
@@ -259,14 +266,14 @@ impl MotorFit {
         Ok(fit)
     }
 
-    /// What the points leave of a parameter's range; `None` if it was not fitted.
+    /// The result for a parameter; `None` if it was not fitted.
     #[must_use]
     pub fn estimate(&self, parameter: FitParameter) -> Option<&FittedParameter> {
         self.parameters.iter().find(|fitted| fitted.range.parameter == parameter)
     }
 }
 
-/// Places that fill a cube evenly: multiples of the powers of the number that is the golden ratio in one dimension.
+/// Points that fill a cube evenly: multiples of the powers of a generalised golden ratio.
 fn design(coordinates: usize, count: usize, seed: u64) -> Vec<DVector<f64>> {
     let mut ratio = 1.5;
     for _ in 0..60 {
@@ -328,7 +335,7 @@ impl<'a> Model<'a> {
             Self { nominal, points, transients, observed, bases, ranges, settings, uncertain, bends };
         let middle = DVector::zeros(ranges.len() + model.uncertain.len());
         for (index, point) in points.iter().enumerate() {
-            // The ends of all ranges together, and the sheet's own values.
+            // All ends of the ranges together, and the sheet's own values.
             for end in [-1.0, 1.0] {
                 model.motor(&middle.add_scalar(end), index)?;
             }
@@ -344,7 +351,7 @@ impl<'a> Model<'a> {
         Ok(model)
     }
 
-    /// The motor at these places under the conditions of a transient.
+    /// The motor at this point under the conditions of a transient.
     fn run(&self, places: &DVector<f64>, transient: usize) -> Result<Motor, Error> {
         let mut sheet = self.nominal.parameters().clone();
         for (range, place) in self.ranges.iter().zip(places.iter()) {
@@ -353,7 +360,7 @@ impl<'a> Model<'a> {
         self.transients[transient].motor(sheet)
     }
 
-    /// The motor at these places under the conditions of a point.
+    /// The motor at this point under the conditions of a measured point.
     fn motor(&self, places: &DVector<f64>, point: usize) -> Result<Motor, Error> {
         let mut off = vec![0.0; self.points[point].conditions.len()];
         for (place, (own, condition)) in places.iter().skip(self.ranges.len()).zip(&self.uncertain) {
@@ -368,13 +375,13 @@ impl<'a> Model<'a> {
         })
     }
 
-    /// The coordinates that a point depends on.
+    /// The coordinates on which a measured point depends.
     fn coordinates_of(&self, point: usize) -> Vec<usize> {
         let own = self.uncertain.iter().enumerate().filter(|(_, (index, _))| *index == point);
         (0..self.ranges.len()).chain(own.map(|(index, _)| self.ranges.len() + index)).collect()
     }
 
-    /// What all measurements would be at these places; `before` others have been computed.
+    /// The predicted measurements at these points; `before` others have been computed.
     fn compute(&self, places: &[DVector<f64>], before: usize, watch: &Watch<'_>) -> Result<Vec<Node>, Error> {
         let of_place = |index: usize| {
             let seed = SplitMix64::seed_of_stream(self.settings.operating.seed, (before + index) as u64);
@@ -404,7 +411,7 @@ impl<'a> Model<'a> {
         Ok(Node { speeds, transients: transients.collect::<Result<_, _>>()? })
     }
 
-    /// For each transient the basis of its means at the place of all that is nearest to what was measured.
+    /// For each transient the basis of its means at the computed point nearest to the measurements.
     fn bases_near(&self, nodes: &[Node]) -> Result<Vec<Basis>, Error> {
         let of_transient = |(index, observed): (usize, &Observed)| {
             let all = nodes.iter().enumerate().filter_map(|(node, own)| {
@@ -425,7 +432,7 @@ impl<'a> Model<'a> {
         self.observed.iter().enumerate().map(of_transient).collect()
     }
 
-    /// The surface in bases in which what it does not explain is independent.
+    /// The surface in bases in which its residuals are independent.
     fn surface(
         &mut self,
         places: &[DVector<f64>],
@@ -487,8 +494,8 @@ impl<'a> Model<'a> {
         surface.ok_or(Error::OutOfRange { field: "measured speeds", value: f64::NAN, legal: "finite" })
     }
 
-    /// Refuses transients with an offset or a drift of their speeds that explains so much of the squares: the fitted parameters
-    /// would explain a part of it.
+    /// Rejects transients with an offset or a drift of their speeds that explains too much of the squares:
+    /// otherwise the fitted parameters would explain part of it.
     fn check_speeds(&self, surface: &Surface, least: f64) -> Result<(), FitError> {
         let mut first = self.points.len();
         for (transient, ((own, observed), basis)) in
@@ -516,7 +523,7 @@ impl<'a> Model<'a> {
         Ok(())
     }
 
-    /// When the motor was switched on, on the clock of the first run of each transient.
+    /// The time at which the motor was switched on, on the clock of the first run of each transient.
     fn switched_on(&self, place: &DVector<f64>, watch: &Watch<'_>) -> Result<Vec<Option<Estimate>>, Error> {
         let node = self.node(place, self.settings.operating.seed, watch)?;
         let all = node.transients.iter().zip(&self.observed).map(|(computed, observed)| {
@@ -544,11 +551,11 @@ impl<'a> Model<'a> {
         let means: usize = self.observed.iter().map(|own| own.means.len()).sum();
         let degrees_of_freedom = (self.points.len() + means).saturating_sub(determined);
         let largest = self.settings.largest_misfit * rare_misfit(degrees_of_freedom.max(1) as f64);
-        // The likeliest place need not be that of the least misfit.
+        // The most likely point need not have the least misfit.
         let least =
             profiles.iter().flat_map(|profile| &profile.nodes).map(|node| node.1).fold(misfit, f64::min);
         if least > largest {
-            // An offset or a drift that explains what is too much is named.
+            // If an offset or a drift explains the excess, the error names it.
             self.check_speeds(surface, least - largest)?;
             return refused(FitRefusal::Misfit { misfit: least, degrees_of_freedom, largest });
         }
@@ -586,7 +593,7 @@ impl<'a> Model<'a> {
             }
         });
         let parameters: Vec<_> = parameters.collect();
-        // As the data sheet, without the conditions of a point.
+        // Like the data sheet, without the conditions of a point.
         let motor = self.nominal.with(|sheet| {
             for (range, place) in self.ranges.iter().zip(places.iter()) {
                 range.parameter.set(sheet, range.value_at(*place));
@@ -609,7 +616,7 @@ impl<'a> Model<'a> {
     }
 }
 
-/// What all measurements would be at a place.
+/// The predicted measurements at a point.
 struct Node {
     speeds: Vec<Response>,
     transients: Vec<Computed>,
@@ -620,13 +627,13 @@ impl Computed {
         self.means.iter().sum::<DVector<f64>>() / self.means.len() as f64
     }
 
-    /// By how much the inverse of an estimated covariance is too large.
+    /// The factor by which the inverse of an estimated covariance is too large.
     fn widening(&self) -> f64 {
         let (members, means) = (self.means.len() as f64, self.means[0].len() as f64);
         (members - 1.0) / (members - means - 2.0)
     }
 
-    /// The covariance of the means of as many runs as were measured.
+    /// The covariance of the means over as many runs as were measured.
     fn covariance(&self, observed: &Observed) -> DMatrix<f64> {
         let (mean, size) = (self.mean(), self.means[0].len());
         let mut sum = DMatrix::zeros(size, size);
@@ -639,7 +646,7 @@ impl Computed {
             + DMatrix::identity(size, size) * (resolution * resolution)
     }
 
-    /// Its means as numbers that are independent of variance one near the truth.
+    /// Its means as independent numbers of variance one near the truth.
     fn responses(&self, observed: &Observed, basis: &Basis) -> Vec<Response> {
         let members: Vec<DVector<f64>> = self.means.iter().map(|means| basis.of(means)).collect();
         let (mean, count) = (basis.of(&self.mean()), members.len() as f64);
@@ -660,31 +667,32 @@ impl Computed {
     }
 }
 
-/// What makes the means of a transient independent: near the truth both as runs scatter, and as the means of neighbouring motors
-/// differ that no smooth response explains (one that locks on a cycle is faster or slower in all windows together).
+/// The transformation that makes the means of a transient independent near the truth. It accounts for the
+/// scatter of runs, and for the differences between neighbouring motors that no smooth response explains (a
+/// motor that locks on a cycle is faster or slower in all windows together).
 struct Basis {
     root: Cholesky<f64, Dyn>,
     turn: DMatrix<f64>,
-    /// The place near the truth.
+    /// The node near the truth.
     node: usize,
 }
 
 impl Basis {
-    /// Means, or differences of them, in this basis, in which those of a run have the variance one.
+    /// Means, or differences of means, in this basis, in which the means of a run have variance one.
     fn of(&self, means: &DVector<f64>) -> DVector<f64> {
         let mut own = means.clone();
-        // The diagonal of a root is positive.
+        // The diagonal of a Cholesky factor is positive.
         let _ = self.root.l_dirty().solve_lower_triangular_mut(&mut own);
         &self.turn * own
     }
 
-    /// Turns it so that these differences of means in it are independent, too.
+    /// Rotates the basis so that these differences of means become independent, too.
     fn turn(&mut self, covariance: DMatrix<f64>) {
         self.turn = SymmetricEigen::new(covariance).eigenvectors.transpose() * &self.turn;
     }
 }
 
-/// An undetermined direction as changes of the named parameters, the largest change scaled to 1.
+/// An undetermined direction as changes of the named parameters, scaled so that the largest change is 1.
 fn named(ranges: &[FitRange], direction: &DVector<f64>, standard_error: f64) -> UndeterminedDirection {
     let changes = ranges.iter().zip(direction.iter());
     let changes: Vec<_> =
@@ -698,15 +706,15 @@ fn named(ranges: &[FitRange], direction: &DVector<f64>, standard_error: f64) -> 
     }
 }
 
-/// The misfit that one fit of 10,000 exceeds, whose mean is `expected`: Wilson and Hilferty's approximation of
-/// the quantile of chi-squared.
+/// The misfit exceeded by one fit in 10,000 whose expected misfit is `expected`, by Wilson and Hilferty's
+/// approximation of the chi-squared quantile.
 fn rare_misfit(expected: f64) -> f64 {
     let spread = 2.0 / (9.0 * expected);
     let root = 1.0 - spread + RARE * spread.sqrt();
     expected * root * root * root
 }
 
-/// The bounded speed of an operation. What is left of its start-up has a sign, which other places share.
+/// The bounded speed of an operation. The bias from its start-up has a sign, which other points share.
 fn response_of(operation: &Operation, bend: f64) -> Response {
     let Some(point) = operation.point() else {
         return Response {

@@ -8,7 +8,7 @@ use crate::estimate::interval::IntervalEstimate;
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FitError {
-    /// A curve gives no trustworthy fit.
+    /// A curve does not allow a trustworthy fit.
     #[error("the curve is not fitted: {0}")]
     Refused(FitRefusal),
     /// An error of the model, or of the core, which includes a stop by the observer.
@@ -22,12 +22,12 @@ impl From<bouncing_disk_core::Error> for FitError {
     }
 }
 
-/// A fit that is refused.
+/// A rejected fit.
 pub(crate) const fn refused<T>(reason: FitRefusal) -> Result<T, FitError> {
     Err(FitError::Refused(reason))
 }
 
-/// Why a curve gives no trustworthy fit. Every reason carries the numbers by which it was judged.
+/// Why a curve does not allow a trustworthy fit. Every reason carries the numbers by which it was judged.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
@@ -35,22 +35,22 @@ pub enum FitRefusal {
     /// The curve has too few points.
     #[error("it has {points} points, but {least} are needed: sample it more often")]
     TooFewPoints {
-        /// Points of the curve, or of its part that counts.
+        /// Number of points of the curve, or of the part that counts.
         points: usize,
-        /// The fewest that are fitted.
+        /// Fewest points that are fitted.
         least: usize,
     },
-    /// There are too few members for their scatter to give the error.
+    /// There are too few members to estimate the error from their scatter.
     #[error(
         "it has {members} members, but {least} are needed: compute more, or fit a single curve as a measured one"
     )]
     TooFewMembers {
-        /// Members that were given.
+        /// Number of members given.
         members: usize,
-        /// The fewest that are resampled.
+        /// Fewest members that are resampled.
         least: usize,
     },
-    /// The speed does not change, and a time constant has no meaning.
+    /// The speed does not change, so a time constant has no meaning.
     #[error(
         "the speed does not change, so the time constant is undefined: take a smaller load or a stronger stator"
     )]
@@ -91,7 +91,7 @@ pub enum FitRefusal {
     TooShort {
         /// Last time of the curve (s).
         duration: f64,
-        /// Time constant t_c (s): the fitted one, or, where `least` is 1, the upper end of its interval.
+        /// Time constant t_c (s): the fitted one, or, if `least` is 1, the upper end of its interval.
         time_constant: f64,
         /// The fewest time constants that a curve must last.
         least: f64,
@@ -109,14 +109,14 @@ pub enum FitRefusal {
         /// The fewest points.
         least: usize,
     },
-    /// The members hardly fly within the time constant: an apparent plateau is a flight, during which no
-    /// speed changes.
+    /// The members make too few flights within the time constant: an apparent plateau is a flight, during
+    /// which no speed changes.
     #[error(
         "{flights:?} flights within the time constant {time_constant:?} s are too few, {least:?} are needed: what \
          looks like a plateau is a flight, so take a longer duration"
     )]
     TooFewFlights {
-        /// Flights of a member within the time constant, on average.
+        /// Mean number of flights of a member within the time constant.
         flights: f64,
         /// Fitted time constant t_c (s).
         time_constant: f64,
@@ -133,10 +133,10 @@ pub enum FitRefusal {
         residual: f64,
         /// Fitted steady speed alpha_ss (rad/s).
         steady_speed: f64,
-        /// The largest share of the steady speed that is accepted.
+        /// Largest accepted share of the steady speed.
         largest: f64,
     },
-    /// The residuals are correlated for so long that the curve holds too few independent ones.
+    /// The residuals are correlated over so many points that too few are independent.
     #[error(
         "its residuals are correlated over {correlated_points:?} of its {points} points, too many to estimate the error: \
          another form, such as that of a motor whose drive or load changes, or slow noise; leave out the rows in which the \
@@ -145,18 +145,18 @@ pub enum FitRefusal {
     Correlated {
         /// Integrated correlation time of the residuals, in points.
         correlated_points: f64,
-        /// Points of the curve, or of its part that counts.
+        /// Number of points of the curve, or of the part that counts.
         points: usize,
     },
-    /// Many of the resampled curves have no time constant near that of the curve.
+    /// Many of the resampled curves have no time constant near the curve's own.
     #[error(
         "{astray} of {resamples} resampled curves have a time constant five times as long or as short: take more \
          members or a longer duration"
     )]
     Undetermined {
-        /// Resampled curves whose time constant is out of reach.
+        /// Number of resampled curves whose time constant is out of range.
         astray: usize,
-        /// All resampled curves.
+        /// Number of all resampled curves.
         resamples: usize,
     },
     /// A braking tail does not slow down.
@@ -168,18 +168,18 @@ pub enum FitRefusal {
         /// Mean speed of its last tenth (rad/s).
         last: f64,
     },
-    /// Something is added to the speeds of a transient.
+    /// The speeds of a transient have an offset.
     #[cfg(feature = "fit")]
     #[error(
         "{offset:?} rad/s seem to be added to the speeds of transient {transient} (counted from 0), where the standard error is \
          {standard_error:?} rad/s: subtract what the instrument shows at rest"
     )]
     Offset {
-        /// Its place in the list.
+        /// Index of the transient.
         transient: usize,
-        /// What is added (rad/s).
+        /// The offset (rad/s).
         offset: f64,
-        /// The standard error of that if nothing is (rad/s).
+        /// The standard error of the offset if its true value is zero (rad/s).
         standard_error: f64,
     },
     /// The speeds of a transient drift.
@@ -189,14 +189,14 @@ pub enum FitRefusal {
          error is {standard_error:?}: the motor or the instrument warms up, the load changes, or the instrument adds something"
     )]
     Drift {
-        /// Its place in the list.
+        /// Index of the transient.
         transient: usize,
         /// The drift (rad/s^2).
         drift: f64,
-        /// The standard error of that if there is none (rad/s^2).
+        /// The standard error of the drift if its true value is zero (rad/s^2).
         standard_error: f64,
     },
-    /// No parameters in their ranges describe what was measured.
+    /// No parameters in their ranges describe the measurements.
     #[cfg(feature = "fit")]
     #[error(
         "the sum of weighted squares is {misfit:?} for {degrees_of_freedom} degrees of freedom, more than the largest \
@@ -207,7 +207,7 @@ pub enum FitRefusal {
         misfit: f64,
         /// Its expectation.
         degrees_of_freedom: usize,
-        /// The largest that is accepted.
+        /// Largest accepted sum.
         largest: f64,
     },
 }

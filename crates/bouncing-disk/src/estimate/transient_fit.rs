@@ -1,8 +1,8 @@
-//! Fits of speed transients that state how far they can be trusted, or why they cannot.
+//! Fits of speed transients that state how far they can be trusted, or why not.
 //!
-//! The mean curve of an ensemble is fitted, not its members one by one: the mean of fits to scattered curves
-//! is not the fit to their mean. Errors come from resampling. docs/numerics-dynamics.md, "Fits with intervals",
-//! derives how.
+//! The fit is to the mean curve of an ensemble rather than to each member, because the mean of fits to
+//! scattered curves is not the fit to their mean. Errors come from resampling. Derived in
+//! docs/numerics-dynamics.md, "Fits with intervals".
 
 mod blocks;
 mod members;
@@ -29,54 +29,53 @@ use crate::motor::rotor::transient::SpeedCurve;
 use crate::motor::rotor::transient::{check_curve, check_rows};
 use crate::statistics::group_means;
 
-/// The fewest members whose scatter is resampled: with fewer, Student's quantile makes any interval useless.
+/// Fewest members whose scatter is resampled; with fewer, Student's quantile makes any interval useless.
 pub const LEAST_MEMBERS: usize = 5;
 
-/// The fewest points up to the time constant: intervals of a fourth of it lose 0.3 % of the rise by their
-/// averaging.
+/// Fewest points up to the time constant; averaging over intervals of a fourth of it loses 0.3 % of the rise.
 const LEAST_POINTS_OF_RISE: usize = 4;
 
-/// The fewest flights within the time constant: the speed of a rotor that flies is constant, which looks like
-/// one that has settled.
+/// Fewest flights within the time constant: a flying rotor has a constant speed, which looks settled.
 const LEAST_FLIGHTS: f64 = 2.0;
 
-/// Curves of more points are averaged in groups before they are fitted.
+/// Curves with more points are averaged in groups before they are fitted.
 const MOST_POINTS: usize = 4_096;
 
-/// Ensembles of more members are resampled in groups of neighbours.
+/// Ensembles with more members are resampled in groups of neighbours.
 const MOST_GROUPS: usize = 512;
 
-/// A rise below this share of the steady speed is rounding.
+/// A rise below this share of the steady speed counts as rounding.
 const NO_RISE: f64 = 1.0e-9;
 
-/// A start that lies beyond its interval by this share of the distance of its end is not from rest: three
-/// standard errors.
+/// A start is not from rest if its value lies outside its interval by this multiple of the distance to the
+/// interval's end: three standard errors.
 const DENIED: f64 = 1.5;
 
-/// The mean over runs may miss its fit by twice its standard error before the intervals grow with it.
+/// Intervals are widened if the mean over runs deviates from its fit by more than this multiple of its
+/// standard error.
 const LARGEST_MISFIT: f64 = 2.0;
 
-/// How near an end of the search a time constant is taken to lie at it.
+/// Distance from an end of the search within which a time constant counts as lying at it.
 const AT_LIMIT: f64 = 0.01;
 
-/// The requirements of a fit with intervals on a curve, and the resampling of the curve.
+/// Requirements of a fit with intervals on a curve, and the resampling of the curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FitSettings {
-    /// Number of resampled curves, in [200, 100000]. Default 1000: the ends of an interval then scatter by 5
-    /// % of its half width.
+    /// Number of resampled curves, in [200, 100000]. Default 1000, with which the ends of an interval scatter
+    /// by 5 % of its half width.
     pub resamples: usize,
     /// Seed of the resampling. Default 1.
     pub seed: u64,
-    /// The fewest time constants t_c that a curve must last, in [1, 1000]. Default 3: 5 % of the rise may be
+    /// Shortest duration of a curve in time constants t_c, in [1, 1000]. Default 3, so 5 % of the rise may be
     /// missing.
     pub least_duration: f64,
-    /// The largest root mean square of the residuals, as a share of the steady speed alpha_ss, in (0, 1].
-    /// Default 0.1. Noise of a measurement counts, too: raise it where the noise is known to be larger.
+    /// Largest root mean square of the residuals, as a share of the steady speed alpha_ss, in (0, 1]. Default
+    /// 0.1. Measurement noise counts, too: raise the limit if the noise is known to be larger.
     pub largest_residual: f64,
     /// Whether the times of a measurement count from the instant at which the motor begins to rise from rest.
-    /// Default false: time zero, a dead time and the speed at the start are found from the record, and the
-    /// intervals are wider. A record that contradicts this is refused.
+    /// Default false: time zero, a dead time and the speed at the start are estimated from the record, and
+    /// the intervals are wider. A record that contradicts `true` is rejected.
     pub from_rest: bool,
 }
 
@@ -100,27 +99,27 @@ impl FitSettings {
 
 /// The fit of one form of rise, with intervals.
 ///
-/// The intervals cover the scatter, not the error of a form that is not the motor's.
+/// The intervals cover the scatter, but not the error of a form that differs from the motor's.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RiseEstimate {
-    /// Steady speed alpha_ss (rad/s). It depends on the duration if the speed still creeps up after the rise:
-    /// it is the plateau up to the end of the curve.
+    /// Steady speed alpha_ss (rad/s). If the speed still creeps up after the rise, this is the plateau up to
+    /// the end of the curve and depends on the duration.
     pub steady_speed: IntervalEstimate,
-    /// Time constant t_c of the exponential, or the time t_r in which the ramp rises from rest (s). It
-    /// depends on the duration if the rise has another form: it is the best constant for a curve of this
-    /// length.
+    /// Time constant t_c of the exponential, or the time t_r in which the ramp rises from rest (s). If the
+    /// rise has another form, this is the best constant for a curve of this length and depends on the
+    /// duration.
     pub constant: IntervalEstimate,
-    /// The paper's stall acceleration alpha_ss/t_c (rad/s^2): an estimate from the run-up without a load, not
-    /// the load that stops the motor. It depends on the duration, as do both of its parts.
+    /// The paper's stall acceleration alpha_ss/t_c (rad/s^2): an estimate from the run-up without load, not
+    /// the load that stops the motor. It depends on the duration, as do both of its factors.
     pub stall_acceleration: IntervalEstimate,
-    /// Speed (rad/s) at the start time of the fit; `None` where the motor starts from rest at time zero.
+    /// Speed (rad/s) at the start time of the fit; `None` if the motor starts from rest at time zero.
     pub start_speed: Option<IntervalEstimate>,
     /// Root mean square of the residuals (rad/s).
     pub residual: f64,
 }
 
-/// Which curve a stall acceleration is read from.
+/// The form of curve from which a stall acceleration is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -134,10 +133,10 @@ pub enum RiseForm {
 /// A fit of a speed transient with 95 % intervals: of the mean over an ensemble's members, or of one measured
 /// curve.
 ///
-/// A computed motor starts from rest at time zero. For a measured motor the fit assumes neither (unless
-/// [`FitSettings::from_rest`] is set): it takes alpha_ss - b exp(-t/t_c) from the start of the rise on. A
-/// later start and a higher speed at the start change the same number b. So the fit can state when the curve
-/// would have been at rest ([`Self::zero_time`]), but not which of the two applies.
+/// A computed motor starts from rest at time zero. For a measured motor the fit assumes neither, unless
+/// [`FitSettings::from_rest`] is set: it fits alpha_ss - b exp(-t/t_c) from the start of the rise on. A later
+/// start and a higher initial speed change the same number b. So the fit can state when the curve would have
+/// been at rest ([`Self::zero_time`]), but not which of the two applies.
 ///
 /// ```
 /// # use bouncing_disk::core::Unobserved;
@@ -163,19 +162,19 @@ pub enum RiseForm {
 pub struct TransientFit {
     /// The fit of alpha_ss (1 - exp(-t/t_c)), or of alpha_ss - b exp(-t/t_c).
     pub exponential: RiseEstimate,
-    /// The fit of alpha_ss min(t/t_r, 1), or of alpha_ss - b max(1 - t/t_r, 0); `None` where the curve does
-    /// not determine t_r.
+    /// The fit of alpha_ss min(t/t_r, 1), or of alpha_ss - b max(1 - t/t_r, 0); `None` if the curve does not
+    /// determine t_r.
     pub ramp: Option<RiseEstimate>,
-    /// The form that leaves the smaller residual.
+    /// The form with the smaller residual.
     pub form: RiseForm,
-    /// Time (s) of the first row that was fitted; 0 for a start from rest. The rows before it have one speed:
-    /// they lie before the switch-on or in a dead time.
+    /// Time (s) of the first fitted row; 0 for a start from rest. The rows before it have constant speed:
+    /// they precede the switch-on or fall in a dead time.
     pub start_time: f64,
     /// Last time of the curve (s), where the fit ends.
     pub duration: f64,
-    /// Points of the curve; for several runs with different times, the points of all.
+    /// Number of points of the curve; for several runs with different times, of all runs.
     pub points: usize,
-    /// Members whose mean was fitted; 1 for a single measured curve.
+    /// Number of members whose mean was fitted; 1 for a single measured curve.
     pub members: usize,
 }
 
@@ -199,20 +198,20 @@ impl TransientFit {
         self.exponential.stall_acceleration
     }
 
-    /// The fit of the form that leaves the smaller residual. Where that is the ramp, the exponential may go on rising to a steady
-    /// speed that no motor reaches.
+    /// The fit of the form with the smaller residual. If that is the ramp, the exponential may rise on to a
+    /// steady speed that no motor reaches.
     #[must_use]
     pub fn better(&self) -> &RiseEstimate {
         self.ramp.as_ref().filter(|_| self.form == RiseForm::Ramp).unwrap_or(&self.exponential)
     }
 
-    /// The better form (rad/s) at `time` (s), not before [`Self::start_time`].
+    /// The speed of the better form (rad/s) at `time` (s), not before [`Self::start_time`].
     #[must_use]
     pub fn better_speed(&self, time: f64) -> f64 {
         let own = self.better();
         let start = own.start_speed.map_or(0.0, |start| start.value);
         let rise = own.steady_speed.value - start;
-        // The ramp's time is that of a rise from rest.
+        // The ramp's time constant is for a rise from rest.
         let (shape, constant): (fn(f64) -> f64, f64) = match self.form {
             RiseForm::Exponential => (exponential, own.constant.value),
             RiseForm::Ramp => (ramp, own.constant.value * (rise / own.steady_speed.value)),
@@ -220,7 +219,7 @@ impl TransientFit {
         start + rise * shape((time - self.start_time) / constant)
     }
 
-    /// The fitted exponential (rad/s) at `time` (s), not before [`Self::start_time`].
+    /// The speed of the fitted exponential (rad/s) at `time` (s), not before [`Self::start_time`].
     #[must_use]
     pub fn speed(&self, time: f64) -> f64 {
         let steady = self.exponential.steady_speed.value;
@@ -238,17 +237,17 @@ impl TransientFit {
         self.start_time + self.exponential.constant.value * behind
     }
 
-    /// Fits the mean curve of the members of a computed ensemble, which start from rest at time zero, with
-    /// intervals by resampling the members: at least [`LEAST_MEMBERS`] curves with the same times.
+    /// Fits the mean curve of the members of a computed ensemble, which start from rest at time zero.
+    /// Intervals come from resampling the members: at least [`LEAST_MEMBERS`] curves with equal times.
     ///
     /// Curves of more than 4096 points are first averaged in groups of points; more than 512 members are
     /// resampled in groups of neighbours.
     ///
     /// # Errors
     /// [`FitError::Refused`] with the reason why the fit would be meaningless;
-    /// [`Error::OutOfRange`](crate::Error::OutOfRange) names illegal settings, curves that cannot be fitted,
-    /// or times that differ between members; an error of the core for more than [`MAX_MEMBERS`] members or
-    /// more than [`MAX_SPEEDS`] speeds of all together.
+    /// [`Error::OutOfRange`](crate::Error::OutOfRange) for illegal settings, curves that cannot be fitted, or
+    /// times that differ between members; an error of the core for more than [`MAX_MEMBERS`] members or more
+    /// than [`MAX_SPEEDS`] speeds in total.
     pub fn new(members: &[SpeedCurve], settings: &FitSettings) -> Result<Self, FitError> {
         settings.check()?;
         let times = members.first().map_or(&[] as &[f64], |curve| &curve.times);
@@ -267,15 +266,15 @@ impl TransientFit {
         rows.fit(Start::FromRest, settings, &mut watch.work())
     }
 
-    /// The fit of measured runs, each with its times (s, rising, also below zero) and speeds (rad/s): one run
-    /// with intervals from its residuals, whose noise may be correlated and vary along the curve, or at least
-    /// [`LEAST_MEMBERS`] with intervals from their scatter.
+    /// The fit of measured runs, each with its times (s, rising, possibly below zero) and speeds (rad/s). A
+    /// single run has intervals from its residuals, whose noise may be correlated and vary along the curve;
+    /// at least [`LEAST_MEMBERS`] runs have intervals from their scatter.
     ///
-    /// The items of `observer` are the resampled curves, once for each form.
+    /// The observer's items are the resampled curves, once for each form.
     ///
     /// # Errors
-    /// Those of [`Self::new`]; [`FitRefusal::NotFromRest`] where the settings say that the motor starts from
-    /// rest and the runs contradict this.
+    /// The errors of [`Self::new`]; [`FitRefusal::NotFromRest`] if the settings assume a start from rest and
+    /// the runs contradict this.
     pub fn of_measured(
         runs: &[(&[f64], &[f64])],
         settings: &FitSettings,
@@ -305,7 +304,7 @@ impl TransientFit {
         Ok(fit)
     }
 
-    /// Refuses a start from rest that a fit without it denies.
+    /// Rejects a start from rest that contradicts a fit without this assumption.
     fn refuse_other_start(&self, free: &Self) -> Result<(), FitError> {
         let (own, other, shape): (_, _, fn(f64) -> f64) = match free.form {
             RiseForm::Exponential => (Some(self.exponential), Some(free.exponential), exponential),
@@ -330,23 +329,23 @@ fn better_form(exponential: &RiseEstimate, ramp: Option<&RiseEstimate>) -> RiseF
     }
 }
 
-/// The runs that are fitted, and their mean; speeds are multiplied by `scale`.
+/// The fitted runs and their mean; speeds are multiplied by `scale`.
 struct Rows {
     runs: Vec<RunSpeeds>,
-    /// The mean over the runs: of as many neighbouring rows as there are runs, which have the same time if
-    /// the runs do.
+    /// The mean over the runs: over as many neighbouring rows as there are runs, which have the same time if
+    /// the runs have equal times.
     times: Vec<f64>,
     speeds: Vec<f64>,
     have_same_times: bool,
     scale: f64,
     members: usize,
     points: usize,
-    /// Flights of a computed member, or 0.
+    /// Number of flights of a computed member, or 0.
     flights: f64,
 }
 
 impl Rows {
-    /// Of legal curves, which are computed if their flights are known.
+    /// The rows of legal curves, which are computed ones if the number of flights is known.
     fn of(
         curves: &[(&[f64], &[f64])],
         flights: Option<f64>,
@@ -394,7 +393,7 @@ impl Rows {
         Ok(rows)
     }
 
-    /// The weight, time and speed of every row of all runs, by their times.
+    /// The weight, time and speed of every row of all runs, sorted by time.
     fn sorted(&self) -> Vec<[f64; 3]> {
         let of = |run: &RunSpeeds| {
             let rows = run.times.iter().zip(&run.speeds).map(|(&time, &speed)| [run.weight, time, speed]);
@@ -419,8 +418,8 @@ impl Rows {
         }
     }
 
-    /// How much larger than its standard error the residual of the mean curve is, if it is much larger:
-    /// another form.
+    /// The ratio of the residual of the mean curve to its standard error, if it is so large that the curve
+    /// has another form.
     fn misfit(&self, of: impl Fn(f64) -> f64, from: f64, parameters: usize) -> f64 {
         let (mut residual, mut expected, mut points) = (0.0, 0.0, 0.0);
         let runs = self.runs.len();
@@ -477,7 +476,7 @@ impl Rows {
     }
 }
 
-/// The part of the rows that is fitted: from the start of the rise on, from which its times count.
+/// The fitted part of the rows: from the start of the rise, which is time zero.
 struct FittedRows<'r> {
     rows: &'r Rows,
     start: Start,
@@ -487,7 +486,7 @@ struct FittedRows<'r> {
 }
 
 impl FittedRows<'_> {
-    /// Whether the mean curve lets its fit mean anything.
+    /// Whether the fit of the mean curve is meaningful.
     fn judge(&self, fit: &Saturation, settings: &FitSettings) -> Result<(), FitRefusal> {
         let times = &self.times;
         let (points, last, time_constant) = (times.len(), times[times.len() - 1], fit.constant);
@@ -562,7 +561,7 @@ impl FittedRows<'_> {
                 Err(refusal) => return Ok(Err(refusal)),
             }
         } else {
-            // A computed motor has a form of its own, which its fit does not claim to be.
+            // A computed motor has its own form, which the fit does not claim to match.
             let is_measured = self.rows.flights <= 0.0;
             let curve = |time: f64| at(time - self.start_time, fit.constant);
             let misfit = if is_measured { self.rows.misfit(curve, self.start_time, parameters) } else { 1.0 };
@@ -582,14 +581,14 @@ impl FittedRows<'_> {
         resamples: &Resamples,
     ) -> Result<RiseEstimate, FitError> {
         let (scale, centre) = (self.rows.scale, resamples.centre());
-        // The mean of rows that do not have the same times is not at its fit: all rows together are.
+        // If rows do not have equal times, their mean deviates from its fit; all rows together do not.
         let Rise { steady, rise, log_constant } = if self.rows.have_same_times {
             Rise { steady: fit.steady, rise: fit.rise, log_constant: ln(fit.constant) }
         } else {
             centre
         };
         let constant = if self.rows.have_same_times { fit.constant } else { exp(log_constant) };
-        // A ramp that starts at some speed has another time to rise from rest.
+        // A ramp that starts at a non-zero speed would take another time to rise from rest.
         let is_part = is_ramp && self.start == Start::AnySpeed;
         let from_rest =
             |own: &Rise| if is_part { (own.steady / own.rise).max(f64::MIN_POSITIVE) } else { 1.0 };
@@ -600,8 +599,7 @@ impl FittedRows<'_> {
         let log = ln(constant);
         let (low, high) = resamples.about(log, &|own| own.log_constant + ln(from_rest(own)));
         let time_constant = IntervalEstimate::about(constant, exp(low), exp(high))?;
-        // The quotient by the constant of the fit, so that times of any size neither overflow nor vanish in
-        // it.
+        // Take the quotient by the fit's constant, so that times of any size neither overflow nor vanish.
         let quotient = |own: &Rise| own.steady * exp(log - own.log_constant) / from_rest(own);
         let (low, high) = resamples.about(steady, &quotient);
         let [value, low, high] = [steady, low, high].map(|speed| speed / scale / constant);

@@ -1,33 +1,33 @@
-//! The errors of stored files. They are not part of [`Error`], which can be copied and compared: system
-//! errors cannot.
+//! The errors of stored files. They are separate from [`Error`], which can be copied and compared, because
+//! system errors cannot.
 
 use std::io;
 use std::path::PathBuf;
 
 use crate::error::Error;
 
-/// An error of a stored file. Every variant names the file; texts of files are escaped as in Rust, so that
+/// An error of a stored file. Every variant names the file; excerpts of files are escaped as in Rust, so that
 /// they cannot disturb a terminal.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum StorageError {
-    /// The system refuses.
+    /// The operating system reports an error.
     #[error("cannot {action} {path:?}")]
     Io {
         /// The attempted action: open, lock, read, write.
         action: &'static str,
         /// The file.
         path: PathBuf,
-        /// The report of the system.
+        /// The error of the operating system.
         source: io::Error,
     },
-    /// Another process, or another journal of this one, writes in the file.
+    /// Another process, or another journal of this process, is writing to the file.
     #[error("{path:?} is locked: another process writes to it")]
     Busy {
         /// The file.
         path: PathBuf,
     },
-    /// A file of a newer format than this version knows.
+    /// A file of a newer format than this version supports.
     #[error(
         "{file:?} has version {found} of the format \"{format}\" (written by {written_by:?}), newer than \
          version {newest}, the newest that {} {} reads: read it with the newer program",
@@ -39,11 +39,11 @@ pub enum StorageError {
         file: PathBuf,
         /// The name of the format.
         format: &'static str,
-        /// The version of the format that the file has.
+        /// The version of the format of the file.
         found: u32,
         /// Program and version that wrote it.
         written_by: String,
-        /// The newest version of the format that is known.
+        /// The newest supported version of the format.
         newest: u32,
     },
     /// A file of an older format than this version reads.
@@ -56,29 +56,29 @@ pub enum StorageError {
         file: PathBuf,
         /// The name of the format.
         format: &'static str,
-        /// The version of the format that the file has.
+        /// The version of the format of the file.
         found: u32,
         /// Program and version that wrote it.
         written_by: String,
-        /// The oldest version of the format that is read.
+        /// The oldest supported version of the format.
         oldest: u32,
     },
-    /// A file of another format, or not one of ours.
+    /// A file of another format, or not a file of this project.
     #[error("{file:?} is not a file of the format \"{expected}\": its format is {found:?}")]
     OtherFormat {
         /// The file.
         file: PathBuf,
-        /// The name of the format that is expected.
+        /// The name of the expected format.
         expected: &'static str,
-        /// The name of the format that the file has; empty if it names none.
+        /// The name of the format of the file; empty if it names none.
         found: String,
     },
-    /// The provenance in a file is incomplete, or not in the form of its format.
+    /// The provenance in a file is incomplete or malformed.
     #[error("the provenance in {file:?} cannot be read")]
     Provenance {
         /// The file.
         file: PathBuf,
-        /// Where and why.
+        /// The cause and its position.
         source: serde_json::Error,
     },
     /// A journal of another computation.
@@ -95,7 +95,7 @@ pub enum StorageError {
         /// The requested value, as JSON.
         expected: String,
     },
-    /// A line was changed after it had been written.
+    /// A line was changed after it was written.
     #[error(
         "line {line} of {path:?} was changed after it was written; without this line the others can be read"
     )]
@@ -112,7 +112,7 @@ pub enum StorageError {
         path: PathBuf,
         /// The line, from 1.
         line: u64,
-        /// Where and why.
+        /// The cause and its position.
         source: serde_json::Error,
     },
     /// A value that cannot be read back from JSON, such as a number that is not finite.
@@ -120,15 +120,15 @@ pub enum StorageError {
     NotStorable {
         /// The value: `the parameter "system"`, `the result of item 17`.
         what: String,
-        /// Why.
+        /// The cause.
         source: serde_json::Error,
     },
-    /// An item that the computation does not have.
+    /// The computation has no item of this index.
     #[error("item {index} does not exist: there are {items} items")]
     NoSuchItem {
         /// The index of the item.
         index: usize,
-        /// How many items there are.
+        /// Number of items.
         items: usize,
     },
     /// An error of the model, or of the core, which includes a stop by the observer.

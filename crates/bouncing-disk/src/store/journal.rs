@@ -15,21 +15,22 @@ use serde_json::{Value, json};
 use crate::store::error::StorageError;
 use crate::store::provenance::{Format, Provenance};
 
-/// The format of a [`Journal`]. The first line of every later version, too, will be an object whose
+/// The format of a [`Journal`]. In every later version, too, the first line will be an object whose
 /// `provenance` names format, version and program.
 pub const JOURNAL: Format = Format { name: "bouncing-disk journal", version: 1, oldest: 1 };
 
 /// The file of a long computation of many items. Finished results are appended; existing lines never change.
 ///
 /// The file is text. The first line is the key: the [`Provenance`] of the computation and the number of its
-/// items. Each further line is the result of one item. Every line is an object of JSON with a digest of the
-/// rest of the line, so that other programs can read it, and a changed line is detected.
+/// items. Each further line is the result of one item. Every line is a JSON object with a digest of the rest
+/// of the line, so that other programs can read it and changes are detected.
 ///
-/// A process that is killed leaves half a line at most: it is cut off when the journal is opened again, and
-/// nothing that was finished is lost. (A power cut may lose what was appended since the last [`Self::sync`].)
-/// A journal of another computation is refused, and so are results of another version of the program: one
-/// version must compute them all. One journal at a time writes to a file; a second one is refused while the
-/// first exists, in any process. The lock is the system's: it ends with the process.
+/// A killed process leaves at most half a line, which is removed when the journal is opened again; no
+/// finished result is lost. (A power cut may lose everything appended since the last [`Self::sync`].) A
+/// journal of another computation, or with results of another version of the program, is an error: one
+/// version must compute all results. Only one journal at a time can write to a file; opening a second one is
+/// an error while the first exists, in any process. The lock belongs to the operating system and ends with
+/// the process.
 ///
 /// ```
 /// use bouncing_disk::store::{JOURNAL, Journal, Provenance, StorageError};
@@ -69,25 +70,25 @@ pub const JOURNAL: Format = Format { name: "bouncing-disk journal", version: 1, 
 pub struct Journal<T> {
     path: PathBuf,
     file: Locked,
-    /// Whether a write that failed may have left bytes behind the whole lines.
+    /// Whether a failed write may have left bytes after the last whole line.
     torn: bool,
-    /// Bytes of the whole lines.
+    /// Total length of the whole lines (bytes).
     length: u64,
     items: usize,
     finished: BTreeSet<usize>,
     results: PhantomData<fn(T) -> T>,
 }
 
-/// A file that is locked as long as it is open.
+/// A file that is locked while it is open.
 ///
-/// The lock is released explicitly, and not by closing the file: a process that is just being started holds a
-/// copy of every open file for a moment, and would keep the lock for as long.
+/// The lock is released explicitly instead of by closing the file: a process that is just being started
+/// briefly holds a copy of every open file, and would extend the lock.
 #[derive(Debug)]
 struct Locked(File);
 
 impl Drop for Locked {
     fn drop(&mut self) {
-        // Where the system refuses, it ends the lock with the process.
+        // If this fails, the operating system ends the lock with the process.
         let _ = self.0.unlock();
     }
 }
@@ -112,7 +113,7 @@ struct Entry<T> {
 
 /// The contents of a journal.
 struct Contents<T> {
-    /// Bytes of the whole lines.
+    /// Total length of the whole lines (bytes).
     length: u64,
     results: Vec<(usize, T)>,
 }
@@ -121,13 +122,13 @@ impl<T: Serialize + DeserializeOwned> Journal<T> {
     /// Opens or creates the journal of a computation of `items`, and returns the finished results.
     ///
     /// `key` is a provenance of the format [`JOURNAL`] and names everything on which the results depend. A
-    /// file that is not a journal is not touched.
+    /// file that is not a journal is left unchanged.
     ///
     /// # Errors
-    /// [`StorageError::Busy`] if somebody else has it open; [`StorageError::OtherKey`] for that of another
-    /// computation; [`StorageError::NewerFormat`] and the others of [`Provenance::read`];
+    /// [`StorageError::Busy`] if another journal has it open; [`StorageError::OtherKey`] for a journal of
+    /// another computation; [`StorageError::NewerFormat`] and the other errors of [`Provenance::read`];
     /// [`StorageError::Damaged`] and [`StorageError::Result`] for a line that cannot be read;
-    /// [`StorageError::Io`] if the system refuses, as it does where a file system has no locks.
+    /// [`StorageError::Io`] for errors of the operating system, including file systems without locks.
     pub fn open(
         path: impl AsRef<Path>,
         key: &Provenance,
@@ -157,12 +158,11 @@ impl<T: Serialize + DeserializeOwned> Journal<T> {
         Ok((journal, partial(items, results)))
     }
 
-    /// Reads a journal without writing to it; another process may write meanwhile, unless the system's locks
-    /// forbid it, as on Windows. For watching the progress, and for combining the journals of several
-    /// machines.
+    /// Reads a journal without writing to it, to watch the progress or to combine the journals of several
+    /// machines. Another process may write meanwhile, unless the system's locks forbid it, as on Windows.
     ///
     /// # Errors
-    /// Those of [`Self::open`], but for [`StorageError::Busy`].
+    /// The errors of [`Self::open`] except [`StorageError::Busy`].
     pub fn read(
         path: impl AsRef<Path>,
         key: &Provenance,
@@ -176,22 +176,22 @@ impl<T: Serialize + DeserializeOwned> Journal<T> {
         Ok(partial(items, read(&file, path, &header(key, items, path)?, items)?.results))
     }
 
-    /// Appends the result of an item. An existing result stays.
+    /// Appends the result of an item. An existing result is kept.
     ///
-    /// A number that is not finite is refused, except in an `Option`, where JSON makes it `None`.
+    /// A number that is not finite is an error, except in an `Option`, which becomes `None` in JSON.
     ///
     /// # Errors
-    /// [`StorageError::NoSuchItem`], [`StorageError::NotStorable`] for a result that could not be read back;
-    /// [`StorageError::Io`] if the system refuses, as on a full disk: the journal is then unchanged.
+    /// [`StorageError::NoSuchItem`]; [`StorageError::NotStorable`] for a result that could not be read back;
+    /// [`StorageError::Io`] for errors of the operating system, such as a full disk, which leave the journal
+    /// unchanged.
     pub fn append(&mut self, index: usize, result: &T) -> Result<(), StorageError> {
         self.append_all([(index, result)])
     }
 
-    /// Appends the missing results of a run, all with one system call, and makes sure that they are on the
-    /// disk.
+    /// Appends the missing results of a run with a single system call, and ensures that they are on the disk.
     ///
     /// # Errors
-    /// Those of [`Self::append`].
+    /// The errors of [`Self::append`].
     pub fn record(&mut self, results: &PartialResults<T>) -> Result<(), StorageError> {
         self.append_all(results.iter())?;
         self.sync()
@@ -235,19 +235,19 @@ impl<T: Serialize + DeserializeOwned> Journal<T> {
                 Ok(())
             }
             Err(source) => {
-                // Half a line is cut off now, or else before the next one is written or the journal is opened
-                // again.
+                // Half a line is removed now, or otherwise before the next one is written or the journal is
+                // opened again.
                 self.torn = file.set_len(self.length).is_err();
                 Err(StorageError::Io { action: "write", path: self.path.clone(), source })
             }
         }
     }
 
-    /// Waits until everything appended is on the disk, safe from a power cut. A killed process does no harm
-    /// even without this.
+    /// Waits until everything appended is on the disk, safe from a power cut. This is not needed against a
+    /// killed process.
     ///
     /// # Errors
-    /// [`StorageError::Io`] if the system refuses.
+    /// [`StorageError::Io`] for errors of the operating system.
     pub fn sync(&self) -> Result<(), StorageError> {
         let failed = |source| StorageError::Io { action: "write", path: self.path.clone(), source };
         self.file.0.sync_data().map_err(failed)
@@ -259,7 +259,7 @@ impl<T: Serialize + DeserializeOwned> Journal<T> {
         &self.path
     }
 
-    /// Number of items whose results are in it.
+    /// Number of items whose results are stored.
     #[must_use]
     pub fn done(&self) -> usize {
         self.finished.len()
@@ -289,21 +289,21 @@ fn header(key: &Provenance, items: usize, path: &Path) -> Result<Vec<u8>, Storag
     Ok(line(&body))
 }
 
-/// Most bytes of the first line.
+/// Longest first line (bytes).
 const LONGEST_KEY: u64 = 1 << 26;
 
-/// The text before the digest of a line, and the text after it.
+/// The text before and after the digest of a line.
 const BEFORE_DIGEST: &[u8] = b"{\"digest\":\"";
 const AFTER_DIGEST: &[u8] = b"\",";
 
-/// The line of an object: with a digest of all that follows it, and a line end.
+/// The line of an object, with a digest of everything after it, and a newline.
 fn line(object: &[u8]) -> Vec<u8> {
     let rest = object.get(1..).unwrap_or_default();
     let digest = Digest::of(rest).to_string();
     [BEFORE_DIGEST, digest.as_bytes(), AFTER_DIGEST, rest, b"\n"].concat()
 }
 
-/// Whether a line, without its end, is as it was written.
+/// Whether a line, without its newline, is as it was written.
 fn is_intact(line: &[u8]) -> bool {
     let rest = line.strip_prefix(BEFORE_DIGEST).and_then(|line| line.split_at_checked(16));
     let split = rest.and_then(|(digest, rest)| Some((digest, rest.strip_prefix(AFTER_DIGEST)?)));
@@ -324,11 +324,11 @@ fn read<T: DeserializeOwned>(
     let mut bytes = Vec::new();
     for number in 1_u64.. {
         bytes.clear();
-        // A file of gigabytes without a line end is no journal, and is not read to its end to see that.
+        // Avoids reading gigabytes of a file without newlines, which is no journal.
         let longest = if number == 1 { LONGEST_KEY } else { u64::MAX };
         let length = reader.by_ref().take(longest).read_until(b'\n', &mut bytes).map_err(failed)?;
         let Some((b'\n', text)) = bytes.split_last() else {
-            // Half a key is that of this journal, or none.
+            // A partial key may belong to this journal only if it agrees so far.
             if number == 1 && !expected.starts_with(&bytes) {
                 return Err(no_journal(path));
             }
@@ -364,7 +364,7 @@ fn no_journal(path: &Path) -> StorageError {
     StorageError::OtherFormat { file: path.to_owned(), expected: JOURNAL.name, found: String::new() }
 }
 
-/// Checks the format first, as that of a later version may have any other form.
+/// Checks the format first, as the rest may differ in a later version.
 fn check_header(found: &[u8], expected: &[u8], path: &Path) -> Result<(), StorageError> {
     let key = |line: &[u8]| serde_json::from_slice::<Value>(line).map_err(|_| no_journal(path));
     let (stored, wanted) = (key(found)?, key(expected)?);
@@ -373,7 +373,8 @@ fn check_header(found: &[u8], expected: &[u8], path: &Path) -> Result<(), Storag
         return Err(StorageError::Damaged { path: path.to_owned(), line: 1 });
     }
     let parts = |key: &Value| json!({ "items": key["items"], "provenance": key["provenance"] });
-    // The version comes first: other differences between two versions do not help to find the right program.
+    // The version comes first, because other differences between versions do not help to find the right
+    // program.
     let version = |key: &Value| json!({ "provenance": { "version": key["provenance"]["version"] } });
     let differ =
         |of: &dyn Fn(&Value) -> Value| first_difference(&of(&stored), &of(&wanted), &mut String::new());
@@ -424,7 +425,7 @@ fn first_difference(found: &Value, expected: &Value, field: &mut String) -> Opti
             }
             None
         }
-        // As text: 0 and -0 are equal numbers, and other parameters.
+        // Compared as text: 0 and -0 are equal numbers but different parameters.
         (found, expected) => {
             let [left, right] = [found, expected].map(Value::to_string);
             (left != right).then(|| difference(Some(found), Some(expected), field))
@@ -437,7 +438,7 @@ fn difference(found: Option<&Value>, expected: Option<&Value>, field: &str) -> D
     Difference { field: field.escape_debug().to_string(), found: short(found), expected: short(expected) }
 }
 
-/// A value as JSON, no longer than a message may be.
+/// A value as JSON, shortened for a message.
 fn short(value: &Value) -> String {
     const LONGEST: usize = 200;
     let text = value.to_string();

@@ -9,24 +9,24 @@ use serde_json::{Map, Value};
 
 use crate::store::error::StorageError;
 
-/// A kind of file: its name, and the versions that are read.
+/// A kind of file: its name, and the supported versions.
 ///
-/// The version counts the layouts of such files, not the releases of a program: it rises when a file could be
-/// misunderstood by those who read earlier ones.
+/// The version counts the layouts of such files, not the releases of a program: it increases when readers of
+/// earlier versions could misunderstand a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Format {
     /// The name stated in a file.
     pub name: &'static str,
-    /// The version that is written, which is the newest that is read.
+    /// The version that is written, which is the newest supported one.
     pub version: u32,
-    /// The oldest version that is read.
+    /// The oldest supported version.
     pub oldest: u32,
 }
 
-/// The origin stated in a stored file: the program that wrote it and its version, the format of the file and
-/// its version, and the computation: parameters, seed and chatter policy.
+/// The origin of a stored file: the program and its version, the format and its version, and the computation
+/// (parameters, seed and chatter policy).
 ///
-/// It holds no time, no user and no machine: the same computation gives the same bytes. Inapplicable fields
+/// It contains no time, user or machine, so the same computation gives the same bytes. Inapplicable fields
 /// are stored as `null`.
 ///
 /// ```
@@ -63,7 +63,7 @@ pub struct Provenance {
     chatter_policy: Option<ChatterPolicy>,
 }
 
-/// The first number of a tree that is not finite.
+/// The first number in a tree that is not finite.
 fn first_not_finite(tree: &Tree) -> Option<f64> {
     match tree {
         Tree::Float(number) => (!number.is_finite()).then_some(*number),
@@ -74,7 +74,7 @@ fn first_not_finite(tree: &Tree) -> Option<f64> {
     }
 }
 
-/// The part of a provenance that every format version has. Nothing is known about a file without it.
+/// The part of a provenance that every format version has; without it nothing is known about a file.
 struct Stamp {
     program: String,
     version: String,
@@ -97,20 +97,20 @@ impl Provenance {
         }
     }
 
-    /// Names the program that writes the file, and its version, in place of this crate.
+    /// Replaces the program, and its version, that writes the file; the default is this crate.
     #[must_use]
     pub fn written_by(mut self, program: &str, version: &str) -> Self {
         (self.program, self.version) = (program.to_owned(), version.to_owned());
         self
     }
 
-    /// Adds a parameter, or replaces the one of this name. Its numbers must be finite, as JSON has no others.
+    /// Adds a parameter, or replaces one of the same name. Its numbers must be finite, as JSON has no others.
     ///
     /// # Errors
-    /// [`StorageError::NotStorable`] if JSON cannot hold it, as for a number that is not finite.
+    /// [`StorageError::NotStorable`] if JSON cannot represent it, as for a number that is not finite.
     pub fn with(mut self, name: &str, parameter: &(impl Serialize + ?Sized)) -> Result<Self, StorageError> {
         let failed = |source| StorageError::NotStorable { what: format!("the parameter {name:?}"), source };
-        // JSON would hold null in their place: different parameters would look alike.
+        // JSON would contain null instead, so different parameters would look alike.
         let tree = Tree::serialized(parameter).map_err(|error| failed(serde::ser::Error::custom(error)))?;
         if let Some(number) = first_not_finite(&tree) {
             return Err(failed(serde::ser::Error::custom(format!("{number} is no number that JSON has"))));

@@ -1,7 +1,7 @@
-//! Reads measured speeds from separated values, and locates every malformed place.
+//! Reads measured speeds from separated values, and locates every error in the file.
 //!
 //! The reader makes no guesses: the unit of a column is in its name, in the row below the header, or given by
-//! the caller; a comma that may be a decimal mark or separate thousands is an error.
+//! the caller. A comma that may be either a decimal mark or a thousands separator is an error.
 
 use std::collections::BTreeMap;
 use std::io::Read;
@@ -33,19 +33,20 @@ pub(crate) const LARGEST_FILE: u64 = 64 << 20;
 /// The longest line that is read (bytes).
 const LONGEST_LINE: usize = 1 << 16;
 
-/// The most lines of numbers.
+/// Most rows of numbers.
 const MOST_ROWS: usize = 4_000_000;
 
-/// The fewest lines of a run.
+/// Fewest rows of a run.
 const LEAST_POINTS: usize = 3;
 
-/// How many characters of a text a message shows.
+/// Number of characters of a file's text that a message shows.
 const SHOWN: usize = 40;
 
-/// The caller's description of the columns of a file; the file itself must state whatever is `None`.
+/// The caller's description of the columns of a file; the file itself must state everything that is `None`.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct CsvColumns {
-    /// The column of the times. If it or that of the speeds is named, columns of other names are ignored.
+    /// The column of the times. If this or the column of the speeds is named, columns of other names are
+    /// ignored.
     pub time: Option<String>,
     /// The column of the speeds.
     pub speed: Option<String>,
@@ -60,16 +61,16 @@ impl MeasuredSpeeds {
     /// repeated runs, `member` (a whole number), or with times and speeds in other units stated in the file.
     /// Feature `csv`.
     ///
-    /// The header is the first line that names the columns, in any order; text before it, a row of units
+    /// The header is the first line that names the columns, in any order. Text before it, a row of units
     /// below it, blank lines and lines that begin with `#`, `%` or `//` are legal. Columns are separated by
     /// commas, semicolons or tabs; numbers have a decimal point or, if commas do not separate columns, a
-    /// decimal comma. Another column is refused, not ignored: it may be a misspelt one. Within a run the
-    /// times rise; runs may follow each other or alternate. At most 64 MiB, 4,000,000 lines of numbers and
-    /// 65,536 bytes of one line are read.
+    /// decimal comma. An unknown column is an error, because its name may be misspelt. Within a run the times
+    /// rise; runs may follow each other or alternate. At most 64 MiB, 4,000,000 rows of numbers and 65,536
+    /// bytes per line are read.
     ///
     /// # Errors
-    /// [`MeasuredSpeedsError`](crate::estimate::MeasuredSpeedsError) names file, line and field, and how to
-    /// correct them. A folder, a named pipe, a socket and a device are refused before they are opened.
+    /// [`MeasuredSpeedsError`](crate::estimate::MeasuredSpeedsError) states file, line and field, and how to
+    /// correct the error. Folders, named pipes, sockets and devices are rejected before they are opened.
     pub fn from_csv(path: impl AsRef<Path>) -> Result<Self, MeasuredSpeedsError> {
         Self::from_csv_with(path, &CsvColumns::default())
     }
@@ -77,7 +78,7 @@ impl MeasuredSpeeds {
     /// [`Self::from_csv`] with columns described by the caller.
     ///
     /// # Errors
-    /// Those of [`Self::from_csv`]; a unit that contradicts the file.
+    /// The errors of [`Self::from_csv`]; a unit that contradicts the file.
     pub fn from_csv_with(path: impl AsRef<Path>, columns: &CsvColumns) -> Result<Self, MeasuredSpeedsError> {
         let path = path.as_ref();
         let file = path.to_string_lossy();
@@ -89,10 +90,10 @@ impl MeasuredSpeeds {
         )
     }
 
-    /// [`Self::from_csv_with`] of a reader, called `name` in messages.
+    /// [`Self::from_csv_with`] for a reader, called `name` in messages.
     ///
     /// # Errors
-    /// Those of [`Self::from_csv_with`].
+    /// The errors of [`Self::from_csv_with`].
     pub fn from_csv_reader(
         name: &str,
         reader: impl Read,
@@ -173,7 +174,7 @@ fn runs_of(bytes: &[u8], columns: &CsvColumns) -> Result<(Runs, (TimeUnit, Speed
     Ok((runs, (time_unit, speed_unit)))
 }
 
-/// The name of a column and its unit in brackets or behind an underscore, if it has one.
+/// The name of a column and its unit, if given in brackets or after an underscore.
 pub(crate) fn name_and_unit(field: &str) -> (String, Option<&str>) {
     for (open, close) in [('(', ')'), ('[', ']')] {
         if let Some((name, unit)) = field.strip_suffix(close).and_then(|rest| rest.split_once(open)) {
@@ -189,22 +190,22 @@ pub(crate) fn name_and_unit(field: &str) -> (String, Option<&str>) {
     (field.to_lowercase(), None)
 }
 
-/// Where the columns are in the file, and how its numbers are written.
+/// The positions of the columns in the file, and the format of its numbers.
 struct Header<'a> {
     line: usize,
     separator: char,
-    /// Fields of a line.
+    /// Number of fields per line.
     fields: usize,
-    /// For times and speeds the place in a line; that of the members may be missing.
+    /// Positions of times and speeds in a line; the column of the members may be missing.
     places: [usize; 2],
     member: Option<usize>,
-    /// For times and speeds the unit in the name, or below it.
+    /// Units of times and speeds, from the name or the row below it.
     units: [Option<&'a str>; 2],
     marks: DecimalMarks,
 }
 
 impl<'a> Header<'a> {
-    /// The first line that names times and speeds. Only lines of text may precede it: a line of numbers ends
+    /// The first line that names times and speeds. Only lines of text may precede it; a line of numbers ends
     /// the search.
     fn find(
         lines: &mut std::iter::Peekable<impl Iterator<Item = (usize, &'a str)>>,
@@ -223,7 +224,7 @@ impl<'a> Header<'a> {
                 let Ok(names) = fields(line, separator) else { continue };
                 match Self::read(line.0, separator, &names, columns) {
                     Ok(header) => return Ok(header),
-                    // The first separator that is tried has the message.
+                    // The message is about the separator tried first.
                     Err(other) => own = own.or(Some(other)),
                 }
             }
@@ -254,7 +255,7 @@ impl<'a> Header<'a> {
                     return Err(Located(Some(line), Some(place + 1), fault));
                 }
                 Some(index) => (places[index], units[index]) = (Some(place), unit),
-                // Some programs end each line by a separator.
+                // Some programs end each line with a separator.
                 None if is_said || (field.is_empty() && place + 1 == names.len()) => {}
                 None => {
                     let fault = CsvFault::UnknownColumn(shortened(field));
@@ -281,7 +282,7 @@ impl<'a> Header<'a> {
         })
     }
 
-    /// Takes the units from a row below the header, for columns whose names have none.
+    /// Takes the units from a row below the header, for columns without units in their names.
     fn units_below(&mut self, line: usize, row: &[&'a str]) -> Result<(), Located> {
         for index in 0..2 {
             let Some(field) = row.get(self.places[index]).filter(|field| !field.is_empty()) else { continue };
@@ -302,7 +303,7 @@ impl<'a> Header<'a> {
         Located(Some(line), Some(self.places[index] + 1), fault)
     }
 
-    /// The units of times and speeds, by the file or the caller, who must not contradict each other.
+    /// The units of times and speeds, from the file or the caller, which must agree.
     fn units(&self, columns: &CsvColumns) -> Result<(TimeUnit, SpeedUnit), Located> {
         let own = |index: usize| self.units[index].unwrap_or_default();
         let (time, speed) = (TimeUnit::of(own(0)), SpeedUnit::of(own(1)));

@@ -1,9 +1,10 @@
-//! The decimal mark of a file of separated values: a point, or a comma where commas separate no columns.
+//! Determines the decimal mark of a file of separated values: a point, or a comma if commas do not separate
+//! columns.
 
 use crate::csv_records::{NumberFault, number};
 use crate::estimate::measured_speeds::error::{CsvFault, Located};
 
-/// What the numbers of a file show about its decimal mark.
+/// Evidence for the decimal mark, from the numbers of a file.
 pub(crate) struct DecimalMarks {
     separator: char,
     /// Line and field of the first decimal point and of the first comma.
@@ -14,18 +15,18 @@ pub(crate) struct DecimalMarks {
 }
 
 impl DecimalMarks {
-    /// Those of a file whose columns are separated by this character.
+    /// No evidence yet, for a file whose columns are separated by this character.
     pub(crate) const fn new(separator: char) -> Self {
         Self { separator, point: None, comma: None, commas_are_decimal: false }
     }
 
-    /// The number of a field, with the decimal mark that the separator leaves.
+    /// The number in a field, with a decimal mark that the separator allows.
     pub(crate) fn number(&self, field: &str) -> Result<f64, NumberFault> {
         let comma = self.separator != ',' && field.contains(',');
         if comma { number(&field.replacen(',', ".", 1)) } else { number(field) }
     }
 
-    /// Notes the decimal mark of a number.
+    /// Records the decimal mark of a number.
     pub(crate) fn note(&mut self, line: usize, place: usize, text: &str) -> Result<(), Located> {
         if self.separator == ',' {
             return Ok(());
@@ -54,7 +55,7 @@ impl DecimalMarks {
         Ok(())
     }
 
-    /// That the mark is clear, after all numbers.
+    /// Checks, after all numbers, that the mark is unambiguous.
     pub(crate) fn check(&self) -> Result<(), Located> {
         match (self.comma, self.commas_are_decimal) {
             (Some((line, field)), false) => {

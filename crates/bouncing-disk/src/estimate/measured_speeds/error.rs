@@ -3,19 +3,19 @@
 use crate::csv_records::RecordFault;
 use crate::error::Error;
 
-/// The columns, the last of which may be missing.
+/// The columns, the last of which is optional.
 pub(crate) const HEADER: &str = "time_s, speed_rad_s and, for repeated runs, member, or time and speed with other units, such as t (ms) and n (rpm)";
 
 /// Why a file gives no measured speeds.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum MeasuredSpeedsError {
-    /// The system refuses, or the path is not that of a regular file, or the file is too large.
+    /// The file cannot be opened or read, is not a regular file, or is too large.
     #[error("{file:?} cannot be read")]
     Unreadable {
         /// The file.
         file: String,
-        /// The report of the system.
+        /// The error of the operating system.
         source: std::io::Error,
     },
     /// The text is malformed. Lines and fields are counted from 1.
@@ -27,7 +27,7 @@ pub enum MeasuredSpeedsError {
         line: Option<usize>,
         /// The field; `None` for a fault of the whole line.
         field: Option<usize>,
-        /// The fault, with what to do about it.
+        /// The fault, and how to correct it.
         fault: CsvFault,
     },
     /// An error of the model.
@@ -41,8 +41,8 @@ fn located(file: &str, line: Option<usize>, field: Option<usize>, fault: &CsvFau
     format!("{file:?}{line}{field}: {fault}")
 }
 
-/// A fault in the text of a file of measured speeds. Texts of the file are shortened, and escaped as in Rust,
-/// so that they cannot disturb a terminal.
+/// A fault in the text of a file of measured speeds. Excerpts of the file are shortened, and escaped as in
+/// Rust, so that they cannot disturb a terminal.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CsvFault {
@@ -52,7 +52,7 @@ pub enum CsvFault {
     /// A line is longer than this number of bytes.
     #[error("it is longer than {0} bytes; end each line of numbers by a line end")]
     LongLine(usize),
-    /// The file has no line besides remarks.
+    /// The file contains only comments.
     #[error("it is empty; a line must name the columns: {HEADER}")]
     Empty,
     /// A column has no known unit, or not the one stated by the caller or the row below the header.
@@ -63,12 +63,12 @@ pub enum CsvFault {
     Unit {
         /// `time` or `speed`.
         name: &'static str,
-        /// The unit found; empty where there is none.
+        /// The unit found; empty if there is none.
         unit: String,
-        /// The units that are known.
+        /// The known units.
         legal: &'static str,
     },
-    /// The decimal mark of the file is not clear, for this reason.
+    /// The decimal mark of the file is ambiguous, for this reason.
     #[error(
         "the decimal mark of the file is ambiguous: {0}; write one decimal mark and no separators of thousands"
     )]
@@ -88,7 +88,8 @@ pub enum CsvFault {
          columns of times and speeds when you read the file"
     )]
     UnknownColumn(String),
-    /// The header of a table of points has an unknown name, or lacks the speed, or a field is no number there.
+    /// The header of a table of points has an unknown name or lacks the speed, or a field below it is not a
+    /// number.
     #[error(
         "{0}; a table of points has the columns speed_rad_s (or speed (rpm), ...), speed_error, and fields of the data sheet in its \
          units, such as load_torque, stator.volts or preload_force, each perhaps with its error, such as load_torque_error"
@@ -106,9 +107,9 @@ pub enum CsvFault {
          columns by semicolons"
     )]
     Fields {
-        /// Fields of the line.
+        /// Number of fields in the line.
         fields: usize,
-        /// Columns of the header.
+        /// Number of columns in the header.
         columns: usize,
     },
     /// A number is written with a decimal comma.
@@ -119,7 +120,7 @@ pub enum CsvFault {
         /// The text of the field.
         value: String,
     },
-    /// A field is not a number, or not one that is legal in its column.
+    /// A field is not a number, or its number is not legal in this column.
     #[error("{value:?} is not legal in the column {name}; legal is {legal}")]
     NotLegal {
         /// The name of the column.
@@ -137,9 +138,9 @@ pub enum CsvFault {
     NotRising {
         /// The time (s).
         time: f64,
-        /// The one before it in the run (s).
+        /// The previous time in the run (s).
         previous: f64,
-        /// The number of the run; 0 where there is only one.
+        /// The number of the run; 0 if there is only one.
         member: u32,
     },
     /// A run has too few lines.
@@ -147,19 +148,19 @@ pub enum CsvFault {
         "the run of member {member} has {points} lines of numbers, but {least} are needed; add lines, or remove the run"
     )]
     TooFewPoints {
-        /// The number of the run; 0 where there is only one.
+        /// The number of the run; 0 if there is only one.
         member: u32,
-        /// Its lines.
+        /// Number of its lines.
         points: usize,
-        /// The fewest.
+        /// Fewest lines of a run.
         least: usize,
     },
-    /// There are more lines of numbers than this.
+    /// The file has more than this number of rows.
     #[error("there are more than {0} lines of numbers; average neighbouring ones")]
     TooLong(usize),
 }
 
-/// A fault and its place: line and field, counted from 1.
+/// A fault and its position: line and field, counted from 1.
 pub(crate) struct Located(pub(crate) Option<usize>, pub(crate) Option<usize>, pub(crate) CsvFault);
 
 impl Located {

@@ -4,13 +4,13 @@ use std::f64::consts::TAU;
 use std::fmt::{self, Display, Formatter};
 use std::str::FromStr;
 
-/// Why a text names no unit.
+/// A text is not the name of a unit.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{unit:?} is not a known unit; legal are {legal}")]
 pub struct UnknownUnit {
     /// The text.
     pub unit: String,
-    /// The units.
+    /// The legal units.
     pub legal: &'static str,
 }
 

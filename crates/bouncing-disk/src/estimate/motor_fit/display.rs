@@ -1,4 +1,4 @@
-//! A fit in print: a table of its parameters, and what it leaves undetermined, in words.
+//! A fit in print: a table of its parameters, and the undetermined directions in words.
 
 use std::fmt::{self, Display, Formatter};
 
@@ -9,7 +9,7 @@ use crate::estimate::motor_fit::estimate::UndeterminedDirection;
 use crate::estimate::motor_fit::parameter::{FitParameter, FitRange};
 use crate::estimate::motor_fit::{FittedParameter, MotorFit};
 
-/// A unit behind a number, or nothing.
+/// A unit after a number, or nothing.
 pub(crate) fn behind(unit: &str) -> String {
     if unit == "1" { String::new() } else { format!(" {unit}") }
 }
@@ -56,7 +56,7 @@ impl Display for FittedParameter {
     }
 }
 
-/// Several lines, without a line end after the last one.
+/// Prints several lines, without a newline after the last one.
 impl Display for MotorFit {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         for parameter in &self.parameters {

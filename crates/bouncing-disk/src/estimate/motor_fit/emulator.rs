@@ -1,11 +1,11 @@
-//! A smooth response that is known with errors at some places, everywhere: a Gaussian process with a linear trend.
-//! Where no place is near, it says by how much it may be wrong.
+//! Emulates a smooth response, known with errors at some points, by a Gaussian process with a linear trend.
+//! Far from these points it states by how much it may be wrong.
 //!
-//! The errors of the computed values are known, the covariance is Matern's of order 5/2 with a length along each
-//! coordinate, and a rough variance represents motions that lock on a cycle. Lengths and variances maximise the
-//! likelihood. Motions may lock in one part of the ranges only: v and the rough variance are multiplied by the mean
-//! square of the leave-one-out errors nearby over its expectation, if above one; and by the square of Student's factor
-//! for the number of places.
+//! The errors of the computed values are known, the covariance is Matern's of order 5/2 with a length along
+//! each coordinate, and a rough variance represents motions that lock on a cycle. Lengths and variances
+//! maximise the likelihood. Motions may lock only in part of the ranges. Therefore v and the rough variance
+//! are multiplied by the ratio of the mean square of nearby leave-one-out errors to its expectation, if above
+//! one, and by the square of Student's factor for the number of points.
 
 use bouncing_disk_core::numerics::elementary::{exp, ln};
 use bouncing_disk_core::numerics::statistics::NORMAL_975;
@@ -13,29 +13,30 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use crate::statistics::student_quantile;
 
-/// The variance of the trend's coefficients over that of the values: any trend is possible.
+/// The variance of the trend's coefficients relative to that of the values; large, so that any trend is
+/// possible.
 const TREND: f64 = 10.0;
 
-/// Bounds of the lengths, and of the variances over that of the values.
+/// Bounds of the lengths, and of the variances relative to the variance of the values.
 const LENGTHS: [f64; 2] = [0.15, 20.0];
 const VARIANCES: [f64; 2] = [1e-8, 100.0];
 
-/// Before any value is known: the response bends over about this length, within a factor of [`SPREAD`] either way.
+/// Prior: the response bends over about this length, within a factor of [`SPREAD`] either way.
 const LENGTH: f64 = 1.5;
 const SPREAD: f64 = 3.0;
 
-/// How far values speak for the roughness, as a share of half the ranges.
+/// Distance within which values give evidence of roughness, as a share of half the ranges.
 const NEAR: f64 = 0.3;
 
-/// A response that was computed at a place.
+/// A response computed at a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Response {
     pub(crate) value: f64,
-    /// Its standard error, independent of those of other places.
+    /// Its standard error, independent between points.
     pub(crate) error: f64,
-    /// By how much it may be off, perhaps in the same direction as at other places.
+    /// Its possible systematic error, perhaps in the same direction at other points.
     pub(crate) bias: f64,
-    /// The variance of a measurement of a motor at this place, beside its errors.
+    /// The variance of a measurement of a motor at this point, without its errors.
     pub(crate) scatter: f64,
 }
 
@@ -48,23 +49,24 @@ pub(crate) struct Emulator {
     biases: Vec<f64>,
     scatters: Vec<f64>,
     mean: f64,
-    /// Logarithms: a length along each coordinate, the variance of the smooth part, that of what no smooth response
-    /// has (motions that lock on a cycle).
+    /// Logarithms of a length along each coordinate, of the variance of the smooth part, and of the rough
+    /// variance (motions that lock on a cycle).
     scales: Vec<f64>,
-    /// Their inverse squares along each coordinate, and both variances.
+    /// Inverse squares of the lengths along each coordinate, and both variances.
     rates: Vec<f64>,
     signal: f64,
     roughness: f64,
     trend: f64,
     root: Cholesky<f64, Dyn>,
     weights: DVector<f64>,
-    /// By how much each value differs from what all others say of it, and the variance of that; its square over this.
+    /// For each value, its deviation from the prediction by all others, and the variance of that deviation;
+    /// its square over this.
     pub(crate) left_out: Vec<(f64, f64)>,
     surprises: Vec<f64>,
 }
 
 impl Emulator {
-    /// With the scales of the largest likelihood, searched from those of an earlier one while it goes on.
+    /// The emulator with the scales of maximum likelihood, searched from the previous scales.
     pub(crate) fn of(
         places: Vec<DVector<f64>>,
         values: &[Response],
@@ -122,8 +124,9 @@ impl Emulator {
         Some(best)
     }
 
-    /// The factor of the variances at a place: where values near it surprise, a response is rougher than elsewhere
-    /// (motions that lock on a cycle are in some part of the ranges only). A few values alone tell no scales.
+    /// The factor of the variances at a point: if values near it are further from their predictions than
+    /// expected, the response is rougher there than elsewhere (motions lock on a cycle only in part of the
+    /// ranges). A few values alone do not determine the scales.
     fn inflation(&self, place: &DVector<f64>) -> f64 {
         let (mut sum, mut weights) = (0.0, 0.0);
         for (node, surprise) in self.places.iter().zip(&self.surprises) {
@@ -169,7 +172,7 @@ impl Emulator {
                 let value = own.covariance(&own.places[i], &own.places[j]);
                 (covariance[(i, j)], covariance[(j, i)]) = (value, value);
             }
-            // A share of the trend's size bounds the condition of the matrix.
+            // A share of the trend's size bounds the condition number of the matrix.
             covariance[(i, i)] += own.errors[i] + own.roughness + 1e-10 * own.trend;
         }
         own.root = Cholesky::new(covariance)?;
@@ -177,7 +180,7 @@ impl Emulator {
         Some(own)
     }
 
-    /// Of the smooth part, between two places (Matern's of order 5/2).
+    /// The covariance of the smooth part between two points (Matern's of order 5/2).
     fn covariance(&self, one: &DVector<f64>, other: &DVector<f64>) -> f64 {
         let root = 5.0_f64.sqrt() * self.distance(one, other);
         self.signal * (1.0 + root + root * root / 3.0) * exp(-root) + self.trend * (1.0 + one.dot(other))
@@ -188,12 +191,12 @@ impl Emulator {
         terms.map(|((a, b), rate)| (a - b) * (a - b) * rate).sum::<f64>().sqrt()
     }
 
-    /// The variance at a place of what no smooth response has.
+    /// The rough variance at a point.
     pub(crate) fn roughness(&self, place: &DVector<f64>) -> f64 {
         self.roughness * self.inflation(place)
     }
 
-    /// The logarithm of the likelihood, and of what is known of lengths before.
+    /// The logarithm of the likelihood, including the prior for the lengths.
     fn likelihood(&self, size: f64) -> f64 {
         let determinant = self.root.l_dirty().diagonal().iter().map(|root| ln(*root)).sum::<f64>();
         let coordinates = self.scales.len() - 2;
@@ -205,22 +208,22 @@ impl Emulator {
         -0.5 * (self.values.dot(&self.weights) + before + signal) - determinant
     }
 
-    /// The smooth response at a place, and the variance of its error but for the bias.
+    /// The smooth response at a point, and the variance of its error without the bias.
     pub(crate) fn at(&self, place: &DVector<f64>) -> (f64, f64) {
         let mut covariances = self.covariances(place);
         let value = self.mean + covariances.dot(&self.weights);
         let own = self.covariance(place, place);
-        // The diagonal of a root is positive.
+        // The diagonal of a Cholesky factor is positive.
         let _ = self.root.l_dirty().solve_lower_triangular_mut(&mut covariances);
         (value, (own - covariances.norm_squared()).max(0.0) * self.inflation(place))
     }
 
-    /// The square of the bias, as it is at the nearest places.
+    /// The square of the bias, interpolated from the nearest points.
     pub(crate) fn bias(&self, place: &DVector<f64>) -> f64 {
         self.nearby(place, &self.biases)
     }
 
-    /// The variance of a measurement, as it is at the nearest places.
+    /// The variance of a measurement, interpolated from the nearest points.
     pub(crate) fn scatter(&self, place: &DVector<f64>) -> f64 {
         self.nearby(place, &self.scatters)
     }
@@ -239,7 +242,7 @@ impl Emulator {
         DVector::from_iterator(self.places.len(), self.places.iter().map(|node| self.covariance(place, node)))
     }
 
-    /// Its derivatives.
+    /// The derivatives of the response.
     pub(crate) fn slopes(&self, place: &DVector<f64>) -> DVector<f64> {
         let mut slopes = DVector::zeros(place.len());
         for (node, weight) in self.places.iter().zip(self.weights.iter()) {
@@ -253,7 +256,7 @@ impl Emulator {
         slopes
     }
 
-    /// As if the response were known at one more place, where it is what it seems to be.
+    /// Adds a data point equal to the prediction there (kriging believer).
     pub(crate) fn believing(&self, place: &DVector<f64>) -> Option<Self> {
         let (value, _) = self.at(place);
         let (mut places, mut errors) = (self.places.clone(), self.errors.clone());

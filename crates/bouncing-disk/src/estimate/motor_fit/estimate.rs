@@ -12,15 +12,15 @@ use crate::estimate::motor_fit::parameter::FitParameter;
 pub struct AcceptedRange {
     /// The parameter.
     pub parameter: FitParameter,
-    /// The lowest value (SI); `None` where the range reaches the lower end of what was searched, or contact times below
-    /// a tenth of a period, which can hardly be told from rigid impacts.
+    /// The lowest value (SI); `None` if the range reaches the lower end of the search, or contact times below
+    /// a tenth of a period, which can hardly be distinguished from rigid impacts.
     pub low: Option<f64>,
-    /// The highest value (SI); `None` where it reaches the upper end.
+    /// The highest value (SI); `None` if the range reaches the upper end.
     pub high: Option<f64>,
 }
 
 impl AcceptedRange {
-    /// Whether it holds a value, which lies in what was searched.
+    /// Whether it contains a value within the searched range.
     #[must_use]
     pub fn contains(&self, value: f64) -> bool {
         self.low.is_none_or(|low| low <= value) && self.high.is_none_or(|high| value <= high)
@@ -39,16 +39,15 @@ impl Display for AcceptedRange {
     }
 }
 
-/// A direction in the space of the fitted parameters along which the measurements hardly change: they do not
-/// determine the motor's place on it.
+/// A direction in the space of the fitted parameters along which the measurements hardly change, so that they
+/// do not determine the motor's position on it.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct UndeterminedDirection {
-    /// The direction as a change of each fitted parameter's coordinate ([`FitParameter`]): of the logarithm
-    /// of a size, of the restitution, of the phase lag (rad). The largest change is 1; no parameter is named
-    /// twice.
+    /// The direction as a change of each fitted parameter's coordinate ([`FitParameter`]): the logarithm of a
+    /// size, the restitution, or the phase lag (rad). The largest change is 1; each parameter appears once.
     pub direction: Vec<(FitParameter, f64)>,
-    /// The standard error along it, in multiples of the direction as given, positive; infinite where the
+    /// The standard error along it, in multiples of the direction as given, positive; infinite if the
     /// measurements do not change at all.
     pub standard_error: f64,
 }

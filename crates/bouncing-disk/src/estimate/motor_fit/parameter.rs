@@ -1,4 +1,4 @@
-//! The parameters of a motor that are fitted, and their coordinates.
+//! The motor parameters that can be fitted, and their coordinates.
 
 use std::f64::consts::TAU;
 
@@ -9,9 +9,10 @@ use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::motor_field::MotorField;
 use crate::motor::data_sheet::parameters::MotorParameters;
 
-/// A parameter of a motor that its transients, or the points that its maker prints, may determine.
+/// A motor parameter that transients or catalogue points may determine.
 ///
-/// Its coordinate is its natural logarithm where it is a size, and itself where it may be zero or negative.
+/// Its coordinate is its natural logarithm if it is positive, and the parameter itself if it may be zero or
+/// negative.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
@@ -24,21 +25,21 @@ pub enum FitParameter {
     PhaseLag,
     /// Axial amplitude A of the stator (m). Coordinate: its logarithm.
     Amplitude,
-    /// Twist amplitude Phi of the stator (rad), also where the data sheet has the peak angular speed omega
+    /// Twist amplitude Phi of the stator (rad), even if the data sheet states the peak angular speed omega
     /// Phi. Coordinate: its logarithm.
     TwistAmplitude,
-    /// How long an isolated impact lasts (s); zero where impacts are rigid. Coordinate: its logarithm.
+    /// Duration of an isolated impact (s); zero if impacts are rigid. Coordinate: its logarithm.
     ContactTime,
-    /// Effective mass M of a stator that yields (kg). Coordinate: its logarithm.
+    /// Effective mass M of a compliant stator (kg). Coordinate: its logarithm.
     StatorMass,
-    /// Its quality factor Q, in [0.5, 1e5]. Coordinate: its logarithm.
+    /// Quality factor Q of a compliant stator, in [0.5, 1e5]. Coordinate: its logarithm.
     StatorQuality,
-    /// Twist over height kappa of its mode (rad/m). Coordinate: itself.
+    /// Twist per height kappa of the stator's mode (rad/m). Coordinate: itself.
     TwistPerHeight,
 }
 
 impl FitParameter {
-    /// All of them, in the order in which they are listed.
+    /// All of them, in their usual order.
     pub const ALL: [Self; 9] = [
         Self::Friction,
         Self::Restitution,
@@ -72,13 +73,13 @@ impl FitParameter {
         self.field().name()
     }
 
-    /// Its unit as it is written: `rad`; `1` for a number without a unit.
+    /// Its unit in writing: `rad`; `1` for a dimensionless number.
     #[must_use]
     pub const fn unit(self) -> &'static str {
         self.field().unit()
     }
 
-    /// Its value for a motor (SI); NaN for a field of a stator that the motor does not have.
+    /// Its value for a motor (SI); NaN for a field of a stator if the motor has none.
     #[must_use]
     pub fn of(self, motor: &Motor) -> f64 {
         let (stator, rotor) = (motor.system().platform(), motor.system().disk());
@@ -135,8 +136,8 @@ impl std::fmt::Display for FitParameter {
 
 /// A parameter to fit, and its possible range.
 ///
-/// The range is also the measure of "determined": the data do not determine a direction in which they leave
-/// more than half of the ranges open.
+/// The range also defines "determined": a direction is undetermined if the data leave more than half of the
+/// ranges open along it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FitRange {
@@ -163,7 +164,7 @@ impl FitRange {
         Ok(())
     }
 
-    /// Checks the range, and that it holds the data sheet's value, unless it is the contact time's: that is
+    /// Checks the range, and that it contains the data sheet's value, except for the contact time, which is
     /// scanned.
     pub(crate) fn check_for(&self, motor: &Motor) -> Result<(), Error> {
         self.check()?;
@@ -178,24 +179,24 @@ impl FitRange {
         Ok(())
     }
 
-    /// Middle of the range of the coordinate.
+    /// The midpoint of the coordinate's range.
     fn middle(&self) -> f64 {
         0.5 * (self.parameter.coordinate(self.low) + self.parameter.coordinate(self.high))
     }
 
-    /// Half of the width of the range of the coordinate.
+    /// Half the width of the coordinate's range.
     pub(crate) fn half_width(&self) -> f64 {
         0.5 * (self.parameter.coordinate(self.high) - self.parameter.coordinate(self.low))
     }
 
-    /// The value at a place in the range, from -1 to 1; beyond the ends, that of the end.
+    /// The value at a position in the range, from -1 to 1; beyond the ends, the value at the end.
     pub(crate) fn value_at(&self, place: f64) -> f64 {
         let coordinate = self.middle() + self.half_width() * place.clamp(-1.0, 1.0);
         self.parameter.value(coordinate).clamp(self.low, self.high)
     }
 }
 
-/// Checks that there are ranges, each of a parameter that the motor has, and none twice.
+/// Checks that there are ranges, that the motor has their parameters, and that no parameter is repeated.
 pub(crate) fn check_ranges(motor: &Motor, ranges: &[FitRange]) -> Result<(), Error> {
     check(!ranges.is_empty(), "number of fitted parameters", 0.0, "[1, 9]")?;
     for (k, range) in ranges.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! A point that a maker prints, and tables of such.
+//! A catalogue point, and tables of such points.
 
 #[cfg(feature = "csv")]
 use crate::csv_records::{fields, lines, text};
@@ -15,7 +15,7 @@ use crate::estimate::motor_fit::parameter::FitRange;
 use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::motor_field::MotorField;
 
-/// A field of the data sheet that has another value at a point.
+/// A field with a value at a point that differs from the data sheet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RatedCondition {
@@ -23,25 +23,25 @@ pub struct RatedCondition {
     pub field: MotorField,
     /// Its value, in the unit of the field.
     pub value: f64,
-    /// Its standard error, not negative; independent of those of other points. 0 for a value that is exact.
+    /// Its standard error, not negative; independent of the errors of other points. 0 for an exact value.
     pub error: f64,
 }
 
-/// A steady speed of a motor that its maker prints or a user has measured: without load, rated, or, with the speed
-/// zero, at the stall torque.
+/// A steady speed of a motor from its catalogue or from a measurement: without load, rated, or zero at the
+/// stall torque.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RatedPoint {
     /// The mean angular speed (rad/s).
     pub speed: f64,
-    /// Its standard error (rad/s), not negative. Below a thousandth of the stator's largest speed this counts.
+    /// Its standard error (rad/s), not negative; at least a thousandth of the stator's largest speed is used.
     pub speed_error: f64,
     /// Fields that differ from the data sheet: load torque, volts, amplitude, frequency, preload.
     pub conditions: Vec<RatedCondition>,
 }
 
 impl RatedPoint {
-    /// A speed under a load torque (N m), each with its standard error; all else as in the data sheet.
+    /// A speed under a load torque (N m), each with its standard error; everything else as in the data sheet.
     #[must_use]
     pub fn under_load(torque: [f64; 2], speed: [f64; 2]) -> Self {
         let load = RatedCondition { field: MotorField::LoadTorque, value: torque[0], error: torque[1] };
@@ -83,7 +83,7 @@ impl RatedPoint {
         values(self) == values(other)
     }
 
-    /// The motor at this point, with its conditions off by so much.
+    /// The motor at this point, with its conditions shifted by these amounts.
     pub(crate) fn motor(&self, nominal: &Motor, off: &[f64]) -> Result<Motor, Error> {
         let mut sheet = nominal.parameters().clone();
         for (index, condition) in self.conditions.iter().enumerate() {
@@ -96,14 +96,14 @@ impl RatedPoint {
 
 #[cfg(feature = "csv")]
 impl RatedPoint {
-    /// The points of a file of separated values: the columns `speed_rad_s` (or another unit, such as `speed (rpm)`),
-    /// perhaps `speed_error` in that unit, and fields of the data sheet by their names, in its units, each perhaps with
-    /// its standard error (`load_torque_error`). Decimal commas are read as in run-ups. An empty field leaves the value
-    /// of the data sheet, or no error. `None` where no column is a field of the data sheet, or one has times: not a table
-    /// of points. Feature `csv`.
+    /// The points of a file of separated values. Its columns are `speed_rad_s` (or another unit, such as
+    /// `speed (rpm)`), optionally `speed_error` in that unit, and fields of the data sheet by their names, in
+    /// its units, each optionally with its standard error (`load_torque_error`). Decimal commas are read as
+    /// in run-ups. An empty field means the data sheet's value, or no error. `None` if the file is not a
+    /// table of points: no column is a field of the data sheet, or one has times. Feature `csv`.
     ///
     /// # Errors
-    /// [`MeasuredSpeedsError`] names file, line and field.
+    /// [`MeasuredSpeedsError`] with file, line and field.
     pub fn table_from_csv(
         path: impl AsRef<std::path::Path>,
         speed_unit: Option<SpeedUnit>,
@@ -127,7 +127,7 @@ enum Column {
 
 #[cfg(feature = "csv")]
 impl Column {
-    /// `None` for a name that is unknown; of a known one its unit, if it is another one, and that of the column.
+    /// `None` for an unknown name; for a known one whose unit differs, that unit and the column's.
     fn of(name: &str, said: Option<SpeedUnit>) -> Option<Result<Self, (String, &'static str)>> {
         if name == "speed_error" {
             return Some(Ok(Self::SpeedError));

@@ -1,11 +1,11 @@
-//! All points over the ranges by their stand-ins, and what the measured ones exclude.
+//! Emulators of all measured points over the parameter ranges, and the values that the measurements exclude.
 //!
-//! Along each parameter the deviance is minimised over all others by damped Gauss-Newton steps in the box, at 21 even
-//! places and more closely about the minima. Accepted ranges nearer than a twentieth of half the range are one. The
-//! first places are a lattice of the powers of the generalised golden ratio. Further places are profile points within
-//! 1.5 times the threshold at which v exceeds a quarter of the known variance and the rough one, chosen one after the
-//! other as if the one before were known (kriging believer). With few places the rough variance is left out, because
-//! steepness may look rough.
+//! Along each parameter the deviance is minimised over all others by damped Gauss-Newton steps in the box, at
+//! 21 evenly spaced points and more densely about the minima. Accepted ranges closer than a twentieth of half
+//! the range are merged. The first points form a lattice from the powers of the generalised golden ratio.
+//! Further points are profile points within 1.5 times the threshold at which v exceeds a quarter of the sum
+//! of the known and the rough variance. They are chosen one after the other, each as if the previous one were
+//! known (kriging believer). With few points the rough variance is omitted, because steepness may look rough.
 
 use bouncing_disk_core::numerics::elementary::ln;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
@@ -16,28 +16,28 @@ use crate::estimate::motor_fit::{ERRORS, SETTLED};
 /// The 95 % quantile of chi-squared with one degree of freedom.
 pub(crate) const THRESHOLD: f64 = 3.841_458_820_694_124;
 
-/// Evenly spaced places of a profile, and halvings of the distance from the best place.
+/// Evenly spaced points of a profile, and bisections between them and the best point.
 const EVEN: usize = 21;
 const HALVINGS: i32 = 9;
 
-/// Computed places within this share of half the ranges tell how rough the responses are near the best place, if there are so
-/// many.
+/// Computed points within this share of half the ranges determine the roughness of the responses near the
+/// best point, if there are enough.
 const NEAR: f64 = 0.5;
 const LEAST_NEAR: usize = 12;
 
-/// Places for each coordinate, and one more, from which it is known how rough the responses are.
+/// Points per coordinate, plus one, that determine the roughness of the responses.
 const ENOUGH: usize = 20;
 
-/// Accepted ranges nearer to each other than this share of half the range are one.
+/// Accepted ranges closer to each other than this share of half the range are merged.
 const GAP: f64 = 0.05;
 
 /// Most steps to a minimum.
 const STEPS: usize = 30;
 
-/// Along one parameter: its places, and the least deviance of all else there.
+/// The profile along one parameter: its points, and the least deviance over all other coordinates there.
 pub(crate) struct Profile {
     pub(crate) nodes: Vec<(f64, f64, DVector<f64>)>,
-    /// The accepted ranges of its places; an end at -1 or 1 is that of the range.
+    /// The accepted ranges; an end at -1 or 1 is the range's own end.
     pub(crate) accepted: Vec<[f64; 2]>,
 }
 
@@ -50,16 +50,16 @@ pub(crate) struct Surface {
     own: Vec<Vec<usize>>,
     emulators: Vec<Emulator>,
     nodes: Vec<DVector<f64>>,
-    /// The minima to which the nodes lead.
+    /// The minima reached from the nodes.
     minima: Vec<DVector<f64>>,
-    /// The likeliest of the places of a least deviance.
+    /// The most likely among the points of least deviance.
     pub(crate) best: DVector<f64>,
-    /// Up to which excess a place is accepted.
+    /// Largest excess at which a point is accepted.
     pub(crate) threshold: f64,
 }
 
 impl Surface {
-    /// `None` where the values are not finite.
+    /// `None` if values are not finite.
     pub(crate) fn new(
         parameters: usize,
         measured: Vec<(f64, f64)>,
@@ -96,7 +96,7 @@ impl Surface {
         Some(surface)
     }
 
-    /// Value and variance of each point at a place: of what was measured, of the stand-in, and of what is not smooth.
+    /// Value and variance of each measured point at a point of the ranges: measured, emulated, and rough.
     pub(crate) fn fitted(&self, place: &DVector<f64>) -> Vec<(f64, f64)> {
         let points = self.emulators.iter().zip(&self.own).zip(&self.measured);
         points
@@ -109,7 +109,7 @@ impl Surface {
             .collect()
     }
 
-    /// Weighted differences from what was measured, and those of the conditions from what was given.
+    /// Weighted differences from the measurements, and of the conditions from their given values.
     fn residuals(&self, place: &DVector<f64>) -> (DVector<f64>, Vec<f64>) {
         let fitted = self.fitted(place);
         let weights: Vec<f64> = fitted.iter().map(|(_, variance)| 1.0 / variance.sqrt()).collect();
@@ -130,15 +130,15 @@ impl Surface {
         (rest.norm_squared(), weights.iter().map(|weight| -2.0 * ln(*weight)).sum())
     }
 
-    /// By how much the deviance exceeds that of the best place; or by how much the likelihood is smaller, if that is
-    /// less: a place is not excluded because another one is less known.
+    /// The excess of the deviance over that of the best point, or the drop of the likelihood if that is less:
+    /// a point is not excluded because another one is less well known.
     pub(crate) fn excess(&self, place: &DVector<f64>) -> f64 {
         let ((own, doubt), (least, known)) =
             (self.deviance_and_doubt(place), self.deviance_and_doubt(&self.best));
         own - least + (doubt - known).min(0.0)
     }
 
-    /// The likeliest of the places: without the doubt, it would be where the least is known.
+    /// The most likely of the points; without the variances it would be the least well-known one.
     fn likeliest(&self, places: Vec<DVector<f64>>) -> Option<DVector<f64>> {
         let all = places.into_iter().map(|place| {
             let (deviance, doubt) = self.deviance_and_doubt(&place);
@@ -171,7 +171,8 @@ impl Surface {
         all.iter().take(2).map(|(_, node)| (*node).clone()).collect()
     }
 
-    /// The least deviance from some starts, with one coordinate held: damped Gauss-Newton steps within the ranges.
+    /// The least deviance from several starts, with one coordinate held: damped Gauss-Newton steps within the
+    /// ranges.
     fn minimum(&self, starts: &[DVector<f64>], held: Option<usize>) -> (f64, DVector<f64>) {
         let mut best = (f64::INFINITY, self.best.clone());
         for start in starts {
@@ -214,10 +215,10 @@ impl Surface {
         best
     }
 
-    /// Incomplete where it does not go on.
+    /// Incomplete if `goes_on` returns false.
     pub(crate) fn profiles(&mut self, goes_on: &(dyn Fn() -> bool + Sync)) -> Vec<Profile> {
         let all = bouncing_disk_core::run::in_parallel(self.parameters, |index| self.profile(index, goes_on));
-        // A profile may find a likelier one.
+        // A profile may find a more likely one.
         let nodes = all.iter().flat_map(|profile| &profile.nodes).map(|node| node.2.clone());
         if let Some(start) = self.likeliest(nodes.collect()) {
             let found = self.minimum(&[start], None).1;
@@ -233,7 +234,8 @@ impl Surface {
         all.into_iter().enumerate().map(of).collect()
     }
 
-    /// Adds a place that is not excluded, and halvings of the distance from it, unless both neighbours show it.
+    /// Adds a point that is not excluded, and bisections of the interval from it, unless both neighbours show
+    /// it.
     fn add(&self, index: usize, nodes: &mut Vec<(f64, f64, DVector<f64>)>, place: &DVector<f64>) {
         let at = place[index];
         let after = nodes.partition_point(|node| node.0 < at);
@@ -269,7 +271,7 @@ impl Surface {
         places.dedup();
         let mut nodes: Vec<_> =
             places.iter().map(|place| (*place, f64::INFINITY, self.best.clone())).collect();
-        // From the best place outwards, each from its neighbour, and back.
+        // From the best point outwards, each from its neighbour, and back.
         let middle = places.iter().position(|place| *place >= best).unwrap_or(0);
         let out = (middle..nodes.len()).chain((0..middle).rev());
         let back = (middle..nodes.len()).rev().chain(0..middle);
@@ -298,7 +300,7 @@ impl Surface {
         Profile { nodes, accepted: Vec::new() }
     }
 
-    /// The ranges that are not excluded, their ends on the way from one node to the next.
+    /// The ranges that are not excluded, with their ends interpolated between nodes.
     fn accepted(&self, index: usize, mut profile: Profile) -> Profile {
         let nodes = &profile.nodes;
         let mut open = None;
@@ -316,7 +318,7 @@ impl Surface {
         if let (Some(from), Some((last, ..))) = (open, nodes.last()) {
             accepted.push([from, *last]);
         }
-        // What parts two ranges of a rough response is no wider than its grains.
+        // A gap between two ranges of a rough response is no wider than its grain.
         accepted.dedup_by(|next, own| {
             let is_near = next[0] - own[1] < GAP;
             if is_near {
@@ -328,7 +330,7 @@ impl Surface {
         profile
     }
 
-    /// Where the least deviance crosses the threshold between an accepted node and one that is not.
+    /// The crossing of the threshold by the least deviance, between an accepted node and one that is not.
     fn crossing(&self, index: usize, [inside, outside]: [&(f64, f64, DVector<f64>); 2]) -> f64 {
         let (mut near, mut far, mut start) = (inside.0, outside.0, inside.2.clone());
         for _ in 0..5 {
@@ -344,7 +346,7 @@ impl Surface {
         far
     }
 
-    /// Whether the accepted places are hardly in doubt by what was computed of them.
+    /// Whether the uncertainty of the computed values hardly affects the accepted points.
     pub(crate) fn is_settled(&self, profiles: &[Profile]) -> bool {
         let is_known = |place: &DVector<f64>| {
             self.emulators.iter().zip(&self.own).zip(&self.measured).all(
@@ -359,7 +361,8 @@ impl Surface {
         nodes.filter(|node| self.excess(&node.2) <= self.threshold).all(|node| is_known(&node.2))
     }
 
-    /// Places, at most so many, that are accepted or nearly so and where the stand-ins are in doubt.
+    /// At most this number of points that are accepted, or nearly so, and at which the emulators are
+    /// uncertain.
     pub(crate) fn doubtful(&self, profiles: &[Profile], most: usize) -> Vec<DVector<f64>> {
         let plausible = |node: &&(f64, f64, DVector<f64>)| self.excess(&node.2) <= 1.5 * self.threshold;
         let candidates: Vec<&DVector<f64>> = profiles
@@ -367,7 +370,7 @@ impl Surface {
             .flat_map(|profile| profile.nodes.iter().filter(plausible))
             .map(|node| &node.2)
             .collect();
-        // A few places may seem rough that are steep.
+        // With few points, a steep response may seem rough.
         let are_few = self.nodes.len() < ENOUGH * (1 + self.coordinates);
         let mut emulators = self.emulators.clone();
         let mut chosen = Vec::new();
@@ -402,9 +405,10 @@ impl Surface {
         chosen
     }
 
-    /// How far what no smooth response explains may move the parameters: of computed places near the best one, as if they had been
-    /// measured and not computed, the deviance that parameters imitate, which one of twenty exceeds. Where a response is rough
-    /// (motions lock on cycles), measured motors are as far from what is smooth as these, and in no normal way.
+    /// How far deviations from a smooth response may move the parameters. Computed points near the best one
+    /// are treated as if they had been measured; the result is the deviance that parameters can imitate and
+    /// that one of twenty exceeds. If a response is rough (motions lock on cycles), measured motors deviate
+    /// from it as much as these do, and not normally distributed.
     fn roughest(&self) -> f64 {
         let is_near = |node: &&DVector<f64>| (*node - &self.best).amax() <= NEAR;
         let near = self.nodes.iter().filter(is_near).count();
@@ -433,13 +437,13 @@ impl Surface {
         inverse.map_or_else(|| rest.norm_squared(), |root| gradient.dot(&root.solve(&gradient)))
     }
 
-    /// By how much the values of a place differ from what all other places say of them.
+    /// The deviations of a point's values from their predictions by all other points.
     pub(crate) fn left_out(&self, node: usize) -> DVector<f64> {
         DVector::from_iterator(self.emulators.len(), self.emulators.iter().map(|own| own.left_out[node].0))
     }
 
-    /// How much of something there is in the measured values, which change by `along` for one of it, beside what the fitted
-    /// parameters can imitate, and its standard error.
+    /// The estimated amount of an effect in the measured values, which change by `along` per unit of it,
+    /// beyond what the fitted parameters can imitate, and its standard error.
     pub(crate) fn amount(&self, along: &DVector<f64>) -> (f64, f64) {
         let (rest, weights) = self.residuals(&self.best);
         let jacobian = self.jacobian(&self.best, &weights);
@@ -453,18 +457,18 @@ impl Surface {
             .map(|inverse| &jacobian * (inverse * (jacobian.transpose() * &along)));
         let open = imitated.map_or_else(|_| along.clone(), |imitated| &along - imitated);
         let square = open.norm_squared();
-        // The rest is what is fitted less what was measured.
+        // The remainder is the fitted minus the measured values.
         (-open.dot(&rest) / square, 1.0 / square.sqrt())
     }
 
-    /// Directions of the parameters that are not determined near the best place, with their standard errors.
+    /// Undetermined directions of the parameters near the best point, with their standard errors.
     pub(crate) fn directions(&self) -> Vec<Open> {
         let (_, weights) = self.residuals(&self.best);
         let jacobian = self.jacobian(&self.best, &weights);
         let all = jacobian.transpose() * &jacobian;
         let (p, q) = (self.parameters, self.coordinates - self.parameters);
         let mut information = all.view((0, 0), (p, p)).into_owned();
-        // The conditions follow whatever is best for them.
+        // The conditions take their best values.
         if let Some(inverse) = all.view((p, p), (q, q)).into_owned().try_inverse() {
             let mixed = all.view((0, p), (p, q));
             information -= mixed * inverse * mixed.transpose();
@@ -473,15 +477,15 @@ impl Surface {
     }
 }
 
-/// The largest standard error of a direction that counts as determined, as a share of half of the ranges: its
-/// interval of 95 % is then as wide as they are.
+/// The largest standard error of a determined direction, as a share of half the ranges: its 95 % interval is
+/// then as wide as they are.
 const LARGEST_ERROR: f64 = 0.5;
 
-/// A direction that is not determined, and its standard error.
+/// An undetermined direction and its standard error.
 pub(crate) type Open = (DVector<f64>, f64);
 
-/// The directions that an information matrix of places does not determine, with their standard errors; the least uncertain
-/// first.
+/// The directions that an information matrix leaves undetermined, with their standard errors; the least
+/// uncertain first.
 fn undetermined(information: DMatrix<f64>) -> Vec<Open> {
     let eigen = SymmetricEigen::new(information);
     let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();

@@ -1,13 +1,15 @@
-//! Measured run-ups and braking tails, and what a fit compares of them.
+//! Measured run-ups and braking tails, and the quantities by which a fit compares them.
 //!
-//! Nobody knows to a few per cent of the rise when a motor was switched on. So a run is told from the instant at which it is
-//! half-way between its first and its last speed, as is each computed one: a clock that is off, a dead time and an initial speed
-//! change nothing. What is compared are means over windows of time on either side of that instant.
+//! The switch-on time of a motor is rarely known to a few per cent of the rise. So times in a run, measured
+//! or computed, are counted from the instant at which the speed is half-way between its first and its last
+//! value. A clock error, a dead time and an initial speed then have no effect. The compared quantities are
+//! means over time windows on either side of that instant.
 //!
-//! There are two windows before it and five after, each later one twice as long as the one before. The half-way
-//! instant is that of the least integral of the distance from the level. Computed members are sampled at the measured
-//! instants, shifted by a random part of half a step, with the measured errors. The error of a point, if not given,
-//! comes from deviations from the line between its neighbours. A braking tail is compared in the same windows.
+//! There are two windows before it and five after, each later one twice as long as the one before. The
+//! half-way instant minimises the integral of the distance from the level. Computed members are sampled at
+//! the measured instants, shifted by a random fraction of half a step, with the measured errors. The error of
+//! a point, if not given, comes from deviations from the line between its neighbours. A braking tail is
+//! compared in the same windows.
 
 use std::f64::consts::TAU;
 
@@ -31,20 +33,20 @@ const LEAST_POINTS: usize = 8;
 /// Intervals of a computed curve.
 const INTERVALS: usize = 512;
 
-/// Windows after the half-way instant, each twice as long as the one before; there are two before it.
+/// Windows after the half-way instant, each twice as long as the previous one; there are two before it.
 const LATER: i32 = 5;
 
-/// The first and last part of a run, whose means are its ends.
+/// The first and the last part of a run, whose means define its end values.
 const END: f64 = 0.1;
 
-/// Ends nearer to each other than so many errors of a point are one.
+/// End values closer to each other than this number of errors of a point are equal.
 const LEAST_CHANGE: f64 = 4.0;
 
-/// Steps of a computed braking tail, and its first speed over the largest measured one.
+/// Steps of a computed braking tail, and its initial speed relative to the largest measured one.
 const STEPS: usize = 8;
 const FASTER: f64 = 1.5;
 
-/// What was measured.
+/// The kind of a measured transient.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum TransientKind {
@@ -54,21 +56,21 @@ pub enum TransientKind {
     Braking,
 }
 
-/// Run-ups or braking tails of one motor: one, or several independent ones.
+/// One run-up or braking tail of a motor, or several independent ones.
 ///
 /// Neither the time of the switch nor the speed at the first point need be known.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MeasuredTransient {
-    /// What was measured.
+    /// The kind of transient.
     pub kind: TransientKind,
     /// The runs, each of at least eight points.
     pub runs: MeasuredSpeeds,
-    /// Standard deviation of the error of one measured speed (rad/s), not negative, independent from point to point. `None`
-    /// takes the distance of each point from the line between its neighbours: this counts some of the motor's own
-    /// fluctuation as error, and makes intervals a little wider.
+    /// Standard deviation of the error of one measured speed (rad/s), not negative, independent from point to
+    /// point. `None` estimates it from the distance of each point from the line between its neighbours. This
+    /// counts some of the motor's own fluctuation as error and widens the intervals slightly.
     pub speed_error: Option<f64>,
-    /// Fields of the data sheet that had another value, exactly: preload, volts, load.
+    /// Fields whose exact values differ from the data sheet: preload, volts, load.
     pub conditions: Vec<(MotorField, f64)>,
 }
 
@@ -102,7 +104,7 @@ impl MeasuredTransient {
         let (mut sum, mut count) = (0.0, 0.0);
         for run in self.runs.runs() {
             for (t, y) in run.times.windows(3).zip(run.speeds.windows(3)) {
-                // Of independent errors of variance one this has the variance 1 + share^2 + (1 - share)^2.
+                // For independent errors of variance one, this has the variance 1 + share^2 + (1 - share)^2.
                 let share = (t[1] - t[0]) / (t[2] - t[0]);
                 let off = y[1] - y[0] - share * (y[2] - y[0]);
                 sum += off * off / (1.0 + share * share + (1.0 - share) * (1.0 - share));
@@ -113,22 +115,22 @@ impl MeasuredTransient {
     }
 }
 
-/// Runs as they are compared.
+/// Runs in the form in which they are compared.
 #[derive(Debug, Clone)]
 pub(super) struct Observed {
     kind: TransientKind,
-    /// The speed half-way, and 1 where speeds rise through it, -1 where they fall.
+    /// The half-way speed, and 1 if speeds rise through it, -1 if they fall.
     level: f64,
     sign: f64,
-    /// Bounds of the windows (s) from the half-way instant on.
+    /// Bounds of the windows (s), counted from the half-way instant.
     bounds: Vec<f64>,
-    /// For each run its times from the half-way instant on.
+    /// For each run its times counted from the half-way instant.
     patterns: Vec<Vec<f64>>,
     /// The half-way instant of each run on its own clock.
     pub(super) halfway: Vec<f64>,
     error: f64,
     fastest: f64,
-    /// How long computed runs last (s).
+    /// Duration of the computed runs (s).
     duration: f64,
     /// Means over the windows (rad/s).
     pub(super) means: DVector<f64>,
@@ -137,7 +139,8 @@ pub(super) struct Observed {
 /// Times and speeds.
 type Curve = (Vec<f64>, Vec<f64>);
 
-/// What is computed of a motor: the windows' means of each member, and when it is half-way after the switch (s).
+/// Computed quantities of a motor: the means over the windows for each member, and the time of its half-way
+/// instant after the switch-on (s).
 pub(super) struct Computed {
     pub(super) means: Vec<DVector<f64>>,
     pub(super) halfway: Vec<f64>,
@@ -220,12 +223,13 @@ impl Observed {
         self.kind == TransientKind::Braking
     }
 
-    /// How many independent runs the means are of.
+    /// The number of independent runs over which the means are taken.
     pub(super) fn runs(&self) -> usize {
         self.patterns.len()
     }
 
-    /// How the means change if something is added to the speeds at each time from the half-way instant on, for one of it.
+    /// The change of the means per unit of an amount added to the speeds, given as a function of the time
+    /// from the half-way instant.
     pub(super) fn change(&self, transient: &MeasuredTransient, added: impl Fn(f64) -> f64) -> DVector<f64> {
         let size = 1e-3 * self.fastest;
         let of = |run: &MeasuredRun, at: f64| {
@@ -248,7 +252,7 @@ impl Observed {
         (DVector::from_iterator(self.bounds.len() - 1, means), at)
     }
 
-    /// The same of computed members of a motor, at instants and with errors as they were measured.
+    /// The same for computed members of a motor, at the measured instants and with the measured errors.
     pub(super) fn compute(
         &self,
         motor: &Motor,
@@ -275,7 +279,7 @@ impl Observed {
         Ok(computed)
     }
 
-    /// Run-ups from rest, at phases that are spread evenly.
+    /// Run-ups from rest, at evenly spaced phases.
     fn run_ups(
         &self,
         motor: &Motor,
@@ -296,7 +300,7 @@ impl Observed {
         };
         let members = (0..members).map(member).collect::<Result<Vec<_>, Error>>()?;
         let curves = motor.transients(&members, observer)?;
-        // From rest at the switch.
+        // From rest at the switch-on.
         let from_rest = |curve: crate::motor::SpeedCurve| {
             let times = std::iter::once(0.0).chain(curve.times).collect();
             (times, std::iter::once(0.0).chain(curve.speeds).collect())
@@ -304,7 +308,7 @@ impl Observed {
         Ok(curves.into_iter().map(from_rest).collect())
     }
 
-    /// A rotor that slides on a stator at rest, faster than any that was measured, until it stands.
+    /// A rotor that slides on a stator at rest, from a speed above all measured ones until it stops.
     fn braking(&self, motor: &Motor) -> Result<Curve, Error> {
         let system = motor.on_shaft()?;
         let inertia = motor.mass() * system.disk().gyration_radius() * system.disk().gyration_radius();
@@ -318,7 +322,7 @@ impl Observed {
                 times.push(index as f64 * step);
                 speeds.push(direction * speed);
             }
-            // Half a step, and the whole one with the slope there.
+            // Half a step, and then the whole one with the slope there.
             let slope = |speed: f64| -(motor.largest_torque() + direction * law(direction * speed)) / inertia;
             let middle = speed + 0.5 * step * slope(speed);
             speed = (speed + step * slope(middle)).max(0.0);
@@ -332,8 +336,9 @@ fn step(run: &MeasuredRun) -> f64 {
     (run.times[run.times.len() - 1] - run.times[0]) / (run.times.len() - 1) as f64
 }
 
-/// Where a curve rises (or falls) through a level for good: it is on the one side before and on the other after, as far as
-/// the integral of its distance says; between two points on the line that joins them.
+/// The time at which a curve rises (or falls) through a level for good: before it the curve is on one side
+/// and after it on the other, judged by the integral of its distance. Between two points it lies on the line
+/// that joins them.
 fn crossing(times: &[f64], speeds: &[f64], level: f64, sign: f64) -> f64 {
     let above = |index: usize| sign * (speeds[index] - level);
     let (mut sum, mut least, mut best) = (0.0, 0.0, 0);
@@ -343,7 +348,7 @@ fn crossing(times: &[f64], speeds: &[f64], level: f64, sign: f64) -> f64 {
             (least, best) = (sum, index);
         }
     }
-    // The integral is least next to a change of the sign.
+    // The integral is least next to a change of sign.
     let crosses = |index: usize| above(index) < 0.0 && above(index + 1) >= 0.0;
     let near = [best.saturating_sub(1), best].into_iter().filter(|index| index + 1 < times.len());
     let share = |index: usize| above(index) / (above(index) - above(index + 1));
@@ -351,7 +356,7 @@ fn crossing(times: &[f64], speeds: &[f64], level: f64, sign: f64) -> f64 {
     found.map_or(times[best], |index| times[index] + share(index) * (times[index + 1] - times[index]))
 }
 
-/// A curve at a time: on the line between two points, and the nearest one beyond the ends.
+/// A curve at a time: linear between two points, and constant beyond the ends.
 fn interpolated(times: &[f64], speeds: &[f64], time: f64) -> f64 {
     let after = times.partition_point(|own| *own <= time);
     if after == 0 || after == times.len() {
@@ -361,7 +366,7 @@ fn interpolated(times: &[f64], speeds: &[f64], time: f64) -> f64 {
     speeds[after - 1] + share * (speeds[after] - speeds[after - 1])
 }
 
-/// The integral of a curve of lines, constant beyond its ends.
+/// The integral of a piecewise linear curve, constant beyond its ends.
 fn integral(times: &[f64], speeds: &[f64], from: f64, to: f64) -> f64 {
     let inner = times.partition_point(|time| *time <= from)..times.partition_point(|time| *time < to);
     let (mut last, mut value, mut sum) = (from, interpolated(times, speeds, from), 0.0);

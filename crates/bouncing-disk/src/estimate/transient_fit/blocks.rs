@@ -1,11 +1,11 @@
 //! Resampling the residuals of one measured curve, in blocks longer than their correlation time.
 //!
-//! Every block stays in place, is scaled to the size of its neighbours, and is multiplied by +1 or -1 (a wild
-//! bootstrap): noise may vary along the curve.
+//! Every block stays in place, is scaled to the size of its neighbours and is multiplied by +1 or -1 (a wild
+//! bootstrap), so noise may vary along the curve.
 //!
-//! A block is first divided by 1 minus its leverage, the part that the fit has absorbed, and scaled to the mean square
-//! of the seven blocks about it. The small-sample factor uses a quarter of the blocks, at least five, because the rise
-//! determines t_c and the plateau alpha_ss.
+//! A block is first divided by 1 minus its leverage, the part absorbed by the fit, and scaled to the mean
+//! square of the seven blocks about it. The small-sample factor uses a quarter of the blocks, at least five,
+//! because the rise determines t_c and the plateau alpha_ss.
 
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::run::WorkCount;
@@ -17,41 +17,41 @@ use crate::estimate::transient_fit::shape_grid::{MOMENTS, OF_SPEEDS, RunSpeeds, 
 use crate::statistics::correlation_time;
 use crate::statistics::small_sample_widening;
 
-/// The fewest blocks: fewer would say too little about each other.
+/// Fewest blocks; fewer would give too little information about each other.
 const LEAST_BLOCKS: usize = 8;
 
-/// About a quarter of the blocks determine a parameter, as those of the rise do the time constant; but at
-/// least so many count.
+/// About a quarter of the blocks determine a parameter, as the blocks of the rise determine the time
+/// constant; at least this number is assumed.
 const LEAST_SAMPLE: usize = 5;
 
-/// The most blocks: more would say hardly more about the error.
+/// Most blocks; more would hardly improve the estimate of the error.
 const MOST_BLOCKS: usize = 64;
 
 /// Factor by which a block is longer than the correlation time (docs/numerics-dynamics.md, "Fits with
 /// intervals").
 const BLOCK_TIMES: f64 = 2.5;
 
-/// Residuals below this share of the steady speed are those of the search, which ends about so near the best
+/// Residuals below this share of the steady speed come from the search, which ends about this near the best
 /// constant.
 const EXACT: f64 = 1.0e-6;
 
-/// Neighbouring blocks to either side whose noise is taken to be as large.
+/// Neighbouring blocks on either side that are assumed to have equally large noise.
 const NEIGHBOURS: usize = 3;
 
-/// The largest leverage of a block that its residuals are made good for: beyond it the block alone decides a
+/// Largest leverage of a block for which its residuals are corrected; beyond it the block alone determines a
 /// parameter.
 const LARGEST_LEVERAGE: f64 = 0.9;
 
-/// A curve with its residuals cut into blocks of one length, the last of which is longer.
+/// A curve whose residuals are cut into blocks of equal length, except for a longer last one.
 pub(crate) struct Blocks {
     fitted: Vec<f64>,
-    /// For each block the changes of the moments that speeds change.
+    /// For each block the changes of the moments that depend on speeds.
     changes: Vec<f64>,
     widening: f64,
 }
 
 impl Blocks {
-    /// Of the fit of a curve that has these values, and these derivatives by its parameters.
+    /// The blocks of a curve with these fitted values and their derivatives with respect to the parameters.
     pub(crate) fn new(
         run: &RunSpeeds,
         start: f64,
@@ -75,14 +75,16 @@ impl Blocks {
         if blocks < LEAST_BLOCKS {
             return too_long(time);
         }
-        // Neighbouring blocks share this part of the variance of their sums, which signs of their own lose.
+        // Neighbouring blocks share this part of the variance of their sums, which is lost with independent
+        // signs.
         let shared = (time - 1.0 / time) / (2.0 * block as f64);
         let leverages = leverages(derivatives);
         let shapes = grid.at(&run.times, start, work)?;
         let mut moments = vec![0.0; MOMENTS];
         shapes.add_curve(fitted, 1.0, &mut moments);
         let ends = |k: usize| (k * block, if k + 1 == blocks { points } else { (k + 1) * block });
-        // The fit has taken the leverage of a block of what its residuals have in common with the parameters.
+        // The fit has absorbed the block's leverage from the part of its residuals that the parameters can
+        // imitate.
         let sizes: Vec<[f64; 2]> = (0..blocks)
             .map(|k| {
                 let (from, end) = ends(k);
@@ -106,8 +108,8 @@ impl Blocks {
     }
 }
 
-/// The diagonal of the matrix that takes a curve to its fit, by orthogonalising the derivatives one after
-/// another.
+/// The diagonal of the hat matrix, which maps a curve to its fit, by orthogonalising the derivatives one
+/// after another.
 pub(crate) fn leverages(derivatives: &[Vec<f64>]) -> Vec<f64> {
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let mut leverages = vec![0.0; derivatives.first().map_or(0, Vec::len)];

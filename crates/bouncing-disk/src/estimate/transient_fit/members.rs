@@ -17,8 +17,8 @@ pub(crate) struct Members {
 }
 
 impl Members {
-    /// Of runs whose time counts from `start`; `misfit` is what the intervals are multiplied by because of
-    /// the form.
+    /// The moments of runs whose time counts from `start`; `misfit` is the factor by which the intervals are
+    /// widened because of the form.
     pub(crate) fn new(
         runs: &[RunSpeeds],
         start: f64,
@@ -39,7 +39,7 @@ impl Members {
         for own in of_runs.chunks_exact(MOMENTS) {
             add(own, &mut moments);
         }
-        // Percentiles of few members lie nearer to each other than those of a normal distribution.
+        // Percentiles of few members lie closer together than those of a normal distribution.
         let widening = misfit * small_sample_widening(runs.len() - 1);
         Ok(Self { of_runs, moments, widening })
     }

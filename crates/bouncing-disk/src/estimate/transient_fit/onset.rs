@@ -1,4 +1,4 @@
-//! Where a rise begins in a record: rows before the switch-on, or in a dead time, have one speed.
+//! Finds the start of a rise in a record: rows before the switch-on, or in a dead time, have constant speed.
 
 use bouncing_disk_core::numerics::elementary::{exp, ln};
 use bouncing_disk_core::run::WorkCount;
@@ -12,17 +12,17 @@ pub(crate) const LEAST_POINTS: usize = 8;
 /// Step of the trial time constants, in their logarithm.
 const STEP: f64 = 0.05;
 
-/// The fit omits a beginning if this lowers the logarithm of the sum of squares, over all independent rows,
-/// by more than this number, half of Akaike's price of the two added parameters: a cut too many costs rows,
-/// one too few gives a bias.
+/// The fit omits initial rows if this lowers the logarithm of the sum of squares, over all independent rows,
+/// by more than this number, half of Akaike's penalty for the two added parameters. A cut too many costs
+/// rows; one too few causes a bias.
 const PRICE: f64 = 2.0;
 
-/// Sums of squares below this share of those of the speeds are rounding.
+/// Sums of squares below this share of the speeds' own are rounding.
 const EXACT: f64 = 1.0e-13;
 
-/// The number of rows before the rise: of all ways to cut the record, that by which one speed before the cut
-/// and a saturating exponential behind it leave the smallest squares, if it describes the record better than
-/// no cut.
+/// The number of rows before the rise. The record is cut so that a constant speed before the cut and a
+/// saturating exponential after it leave the smallest squares, if that describes the record better than no
+/// cut.
 pub(crate) fn rows_before_rise(
     times: &[f64],
     speeds: &[f64],
@@ -37,8 +37,8 @@ pub(crate) fn rows_before_rise(
     let shortest = times.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
     let shortest = shortest.max(duration / (10 * n) as f64);
     let (low, high) = (ln(shortest), ln(100.0) + ln(duration));
-    // For each cut the least squares behind it, with the logarithm of their constant, and those of the last
-    // two constants.
+    // For each cut the least squares after it, with the logarithm of their constant, and the squares for the
+    // last two constants.
     let mut behind = vec![(f64::INFINITY, 0.0); most + 1];
     let mut last = vec![[f64::INFINITY; 2]; most + 1];
     for trial in 0..=((high - low) / STEP) as u32 {
@@ -61,7 +61,7 @@ pub(crate) fn rows_before_rise(
             let taken = if spread > 1e-12 * ee { product * product / spread } else { 0.0 };
             let squares = (yy - y * y / count - taken).max(0.0);
             let [before, at] = last[k];
-            // The bottom of the parabola through the last three, about the one in the middle.
+            // The vertex of the parabola through the last three, relative to the middle one.
             let bend = before - 2.0 * at + squares;
             let has_bottom = at <= before && at <= squares && bend > 0.0 && bend.is_finite();
             let (bottom, place) = if has_bottom {

@@ -12,15 +12,15 @@ use crate::statistics::percentile;
 /// the interval.
 const MOST_ASTRAY: f64 = 0.01;
 
-/// The units that are resampled: curves of members, or blocks of residuals.
+/// The resampled units: curves of members, or blocks of residuals.
 pub(crate) trait Resampled {
     /// The moments of the curve itself.
     fn moments(&self) -> &[f64];
-    /// Draws a curve and sets its moments.
+    /// Samples a curve at random and sets its moments.
     fn draw(&self, random: &mut SplitMix64, moments: &mut [f64]);
-    /// How much wider than the resampled ones the intervals are.
+    /// The factor by which the intervals are wider than the resampled ones.
     fn widening(&self) -> f64;
-    /// The work of a draw, in flights.
+    /// The cost of a sample, in flights.
     fn work(&self) -> u64;
 }
 
@@ -63,13 +63,13 @@ impl Resamples {
         self.centre
     }
 
-    /// The ends of the interval about a value of the fit, a number of each resampled one.
+    /// The ends of the interval about a value of the fit; `of` computes the value from each resampled fit.
     pub(crate) fn about(&self, value: f64, of: &dyn Fn(&Rise) -> f64) -> (f64, f64) {
         let (centre, (low, high)) = (of(&self.centre), self.percentiles(of));
         (value + self.widening * (low - centre), value + self.widening * (high - centre))
     }
 
-    /// The numbers that a fortieth of the fits lie below and above.
+    /// The values below and above which a fortieth of the fits lie.
     fn percentiles(&self, of: &dyn Fn(&Rise) -> f64) -> (f64, f64) {
         let mut values: Vec<f64> = self.fits.iter().map(of).collect();
         values.sort_by(f64::total_cmp);

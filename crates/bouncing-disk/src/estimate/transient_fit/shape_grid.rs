@@ -1,4 +1,4 @@
-//! Least-squares fits of many curves by their moments with shapes that are computed once.
+//! Least-squares fits of many curves from their moments with shapes that are computed once.
 
 use bouncing_disk_core::numerics::elementary::{exp, exp_m1, ln};
 use bouncing_disk_core::run::WorkCount;
@@ -6,25 +6,25 @@ use bouncing_disk_core::run::WorkCount;
 use crate::error::Error;
 use crate::estimate::fit::Start;
 
-/// Reach of the grid to either side, in the logarithm of the constant: a factor of five.
+/// Extent of the grid to either side, in the logarithm of the constant: a factor of five.
 const REACH: f64 = 1.6;
 
-/// Steps of the grid to either side. The parabola through three of them is off the best constant by less than
+/// Steps of the grid to either side. The parabola through three of them misses the best constant by less than
 /// 1e-4 of it, far below any interval.
 const STEPS: i32 = 80;
 
-/// Constants of the grid.
+/// Number of constants of the grid.
 const CONSTANTS: usize = 2 * STEPS as usize + 1;
 
 /// Numbers of a curve that its fit needs: its weight, for each constant the sums of the shapes f and of their
-/// squares, then the sum of its speeds, and for each constant that of their products with the shapes. Those
-/// of several curves add up.
+/// squares, then the sum of its speeds, and for each constant the sum of their products with the shapes. The
+/// numbers of several curves add up.
 pub(crate) const MOMENTS: usize = SPEEDS + OF_SPEEDS;
 
-/// Where the moments begin that the speeds change.
+/// Index of the first moment that depends on the speeds.
 pub(crate) const SPEEDS: usize = 1 + 2 * CONSTANTS;
 
-/// How many these are.
+/// Number of moments that depend on the speeds.
 pub(crate) const OF_SPEEDS: usize = 1 + CONSTANTS;
 
 /// 1 - exp(-x).
@@ -41,11 +41,11 @@ pub(crate) fn ramp(x: f64) -> f64 {
 pub(crate) struct RunSpeeds {
     pub(crate) times: Vec<f64>,
     pub(crate) speeds: Vec<f64>,
-    /// How many runs it stands for.
+    /// Number of runs that it represents.
     pub(crate) weight: f64,
 }
 
-/// steady - rise (1 - shape(t/constant)) of the least squares.
+/// The least-squares fit steady - rise (1 - shape(t/constant)).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Rise {
     pub(crate) steady: f64,
@@ -53,11 +53,11 @@ pub(crate) struct Rise {
     pub(crate) log_constant: f64,
 }
 
-/// Constants about that of a fit, from which the best one for the moments of a curve is chosen.
+/// Constants about a fit's own, from which the best one for the moments of a curve is chosen.
 ///
-/// For a given constant the best rise B is (f.y)/(f.f), and the sum of squares falls by G = (f.y)^2/(f.f);
-/// with any speed at the start f and y are taken from their means (docs/numerics-dynamics.md, "Fits with
-/// intervals").
+/// For a given constant the best rise B is (f.y)/(f.f), and it reduces the sum of squares by G =
+/// (f.y)^2/(f.f). If the initial speed is free, f and y are taken relative to their means
+/// (docs/numerics-dynamics.md, "Fits with intervals").
 pub(crate) struct ShapeGrid {
     logs: Vec<f64>,
     shape: fn(f64) -> f64,
@@ -88,8 +88,7 @@ impl ShapeGrid {
         Ok(Shapes { points: times.len(), shapes })
     }
 
-    /// The fit of the curve that has these moments; `None` where the best constant lies at an end of the
-    /// grid.
+    /// The fit of the curve with these moments; `None` if the best constant lies at an end of the grid.
     pub(crate) fn best(&self, moments: &[f64]) -> Option<Rise> {
         let (weight, speeds) = (moments[0], moments[SPEEDS]);
         let (sums, squares) = moments[1..SPEEDS].split_at(CONSTANTS);
@@ -116,7 +115,7 @@ impl ShapeGrid {
         }
         let (before, at, after) = (gain(best - 1), gain(best), gain(best + 1));
         let bend = before - 2.0 * at + after;
-        // Where three gains are alike the curve does not say which constant is best.
+        // If three gains are equal, the curve does not determine the best constant.
         let offset = if bend < 0.0 { (0.5 * (before - after) / bend).clamp(-1.0, 1.0) } else { 0.0 };
         let between = |of: &dyn Fn(usize) -> f64| {
             let (before, at, after) = (of(best - 1), of(best), of(best + 1));
@@ -143,8 +142,8 @@ impl Shapes {
         self.add_speeds(0, speeds, weight, &mut moments[SPEEDS..]);
     }
 
-    /// Adds to the last moments, those from [`SPEEDS`] on, what further speeds from the point `from` on
-    /// change of them.
+    /// Adds to the last moments, those from [`SPEEDS`] on, the contribution of further speeds from the point
+    /// `from` on.
     pub(crate) fn add_speeds(&self, from: usize, speeds: &[f64], weight: f64, moments: &mut [f64]) {
         let (sum, products) = moments.split_at_mut(1);
         sum[0] += weight * speeds.iter().sum::<f64>();
