@@ -1,4 +1,4 @@
-//! How far angles extend on a circle, and where on it they are concentrated.
+//! The extent and the concentration of angles on a circle.
 
 use core::f64::consts::PI;
 
@@ -7,8 +7,8 @@ use bouncing_disk_core::read_checked;
 
 use crate::error::{Error, check};
 
-/// The length of the shortest arc that holds all of the `phases`, in periods: one minus the largest gap
-/// between neighbours. Zero for one phase, `None` for none.
+/// The length of the shortest arc that contains all `phases`, in periods: one minus the largest gap between
+/// neighbours. Zero for one phase, `None` for no phases.
 ///
 /// Phases are in periods; 0 and 1 are the same.
 pub fn occupied_arc(phases: impl IntoIterator<Item = f64>) -> Option<f64> {
@@ -39,7 +39,7 @@ pub fn distinct(phases: impl IntoIterator<Item = f64>, apart: f64) -> usize {
     (gaps + usize::from(first + 1.0 - last > apart)).max(1)
 }
 
-/// The shorter way from one phase to the other, in periods: at most one half.
+/// The shorter distance between two phases, in periods: at most one half.
 #[must_use]
 pub fn distance(one: f64, other: f64) -> f64 {
     let apart = one - other;
@@ -47,7 +47,7 @@ pub fn distance(one: f64, other: f64) -> f64 {
     apart.min(1.0 - apart)
 }
 
-/// First trigonometric moment of weights at phases: where and how strongly they are concentrated.
+/// First trigonometric moment of weights at phases: the position and the strength of their concentration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedConcentration"))]
@@ -58,7 +58,7 @@ pub struct Concentration {
     pub resultant_length: f64,
 }
 
-/// How far rounding may take the resultant length above 1: that of some million weights.
+/// Largest amount by which rounding may take the resultant length above 1, for about a million weights.
 const LENGTH_ROUNDING: f64 = 1.0e-9;
 
 read_checked!(Concentration as UncheckedConcentration {
@@ -67,7 +67,7 @@ read_checked!(Concentration as UncheckedConcentration {
 });
 
 impl Concentration {
-    /// Checks a value that was deserialised.
+    /// Checks a deserialised value.
     fn check(&self) -> Result<(), Error> {
         let (direction, length) = (self.mean_direction_rad, self.resultant_length);
         check((-PI..=PI).contains(&direction), "mean_direction_rad", direction, "[-pi, pi] (rad)")?;
@@ -75,7 +75,7 @@ impl Concentration {
         Ok(())
     }
 
-    /// Of (phase in rad, weight); `None` without weight.
+    /// The concentration of pairs (phase in rad, weight); `None` if the total weight is zero.
     pub fn of(weights: impl IntoIterator<Item = (f64, f64)>) -> Option<Self> {
         let (mut cosine, mut sine, mut total) = (0.0, 0.0, 0.0);
         for (phase, weight) in weights {
@@ -135,11 +135,11 @@ mod tests {
             (&[0.3], 1),
             (&[0.125, 0.125 - ulp, 0.125 + ulp], 1),
             (&[0.05 * (1.0 - ulp), 0.05, 0.7, 0.7], 2),
-            // One place at the seam of the phase.
+            // A single position at the seam of the phase.
             (&[0.0, 1.0 - ulp, ulp], 1),
             (&[0.0, 0.5, 1.0 - ulp], 2),
             (&[-0.25, 0.75, 1.75], 1),
-            // A chain of neighbours round the whole circle has no gap.
+            // A chain of neighbours around the whole circle has no gap.
             (&[0.0, 0.25, 0.5, 0.75], 4),
         ] {
             assert_eq!(distinct(phases.iter().copied(), 1e-6), expected, "{phases:?}");

@@ -1,9 +1,9 @@
-//! A motor as its data sheet describes it: frequency in Hz, preload in N, a load in N m. It builds a
+//! A motor as described by its data sheet: frequency in Hz, preload in N, load in N m. The sheet determines a
 //! [`System`].
 //!
 //! Warnings point out unusual values (`warning.rs`), and a report describes the behaviour of the motor
-//! (`report.rs`); data sheets are read and written as JSON and TOML (`file.rs`). `motor_field.rs` has the
-//! table of the fields.
+//! (`report.rs`). Data sheets are read and written as JSON and TOML (`file.rs`). The table of the fields is
+//! in `motor_field.rs`.
 
 #[cfg(any(feature = "json", feature = "toml"))]
 pub(crate) mod file;
@@ -32,8 +32,8 @@ use crate::parameters::system::{Beyond, System};
 
 /// A motor with a legal data sheet: a [`System`] together with its mass and its preload as a force.
 ///
-/// Printing shows what follows from the data sheet without computing a motion; [`Motor::report`] adds the
-/// regime.
+/// Printing shows quantities that follow from the data sheet without computing a motion; [`Motor::report`]
+/// adds the regime.
 ///
 /// ```
 /// use bouncing_disk::Motor;
@@ -57,19 +57,19 @@ pub struct Motor {
 }
 
 impl Motor {
-    /// The platform and the disk. It knows neither the motion of a table `[drive]` nor the law of a table `[load]`.
+    /// The platform and the disk, without the motion of a table `[drive]` and the law of a table `[load]`.
     #[must_use]
     pub const fn system(&self) -> &System {
         &self.system
     }
 
-    /// The data sheet, to be changed and built again.
+    /// The data sheet, which can be changed and built again.
     #[must_use]
     pub const fn parameters(&self) -> &MotorParameters {
         &self.parameters
     }
 
-    /// How its stator moves.
+    /// The motion of its stator.
     pub(crate) const fn stator_motion(&self) -> &Stator {
         &self.stator_motion
     }
@@ -77,17 +77,17 @@ impl Motor {
     /// The system of a motor whose stator moves as a sine, with rigid impacts and a constant load.
     ///
     /// # Errors
-    /// [`Error::YieldingStator`], [`Error::LoadLaw`], [`Error::DriveNotSine`] and [`Error::SoftContact`] say what it has
-    /// instead.
+    /// [`Error::YieldingStator`], [`Error::LoadLaw`], [`Error::DriveNotSine`] or [`Error::SoftContact`] for a
+    /// motor of another kind.
     pub fn rigid_sine(&self) -> Result<&System, Error> {
         DimensionlessSystem::try_from(&self.system).map(|_| &self.system)
     }
 
-    /// The same motor with another data sheet. To change from one alternative to the other, say from a
-    /// preload acceleration to a force, set the first to `None`.
+    /// The same motor with another data sheet. To switch between alternatives, for example from a preload
+    /// acceleration to a force, set the first to `None`.
     ///
     /// # Errors
-    /// Those of [`MotorParameters::build`].
+    /// The errors of [`MotorParameters::build`].
     pub fn with(&self, change: impl FnOnce(&mut MotorParameters)) -> Result<Self, Error> {
         let mut parameters = self.parameters.clone();
         change(&mut parameters);
@@ -119,13 +119,13 @@ impl Motor {
         self.parameters.preload_force.unwrap_or_else(|| self.mass * self.preload_acceleration())
     }
 
-    /// The stator, if the rotor changes its motion; without a rotor it moves as the platform of [`Self::system`].
+    /// The stator, if it reacts to the rotor; without a rotor it moves as the platform of [`Self::system`].
     #[must_use]
     pub fn stator(&self) -> Option<StatorModes> {
         self.system.stator()
     }
 
-    /// The load that varies, if the sheet has one in place of a load torque.
+    /// The law of a varying load, if the sheet has one instead of a load torque.
     #[must_use]
     pub const fn load(&self) -> Option<LoadLaw> {
         self.parameters.load
@@ -137,8 +137,8 @@ impl Motor {
         self.parameters.load_torque
     }
 
-    /// mu m g a_e (N m): the torque of friction that always pushes one way. The mean normal force is
-    /// the preload, whatever the motion, so that no motor gives more.
+    /// mu m g a_e (N m): the torque if friction always pushed one way. The mean normal force equals the
+    /// preload, whatever the motion, so no motor delivers more.
     #[must_use]
     pub fn largest_torque(&self) -> f64 {
         let disk = self.system.disk();
@@ -151,9 +151,9 @@ impl Motor {
         self.parameters.spring_constant.map(|constant| self.preload_force() / constant)
     }
 
-    /// A bound on the height of the rotor above its place on the stator at mid-height (m), for all flights of
-    /// a motor that starts from rest and of every attractor, as its stator moves as a sine (docs/numerics-dynamics.md, "A bound on
-    /// flight heights").
+    /// A bound on the height of the rotor (m) above its position on the stator at mid-height. It holds for
+    /// all flights of a motor that starts from rest and of every attractor, for a sinusoidal stator
+    /// (docs/numerics-dynamics.md, "A bound on flight heights").
     #[must_use]
     pub fn highest_rise(&self) -> f64 {
         let system = &self.system;
@@ -161,7 +161,8 @@ impl Motor {
     }
 
     /// A bound on the relative change of the spring's force during a flight: k [`Self::highest_rise`]/F;
-    /// `None` without a spring, and if the stator has a [drive](MotorParameters::drive). The engine keeps the preload constant; above 1 % there is a warning.
+    /// `None` without a spring or with a [drive](MotorParameters::drive). The engine keeps the preload
+    /// constant; above 1 % there is a warning.
     #[must_use]
     pub fn preload_change_bound(&self) -> Option<f64> {
         let is_sine = self.parameters.drive.is_sine();
@@ -169,7 +170,7 @@ impl Motor {
     }
 }
 
-/// Which of two alternatives is given.
+/// The alternative that is given.
 enum Alternative {
     One(f64),
     Other(f64),
@@ -191,9 +192,9 @@ impl MotorParameters {
     /// Checks the ranges and the alternatives.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] names the field, its value and its legal range; [`Error::NeitherGiven`] and
-    /// [`Error::BothGiven`] name two fields of which exactly one is needed, [`Error::NotGiven`] the radius or
-    /// thickness that a density needs. Those of [`System::new`] if the combination is out of range.
+    /// [`Error::OutOfRange`] with the field, its value and its legal range; [`Error::NeitherGiven`] and
+    /// [`Error::BothGiven`] for two fields of which exactly one is needed; [`Error::NotGiven`] for the radius
+    /// or thickness that a density needs. The errors of [`System::new`] if the combination is out of range.
     pub fn build(&self) -> Result<Motor, Error> {
         self.check_ranges()?;
         self.drive.check()?;
@@ -254,7 +255,7 @@ impl MotorParameters {
         Ok(Motor { parameters: self.clone(), system, mass, stator_motion })
     }
 
-    /// The motion without a rotor: what the sheet gives, and what its stator computes.
+    /// The motion without a rotor, as stated in the sheet or computed from its stator.
     fn platform(&self, angular_frequency: f64) -> Result<PlatformParameters, Error> {
         let twist = one_of(
             ("peak_angular_speed", self.peak_angular_speed),
@@ -279,7 +280,7 @@ impl MotorParameters {
         Ok(stator.build(given)?.motion())
     }
 
-    /// Checks each field by itself.
+    /// Checks each field separately.
     fn check_ranges(&self) -> Result<(), Error> {
         positive("drive_frequency", self.drive_frequency)?;
         finite("phase_lag", self.phase_lag)?;
@@ -309,7 +310,7 @@ impl MotorParameters {
         Ok(())
     }
 
-    /// The mass (kg), given or that of a solid disc. A thickness that nothing would read is refused.
+    /// The mass (kg), given or computed for a solid disc. An unused thickness is an error.
     fn rotor_mass(&self) -> Result<f64, Error> {
         match one_of(("mass", self.mass), ("density", self.density))? {
             Alternative::One(_) if self.rotor_thickness.is_some() => {

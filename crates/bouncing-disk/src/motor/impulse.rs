@@ -1,18 +1,18 @@
-//! Where in the cycle of the stator the rotor gets its normal impulse, and the speed that follows.
+//! The distribution of the rotor's normal impulse over the stator's cycle, and the resulting speed.
 //!
-//! Between two moments of the same vertical state the normal impulse, of impacts and contact together, equals
-//! the weight times the time between them. Friction passes on mu a_e of it, forwards wherever the stator
-//! turns faster than the rotor and backwards elsewhere. For a rotor whose speed q changes little in one
-//! impact therefore
+//! Between two instants of equal vertical state the normal impulse, of impacts and contact together, equals
+//! the weight times the time between them. Friction transmits mu a_e of it, forwards while the stator turns
+//! faster than the rotor and backwards otherwise. For a rotor whose speed q changes little in one impact
+//! therefore
 //!
 //! ```text
 //! dq/dt = (mu a_e g/a_g^2) S(q/(omega Phi)),
 //! S(x) = share of the impulse with cos(tau + theta) > x minus the rest
 //! ```
 //!
-//! The steady speed is omega Phi times the impulse-weighted median of cos(tau + theta), and for a cycle of
-//! few impacts the speed rises in straight lines that break where the rotor catches up with the stator at one
-//! of them.
+//! The steady speed is omega Phi times the impulse-weighted median of cos(tau + theta). For a cycle of few
+//! impacts the speed rises along straight lines with a break whenever the rotor reaches the stator's speed at
+//! one of them.
 
 mod compliant;
 
@@ -30,10 +30,10 @@ use crate::toss::multiple::MAX_EXAMINED;
 /// Parts into which a segment of contact is divided.
 const CONTACT_PARTS: u32 = 32;
 
-/// Impacts after which a motion that does not come to rest is given up.
+/// Impacts after which a motion that does not come to rest is abandoned.
 const LONGEST_CYCLE: usize = 10_000;
 
-/// A normal impulse, and where in the cycle of the platform it acts.
+/// A normal impulse, and the phase of the platform at which it acts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PhasedImpulse {
@@ -47,25 +47,25 @@ pub struct PhasedImpulse {
 #[derive(Debug, Clone, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct NormalImpulses {
-    /// Of single impacts.
+    /// Impulses of single impacts.
     pub impacts: Vec<PhasedImpulse>,
-    /// Phases (rad) of the impacts that end a flight longer than [`LONG_FLIGHT`], those of a last,
-    /// incomplete cycle included. The infinitely many of a chattering sequence are not.
+    /// Phases (rad) of the impacts that end a flight longer than [`LONG_FLIGHT`], including those of a last,
+    /// incomplete cycle, but not the infinitely many of a chattering sequence.
     pub landings: Vec<f64>,
-    /// Of summed chattering and of contact, in parts.
+    /// Impulses of summed chattering and of contact, in parts.
     pub contact: Vec<PhasedImpulse>,
     /// Duration in radians, equal to the sum of all impulses between two separations.
     pub duration: f64,
 }
 
 impl NormalImpulses {
-    /// The impulses of at least `impacts` impacts from one separation to a later one; none if the platform
-    /// never falls away. Each separation gets a relative speed drawn evenly below `perturbation` (in units of
-    /// g/omega, in [0, 1e100]); the last, incomplete cycle is omitted unless it is the only one.
+    /// The impulses of at least `impacts` impacts from one separation to a later one; empty if the platform
+    /// never falls away. Each separation gets a relative speed, uniformly distributed below `perturbation`
+    /// (in units of g/omega, in [0, 1e100]). The last, incomplete cycle is omitted unless it is the only one.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for the perturbation; an error of the core for more than [`MAX_EXAMINED`]
-    /// impacts; those of the flights.
+    /// impacts; the errors of the flights.
     pub fn of(map: &ImpactMap, impacts: usize, perturbation: f64) -> Result<Self, Error> {
         moderate_not_negative("perturbation", perturbation)?;
         within_limit("impacts whose impulses are wanted", impacts, MAX_EXAMINED)?;
@@ -128,7 +128,7 @@ impl NormalImpulses {
         self.all().map(|one| one.impulse).sum()
     }
 
-    /// Shares of the impulse in equal parts of the cycle, from tau = -pi to pi; NaN without impulse.
+    /// Shares of the impulse in equal parts of the cycle, from tau = -pi to pi; NaN if the impulse is zero.
     #[must_use]
     pub fn histogram(&self, parts: usize) -> Vec<f64> {
         let mut shares = vec![0.0; parts];
@@ -143,13 +143,13 @@ impl NormalImpulses {
         shares.iter().map(|share| share / total).collect()
     }
 
-    /// Where in the cycle the impulse is concentrated; `None` without impulse.
+    /// The concentration of the impulse in the cycle; `None` if the impulse is zero.
     #[must_use]
     pub fn concentration(&self) -> Option<Concentration> {
         Concentration::of(self.all().map(|one| (one.phase, one.impulse)))
     }
 
-    /// Where the [`landings`](Self::landings) are; `None` without any.
+    /// The concentration of the [`landings`](Self::landings); `None` without any.
     #[must_use]
     pub fn concentration_of_collisions(&self) -> Option<Concentration> {
         Concentration::of(self.landings.iter().map(|phase| (*phase, 1.0)))
@@ -171,7 +171,7 @@ impl NormalImpulses {
     }
 }
 
-/// Gives the launch that is due a relative speed of an evenly filling sequence.
+/// Gives the next launch a relative speed from an evenly filling sequence.
 fn relaunch(orbit: &mut Orbit, perturbation: f64, index: u32) -> Result<(), Error> {
     if perturbation > 0.0 {
         let share = golden_share(index as usize);
@@ -183,17 +183,17 @@ fn relaunch(orbit: &mut Orbit, perturbation: f64, index: u32) -> Result<(), Erro
 /// The normal impulses from the last single impact before a rest to the separation after it.
 #[derive(Debug, Clone, Copy)]
 struct RestImpulses {
-    /// Of the chattering sequence, as one at the attachment: impulse is change of velocity plus weight times
-    /// time.
+    /// Impulse of the chattering sequence, treated as one at the attachment: change of velocity plus weight
+    /// times time.
     chatter: PhasedImpulse,
-    /// Angle of the separation, counted on from that of the attachment.
+    /// Angle of the separation, counted from the attachment without wrapping.
     until: f64,
     peak_acceleration: f64,
 }
 
 impl RestImpulses {
-    /// Of a rest whose last single impact, or separation, was at the angle `last`; `None` if it lasts for
-    /// ever.
+    /// The impulses of a rest whose last single impact, or separation, was at the angle `last`; `None` if it
+    /// lasts for ever.
     fn of(map: &ImpactMap, rest: &Attachment, last: f64) -> Option<Self> {
         let (leaves, turns) = rest.separation?;
         let peak_acceleration = map.vibration().peak_acceleration();
@@ -228,15 +228,15 @@ impl RestImpulses {
     }
 }
 
-/// A part of a segment of contact: the impulse of the normal force 1 - P sin tau in it is the duration plus
+/// A part of a segment of contact. The impulse of the normal force 1 - P sin tau in it is the duration plus
 /// the gain.
 #[derive(Debug, Clone, Copy)]
 struct ContactPart {
-    /// Angle of its middle, not wrapped.
+    /// Angle of its midpoint, not wrapped.
     middle: f64,
     /// Duration (rad).
     duration: f64,
-    /// The change of the platform's axial velocity in it.
+    /// The change of the platform's axial velocity during it.
     gain: f64,
 }
 
@@ -261,13 +261,13 @@ struct ContactPart {
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImpulseBalance {
     speeds: Vec<f64>,
-    /// Sum of the impulses up to each.
+    /// Cumulative sums of the impulses.
     below: Vec<f64>,
 }
 
 impl ImpulseBalance {
-    /// S: share of the impulse where the stator turns faster than `speed` (in units of omega Phi) minus the
-    /// rest.
+    /// S: the share of the impulse at which the stator turns faster than `speed` (in units of omega Phi)
+    /// minus the remaining share.
     #[must_use]
     pub fn net_share(&self, speed: f64) -> f64 {
         let slower = self.speeds.partition_point(|level| *level <= speed);
@@ -276,7 +276,7 @@ impl ImpulseBalance {
         1.0 - 2.0 * below / total
     }
 
-    /// The steady speed in units of omega Phi: the weighted median; zero without impulse.
+    /// The steady speed in units of omega Phi: the weighted median; zero if the impulse is zero.
     #[must_use]
     pub fn steady_speed(&self) -> f64 {
         let half = 0.5 * self.below.last().copied().unwrap_or(0.0);
@@ -285,7 +285,7 @@ impl ImpulseBalance {
     }
 
     /// Times in units of the rise time omega Phi a_g^2/(mu a_e g) ([`crate::System::rise_time`]), and the
-    /// speed from rest at them in units of omega Phi: `count` equal steps up to `rises`.
+    /// speed from rest at these times in units of omega Phi: `count` equal steps up to `rises`.
     #[must_use]
     pub fn transient(&self, rises: f64, count: u32) -> (Vec<f64>, Vec<f64>) {
         let step = rises / f64::from(count);

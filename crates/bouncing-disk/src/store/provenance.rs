@@ -137,8 +137,8 @@ impl Provenance {
     ///
     /// # Errors
     /// [`StorageError::NewerFormat`], [`StorageError::OlderFormat`] or [`StorageError::OtherFormat`] for a
-    /// file that is not of this format in a readable version, whatever else it contains;
-    /// [`StorageError::Provenance`] if a field is missing or not known.
+    /// file that is not of this format in a supported version, whatever else it contains;
+    /// [`StorageError::Provenance`] if a field is missing or unknown.
     pub fn read(format: Format, stored: &Value, file: &Path) -> Result<Self, StorageError> {
         let unreadable = |source| StorageError::Provenance { file: file.to_owned(), source };
         Stamp::of(stored).check(format, file)?;
@@ -175,13 +175,13 @@ impl Provenance {
         &self.parameters
     }
 
-    /// The seed of the random streams, if there is one.
+    /// The seed of the random streams, if any.
     #[must_use]
     pub const fn seed(&self) -> Option<u64> {
         self.seed
     }
 
-    /// How a chattering sequence ends, where it matters.
+    /// How a chattering sequence ends, if that matters.
     #[must_use]
     pub const fn chatter_policy(&self) -> Option<ChatterPolicy> {
         self.chatter_policy
@@ -248,7 +248,7 @@ mod tests {
             (Some("bouncing-disk"), Some(3))
         );
         assert_eq!(stored["version"], env!("CARGO_PKG_VERSION"));
-        // Entries that do not apply are present as null.
+        // Inapplicable entries are present as null.
         let plain = json!(Provenance::new(FORMAT));
         assert!(
             plain["seed"].is_null()
@@ -257,7 +257,7 @@ mod tests {
         );
     }
 
-    /// They would be `null`, all of them, and different computations would have the same parameters.
+    /// Such numbers would all be `null`, and different computations would have the same parameters.
     #[test]
     fn numbers_that_are_not_finite_are_no_parameters() {
         for number in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
@@ -274,7 +274,7 @@ mod tests {
     #[test]
     fn another_format_is_refused_by_name_whatever_else_it_has() {
         let with = |name: &str, version: u32| {
-            // As a later version may write it: with fields that are not known, and without some that are.
+            // As a later version might write it, with unknown fields and without some known ones.
             json!({"format": name, "format_version": version, "program": "later", "version": "9.9", "where": "there"})
         };
         let text = |stored: Value| read(&stored).expect_err("refused").to_string();
@@ -294,7 +294,7 @@ mod tests {
         odd["format_version"] = json!(1_u64 << 40);
         odd["program"] = json!({"name": "later"});
         assert!(matches!(read(&odd), Err(StorageError::NewerFormat { found: u32::MAX, .. })));
-        // One of this format must be whole, and have nothing else.
+        // A file of this format must be complete and contain nothing else.
         assert!(matches!(read(&with("test", 3)), Err(StorageError::Provenance { .. })));
         for version in [2, 3] {
             let mut stored = json!(Provenance::new(Format { version, ..FORMAT }));

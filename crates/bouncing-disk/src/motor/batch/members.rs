@@ -1,4 +1,4 @@
-//! The members of an ensemble: transients of one motor with phases and seeds of their own.
+//! The members of an ensemble: transients of one motor, each with its own phase and seed.
 
 use std::f64::consts::TAU;
 
@@ -13,7 +13,7 @@ use crate::parameters::system::System;
 /// Most members of an ensemble.
 pub const MAX_MEMBERS: usize = 1_000_000;
 
-/// Most speeds of all members of an ensemble together: a gigabyte with their times.
+/// Most speeds of all members of an ensemble together; with their times they take a gigabyte.
 pub const MAX_SPEEDS: usize = 1 << 26;
 
 /// The arguments of one [`transient`](crate::motor::transient()).
@@ -30,13 +30,12 @@ pub struct TransientMember {
 
 impl TransientMember {
     /// The members of a [`TransientEnsemble`](crate::estimate::TransientEnsemble): `members` >= 1 transients
-    /// with starting phases spread evenly over the cycle from one that the seed chooses, and seeds counted up
-    /// from `settings.seed`. Ensembles that are to be independent of each other need seeds that lie at least
-    /// `members` apart.
+    /// with consecutive seeds from `settings.seed`, and with starting phases spread evenly over the cycle
+    /// from one that the seed selects. Independent ensembles need seeds that differ by at least `members`.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for no member or illegal settings; an error of the core for more than
-    /// [`MAX_MEMBERS`] members, more than [`MAX_SPEEDS`] speeds in all or more than memory can hold.
+    /// [`MAX_MEMBERS`] members, more than [`MAX_SPEEDS`] speeds in total or insufficient memory.
     pub fn of_ensemble(
         system: &System,
         settings: &TransientSettings,
@@ -64,10 +63,10 @@ impl TransientMember {
     }
 }
 
-/// The phase at which the member of this index starts: the phases are spread evenly over the cycle, and
-/// turned by an angle that the seed selects, because a few phases are a sample of all of them. The seed 1
-/// turns by half a step, away from all special phases; each further seed adds the golden ratio of a step, so
-/// that a few seeds are spread evenly, too.
+/// The starting phase of the member of this index. The phases are spread evenly over the cycle and rotated by
+/// an angle that the seed selects, because a few phases are only a sample. The seed 1 rotates by half a step,
+/// away from all special phases; each further seed adds the golden ratio of a step, so that a few seeds are
+/// spread evenly, too.
 pub(crate) fn starting_phase(seed: u64, index: usize, members: usize) -> Result<Phase, Error> {
     /// 2^64 over the golden ratio.
     const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
@@ -76,9 +75,9 @@ pub(crate) fn starting_phase(seed: u64, index: usize, members: usize) -> Result<
     Ok(Phase::new(TAU * (index as f64 + step) / members as f64)?)
 }
 
-/// Turns that the seed selects for phases that are spread by [`golden_share`], none for the seed 1.
+/// Rotation (turns) selected by the seed for phases spread by [`golden_share`], zero for the seed 1.
 pub(crate) fn turn_of_seed(seed: u64) -> f64 {
-    /// 2^64 (sqrt(2) - 1): no step of the golden ratio.
+    /// 2^64 (sqrt(2) - 1), which is no step of the golden ratio.
     const SILVER: u64 = 0x6a09_e667_f3bc_c908;
     (seed.wrapping_sub(1).wrapping_mul(SILVER) >> 11) as f64 / (1_u64 << 53) as f64
 }
@@ -92,7 +91,7 @@ pub(crate) fn golden_share(index: usize) -> f64 {
 mod tests {
     use super::*;
 
-    /// A member alone starts at a phase of its own for each seed: they are spread evenly.
+    /// For each seed a single member starts at a different phase, and these phases are spread evenly.
     #[test]
     fn the_starting_phase_is_one_of_the_seed() {
         let mut phases: Vec<f64> =

@@ -1,12 +1,12 @@
-//! The rotors on one vertical motion, as rows of numbers that a loop takes through an impact together.
+//! The rotors on one vertical motion, as rows of numbers that a loop advances through an impact together.
 
-/// Rotors of one row: as many as the widest vectors of today hold.
+/// Rotors per row: as many as the widest vectors of current processors hold.
 pub(crate) const WIDTH: usize = 8;
 
 /// A number of each rotor.
 pub(crate) type Row = [f64; WIDTH];
 
-/// Eight rotors, and what is added up of them. Unused ones are without friction, load and speed.
+/// Eight rotors, and their accumulated sums. Unused ones have no friction, load or speed.
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(align(64))]
 pub(crate) struct RotorRows<T> {
@@ -21,14 +21,15 @@ pub(crate) struct RotorRows<T> {
 }
 
 impl<T> RotorRows<T> {
-    /// Puts a rotor in its place: friction and load, and the parts of the stator's angular speed that go with cosine
-    /// and, falling, sine of the phase.
+    /// Sets one rotor: friction and load, and the coefficients of the stator's angular speed for the cosine
+    /// and, with opposite sign, the sine of the phase.
     pub(crate) fn put(&mut self, own: usize, [friction, load]: [f64; 2], [cosine, sine]: [f64; 2]) {
         (self.friction[own], self.load[own]) = (friction, load);
         (self.twist_cosine[own], self.twist_sine[own]) = (cosine, sine);
     }
 
-    /// Angular speed of the stator under one of the rotors, as `DimensionlessSystem::platform_angular_speed`.
+    /// Angular speed of the stator under one of the rotors, as in
+    /// `DimensionlessSystem::platform_angular_speed`.
     #[inline(always)]
     pub(crate) fn twist(&self, own: usize, sin: f64, cos: f64) -> f64 {
         self.twist_cosine[own] * cos - self.twist_sine[own] * sin

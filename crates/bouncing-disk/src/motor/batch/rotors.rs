@@ -1,4 +1,4 @@
-//! The rotary motion of many rotors from impact to impact, in lockstep: as
+//! The rotary motion of many rotors from impact to impact, in lockstep, as in
 //! [`TransientRun::step`](crate::motor::rotor::transient::TransientRun::step).
 
 use bouncing_disk_core::sweep::{Flights, LaneImpacts, LaneLoop};
@@ -9,10 +9,10 @@ use crate::parameters::dimensionless::DimensionlessSystem;
 
 const LANES: usize = Flights::LANES;
 
-/// One number of every lane.
+/// One number per lane.
 type Row = [f64; LANES];
 
-/// The state that is carried along with the flights of all lanes.
+/// The state advanced along with the flights of all lanes.
 #[derive(Debug, Clone)]
 #[repr(align(64))]
 pub(crate) struct Rotors {
@@ -38,7 +38,7 @@ pub(crate) struct Rotors {
     end: Row,
     sum: Row,
     width: Row,
-    /// Times (s) of the last impact and of the one before.
+    /// Times (s) of the last impact and of the previous one.
     reached: Row,
     before: Row,
     impacts: [u64; LANES],
@@ -72,7 +72,7 @@ impl Rotors {
         }
     }
 
-    /// Begins to carry a transient.
+    /// Starts a transient in a lane.
     pub(crate) fn begin(&mut self, lane: usize, run: &mut TransientRun, curve: &mut Vec<f64>) {
         let system: &DimensionlessSystem = run.rotor.system();
         self.restitution[lane] = system.restitution();
@@ -102,12 +102,12 @@ impl Rotors {
         self.sum[lane] = interval.turned;
     }
 
-    /// The present interval, up to a time.
+    /// The present interval, up to a given time.
     const fn interval(&self, lane: usize, reached: f64) -> Interval {
         Interval { index: self.index[lane] as usize, end: self.end[lane], turned: self.sum[lane], reached }
     }
 
-    /// Whether the last impact comes at the end of the transient or after it.
+    /// Whether the last impact comes at or after the end of the transient.
     pub(crate) fn is_over(&self, lane: usize) -> bool {
         self.reached[lane] >= self.duration[lane]
     }
@@ -116,7 +116,7 @@ impl Rotors {
     pub(crate) fn move_lane(batches: &mut [Self], from: usize, to: usize) {
         let (source, own) = (&batches[from / LANES], from % LANES);
         let (impacts, index) = (source.impacts[own], source.index[own]);
-        // Its own numbers, not a copy of the batch: that is of 10 kB.
+        // Copies the lane's own numbers only, as a batch takes 10 kB.
         let moved = source.rows().map(|row| row[own]);
         let (target, to) = (&mut batches[to / LANES], to % LANES);
         for (row, value) in target.rows_mut().into_iter().zip(moved) {
@@ -169,7 +169,7 @@ impl Rotors {
         ]
     }
 
-    /// Gives the curve back to its transient, up to the last impact.
+    /// Returns the curve up to the last impact to its transient.
     pub(crate) fn give_back(&self, lane: usize, run: &mut TransientRun, curve: &mut Vec<f64>) {
         run.bins.present = self.interval(lane, self.reached[lane]);
         run.impacts = self.impacts[lane];
@@ -193,15 +193,15 @@ impl Rotors {
         (self.periods[lane] as u64, self.speed[lane])
     }
 
-    /// The lanes that need work of their own after an impact, one bit for each: where an interval or the
-    /// transient ends, or where the disk may come to rest.
+    /// The lanes that need individual work after an impact, one bit for each: an interval or the transient
+    /// ends, or the disk may come to rest.
     pub(crate) fn attended(&self, may_rest: &[u64; LANES]) -> u64 {
         let lanes = self.passed.iter().zip(may_rest).enumerate();
         lanes.fold(0, |all, (lane, (passed, rests))| all | ((passed | rests) & (1 << lane)))
     }
 }
 
-/// Carries all rotors through a flight and the impact that ends it.
+/// Advances all rotors through a flight and the impact that ends it.
 pub(crate) struct Carry<'a> {
     pub(crate) impacts: LaneImpacts<'a>,
     pub(crate) rotors: &'a mut Rotors,
@@ -220,7 +220,7 @@ fn bounce(impacts: &LaneImpacts<'_>, rotors: &mut Rotors) {
     for lane in 0..LANES {
         let bounce = Bounce {
             duration: impacts.duration(lane),
-            // As `DimensionlessSystem::platform_angular_speed`.
+            // As in `DimensionlessSystem::platform_angular_speed`.
             platform_speed: rotors.twist_cosine[lane] * impacts.cos[lane]
                 - rotors.twist_sine[lane] * impacts.sin[lane],
             velocity: impacts.velocity[lane],

@@ -2,9 +2,9 @@
 //!
 //! The rotary motion never acts back on the vertical one. Motors that differ only in load, friction, phase
 //! lag, twist amplitude, radii or mass share every flight, impact and rest: the orbit is computed once, and
-//! each rotor adds to an impact no more than a clamp and a few products. The rotors also share the
-//! perturbations of the relaunches: differences between them are more precise than their own values (common
-//! random numbers), and their errors are not independent. See docs/numerics-dynamics.md.
+//! for each rotor an impact adds only a clamp and a few products. The rotors also share the perturbations of
+//! the relaunches (common random numbers). Hence differences between them are more precise than their own
+//! values, and their errors are not independent. See docs/numerics-dynamics.md.
 
 pub(crate) mod vertical;
 
@@ -12,10 +12,10 @@ use crate::error::Error;
 use crate::parameters::contact::ContactLaw;
 use crate::parameters::system::System;
 
-/// Checks that these motors share one vertical motion ([`is_shared`]). The first one stands for all.
+/// Checks that these motors share one vertical motion ([`is_shared`]). The first one represents all.
 ///
 /// # Errors
-/// [`Error::NotShared`] names what differs; [`Error::OutOfRange`] for no motor.
+/// [`Error::NotShared`] with the quantity that differs; [`Error::OutOfRange`] for no motor.
 pub(crate) fn shared_by(systems: &[System]) -> Result<&System, Error> {
     let Some(first) = systems.first() else {
         return Err(Error::OutOfRange { field: "number of rotors", value: 0.0, legal: "[1, 1000000]" });
@@ -33,12 +33,12 @@ pub(crate) fn shared_by(systems: &[System]) -> Result<&System, Error> {
 }
 
 /// Whether two motors share one vertical motion: the same peak acceleration P and restitution to the bit, the
-/// same seconds, and the same contact.
+/// same unit of time, and the same contact.
 pub(crate) fn is_shared(one: &System, other: &System) -> bool {
     vertical_key(one) == vertical_key(other)
 }
 
-/// The numbers that all motors on one vertical motion share; motors that differ in them cannot share it.
+/// The numbers that all motors on one vertical motion must share.
 pub(crate) fn vertical_key(system: &System) -> [u64; 6] {
     of_vertical_motion(system).map(|(_, value)| value.to_bits())
 }

@@ -15,17 +15,18 @@ use crate::motor::rotor::transient::{FLIGHTS_OF_EVENT, SpeedCurve, TransientRun}
 /// many single flights, however few lanes are in use; 24 motors take equally long either way.
 const FEWEST: usize = 26;
 
-/// Batches of lanes of one thread.
+/// Batches of lanes per thread.
 const BATCHES: usize = 8;
 
 /// The transient of each member, or the error that [`transient`](crate::motor::transient()) returns for it,
-/// in the order of the members; bit for bit those of [`transient`](crate::motor::transient()), several times
-/// faster where there are many.
+/// in the order of the members. The results equal those of [`transient`](crate::motor::transient()) to the
+/// bit, and are several times faster for many members.
 ///
-/// With the feature `parallel` they are spread over the threads of rayon's pool. Neither their number nor the
-/// instructions of the processor change a bit. Members under [`ChatterPolicy::Cut`] are computed one by one.
+/// With the feature `parallel` they are distributed over the threads of rayon's pool. Neither the number of
+/// threads nor the processor's instruction set affects the results. Members under [`ChatterPolicy::Cut`] are
+/// computed one by one.
 ///
-/// The items of `observer` are the members.
+/// The observer's items are the members.
 ///
 /// ```
 /// use bouncing_disk::core::{Phase, Unobserved};
@@ -50,7 +51,7 @@ const BATCHES: usize = 8;
 /// ```
 ///
 /// # Errors
-/// Only that of the core if the observer breaks.
+/// Only the core's error if the observer stops the computation.
 pub fn transients(
     members: &[TransientMember],
     observer: &dyn Observer,
@@ -81,16 +82,16 @@ fn with_instructions(
 /// The outcome of the member with an index.
 type Outcome = (usize, Result<SpeedCurve, Error>);
 
-/// Advances members that no other worker has begun, until none is left.
+/// Advances members that no other worker has begun until none is left.
 struct Worker<'a> {
     members: &'a [TransientMember],
     next: &'a AtomicUsize,
-    /// Most lanes in use.
+    /// Largest number of lanes in use.
     lanes: usize,
     set: InstructionSet,
-    /// The transients of the first lanes, with the indices of their members.
+    /// The transients in the first lanes, with the indices of their members.
     runs: Vec<(usize, TransientRun)>,
-    /// Their curves, kept close together: a run is large, and most of it is seldom needed.
+    /// Their curves, stored close together: a run is large, and most of it is seldom needed.
     curves: Vec<Vec<f64>>,
     outcomes: Vec<Outcome>,
     work: WorkCount<'a>,
@@ -114,7 +115,7 @@ impl<'a> Worker<'a> {
     }
 
     fn run(mut self) -> Vec<Outcome> {
-        // Once the observer has broken, what is under way is dropped: it is not finished.
+        // Once the observer has stopped the computation, unfinished transients are dropped.
         let _ = self.compute_all();
         self.outcomes
     }
@@ -131,7 +132,7 @@ impl<'a> Worker<'a> {
         Ok(())
     }
 
-    /// Keeps what became of a member, unless it was stopped.
+    /// Stores the outcome of a member, unless it was stopped.
     fn finish(&mut self, index: usize, outcome: Result<SpeedCurve, Error>) -> Result<(), Error> {
         if let Err(stopped @ Error::Core(bouncing_disk_core::Error::Stopped { .. })) = outcome {
             return Err(stopped);
@@ -141,7 +142,7 @@ impl<'a> Worker<'a> {
         Ok(())
     }
 
-    /// The next member that waits and is not done before its first flight, about to fly.
+    /// The next waiting member that is not done before its first flight, about to fly.
     fn begun(&mut self) -> Result<Option<(usize, TransientRun, Launch)>, Error> {
         loop {
             self.work.spend(FLIGHTS_OF_EVENT)?;
@@ -165,7 +166,7 @@ impl<'a> Worker<'a> {
     /// Advances members together while there are enough of them.
     fn in_lanes(&mut self) -> Result<(), Error> {
         let batches = self.lanes.div_ceil(Flights::LANES);
-        // Without the memory for lanes they are advanced one by one.
+        // Without memory for lanes, members are advanced one by one.
         let Ok(mut flights) = Flights::new(self.set, batches) else { return Ok(()) };
         let mut rotors = vec![Rotors::new(); batches];
         let mut may_rest = vec![[0; Flights::LANES]; batches];
@@ -194,7 +195,7 @@ impl<'a> Worker<'a> {
                 }
                 flights.rebound(batch, &rotors.restitution, may_rest);
             }
-            // From the last lane, so that a transient that is moved into a gap has been judged.
+            // From the last lane on, so that a transient that is moved into a gap has already been checked.
             for batch in (0..used).rev() {
                 let first = batch * Flights::LANES;
                 // The flights name the lanes in their order, and those of later batches have been taken.

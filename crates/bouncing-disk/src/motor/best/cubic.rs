@@ -2,22 +2,23 @@
 
 /// A least-squares cubic through values.
 ///
-/// Its terms are made orthogonal on the places by their recurrence (Forsythe 1957), so that none depends on the others.
+/// Its terms are made orthogonal on the points by their recurrence (Forsythe 1957), so that none depends on
+/// the others.
 #[derive(Debug)]
 pub(super) struct Cubic {
     terms: Vec<Term>,
-    /// Standard deviation of the values about it.
+    /// Standard deviation of the values from the cubic.
     pub(super) scatter: f64,
     /// The largest deviation of a value.
     pub(super) largest: f64,
 }
 
-/// The next term is (x - `shift`) times this one, less `back` times the one before.
+/// The next term is (x - `shift`) times this one, minus `back` times the previous one.
 #[derive(Debug)]
 struct Term {
     shift: f64,
     back: f64,
-    /// Sum of its squares over the places.
+    /// Sum of its squares over the points.
     square: f64,
     coefficient: f64,
 }
@@ -26,7 +27,7 @@ struct Term {
 const TERMS: usize = 4;
 
 impl Cubic {
-    /// Through a value of each of several places.
+    /// The cubic through one value of each of several points.
     pub(super) fn of<'a, T: 'a>(
         places: impl Iterator<Item = (f64, &'a T)>,
         value: impl Fn(&T) -> f64,
@@ -34,7 +35,7 @@ impl Cubic {
         Self::through(&places.map(|(x, own)| (x, value(own))).collect::<Vec<_>>())
     }
 
-    /// Through values at different places; `None` for too few to know a scatter.
+    /// The cubic through values at distinct points; `None` if they are too few to determine a scatter.
     pub(super) fn through(values: &[(f64, f64)]) -> Option<Self> {
         if values.len() <= TERMS {
             return None;
@@ -64,7 +65,7 @@ impl Cubic {
         Some(Self { terms, scatter, largest })
     }
 
-    /// Its value at a place.
+    /// Its value at x.
     pub(super) fn at(&self, x: f64) -> f64 {
         let (mut own, mut before, mut value) = (1.0, 0.0, 0.0);
         for term in &self.terms {

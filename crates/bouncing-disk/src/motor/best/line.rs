@@ -1,4 +1,4 @@
-//! Lines through the best place: where the top lies, and how wide it is.
+//! Lines through the best point, which determine the position and width of the top.
 
 use bouncing_disk_core::numerics::statistics::NORMAL_975;
 
@@ -9,44 +9,44 @@ use crate::error::Error;
 use crate::motor::operation::settings::OperatingSettings;
 use crate::statistics::student_quantile;
 
-/// The largest relative error that settings may ask for.
+/// The largest relative error that settings may request.
 const LARGEST_ERROR: f64 = 0.5;
 
-/// Least places of a line.
+/// Fewest points of a line.
 const LEAST: usize = 8;
 
 /// A value beyond this share of the best one is good.
 const GOOD: f64 = 0.99;
 
-/// The part of a line that says how wide its top is: values beyond this share of the best one.
+/// The part of a line that determines the width of its top: values beyond this share of the best one.
 const NEAR: f64 = 2.0 * GOOD - 1.0;
 
-/// Places of a cubic among which its top is taken.
+/// Points of a cubic from which its top is chosen.
 const FINE: i32 = 500;
 
-/// A line whose values scatter by more than this share of the best one, and so many times their own errors, is too rough for a
-/// range.
+/// A line whose values scatter by more than this share of the best one, and by this many times their own
+/// errors, is too rough for a range.
 const ROUGHEST: f64 = 0.25 * (1.0 - GOOD);
 const EXPLAINED: f64 = 1.5;
 
-/// Values with errors below this share of the best one say a range by themselves.
+/// Values with errors below this share of the best one determine a range directly.
 const EXACT: f64 = 0.1 * (1.0 - GOOD);
 
-/// No value of a smooth line is so many times the scatter off.
+/// No value of a smooth line deviates by this many times the scatter.
 const OUTLIER: f64 = 4.0;
 
-/// A line through the best place: along it the value and the quantities of the bounds, if they are smooth.
+/// A line through the best point, with the value and the bounded quantities along it, if they are smooth.
 pub(super) struct Line {
     pub(super) best: f64,
-    /// Between which values the optimum lies.
+    /// Values of the field that bracket the optimum.
     pub(super) top: [f64; 2],
     pub(super) good: Option<[f64; 2]>,
-    /// By how much a neighbouring place may be better.
+    /// The amount by which a neighbouring point may be better.
     pub(super) beside: f64,
 }
 
 impl Search<'_> {
-    /// Looks along a field through the best place, and moves it to the top if the line is smooth.
+    /// Examines a field through the best point, and moves the point to the top if the line is smooth.
     pub(super) fn line(
         &mut self,
         place: &mut Place,
@@ -87,7 +87,7 @@ impl Search<'_> {
             }
             let near =
                 new.iter().filter_map(|index| Some((all[*index].at[field], all[*index].found.as_ref()?)));
-            // Of this look: an earlier value of the same place may be off by its error.
+            // Taken from this pass: an earlier value of the same point may be off by its error.
             let top = near.clone().fold(0.0, |most: f64, (_, found)| most.max(value(found)));
             let (good, bad): (Vec<_>, Vec<_>) = near.partition(|(_, found)| value(found) >= GOOD * top);
             let sides = [-1.0, 1.0].map(|sign| {
@@ -97,7 +97,7 @@ impl Search<'_> {
             });
             let too_short = sides != [true; 2] && half < 0.5;
             let too_long = good.len() < LOOK as usize && half > step / LENGTHEN;
-            // Where it is too long and then too short it is rough.
+            // A line that is first too long and then too short is rough.
             if !(too_short || too_long) || lengthened == Some(!too_short) {
                 break;
             }
@@ -110,7 +110,7 @@ impl Search<'_> {
         let relative_error = self.settings.relative_error / SURER;
         let settings = OperatingSettings { relative_error, ..*self.settings };
         let mut settings = settings.with_share(SHARE_OF_PLACE);
-        // One motion for the whole line becomes eight.
+        // Instead of one motion for the whole line there are now eight.
         if self.sought.leaves_height(self.motor, field)? {
             settings.relative_error = (relative_error * (SEEDS as f64 / SHARED).sqrt()).min(LARGEST_ERROR);
         }
@@ -134,8 +134,9 @@ impl Search<'_> {
         Ok(self.rough_line(place, field, half, &known, all))
     }
 
-    /// The line through a place where values are so well known that they say top and range by themselves, even across a kink;
-    /// moves the place to the best of them. `None` where bounds part the line: their places lie between.
+    /// The line through a point if values are so precise that they determine top and range directly, even
+    /// across a kink; moves the point to the best of them. `None` if bounds divide the line, because their
+    /// crossings lie between points.
     fn exact_line(
         &self,
         place: &mut Place,
@@ -159,14 +160,14 @@ impl Search<'_> {
         let (middle, error) = (place.at[field], 0.5 * half * (beside[1].0 - beside[0].0) / NORMAL_975);
         let at = |own: &(f64, &Found)| middle + half * own.0;
         place.at[field] = at(best);
-        // The slope on the lower side bounds how high a kink between two places rises.
+        // The slope on the lower side bounds the height of a kink between two points.
         let beside = value(best.1) - value(beside[0].1).min(value(beside[1].1));
         let (best, good) = (at(best), Some([at(down), at(up)]));
         Some(Line { best, top: [best - error, best + error], good, beside })
     }
 
-    /// The line through a place where a cubic explains its values at offsets in [-1, 1]; moves the place to its top. The jackknife
-    /// over the seeds gives the errors of top and ends.
+    /// The line through a point if a cubic explains its values at offsets in [-1, 1]; moves the point to its
+    /// top. The jackknife over the seeds gives the errors of the top and the ends.
     fn smooth_line(
         &self,
         place: &mut Place,
@@ -183,7 +184,7 @@ impl Search<'_> {
                 && cubic.scatter <= explained.max(ROUGHEST * best)
                 && cubic.largest <= OUTLIER * cubic.scatter.max(1e-12 * best)
         })?;
-        // A cubic describes the line well near its top only.
+        // A cubic describes the line well only near its top.
         let is_near = |(x, _): &(f64, &Found)| whole.at(*x) >= NEAR * best;
         let takes_near = known.iter().filter(|own| is_near(own)).count() >= LEAST;
         let own = known.iter().copied().enumerate().filter(|(_, own)| !takes_near || is_near(own));
@@ -207,8 +208,8 @@ impl Search<'_> {
         Some(Line { best, top: [best - half * top, best + half * top], good, beside: 0.0 })
     }
 
-    /// Where the cubic through some places has its top within the bounds, and between which offsets it is good; `None` within
-    /// where it keeps the bounds nowhere, and where there are too few places.
+    /// The offset of the cubic's top within the bounds, and the range of offsets in which it is good. The
+    /// inner `None` means that it satisfies the bounds nowhere, the outer one that there are too few points.
     fn top_and_ends(
         &self,
         places: &[(usize, (f64, &Found))],
@@ -236,7 +237,7 @@ impl Search<'_> {
         }))
     }
 
-    /// The line through a place where values jump, by the places on it that may be as good.
+    /// The line through a point if values jump, from the points on it that may be as good.
     fn rough_line(
         &self,
         place: &Place,
@@ -262,7 +263,8 @@ impl Search<'_> {
     }
 }
 
-/// The standard error of one of three numbers, each computed without each of [`SEEDS`] in turn, as large as few seeds make it.
+/// The standard error of each of three numbers, computed without each of [`SEEDS`] in turn, widened for the
+/// small number of seeds.
 pub(super) fn jackknife(without: &[[f64; 3]], which: usize) -> f64 {
     let count = without.len() as f64;
     let mean = without.iter().map(|own| own[which]).sum::<f64>() / count;

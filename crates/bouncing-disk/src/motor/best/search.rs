@@ -1,4 +1,5 @@
-//! The passes of a search: the grid, the places that may be the best, finer grids, and the value at the optimum.
+//! The passes of a search: the grid, the points that may be the best, finer grids, and the value at the
+//! optimum.
 
 use std::f64::consts::TAU;
 
@@ -15,28 +16,29 @@ use crate::motor::parameter_sweep::groups::operations_in_groups;
 use crate::motor::parameter_sweep::quantity::SweepQuantity;
 use crate::motor::stator::Stator;
 
-/// Members of a place of stators that yield on the first grid.
+/// Members per point on the first grid for compliant stators.
 const DEAR_MEMBERS: usize = 8;
 
-/// The first grid is at most so accurate, and each further pass over what may be the best so many times more.
+/// Largest accuracy of the first grid, and the factor by which each further pass over the candidates is more
+/// accurate.
 const ROUGH: f64 = 0.1;
 const FINER: f64 = 3.0;
 
-/// The share of the settings' most impacts that a place may have on the way to the optimum: few places that do not settle would
-/// take most of the time.
+/// The share of the settings' most impacts that a point may use on the way to the optimum; otherwise a few
+/// points that do not settle would take most of the time.
 pub(super) const SHARE_OF_PLACE: f64 = 0.125;
 
-/// More places at once share the impacts of so many.
+/// If more points than this are computed together, they share the impacts of this number.
 const CROWD: f64 = 32.0;
 
-/// Impacts that any place may have.
+/// Impacts that any point may use.
 const LEAST_IMPACTS: f64 = 1e5;
 
 /// A speed below this share of the stator's largest speed is rounding.
 const ROUNDING: f64 = 1e-6;
 
 impl Search<'_> {
-    /// Goes from the grid to the optimum.
+    /// Searches from the grid to the optimum.
     pub(super) fn run(&mut self, side: usize, steps: [i32; 2]) -> Result<Best, Error> {
         let mut all = self.grid(side);
         let wanted = self.settings.relative_error;
@@ -48,7 +50,7 @@ impl Search<'_> {
                 break;
             }
             open = self.possible(&all, open);
-            // The others need no further look.
+            // The others need no further computation.
             self.watch.finish((all.len() - open.len()) as u64);
             error = (error / FINER).max(wanted);
         }
@@ -97,7 +99,8 @@ impl Search<'_> {
         all.into_iter().map(|at| Place { at, found: None }).collect()
     }
 
-    /// Goes along a whole field through the best place: motions lock on cycles in windows that a grid over two fields misses.
+    /// Scans a whole field through the best point: motions lock on cycles in windows that a grid over two
+    /// fields misses.
     fn scan(&mut self, field: usize, all: &mut Vec<Place>) -> Result<(), Error> {
         let (middle, side) = (all[self.best_of(all)?].at.clone(), CHEAP_PLACES[0]);
         let step = self.step(&self.sought.ranges[field], side);
@@ -115,7 +118,7 @@ impl Search<'_> {
         self.measure(all, &open, self.settings.relative_error)
     }
 
-    /// A finer grid about a place.
+    /// A finer grid around a point.
     fn around(&self, middle: &[f64], steps: i32, step: &[f64]) -> Vec<Place> {
         let mut all: Vec<Vec<f64>> = vec![Vec::new()];
         for ((middle, step), range) in middle.iter().zip(step).zip(&self.sought.ranges) {
@@ -129,13 +132,14 @@ impl Search<'_> {
         all.into_iter().map(|at| Place { at, found: None }).collect()
     }
 
-    /// Computes some of the places.
+    /// Computes some of the points.
     pub(super) fn measure(&mut self, all: &mut [Place], which: &[usize], error: f64) -> Result<(), Error> {
         let mut settings = OperatingSettings { relative_error: error, ..*self.settings };
         if error >= ROUGH && self.motor.stator_motion().yields() {
             settings.members = settings.members.min(DEAR_MEMBERS);
         }
-        // An error takes impacts as its inverse square: a place that needs more is not known better, and stays open.
+        // The number of impacts grows as the inverse square of the error: a point that would need more is not
+        // refined, and stays open.
         let share = (self.settings.relative_error / error).min(1.0);
         let crowd = (CROWD / which.len() as f64).min(1.0);
         self.measure_with(all, which, &settings.with_share(share * share * SHARE_OF_PLACE * crowd))
@@ -148,7 +152,8 @@ impl Search<'_> {
         settings: &OperatingSettings,
     ) -> Result<(), Error> {
         let motors = which.iter().map(|index| self.sought.motor_at(self.motor, &all[*index].at));
-        // What is legal at the ends may not be between them, such as a quality below a half: no place.
+        // Values that are legal at the ends may be illegal between them, such as a quality below a half; such
+        // points are skipped.
         let (mut legal, mut motors_of) = (Vec::new(), Vec::new());
         for (index, motor) in which.iter().zip(motors) {
             match motor {
@@ -170,7 +175,7 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// Which of the places may be the best.
+    /// The points that may be the best.
     fn possible(&self, all: &[Place], open: Vec<usize>) -> Vec<usize> {
         let keeping = open.iter().filter_map(|index| all[*index].found.as_ref());
         let keeping = keeping.filter(|found| found.margin(self.sought) >= 1.0);
@@ -181,7 +186,7 @@ impl Search<'_> {
         if kept.is_empty() { open } else { kept }
     }
 
-    /// The best of the places that keep the bounds.
+    /// The best of the points that satisfy the bounds.
     pub(super) fn best_of(&self, all: &[Place]) -> Result<usize, Error> {
         let known = || all.iter().enumerate().filter_map(|(index, own)| Some((index, own.found.as_ref()?)));
         let keeping = known().filter(|(_, found)| found.is_settled && found.margin(self.sought) >= 1.0);
@@ -204,7 +209,7 @@ impl Search<'_> {
                     bound: bound.value,
                     nearest: own.value,
                 },
-                // All that there is still drifts.
+                // Every point still drifts.
                 _ => Error::NotPositive { quantity: self.sought.objective.name(), value: found.value.value },
             });
         };
@@ -221,14 +226,14 @@ impl Search<'_> {
         Ok(index)
     }
 
-    /// The value at the best place, with other perturbations.
+    /// The value at the best point, with other perturbations.
     fn result(&mut self, place: &Place, lines: &[Line], all: &[Place]) -> Result<Best, Error> {
         let motor = self.sought.motor_at(self.motor, &place.at)?;
         let settings =
             OperatingSettings { seed: self.settings.seed.wrapping_add(1 + SEEDS as u64), ..*self.settings };
-        // As many as motors.
+        // There are as many rows as motors.
         let row = operations_in_groups(&[motor], &settings, self.watch)?.swap_remove(0)?;
-        // Of motions that coexist the one that was found there.
+        // Of several coexisting motions, the one that was found there.
         let off = |found: &Found| place.found.as_ref().map_or(0.0, |own| (value(found) - value(own)).abs());
         let known = row.branches.iter().map(|operation| Found::of(self.sought, operation)).enumerate();
         let nearest = known
@@ -237,7 +242,7 @@ impl Search<'_> {
         let Some((branch, found)) = nearest else {
             return Err(Error::NotPositive { quantity: self.sought.objective.name(), value: f64::NAN });
         };
-        // What surely was better elsewhere, within the bounds as far as they are known.
+        // The values that were certainly better elsewhere, within the bounds as far as they are known.
         let elsewhere = all.iter().filter_map(|place| place.found.as_ref());
         let elsewhere = elsewhere.filter(|found| found.margin(self.sought) >= -1.0);
         let better = elsewhere.map(Found::at_least).fold(found.value.value, f64::max) - found.value.value;
@@ -263,15 +268,16 @@ impl Search<'_> {
 }
 
 impl OperatingSettings {
-    /// The same with a share of the impacts.
+    /// The same settings with a share of the impacts.
     pub(super) fn with_share(self, share: f64) -> Self {
         let most_impacts = (self.most_impacts as f64 * share).max(LEAST_IMPACTS) as u64;
         Self { most_impacts: most_impacts.min(self.most_impacts), ..self }
     }
 }
 
-/// By how much a place surely exceeds the two beside it along a field, beyond what these fall on: the height of a peak that is
-/// narrower than the grid, as of a locked motion. Others like it may lie between the places.
+/// The amount by which a point certainly exceeds its two neighbours along a field, in addition to their own
+/// trend: the height of a peak that is narrower than the grid, as for a locked motion. Others like it may lie
+/// between the points.
 fn narrow_peak(all: &[Place], side: usize, fields: usize) -> f64 {
     let settled = |index: usize| all[index].found.as_ref().filter(|found| found.is_settled);
     let value = |index: usize| settled(index).map(|found| found.value);
@@ -287,7 +293,7 @@ fn narrow_peak(all: &[Place], side: usize, fields: usize) -> f64 {
             }
             let near = [index - 2 * stride, index - stride, index, index + stride, index + 2 * stride];
             let [Some(a), Some(b), Some(own), Some(c), Some(d)] = near.map(value) else { continue };
-            // A smooth top falls off ever faster.
+            // A smooth top falls off at an increasing rate.
             let beside = [b, c].map(|near| near.value + NORMAL_975 * near.standard_error);
             let falls = (a.value - b.value).abs().max((c.value - d.value).abs());
             let height = own.value - NORMAL_975 * own.standard_error - beside[0].max(beside[1]) - falls;
@@ -299,7 +305,7 @@ fn narrow_peak(all: &[Place], side: usize, fields: usize) -> f64 {
     highest
 }
 
-/// Passes over the first grid until its errors are these.
+/// Number of passes after the first grid until its errors reach this value.
 pub(super) fn passes(wanted: f64) -> usize {
     let mut error = wanted.max(ROUGH);
     let mut passes = 1;

@@ -1,4 +1,4 @@
-//! Data sheets as text: an object of JSON or a table of TOML, whose keys are the fields.
+//! Data sheets as text: a JSON object or a TOML table whose keys are the fields.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -16,7 +16,7 @@ use crate::parameters::load::LoadLaw;
 use crate::parameters::stator::StatorParameters;
 use crate::sheet_text::{self, SheetTextError, distance};
 
-/// Why the text of a data sheet gives no motor.
+/// Why the text of a data sheet does not define a motor.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MotorFileError {
@@ -27,7 +27,7 @@ pub enum MotorFileError {
         line: usize,
         /// The column, from 1.
         column: usize,
-        /// The message of the reader, without control characters that could disturb a terminal.
+        /// The parser's message, without control characters that could disturb a terminal.
         reason: String,
     },
     /// The data sheet can be read, but is not legal.
@@ -42,8 +42,9 @@ impl From<SheetTextError> for MotorFileError {
 }
 
 impl Motor {
-    /// Reads a data sheet: an object with the fields of [`MotorParameters`](crate::motor::MotorParameters),
-    /// in SI units. `null` is the same as a missing field; a byte-order mark before the text is accepted.
+    /// Reads a data sheet: a JSON object with the fields of
+    /// [`MotorParameters`](crate::motor::MotorParameters), in SI units. `null` is the same as a missing
+    /// field; a byte-order mark before the text is accepted.
     ///
     /// ```
     /// use bouncing_disk::Motor;
@@ -55,14 +56,15 @@ impl Motor {
     ///
     /// # Errors
     /// [`MotorFileError`] for a text that is not such an object, unknown or repeated keys, values that are
-    /// not numbers, and whatever [`MotorParameters::build`](crate::motor::MotorParameters::build) refuses.
+    /// not numbers, and anything that [`MotorParameters::build`](crate::motor::MotorParameters::build)
+    /// rejects.
     #[cfg(feature = "json")]
     pub fn from_json(text: &str) -> Result<Self, MotorFileError> {
         Self::from_json_with(text, &[])
     }
 
-    /// [`Self::from_json`] with some values of the data sheet replaced; the replaced ones are neither
-    /// checked nor needed. A value excludes what its field excludes ([`MotorField::set`]).
+    /// [`Self::from_json`] with some values of the data sheet replaced; the replaced ones are neither checked
+    /// nor needed. A new value removes the alternatives that its field excludes ([`MotorField::set`]).
     ///
     /// # Errors
     /// As [`Self::from_json`].
@@ -71,8 +73,8 @@ impl Motor {
         Ok(motor_of(sheet_text::from_json(text)?, changes)?)
     }
 
-    /// The data sheet as [`Self::from_json`] reads it, one field a line, to the last bit. The units are those
-    /// of [`MotorParameters`](crate::motor::MotorParameters); JSON has no place for them.
+    /// The data sheet in the form that [`Self::from_json`] reads, one field per line, to the last bit. The
+    /// units are those of [`MotorParameters`](crate::motor::MotorParameters), as JSON cannot state them.
     #[cfg(feature = "json")]
     #[must_use]
     pub fn to_json(&self) -> String {
@@ -86,8 +88,9 @@ impl Motor {
         format!("{{\n{}\n}}\n", lines.join(",\n"))
     }
 
-    /// Reads a data sheet: a table with the fields of [`MotorParameters`](crate::motor::MotorParameters), in
-    /// SI units. A byte-order mark before the text is accepted.
+    /// Reads a data sheet: a TOML table with the fields of
+    /// [`MotorParameters`](crate::motor::MotorParameters), in SI units. A byte-order mark before the text is
+    /// accepted.
     ///
     /// # Errors
     /// As `Motor::from_json`.
@@ -96,8 +99,8 @@ impl Motor {
         Self::from_toml_with(text, &[])
     }
 
-    /// [`Self::from_toml`] with some values of the data sheet replaced; the replaced ones are neither
-    /// checked nor needed. A value excludes what its field excludes ([`MotorField::set`]).
+    /// [`Self::from_toml`] with some values of the data sheet replaced; the replaced ones are neither checked
+    /// nor needed. A new value removes the alternatives that its field excludes ([`MotorField::set`]).
     ///
     /// ```
     /// use bouncing_disk::Motor;
@@ -117,7 +120,8 @@ impl Motor {
         Ok(motor_of(sheet_text::from_toml(text)?, changes)?)
     }
 
-    /// The data sheet as [`Self::from_toml`] reads it, to the last bit, with the units as comments.
+    /// The data sheet in the form that [`Self::from_toml`] reads, to the last bit, with the units as
+    /// comments.
     #[cfg(feature = "toml")]
     #[must_use]
     pub fn to_toml(&self) -> String {
@@ -134,7 +138,7 @@ impl Motor {
 /// The tables of a data sheet.
 const TABLES: [&str; 4] = ["drive", "contact", "stator", "load"];
 
-/// The fields that a text names, and their values; `None` for `null`. And its tables.
+/// The fields and tables that a text contains, with their values; `None` for `null`.
 #[derive(Default)]
 struct Given {
     fields: BTreeMap<MotorField, Option<f64>>,
@@ -149,7 +153,7 @@ struct Given {
 #[serde(try_from = "String")]
 enum Key {
     Field(MotorField),
-    /// By its place among [`TABLES`].
+    /// A table, by its index in [`TABLES`].
     Table(usize),
 }
 
@@ -173,7 +177,7 @@ impl<'de> Deserialize<'de> for Given {
     }
 }
 
-/// Reads an object, and refuses a key that is there twice.
+/// Reads an object, and rejects a repeated key.
 struct Entries;
 
 impl<'de> Visitor<'de> for Entries {
@@ -201,8 +205,7 @@ impl<'de> Visitor<'de> for Entries {
     }
 }
 
-/// The motor of a text and of the `changes`, which take the place of what the text says before anything is
-/// checked.
+/// The motor of a text and of the `changes`, which replace values of the text before any check.
 fn motor_of(
     Given { mut fields, drive, contact, stator, load }: Given,
     changes: &[(MotorField, f64)],
@@ -224,13 +227,13 @@ fn motor_of(
     sheet.build()
 }
 
-/// The fields that a data sheet has outside of its tables, in their order.
+/// The fields of a data sheet outside its tables, in their order.
 fn given(sheet: &MotorParameters) -> impl Iterator<Item = (MotorField, f64)> {
     let fields = MotorField::ALL.into_iter().filter(|field| !field.in_table());
     fields.filter_map(|field| Some((field, field.value(sheet)?)))
 }
 
-/// A value as TOML has it on one line: as JSON, but for the keys of tables.
+/// A value as TOML on one line: like JSON, except for the keys of tables.
 #[cfg(feature = "toml")]
 fn inline(value: &Value) -> String {
     let Value::Object(keys) = value else { return value.to_string() };
@@ -238,9 +241,9 @@ fn inline(value: &Value) -> String {
     format!("{{ {} }}", keys.join(", "))
 }
 
-/// The tables that it has, with the keys and values as a file has them.
+/// The tables of the sheet, with keys and values as in a file.
 fn tables(sheet: &MotorParameters) -> impl Iterator<Item = (&'static str, Vec<(String, Value)>)> {
-    // `Debug` writes `Some(1.0)` and names of variants; serde writes what is read.
+    // `Debug` writes `Some(1.0)` and names of variants; serde writes text that can be read back.
     fn entries(table: &impl serde::Serialize) -> Vec<(String, Value)> {
         match serde_json::to_value(table) {
             Ok(Value::Object(keys)) => keys.into_iter().filter(|(_, value)| !value.is_null()).collect(),
@@ -256,7 +259,7 @@ fn tables(sheet: &MotorParameters) -> impl Iterator<Item = (&'static str, Vec<(S
 
 #[cfg(test)]
 mod tests {
-    //! Texts that people and programs write, right and wrong.
+    //! Texts as people and programs write them, correct and incorrect.
 
     use super::*;
 
@@ -310,7 +313,7 @@ mod tests {
                 let line = LINES.iter().position(|line| line.0 == key).expect("there") + 2;
                 (error.clone(), error.to_string(), format!("line {line}: "))
             };
-            // A fault of the text has its line, and the key or the value.
+            // A fault of the text is reported with its line, and the key or the value.
             for (key, with, told) in [
                 ("contact_radius", ("contact_radus", "1"), "did you mean \"contact_radius\"?"),
                 ("friction", ("colour", "1"), "\"colour\" is unknown; the known ones are drive_frequency"),
@@ -404,8 +407,8 @@ mod tests {
         }
     }
 
-    /// What takes the place of a value is all that is looked at: of one that is illegal, missing, or one of
-    /// two.
+    /// Only the replacement is checked: the replaced value may be illegal, missing, or one of two
+    /// alternatives.
     #[test]
     fn changes_come_before_the_checks() {
         for (read, write) in formats() {
@@ -417,12 +420,12 @@ mod tests {
             assert_eq!(read(&write(&with("-1")), &[change]), Ok(motor.clone()));
             let missing: Vec<_> = LINES.into_iter().filter(|(name, _)| *name != "friction").collect();
             assert_eq!(read(&write(&missing), &[change]), Ok(motor.clone()));
-            // Of the several changes of a field the last one counts.
+            // If a field is changed several times, the last change counts.
             assert_eq!(
                 read(&write(&with("0.5")), &[(MotorField::Friction, -7.0), change]),
                 Ok(motor.clone())
             );
-            // Two alternatives, of which one is set again.
+            // Both alternatives are present, and one is set again.
             let both = [&with("0.3")[..], &[("preload_acceleration", "250")]].concat();
             assert!(read(&write(&both), &[]).is_err());
             let expected = motor.with(|sheet| MotorField::PreloadForce.set(sheet, 0.4));
@@ -469,7 +472,7 @@ mod tests {
             assert!(text.contains(from));
             Motor::from_json(&text.replace(from, to))
         };
-        // Numbers that no double holds, from both ends, and nothing in their place.
+        // Numbers that exceed doubles at either end, and a missing value.
         let error = with("\"load_torque\": 0.0", "\"load_torque\": 1e999").expect_err("infinite").to_string();
         assert!(error.starts_with("line 12: "), "{error}");
         for value in ["\"load_torque\": 1e-999", "\"load_torque\": null", "\"rotor_radius\": null"] {
@@ -477,7 +480,7 @@ mod tests {
         }
         let error = with("\"friction\": 0.1", "\"friction\": null");
         assert_eq!(error, Err(Error::NotGiven { field: "friction" }.into()));
-        // Escapes in a key are letters like others.
+        // Escapes in a key stand for ordinary letters.
         assert_eq!(with("\"friction\"", "\"\\u0066riction\""), Ok(motor));
         let long = with("\"friction\"", &format!("\"{}\"", "friction".repeat(1_000)));
         assert!(long.expect_err("unknown").to_string().len() < 600);

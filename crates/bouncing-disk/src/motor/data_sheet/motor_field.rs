@@ -1,9 +1,9 @@
-//! The fields of a data sheet: their names, units and symbols, and their usual values in such motors.
+//! The fields of a data sheet: their names, units and symbols, and their usual values for such motors.
 //!
-//! A number causes a warning (`MotorWarning`) if it is more than a factor 1000 outside these ranges, or if it is
-//! outside but would be inside in another unit. The ranges are orders of magnitude, not statistics of motors. Zeros
-//! are accepted. A number outside by less than a factor 1000 that fits in no other unit causes no warning, like the
-//! paper's least preload, 80 mN.
+//! A number causes a warning (`MotorWarning`) if it is more than a factor 1000 outside these ranges, or if it
+//! is outside but would be inside in another unit. The ranges are orders of magnitude, not statistics of
+//! motors. Zeros are accepted. A number outside by less than a factor 1000 that fits no other unit causes no
+//! warning, like the paper's least preload, 80 mN.
 //!
 //! | field | usual | why | other units |
 //! | --- | --- | --- | --- |
@@ -22,8 +22,9 @@
 //! | `spring_constant` | 10 to 1e7 N/m | these forces, deflections from 10 um to 10 mm and more | |
 //! | `friction` | 0.01 to 1 | lubricated to dry | |
 //!
-//! The paper's own scan of the preload, 0.1 to 10 m/s^2, causes a warning below 9.8, because 5 N given as 5 m/s^2
-//! looks the same. A number that is also usual in the wrong unit goes undetected: 40 kHz for 40 000 rad/s.
+//! The paper's own scan of the preload, 0.1 to 10 m/s^2, causes a warning below 9.8, because 5 N entered as 5
+//! m/s^2 looks the same. A number that is also usual in the wrong unit goes undetected: 40 kHz for 40 000
+//! rad/s.
 
 use std::f64::consts::{PI, TAU};
 use std::fmt::{self, Display, Formatter};
@@ -34,14 +35,14 @@ use crate::parameters::contact::Contact;
 use crate::parameters::stator::StatorParameters;
 use crate::sheet_text::{nearest, unknown};
 
-/// Another unit in which a number may have been meant.
+/// Another unit that may have been intended.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Reading {
     /// The other meaning: "a length in mm".
     pub(crate) meant: &'static str,
     /// Factor from the number to the unit of `usual`.
     pub(crate) factor: f64,
-    /// The values that such motors have in the other meaning.
+    /// The usual values for such motors in the other meaning.
     pub(crate) usual: (f64, f64),
 }
 
@@ -50,24 +51,24 @@ pub(crate) struct Reading {
 pub(crate) struct Field {
     pub(crate) name: &'static str,
     pub(crate) unit: &'static str,
-    /// The sizes that such motors have; `None` where there is no rule.
+    /// The usual values for such motors; `None` if there is no rule.
     pub(crate) usual: Option<(f64, f64)>,
-    /// Other units in which the number may have been meant.
+    /// Other units that may have been intended.
     pub(crate) readings: &'static [Reading],
     pub(crate) get: fn(&MotorParameters) -> Option<f64>,
     /// `None` clears an optional field, and leaves another one as it is.
     pub(crate) set: fn(&mut MotorParameters, Option<f64>),
-    /// Whether a file must have it.
+    /// Whether a file must contain it.
     #[cfg(any(feature = "json", feature = "toml"))]
     pub(crate) needed: bool,
-    /// The paper's symbol, and other names under which a user may look for it.
+    /// The paper's symbol, and other names under which a user may look for the field.
     also: &'static [&'static str],
 }
 
 const FREQUENCIES: (f64, f64) = (2.0e4, 2.0e5);
 const LENGTHS: (f64, f64) = (1.0e-4, 0.1);
 const FORCES: (f64, f64) = (0.1, 500.0);
-/// From the weight of a rotor that stands on its stator.
+/// From the weight of a rotor that stands on its stator upwards.
 const ACCELERATIONS: (f64, f64) = (9.8, 1.0e5);
 const AMPLITUDES: (f64, f64) = (1.0e-9, 1.0e-5);
 const MASSES: (f64, f64) = (1.0e-4, 1.0);
@@ -81,12 +82,12 @@ const MILLIMETRES: &[Reading] = &[reading("a length in mm", 1.0e-3, LENGTHS)];
 
 /// A table of a data sheet, some of whose keys are fields.
 trait FieldTable: Copy + Default + PartialEq {
-    /// What of it goes with a new value of such a key.
+    /// The part of the table that remains if such a key gets a new value.
     fn kept(self) -> Self;
 }
 
 impl FieldTable for Contact {
-    /// A time takes the place of materials.
+    /// A time replaces materials.
     fn kept(self) -> Self {
         Self { law: self.law, ..Self::default() }
     }
@@ -98,7 +99,7 @@ impl FieldTable for StatorParameters {
     }
 }
 
-/// Writes a key of a table, which is there as long as it says anything.
+/// Writes a key of a table; a table without keys is removed.
 fn write<T: FieldTable>(table: &mut Option<T>, key: fn(&mut T) -> &mut Option<f64>, value: Option<f64>) {
     let mut new = table.unwrap_or_default();
     if value.is_some() {
@@ -108,10 +109,10 @@ fn write<T: FieldTable>(table: &mut Option<T>, key: fn(&mut T) -> &mut Option<f6
     *table = (new != T::default()).then_some(new);
 }
 
-/// Makes the enum and the table of its fields, in the order in which a data sheet is written.
+/// Defines the enum and the table of its fields, in the order in which a data sheet is written.
 macro_rules! motor_fields {
     ($($(#[$doc:meta])* $variant:ident, $name:ident $(. $key:ident)?: $kind:ident, $unit:literal, $usual:expr, $readings:expr, $also:expr;)*) => {
-        /// A field of [`MotorParameters`], which is a number.
+        /// A numerical field of [`MotorParameters`].
         ///
         /// It is printed, read and stored as the name of the field: `load_torque`.
         ///
@@ -170,26 +171,26 @@ motor_fields! {
         reading("an angular frequency in rad/s", 1.0 / TAU, FREQUENCIES),
         reading("a frequency that was divided by 2 pi", TAU, FREQUENCIES),
     ], &["omega", "angular_frequency", "f"];
-    /// [`MotorParameters::amplitude`] A (m); takes the place of force and volts of the stator.
+    /// [`MotorParameters::amplitude`] A (m); replaces force and volts of the stator.
     Amplitude, amplitude: optional, "m", Some(AMPLITUDES), &[
         reading("an amplitude in um", 1.0e-6, AMPLITUDES),
         reading("an amplitude in nm", 1.0e-9, AMPLITUDES),
-        // Last: where another one fits as well, it is the likelier one.
+        // Placed last because, if another reading fits as well, that one is likelier.
         reading("an amplitude in mm", 1.0e-3, AMPLITUDES),
     ], &["A", "axial_amplitude"];
-    /// [`MotorParameters::peak_angular_speed`] omega Phi (rad/s); takes the place of a twist amplitude.
+    /// [`MotorParameters::peak_angular_speed`] omega Phi (rad/s); replaces a twist amplitude.
     PeakAngularSpeed, peak_angular_speed: optional, "rad/s", Some((0.1, 1.0e3)), &[
         reading("a speed in rpm", TAU / 60.0, (0.1, 1.0e3)),
     ], &["platform_speed", "stator_speed", "rotary_speed"];
-    /// [`MotorParameters::twist_amplitude`] Phi (rad); takes the place of a peak angular speed.
+    /// [`MotorParameters::twist_amplitude`] Phi (rad); replaces a peak angular speed.
     TwistAmplitude, twist_amplitude: optional, "rad", Some((1.0e-7, 1.0e-2)), &[], &["Phi"];
     /// [`MotorParameters::phase_lag`] theta (rad).
     PhaseLag, phase_lag: optional_with_default, "rad", Some(TURN), &[
         reading("an angle in degrees", PI / 180.0, TURN),
     ], &["theta"];
-    /// [`MotorParameters::mass`] m (kg); takes the place of a density and the thickness that goes with it.
+    /// [`MotorParameters::mass`] m (kg); replaces a density and its thickness.
     Mass, mass: optional, "kg", Some(MASSES), &[reading("a mass in g", 1.0e-3, MASSES)], &["m", "rotor_mass"];
-    /// [`MotorParameters::density`] (kg/m^3); takes the place of a mass.
+    /// [`MotorParameters::density`] (kg/m^3); replaces a mass.
     Density, density: optional, "kg/m^3", Some((1.0e3, 2.0e4)), &[
         reading("a density in g/cm^3", 1.0e3, (1.0e3, 2.0e4)),
     ], &["rho"];
@@ -201,13 +202,13 @@ motor_fields! {
     ContactRadius, contact_radius: needed, "m", Some(LENGTHS), MILLIMETRES, &["a_e"];
     /// [`MotorParameters::gyration_radius`] a_g (m).
     GyrationRadius, gyration_radius: optional, "m", Some(LENGTHS), MILLIMETRES, &["a_g"];
-    /// [`MotorParameters::preload_force`] F (N); takes the place of a preload acceleration.
+    /// [`MotorParameters::preload_force`] F (N); replaces a preload acceleration.
     PreloadForce, preload_force: optional, "N", Some(FORCES), &[
-        // Nearly all of these are usual as mN, too.
+        // Nearly all of these values are usual in mN, too.
         reading("a force in mN, or an acceleration in m/s^2", 1.0, ACCELERATIONS),
         reading("a force in mN", 1.0e-3, FORCES),
     ], &["F", "N", "preload"];
-    /// [`MotorParameters::preload_acceleration`] g (m/s^2); takes the place of a preload force.
+    /// [`MotorParameters::preload_acceleration`] g (m/s^2); replaces a preload force.
     PreloadAcceleration, preload_acceleration: optional, "m/s^2", Some(ACCELERATIONS), &[
         reading("a force in N", 1.0, FORCES),
     ], &["g"];
@@ -219,10 +220,11 @@ motor_fields! {
     Restitution, restitution: needed, "1", None, &[], &["epsilon", "e", "eps"];
     /// [`MotorParameters::load_torque`] T_L (N m).
     LoadTorque, load_torque: optional_with_default, "N m", None, &[], &["T_L", "load", "torque"];
-    /// [`Contact::time`] of [`MotorParameters::contact`] (s); takes the place of materials, geometry and sizes. A file
-    /// has it in the table `[contact]`.
+    /// [`Contact::time`] of [`MotorParameters::contact`] (s); replaces materials, geometry and sizes. In a
+    /// file it is in the table `[contact]`.
     ContactTime, contact.time: optional, "s", None, &[], &["contact_duration"];
-    /// [`StatorParameters::mass`] M of [`MotorParameters::stator`] (kg). A file has it in the table `[stator]`.
+    /// [`StatorParameters::mass`] M of [`MotorParameters::stator`] (kg). In a file it is in the table
+    /// `[stator]`.
     StatorMass, stator.mass: optional, "kg", Some(MASSES), &[reading("a mass in g", 1.0e-3, MASSES)], &["M"];
     /// [`StatorParameters::quality`] Q.
     StatorQuality, stator.quality: optional, "1", None, &[], &["Q"];
@@ -232,14 +234,14 @@ motor_fields! {
     ], &["f_r", "omega_1"];
     /// [`StatorParameters::twist_per_height`] kappa (rad/m).
     StatorTwistPerHeight, stator.twist_per_height: optional, "rad/m", None, &[], &["kappa"];
-    /// [`StatorParameters::force`] (N); takes the place of amplitude and volts.
+    /// [`StatorParameters::force`] (N); replaces amplitude and volts.
     StatorForce, stator.force: optional, "N", None, &[], &[];
-    /// [`StatorParameters::volts`] (V); takes the place of amplitude and force.
+    /// [`StatorParameters::volts`] (V); replaces amplitude and force.
     StatorVolts, stator.volts: optional, "V", None, &[], &["V", "voltage"];
 }
 
 impl MotorField {
-    /// Its line of the table, which has the same order.
+    /// Its row of the table, which has the same order.
     pub(crate) const fn field(self) -> &'static Field {
         &FIELDS[self as usize]
     }
@@ -250,19 +252,19 @@ impl MotorField {
         self.field().name
     }
 
-    /// Its unit as it is written: `N m`; `1` for a number without a unit.
+    /// Its unit in writing: `N m`; `1` for a dimensionless number.
     #[must_use]
     pub const fn unit(self) -> &'static str {
         self.field().unit
     }
 
-    /// Its value; `None` where the sheet has an alternative or no value.
+    /// Its value; `None` if the sheet has an alternative or no value.
     #[must_use]
     pub fn value(self, sheet: &MotorParameters) -> Option<f64> {
         (self.field().get)(sheet)
     }
 
-    /// The fields that exclude this one: a value of this one clears them.
+    /// The fields that this one excludes: setting this one clears them.
     #[must_use]
     pub const fn excluded(self) -> &'static [Self] {
         match self {
@@ -279,7 +281,7 @@ impl MotorField {
         }
     }
 
-    /// Whether a file has it in a table.
+    /// Whether it is in a table of a file.
     #[must_use]
     pub fn in_table(self) -> bool {
         self.name().contains('.')
@@ -343,7 +345,7 @@ impl From<MotorField> for &'static str {
     }
 }
 
-/// The known key that is most like this one: that of the symbol or the other name that it is, else by its letters.
+/// The known key most similar to this one: the one with this symbol or other name, otherwise by its letters.
 fn nearest_field(key: &str) -> Option<&'static str> {
     let named = FIELDS.iter().find(|field| field.also.contains(&key)).map(|field| field.name);
     named.or_else(|| nearest(key, &MotorField::ALL.map(MotorField::name)))
@@ -367,7 +369,7 @@ mod tests {
             assert_eq!(field.value(&sheet), Some(0.123));
             for other in field.excluded() {
                 assert_eq!(other.value(&sheet), None, "{field} {other}");
-                // What is excluded is what a sheet refuses together.
+                // Fields exclude each other exactly if a sheet rejects them together.
                 let mut sheet = Motor::paper_70_khz().parameters().clone();
                 sheet.rotor_radius = Some(0.01);
                 if [field, *other].contains(&MotorField::Density) {

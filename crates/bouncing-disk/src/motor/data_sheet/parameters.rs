@@ -8,7 +8,7 @@ use crate::parameters::load::LoadLaw;
 use crate::parameters::stator::StatorParameters;
 use crate::parameters::system::System;
 
-/// The data sheet of a motor, not yet checked. Alternatives are optional; of each pair exactly one is given:
+/// The data sheet of a motor, not yet checked. Alternatives are optional; exactly one of each pair is given:
 /// [`Self::peak_angular_speed`] or [`Self::twist_amplitude`], [`Self::mass`] or [`Self::density`],
 /// [`Self::preload_force`] or [`Self::preload_acceleration`]. In a file `null` is the same as a missing
 /// field.
@@ -18,14 +18,14 @@ use crate::parameters::system::System;
 pub struct MotorParameters {
     /// Drive frequency omega/(2 pi) (Hz), positive. Not the angular frequency in rad/s.
     pub drive_frequency: f64,
-    /// Axial amplitude A of the stator's height (m), not negative: without a rotor, if the stator yields. Needed
-    /// unless force or volts of [`Self::stator`] give it.
+    /// Axial amplitude A of the stator's height (m), not negative; of a compliant stator, the amplitude
+    /// without a rotor. Required unless force or volts of [`Self::stator`] determine it.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub amplitude: Option<f64>,
     /// Largest angular speed omega Phi of the stator (rad/s), not negative.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub peak_angular_speed: Option<f64>,
-    /// Twist amplitude Phi of the stator's angle (rad), not negative; in place of the speed.
+    /// Twist amplitude Phi of the stator's angle (rad), not negative; instead of the speed.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub twist_amplitude: Option<f64>,
     /// Phase lag theta of the twist (rad), any finite number. Default 0.
@@ -34,7 +34,7 @@ pub struct MotorParameters {
     /// Mass m of the rotor (kg), positive.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub mass: Option<f64>,
-    /// Density of the rotor (kg/m^3), positive; in place of the mass, with [`Self::rotor_radius`] and
+    /// Density of the rotor (kg/m^3), positive; instead of the mass, with [`Self::rotor_radius`] and
     /// [`Self::rotor_thickness`] of a solid disc.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub density: Option<f64>,
@@ -46,19 +46,19 @@ pub struct MotorParameters {
     pub rotor_thickness: Option<f64>,
     /// Effective contact radius a_e (m), positive: where the friction force acts.
     pub contact_radius: f64,
-    /// Radius of gyration a_g (m), positive. Default: that of a solid disc, R/sqrt(2), where a rotor radius
+    /// Radius of gyration a_g (m), positive. Default: R/sqrt(2), the value of a solid disc, if a rotor radius
     /// is given.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub gyration_radius: Option<f64>,
-    /// Preload F (N), positive: the total force that presses the rotor onto the stator. The rotor's weight
-    /// is not added; where it helps, include it. The paper's g is F/m.
+    /// Preload F (N), positive: the total force that presses the rotor onto the stator. The rotor's weight is
+    /// not added; include it if it contributes. The paper's g is F/m.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub preload_force: Option<f64>,
-    /// Preload acceleration g = F/m (m/s^2), positive; in place of the force.
+    /// Preload acceleration g = F/m (m/s^2), positive; instead of the force.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub preload_acceleration: Option<f64>,
-    /// Constant k of the spring that makes the preload (N/m), positive. No default: without one there is no
-    /// static deflection and no bound on the change of the preload. The motion does not depend on it.
+    /// Constant k of the spring that provides the preload (N/m), positive. Without it there is no static
+    /// deflection and no bound on the change of the preload. The motion does not depend on it.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub spring_constant: Option<f64>,
     /// Coefficient of friction mu, static and kinetic, not negative.
@@ -68,24 +68,24 @@ pub struct MotorParameters {
     /// Load torque T_L (N m), any finite number; a positive load decelerates a positive rotation. Default 0.
     #[cfg_attr(feature = "serde", serde(default))]
     pub load_torque: f64,
-    /// How long an impact lasts, or materials and geometry; the mass is that of the rotor. No default: without it
-    /// a report cannot tell whether rigid impacts are valid.
+    /// Duration of an impact, or materials and geometry; the mass is the rotor's. Without it a report cannot
+    /// tell whether rigid impacts are valid.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub contact: Option<Contact>,
-    /// A stator that yields; without it the stator's motion is prescribed.
+    /// A compliant stator; without it the stator's motion is prescribed.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub stator: Option<StatorParameters>,
-    /// A torque over speed and time, and an inertia on the shaft; in place of [`Self::load_torque`].
+    /// A torque over speed and time, and an inertia on the shaft; instead of [`Self::load_torque`].
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub load: Option<LoadLaw>,
-    /// How the stator moves in place of the sines of Eq. (1). Its waveforms multiply the amplitudes, and there is no
-    /// `start_phase`. Not with a [`Self::stator`] or a [`Self::load`].
+    /// The motion of the stator, if it differs from the sines of Eq. (1). Its waveforms multiply the
+    /// amplitudes, and there is no `start_phase`. It excludes a [`Self::stator`] and a [`Self::load`].
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "DriveParameters::is_sine"))]
     pub drive: DriveParameters,
 }
 
 impl MotorParameters {
-    /// A sheet without a number. A needed one that stays NaN is refused before anybody sees it.
+    /// A sheet without numbers. A required one that stays NaN is rejected before the sheet is used.
     pub(crate) const EMPTY: Self = Self {
         drive_frequency: f64::NAN,
         amplitude: None,
@@ -112,8 +112,8 @@ impl MotorParameters {
 
     /// The data sheet of a system whose disk has this mass (kg): frequency, amplitudes and preload
     /// acceleration of the system, and the torque m a_g^2 d alpha/dt of its load. It is not yet checked. The
-    /// frequency omega/(2 pi) is rounded, so that the angular frequency of the motor may differ in the last
-    /// bit. The system of a motor knows neither the drive nor the load of its sheet.
+    /// frequency omega/(2 pi) is rounded, so the angular frequency of the motor may differ in the last bit.
+    /// The system of a motor contains neither the drive nor the load of its sheet.
     ///
     /// ```
     /// use bouncing_disk::System;

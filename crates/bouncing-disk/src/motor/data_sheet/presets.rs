@@ -1,5 +1,4 @@
-//! The paper's motor at both of its frequencies, as data sheets. Its numbers stand in
-//! `parameters/presets.rs`.
+//! The paper's motor at both of its frequencies, as data sheets. Its numbers are in `parameters/presets.rs`.
 
 use std::f64::consts::PI;
 
@@ -38,8 +37,8 @@ impl Motor {
     /// The motor of Table III at 70 kHz: its system is [`System::motor`](crate::System::motor), to the last
     /// bit.
     ///
-    /// The paper does not print the mass. It is 33 g here: a solid steel ball of the printed 20 mm, with a
-    /// handbook's 7850 kg/m^3. Without a load speeds do not depend on it; torques do.
+    /// The paper does not print the mass. Here it is 33 g, for a solid steel ball of the printed 20 mm with a
+    /// handbook's 7850 kg/m^3. Speeds without a load do not depend on it; torques do.
     #[must_use]
     pub fn paper_70_khz() -> Self {
         table_iii(DRIVE_FREQUENCY)
@@ -47,11 +46,11 @@ impl Motor {
 
     /// The motor of Table III at its second operating frequency, 184 kHz.
     ///
-    /// For this frequency the paper prints the frequency, says that the default values of omega Phi and theta
-    /// were used, and shows amplitudes of 1e-9, 1e-8 and 1e-7 m; the middle one, the default of Table III, is
-    /// used here. The true motion of the stator at 184 kHz is not printed: the measured rotor turns the other
-    /// way, as it does in the model with a phase lag of pi, while the printed default is 0. The mass is that
-    /// of [`Self::paper_70_khz`].
+    /// For this frequency the paper states that the default values of omega Phi and theta were used, and
+    /// shows amplitudes of 1e-9, 1e-8 and 1e-7 m; the middle one, the default of Table III, is used here. The
+    /// true motion of the stator at 184 kHz is not printed: the measured rotor turns the other way, as it
+    /// does in the model with a phase lag of pi, while the printed default is 0. The mass is that of
+    /// [`Self::paper_70_khz`].
     #[must_use]
     pub fn paper_184_khz() -> Self {
         table_iii(SECOND_DRIVE_FREQUENCY)

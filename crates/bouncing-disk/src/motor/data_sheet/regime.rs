@@ -1,11 +1,12 @@
-//! The vertical motion of the rotor: whether it lifts off at all, and whether its flights repeat.
+//! The vertical motion of the rotor: whether it lifts off, and whether its flights repeat.
 //!
 //! The verdict comes from motions, not from formulas: from the orbit that the unperturbed model repeats, and
 //! from a perturbed motion that shows whether this orbit survives (docs/numerics-dynamics.md, "Regime").
 //!
-//! At P <= 1 the rotor never lifts off. Otherwise `multi_toss` judges the unperturbed motion over 2048 impacts from
-//! rest, after 100,000 to settle if it never rests; a periodic orbit is refined by Newton's method. Chaos is no rest
-//! and a positive Lyapunov exponent. A flight is long above half a period, because a chatter has infinitely many.
+//! At P <= 1 the rotor never lifts off. Otherwise `multi_toss` classifies the unperturbed motion over 2048
+//! impacts from rest, after 100,000 to settle if it never rests; a periodic orbit is refined by Newton's
+//! method. A motion without rest and with a positive Lyapunov exponent is chaotic. A flight is long if it
+//! exceeds half a period, because a chatter has infinitely many short ones.
 
 use std::f64::consts::TAU;
 use std::fmt::{self, Display, Formatter};
@@ -27,33 +28,33 @@ use crate::toss::single::TOSS_START;
 /// Impacts over which the perturbed motion is followed.
 const FOLLOWED_IMPACTS: u64 = 20_000;
 
-/// Impacts over which it is followed at most, if it has rested less than [`FEW_RESTS`] times.
+/// Most impacts over which it is followed, if it has rested less than [`FEW_RESTS`] times.
 const MOST_IMPACTS: u64 = 10 * FOLLOWED_IMPACTS;
 
 /// See [`MOST_IMPACTS`].
 const FEW_RESTS: u64 = 16;
 
-/// Impacts in which a motion that does not rest settles before it is examined.
+/// Impacts during which a motion that does not rest settles before it is examined.
 const SETTLING_IMPACTS: usize = 100_000;
 
-/// Size of the relaunch perturbation (units of g/omega): that of `TransientSettings`.
+/// Size of the relaunch perturbation (units of g/omega), as in `TransientSettings`.
 const PERTURBATION: f64 = 1.0e-3;
 
 /// Seed of the perturbations.
 const SEED: u64 = 1;
 
-/// The vertical motion of the rotor from rest on the stator. Other motions may exist beside it, for a
-/// rotor that is thrown.
+/// The vertical motion of the rotor from rest on the stator. Other motions may coexist, for a rotor that is
+/// thrown.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum MotorRegime {
-    /// The stator never falls away under the rotor (P <= 1): it is carried and never thrown.
+    /// The stator never falls away under the rotor (P <= 1), which is carried and never thrown.
     NoLiftOff,
     /// The flights repeat, without rest.
     Periodic {
-        /// Impacts in a round.
+        /// Impacts per round.
         impacts: usize,
-        /// Periods of the stator in a round.
+        /// Periods of the stator per round.
         platform_periods: u64,
     },
     /// The rotor comes to rest after few flights, and a perturbed one repeats the same cycle: a trap, in
@@ -62,13 +63,13 @@ pub enum MotorRegime {
     /// The rotor comes to rest now and then, after many flights, or after a number of flights that a small
     /// perturbation changes.
     LongChattering {
-        /// Mean number of periods of the stator between two separations, of the perturbed motion.
+        /// Mean number of periods of the stator between two separations of the perturbed motion.
         platform_periods: f64,
-        /// The number of rests seen: the mean over a few is rough.
+        /// The number of rests observed; the mean over a few is rough.
         rests: u64,
     },
     /// The flights do not repeat, the rotor does not rest, and small differences grow, all within 200 000
-    /// impacts: the chaos may be a transient one.
+    /// impacts; the chaos may be transient.
     Chaotic {
         /// Growth rate of a small vertical perturbation per impact, positive.
         lyapunov_exponent: f64,
@@ -82,7 +83,7 @@ pub enum MotorRegime {
 }
 
 impl MotorRegime {
-    /// Whether the motion repeats a short cycle. Its speed then has next to no statistical error, however far
+    /// Whether the motion repeats a short cycle. Its speed then has almost no statistical error, however far
     /// it is from the speeds of neighbouring motors.
     #[must_use]
     pub const fn is_locked(&self) -> bool {
@@ -155,7 +156,7 @@ impl Seen {
                     seen.separations += 1;
                     seen.elapsed = time;
                 }
-                // No other event exists, and a rotor that was thrown once is thrown again after every rest.
+                // No other event exists, and a rotor that was once thrown is thrown again after every rest.
                 Some(_) | None => break,
             }
         }
@@ -196,7 +197,7 @@ pub(crate) fn regime(
     };
     let seen = Seen::of(map, separation, observer)?;
     let class = settled(system, 0, observer)?;
-    // A motion that has not settled is given the time to do so, if it is not one that rests.
+    // A motion that has not settled is given the time to do so, unless it comes to rest.
     let class = match class {
         OrbitClass::Chaotic { .. } | OrbitClass::Undecided { .. } if seen.separations == 0 => {
             settled(system, SETTLING_IMPACTS, observer)?
@@ -213,7 +214,7 @@ pub(crate) fn regime(
         }
         OrbitClass::Chattering(cycle) if survives(cycle, &seen) => MotorRegime::LowPeriodChattering(cycle),
         OrbitClass::Chattering(cycle) => {
-            // A rest that the perturbed motion was not seen to repeat: the cycle is all that is known.
+            // The perturbed motion was not seen to repeat a rest, so only the cycle is known.
             let platform_periods = cycle.platform_periods as f64;
             long.unwrap_or(MotorRegime::LongChattering { platform_periods, rests: 1 })
         }
@@ -225,14 +226,14 @@ pub(crate) fn regime(
     Ok((regime, seen.flights()))
 }
 
-/// Whether the perturbed motion repeats a short cycle, by its mean time between separations.
+/// Whether the perturbed motion repeats a short cycle, judged by its mean time between separations.
 fn survives(cycle: ChatteringCycle, seen: &Seen) -> bool {
     let near = |periods: f64| (periods / cycle.platform_periods as f64 - 1.0).abs() <= LOCKED_WITHIN;
     cycle.long_flights <= LOCKED_FLIGHTS && seen.periods_between_rests().is_some_and(near)
 }
 
-/// The motion on which the unperturbed motion from rest settles. It is followed without its rotation, which
-/// never acts on it.
+/// The motion on which the unperturbed motion from rest settles, without its rotation, which never acts on
+/// it.
 fn settled(
     system: &DimensionlessSystem,
     transient_impacts: usize,

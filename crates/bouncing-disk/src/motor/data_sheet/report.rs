@@ -26,19 +26,19 @@ pub struct MotorReport {
     pub peak_acceleration: f64,
     /// The vertical motion of the rotor.
     pub regime: MotorRegime,
-    /// Mean number of the stator's periods in a flight, over the flights longer than half a period, as a
+    /// Mean duration of a flight in periods of the stator, over the flights longer than half a period, as a
     /// chatter has infinitely many short ones. From a perturbed motion of 20 000 to 200 000 impacts. `None`
-    /// where no flight is that long.
+    /// if no flight is that long.
     pub periods_per_flight: Option<f64>,
     /// Mean speed of the impacts that end these flights (m/s).
     pub impact_speed: Option<f64>,
-    /// How long these impacts last; `None` if the data sheet does not have what that needs.
+    /// Duration of these impacts; `None` if the data sheet lacks the required values.
     pub contact: Option<ContactStatement>,
-    /// mu m g a_e (N m), which no motor exceeds in the mean.
+    /// mu m g a_e (N m), the largest mean torque of any motor.
     pub largest_torque: f64,
     /// Static deflection of the preload's spring (m); `None` without a spring.
     pub static_deflection: Option<f64>,
-    /// A bound on the relative change of the preload in a flight, which the model keeps constant; `None`
+    /// A bound on the relative change of the preload during a flight, which the model keeps constant; `None`
     /// without a spring ([`Motor::preload_change_bound`]).
     pub preload_change_bound: Option<f64>,
     /// Values that are unlikely to be intended.
@@ -46,14 +46,14 @@ pub struct MotorReport {
 }
 
 impl Motor {
-    /// Follows the rotor for 20 000 to 300 000 impacts, which takes a few to some 100 ms, and reports its
-    /// motion. Nothing in it but the warning of an overload depends on the load.
+    /// Follows the rotor for 20 000 to 300 000 impacts, which takes from a few to about 100 ms, and reports
+    /// its motion. Only the warning of an overload depends on the load.
     ///
-    /// The items of `observer` are the impacts of up to three motions, each counted from 0.
+    /// The observer's items are the impacts of up to three motions, each counted from 0.
     ///
     /// # Errors
-    /// [`Error::YieldingStator`], of which [`Self::stator_report`] says what is known; [`Error::DriveNotSine`]; those of
-    /// the core, for a flight longer than it can count.
+    /// [`Error::YieldingStator`], for which [`Self::stator_report`] states what is known;
+    /// [`Error::DriveNotSine`]; the core's error for a flight longer than it can count.
     pub fn report(&self, observer: &dyn Observer) -> Result<MotorReport, Error> {
         if self.stator().is_some() {
             return Err(Error::YieldingStator);
@@ -86,8 +86,8 @@ impl Motor {
     }
 }
 
-/// What follows from the table `[stator]` of a data sheet without computing a motion ([`Motor::stator_report`]). It
-/// prints as several lines, the last ones being those of the motor.
+/// Quantities that follow from the table `[stator]` of a data sheet without computing a motion
+/// ([`Motor::stator_report`]). It prints as several lines, the last ones of which are the motor's.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct StatorReport {
@@ -98,23 +98,24 @@ pub struct StatorReport {
     pub amplitude: f64,
     /// Amplitude F_0 of the force that drives the axial mode (N).
     pub force: f64,
-    /// Amplitude of the voltage (V); `None` without a circuit, as the next two.
+    /// Amplitude of the voltage (V); like the next two, `None` without a circuit.
     pub volts: Option<f64>,
     /// Amplitude of the current without a rotor (A); `None` also without a capacitance.
     pub current: Option<f64>,
-    /// Power that the circuit takes without a rotor (W).
+    /// Power that the circuit draws without a rotor (W).
     pub power: Option<f64>,
-    /// The preload (N) from which on a rotor at rest is no longer lifted
-    /// ([`StatorModes::lift_off_preload`](crate::parameters::StatorModes::lift_off_preload)); `None` also where contacts take time.
+    /// The preload (N) above which a rotor at rest is no longer lifted
+    /// ([`StatorModes::lift_off_preload`](crate::parameters::StatorModes::lift_off_preload)); `None` also for
+    /// compliant contacts.
     pub lift_off_preload: Option<f64>,
-    /// The contact time of the sheet in periods of the drive, for a platform that does not yield.
+    /// The contact time of the sheet in periods of the drive, for a rigid platform.
     pub contact_periods: Option<f64>,
-    /// The same on this stator, whose modes recoil, and the restitution there.
+    /// The contact time on this stator, whose modes recoil, and the restitution there.
     pub isolated_contact: Option<[f64; 2]>,
 }
 
 impl StatorReport {
-    /// Name, value and unit of all that is known.
+    /// Name, value and unit of all known quantities.
     pub fn rows(&self) -> impl Iterator<Item = (&'static str, f64, &'static str)> {
         let rows = [
             ("mass_ratio", Some(self.mass_ratio), "1"),
@@ -133,7 +134,7 @@ impl StatorReport {
 }
 
 impl Motor {
-    /// What follows from the table `[stator]`; `None` without one.
+    /// The quantities that follow from the table `[stator]`; `None` without one.
     #[must_use]
     pub fn stator_report(&self) -> Option<StatorReport> {
         let stator = self.stator()?;
@@ -167,7 +168,7 @@ impl Display for StatorReport {
     }
 }
 
-/// Several lines, without a line end after the last one.
+/// Prints several lines, without a newline after the last one.
 impl Display for MotorReport {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         write_forcing(f, self.axial_forcing, self.angular_forcing, self.peak_acceleration)?;
@@ -183,7 +184,7 @@ impl Display for MotorReport {
     }
 }
 
-/// Several lines, without a line end after the last one.
+/// Prints several lines, without a newline after the last one.
 impl Display for Motor {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let system = self.system();
@@ -204,7 +205,7 @@ fn write_forcing(f: &mut Formatter<'_>, axial: f64, angular: Option<f64>, peak: 
     write!(f, "Gamma = {}, Gamma_T = {angular}, P = {} g", number(axial), number(peak))
 }
 
-/// Torque and spring, on lines of their own.
+/// Torque and spring, on separate lines.
 fn write_torque_and_spring(
     f: &mut Formatter<'_>,
     largest_torque: f64,
@@ -222,7 +223,7 @@ fn write_torque_and_spring(
     Ok(())
 }
 
-/// Each warning on a line of its own.
+/// Each warning on a separate line.
 fn write_warnings(f: &mut Formatter<'_>, warnings: &[MotorWarning]) -> fmt::Result {
     warnings.iter().try_for_each(|warning| write!(f, "\nwarning: {warning}"))
 }

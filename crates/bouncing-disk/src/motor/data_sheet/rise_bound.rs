@@ -1,7 +1,7 @@
-//! How high a rotor can fly: a bound for all flights, derived in docs/numerics-dynamics.md, "A bound on flight
+//! A bound on the height of all flights of a rotor, derived in docs/numerics-dynamics.md, "A bound on flight
 //! heights".
 
-/// Share by which the bound is raised for the rounding of its own few operations.
+/// Relative increase of the bound to cover the rounding of its own few operations.
 const ROUNDING: f64 = 1.0e-12;
 
 /// A bound on the upward speed after any impact (units of g/omega), for peak acceleration P >= 0 and a
@@ -15,8 +15,7 @@ pub(crate) fn highest_speed(peak_acceleration: f64, restitution: f64) -> f64 {
 /// A bound on the height above the middle of the platform's motion (units of g/omega^2): P + V^2/2.
 pub(crate) fn highest_rise(peak_acceleration: f64, restitution: f64) -> f64 {
     let speed = highest_speed(peak_acceleration, restitution);
-    // A rotor that never leaves the platform from rest rises with it; the bound holds for those that were
-    // thrown, too.
+    // A rotor that never leaves the platform from rest rises with it; the bound also holds for thrown rotors.
     (peak_acceleration + 0.5 * speed * speed) * (1.0 + ROUNDING)
 }
 
@@ -29,8 +28,7 @@ mod tests {
 
     const RESTITUTIONS: [f64; 6] = [0.0, 0.1, 0.5, 0.8, 0.95, 1.0 - 1e-9];
 
-    /// The bound is where the worst case repeats itself: its closed form solves the equation that it comes
-    /// from.
+    /// The bound is reached if the worst case repeats: its closed form solves the equation that defines it.
     #[test]
     fn the_bound_is_the_fixed_point_of_the_worst_case() {
         for r in [0.0, 0.1, 0.5, 0.8, 0.95] {
@@ -61,7 +59,7 @@ mod tests {
                 highest = highest.max(vibration.height(launch.phase()) + rise);
             }
             if let Some(OrbitEvent::Attachment(_)) = orbit.advance().expect("no failure") {
-                // Other members of an ensemble: the speed from rest stays below that of the platform.
+                // Other members of an ensemble: the speed from rest stays below the platform's.
                 orbit.perturb_launch(1e-9 * random.unit()).expect("legal");
             }
         }
@@ -79,7 +77,7 @@ mod tests {
         }
     }
 
-    /// The bound is of use: a lively orbit comes near it.
+    /// The bound is useful: a lively orbit comes near it.
     #[test]
     fn some_orbits_come_near_the_bound() {
         for r in [0.0, 0.1, 0.5] {

@@ -1,11 +1,11 @@
 //! Low-period traps: values of preload, amplitude or frequency at which the rotor repeats a short cycle of
-//! flights and rest. Its speed there is that of the cycle: from zero (the holes of Fig. 11) to more than the
-//! speed beside the trap.
+//! flights and rest. Its speed there is the cycle's own: from zero (the holes of Fig. 11) to more than the
+//! speed next to the trap.
 //!
 //! The vertical motion alone decides (docs/numerics-dynamics.md, "Low-period traps").
 //!
-//! For 72 motors with forcings near 3, 12 and 203 the verdict agrees with the report's regime in at least 71. The
-//! motors of the holes of Fig. 11 have forcings with the fractions 0.496 to 0.545.
+//! For 72 motors with forcings near 3, 12 and 203 the verdict agrees with the report's regime in at least 71.
+//! The motors in the holes of Fig. 11 have forcings with fractions of 0.496 to 0.545.
 
 use std::f64::consts::{PI, TAU};
 
@@ -17,7 +17,7 @@ use crate::error::Error;
 use crate::motor::data_sheet::Motor;
 use crate::toss::chattering_cycle::{ChatteringCycle, LOCKED_FLIGHTS, LOCKED_WITHIN, LONG_FLIGHT};
 
-/// Perturbed relaunches of a rotor whose unperturbed cycle is short.
+/// Number of perturbed relaunches for a rotor whose unperturbed cycle is short.
 const RELAUNCHES: u32 = 64;
 
 /// Impacts after which an excursion is abandoned: the unperturbed one, which must be short, and a perturbed
@@ -25,7 +25,7 @@ const RELAUNCHES: u32 = 64;
 const MOST_IMPACTS: u64 = 400;
 const MOST_PERTURBED_IMPACTS: u64 = 4_000;
 
-/// Size of the relaunch perturbation (units of g/omega): that of `TransientSettings`.
+/// Size of the relaunch perturbation (units of g/omega), as in `TransientSettings`.
 const PERTURBATION: f64 = 1.0e-3;
 
 /// Seed of the perturbations.
@@ -37,22 +37,22 @@ const SEED: u64 = 1;
 pub struct TrapVerdict {
     /// Preload as an acceleration g (m/s^2).
     pub preload_acceleration: f64,
-    /// Axial forcing parameter Gamma, which with the restitution alone decides.
+    /// Axial forcing parameter Gamma, which together with the restitution decides the verdict.
     pub axial_forcing: f64,
     /// Its fractional part, in [0, 1): traps of a single flight occur where it is about one half.
     pub forcing_fraction: f64,
-    /// From one separation to the next without perturbation, if that takes at most eight long flights; `None`
-    /// if it takes more, or the rotor is never thrown or never rests.
+    /// The unperturbed cycle from one separation to the next, if it takes at most eight long flights; `None`
+    /// if it takes more, or if the rotor is never thrown or never rests.
     pub cycle: Option<ChatteringCycle>,
     /// Perturbed relaunches that were tried: 64, or 0 without a cycle.
     pub relaunches: u32,
-    /// How many of them led through as many long flights and periods as the cycle has.
+    /// Number of these that took as many long flights and periods as the cycle.
     pub returns: u32,
-    /// Mean number of the stator's periods from one perturbed relaunch to the next; a lower bound where one
-    /// of them had not come to rest within 4000 impacts. `None` without a cycle.
+    /// Mean number of the stator's periods from one perturbed relaunch to the next; a lower bound if one of
+    /// them had not come to rest within 4000 impacts. `None` without a cycle.
     pub mean_platform_periods: Option<f64>,
-    /// Whether the perturbed motor repeats the cycle: its mean is within 5 % of that of the cycle, the rule
-    /// of [`MotorRegime::LowPeriodChattering`](crate::motor::MotorRegime::LowPeriodChattering).
+    /// Whether the perturbed motor repeats the cycle: its mean is within 5 % of the cycle's, as for
+    /// [`MotorRegime::LowPeriodChattering`](crate::motor::MotorRegime::LowPeriodChattering).
     pub is_trap: bool,
 }
 
@@ -104,21 +104,21 @@ impl TrapVerdict {
     }
 }
 
-/// Flights that a summed chatter costs.
+/// Cost of a summed chatter, in flights.
 const FLIGHTS_OF_EXCURSION: u64 = 4;
 
-/// The way from a separation to the next one, or to where it was abandoned.
+/// The motion from a separation to the next one, or to where it was abandoned.
 #[derive(Debug, Clone, Copy)]
 struct Excursion {
-    /// Radians.
+    /// Duration in radians.
     elapsed: f64,
-    /// The round; `None` if it was given up.
+    /// The round; `None` if it was abandoned.
     cycle: Option<ChatteringCycle>,
 }
 
 impl Excursion {
-    /// The excursion of a rotor that leaves with this relative speed, abandoned after so many impacts or more
-    /// long flights; `None` if the platform never falls away.
+    /// The excursion of a rotor that leaves with this relative speed, abandoned after the given number of
+    /// impacts or more long flights; `None` if the platform never falls away.
     fn of(
         map: &ImpactMap,
         speed: f64,
@@ -162,13 +162,13 @@ fn short_cycle(map: &ImpactMap, work: &mut WorkCount<'_>) -> Result<Option<Chatt
     Ok(excursion.and_then(|excursion| excursion.cycle))
 }
 
-/// A motor is built in about the time of so many flights.
+/// Cost of building a motor, in flights.
 const FLIGHTS_OF_BUILDING: u64 = 8;
 
-/// Which of these preloads, as accelerations (m/s^2), trap a motor, in their order. The acceleration replaces
-/// other alternatives in the data sheet.
+/// The verdicts for these preloads, as accelerations (m/s^2), in their order: which of them trap a motor. The
+/// acceleration replaces other alternatives in the data sheet.
 ///
-/// The items of `observer` are the preloads.
+/// The observer's items are the preloads.
 ///
 /// ```
 /// # use bouncing_disk::core::Unobserved;
@@ -223,7 +223,7 @@ impl Motor {
     /// Whether the motor, as it is, is in a low-period trap.
     ///
     /// # Errors
-    /// Those of [`Motor::rigid_sine`] and of the flights.
+    /// The errors of [`Motor::rigid_sine`] and of the flights.
     pub fn trap_verdict(&self) -> Result<TrapVerdict, Error> {
         let watch = Watch::begin(&Unobserved, 0, 1)?;
         TrapVerdict::of_motor(self, &mut watch.work())

@@ -7,10 +7,10 @@ use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::motor_field::{Field, MotorField};
 use crate::parameters::contact::estimate::{ContactStatement, ContactWarning};
 
-/// A value this many times outside of what such motors have is far outside.
+/// A value is far outside if it differs by this factor from the usual range.
 const FAR: f64 = 1.0e3;
 
-/// A bound on the change of the preload above this gives a warning.
+/// Bound on the change of the preload above which there is a warning.
 const LARGEST_CHANGE: f64 = 0.01;
 
 /// A value that is legal but unlikely to be intended, or violates an assumption of the model
@@ -26,9 +26,9 @@ pub enum MotorWarning {
         value: f64,
         /// The unit of the field.
         unit: &'static str,
-        /// The least and the largest value that such motors have.
+        /// The least and the largest usual value for such motors.
         usual: (f64, f64),
-        /// What may have been intended: "a length in mm".
+        /// The reading that may have been intended: "a length in mm".
         meant: &'static str,
     },
     /// A value is a factor 1000 outside the usual range of such motors.
@@ -39,7 +39,7 @@ pub enum MotorWarning {
         value: f64,
         /// The unit of the field.
         unit: &'static str,
-        /// The least and the largest value that such motors have.
+        /// The least and the largest usual value for such motors.
         usual: (f64, f64),
     },
     /// The contact radius or the radius of gyration is larger than the rotor.
@@ -51,7 +51,7 @@ pub enum MotorWarning {
         /// The radius of the rotor (m).
         rotor_radius: f64,
     },
-    /// The load is larger than the largest torque of the motor: the load drives the rotor.
+    /// The load exceeds the largest torque of the motor, so it drives the rotor.
     Overload {
         /// The load torque (N m).
         load_torque: f64,
@@ -63,18 +63,22 @@ pub enum MotorWarning {
         /// The bound on the relative change ([`Motor::preload_change_bound`]).
         bound: f64,
     },
-    /// A measured speed or rise time differs by a factor 100 from that of the drive ([`Motor::warnings_on`]).
+    /// A measured speed or rise time differs by a factor 100 from the drive's prediction
+    /// ([`Motor::warnings_on`]).
     OtherScale {
-        /// The fastest speed, or the time in which it is half reached.
+        /// The fastest speed, or the time to reach half of it.
         measured: f64,
-        /// The stator's largest speed omega Phi, or the shortest time in which friction gives it.
+        /// The stator's largest speed omega Phi, or the shortest time in which friction can accelerate a
+        /// rotor to it.
         drive: f64,
         /// The unit of both: rad/s or s.
         unit: &'static str,
     },
-    /// Impacts take time; [`Motor::report`], which knows their speed, may have more of these.
+    /// A warning about the duration of impacts; [`Motor::report`], which uses the impact speed, may add more
+    /// of these.
     Contact(ContactWarning),
-    /// Impacts on a stator that yields are rigid, and last longer than a period, or nobody knows how long.
+    /// Impacts on a compliant stator are rigid, although they last longer than a period or their duration is
+    /// unknown.
     RigidOnModes {
         /// The contact time over the period, if it is known.
         periods: Option<f64>,
@@ -86,7 +90,7 @@ pub enum MotorWarning {
         /// The preload below which it does ([`crate::parameters::StatorModes::lift_off_preload`]).
         lift_off_preload: f64,
     },
-    /// The contacts of the motor take time, and the regime of a report is that of rigid impacts.
+    /// The contacts of the motor are compliant, but the regime of a report is for rigid impacts.
     RigidRegime,
 }
 
@@ -159,8 +163,8 @@ impl Display for MotorWarning {
 }
 
 impl Motor {
-    /// Legal values of the data sheet that are unlikely to be intended, in the order of the fields; then
-    /// combinations of fields. Zeros are taken as intended.
+    /// Warnings for legal values of the data sheet that are unlikely to be intended, in the order of the
+    /// fields, followed by combinations of fields. Zeros are assumed to be intended.
     ///
     /// A number that is also usual in the wrong unit cannot be detected: 40 kHz given as 40e3 where an
     /// angular frequency of 40e3 rad/s was intended.

@@ -1,4 +1,4 @@
-//! The normal impulses of a disk on a platform whose contact takes time.
+//! The normal impulses of a disk on a platform with compliant contact.
 
 use std::f64::consts::TAU;
 
@@ -10,19 +10,19 @@ use crate::error::{Error, within_limit};
 /// Most periods that are followed.
 const MAX_PERIODS: usize = 1_000_000;
 
-/// Parts of a period, and of a contact at least, into which the force is divided: the speed of the stator
+/// Parts per period, and at least per contact, into which the force is divided: the speed of the stator
 /// changes by less than 0.007 of its amplitude in half a part.
 const PARTS: f64 = 512.0;
 const LEAST_PARTS: f64 = 8.0;
 
 impl NormalImpulses {
-    /// The impulses of a disk that lay on the platform at phase 0, over `periods` of the drive after the first
-    /// `settling` ones; of one period where it follows the platform for ever. All are those of
-    /// [contacts](Self::contact), in parts; [`landings`](Self::landings) are all phases at which the force sets
-    /// in.
+    /// The impulses of a disk that lay on the platform at phase 0, over `periods` of the drive after the
+    /// first `settling` ones, or over one period if the disk follows the platform for ever. All impulses are
+    /// in [contacts](Self::contact), in parts; [`landings`](Self::landings) are the phases at which the force
+    /// begins.
     ///
     /// # Errors
-    /// An error of the core for more than a million periods; those of the flights and of the contacts.
+    /// An error of the core for more than a million periods; the errors of the flights and of the contacts.
     pub fn of_contact(platform: &CompliantPlatform, settling: usize, periods: usize) -> Result<Self, Error> {
         within_limit("periods whose impulses are wanted", settling.saturating_add(periods), MAX_PERIODS)?;
         let (from, until) = (TAU * settling as f64, TAU * (settling + periods) as f64);
@@ -69,7 +69,7 @@ impl NormalImpulses {
         for part in 0..parts as u32 {
             let end = from + step * f64::from(part + 1);
             let then = gained.at(end, to).value;
-            // The force cannot pull: what rounding leaves of one next to zero.
+            // The force cannot pull; this removes the rounding of a force near zero.
             let impulse = (then - start + step).max(0.0);
             let phase = (pressed.from().time + (end - 0.5 * step)).rem_euclid(TAU);
             self.contact.push(PhasedImpulse { phase, impulse });
@@ -108,8 +108,8 @@ mod tests {
         }
     }
 
-    /// A rotor whose speed changes little in one contact ends at the median: its own motion, with all slips and
-    /// reversals, knows nothing of medians.
+    /// A rotor whose speed changes little in one contact settles at the median, although its own motion, with
+    /// all slips and reversals, is computed without medians.
     #[test]
     fn the_median_is_the_speed_at_which_a_rotor_ends() {
         let frequency = 70e3;

@@ -1,4 +1,5 @@
-//! Means over the members of an ensemble, or over a cycle, with their errors, and the units of what windows hold.
+//! Means over the members of an ensemble, or over a cycle, with their errors, and the units of the windows'
+//! contents.
 
 use bouncing_disk_core::numerics::elementary::hypot;
 use bouncing_disk_core::numerics::statistics::{NORMAL_975, mean};
@@ -13,36 +14,36 @@ use crate::parameters::dimensionless::DimensionlessSystem;
 use crate::parameters::scales::Scales;
 use crate::stator::StatorLedger;
 
-/// The sums of each member, of its rotors from far below and from far above.
+/// The sums of each member, for its rotors from far below and from far above.
 #[derive(Clone)]
 pub(super) struct Pairs {
     pub(super) below: Vec<Sum>,
     pub(super) above: Vec<Sum>,
-    /// Of rotors with half the inertia, where these have less than the motor's.
+    /// The sums for rotors with half the inertia, if these have less than the motor's.
     pub(super) quickest: Vec<Sum>,
-    /// Speeds of each member's two rotors at times that are spread evenly.
+    /// Speeds of each member's two rotors at evenly spaced times.
     pub(super) samples: Vec<Vec<f64>>,
     /// Whether members have perturbations of different sizes.
     pub(super) are_perturbed: bool,
-    /// By how much of themselves values may be off for the steps of the tape.
+    /// Relative error of values due to the steps of the tape.
     pub(super) steps: f64,
 }
 
 impl Pairs {
-    /// Of each member in the middle of its two rotors, and of that from above.
+    /// For each member, the mean of its two rotors and the value from above.
     pub(super) fn of(&self, value: &dyn Fn(&Sum) -> f64) -> [Vec<f64>; 2] {
         let middles =
             self.below.iter().zip(&self.above).map(|(one, other)| 0.5 * (value(one) + value(other)));
         [middles.collect(), self.above.iter().map(value).collect()]
     }
 
-    /// The mean of a value of each member, with its scatter.
+    /// The mean of one value per member, with its scatter.
     pub(super) fn scatter(&self, values: &[f64]) -> Result<Estimate, Error> {
         if self.are_perturbed { Estimate::of_decade(values) } else { Estimate::of(values) }
     }
 
-    /// The standard deviation of a value over a decade of the perturbation, as far as it is twice what the scatter of the
-    /// members explains.
+    /// The standard deviation of a value over a decade of the perturbation, as far as it exceeds twice the
+    /// amount that the scatter of the members explains.
     pub(super) fn change(&self, values: &[f64]) -> Result<f64, Error> {
         if !self.are_perturbed {
             return Ok(0.0);
@@ -50,13 +51,13 @@ impl Pairs {
         let (all, count) = (mean(values), values.len() as f64);
         let off = |own: &Vec<f64>| own.len() as f64 / count * (mean(own) - all) * (mean(own) - all);
         let between = by_perturbation(values).iter().map(off).sum::<f64>();
-        // Three means about that of all.
+        // Three means about the overall mean.
         let scatter = self.scatter(values)?.standard_error;
         Ok((between - 2.0 * (2.0 * scatter * scatter)).max(0.0).sqrt())
     }
 }
 
-/// What means are taken over.
+/// The set over which means are taken.
 pub(super) enum Averages<'a> {
     Members(&'a Pairs),
     Cycle { sums: &'a [Sum; 2], cycle: &'a Cycle },
@@ -85,7 +86,7 @@ impl Averages<'_> {
         }
     }
 
-    /// The difference of a value of other rotors on the same motion and of these.
+    /// The difference between a value for other rotors on the same motion and for these.
     pub(super) fn rise(&self, others: &Self, value: &dyn Fn(&Sum) -> f64) -> Result<Estimate, Error> {
         match (self, others) {
             (Self::Members(own), Self::Members(other)) => {
@@ -102,8 +103,8 @@ impl Averages<'_> {
         }
     }
 
-    /// The range of the speed: 95 % of the time, and in a cycle all of it. The rotors have so many times less inertia than
-    /// their motor. `None` where too few speeds are known.
+    /// The range of the speed: 95 % of the time, and all of it in a cycle. The rotors have `quicker` times
+    /// less inertia than their motor. `None` if too few speeds are known.
     pub(super) fn speed_range(&self, quicker: f64) -> Option<[Estimate; 2]> {
         let pairs = match self {
             Self::Cycle { sums, .. } => {
@@ -170,7 +171,7 @@ impl Averages<'_> {
         }
     }
 
-    /// Averaged time (rad) and impacts, of all members together.
+    /// Averaged time (rad) and impacts of all members together.
     pub(super) fn duration_and_impacts(&self) -> (f64, u64) {
         match self {
             Self::Members(pairs) => (
@@ -182,11 +183,11 @@ impl Averages<'_> {
     }
 }
 
-/// Least samples of a speed from whose order a range is taken.
+/// Fewest samples of a speed from which a range is determined by order.
 const LEAST_SAMPLES: usize = 160;
 
-/// The ends of the middle 95 % of speeds in their order, each so much nearer to their mean as the swing of a rotor with its
-/// whole inertia is smaller.
+/// The ends of the middle 95 % of ordered speeds, moved towards their mean because a rotor with its whole
+/// inertia swings less.
 fn middle_of(speeds: &[f64], about: f64, quicker: f64) -> [f64; 2] {
     [0.025, 0.975].map(|share| {
         let place = share * (speeds.len() - 1) as f64;
@@ -196,14 +197,14 @@ fn middle_of(speeds: &[f64], about: f64, quicker: f64) -> [f64; 2] {
     })
 }
 
-/// SI units of what the windows hold.
+/// SI units of the windows' contents.
 pub(super) struct Units {
     pub(super) time: f64,
     pub(super) length: f64,
     pub(super) speed: f64,
     /// m g a_e (N m).
     pub(super) torque: f64,
-    /// Power (W) for one unit of axial, and of rotary energy in a radian.
+    /// Power (W) of one unit of axial and of rotary energy per radian.
     pub(super) axial: f64,
     pub(super) rotary: f64,
 }
@@ -222,7 +223,7 @@ impl Units {
     }
 }
 
-/// Windows of one member, or of all, added up.
+/// The sum of windows, of one member or of all.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Sum {
     pub(super) axial: AxialWindow,
@@ -230,7 +231,7 @@ pub(super) struct Sum {
 }
 
 impl Sum {
-    /// Of a rotor in these windows.
+    /// The sum for a rotor over these windows.
     pub(super) fn of<'a>(windows: impl Iterator<Item = &'a Window>, rotor: usize) -> Self {
         let mut sum = Self::default();
         windows.for_each(|window| sum.add(window, rotor));
@@ -243,16 +244,16 @@ impl Sum {
         self.rotor.add(rotor);
     }
 
-    /// The energies of a stator that yields.
+    /// The energies of a compliant stator.
     pub(super) fn stator(&self) -> StatorLedger {
         self.rotor.stator.as_ref().map(|own| own.0).unwrap_or_default()
     }
 
-    /// The energy that came in; where less came in than the disks of all members have at their start, that:
-    /// there are only roundings then.
+    /// The energy supplied; if it is less than the initial energy of all members' disks, that energy, because
+    /// only roundings remain then.
     pub(super) fn energy_scale(&self, units: &Units, system: &DimensionlessSystem, members: usize) -> f64 {
         let axial = self.axial.normal_work + self.axial.perturbation_work;
-        // A load that drives the motor puts energy in, too, and so does a rotor that slows down.
+        // A load that drives the motor also supplies energy, as does a rotor that slows down.
         let rotor = &self.rotor;
         let rotary = rotor.friction_work.abs().max(rotor.load_work.abs()).max(rotor.friction_loss);
         let put_in = axial.abs() * units.axial + rotary * units.rotary;
@@ -269,7 +270,7 @@ impl Sum {
         let rotary_left = rotor.friction_work - rotor.friction_loss - rotor.load_work - rotor.kinetic_change;
         let stator_left = self.stator().closure() * units.axial;
         let left = (axial_left * units.axial).abs() + (rotary_left * units.rotary).abs() + stator_left.abs();
-        // The modes of a heavy stator hold much more than the disk.
+        // The modes of a heavy stator hold much more energy than the disk.
         let modes = self.stator();
         let scale = self.energy_scale(units, system, members) + modes.drive_work.abs() * units.axial;
         if scale > 0.0 { left / scale } else { left }

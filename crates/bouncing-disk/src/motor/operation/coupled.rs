@@ -1,4 +1,4 @@
-//! A rotor that acts back on its stator: followed by the engine of both.
+//! A rotor that acts back on its stator, followed by the engine of both.
 
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
@@ -18,31 +18,31 @@ use crate::motor::tape::recurrence::{AT_ONCE, Key, Recurrence, Repeats, Touch};
 use crate::motor::tape::window::{AxialWindow, RotorWindow, Speeds, Window};
 use crate::stator::{StatorEngine, StatorState, StatorSystem};
 
-/// A rotor with its stator, and sums since their start.
+/// A rotor with its stator, and the sums since the start.
 #[derive(Debug)]
 pub(crate) struct Coupled {
     engine: StatorEngine,
     generator: SplitMix64,
     perturbation: f64,
     energies: Energies,
-    /// Energy given by the perturbations.
+    /// Energy supplied by the perturbations.
     given: f64,
     impacts: u64,
-    /// Impacts, and those events of a compliant contact that recur without an impact.
+    /// Impacts, and the recurring events of a compliant contact without an impact.
     recurrences: u64,
     start: PhaseTime,
-    /// Now, and the end of the last window with the sums up to there.
+    /// The present time, and the end of the last window with the sums up to it.
     reached: PhaseTime,
     ended: PhaseTime,
     before: Totals,
     recurrence: Recurrence,
-    /// When it touched last.
+    /// Time of the last touch.
     touched: Option<PhaseTime>,
     /// The cycle that the motion was found to repeat, after which no window is complete.
     repeats: Option<Repeats>,
 }
 
-/// What a rotor has done up to a time.
+/// The sums of a rotor up to a time.
 #[derive(Debug, Clone, Copy, Default)]
 struct Totals {
     energies: Energies,
@@ -54,8 +54,8 @@ struct Totals {
 }
 
 impl Coupled {
-    /// A rotor that lies on its stator at `phase` with an angular speed. Where impacts are rigid separations are
-    /// perturbed by speeds of this size from a stream of this seed.
+    /// A rotor that lies on its stator at `phase` with an angular speed. If impacts are rigid, separations
+    /// are perturbed by speeds of this size from a stream with this seed.
     pub(crate) fn new(
         system: &StatorSystem,
         phase: Phase,
@@ -85,7 +85,7 @@ impl Coupled {
         Ok(coupled)
     }
 
-    /// Goes on from where another one was left.
+    /// Continues from the state in which another one was left.
     pub(crate) fn go_on_from(&mut self, time: PhaseTime, state: StatorState) -> Result<(), Error> {
         (self.start, self.reached, self.ended) = (time, time, time);
         self.engine = StatorEngine::of_state(self.engine.system().clone(), time, state)?;
@@ -99,7 +99,7 @@ impl Coupled {
         self.engine.disk().angular_speed
     }
 
-    /// Where it is at the end of the last window.
+    /// Its state at the end of the last window.
     pub(crate) fn left(&self) -> Left {
         Left::of(&self.engine, self.reached)
     }
@@ -108,17 +108,17 @@ impl Coupled {
         self.repeats
     }
 
-    /// Other members have come to cycles with these touches.
+    /// Registers cycles with these touches that other members have reached.
     pub(crate) fn know(&mut self, cycles: &[&[Key]]) {
         self.recurrence.know(cycles);
     }
 
-    /// How long (rad) it was followed.
+    /// The time (rad) for which it was followed.
     pub(crate) fn followed(&self) -> f64 {
         self.reached.since(&self.start).radians()
     }
 
-    /// The cycle that the motion repeats, if it was found to do so.
+    /// The cycle that the motion repeats, if one was found.
     pub(crate) fn cycle(&mut self, work: &mut WorkCount<'_>) -> Result<Option<Cycle>, Error> {
         let Some(repeats) = self.repeats else { return Ok(None) };
         let mut round = |touches: u64| {
@@ -137,8 +137,8 @@ impl Coupled {
         Ok(Some(Cycle::of_window(window, keys, Repeats { touches, ..repeats })))
     }
 
-    /// The next window: of `duration` rad at least, and of a number of impacts in a range, whatever the duration; up to
-    /// the end of an event. It ends early where the motion is found to repeat itself.
+    /// The next window: at least `duration` rad, and a number of impacts in a range whatever the duration, up
+    /// to the end of an event. It ends early if the motion is found to repeat.
     pub(crate) fn next_window(
         &mut self,
         duration: f64,
@@ -150,7 +150,7 @@ impl Coupled {
         let (before, impacts_before) = (self.recurrences, self.impacts);
         loop {
             let (now, done) = (self.engine.time(), self.recurrences - before);
-            // A rotor that lies on the stator has events of friction only, or none.
+            // A rotor that lies on the stator has friction events only, or no events.
             let lies = self.impacts == impacts_before;
             let lasts = now.order(&end).is_ge() && (lies || done >= *impacts.start());
             if lasts || done >= *impacts.end() {
@@ -172,7 +172,7 @@ impl Coupled {
         }
     }
 
-    /// Goes on to this time.
+    /// Continues to this time.
     fn follow(&mut self, to: &PhaseTime, work: &mut WorkCount<'_>) -> Result<(), Error> {
         while self.advance(to.since(&self.engine.time()).radians(), work)?.is_some() {}
         if let Some(energies) = self.engine.pause_contact(to.since(&self.engine.time()).radians()) {
@@ -182,7 +182,7 @@ impl Coupled {
         Ok(())
     }
 
-    /// The next event within `limit`, if there is one, as a touch or none.
+    /// The next event within `limit`, if any, and whether it is a touch.
     fn advance(&mut self, limit: f64, work: &mut WorkCount<'_>) -> Result<Option<Touch>, Error> {
         work.spend(FLIGHTS_OF_EVENT)?;
         let Some(record) = self.engine.advance_within(limit)? else { return Ok(None) };
@@ -214,7 +214,7 @@ impl Coupled {
         Ok(Some(touch))
     }
 
-    /// The sums since the last window; for a rotor that `lies` for ever periods count as impacts.
+    /// The sums since the last window; for a rotor that `lies` for ever, periods count as impacts.
     fn window(&mut self, lies: bool) -> Window {
         let now = self.totals(&self.reached);
         let before = std::mem::replace(&mut self.before, now);
@@ -248,7 +248,7 @@ impl Coupled {
         Window { axial, rotors: vec![rotor] }
     }
 
-    /// At a time before the next event.
+    /// The sums at a time before the next event.
     fn totals(&self, at: &PhaseTime) -> Totals {
         let span = at.since(&self.engine.time()).radians();
         let state = self.engine.disk_after(span);

@@ -1,4 +1,4 @@
-//! The unstable speed of a rotor under a load that falls with the speed.
+//! The unstable speed of a rotor under a load that decreases with the speed.
 
 use bouncing_disk_core::Observer;
 use bouncing_disk_core::numerics::statistics::NORMAL_975;
@@ -11,20 +11,21 @@ use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::operation::steady_run::operate_for;
 use crate::motor::tape::replay::torque;
 
-/// Share of the distance between two stable speeds next to which no unstable one is sought, and over which the slope is
-/// taken.
+/// Share of the distance between two stable speeds within which no unstable one is sought, and over which the
+/// slope is taken.
 const MARGIN: f64 = 1.0 / 32.0;
 
-/// Share of its standard error within which a speed is found, and most speeds that are tried.
+/// Share of its standard error within which a speed counts as found, and the largest number of speeds tried.
 const FOUND: f64 = 0.25;
 const MOST_STEPS: usize = 40;
 
-/// The speed (rad/s) between two stable ones, the slower first, from which a rotor goes to either. There the motor's torque
-/// rises through the torque of the load. `None` where it is not found, or its interval is wider than the distance of the
-/// two.
+/// The speed (rad/s) between two stable ones, the slower first, from which a rotor moves to either of them.
+/// The motor's torque rises through the load's torque there. `None` if it is not found, or if its interval is
+/// wider than the distance of the two.
 ///
-/// The motor's torque at a speed is the constant load under which a rotor has this mean speed. The law of the load is taken
-/// at the mean speed. The rotor's swing is part of the error, because it carries a rotor across.
+/// The motor's torque at a speed is defined as the constant load under which a rotor has this mean speed. The
+/// law of the load is evaluated at the mean speed. The rotor's swing is part of the error, because it can
+/// carry a rotor across.
 pub(super) fn unstable_speed(
     motor: &LoadedMotor<'_>,
     [slow, fast]: [f64; 2],
@@ -35,16 +36,16 @@ pub(super) fn unstable_speed(
     let bare = motor.stator.without_law()?;
     let unit = motor.system.scales().angular_speed;
     let (mut length, mut swing) = (None, 0.0);
-    // By how much a rotor is faster that has the load of a speed.
+    // The excess speed of a rotor that has the load of a given speed.
     let mut excess = |speed: f64| {
         let load = torque(&law.lines, speed / unit) * motor.torque_unit();
         let loaded = LoadedMotor { stator: &bare, ..*motor }.with_load(load)?;
         let found = operate_for(length, &[loaded], settings, observer)?;
-        // All on one tape, so that their scatter is the same.
+        // All use one tape, so that their scatter is the same.
         length = length.or(Some(found.length));
         let deviation = found.rows[0].point().and_then(|one| one.speed_deviation);
         swing = deviation.map_or(0.0, |deviation| deviation.value);
-        // No load is more than friction gives at a speed that is kept.
+        // No load exceeds the torque that friction gives at a speed that is maintained.
         let free =
             found.rows[0].point().map_or(Estimate { value: slow, standard_error: 0.0 }, |one| one.speed);
         Ok::<_, Error>(Estimate { value: free.value - speed, ..free })
@@ -70,13 +71,13 @@ pub(super) fn unstable_speed(
     }
     let [below, above, at] = [excess(value - apart)?, excess(value + apart)?, excess(value)?];
     let slope = (above.value - below.value) / (2.0 * apart);
-    // Its swing carries a rotor across a speed that is near.
+    // Its swing can carry a rotor across a nearby speed.
     let standard_error = (at.standard_error + at.value.abs() / NORMAL_975) / slope + swing;
     let is_known = slope > 0.0 && NORMAL_975 * standard_error < fast - slow;
     Ok(is_known.then_some(Estimate { value, standard_error }))
 }
 
-/// How near the two speeds must come.
+/// The largest distance at which two speeds count as equal.
 struct Near(f64);
 
 impl Convergency<f64> for Near {

@@ -12,33 +12,33 @@ use crate::parameters::dimensionless::{DimensionlessParameters, DimensionlessSys
 use crate::parameters::system::System;
 use crate::stator::StatorSystem;
 
-/// Relative rounding of a load that was computed from the largest torque of friction in other units: some ten
-/// operations.
+/// Relative rounding of a load that was computed from the largest torque of friction in other units: about
+/// ten operations.
 const LOAD_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// Members of one motor of a search.
+/// Members per motor in a search.
 const FEWEST: usize = 4;
 
-/// A motor under a load, to be carried on a shared vertical motion.
+/// A motor under a load, on a shared vertical motion.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LoadedMotor<'a> {
     /// Rotor, shaft and sine of the sheet.
     pub(crate) system: System,
     /// The largest speeds of the stator.
     pub(crate) fastest: LargestSpeeds,
-    /// The stator; load, friction and phase lag are those of `system`.
+    /// The stator, with load, friction and phase lag of `system`.
     pub(crate) stator: &'a Stator,
     /// Mass m (kg).
     pub(crate) mass: f64,
     /// Load torque T_L (N m) as given, from which the system's load is computed.
     pub(crate) load_torque: f64,
-    /// What is known of the vertical motions, which loads, friction and lag do not change.
+    /// The known vertical motions, which do not depend on load, friction and lag.
     pub(crate) surveyed: Option<&'a Survey>,
-    /// Whether only the motion is wanted that most rotors come to from rest.
+    /// Whether only the motion that most rotors reach from rest is required.
     pub(crate) first_only: bool,
 }
 
-/// The largest speeds of a stator, by which starts and errors are scaled.
+/// The largest speeds of a stator, which set the scale of starts and errors.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct LargestSpeeds {
     /// Of the height (g/omega), and of the angle (g a_e/(a_g^2 omega)).
@@ -49,14 +49,14 @@ pub(crate) struct LargestSpeeds {
 }
 
 impl LargestSpeeds {
-    /// Those of the sine of a system.
+    /// The largest speeds of a system's sine.
     pub(crate) fn of_sine(system: &System) -> Self {
         let own = system.dimensionless();
         let angular_speed = system.platform().peak_angular_speed();
         Self { height: own.peak_acceleration(), angle: own.twist_speed(), angular_speed }
     }
 
-    /// Those of drives on the platform and under the disk of a system.
+    /// The largest speeds of drives for the platform and the disk of a system.
     pub(crate) fn of_drives(system: &System, driven: &DrivenSystem) -> Self {
         let (disk, scales, frequency) =
             (system.disk(), system.scales(), system.platform().angular_frequency());
@@ -73,14 +73,14 @@ impl LargestSpeeds {
 }
 
 impl LoadedMotor<'_> {
-    /// Its numbers without units, with the largest speeds of its stator as those of the sine.
+    /// Its dimensionless parameters, with the largest speeds of its stator in the place of the sine's.
     pub(super) fn dimensionless(&self) -> Result<DimensionlessSystem, Error> {
         let LargestSpeeds { height, angle, .. } = self.fastest;
         let own = self.system.dimensionless().parameters();
         DimensionlessParameters { peak_acceleration: height, twist_speed: angle, ..own }.build()
     }
 
-    /// Its vertical motions; `None` as for [`Survey::of`].
+    /// Its vertical motions; `None` under the same conditions as for [`Survey::of`].
     pub(super) fn survey(&self, seed: u64, watch: &Watch<'_>) -> Result<Option<Survey>, Error> {
         if self.stator.acts_back() {
             return Ok(None);
@@ -105,14 +105,13 @@ impl LoadedMotor<'_> {
         self.turns_by(4.0, speed)
     }
 
-    /// The same for so many standard errors.
+    /// The same for this number of standard errors.
     pub(crate) fn turns_by(&self, errors: f64, speed: Estimate) -> bool {
         let rounding = 1e-6 * self.fastest.angular_speed;
         speed.value.abs() > (errors * speed.standard_error).max(rounding)
     }
 
-    /// Settings for one of many motors among which something is searched: fewer members where each has a motion of its
-    /// own.
+    /// Settings for one of the many motors of a search, with fewer members if each has its own motion.
     pub(crate) fn for_search(&self, settings: &OperatingSettings) -> OperatingSettings {
         let members = if self.stator.acts_back() { FEWEST } else { settings.members };
         OperatingSettings { members: members.min(settings.members), ..*settings }
@@ -130,12 +129,12 @@ impl LoadedMotor<'_> {
         disk.friction() * self.mass * disk.preload_acceleration() * disk.contact_radius()
     }
 
-    /// Its stator, if it yields or the load has a law.
+    /// Its stator, if it is compliant or the load has a law.
     pub(super) fn yielding(&self) -> Option<&StatorSystem> {
         self.stator.yielded()
     }
 
-    /// What the law of the load adds to the load torque; infinite where it depends on the speed.
+    /// The torque that the load's law adds to the load torque; infinite if it depends on the speed.
     pub(super) fn law(&self) -> f64 {
         self.yielding().map_or(0.0, |own| own.constant_law().unwrap_or(f64::INFINITY))
     }
@@ -146,15 +145,15 @@ impl LoadedMotor<'_> {
         law.map_or(self.load_torque, |line| line.torque * self.torque_unit())
     }
 
-    /// Neither load torque nor law.
+    /// Whether there is neither a load torque nor a law.
     pub(super) fn is_unloaded(&self) -> bool {
         self.load() == 0.0 && self.law() == 0.0
     }
 
-    /// The load accelerates it for ever: in units of m g a_e it is above the coefficient of friction, or
-    /// equal to it but for the rounding of the torques in other units. On average the normal force is the
-    /// weight under preload, so that friction gives no more, whatever the motion. Of a load that depends on the speed this
-    /// is not known.
+    /// Whether the load accelerates the rotor for ever: in units of m g a_e it exceeds the coefficient of
+    /// friction, or equals it up to the rounding of the torques in other units. The mean normal force is the
+    /// weight under preload, so friction cannot give more, whatever the motion. For a load that depends on
+    /// the speed this is not known.
     pub(super) fn runs_away(&self) -> bool {
         let system = self.system.dimensionless();
         let load = system.load() + self.law();

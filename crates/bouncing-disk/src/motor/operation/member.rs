@@ -1,4 +1,4 @@
-//! One member of an ensemble: a vertical motion with all rotors on it, in windows of time.
+//! One member of an ensemble: a vertical motion and all rotors on it, in windows of time.
 
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
@@ -25,26 +25,26 @@ use crate::motor::tape::window::Window;
 use crate::parameters::dimensionless::DimensionlessSystem;
 use crate::stator::{MODES, StatorState};
 
-/// An angular speed above which no rotor under a braking load stays, nor comes to: that of the platform, and
-/// what friction brakes in a period. Without friction a rotor keeps its speed, and starts at rest.
+/// An angular speed above which no rotor under a braking load stays or comes: the platform's, plus the
+/// deceleration by friction in a period. Without friction a rotor keeps its speed, and starts at rest.
 pub(crate) fn far_above(system: &DimensionlessSystem) -> f64 {
     far_from(system, 1.0)
 }
 
-/// The same of a rotor with so many times less inertia.
+/// The same for a rotor with `quicker` times less inertia.
 fn far_from(system: &DimensionlessSystem, quicker: f64) -> f64 {
     let friction = quicker * system.friction();
     if friction > 0.0 { system.twist_speed() + TAU * friction } else { 0.0 }
 }
 
-/// A rotor with so many times less inertia than another one shows how much less that one has matters.
+/// Ratio of inertias by which the effect of a reduced inertia is estimated.
 const TWICE: f64 = 2.0;
 
-/// Members are thrown up as fast as the platform moves at most, times this.
+/// Largest throw of members, in units of the platform's largest speed.
 const MOST_THROWN: f64 = 3.0;
 
-/// Every second member starts with a throw or on a held amplitude where that may decide what becomes of it; the others
-/// start from rest.
+/// Whether a member starts with a throw or at a held amplitude, as every second one does where that may
+/// decide the outcome; the others start from rest.
 pub(crate) const fn is_thrown(index: usize) -> bool {
     index % 2 == 1
 }
@@ -52,52 +52,57 @@ pub(crate) const fn is_thrown(index: usize) -> bool {
 /// The root of ten.
 const HALF_DECADE: f64 = 3.162_277_660_168_379_5;
 
-/// Of four members one has a smaller and one a larger perturbation, at either end of a decade: they show what its size
-/// does. The size of this index: 0 for that of the settings, 1 and 2 for the others.
+/// One of four members has a smaller and one a larger perturbation, at either end of a decade, which shows
+/// the effect of its size. Returns the size for this index: 0 for the settings' own, 1 and 2 for the others.
 pub(crate) const fn size_of_perturbation(index: usize) -> usize {
     (index % 4).saturating_sub(1)
 }
 
-/// With fewer members all have the perturbation of the settings: the scatter at one size would not be known.
+/// With fewer members all use the perturbation of the settings, because the scatter at one size would be
+/// unknown.
 pub(crate) const LEAST_FOR_DECADE: usize = 8;
 
-/// Its factor.
+/// The factor of the perturbation.
 fn of_decade(index: usize) -> f64 {
     [1.0, 1.0 / HALF_DECADE, HALF_DECADE][size_of_perturbation(index)]
 }
 
-/// How fast the disk of this index is thrown up, in units of the platform's largest speed; not at all of one that starts
-/// from rest.
+/// The throw of the disk of this index, in units of the platform's largest speed; `None` for a start from
+/// rest.
 pub(crate) fn thrown(index: usize) -> Option<f64> {
     is_thrown(index).then(|| MOST_THROWN * golden_share(index))
 }
 
-/// With so many times the disk's mass for each radian that the stator rings, a run from rest takes too long to settle.
+/// If the stator's mass times its ringing time, relative to the disk's, exceeds this, a run from rest takes
+/// too long to settle.
 const SLOWEST: f64 = 1.0e5;
 
-/// A stator whose amplitude takes longer (rad) to fall by a factor e is not left alone to do so.
+/// If the amplitude of a stator takes longer than this (rad) to fall by a factor e, it is not left to ring
+/// down.
 pub(crate) const LONGEST_DECAY: f64 = 1.0e5;
 
-/// Of a stator with so many times the disk's mass a flight changes the amplitude by less than is stated.
+/// On a stator with this many times the disk's mass a flight changes the amplitude by less than the stated
+/// error.
 const HEAVY: f64 = 100.0;
 
-/// Where members start on a stator that yields.
+/// The starts of members on a compliant stator.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Starts {
     yields: bool,
     /// The stable held amplitudes.
     held: Vec<Held>,
-    /// Whether no member starts on a stator at rest, and whether none starts off the motion of a held amplitude.
+    /// Whether no member starts on a stator at rest or away from the motion of a held amplitude.
     slow: bool,
     rings: bool,
-    /// Whether none starts where the stator is without a rotor: it takes too long to leave that.
+    /// Whether no member starts with the stator's motion without a rotor, which it would take too long to
+    /// leave.
     slowest: bool,
-    /// How far a contact is pressed in by the preload.
+    /// Indentation of a contact by the preload.
     compression: f64,
 }
 
 impl Starts {
-    /// Of this stator; none where it does not yield. Where friction acts back on it no amplitude is held.
+    /// The starts for this stator; empty if it is rigid. If friction acts back on it, no amplitude is held.
     pub(crate) fn new(
         stator: &Stator,
         settings: &OperatingSettings,
@@ -122,21 +127,21 @@ impl Starts {
         self.held.len() > 1
     }
 
-    /// The largest acceleration (g) on a held amplitude: a disk slows the stator down to them.
+    /// The largest acceleration (g) at a held amplitude: a disk slows the stator down to these.
     pub(crate) fn largest(&self) -> Option<f64> {
         self.held.iter().map(|own| own.amplitude).reduce(f64::max)
     }
 
-    /// Whether the member of this index starts with rotor and stator at rest, or on the lowest held amplitude, to which that
-    /// comes.
+    /// Whether the member of this index starts with rotor and stator at rest, or at the lowest held
+    /// amplitude, which such a start reaches.
     pub(crate) const fn is_from_rest(&self, index: usize) -> bool {
         !is_thrown(index) && (index.is_multiple_of(4) || !self.yields || self.slowest)
     }
 
-    /// Where the member of this index and phase starts. Every second one is on each held amplitude in turn, on its motion
-    /// or thrown up. Of the others one half starts with the stator at rest, or where it takes too long to settle from there
-    /// on the lowest amplitude, to which a run from rest comes, too; the other half with the stator as it moves without a
-    /// rotor, unless that takes too long to leave.
+    /// The start of the member with this index and phase. Every second one is at each held amplitude in turn,
+    /// on its motion or thrown up. Half of the others start with the stator at rest; if settling from there
+    /// takes too long, they start at the lowest amplitude, which a run from rest reaches as well. The other
+    /// half start with the stator's motion without a rotor, unless that takes too long to leave.
     pub(crate) fn of(&self, index: usize, phase: Phase) -> Option<(PhaseTime, StatorState)> {
         let (count, share) = (self.held.len(), golden_share(index));
         let (turn, disk) = match (is_thrown(index), index / 2 / count.max(1) % 2) {
@@ -158,7 +163,7 @@ fn at_rest(phase: Phase, compression: f64) -> (PhaseTime, StatorState) {
     (PhaseTime::in_first_period(phase), StatorState { disk, modes: [[0.0; 2]; MODES] })
 }
 
-/// A member of the ensemble: it starts at a phase and with a stream of random numbers of its own.
+/// A member of the ensemble, with its own starting phase and stream of random numbers.
 #[derive(Debug)]
 pub(crate) enum Member {
     /// Rotors on the tape of a vertical motion.
@@ -168,11 +173,11 @@ pub(crate) enum Member {
 }
 
 impl Member {
-    /// The member of this `index` among so many as `settings` says. The first `bracketed` of the systems have
-    /// two rotors, one from far below all steady speeds and one, behind those of all systems, from as far
-    /// above; the others start at rest. Each system has its stator, all of one kind. A rotor on a tape has so many times
-    /// less inertia than its motor (`quicker`); if some have, a third rotor of each of the first systems has half of
-    /// that.
+    /// The member of this `index` among the number that `settings` states. Each of the first `bracketed`
+    /// systems has two rotors, one from far below all steady speeds and one, listed after those of all
+    /// systems, from equally far above; the others start at rest. Each system has its stator, all of one
+    /// kind. A rotor on a tape has `quicker` times less inertia than its motor; if some do, a third rotor for
+    /// each of the first systems has half of that.
     pub(crate) fn new(
         systems: &[DimensionlessSystem],
         stators: &[Stator],
@@ -189,7 +194,7 @@ impl Member {
         if let Stator::Yielding(system) = &stators[0]
             && stators[0].acts_back()
         {
-            // No bound from both sides: each rotor has a vertical motion of its own.
+            // The speed cannot be bracketed, as each rotor has its own vertical motion.
             let speed = if is_thrown(index) { far_above(&systems[0]) } else { 0.0 };
             return Ok(Self::Coupled(Box::new(Coupled::new(system, phase, speed, perturbation)?)));
         }
@@ -215,7 +220,7 @@ impl Member {
         ))))
     }
 
-    /// The same on a motion that is known to repeat itself.
+    /// The same on a motion that is known to repeat.
     pub(crate) fn on(self, repeats: Repeats) -> Self {
         match self {
             Self::Taped(member) => Self::Taped(Box::new(member.on(repeats))),
@@ -223,7 +228,7 @@ impl Member {
         }
     }
 
-    /// What its motion was found to repeat.
+    /// The motion that it was found to repeat.
     pub(crate) const fn repeats(&self) -> Option<Repeats> {
         match self {
             Self::Taped(member) => member.repeats(),
@@ -231,7 +236,7 @@ impl Member {
         }
     }
 
-    /// Other members have come to cycles with these touches.
+    /// Registers cycles with these touches that other members have reached.
     pub(crate) fn know(&mut self, cycles: &[&[Key]]) {
         match self {
             Self::Taped(member) => member.know(cycles),
@@ -239,7 +244,7 @@ impl Member {
         }
     }
 
-    /// The cycle that its motion repeats, if it was found to do so.
+    /// The cycle that its motion repeats, if one was found.
     pub(crate) fn cycle(&mut self, work: &mut WorkCount<'_>) -> Result<Option<Cycle>, Error> {
         match self {
             Self::Taped(member) => member.cycle(work),
@@ -247,7 +252,7 @@ impl Member {
         }
     }
 
-    /// The rotors of a cycle in the order of this member's, whose speeds lie within these sizes.
+    /// The rotors of a cycle in the order of this member's, whose speeds lie within these limits.
     pub(crate) fn on_cycle(&self, cycle: &Cycle, largest: &[f64]) -> [Window; 2] {
         match self {
             Self::Taped(member) => member.on_cycle(cycle, largest),
@@ -255,7 +260,7 @@ impl Member {
         }
     }
 
-    /// How long (rad) it was followed.
+    /// The time (rad) for which it was followed.
     pub(crate) fn followed(&self) -> f64 {
         match self {
             Self::Taped(member) => member.followed,
@@ -263,7 +268,7 @@ impl Member {
         }
     }
 
-    /// Where the disk and a stator that yields are.
+    /// The state of the disk and of a compliant stator.
     pub(crate) fn left(&self) -> Option<Left> {
         match self {
             Self::Taped(member) => member.left(),
@@ -271,7 +276,8 @@ impl Member {
         }
     }
 
-    /// Goes on from a state of disk and stator, such as another member was left in; rotors on a tape keep their speeds.
+    /// Continues from a state of disk and stator, such as the final state of another member; rotors on a tape
+    /// keep their speeds.
     pub(crate) fn go_on_from(&mut self, (time, state): (PhaseTime, StatorState)) -> Result<(), Error> {
         match self {
             Self::Taped(member) => member.go_on_from(time, state),
@@ -279,7 +285,7 @@ impl Member {
         }
     }
 
-    /// Starts from a state of disk and stator, with its rotors at the speeds that they have.
+    /// Starts from a state of disk and stator, with its rotors at their present speeds.
     pub(crate) fn set_off(&mut self, (time, mut state): (PhaseTime, StatorState)) -> Result<(), Error> {
         if let Self::Coupled(member) = self {
             state.disk.angular_speed = member.angular_speed();
@@ -287,8 +293,8 @@ impl Member {
         self.go_on_from((time, state))
     }
 
-    /// The next window: of `duration` rad at least, and of a number of impacts in a range, whatever the
-    /// duration; up to the end of an event. Rotors that never bounce have periods instead of impacts.
+    /// The next window: at least `duration` rad, and a number of impacts in a range whatever the duration, up
+    /// to the end of an event. For rotors that never bounce periods count instead of impacts.
     pub(crate) fn next_window(
         &mut self,
         duration: f64,

@@ -19,7 +19,8 @@ impl LoadedMotor<'static> {
         Ok(Self::on_sine(*motor.rigid_sine()?, motor.mass(), motor.load_torque()))
     }
 
-    /// A rotor of this mass (kg) on a sine, with rigid impacts and a load torque (N m) that the system has, too.
+    /// A rotor of this mass (kg) on a sine, with rigid impacts and a load torque (N m) that equals the
+    /// system's.
     pub(crate) fn on_sine(system: System, mass: f64, load_torque: f64) -> Self {
         let fastest = LargestSpeeds::of_sine(&system);
         Self { system, fastest, stator: &Stator::Sine, mass, load_torque, surveyed: None, first_only: false }
@@ -27,10 +28,10 @@ impl LoadedMotor<'static> {
 }
 
 impl Motor {
-    /// The motor in steady operation under a load torque (N m): in place of that of its data sheet, or on top of the law
-    /// of its table `[load]`.
+    /// The motor in steady operation under a load torque (N m), which replaces its data sheet's or is added
+    /// to the law of its table `[load]`.
     ///
-    /// The items of `observer` are the impacts that may be spent.
+    /// The observer's items are the impacts that may be spent.
     ///
     /// ```
     /// # use bouncing_disk::core::Unobserved;
@@ -53,10 +54,10 @@ impl Motor {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for illegal settings and a load that is not finite; an error of the core for
-    /// more than [`MAX_OPERATED_ROTORS`] rotors of all members together; the errors of the flights. A motor
-    /// that is not known well enough when all impacts are spent is not an error but [`Operation::Unsettled`].
-    /// [`Error::LoadInTime`] for a load that varies in time.
+    /// [`Error::OutOfRange`] for illegal settings and a load that is not finite; [`Error::LoadInTime`] for a
+    /// time-dependent load; an error of the core for more than [`MAX_OPERATED_ROTORS`] rotors of all members
+    /// together; the errors of the flights. A motor that is not known well enough when all impacts are spent
+    /// is not an error but [`Operation::Unsettled`].
     pub fn operating_point(
         &self,
         load_torque: f64,
@@ -64,20 +65,20 @@ impl Motor {
         observer: &dyn Observer,
     ) -> Result<OperatingRow, Error> {
         let mut all = self.torque_speed_curve(&[load_torque], settings, observer)?;
-        // As many as loads.
+        // There are as many results as loads.
         Ok(all.swap_remove(0))
     }
 
     /// The motor in steady operation under each of these load torques (N m), in their order, on one vertical
-    /// motion, so that a curve costs little more than a point unless loads settle slowly. (On a stator that yields or
-    /// moves by waveforms each load has a motion of its own, unless the shape is a sine.) The points share their
-    /// perturbations: the curve is smooth, and the difference of two points is more precise than
-    /// either.
+    /// motion. A curve therefore costs little more than a point unless loads settle slowly. (On a compliant
+    /// stator or one that moves by waveforms each load has its own motion, unless the shape is a sine.) The
+    /// points share their perturbations: the curve is smooth, and the difference of two points is more
+    /// precise than either.
     ///
-    /// The items of `observer` are the impacts that may be spent.
+    /// The observer's items are the impacts that may be spent.
     ///
     /// # Errors
-    /// Those of [`Self::operating_point`]; [`Error::OutOfRange`] for no load.
+    /// The errors of [`Self::operating_point`]; [`Error::OutOfRange`] for no load.
     pub fn torque_speed_curve(
         &self,
         load_torques: &[f64],
@@ -87,14 +88,15 @@ impl Motor {
         curve_of(self.loaded()?, load_torques, settings, observer)
     }
 
-    /// The mean speed without load (rad/s). Its error may be larger than was asked for.
+    /// The mean speed without load (rad/s). Its error may exceed the requested one.
     ///
     /// # Errors
-    /// Those of [`Self::operating_point`]; [`Error::NotSettled`] if it still drifts or depends on the start.
+    /// The errors of [`Self::operating_point`]; [`Error::NotSettled`] if it still drifts or depends on the
+    /// start.
     pub fn no_load_speed(&self, settings: &OperatingSettings) -> Result<Estimate, Error> {
         let bare = self.stator_motion().without_law()?;
         let unloaded = LoadedMotor { stator: &bare, ..self.loaded()? };
-        // As many as loads.
+        // There are as many results as loads.
         match curve_of(unloaded, &[0.0], settings, &Unobserved)?[0].operation() {
             Operation::Steady(point) | Operation::Unsettled(point, Shortfall::Error { .. }) => {
                 Ok(point.speed)
@@ -103,18 +105,19 @@ impl Motor {
                 speed: point.speed.value,
                 standard_error: point.speed.standard_error,
             }),
-            // No load is not above what friction can hold.
+            // A zero load does not exceed the torque that friction can hold.
             Operation::Runaway { load_torque, .. } => Err(Error::Overpowered { load: *load_torque }),
         }
     }
 
     /// The load torque that stops the motor, bracketed: the true stall, without the law of a table `[load]`.
     ///
-    /// The items of `observer` are the impacts that its two searches may spend.
+    /// The observer's items are the impacts that its two searches may spend.
     ///
     /// # Errors
-    /// Those of [`Self::operating_point`]; [`Error::DoesNotTurn`] for a motor that does not turn without
-    /// load, [`Error::NotSettled`] if a speed by which it is judged still drifts after the allowed impacts.
+    /// The errors of [`Self::operating_point`]; [`Error::DoesNotTurn`] for a motor that does not turn without
+    /// load; [`Error::NotSettled`] if a speed on which the result depends still drifts after the allowed
+    /// impacts.
     pub fn stall_load(
         &self,
         settings: &OperatingSettings,
@@ -124,7 +127,7 @@ impl Motor {
         stall_load(&LoadedMotor { stator: &bare, ..self.loaded()? }, settings, observer)
     }
 
-    /// Under the load of its sheet, from where another motor was left, and where it is left.
+    /// The operation under the sheet's load, from the final state of another motor, with its own final state.
     pub(crate) fn continued(
         &self,
         from: Option<&Ends>,
@@ -132,11 +135,11 @@ impl Motor {
         observer: &dyn Observer,
     ) -> Result<(OperatingRow, Option<Ends>), Error> {
         let (mut found, ends) = continued(self.loaded()?, from, settings, observer)?;
-        // As many as motors.
+        // There are as many results as motors.
         Ok((found.rows.swap_remove(0), ends))
     }
 
-    /// For a steady operation, which knows no time.
+    /// For a steady operation, in which time plays no role.
     pub(crate) fn loaded(&self) -> Result<LoadedMotor<'_>, Error> {
         if self.load().is_some_and(|load| load.next_change_after(f64::NEG_INFINITY).is_some()) {
             return Err(Error::LoadInTime);
@@ -172,15 +175,16 @@ fn share_height(one: &Motor, other: &Motor) -> bool {
         }
 }
 
-/// The steady operation of many motors, each under the load of its data sheet, in their order: maps of
-/// efficiency over lag and load, preload and amplitude, or anything else. Consecutive motors with the same
-/// vertical motion (they differ only in load, friction, lag, twist, radii or mass) share one orbit: list them
-/// together. Rotors that act back on their stator are computed one by one.
+/// The steady operation of many motors, each under the load of its data sheet, in their order, for example
+/// for maps of efficiency over lag and load, or preload and amplitude. Consecutive motors with the same
+/// vertical motion (they differ only in load, friction, lag, twist, radii or mass) share one orbit, so list
+/// them together. Rotors that act back on their stator are computed one by one.
 ///
-/// The items of `observer` are the motors.
+/// The observer's items are the motors.
 ///
 /// # Errors
-/// Those of [`Motor::operating_point`]; [`Error::OutOfRange`] for no motor; [`Error::LoadInTime`] for a load that varies in time.
+/// The errors of [`Motor::operating_point`]; [`Error::OutOfRange`] for no motor; [`Error::LoadInTime`] for a
+/// time-dependent load.
 pub fn operations(
     motors: &[Motor],
     settings: &OperatingSettings,
@@ -195,7 +199,7 @@ pub fn operations(
         let loaded: Vec<_> = group.iter().map(Motor::loaded).collect::<Result<_, _>>()?;
         all.extend(operate(&loaded, settings, &observer)?.rows);
     }
-    // Whatever it says, there is nothing left to stop.
+    // The answer does not matter, as nothing is left to stop.
     let _ = observer.observe(Progress { done: total, total });
     Ok(all)
 }
@@ -221,7 +225,7 @@ mod tests {
             panic!("{:?}", curve[3])
         };
         assert!((largest_torque / largest - 1.0).abs() < 1e-12);
-        // Motors that share nothing, between such that do.
+        // Motors that share nothing, between motors that do.
         let other = motor.with(|sheet| sheet.amplitude = Some(1.1e-8)).expect("legal");
         let mixed = operations(
             &[motors[0].clone(), other.clone(), motors[1].clone(), motors[2].clone()],
@@ -237,8 +241,9 @@ mod tests {
         assert!((unloaded.value - speed(&curve[0]).expect("steady")).abs() < 4.0 * unloaded.standard_error);
     }
 
-    /// A motor of 40 kHz with contacts of 0.56 periods is tapped in every period, or flies for thousands of them before it
-    /// is. Small steps of fourth order give the taps 2.97 rad/s, and those of 0.77 periods 3.626.
+    /// A motor of 40 kHz with contacts of 0.56 periods is either tapped in every period, or flies for
+    /// thousands of them first. Integration in small steps of fourth order gives 2.97 rad/s for the taps, and
+    /// 3.626 for those of 0.77 periods.
     #[test]
     fn coexisting_motions_are_branches_and_none_is_averaged() {
         use crate::motor::{AxialMotion, Life, MotorParameters};
@@ -271,7 +276,7 @@ mod tests {
         let soft = wave(19.25).operating_point(0.0, &settings, &Unobserved).expect("no failure");
         let speed = soft.steady().expect("known").speed;
         assert!(soft.branches.len() == 1 && (speed.value - 3.626).abs() < 0.003, "{speed:?}");
-        // A free rotor stops under another load than the torque on one that is held.
+        // A free rotor stops under a load other than the torque on a blocked one.
         let stall = wave(14.0).stall_load(&settings, &Unobserved).expect("it turns");
         assert_eq!(stall.others.len(), 1);
         for own in [&stall, &stall.others[0]] {

@@ -13,14 +13,15 @@ use crate::statistics::student_quantile;
 pub struct Estimate {
     /// The estimate.
     pub value: f64,
-    /// Its standard error, half of its 95 % interval over 1.96: it covers the scatter over a few members
-    /// (Student's distribution) and, for a mean over time, a bound on the rest of the start-up. For the speed of a
-    /// motor whose stator has kinks it also covers the members, where each start has a speed of its own.
+    /// Its standard error, defined as half of its 95 % interval divided by 1.96. It covers the scatter over a
+    /// few members (Student's distribution) and, for a mean over time, a bound on the remainder of the
+    /// start-up. For the speed of a motor whose stator has kinks it also covers the differences between
+    /// members, because each start has its own speed there.
     pub standard_error: f64,
 }
 
 impl Estimate {
-    /// In another unit, so many of which are one of this.
+    /// In another unit, `factor` of which make one of this unit.
     pub(crate) fn times(self, factor: f64) -> Self {
         Self { value: factor * self.value, standard_error: factor * self.standard_error }
     }
@@ -32,8 +33,8 @@ impl Estimate {
         Ok(Self { value, standard_error: not_negative("standard_error", standard_error)? })
     }
 
-    /// The mean of the values of members with perturbations of three sizes, with the scatter about the mean of each size as
-    /// its error.
+    /// The mean of the values of members with perturbations of three sizes; the error is the scatter about
+    /// the mean of each size.
     pub(crate) fn of_decade(values: &[f64]) -> Result<Self, Error> {
         let sizes = by_perturbation(values);
         let (count, squares) = (values.len() as f64, sizes.iter().map(|own| squares_about_mean(own)));
@@ -48,8 +49,7 @@ impl Estimate {
         Self { standard_error: self.standard_error + bias / NORMAL_975, ..self }
     }
 
-    /// The ratio of two means, with the error of their ratio to first order; `None` where the divisor is not
-    /// positive.
+    /// The ratio of two means, with its error to first order; `None` if the divisor is not positive.
     pub(crate) fn of_ratio(dividends: &[f64], divisors: &[f64]) -> Option<Self> {
         let divisor = mean(divisors);
         let value = mean(dividends) / divisor;
@@ -63,13 +63,14 @@ impl Estimate {
     }
 }
 
-/// The standard error of the mean of independent values, so that 1.96 of it are Student's 95 % interval.
+/// The standard error of the mean of independent values, such that 1.96 times this is Student's 95 %
+/// interval.
 pub(crate) fn error_of_mean(values: &[f64]) -> f64 {
     let size = values.len() as f64;
     standard_deviation(values) / size.sqrt() * (student_quantile(size - 1.0) / NORMAL_975)
 }
 
-/// The values of members by the size of their perturbation.
+/// The values of members, grouped by the size of their perturbation.
 pub(crate) fn by_perturbation(values: &[f64]) -> [Vec<f64>; 3] {
     [0, 1, 2].map(|size| {
         let own = values.iter().enumerate().filter(|(index, _)| size_of_perturbation(*index) == size);
@@ -87,78 +88,80 @@ fn is_zero(value: &f64) -> bool {
     *value == 0.0
 }
 
-/// How the rotor moves up and down in a steady operation.
+/// The vertical motion of the rotor in a steady operation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub enum AxialMotion {
-    /// It was not found to repeat itself: means are over time and over an ensemble.
+    /// It was not found to repeat: means are over time and over an ensemble.
     Irregular {
-        /// How long it lasts.
+        /// Its life.
         life: Life,
     },
-    /// It repeats itself, and so does the rotor: means are over one cycle.
+    /// It repeats, and so does the rotor: means are over one cycle.
     Periodic {
         /// Periods of the drive.
         periods: u64,
-        /// Impacts in a cycle.
+        /// Impacts per cycle.
         impacts: u64,
     },
     /// The rotor stays on the stator.
     Contact,
 }
 
-/// How long an irregular motion lasts before it becomes another one.
+/// The time after which an irregular motion changes to another one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub enum Life {
-    /// The mean (s): some were seen to end.
+    /// The mean life (s), from motions that were seen to end.
     Mean(Estimate),
-    /// None was seen to end in this time (s), the longest for which one was watched.
+    /// No motion was seen to end within this time (s), the longest for which one was observed.
     NoneEndedIn(f64),
 }
 
 /// A motor in steady operation. All numbers are means over time and over the members of one ensemble of runs.
 ///
-/// Energy is balanced: the input of the platform and the perturbation equals the mechanical power, the two
-/// losses and the energy stored by the disk.
+/// Energy is balanced: the input of platform and perturbation equals the mechanical power, the two losses and
+/// the energy stored by the disk.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct OperatingPoint {
-    /// Load torque T_L (N m); a positive one decelerates a positive rotation. Under a law of the load that depends on the
-    /// speed it is the mean of the torque that the load took.
+    /// Load torque T_L (N m); a positive one decelerates a positive rotation. For a load that depends on the
+    /// speed it is the mean torque.
     pub load_torque: f64,
-    /// Its standard error; none of a constant torque.
+    /// Its standard error; `None` for a constant torque.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "is_zero"))]
     pub load_torque_error: f64,
-    /// How the rotor moves up and down.
+    /// The vertical motion of the rotor.
     pub motion: AxialMotion,
     /// Mean angular speed (rad/s).
     pub speed: Estimate,
     /// Standard deviation of the speed over time (rad/s); `None` for a rotor that acts back on its stator.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub speed_deviation: Option<Estimate>,
-    /// Between which speeds (rad/s) the rotor is in 95 % of the time, and always where its motion repeats itself; `None` for
+    /// The speed range (rad/s) of the rotor: 95 % of the time, or all of it if its motion repeats; `None` for
     /// a rotor that acts back on its stator.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub speed_range: Option<[Estimate; 2]>,
-    /// Time constant (s) of the speed, from the slope of the torque-speed curve: the moment of inertia times the change of
-    /// the speed with the load, up to the nearest other load of the same run. `None` without another load that brings
-    /// another speed, as of a locked motor, and for a rotor that acts back on its stator.
+    /// Time constant (s) of the speed, from the slope of the torque-speed curve: the moment of inertia times
+    /// the change of the speed with the load, up to the nearest other load of the same run. `None` without
+    /// another load with a different speed, as for a locked motor, and for a rotor that acts back on its
+    /// stator.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub time_constant: Option<Estimate>,
-    /// Under a load that falls with the speed, where the rotor keeps one of two speeds: that between them (rad/s) beyond
-    /// which it goes to the other.
+    /// Under a load that decreases with the speed, if the rotor keeps one of two speeds: the speed between
+    /// them (rad/s) beyond which it changes to the other.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub unstable_speed: Option<Estimate>,
-    /// Mean torque (N m) of friction on a rotor that is held at rest; `None` for a rotor that acts back on its stator.
+    /// Mean torque (N m) of friction on a rotor that is held at rest; `None` for a rotor that acts back on
+    /// its stator.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub blocked_torque: Option<Estimate>,
-    /// Mechanical power, the mean of load torque times speed (W); negative where the load drives the motor.
+    /// Mechanical power, the mean of load torque times speed (W); negative if the load drives the motor.
     pub mechanical_power: Estimate,
     /// Power that the platform puts in by normal forces and by friction (W).
     pub input_power: Estimate,
@@ -166,13 +169,14 @@ pub struct OperatingPoint {
     pub restitution_loss: Estimate,
     /// Power lost in friction (W).
     pub friction_loss: Estimate,
-    /// Mechanical power over the power put in; `None` where no power is put in, or the load drives the motor.
+    /// Mechanical power divided by the input power; `None` if there is no input power, or the load drives the
+    /// motor.
     pub efficiency: Option<Estimate>,
-    /// Power that the perturbations of the relaunches put in (W): it does not belong to the motor, and must
+    /// Power supplied by the perturbations of the relaunches (W). It does not belong to the motor, and must
     /// be small.
     pub perturbation_power: f64,
-    /// Residual of the energy balance of all runs, relative to the energy put in, or to that of a disk that
-    /// moves with the platform if that is more: zero but for rounding.
+    /// Residual of the energy balance of all runs, relative to the energy supplied, or to the energy of a
+    /// disk that moves with the platform if that is more: zero up to rounding.
     pub energy_residual: f64,
     /// Averaged time, of all members together (s).
     pub averaged_time: f64,
@@ -180,26 +184,26 @@ pub struct OperatingPoint {
     pub start_up: f64,
     /// Impacts of all members together, without those of summed chattering sequences and of the start-up.
     pub impacts: u64,
-    /// Of a stator that yields.
+    /// Additional quantities for a compliant stator.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub stator: Option<StatorPoint>,
 }
 
-/// What a stator that yields does under a motor in steady operation.
+/// The state of a compliant stator under a motor in steady operation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct StatorPoint {
-    /// Amplitude of the axial mode under load (m): 2^(1/2) times the root mean square of its speed over the angular
-    /// frequency of the drive, which is that of the sine that loses as much in its damping. A static sag is not in it;
-    /// what does not move at the frequency of the drive counts by its speed.
+    /// Amplitude of the axial mode under load (m): 2^(1/2) times the root mean square of its speed divided by
+    /// the angular frequency of the drive. A sine of this amplitude loses as much in its damping. A static
+    /// sag is not included; motions at other frequencies count by their speed.
     pub amplitude: Estimate,
-    /// Power that the drive puts into the modes, and into a twist that is prescribed (W): in volts, the real part of
-    /// voltage times current.
+    /// Power that the drive supplies to the modes, and to a prescribed twist (W): for a drive in volts, the
+    /// real part of voltage times current.
     pub drive_power: Estimate,
     /// Power lost in the damping of the modes (W).
     pub damping_loss: Estimate,
-    /// Mechanical power over the power of the drive; `None` where the load drives the motor.
+    /// Mechanical power divided by the drive's power; `None` if the load drives the motor.
     pub efficiency: Option<Estimate>,
 }
 
@@ -216,27 +220,27 @@ pub enum Shortfall {
         /// The requested error (rad/s).
         wanted: f64,
     },
-    /// The speed still drifts: the early part of the average differs from the late one, or it depends on the
-    /// speed at the start. Or the amplitude of a stator that yields does.
+    /// The speed, or the amplitude of a compliant stator, still drifts: the early part of the average differs
+    /// from the late one, or it depends on the initial speed.
     Drift {
-        /// The late mean minus the early one (rad/s), or by how much rotors that started from far above are
-        /// still faster; of an amplitude, as if the speed were proportional to it.
+        /// The late mean minus the early one (rad/s), or the excess speed of rotors that started from far
+        /// above; for an amplitude, as if the speed were proportional to it.
         drift: f64,
         /// The standard error of this difference (rad/s).
         standard_error: f64,
     },
-    /// Each start keeps a speed of its own, as on some stators with kinks: there is no one steady speed.
+    /// Each start keeps its own speed, as on some stators with kinks: there is no unique steady speed.
     Start {
-        /// The largest difference (rad/s) of the speed from one start and the mean over starts.
+        /// The largest difference (rad/s) between the speed from one start and the mean over starts.
         spread: f64,
         /// The standard error of the mean over starts (rad/s).
         standard_error: f64,
     },
-    /// The disk still stores energy: the input power is not equal to output and losses.
+    /// The disk still stores energy: the input power does not equal output and losses.
     PowerBalance {
         /// The power that is stored (W); negative if the disk returns it.
         stored_power: f64,
-        /// The power that is put in (W).
+        /// The input power (W).
         input_power: f64,
     },
 }
@@ -247,18 +251,19 @@ pub enum Shortfall {
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub enum Operation {
-    /// It turns steadily, known to the requested accuracy.
+    /// It turns steadily, and its speed is known to the requested accuracy.
     Steady(OperatingPoint),
-    /// The motor was not followed for long enough: the operating point as far as it is known, and what it
-    /// lacks.
+    /// The motor was not followed for long enough: the operating point as far as it is known, and the
+    /// shortfall.
     Unsettled(OperatingPoint, Shortfall),
-    /// The load overpowers the motor: it is accelerated for ever, and has no mean speed.
+    /// The load overpowers the motor, which is accelerated for ever and has no mean speed.
     Runaway {
         /// Load torque T_L (N m).
         load_torque: f64,
         /// The largest torque mu m g a_e that friction can give on average (N m), whatever the motion.
         largest_torque: f64,
-        /// The acceleration (rad/s^2) to which it tends, by the part of the load that friction cannot hold.
+        /// The acceleration (rad/s^2) to which it tends, due to the part of the load that friction cannot
+        /// hold.
         acceleration: f64,
     },
 }
@@ -280,7 +285,7 @@ impl Operation {
         }
     }
 
-    /// The operating point, however well it is known; `None` for a runaway, which has none.
+    /// The operating point, however well it is known; `None` for a runaway.
     #[must_use]
     pub const fn point(&self) -> Option<&OperatingPoint> {
         match self {
@@ -301,13 +306,13 @@ impl Operation {
 
 /// A motor under a load: its operation, and those that coexist with it.
 ///
-/// Most motors have one. With contacts of about half a period, or on a stator that yields, the rotor may move up and
-/// down in more than one way, and turns at another speed in each; which one comes is decided by the start.
+/// Most motors have one. With contacts of about half a period, or on a compliant stator, the rotor may have
+/// several vertical motions, each with another speed; the start decides which one is reached.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct OperatingRow {
-    /// At least one: the first is where most rotors are that started from rest.
+    /// At least one; the first is the one that most rotors reach from rest.
     pub branches: Vec<Operation>,
 }
 
@@ -318,8 +323,8 @@ impl OperatingRow {
         &self.branches[0]
     }
 
-    /// Whether a rotor that starts from rest turns against its load in the end; without a load, whether it turns. `None`
-    /// where the errors do not decide it.
+    /// Whether a rotor that starts from rest finally turns against its load; without a load, whether it
+    /// turns. `None` if the errors do not decide it.
     #[must_use]
     pub fn starts(&self) -> Option<bool> {
         let Some(point) = self.point() else { return Some(false) };

@@ -1,29 +1,28 @@
-//! Settings of a steady operation: how accurate the mean speed must be, and how much it may cost.
+//! Settings of a steady operation: the required accuracy of the mean speed, and the largest cost.
 
 use bouncing_disk_core::read_checked;
 
 use crate::error::{Error, check};
 
-/// Least and most members of an ensemble, each with a vertical motion of its own. With fewer than four the
-/// standard error would itself be too uncertain.
+/// Allowed numbers of members of an ensemble, each with its own vertical motion. With fewer than four the
+/// standard error itself would be too uncertain.
 const MEMBERS: std::ops::RangeInclusive<usize> = 4..=4096;
 
-/// How a steady operation is computed.
+/// Settings for computing a steady operation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedSettings"))]
 pub struct OperatingSettings {
-    /// The requested standard error of the mean speed, as a share of the motor's speed without load, or of its own if that
-    /// is larger, in [1e-6, 0.5]. Default 0.01.
+    /// The requested standard error of the mean speed, as a share of the motor's speed without load, or of
+    /// its own if that is larger, in [1e-6, 0.5]. Default 0.01.
     ///
     /// Motors that are computed together on one vertical motion have one reference speed: the largest speed
-    /// of those without load, or, if all have a load, the speed of the first one without its load; a law of
-    /// the load (table `[load]`) is a load. The
-    /// reference is never below a hundredth of the platform's largest angular speed, nor below a hundredth of
-    /// the change of speed that friction makes in a radian of phase; otherwise a motor that hardly turns
-    /// would never be finished.
+    /// of the unloaded ones or, if all have a load, the speed of the first one without its load; a law of the
+    /// load (table `[load]`) counts as a load. The reference is never below a hundredth of the platform's
+    /// largest angular speed, nor below a hundredth of the change of speed that friction causes in a radian
+    /// of phase; otherwise a motor that hardly turns would never finish.
     pub relative_error: f64,
-    /// Members of the ensemble, each with a vertical motion of its own, in [4, 4096]. Default 16.
+    /// Members of the ensemble, each with its own vertical motion, in [4, 4096]. Default 16.
     pub members: usize,
     /// Most impacts of all members together, in [1, 1e15]; for a rotor that never bounces, most periods. If
     /// they are used up before the requested error is reached, the result is

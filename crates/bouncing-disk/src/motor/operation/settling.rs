@@ -1,38 +1,39 @@
-//! When a mean over windows is steady, and how well it is known: judged by the spread over independent
-//! members, and by what still depends on the start.
+//! Judges whether a mean over windows is steady, and how well it is known, from the spread over independent
+//! members and the remaining dependence on the start.
 
 use bouncing_disk_core::numerics::statistics::{NORMAL_975, mean, standard_deviation};
 
 use crate::motor::operation::point::{Estimate, Shortfall, error_of_mean};
 
-/// A drift is significant beyond so many of its standard errors, however large the requested error: no bound
-/// covers a vertical motion that still changes. A drift has about twice the standard error of the mean. With
-/// 15 degrees of freedom chance gives a significant drift in one of 20 tests; the motor is then only followed
-/// for longer.
+/// A drift is significant beyond this number of its standard errors, however large the requested error: no
+/// bound covers a vertical motion that still changes. A drift has about twice the standard error of the mean.
+/// With 15 degrees of freedom chance gives a significant drift in one of 20 tests; the motor is then only
+/// followed for longer.
 const DRIFT: f64 = NORMAL_975;
 
-/// Motors that lock on one motion have next to no scatter, and the remainder of their start-up decays for
+/// Motors that lock on one motion have almost no scatter, and the remainder of their start-up decays for
 /// ever. A drift below this share of the requested error is ignored.
 const NEGLIGIBLE: f64 = 1e-3;
 
-/// Parts of the windows: the first is always omitted as start-up.
+/// Parts of the windows, the first of which is always omitted as start-up.
 const PARTS: usize = 3;
 
-/// Where the means of members differ by so many times what the scatter of their own windows explains, the start
-/// decides on them. Windows that follow one another may be alike, which that scatter does not show.
+/// If the means of members differ by this many times the amount that the scatter of their own windows
+/// explains, they depend on the start. Successive windows may be correlated, which that scatter does not
+/// show.
 const DECIDED: f64 = 5.0;
 
-/// The number of windows, of so many, that are omitted.
+/// The number of windows that are omitted from a total.
 pub(crate) const fn left_out(windows: usize) -> usize {
     windows / PARTS
 }
 
-/// Mean speeds of windows in order of time, `[member][window]` without the start-up.
+/// Mean speeds of windows in order of time, `[member][window]`, without the start-up.
 pub(crate) type Speeds = [Vec<f64>];
 
-/// The mean speed in the middle of rotors that started from far below and far above on the same vertical
-/// motions, with a bound of its bias by those from above: a rotor never overtakes another one, and steady
-/// ones are between them. `None` if it is not finite.
+/// The mean speed midway between rotors that started from far below and far above on the same vertical
+/// motions, with a bound of its bias from those above: rotors never overtake each other, so steady ones are
+/// between them. `None` if it is not finite.
 fn steady_speed(middle: &Speeds, above: &Speeds, are_perturbed: bool) -> Option<Estimate> {
     let of = |speeds: &Speeds| {
         let means: Vec<f64> = speeds.iter().map(|windows| mean(windows)).collect();
@@ -41,8 +42,8 @@ fn steady_speed(middle: &Speeds, above: &Speeds, are_perturbed: bool) -> Option<
     Some(of(middle).ok()?.bounded_by(of(above).ok()?))
 }
 
-/// By how much the mean of a member differs most from the mean of all, if its start decides on it; `None` if the scatter
-/// in time explains the differences.
+/// The largest difference between the mean of a member and the overall mean, if it is decided by the start;
+/// `None` if the scatter in time explains the differences.
 pub(crate) fn decided_by_start(speeds: &Speeds) -> Option<f64> {
     let means: Vec<f64> = speeds.iter().map(|windows| mean(windows)).collect();
     let own = |windows: &Vec<f64>| {
@@ -55,8 +56,8 @@ pub(crate) fn decided_by_start(speeds: &Speeds) -> Option<f64> {
     (between > DECIDED * explained).then_some(most)
 }
 
-/// By how much the late part of what windows state differs from the early one, and the standard error of that, if it is
-/// significant: what is stated then still drifts.
+/// The difference between the late and the early part of the windows' values, with its standard error, if it
+/// is significant: the value then still drifts.
 pub(crate) fn drift(stated: &Speeds, wanted: f64) -> Option<(f64, f64)> {
     let drifts: Vec<f64> = stated
         .iter()
@@ -71,9 +72,9 @@ pub(crate) fn drift(stated: &Speeds, wanted: f64) -> Option<(f64, f64)> {
     is_significant.then_some((drift, standard_error))
 }
 
-/// Judges the mean speed of windows: `None` if it is steady, its standard error at most `wanted`, and no more
-/// of this a bound of the start-up than scatter. Where members have perturbations of two sizes the scatter is that about
-/// the mean of each size.
+/// Judges the mean speed of windows: `None` if it is steady, its standard error is at most `wanted`, and the
+/// bound of the start-up contributes no more to it than scatter. If members have perturbations of different
+/// sizes, the scatter is about the mean of each size.
 pub(crate) fn shortfall(
     middle: &Speeds,
     above: &Speeds,
@@ -113,7 +114,7 @@ mod tests {
             .collect()
     }
 
-    /// Of rotors that have met.
+    /// For rotors that have met.
     fn alone(speeds: &Speeds, wanted: f64) -> Option<Shortfall> {
         shortfall(speeds, speeds, false, wanted)
     }
@@ -121,7 +122,7 @@ mod tests {
     #[test]
     fn steady_means_are_judged_by_their_errors() {
         let speeds = noisy(16, 12, |_| 5.0);
-        // The deviation of a mean of 12 x 16 evenly distributed numbers.
+        // The deviation of a mean of 12 x 16 uniformly distributed numbers.
         let error = (1.0_f64 / 12.0 / 192.0).sqrt();
         assert_eq!(alone(&speeds, 2.0 * error), None);
         let Some(Shortfall::Error { standard_error, .. }) = alone(&speeds, 0.3 * error) else {
@@ -136,12 +137,12 @@ mod tests {
         for wanted in [0.1, 100.0] {
             assert!(matches!(alone(&speeds, wanted), Some(Shortfall::Drift { .. })), "{wanted}");
         }
-        // A drift that is lost in the scatter is not significant.
+        // A drift hidden by the scatter is not significant.
         assert_eq!(alone(&noisy(16, 12, |window| 1e-4 * window), 0.1), None);
     }
 
-    /// The scatter does not contain the remainder of the start-up: a large one is awaited, a small one added
-    /// to the error.
+    /// The scatter does not contain the remainder of the start-up: if large, it must be awaited; if small, it
+    /// is added to the error.
     #[test]
     fn what_depends_on_the_start_is_no_part_of_a_steady_mean() {
         let (below, above) = (noisy(16, 12, |_| 5.0), noisy(16, 12, |_| 5.3));
@@ -156,7 +157,7 @@ mod tests {
         assert!((error(&near) - error(&below) - 0.01 / NORMAL_975).abs() < 1e-12);
     }
 
-    /// Members that keep speeds of their own differ by much more than their windows do.
+    /// Members that keep their own speeds differ by much more than their windows do.
     #[test]
     fn starts_that_decide_on_the_speed_are_seen() {
         let speeds = noisy(16, 12, |_| 5.0);
@@ -177,7 +178,7 @@ mod tests {
     fn motions_without_spread_are_steady_only_if_they_do_not_change() {
         assert_eq!(alone(&vec![vec![1.0; 6]; 4], 1e-9), None);
         let drifting: Vec<f64> = (0..6).map(f64::from).collect();
-        // The early third of six windows has 0 and 1, the rest 2 to 5: a drift of 3.
+        // The early third of six windows is 0 and 1, the rest 2 to 5: a drift of 3.
         for (wanted, drifts) in [(1e-9, true), (2.9e3, true), (3.1e3, false)] {
             let shortfall = alone(&vec![drifting.clone(); 4], wanted);
             assert_eq!(matches!(shortfall, Some(Shortfall::Drift { .. })), drifts, "{wanted}");

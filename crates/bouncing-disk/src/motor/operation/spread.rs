@@ -1,12 +1,12 @@
 //! The spread of a speed or a stall load over the tolerances of the inputs.
 //!
-//! Preload and amplitude of a motor are known to about a per cent, and its response to them is rough: it is
-//! trapped at one value and free at the next. Random draws show this, derivatives do not
+//! Preload and amplitude of a motor are known to about one per cent, and its response to them is rough: it is
+//! trapped at one value and free at the next. Random samples show this, derivatives do not
 //! (docs/numerics-dynamics.md, "The spread over the tolerances of the inputs").
 //!
-//! With 16 members of the motor itself, the 39 samples make a run as long as six operating points. The stall load of
-//! a sample is the zero of a straight line between two of 31 loads from -15/16 to 15/16 of mu m g a_e, because nearer
-//! to the full torque rotors settle slowly; the line is off by a thousandth of the load.
+//! With 16 members of the motor itself, the 39 samples make a run as long as six operating points. The stall
+//! load of a sample is the zero of a straight line between two of 31 loads from -15/16 to 15/16 of mu m g
+//! a_e, because nearer to the full torque rotors settle slowly; the line is off by a thousandth of the load.
 
 use std::f64::consts::LN_10;
 
@@ -23,34 +23,34 @@ use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::operation::stall_load::stall_share;
 use crate::motor::operation::steady_run::{Operations, operate, operate_for};
 
-/// Members of a drawn motor: the fewest that have a scatter, which is then pooled over all draws. Each member
-/// runs as long as one of the motor itself. No run ends because its own error looks small, so the errors are
-/// unbiased.
+/// Members of a sampled motor: the fewest that have a scatter, which is then pooled over all samples. Each
+/// member runs as long as one of the motor itself. No run ends because its own error looks small, so the
+/// errors are unbiased.
 const MEMBERS_OF_DRAW: usize = 2;
 
-/// Steps of the load from zero to the largest mean torque of friction, for the stall of a drawn motor.
+/// Steps of the load from zero to the largest mean torque of friction, for the stall of a sampled motor.
 const STALL_STEPS: usize = 16;
 
-/// Loads as shares of that torque. A run in which the motor itself becomes steady under them is long enough
-/// to find the stall of a drawn one.
+/// Loads as shares of that torque. A run in which the motor itself becomes steady under these is long enough
+/// to find the stall of a sampled one.
 const STEADY_UNDER: [f64; 3] = [-0.5, 0.0, 0.5];
 
-/// Number of the first stream of random numbers of the draws: beyond the streams of any members.
+/// Index of the first stream of random numbers for the samples, beyond the streams of any members.
 const FIRST_STREAM: u64 = 1 << 32;
 
-/// How well the inputs of a motor are known, and how many motors are drawn within these tolerances.
+/// The tolerances of a motor's inputs, and the number of motors that are sampled within them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct InputTolerance {
-    /// Relative tolerance of the preload, in [0, 0.5]: the draws lie evenly within it on either side. Default
-    /// 0.01.
+    /// Relative tolerance of the preload, in [0, 0.5]: the samples are spread evenly within it on either
+    /// side. Default 0.01.
     pub preload: f64,
     /// Relative tolerance of the axial amplitude, in [0, 0.5], likewise. Default 0.01.
     pub amplitude: f64,
-    /// Decades over which the size of the relaunch perturbation is drawn, evenly in its logarithm and centred
-    /// on that of the settings, in [0, 6]: its true size is unknown. Default 1.
+    /// Decades of the relaunch perturbation, whose true size is unknown, in [0, 6]: it is sampled uniformly
+    /// in its logarithm, centred on the settings' value. Default 1.
     pub perturbation_decades: f64,
-    /// Motors that are drawn, in [8, 10000]. Default 39: a further draw then lies in their range with a
+    /// Number of sampled motors, in [8, 10000]. Default 39: a further sample then lies in their range with a
     /// probability of 38/40.
     pub draws: usize,
 }
@@ -72,7 +72,7 @@ impl InputTolerance {
         within_limit("draws", draws, 10_000)
     }
 
-    /// The motor and the settings of a draw.
+    /// The motor and the settings of a sample.
     fn drawn(
         &self,
         motor: &Motor,
@@ -108,30 +108,30 @@ impl InputTolerance {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct InputSpread {
-    /// The mean over the draws, with its standard error.
+    /// The mean over the samples, with its standard error.
     pub mean: Estimate,
-    /// The standard deviation over the draws, from which their statistical errors are subtracted in
-    /// quadrature, with its own standard error. It is zero if those errors explain all of the scatter.
+    /// The standard deviation over the samples, with their statistical errors subtracted in quadrature, and
+    /// its own standard error. It is zero if those errors explain all of the scatter.
     pub standard_deviation: Estimate,
-    /// The smallest and the largest value of the draws, drawn in towards the mean to take away the widening
-    /// by statistical errors. With n draws, a further one lies between them with the probability (n - 1)/(n +
+    /// The smallest and the largest value of the samples, moved towards the mean to remove the widening by
+    /// statistical errors. With n samples, a further one lies between them with the probability (n - 1)/(n +
     /// 1), 95 % for 39.
     pub from_to: [f64; 2],
-    /// The same without the smallest and the largest draw, so that one locked motor does not stretch it: a further draw lies
-    /// between them with the probability (n - 3)/(n + 1), 90 % for 39.
+    /// The same without the smallest and the largest sample, so that one locked motor does not stretch it: a
+    /// further sample lies between them with the probability (n - 3)/(n + 1), 90 % for 39.
     pub most_from_to: [f64; 2],
-    /// Draws that have a value, over which these statistics are taken.
+    /// Number of samples that have a value, over which these statistics are taken.
     pub draws: usize,
-    /// Draws that have no value, because the load overpowers the motor.
+    /// Number of samples without a value, because the load overpowers the motor.
     pub without: usize,
-    /// Of the draws with a value, those whose runs may still contain more of the start-up than the standard
+    /// Number of samples with a value whose runs may still contain more of the start-up than the standard
     /// deviation. They are included unchanged.
     pub unsettled: usize,
-    /// Of all draws, those in a low-period trap ([`TrapVerdict`](crate::motor::TrapVerdict)).
+    /// Number of all samples in a low-period trap ([`TrapVerdict`](crate::motor::TrapVerdict)).
     pub trapped: usize,
 }
 
-/// The speed or stall load of a drawn motor.
+/// The speed or stall load of a sampled motor.
 #[derive(Debug, Clone, Copy)]
 struct Drawn {
     value: f64,
@@ -142,7 +142,7 @@ struct Drawn {
 }
 
 impl Drawn {
-    /// The mean of the members, and of their rotors from above.
+    /// The value from the members, and from their rotors from above.
     fn of(members: &[f64], above: &[f64]) -> Self {
         let (value, deviation) = (mean(members), standard_deviation(members));
         Self {
@@ -154,7 +154,7 @@ impl Drawn {
 }
 
 impl InputSpread {
-    /// Of independent draws; `None` of fewer than four.
+    /// The spread of independent samples; `None` for fewer than four.
     fn of(draws: &[Option<Drawn>], trapped: usize) -> Result<Option<Self>, Error> {
         let known: Vec<Drawn> = draws.iter().copied().flatten().collect();
         if known.len() < 4 {
@@ -163,7 +163,7 @@ impl InputSpread {
         let values: Vec<f64> = known.iter().map(|draw| draw.value).collect();
         let centre = Estimate::of(&values)?;
         let count = known.len() as f64;
-        // The mean of these is the variance over the inputs, without bias.
+        // The mean of these is an unbiased estimate of the variance over the inputs.
         let excess: Vec<f64> = known
             .iter()
             .map(|draw| {
@@ -174,13 +174,13 @@ impl InputSpread {
         let variance = mean(&excess).max(0.0);
         let uncertain = standard_deviation(&excess) / count.sqrt();
         let deviation = variance.sqrt();
-        // The variance is what is known with an error; its root is less well known downwards.
+        // The variance is known with an error; its root is known less well downwards.
         let most = (variance + uncertain).sqrt();
         let least = (variance - uncertain).max(0.0).sqrt();
         let standard_error = (most - deviation).max(deviation - least);
         let observed = standard_deviation(&values);
-        // The largest deviation within its error, not the deviation itself: an unresolved spread must not
-        // shrink to a point.
+        // Use the largest deviation within its error rather than the deviation itself, so that an unresolved
+        // spread does not shrink to a point.
         let real = if observed > 0.0 { (most / observed).min(1.0) } else { 0.0 };
         let at = |value: f64| centre.value + real * (value - centre.value);
         let mut values = values;
@@ -201,11 +201,11 @@ impl InputSpread {
 
 impl Motor {
     /// The spread of the mean speed (rad/s) under each of these load torques (N m) over the tolerances of the
-    /// inputs, to state beside the errors of [`Self::torque_speed_curve`] with the same settings. `None`
-    /// where fewer than four draws have a speed. All loads of a draw share one vertical motion, and a draw
-    /// costs an eighth of a curve of 16 members: all cost about six curves.
+    /// inputs, to be stated together with the errors of [`Self::torque_speed_curve`] with the same settings.
+    /// `None` if fewer than four samples have a speed. All loads of a sample share one vertical motion. A
+    /// sample costs an eighth of a curve of 16 members, and all together cost about six curves.
     ///
-    /// The items of `observer` are the draws.
+    /// The observer's items are the samples.
     ///
     /// ```
     /// # use bouncing_disk::core::Unobserved;
@@ -221,8 +221,8 @@ impl Motor {
     /// ```
     ///
     /// # Errors
-    /// Those of [`Self::torque_speed_curve`]; [`Error::OutOfRange`] for the tolerances, and for a motor that
-    /// leaves its legal ranges within them.
+    /// The errors of [`Self::torque_speed_curve`]; [`Error::OutOfRange`] for the tolerances, and for a motor
+    /// that leaves its legal ranges within them.
     pub fn speed_spreads(
         &self,
         load_torques: &[f64],
@@ -248,14 +248,14 @@ impl Motor {
         draws.iter().map(|draws| InputSpread::of(draws, trapped)).collect()
     }
 
-    /// The spread of the stall load (N m) over the tolerances of the inputs, to state beside the error of
-    /// [`Self::stall_load`] with the same settings; it costs up to nine times as much. The stall load of a
-    /// draw may be below zero.
+    /// The spread of the stall load (N m) over the tolerances of the inputs, to be stated together with the
+    /// error of [`Self::stall_load`] with the same settings; it costs up to nine times as much. The stall
+    /// load of a sample may be below zero.
     ///
-    /// The items of `observer` are the draws.
+    /// The observer's items are the samples.
     ///
     /// # Errors
-    /// Those of [`Self::speed_spreads`].
+    /// The errors of [`Self::speed_spreads`].
     pub fn stall_spread(
         &self,
         settings: &OperatingSettings,
@@ -284,8 +284,8 @@ impl Motor {
         InputSpread::of(&draws, trapped)
     }
 
-    /// Operates each motor that is drawn under loads, as long as this one has to be under the first ones, and
-    /// counts those in a trap.
+    /// Operates each sampled motor under loads for as long as this one needs under the first ones, and counts
+    /// those in a trap.
     fn draw(
         &self,
         settings: &OperatingSettings,
@@ -298,14 +298,14 @@ impl Motor {
         tolerance.check()?;
         let (total, mut trapped) = (tolerance.draws as u64, 0);
         let watch = |done: u64| move |_: Progress| observer.observe(Progress { done, total });
-        // At their own inertia: few members need long runs.
+        // At their own inertia, because few members need long runs.
         let length = (operate(first, settings, &watch(0))?.length.0, f64::INFINITY);
         for index in 0..tolerance.draws {
             let (motor, settings) = tolerance.drawn(self, settings, index)?;
             each(&motor, &operate_for(Some(length), &loaded(&motor)?, &settings, &watch(index as u64))?);
             trapped += usize::from(motor.trap_verdict()?.is_trap);
         }
-        // Whatever it says, there is nothing left to stop.
+        // The answer does not matter, as nothing is left to stop.
         let _ = observer.observe(Progress { done: total, total });
         Ok(trapped)
     }

@@ -16,14 +16,15 @@ use crate::motor::operation::steady_run::operate;
 /// Steps of the load from zero to the largest mean torque of friction.
 const STEPS: usize = 16;
 
-/// Parts into which a search divides the steps that the one before leaves, and most searches.
+/// Number of parts into which a search divides the steps left by the previous one, and largest number of
+/// searches.
 const PARTS: usize = 6;
 const MOST_SEARCHES: u32 = 12;
 
 /// Loads on either side of the torque at rest in the first search.
 const NEIGHBOURS: i32 = 4;
 
-/// The first search is so many times less accurate than is asked for, and at most that.
+/// Factor by which the first search is less accurate than requested, and its largest value.
 const COARSER: f64 = 4.0;
 const COARSEST: f64 = 0.05;
 
@@ -31,40 +32,41 @@ const COARSEST: f64 = 0.05;
 /// speed too slowly.
 const NEAREST: f64 = 1.0 - 1.0 / 64.0;
 
-/// A stall load below this part of the largest torque counts as zero: the ripple of a speed within a period
-/// is as large. Steps need not be smaller either.
+/// A stall load below this share of the largest torque counts as zero, because the ripple of a speed within a
+/// period is as large. Steps need not be smaller either.
 const LEAST: f64 = 1e-5;
 
-/// The width of an even distribution over its standard deviation, the root of 12.
+/// The width of a uniform distribution over its standard deviation, the root of 12.
 const EVEN: f64 = 3.464_101_615_137_754_5;
 
-/// A speed differs from zero beyond so many of its standard errors.
+/// A speed differs from zero if it exceeds this number of its standard errors.
 const SIGNIFICANT: f64 = 3.0;
 
-/// The load torque at which the mean speed of a motor vanishes: the true stall, not the paper's alpha_ss/t_c
+/// The load torque at which the mean speed of a motor vanishes: the true stall, unlike the paper's
+/// alpha_ss/t_c
 /// ([`ExponentialFit::stall_acceleration`](crate::estimate::ExponentialFit::stall_acceleration)), which is an
 /// estimate from the transient without load.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct StallLoad {
-    /// How the rotor moves up and down.
+    /// The vertical motion of the rotor.
     pub motion: AxialMotion,
-    /// The torque (N m), with the sign of a load: a positive one stops a positive rotation. Its error is that
-    /// at exactly these inputs: [`Motor::stall_spread`](crate::Motor::stall_spread) gives its spread over
+    /// The torque (N m), with the sign of a load: a positive one stops a positive rotation. Its error holds
+    /// at exactly these inputs; [`Motor::stall_spread`](crate::Motor::stall_spread) gives its spread over
     /// their tolerances.
     pub torque: Estimate,
     /// The torque as a share of mu m g a_e, the largest mean torque of friction; in [-1, 1].
     pub share: f64,
-    /// Two load torques (N m): under the first the motor surely turns on, beyond three standard errors of its
-    /// speed, and under the second it is surely driven back. The second is mu m g a_e if no smaller one
-    /// surely does this.
+    /// Two load torques (N m): under the first the motor certainly keeps turning, beyond three standard
+    /// errors of its speed, and under the second it is certainly driven back. The second is mu m g a_e if no
+    /// smaller one certainly does this.
     pub bracket: [f64; 2],
-    /// The mean torque (N m) on a rotor that is held at rest. A free rotor swings about its mean speed and stops under
-    /// another load. `None` for a rotor that acts back on its stator.
+    /// The mean torque (N m) on a rotor that is held at rest. A free rotor swings about its mean speed and
+    /// stops under another load. `None` for a rotor that acts back on its stator.
     pub blocked_torque: Option<Estimate>,
     /// The mean speed without load (rad/s).
     pub no_load_speed: Estimate,
-    /// The same for motions that coexist with this one.
+    /// The same for coexisting motions.
     pub others: Vec<Self>,
 }
 
@@ -88,7 +90,7 @@ pub(crate) fn stall_load(
         return Err(Error::DoesNotTurn { speed: speed.value, standard_error: speed.standard_error });
     }
     let mut found = Search { motor, settings, observer, branch: 0 }.run(unloaded)?;
-    // Where rotors act back, the motions under one load are not those under another one.
+    // If rotors act back, the motions under one load differ from those under another.
     let branches = if motor.stator.acts_back() { 1 } else { unloaded.branches.len() };
     for branch in 1..branches {
         if motor.turns(speed_of(&unloaded.branches[branch])) {
@@ -112,7 +114,7 @@ impl Search<'_> {
         row.branches.get(self.branch).unwrap_or_else(|| row.operation())
     }
 
-    /// The operations under loads that are these shares of the largest torque.
+    /// The operations under loads with these shares of the largest torque.
     fn under(&self, shares: &[f64], settings: &OperatingSettings) -> Result<Vec<Operation>, Error> {
         let largest = self.motor.largest_torque();
         let motors: Vec<_> =
@@ -131,7 +133,7 @@ impl Search<'_> {
         let rough = (COARSER * self.settings.relative_error).min(COARSEST).max(self.settings.relative_error);
         let rough = OperatingSettings { relative_error: rough, ..*self.settings };
         let settings = self.motor.for_search(self.settings);
-        // The torque on a rotor at rest is near the load that stops a free one, and is it for a slow one.
+        // The torque on a rotor at rest is near the load that stops a free one, and equals it for a slow one.
         let mut step = 1.0 / STEPS as f64;
         let near = point.and_then(|point| point.blocked_torque).map(|torque| sign * torque.value / largest);
         let mut shares: Vec<f64> = match near {
@@ -159,7 +161,7 @@ impl Search<'_> {
         let mut searches = 0;
         let share = loop {
             searches += 1;
-            // One part more on either side, for a bracket that is sure.
+            // One more part on either side makes the bracket certain.
             let part = step / PARTS as f64;
             shares = (0..PARTS + 3)
                 .map(|k| (low + part * (k as f64 - 1.0)).clamp(0.0, NEAREST))
@@ -187,7 +189,7 @@ impl Search<'_> {
                 let fall = (before.value - after.value).abs();
                 let part = before.value.abs() / fall;
                 let value = from + part * (to - from);
-                // The speeds share their perturbations: all lines of a member move together.
+                // The speeds share their perturbations, so all lines of a member move together.
                 let error = (1.0 - part) * before.standard_error + part * after.standard_error;
                 let known = error / fall * (to - from);
                 let bend =
@@ -226,8 +228,8 @@ impl Search<'_> {
         })
     }
 
-    /// No load that was tried surely drives the rotor back, and beyond the largest torque each does. A motor that
-    /// still gains speed at the last load turns all the same.
+    /// No load that was tried certainly drives the rotor back, but every load beyond the largest torque does.
+    /// A motor that still gains speed at the last load counts as turning.
     fn beyond(
         &self,
         shares: &[f64],
@@ -259,8 +261,8 @@ impl Search<'_> {
 }
 
 /// The error of the straight line between two neighbouring loads, as a share of their distance: nearly zero
-/// if the speeds beside them continue the line, that of a uniform distribution between them if a locked motor
-/// jumps.
+/// if the neighbouring speeds continue the line, and that of a uniform distribution between the two loads if
+/// a locked motor jumps.
 fn unresolved(value: impl Fn(usize) -> f64, loads: usize, below: usize) -> f64 {
     let bends = [below.checked_sub(1), Some(below)].into_iter().flatten().filter(|first| first + 2 < loads);
     let bend = bends.map(|first| (value(first) - 2.0 * value(first + 1) + value(first + 2)).abs());
@@ -268,8 +270,8 @@ fn unresolved(value: impl Fn(usize) -> f64, loads: usize, below: usize) -> f64 {
     (bend.fold(0.0, f64::max) / jump).min(1.0) / EVEN
 }
 
-/// The load between the shares of the largest torque at which speeds vanish that fall over them, and the
-/// error of the straight line there; where they do not vanish, in the middle of what is left up to the
+/// The load, between these shares of the largest torque, at which speeds that fall over them vanish, and the
+/// error of the straight line there; if they do not vanish, the middle of the remaining range up to the
 /// largest torque.
 pub(crate) fn stall_share(shares: &[f64], speed: impl Fn(usize) -> f64) -> (f64, f64) {
     let above = (0..shares.len()).find(|&k| speed(k) <= 0.0);
@@ -287,8 +289,8 @@ pub(crate) fn stall_share(shares: &[f64], speed: impl Fn(usize) -> f64) -> (f64,
     }
 }
 
-/// Refuses a speed that still drifts: no standard error contains the remainder of a start-up, so that of a load
-/// from such speeds would be too small.
+/// Rejects a speed that still drifts: no standard error contains the remainder of a start-up, so the error of
+/// a load from such speeds would be too small.
 fn check_settled(operation: &Operation) -> Result<(), Error> {
     match operation {
         Operation::Unsettled(point, Shortfall::Drift { .. }) => {
@@ -301,7 +303,7 @@ fn check_settled(operation: &Operation) -> Result<(), Error> {
 
 const NO_SPEED: Estimate = Estimate { value: 0.0, standard_error: f64::INFINITY };
 
-/// The speed of a steady motor; no load here makes a motor run away.
+/// The speed of a steady motor; none of these loads makes a motor run away.
 fn speed_of(operation: &Operation) -> Estimate {
     operation.point().map_or(NO_SPEED, |point| point.speed)
 }

@@ -16,16 +16,16 @@ pub(crate) struct VerticalMotion {
     /// Size of the relaunch perturbation.
     perturbation: f64,
     now: PhaseTime,
-    /// Axial energy (per mass) that the perturbations have given.
+    /// Axial energy (per mass) supplied by the perturbations.
     given: f64,
 }
 
 impl VerticalMotion {
-    /// The motion that follows the first separation of a disk which lies on the platform at `phase`; a
-    /// platform that falls away there lets it go at once. `None` if it never falls away.
+    /// The motion after the first separation of a disk that lies on the platform at `phase`; it separates at
+    /// once if the platform falls away there. `None` if the platform never falls away.
     ///
     /// # Errors
-    /// Those of the core's launches.
+    /// The errors of the core's launches.
     pub(crate) fn from_rest(
         system: &DimensionlessSystem,
         phase: Phase,
@@ -45,7 +45,7 @@ impl VerticalMotion {
         }))
     }
 
-    /// The motion of a disk that is thrown up from the platform at `phase`, with this speed relative to it.
+    /// The motion of a disk thrown up from the platform at `phase`, with this speed relative to it.
     pub(crate) fn thrown(self, phase: Phase, speed: f64, policy: ChatterPolicy) -> Result<Self, Error> {
         let orbit = self.map.orbit_from_launch(Launch::new(phase, speed)?, policy);
         Ok(Self { orbit, ..self })
@@ -56,12 +56,12 @@ impl VerticalMotion {
         self.map.restitution()
     }
 
-    /// When the last event was.
+    /// The time of the last event.
     pub(crate) const fn now(&self) -> PhaseTime {
         self.now
     }
 
-    /// Axial energy (per mass) that all perturbations together have given the disk.
+    /// Axial energy (per mass) that all perturbations together have supplied to the disk.
     pub(crate) const fn given_by_perturbations(&self) -> f64 {
         self.given
     }
@@ -69,7 +69,7 @@ impl VerticalMotion {
     /// The next impact, or attachment; `now` follows impacts only.
     ///
     /// # Errors
-    /// Those of the core's flights.
+    /// The errors of the core's flights.
     #[inline]
     pub(crate) fn advance(&mut self) -> Result<Option<OrbitEvent>, Error> {
         let event = self.orbit.advance()?;
@@ -87,7 +87,7 @@ impl VerticalMotion {
     /// The end of a rest: the disk leaves the platform at `time`, with a perturbed speed.
     ///
     /// # Errors
-    /// An error of the core for a perturbation that is no speed.
+    /// An error of the core for a perturbation that is not a legal speed.
     pub(crate) fn separate(&mut self, time: PhaseTime) -> Result<(), Error> {
         self.now = time;
         if self.perturbation > 0.0 {
