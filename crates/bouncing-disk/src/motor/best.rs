@@ -1,15 +1,17 @@
-//! The best of a quantity over one or two fields of a data sheet, within bounds on other quantities.
+//! Optimises a quantity over one or two fields of a data sheet, within bounds on other quantities.
 //!
-//! A grid of places is computed roughly; those that may be the best are computed again with smaller errors, and finer grids lie
-//! about the best one. Lines through it show how wide the optimum is and where its top lies; the value is measured there, with
-//! other perturbations than those that chose the place. docs/numerics-dynamics.md, "Optimisation of a quantity".
+//! A grid of points is computed roughly; candidates for the best one are computed again with smaller errors,
+//! and finer grids surround the best one. Lines through it determine the position of the top and the width of
+//! the optimum. The value is measured there, with perturbations other than those that selected the point.
+//! docs/numerics-dynamics.md, "Optimisation of a quantity".
 //!
-//! Eight seeds alternate along a line, because points of one seed may share a vertical motion and its errors. Each end
-//! of the range within 1 % moves inwards by its 95 % error: a jackknife over the seeds, with Student's quantile. The
-//! misses of the search that enlarge the stated error are 1.96 times the scatter of a line too rough for a cubic, and
-//! the height of a peak narrower than the grid: the excess of a point over its two neighbours, beyond errors and
-//! beyond their difference from the next ones. For two fields with rigid impacts on a sine, 400 points along each
-//! field that changes the vertical motion show such peaks.
+//! Eight seeds alternate along a line, because points of one seed may share a vertical motion and its errors.
+//! Each end of the range within 1 % is moved inwards by its 95 % error: a jackknife over the seeds, with
+//! Student's quantile. The stated error is enlarged by the possible misses of the search: 1.96 times the
+//! scatter of a line too rough for a cubic, and the height of a peak narrower than the grid. The latter is
+//! the excess of a point over its two neighbours, beyond errors and beyond their difference from the next
+//! ones. For two fields with rigid impacts on a sine, 400 points along each field that changes the vertical
+//! motion show such peaks.
 
 mod cubic;
 mod line;
@@ -34,49 +36,52 @@ use crate::motor::parameter_sweep::axis::{SweepAxis, check_axes};
 use crate::motor::parameter_sweep::quantity::SweepQuantity;
 use crate::motor::stator::Stator;
 
-/// Places along one field, and along each of two: of rigid impacts on a sine, where each takes milliseconds; of all else; and of
-/// stators that yield, where each takes a tenth of a second and more.
+/// Number of points along one field, and along each of two: for rigid impacts on a sine, which take
+/// milliseconds each; for other motors; and for compliant stators, which take a tenth of a second or more
+/// each.
 const CHEAP_PLACES: [usize; 2] = [400, 32];
 const PLACES: [usize; 2] = [200, 16];
 const DEAR_PLACES: [usize; 2] = [64, 8];
 
-/// Places along a field that leaves the vertical motion as it is, such as load or lag: no motion locks between them.
+/// Number of points along a field that does not affect the vertical motion, such as load or lag: no motion
+/// locks between them.
 const SMOOTH_PLACES: usize = 64;
 
-/// Finer grids about the best place, each so many times finer than the one before, up to so many of its steps on either side:
-/// of a stator that yields fewer on the second one.
+/// Finer grids about the best point: the ratio of each step to the next, and the number of steps on either
+/// side; for a compliant stator the second grid has fewer.
 const PARTS: f64 = 3.0;
 const STEPS: [i32; 2] = [2, 2];
 const DEAR_STEPS: [i32; 2] = [2, 1];
 
-/// Places on either side of a line, of a first look and of the fit; its values are so many times more accurate than asked for.
+/// Points on either side along a line, for a first pass and for the fit, and the factor by which its values
+/// are more accurate than requested.
 const LOOK: i32 = 4;
 const SIDE: i32 = 16;
 const DEAR_SIDE: i32 = 8;
 const SURER: f64 = 2.0;
 
-/// Seeds of a line, in turn along it: places of one seed may share a vertical motion, and with it their errors. There the seeds
-/// have together so many times the impacts of a place that has one motion.
+/// Seeds that alternate along a line, because points of one seed may share a vertical motion and its errors.
+/// In that case all seeds together use this many times the impacts of a point with its own motion.
 const SEEDS: usize = 8;
 const SHARED: f64 = 2.0;
 
-/// Most looks at one line, each with another length, and by how much that changes.
+/// Most passes along one line, each with another length, and the factor between lengths.
 const LOOKS: usize = 6;
 const LENGTHEN: f64 = 3.0;
 
-/// A line between a field's ends.
+/// A range of a field that is searched.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SearchRange {
     /// The field of the data sheet.
     pub field: MotorField,
-    /// Its least and largest value, in the unit of the field. A phase lag over a whole turn has no ends.
+    /// Its least value, in the unit of the field. A phase lag over a whole turn has no ends.
     pub low: f64,
-    /// The largest.
+    /// Its largest value.
     pub high: f64,
 }
 
-/// A bound that an optimum has to keep.
+/// A bound that an optimum has to satisfy.
 ///
 /// ```
 /// use bouncing_disk::motor::QuantityBound;
@@ -91,20 +96,20 @@ pub struct SearchRange {
 pub struct QuantityBound {
     /// The quantity.
     pub quantity: SweepQuantity,
-    /// Whether the bound is its least value; otherwise it is the largest.
+    /// Whether the bound is a lower one; otherwise it is an upper one.
     pub is_least: bool,
     /// The bound, in the unit of the quantity.
     pub value: f64,
 }
 
 impl QuantityBound {
-    /// Whether an operation keeps the bound, as far as its quantity is known at all.
+    /// Whether an operation satisfies the bound, as far as its quantity is known.
     #[must_use]
     pub fn is_kept(&self, operation: &Operation) -> Option<bool> {
         Some(self.margin(self.quantity.of(operation)?.value) >= 0.0)
     }
 
-    /// By how much a value keeps the bound; negative where it does not.
+    /// The margin by which a value satisfies the bound; negative if it violates it.
     fn margin(&self, value: f64) -> f64 {
         if self.is_least { value - self.value } else { self.value - value }
     }
@@ -132,13 +137,13 @@ impl FromStr for QuantityBound {
     }
 }
 
-/// What is sought.
+/// The quantity to be optimised, with ranges and bounds.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct BestSearch {
-    /// The quantity whose largest value is sought.
+    /// The quantity to be maximised.
     pub objective: SweepQuantity,
-    /// The fields that may vary: one or two. All else is taken from the data sheet.
+    /// The one or two fields that may vary. Everything else is taken from the data sheet.
     pub ranges: Vec<SearchRange>,
     /// Bounds on quantities of the same operating point: at most two.
     pub bounds: Vec<QuantityBound>,
@@ -152,42 +157,42 @@ pub struct BestValue {
     pub field: MotorField,
     /// Its value, in the unit of the field, with its standard error.
     pub value: Estimate,
-    /// The range around it, with the other field as it is at the optimum, in which the quantity has at least 99 % of its best
-    /// value and the bounds are kept. `None` where the curve is too rough to tell, as next to a locked motion. That of a phase
-    /// lag may reach beyond the circle.
+    /// The range around it, with the other field at its optimum, in which the quantity is at least 99 % of
+    /// its best value and the bounds are satisfied. `None` if the curve is too rough to tell, as next to a
+    /// locked motion. The range of a phase lag may extend beyond the circle.
     pub good_from_to: Option<[f64; 2]>,
-    /// Whether the optimum lies at an end of the range that was searched.
+    /// Whether the optimum lies at an end of the searched range.
     pub is_at_end: bool,
 }
 
-/// The best of a quantity.
+/// An optimum of a quantity.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Best {
     /// The fields, in their order.
     pub values: Vec<BestValue>,
-    /// The quantity, measured at this place. Its error also holds what a better place nearby may bring.
+    /// The quantity, measured at this point. Its error includes the possible gain at a better point nearby.
     pub value: Estimate,
     /// The motor in operation there.
     pub row: OperatingRow,
-    /// The branch of the row that is meant. Where motions coexist, another one may come first.
+    /// The branch of the row to which the value refers. If motions coexist, another one may come first.
     pub branch: usize,
     /// The quantities of the bounds, in their order.
     pub bounds: Vec<Estimate>,
-    /// Places that were computed.
+    /// Number of points that were computed.
     pub places: usize,
 }
 
-/// What is known of a place.
+/// The known results at a point.
 #[derive(Debug, Clone)]
 struct Found {
     value: Estimate,
     bounds: Vec<Estimate>,
-    /// Whether it drifts no more, so that its errors hold.
+    /// Whether it no longer drifts, so that its errors hold.
     is_settled: bool,
 }
 
-/// A place, each coordinate in [0, 1], or anywhere on a circle.
+/// A point, with each coordinate in [0, 1], or anywhere on a circle.
 #[derive(Debug, Clone)]
 struct Place {
     at: Vec<f64>,
@@ -201,18 +206,18 @@ struct Search<'a> {
     watch: &'a Watch<'a>,
     /// Why a motor could not be followed.
     failure: Option<Error>,
-    /// Places on either side of a line.
+    /// Number of points on either side along a line.
     side: i32,
-    /// [`narrow_peak`] of grid and scans.
+    /// [`narrow_peak`] from the grid and scans.
     peak: f64,
     places: usize,
 }
 
 impl Motor {
-    /// The best of a quantity over one or two fields of the data sheet, under bounds on others. Where motions coexist,
-    /// a place counts by the first branch of its row; the value is that of the same motion.
+    /// The best of a quantity over one or two fields of the data sheet, under bounds on others. If motions
+    /// coexist, a point is judged by the first branch of its row; the value belongs to the same motion.
     ///
-    /// The items of `observer` are the places that are computed, at most.
+    /// The observer's items are the points that are computed, at most.
     ///
     /// ```
     /// use bouncing_disk::core::Unobserved;
@@ -230,10 +235,11 @@ impl Motor {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for illegal ranges, bounds and settings, and those of
-    /// [`MotorParameters::build`](crate::motor::MotorParameters::build) at the ends of the ranges; [`Error::NotKept`] where no
-    /// place keeps the bounds; [`Error::NotPositive`] where the quantity is nowhere positive, or not surely so; those of
-    /// [`operations`](crate::motor::operations) where no motor can be followed.
+    /// [`Error::OutOfRange`] for illegal ranges, bounds and settings, and the errors of
+    /// [`MotorParameters::build`](crate::motor::MotorParameters::build) at the ends of the ranges;
+    /// [`Error::NotKept`] if no point satisfies the bounds; [`Error::NotPositive`] if the quantity is nowhere
+    /// positive, or not with certainty; the errors of [`operations`](crate::motor::operations) if no motor
+    /// can be followed.
     pub fn best(
         &self,
         sought: &BestSearch,
@@ -345,7 +351,7 @@ impl Found {
         Some(Self { value: known(sought.objective)?, bounds, is_settled: !drifts })
     }
 
-    /// The least margin of the bounds, in standard errors; how far a place keeps all of them.
+    /// The least margin of the bounds, in standard errors.
     fn margin(&self, sought: &BestSearch) -> f64 {
         let own = sought.bounds.iter().zip(&self.bounds);
         let margins = own.map(|(bound, own)| {
@@ -359,7 +365,7 @@ impl Found {
         margins.fold(f64::INFINITY, f64::min)
     }
 
-    /// The ends of its interval; open where it still drifts.
+    /// The ends of its interval; infinite while it still drifts.
     fn at_least(&self) -> f64 {
         if self.is_settled {
             self.value.value - NORMAL_975 * self.value.standard_error

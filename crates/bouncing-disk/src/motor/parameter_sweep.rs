@@ -1,7 +1,8 @@
 //! Sweeps: a motor in steady operation over one or two of its parameters.
 //!
-//! The axes are in `parameter_sweep/axis.rs`, the groups of cells computed together in `parameter_sweep/groups.rs`, the run in
-//! `parameter_sweep/run.rs`, the results, as numbers and as a table, in `parameter_sweep/result.rs`, `parameter_sweep/quantity.rs` and
+//! The axes are in `parameter_sweep/axis.rs`, the groups of cells computed together in
+//! `parameter_sweep/groups.rs`, and the run in `parameter_sweep/run.rs`. The results, as numbers and as a
+//! table, are in `parameter_sweep/result.rs`, `parameter_sweep/quantity.rs` and
 //! `parameter_sweep/csv_table.rs`.
 
 pub(crate) mod axis;
@@ -24,21 +25,21 @@ use crate::motor::parameter_sweep::axis::{SweepAxis, cells, check_axes, sheet_of
 
 /// A motor in steady operation over one or two parameters: curves and maps of speed, power and efficiency.
 ///
-/// A sweep has a cell for each value of its axis, or each pair of values of its two; the cells are numbered
-/// row by row, the first axis being that of the rows. Each cell is the motor's data sheet with the values of
-/// the cell. A value of a parameter clears its alternative: a sweep over `preload_force` of a motor with a
-/// `preload_acceleration` has the force alone ([`Self::replaced`] lists these).
+/// A sweep has a cell for each value of its axis, or for each pair of values of its two axes. The cells are
+/// numbered row by row; the first axis counts the rows. Each cell is the motor's data sheet with the values
+/// of the cell. A value of a parameter clears its alternative: in a sweep over `preload_force`, a motor with
+/// a `preload_acceleration` keeps only the force ([`Self::replaced`] lists such fields).
 ///
-/// Cells of one vertical motion (they differ only in load, friction, phase lag, twist, radii or mass) are
+/// Cells with one vertical motion (they differ only in load, friction, phase lag, twist, radii or mass) are
 /// computed on one orbit, wherever they lie: a map of load and phase lag has one, a map of amplitude and load
-/// one for each amplitude. (With a drive, a contact time, a stator that yields or a table `[load]` they are computed
-/// one by one.) Such a group, of 256 cells at most, runs until each of its cells is known well
-/// enough. A number of a cell therefore depends on the rest of its group, within its standard error; the
-/// cells of a group share their perturbations, so that their differences are more precise than their values.
-/// A cell whose rotor acts back on its stator has a hundredth of the settings' most impacts: there an impact takes a hundred
-/// times as long.
+/// one for each amplitude. (With a drive, a contact time, a compliant stator or a table `[load]` they are
+/// computed one by one.) Such a group, of 256 cells at most, runs until each of its cells is known well
+/// enough. A value in a cell therefore depends on the rest of its group, within its standard error. The cells
+/// of a group share their perturbations, so their differences are more precise than their values. A cell
+/// whose rotor acts back on its stator may use a hundredth of the settings' most impacts, because there an
+/// impact takes a hundred times as long.
 ///
-/// Groups depend on the sweep alone. The results are the same bits for any number of threads.
+/// Groups depend on the sweep alone. The results have the same bits for any number of threads.
 ///
 /// ```
 /// use bouncing_disk::core::Unobserved;
@@ -79,11 +80,11 @@ impl MotorSweep {
     /// A sweep over one or two axes.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for another number of axes, a value that is not finite and illegal settings;
+    /// [`Error::OutOfRange`] for an illegal number of axes, a value that is not finite and illegal settings;
     /// [`Error::EmptyAxis`]; [`Error::RepeatedAxis`] and [`Error::BothGiven`] for two axes of one parameter,
     /// or of two that exclude each other; an error of the core
     /// ([`TooLarge`](bouncing_disk_core::Error::TooLarge)) for more than
-    /// [`MAX_SWEEP_CELLS`](crate::motor::MAX_SWEEP_CELLS) cells; those of
+    /// [`MAX_SWEEP_CELLS`](crate::motor::MAX_SWEEP_CELLS) cells; the errors of
     /// [`MotorParameters::build`](crate::motor::MotorParameters::build) for the first cell whose motor is not
     /// legal.
     pub fn new(motor: Motor, axes: Vec<SweepAxis>, settings: OperatingSettings) -> Result<Self, Error> {
@@ -95,14 +96,16 @@ impl MotorSweep {
         Ok(Self { motor, axes, settings, continued: false, groups })
     }
 
-    /// This sweep over one axis with each cell from where the one before was left, in place of from rest, and the
-    /// first from rest: amplitude and motion of a rotor on a stator that yields may depend on what was before. Let the values go up and
-    /// down again. The cells are one group. All other fields of the sheet are held: over the drive frequency the volts, the
-    /// force or the amplitude without a rotor (whichever the sheet gives), the preload and the phase lag.
+    /// This sweep over one axis as a continuation: the first cell starts from rest, and each further one from
+    /// the final state of the previous cell, because amplitude and motion of a rotor on a compliant stator
+    /// may depend on its history. Let the values rise and fall again to see hysteresis. The cells form one
+    /// group. All other fields of the sheet are constant: over the drive frequency, these are the volts, the
+    /// force or the amplitude without a rotor (whichever the sheet states), the preload and the phase lag.
     ///
-    /// Height and modes go on. The speeds of the rotors begin anew far below and above, as in every cell, which bounds
-    /// what still depends on the start. After a runaway a cell goes on from the last one that had a speed. Members may
-    /// end up in different steady states: the mean is then of no state, and its error is their scatter.
+    /// Height and modes continue. The speeds of the rotors start again far below and far above, as in every
+    /// cell, which bounds the remaining dependence on the start. After a runaway, a cell continues from the
+    /// last one that had a speed. Members may end up in different steady states: the mean then belongs to no
+    /// state, and its error is their scatter.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for two axes; [`Error::NotGiven`] for a motor without a table `[stator]`.
@@ -116,7 +119,8 @@ impl MotorSweep {
     /// The operations of a group, in its order.
     ///
     /// # Errors
-    /// Those of [`Self::motor_of`] and of [`operations`], for no motor where the group does not exist.
+    /// The errors of [`Self::motor_of`] and of [`operations`], including the one for no motor if the group
+    /// does not exist.
     pub fn operations(&self, group: usize, observer: &dyn Observer) -> Result<Vec<OperatingRow>, Error> {
         let cells = self.groups.get(group).map_or(&[][..], |cells| cells);
         let motors = cells.iter().map(|cell| self.motor_of(*cell)).collect::<Result<Vec<_>, Error>>()?;
@@ -139,13 +143,13 @@ impl MotorSweep {
         &self.motor
     }
 
-    /// The axes: one or two.
+    /// The one or two axes.
     #[must_use]
     pub fn axes(&self) -> &[SweepAxis] {
         &self.axes
     }
 
-    /// How each cell is computed.
+    /// The settings for each cell.
     #[must_use]
     pub const fn settings(&self) -> &OperatingSettings {
         &self.settings

@@ -1,8 +1,8 @@
 //! The rotary motion alone, carried along an orbit of the core without records or energy balance.
 //!
 //! Its contact motion is the [`crate::Engine`]'s own ([`crate::motion::contact_motion`]). Only the sum over a
-//! chattering sequence is shorter where every impact of it slides the same way: then the summed impulse is
-//! known in closed form.
+//! chattering sequence is shorter if every one of its impacts slides the same way, because the total impulse
+//! is then known in closed form.
 
 pub(crate) mod transient;
 
@@ -27,11 +27,11 @@ pub(crate) enum RotorStep {
     Contact,
     /// The disk has separated from rest: the next flight starts here.
     Separation,
-    /// Nothing more happens: the disk stays on the platform, at rest on it, sliding or turning with it.
+    /// No further event: the disk stays on the platform, at rest on it, sliding or turning with it.
     Ended,
 }
 
-/// A flight and the impact that ends it, as far as the rotary motion goes.
+/// The rotary part of a flight and the impact that ends it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Bounce {
     /// Duration of the flight (rad).
@@ -46,19 +46,19 @@ pub(crate) struct Bounce {
 }
 
 impl Bounce {
-    /// The rotary motion of the flight, of a disk with angular `speed` at launch.
+    /// The rotary motion of the flight, for a disk with angular `speed` at launch.
     #[inline(always)]
     pub(crate) fn flight(self, speed: f64) -> RotaryChange {
         change_in_flight(self.load, speed, self.duration)
     }
 
-    /// The effect of friction in the impact, at a `slip` (disk minus platform).
+    /// The effect of friction in the impact, for a `slip` (disk minus platform).
     #[inline(always)]
     pub(crate) fn friction_impact(self, slip: f64) -> FrictionImpact {
         friction_impact(self.friction, axial_impulse(self.restitution, self.velocity), slip)
     }
 
-    /// Angular speed after the impact, and the angle turned in the flight, of a disk with angular `speed` at
+    /// Angular speed after the impact, and the angle turned in the flight, for a disk with angular `speed` at
     /// launch.
     #[inline(always)]
     pub(crate) fn after(self, speed: f64) -> (f64, f64) {
@@ -68,7 +68,7 @@ impl Bounce {
     }
 }
 
-/// A disk that is followed for its angular speed only.
+/// A disk of which only the angular speed is followed.
 #[derive(Debug, Clone)]
 pub(crate) struct Rotor {
     system: DimensionlessSystem,
@@ -83,8 +83,8 @@ pub(crate) struct Rotor {
 }
 
 impl Rotor {
-    /// A disk that lies on the platform at `phase` with angular `speed`; where the platform falls away it
-    /// flies.
+    /// A disk that lies on the platform at `phase` with angular `speed`; if the platform falls away, it is in
+    /// flight.
     pub(crate) fn at_rest(
         system: &DimensionlessSystem,
         phase: Phase,
@@ -124,8 +124,8 @@ impl Rotor {
         self.orbit.as_ref().and_then(Orbit::launch)
     }
 
-    /// Continues with an orbit that was computed elsewhere and follows an impact at `phase`, after which the
-    /// angular speed is `speed`.
+    /// Continues with an orbit that was computed elsewhere, after an impact at `phase` that leaves the
+    /// angular speed `speed`.
     pub(crate) fn go_on_after(&mut self, phase: Phase, orbit: Orbit, periods: u64, speed: f64) {
         self.orbit = Some(orbit);
         self.now = PhaseTime { periods, phase };
@@ -204,8 +204,8 @@ impl Rotor {
     /// The speed after a chattering sequence all of whose impacts slide the same way; `None` if that is not
     /// certain.
     ///
-    /// The impulses of the impacts sum to what the platform's pull gives until the accumulation point less
-    /// the launch speed: in relative velocity, 0 = w - integral of N + sum.
+    /// The impulses of the impacts sum to the integral of the platform's pull up to the accumulation point
+    /// minus the launch speed: in relative velocity, 0 = w - integral of N + sum.
     fn slide_throughout(&self, rest: &Attachment) -> Option<f64> {
         let duration = rest.accumulation.duration;
         let vibration = self.system.vibration();

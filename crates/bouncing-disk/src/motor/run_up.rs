@@ -1,4 +1,4 @@
-//! The run-up of a motor from rest, on whatever stator it has.
+//! The run-up of a motor from rest, on any kind of stator.
 
 use std::ops::ControlFlow;
 
@@ -23,9 +23,10 @@ use crate::parameters::scales::Scales;
 use crate::stator::{StatorEngine, StatorSystem};
 
 impl Motor {
-    /// The speed transient of the rotor, which lies at rest on the stator as that begins to move at `phase`.
+    /// The speed transient of the rotor, which lies at rest on the stator as the stator begins to move at
+    /// `phase`.
     ///
-    /// The items of `observer` are the intervals of the curve.
+    /// The observer's items are the intervals of the curve.
     ///
     /// ```
     /// use bouncing_disk::Motor;
@@ -43,7 +44,7 @@ impl Motor {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for illegal settings; those of the flights.
+    /// [`Error::OutOfRange`] for illegal settings; the errors of the flights.
     pub fn transient(
         &self,
         phase: Phase,
@@ -53,10 +54,10 @@ impl Motor {
         Ok(self.run_up(phase, settings, observer)?.0)
     }
 
-    /// As [`Self::transient`], with the amplitude (m) of the axial mode at the end of each interval, that of
-    /// [`MotorOutputs::amplitude`](crate::motor::MotorOutputs::amplitude). Empty for a stator that does not yield. On
-    /// one that yields the chatter policy of the settings has no effect: impacts are followed down to a chatter of
-    /// 1e-7 rad.
+    /// Like [`Self::transient`], with the amplitude (m) of the axial mode at the end of each interval,
+    /// defined as in [`MotorOutputs::amplitude`](crate::motor::MotorOutputs::amplitude); empty for a rigid
+    /// stator. On a compliant one the chatter policy of the settings has no effect: impacts are followed down
+    /// to a chatter of 1e-7 rad.
     ///
     /// # Errors
     /// As [`Self::transient`].
@@ -76,13 +77,13 @@ impl Motor {
         }
     }
 
-    /// The transients of these members by their phases and settings, on threads if there are any; those of a sine
-    /// with rigid impacts in lockstep, as by [`transients`].
+    /// The transients of these members by their phases and settings, on threads if available. With rigid
+    /// impacts on a sine they are computed in lockstep, as by [`transients`].
     ///
-    /// The items of `observer` are the members.
+    /// The observer's items are the members.
     ///
     /// # Errors
-    /// The first one of [`Self::transient`].
+    /// The first error of [`Self::transient`].
     pub fn transients(
         &self,
         members: &[TransientMember],
@@ -106,7 +107,7 @@ impl Motor {
         curves
     }
 
-    /// The run-up on a stator that yields, or under a load that follows a law.
+    /// The run-up on a compliant stator, or under a load that follows a law.
     fn yielding_run_up(
         &self,
         stator: &StatorSystem,
@@ -170,7 +171,7 @@ impl Motor {
     }
 }
 
-/// The run-up on a stator that moves by waveforms, or with contacts that take time.
+/// The run-up on a stator that moves by waveforms, or with compliant contacts.
 fn driven_run_up(
     system: &DrivenSystem,
     unit: &Scales,
@@ -249,13 +250,13 @@ impl<'a> RunUp<'a> {
         time.since(&self.began).radians()
     }
 
-    /// The next relative speed of a relaunch, if any is perturbed.
+    /// The next relative speed of a relaunch, if relaunches are perturbed.
     fn perturbation(&mut self) -> Option<f64> {
         let size = self.settings.relaunch_perturbation;
         (size > 0.0).then(|| size * self.generator.unit())
     }
 
-    /// Counts an event, after which the rotor has turned from this `angle`.
+    /// Counts an event; the rotor has turned from this `angle` since the previous one.
     fn count(&mut self, engine: &mut impl SteeredMotion, event: &Event, angle: f64) {
         match event {
             Event::Impact { .. } | Event::Kick { .. } | Event::Recontact => self.impacts += 1,

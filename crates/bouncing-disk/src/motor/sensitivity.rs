@@ -1,4 +1,4 @@
-//! How the steady speed and the stall torque of a motor depend on its parameters, next to its data sheet, as
+//! The dependence of a motor's steady speed and stall torque on its parameters near the data sheet, as
 //! exponents, each with its standard error.
 //!
 //! Derivations and choices: docs/numerics-dynamics.md, "Sensitivities".

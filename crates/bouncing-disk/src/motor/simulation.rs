@@ -1,4 +1,4 @@
-//! A motor as a part of a drive train: it goes on from step to step under inputs that may change between them.
+//! A motor as a part of a drive train, advanced step by step under inputs that may change between steps.
 
 use std::f64::consts::TAU;
 
@@ -21,14 +21,16 @@ use crate::parameters::scales::Scales;
 use crate::parameters::stator::StatorKind;
 use crate::stator::{StatorEngine, StatorLedger, StatorSystem};
 
-/// A contact is followed anew from here (rad) if nothing has happened: asking for a time in it costs no more than this.
+/// If nothing has happened for this long (rad), a contact is followed from a new origin, so that evaluating
+/// it at any time costs no more than this.
 const REST: f64 = 64.0 * TAU;
 
-/// What drives and loads a motor, until it changes.
+/// The drive and the load of a motor, until they change.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MotorInputs {
-    /// Torque on the shaft (N m), on top of a table `[load]`; a positive one decelerates a positive rotation.
+    /// Torque on the shaft (N m), in addition to a table `[load]`; a positive one decelerates a positive
+    /// rotation.
     pub load_torque: f64,
     /// Amplitude of the drive, in the unit of [`MotorInputs::drive_field`]; not negative.
     pub drive: f64,
@@ -39,7 +41,7 @@ pub struct MotorInputs {
 }
 
 impl MotorInputs {
-    /// Those of a data sheet, switched on.
+    /// The inputs according to a data sheet, switched on.
     #[must_use]
     pub fn of(motor: &Motor) -> Self {
         let sheet = motor.parameters();
@@ -51,7 +53,7 @@ impl MotorInputs {
         }
     }
 
-    /// What drives a motor: the volts or the force of its stator, or the amplitude.
+    /// The field that drives a motor: the volts or the force of its stator, or the amplitude.
     #[must_use]
     pub fn drive_field(motor: &Motor) -> MotorField {
         let given = |field: &MotorField| field.value(motor.parameters()).is_some();
@@ -62,13 +64,14 @@ impl MotorInputs {
     }
 }
 
-/// How a simulation starts, with a rotor that lies on the stator at rest.
+/// Settings for the start of a simulation, with a rotor that lies on the stator at rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SimulationSettings {
     /// Phase of the stator at the start (rad), finite.
     pub phase: f64,
-    /// As of [`TransientSettings`](crate::motor::TransientSettings), in units of g/omega. Default 1e-3.
+    /// Size of the relaunch perturbation as in [`TransientSettings`](crate::motor::TransientSettings), in
+    /// units of g/omega. Default 1e-3.
     pub relaunch_perturbation: f64,
     /// Seed of the perturbations. Default 1.
     pub seed: u64,
@@ -80,7 +83,7 @@ impl Default for SimulationSettings {
     }
 }
 
-/// A motor at an instant, and its means since the instant before.
+/// The state of a motor at an instant, and its means since the previous one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MotorOutputs {
@@ -88,25 +91,26 @@ pub struct MotorOutputs {
     pub angle: f64,
     /// Its angular speed (rad/s).
     pub speed: f64,
-    /// Mean torque of the stator on rotor and shaft (N m) since the last call, or in the step before if no time has passed: that of the load, and what accelerates
-    /// their inertia.
+    /// Mean torque of the stator on rotor and shaft (N m) since the last call, or during the previous step if
+    /// no time has passed: the load plus the torque that accelerates their inertia.
     pub shaft_torque: f64,
-    /// Amplitude of the stator's height (m) about its mean place: of the sine at the frequency of the drive that has the
-    /// present height and velocity. The mean place is the static one under the preload and friction; in a flight of more
-    /// than a period it is that of the free stator. It is constant in a steady motion without a rotor or under one that
-    /// lies; one that bounces adds the harmonics of its impacts. With the drive off the frequency is the resonance of the
-    /// mode. A prescribed motion has its own amplitude.
+    /// Amplitude of the stator's height (m) about its mean position: of the sine at the drive frequency that
+    /// has the present height and velocity. The mean position is the static one under the preload and
+    /// friction; in a flight of more than a period it is the free stator's. The amplitude is constant in a
+    /// steady motion without a rotor or under one that lies; a bouncing rotor adds the harmonics of its
+    /// impacts. With the drive off the frequency is the resonance of the mode. A prescribed motion has its
+    /// own amplitude.
     pub amplitude: f64,
-    /// Amplitude of the current (A), with each mode as such a sine; `None` without a capacitance.
+    /// Amplitude of the current (A), with each mode represented by such a sine; `None` without a capacitance.
     pub current: Option<f64>,
-    /// Mean power (W) of the drive in the modes, and of a motion that is prescribed, since the last call: without the
-    /// latter the real part of voltage times current.
+    /// Mean power (W) of the drive in the modes and in a prescribed motion since the last call. Without a
+    /// prescribed motion it is the real part of voltage times current.
     pub power: f64,
     /// Impacts since the start.
     pub impacts: u64,
 }
 
-/// What has been summed up since the start (SI).
+/// Totals since the start (SI).
 #[derive(Debug, Clone, Copy, Default)]
 struct Totals {
     /// Time (s).
@@ -119,7 +123,8 @@ struct Totals {
     impacts: u64,
 }
 
-/// The motion just after an event. The next one is found before anybody asks for a time, and so does not depend on it.
+/// The motion just after an event. The next one is found in advance, and so does not depend on the requested
+/// times.
 #[derive(Debug, Clone)]
 struct Ahead {
     engine: StatorEngine,
@@ -127,12 +132,13 @@ struct Ahead {
     totals: Totals,
 }
 
-/// A motor that goes on from step to step. For inputs that stay the same, its motion does not depend on the steps, to
-/// the last bit; a clone is a stored state.
+/// A motor that is advanced step by step. For constant inputs its motion does not depend on the steps, to the
+/// last bit; a clone is a stored state.
 ///
-/// A change of the inputs takes effect at once. Modes are continuous; a prescribed motion jumps, and the rotor keeps
-/// its distance and its speed from it. A change of the frequency keeps the phase of the motion without a rotor, so that
-/// the phase of the voltage jumps. A twist that the sheet prescribes moves whenever the drive is on, however strong.
+/// A change of the inputs takes effect at once. Modes are continuous; a prescribed motion jumps, and the
+/// rotor keeps its distance from it and its relative speed. A change of the frequency keeps the phase of the
+/// motion without a rotor, so the phase of the voltage jumps. A twist that the sheet prescribes has its full
+/// amplitude whenever the drive is on, whatever its strength.
 ///
 /// ```
 /// use bouncing_disk::Motor;
@@ -157,24 +163,24 @@ pub struct MotorSimulation {
     unit: Scales,
     inertia: f64,
     perturbation: f64,
-    /// When these inputs began (s), and the instant of the engine.
+    /// The time at which these inputs began (s), and the corresponding instant of the engine.
     began: (f64, PhaseTime),
     /// Just after the last event.
     now: Ahead,
     next: Option<Ahead>,
-    /// At the last call.
+    /// The totals at the last call.
     last: Totals,
-    /// Torque and power over the last step that took time.
+    /// Torque and power over the last step of non-zero duration.
     means: [f64; 2],
 }
 
 impl MotorSimulation {
-    /// A motor whose rotor lies at rest at the time 0, on a stator that has moved under these inputs for long without it;
-    /// with the drive off, on a stator at rest under the rotor.
+    /// A motor whose rotor lies at rest at time 0. Its stator has long moved under these inputs without the
+    /// rotor; with the drive off, it is at rest under the rotor.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for illegal inputs and settings; [`Error::LoadInTime`] for a table `[load]` that varies in time: the
-    /// inputs do that; [`Error::BothGiven`] for a contact that unloads at less stiffness.
+    /// [`Error::OutOfRange`] for illegal inputs and settings; [`Error::LoadInTime`] for a table `[load]` that
+    /// depends on time, which the inputs replace; [`Error::BothGiven`] for a contact with hysteresis.
     pub fn new(motor: &Motor, inputs: MotorInputs, settings: SimulationSettings) -> Result<Self, Error> {
         let perturbation = moderate_not_negative("relaunch_perturbation", settings.relaunch_perturbation)?;
         motor.parameters().drive.sine()?;
@@ -184,7 +190,7 @@ impl MotorSimulation {
         let sheet = motor.with(|sheet| {
             sheet.load_torque = 0.0;
             let Some((table, own)) = sheet.stator.as_mut().zip(motor.stator()) else { return };
-            // Otherwise these would follow the inputs.
+            // Otherwise these would change with the inputs.
             table.resonance.get_or_insert(sheet.drive_frequency);
             match table.kind {
                 StatorKind::Axial => {}
@@ -235,10 +241,10 @@ impl MotorSimulation {
         self.last.time
     }
 
-    /// Changes the inputs from now on; the same ones change nothing. After an error the inputs are as before.
+    /// Changes the inputs from now on; equal inputs change nothing. After an error the inputs are as before.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for illegal inputs, and what [`Motor::with`] refuses.
+    /// [`Error::OutOfRange`] for illegal inputs, and the errors of [`Motor::with`].
     pub fn set_inputs(&mut self, inputs: MotorInputs) -> Result<(), Error> {
         if inputs == self.inputs {
             return Ok(());
@@ -253,11 +259,11 @@ impl MotorSimulation {
         Ok(())
     }
 
-    /// Goes on to a time (s) after the start, not before the last one.
+    /// Advances to a time (s) after the start, not before the last one.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a time before the last one; those of [`StatorEngine::advance`]. After an error the motor
-    /// is where the last call has left it.
+    /// [`Error::OutOfRange`] for a time before the last one; the errors of [`StatorEngine::advance`]. After
+    /// an error the motor is in the state after the last call.
     pub fn advance(&mut self, time: f64, observer: &dyn Observer) -> Result<MotorOutputs, Error> {
         let watch = Watch::begin(observer, 0, 1)?;
         let mut work = watch.work();
@@ -295,7 +301,7 @@ impl MotorSimulation {
         let record = match next.engine.advance_within(limit)? {
             Some(record) => record,
             None if next.engine.skip_periods(0).is_some() => {
-                // It knows now that it lies for ever.
+                // It is now known to lie for ever.
                 self.now = next;
                 return Ok(None);
             }
@@ -311,7 +317,7 @@ impl MotorSimulation {
         Ok(Some(next))
     }
 
-    /// Adds what happened so many times.
+    /// Adds these totals the given number of times.
     fn add(&self, totals: &mut Totals, disk: &EnergyLedger, stator: &StatorLedger, times: f64) {
         let (mass, unit) = (times * self.motor.mass(), &self.unit);
         let axial = disk.normal_work + (stator.drive_work - stator.disk_work);
@@ -353,8 +359,8 @@ impl MotorSimulation {
         }
     }
 
-    /// The amplitude of C_0 dV/dt and of each mode's force per volt times its speed, each a sine that is known by its
-    /// value now and a quarter of a period later.
+    /// The amplitude of C_0 dV/dt plus each mode's force per volt times its speed; each is a sine given by
+    /// its value now and a quarter of a period later.
     fn current(&self, engine: &StatorEngine) -> Option<f64> {
         let stator = self.motor.stator()?;
         let circuit = stator.circuit()?;

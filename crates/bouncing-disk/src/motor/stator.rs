@@ -1,4 +1,4 @@
-//! How the stator of a motor moves, which decides on what computes its rotor.
+//! The kind of motion of a motor's stator, which determines how its rotor is computed.
 
 use std::sync::Arc;
 
@@ -12,18 +12,18 @@ use crate::parameters::load::LoadLaw;
 use crate::parameters::system::System;
 use crate::stator::{LoadLine, StatorSystem};
 
-/// How the stator of a motor moves, and its system: chosen once, when the sheet is built.
+/// The motion of a motor's stator, and its system, chosen once when the sheet is built.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Stator {
     /// As in Eq. (1), with rigid impacts and a constant load.
     Sine,
-    /// By its waveforms whatever lies on it, or with contacts that take time.
+    /// By prescribed waveforms, or with compliant contacts.
     Driven(Arc<Prescribed>),
-    /// It yields, or the load follows a law.
+    /// A compliant stator, or a load that follows a law.
     Yielding(Arc<StatorSystem>),
 }
 
-/// A prescribed motion, and its system under the load, friction and phase lag of the sheet.
+/// A prescribed motion, and its system with the load, friction and phase lag of the sheet.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Prescribed {
     pub(crate) platform: DrivenPlatform,
@@ -31,7 +31,7 @@ pub(crate) struct Prescribed {
 }
 
 impl Stator {
-    /// The stator of a data sheet, which has this system and this mass of the rotor (kg).
+    /// The stator of a data sheet with this system and this rotor mass (kg).
     pub(crate) fn of(sheet: &MotorParameters, system: &System, mass: f64) -> Result<Self, Error> {
         let platform = DrivenPlatform::of_drive(*system.platform(), &sheet.drive)?;
         if sheet.stator.is_some() || sheet.load.is_some() {
@@ -47,7 +47,7 @@ impl Stator {
         Self::prescribed(platform.with_contact(system.soft_contact()), system.disk())
     }
 
-    /// A rotor on a platform that moves by waveforms, or whose contacts take time.
+    /// A rotor on a platform that moves by waveforms, or with compliant contacts.
     pub(crate) fn prescribed(platform: DrivenPlatform, disk: &Disk) -> Result<Self, Error> {
         let system = DrivenSystem::new(&platform, disk)?;
         Ok(Self::Driven(Arc::new(Prescribed { platform, system })))
@@ -84,12 +84,13 @@ impl Stator {
         Ok(Self::Yielding(Arc::new(system.without_law()?)))
     }
 
-    /// Whether friction acts back on the height: each rotor has a vertical motion of its own.
+    /// Whether friction acts back on the height, so that each rotor has its own vertical motion.
     pub(crate) fn acts_back(&self) -> bool {
         matches!(self, Self::Yielding(system) if system.twists())
     }
 
-    /// Whether its tape takes much longer to record than to replay: all but rigid impacts on a sine.
+    /// Whether its tape takes much longer to record than to replay, which is true of everything except rigid
+    /// impacts on a sine.
     pub(crate) fn takes_long(&self) -> bool {
         match self {
             Self::Sine => false,
@@ -98,7 +99,7 @@ impl Stator {
         }
     }
 
-    /// Whether the disk moves it.
+    /// Whether the disk affects its motion.
     pub(crate) fn yields(&self) -> bool {
         matches!(self, Self::Yielding(system) if system.yields())
     }
@@ -108,7 +109,7 @@ impl Stator {
         self.driven().is_some_and(|system| system.height().kinks().next().is_some())
     }
 
-    /// Whether contacts on it take time.
+    /// Whether contacts on it are compliant.
     pub(crate) fn takes_time(&self) -> bool {
         match self {
             Self::Sine => false,
@@ -117,7 +118,7 @@ impl Stator {
         }
     }
 
-    /// The system of a stator that moves by waveforms, or whose contacts take time.
+    /// The system of a stator that moves by waveforms, or with compliant contacts.
     pub(crate) fn driven(&self) -> Option<&DrivenSystem> {
         match self {
             Self::Driven(own) => Some(&own.system),
@@ -125,7 +126,7 @@ impl Stator {
         }
     }
 
-    /// The system of a stator that yields, or of a load that follows a law.
+    /// The system of a compliant stator, or of a load that follows a law.
     pub(crate) fn yielded(&self) -> Option<&StatorSystem> {
         match self {
             Self::Yielding(system) => Some(system),
@@ -134,7 +135,7 @@ impl Stator {
     }
 }
 
-/// A system whose disk has the inertia of the load on its shaft, too.
+/// A system whose disk includes the inertia of the load on its shaft.
 pub(crate) fn on_shaft(system: &System, load: Option<LoadLaw>, mass: f64) -> Result<System, Error> {
     let shaft = load.map_or(0.0, |load| load.inertia()) / mass;
     system.with_disk(|disk| {
@@ -148,7 +149,7 @@ pub(crate) fn still(system: &StatorSystem) -> Result<StatorSystem, Error> {
     system.with_base(&DimensionlessParameters { peak_acceleration: 0.0, twist_speed: 0.0, ..base }.build()?)
 }
 
-/// The lines of a load at a time (s), on a disk of this mass.
+/// The pieces of a load at a time (s), on a disk of this mass.
 pub(crate) fn lines(load: &LoadLaw, time: f64, system: &System, mass: f64) -> Vec<LoadLine> {
     let disk = system.disk();
     let torque = load.factor_at(time) / (mass * disk.preload_acceleration() * disk.contact_radius());

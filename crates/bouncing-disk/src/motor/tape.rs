@@ -1,10 +1,11 @@
 //! A tape of the normal force: the vertical motion of a disk, recorded once and replayed by any number of rotors.
 //!
-//! Where friction does not act back on the height, all that a rotor feels of the vertical motion is when the stator
-//! presses on it and how hard. A tape holds this as [`Knot`]s: the phase of the drive, the impulse of contact over the
-//! step that ends there, in which the force counts as even and the stator's angular acceleration as constant, and the
-//! impulse of an impact at its end. A [`replay`] carries rotors of any inertia, friction, load, phase lag and twist
-//! along it (docs/numerics-dynamics.md, "The tape of the force").
+//! If friction does not act back on the height, the vertical motion affects a rotor only through the time and
+//! strength of the normal force. A tape stores this as [`Knot`]s. Each has the phase of the drive, the
+//! impulse of contact over the step that ends there, and the impulse of an impact at its end; within the step
+//! the force and the stator's angular acceleration are assumed constant. A [`replay`] carries rotors of any
+//! inertia, friction, load, phase lag and twist along it (docs/numerics-dynamics.md, "The tape of the
+//! force").
 
 pub(crate) mod cycle;
 mod engine;
@@ -28,7 +29,8 @@ use bouncing_disk_drives::Drive;
 use crate::motor::tape::window::AxialWindow;
 use crate::stator::StatorLedger;
 
-/// Least steps into which a contact is divided, however short it is: the force rises and falls in it.
+/// Fewest steps into which a contact is divided, however short it is, to resolve the rise and fall of the
+/// force.
 const LEAST_STEPS: f64 = 6.0;
 
 /// The end of a step of a tape, in radians of the drive and units of m g/omega.
@@ -45,23 +47,23 @@ pub(crate) struct Knot {
     pub(crate) hit: f64,
 }
 
-/// A part of a vertical motion.
+/// A recorded part of a vertical motion.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Tape {
     /// The first knot is the start.
     pub(crate) knots: Vec<Knot>,
-    /// The stator's angular speed at the knots, for each way in which it turns other than as a sine.
+    /// The stator's angular speed at the knots, for each non-sinusoidal twist.
     pub(crate) speeds: Vec<Vec<f64>>,
-    /// Steps of a contact in a period of the drive; zero for a contact in one step.
+    /// Steps per period of the drive during a contact; zero for one step per contact.
     pub(crate) resolution: f64,
-    /// Energies and impacts of what is recorded.
+    /// Energies and impacts of the recorded motion.
     pub(crate) axial: AxialWindow,
     pub(crate) stator: StatorLedger,
     twists: Vec<Drive>,
 }
 
 impl Tape {
-    /// A tape that begins at this phase (rad), for stators that turn so.
+    /// A tape that begins at this phase (rad), for stators with these twists.
     pub(crate) fn new(phase: f64, resolution: f64, twists: Vec<Drive>) -> Self {
         let speeds = vec![Vec::new(); twists.len()];
         let mut tape = Self { resolution, twists, speeds, ..Self::default() };
@@ -69,12 +71,12 @@ impl Tape {
         tape
     }
 
-    /// The ways in which stators turn other than as a sine.
+    /// The non-sinusoidal twists of the stators.
     pub(crate) fn twists(&self) -> Vec<Drive> {
         self.twists.clone()
     }
 
-    /// Begins at this phase (rad), with nothing recorded.
+    /// Begins at this phase (rad), with an empty tape.
     pub(crate) fn begin(&mut self, phase: f64) {
         self.knots.clear();
         self.speeds.iter_mut().for_each(Vec::clear);
@@ -83,7 +85,7 @@ impl Tape {
         self.push(Knot { sin, cos, ..Knot::default() }, phase);
     }
 
-    /// Goes on from its end, with nothing recorded.
+    /// Continues from its end, with an empty tape.
     pub(crate) fn restart(&mut self) {
         let last = self.knots.len() - 1;
         self.knots.drain(..last);
@@ -91,7 +93,7 @@ impl Tape {
         (self.axial, self.stator) = Default::default();
     }
 
-    /// Steps for a contact that lasts so long; one where only the motion is wanted.
+    /// Number of steps for a contact of this duration; one if only the motion is required.
     pub(crate) fn steps(&self, duration: f64) -> u32 {
         if self.resolution == 0.0 {
             return 1;
@@ -99,7 +101,8 @@ impl Tape {
         (duration * (self.resolution / TAU)).ceil().clamp(LEAST_STEPS, f64::from(u32::MAX)) as u32
     }
 
-    /// Adds a knot at this phase (rad, in any turn). The second of two at one instant is after a kink of the twist.
+    /// Adds a knot at this phase (rad, in any turn). The second of two knots at one instant is after a kink
+    /// of the twist.
     pub(crate) fn push(&mut self, knot: Knot, phase: f64) {
         let after_kink = knot.duration == 0.0 && !self.knots.is_empty() && knot.hit == 0.0;
         self.knots.push(knot);
@@ -113,14 +116,15 @@ impl Tape {
         }
     }
 
-    /// How long after this phase the twist of a stator has its next kink, if that comes within a time.
+    /// The time from this phase to the next kink of a stator's twist, if it is within the limit.
     fn next_kink(&self, phase: f64, within: f64) -> Option<f64> {
         let at = phase.rem_euclid(TAU);
         let kinks = self.twists.iter().filter_map(|twist| twist.next_kink(at));
         kinks.map(|kink| kink.after).filter(|after| *after > 0.0 && *after < within).reduce(f64::min)
     }
 
-    /// Adds a contact that lasts so long from this phase (rad) on, by the impulse up to a time after its start.
+    /// Adds a contact of this duration from this phase (rad) on; the impulse is given as a function of the
+    /// time after its start.
     pub(crate) fn press(&mut self, phase: f64, duration: f64, mut impulse: impl FnMut(f64) -> f64) {
         self.axial.pressed += duration;
         let steps = self.steps(duration);
@@ -133,7 +137,7 @@ impl Tape {
             let to = kink.map_or(next, |kink| after + kink);
             let now = impulse(to);
             let (sin, cos) = sin_cos(phase + to);
-            // The force cannot pull: rounding may leave a little of that next to zero.
+            // The force cannot pull, but rounding may make a small force negative.
             let knot = Knot { duration: to - after, sin, cos, pressed: (now - before).max(0.0), hit: 0.0 };
             self.push(knot, phase + to);
             if kink.is_some() {

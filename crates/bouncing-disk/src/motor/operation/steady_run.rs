@@ -1,11 +1,12 @@
 //! An ensemble of vertical motions that runs until the speeds of all rotors are known well enough.
 //!
-//! If recording a vertical motion takes longer than replaying it, slow rotors have less inertia: so much less that
-//! they rise in 0.3 P/e periods, or in 0.02 P/e for rigid impacts on a compliant stator, with the requested error e,
-//! at most 1 %, and the platform's largest speed P, on the largest held amplitude. The standard deviation of the
-//! speed is scaled back by the root of the inertia; on a cycle each rotor has its own. Members on a compliant stator
-//! are split at the largest ratio of neighbouring amplitudes, if these differ by more than the requested error and
-//! by five times the part that scatter in time explains, and if no group drifts.
+//! If recording a vertical motion takes longer than replaying it, slow rotors have less inertia: so little
+//! that they rise in 0.3 P/e periods, or in 0.02 P/e for rigid impacts on a compliant stator. Here e is the
+//! requested error, at most 1 %, and P the platform's largest speed, on the largest held amplitude. The
+//! standard deviation of the speed is scaled back by the root of the inertia; on a cycle each rotor has its
+//! own. Members on a compliant stator are split at the largest ratio of neighbouring amplitudes, if these
+//! differ by more than the requested error and by five times the part that scatter in time explains, and if
+//! no group drifts.
 
 use std::f64::consts::TAU;
 
@@ -33,86 +34,87 @@ use crate::parameters::dimensionless::DimensionlessSystem;
 use crate::parameters::system::System;
 use crate::stator::StatorSystem;
 
-/// Windows of the first round, and windows in the time in which friction gives the platform's largest speed.
+/// Windows of the first round, and windows in the time in which friction can accelerate a rotor to the
+/// platform's largest speed.
 const FIRST_WINDOWS: usize = 12;
 const WINDOWS_OF_RISE: f64 = 2.0;
 
-/// The least length of a window, over the time in which an amplitude of the stator falls by a factor e.
+/// The least length of a window relative to the time in which an amplitude of the stator falls by a factor e.
 const WINDOW_OF_DECAY: f64 = 0.75;
 
-/// That of a stator whose members start on held amplitudes, as a share.
+/// The same, as a share, for a stator whose members start at held amplitudes.
 const HELD_SHARE: f64 = 0.3;
 
-/// A slow rotor has less inertia than its motor, so that its rise takes no more periods than this, times the platform's
-/// largest speed P (the length of flights), over the requested error or this one, whichever is smaller. The speed is then
-/// off by a third of the requested error.
+/// A slow rotor has less inertia than its motor, so that its rise takes at most this number of periods, times
+/// the platform's largest speed P (which sets the length of flights), divided by the smaller of the requested
+/// error and this one. The speed is then off by a third of the requested error.
 const PERIODS_OF_RISE: f64 = 0.3;
 
-/// The same of rigid impacts on a stator that yields, whose long flights take longest to record: where the speed is then
-/// off by too much, the rotors get more inertia.
+/// The same for rigid impacts on a compliant stator, whose long flights take longest to record; if the speed
+/// is then off by too much, the rotors get more inertia.
 const QUICK_SHARE: f64 = 0.02;
 const LOOSE: f64 = 0.01;
 
 /// The length of the shortest run, and the inertia of its rotors.
 const SHORTEST: (f64, f64) = (1.0, 1.0);
 
-/// A run whose rotors have too little inertia begins again with so many times more.
+/// A run whose rotors have too little inertia begins again with this many times more.
 const SLOWER: f64 = 4.0;
 
-/// Most times less.
+/// Largest factor by which the inertia is reduced.
 const QUICKEST: f64 = 1.0e6;
 
-/// With more windows, two and two become one.
+/// If there are more windows than this, pairs are merged.
 const MOST_WINDOWS: usize = 128;
 
-/// Most rotors of all members of one ensemble together: half a gigabyte with their windows, and those of the
-/// second start of each.
+/// Most rotors of all members of one ensemble together: half a gigabyte with their windows, including those
+/// of the second start of each.
 pub const MAX_OPERATED_ROTORS: usize = 1 << 16;
 
-/// Least impacts of a window, and least periods of the platform.
+/// Fewest impacts of a window, and fewest periods of the platform.
 const LEAST_IMPACTS: u64 = 50;
 const LEAST_PERIODS: f64 = 10.0;
 
-/// A round is at most so many times as long as all rounds before it together, whatever the estimate.
+/// A round is at most this many times as long as all previous rounds together, whatever the estimate.
 const GROWTH: f64 = 3.0;
 
 /// The factor by which the estimated number of windows is increased, so that a further round is seldom
 /// needed.
 const MARGIN: f64 = 1.15;
 
-/// The members that run first. The others join the cycles of these.
+/// The members that run first. The others join their cycles.
 const PILOTS: usize = 2;
 
-/// Members begin, in place of others that repeat themselves, until there were so many times those of the settings.
+/// New members replace others that repeat, until there have been this many times the number in the settings.
 const MOST_STARTS: usize = 3;
 
-/// More cycles than this on a stator with kinks are a family: each start keeps its own.
+/// More cycles than this on a stator with kinks form a family, in which each start keeps its own.
 const MOST_CYCLES: usize = 6;
 
-/// Windows that each of the members leaves out as its start-up if some end.
+/// Windows that each member omits as its start-up if some members end.
 const START_UP: usize = FIRST_WINDOWS / 2;
 
-/// Least windows for each member from which an irregular motion is stated.
+/// Fewest windows per member from which an irregular motion is reported.
 const LEAST_WINDOWS: usize = 4;
 
 /// The mean speeds of all rotors and members, and the operations that follow from them.
 #[derive(Debug)]
 pub(crate) struct Operations {
-    /// In the order of the motors.
+    /// The rows in the order of the motors.
     pub(crate) rows: Vec<OperatingRow>,
-    /// `speeds[rotor][member]`, mean angular speeds (rad/s) of the first branch after the start-up, in the middle of
-    /// those of rotors from far below and from far above; none for a runaway.
+    /// `speeds[rotor][member]`, mean angular speeds (rad/s) of the first branch after the start-up, averaged
+    /// over the rotors from far below and from far above; empty for a runaway.
     pub(crate) speeds: Vec<Vec<f64>>,
-    /// The same of rotors from far above, and in a cycle with coarser steps. The difference bounds the error of the start-up
-    /// and of the steps.
+    /// The same for rotors from far above, and for a cycle with coarser steps. The difference bounds the
+    /// error due to the start-up and the steps.
     pub(crate) speeds_from_above: Vec<Vec<f64>>,
-    /// How long each member was followed, in units of the shortest run, and how many times more inertia than in the first
-    /// run the rotors had.
+    /// How long each member was followed, in units of the shortest run, and the factor by which the rotors
+    /// had more inertia than in the first run.
     pub(crate) length: (f64, f64),
 }
 
 /// The steady operation of motors that share one vertical motion. The errors are relative to the largest
-/// speed of those without load; if all have one, the first motor is also computed without its load.
+/// speed of the unloaded ones; if all are loaded, the first motor is also computed without its load.
 pub(crate) fn operate(
     motors: &[LoadedMotor<'_>],
     settings: &OperatingSettings,
@@ -137,11 +139,11 @@ pub(crate) fn curve_of(
     Ok(operate(&motors, settings, observer)?.rows)
 }
 
-/// Where the members of an ensemble of one motor were left (SI).
+/// The final states of the members of an ensemble of one motor (SI).
 pub(crate) type Ends = Vec<Left>;
 
-/// The steady operation of a motor from where another one was left, and where it is left; none of a runaway, and
-/// of a stator that does not yield.
+/// The steady operation of a motor from the final state of another one, with its own final state; no final
+/// state for a runaway or a rigid stator.
 pub(crate) fn continued(
     motor: LoadedMotor<'_>,
     from: Option<&Ends>,
@@ -153,7 +155,7 @@ pub(crate) fn continued(
 }
 
 /// [`operate`] with members that are followed for exactly this length, however well the speeds are then
-/// known; the settings may have fewer members than is legal elsewhere.
+/// known; the settings may have fewer members than are otherwise legal.
 pub(crate) fn operate_for(
     length: Option<(f64, f64)>,
     motors: &[LoadedMotor<'_>],
@@ -224,7 +226,7 @@ fn operate_from(
             Ok::<_, Error>((results_of(&parts)?, (longer, slower), ends_of(&parts), scale))
         };
         if motors[0].stator.acts_back() {
-            // Each has a motion of its own. The errors are relative to the speed of the first one without load.
+            // Each has its own motion. The errors are relative to the speed of the first one without load.
             let unloaded = carried.iter().position(LoadedMotor::is_unloaded).unwrap_or(0);
             let (of_unloaded, longer, left, scale) = run(vec![carried[unloaded]], 1, None)?;
             results.length = (length_of_all * longer.0, longer.1);
@@ -266,7 +268,8 @@ fn operate_from(
     Ok((results, ends))
 }
 
-/// Gives two irregular motions of a row, of rotors from below and from above that stay apart, the speed between them.
+/// If a row has two irregular motions, of rotors from below and from above that stay apart, adds the speed
+/// between them.
 fn add_unstable_speed(
     motor: &LoadedMotor<'_>,
     row: &mut OperatingRow,
@@ -287,19 +290,19 @@ fn add_unstable_speed(
     Ok(())
 }
 
-/// The operations of a motor, and the speeds of the members of the first as in [`Operations`].
+/// The operations of a motor, and the speeds of the first one's members as in [`Operations`].
 type MotorResult = (OperatingRow, Vec<f64>, Vec<f64>);
 
-/// How many members came to an operation from rest, the operation, and the mean speeds (rad/s) of its two rotors in each
-/// member.
+/// The number of members that reached an operation from rest, the operation, and the mean speeds (rad/s) of
+/// its two rotors in each member.
 type Branch = (usize, Operation, [Vec<f64>; 2]);
 
-/// A motion that repeats itself, and the rotors that repeat with it.
+/// A motion that repeats, and the rotors that repeat with it.
 struct Repeated {
     cycle: Cycle,
-    /// What all rotors of a member do in it, with fine and with coarse steps.
+    /// The motion of all rotors of a member in it, with fine and with coarse steps.
     windows: [Window; 2],
-    /// How many of the members that started from rest came to it.
+    /// Number of the members started from rest that reached it.
     from_rest: usize,
 }
 
@@ -307,7 +310,7 @@ struct Repeated {
 struct Carried {
     index: usize,
     member: Member,
-    /// How many starts from rest it stands for.
+    /// Number of starts from rest that it represents.
     from_rest: usize,
     windows: Vec<Window>,
 }
@@ -315,36 +318,36 @@ struct Carried {
 /// An ensemble under way.
 struct SteadyRun<'a> {
     motors: Vec<LoadedMotor<'a>>,
-    /// Their [`LoadedMotor::dimensionless`].
+    /// The [`LoadedMotor::dimensionless`] of each motor.
     systems: Vec<DimensionlessSystem>,
-    /// How many of them the caller requested: each of these is carried twice, from far below and from far
-    /// above all steady speeds.
+    /// Number of motors that the caller requested: each of these is carried twice, from far below and from
+    /// far above all steady speeds.
     asked: usize,
     members: Vec<Carried>,
     repeated: Vec<Repeated>,
-    /// The windows of irregular motions that ended, without their start-up.
+    /// The windows of irregular motions that have ended, without their start-up.
     ended_windows: Vec<Vec<Window>>,
-    /// How long irregular motions lasted that ended, and all of a survey.
+    /// How long irregular motions lasted before they ended, including those of a survey.
     life: Lived,
-    /// Where those of the first members were left that repeat themselves.
+    /// The final states of the first members that repeat.
     left: Vec<(usize, Left)>,
-    /// Members begun so far, and the most.
+    /// Members begun so far, and the largest number.
     begun: usize,
     most_begun: usize,
     stators: Vec<Stator>,
-    /// Held amplitudes, on which members start.
+    /// Held amplitudes at which members start.
     held: Starts,
-    /// How many times less inertia the rotors have than their motors.
+    /// Factor by which each rotor has less inertia than its motor.
     quicker: Vec<f64>,
     settings: OperatingSettings,
-    /// Duration of a window (rad) and its least impacts.
+    /// Duration of a window (rad) and its fewest impacts.
     duration: f64,
     least_impacts: u64,
     /// Most impacts of a window.
     most_impacts: u64,
-    /// The speed (rad/s) that errors are relative to, if it is known already.
+    /// The speed (rad/s) to which errors are relative, if it is already known.
     reference: Option<f64>,
-    /// What each rotor still lacks, and its requested error (rad/s).
+    /// The shortfall of each rotor, and its requested error (rad/s).
     shortfalls: Vec<Option<Shortfall>>,
     wanted: Vec<f64>,
 }
@@ -368,11 +371,11 @@ impl<'a> SteadyRun<'a> {
             None => Starts::new(&stators[0], settings, &mut watch.work())?,
             Some(_) => Starts::default(),
         };
-        // The amplitude of a stator that yields settles within the windows that are left out first.
+        // The amplitude of a compliant stator settles within the windows that are omitted first.
         let decay = motors[0].stator.yielded().map_or(0.0, StatorSystem::decay_time);
         let settles = WINDOW_OF_DECAY * if decay > LONGEST_DECAY { HELD_SHARE * decay } else { decay };
-        // A slow rotor needs less time with less inertia, which hardly matters. Rigid impacts on a sine take no longer to
-        // record than to replay.
+        // A slow rotor needs less time if it has less inertia, which hardly affects its speed. Rigid impacts
+        // on a sine take no longer to record than to replay.
         let peak = held.largest().unwrap_or_else(|| systems[0].peak_acceleration()).max(1.0);
         let share =
             if stators[0].yields() && !stators[0].takes_time() { QUICK_SHARE } else { PERIODS_OF_RISE };
@@ -381,12 +384,11 @@ impl<'a> SteadyRun<'a> {
         let takes_long = stators[0].takes_long();
         let less = |system| if takes_long { (rise(system) / longest).clamp(1.0, QUICKEST) } else { 1.0 };
         let quicker: Vec<f64> = systems.iter().map(less).collect();
-        // The time in which friction gives the platform's largest speed, in radians; that of the slowest
-        // rotor.
+        // The time (rad) in which friction can accelerate the slowest rotor to the platform's largest speed.
         let rises = systems.iter().zip(&quicker).map(|(system, quicker)| rise(system) / quicker);
         let rise = rises.fold(0.0, f64::max);
         let duration = length * (rise.min(f64::MAX) / WINDOWS_OF_RISE).max(LEAST_PERIODS * TAU).max(settles);
-        // Even where the rise takes for ever the first round spends no more than it may.
+        // Even if the rise takes for ever, the first round stays within its allowance.
         let most_impacts = (settings.most_impacts / (settings.members * FIRST_WINDOWS) as u64).max(1);
         let least_impacts = ((length * LEAST_IMPACTS as f64) as u64).min(most_impacts);
         let survey = motors[0].surveyed;
@@ -438,7 +440,7 @@ impl<'a> SteadyRun<'a> {
         Ok(run)
     }
 
-    /// The next member that begins.
+    /// The next member.
     fn begin(&mut self) -> Result<Carried, Error> {
         let index = self.begun;
         self.begun += 1;
@@ -473,13 +475,13 @@ impl<'a> SteadyRun<'a> {
         Ok(member)
     }
 
-    /// Windows of a member so far; none if no motion is irregular.
+    /// Number of windows per member so far; 0 if no motion is irregular.
     fn windows(&self) -> usize {
         self.members.first().map_or(0, |own| own.windows.len())
     }
 
-    /// The windows of irregular motions after their start-up: those of each member, or, if some have ended, all of them
-    /// one after the other in as many groups as there are members. None if they are too few.
+    /// The windows of irregular motions after their start-up, for each member; if some have ended, all
+    /// windows one after the other, in as many groups as there are members. Empty if they are too few.
     fn averaged(&self) -> Vec<Vec<&Window>> {
         if self.ended_windows.is_empty() {
             let after = left_out(self.windows());
@@ -491,8 +493,8 @@ impl<'a> SteadyRun<'a> {
         if each < LEAST_WINDOWS { Vec::new() } else { all.chunks_exact(each).map(<[_]>::to_vec).collect() }
     }
 
-    /// Follows the members until the speeds are known, and those that keep amplitudes of their own each alone from where
-    /// this is seen.
+    /// Follows the members until the speeds are known; if members keep separate amplitudes, each group
+    /// continues alone.
     fn settle(mut self, watch: &Watch<'_>) -> Result<Vec<Self>, Error> {
         let groups = self.compute(watch)?;
         if groups.len() < 2 {
@@ -529,8 +531,8 @@ impl<'a> SteadyRun<'a> {
         Ok(parts)
     }
 
-    /// Follows the members until the speeds are known, or until they are seen to keep amplitudes of their own: the places
-    /// of those on each.
+    /// Follows the members until the speeds are known, or until they are seen to keep separate amplitudes;
+    /// then returns the indices of the members at each.
     fn compute(&mut self, watch: &Watch<'_>) -> Result<Vec<Vec<usize>>, Error> {
         let mut target = FIRST_WINDOWS;
         loop {
@@ -550,7 +552,7 @@ impl<'a> SteadyRun<'a> {
             let windows = self.windows();
             let grown = (windows as f64 * factor.min(GROWTH)).ceil() as usize;
             target = grown.max(windows + 1);
-            // Whether the impacts that are left are enough.
+            // Whether the remaining impacts suffice.
             let spent = self.spent();
             let left = self.settings.most_impacts.saturating_sub(spent);
             let each = spent.max(1) as f64 / windows as f64;
@@ -566,11 +568,11 @@ impl<'a> SteadyRun<'a> {
         }
     }
 
-    /// Extends all members to so many windows. One whose motion is found to repeat itself gives its place to a member
-    /// that begins.
+    /// Extends all members to this number of windows. A member whose motion is found to repeat is replaced by
+    /// a new one.
     fn extend(&mut self, target: usize, watch: &Watch<'_>) -> Result<(), Error> {
         if self.windows() == 0 && self.stators[0].yields() && self.members.len() > PILOTS {
-            // The others stop early where they come to a cycle of the first ones.
+            // The others stop early when they reach a cycle of the first ones.
             let others = self.members.split_off(PILOTS);
             self.extend_all(target, watch)?;
             self.take_repeated(watch)?;
@@ -586,7 +588,7 @@ impl<'a> SteadyRun<'a> {
         }
     }
 
-    /// Takes the members that repeat themselves out of those that are irregular; whether others took their places.
+    /// Removes the members that repeat from the irregular ones; returns whether others replaced them.
     fn take_repeated(&mut self, watch: &Watch<'_>) -> Result<bool, Error> {
         let mut begins = false;
         let largest: Vec<f64> = {
@@ -612,15 +614,15 @@ impl<'a> SteadyRun<'a> {
             }
             windows.pop();
             windows.drain(..windows.len().min(START_UP));
-            // Without windows that are left it was on its way to the cycle from the start.
+            // If no windows are left, it was on its way to the cycle from the start.
             if !windows.is_empty() {
                 self.life.add(of_windows(&windows), true);
                 self.ended_windows.push(windows);
             }
-            // A cycle of the survey takes no place.
+            // A cycle from the survey occupies no place.
             places += usize::from(followed > 0.0);
         }
-        // Where all come to one cycle further starts bring nothing new.
+        // If all reach one cycle, further starts give nothing new.
         let (several, irregular) = (self.repeated.len() > 1, !kept.is_empty() || self.life.ended > 0);
         if (several || irregular) && !self.knows_first() {
             let begin = places.min(self.most_begun - self.begun);
@@ -633,7 +635,7 @@ impl<'a> SteadyRun<'a> {
         Ok(begins)
     }
 
-    /// The place of the cycle that a member repeats, if it was found to do so: a new one if it is not known.
+    /// The index of the cycle that a member repeats, if any; a new one if it is not yet known.
     fn place_of(
         &mut self,
         member: &mut Member,
@@ -657,12 +659,13 @@ impl<'a> SteadyRun<'a> {
         Ok(Some(known))
     }
 
-    /// Whether nothing more is wanted than is known: irregular motions end, so that a cycle is where most are from rest.
+    /// Whether all required results are known: irregular motions end, so most rotors from rest finally reach
+    /// a cycle.
     fn knows_first(&self) -> bool {
         self.motors[0].first_only && self.life.ended > 0 && !self.repeated.is_empty()
     }
 
-    /// How many times as long a run has to be.
+    /// The factor by which a run has to be longer.
     fn hoped_for(&self, shortfall: &Shortfall) -> f64 {
         match *shortfall {
             Shortfall::Error { standard_error, wanted } => {
@@ -702,13 +705,13 @@ impl<'a> SteadyRun<'a> {
         self.members.iter_mut().try_for_each(extend_one)
     }
 
-    /// Makes one window of two.
+    /// Merges pairs of windows.
     fn merge(&mut self) {
         let going = self.members.iter_mut().map(|own| &mut own.windows);
         for windows in going.chain(&mut self.ended_windows) {
             let mut pairs = std::mem::take(windows).into_iter();
             while let Some(mut window) = pairs.next() {
-                // An odd one at the end is the last and stays alone.
+                // An odd last one is not merged.
                 if let Some(next) = pairs.next() {
                     window.add(&next);
                 }
@@ -720,15 +723,15 @@ impl<'a> SteadyRun<'a> {
         self.most_impacts = self.most_impacts.saturating_mul(2);
     }
 
-    /// The rotor of a motor that started from far above; for a motor that the caller did not request, its
-    /// only rotor.
+    /// Index of a motor's rotor that started from far above; for a motor that the caller did not request, of
+    /// its only rotor.
     fn rotor_from_above(&self, motor: usize) -> usize {
         let bracketed = motor < self.asked && !self.stators[0].acts_back();
         if bracketed { self.motors.len() + motor } else { motor }
     }
 
-    /// Mean speeds (rad/s) in the windows after the start-up, of each member: in the middle of a motor's two
-    /// rotors, and of the one from far above.
+    /// Mean speeds (rad/s) of each member in the windows after the start-up: averaged over a motor's two
+    /// rotors, and for the one from far above.
     fn speeds(&self, motor: usize) -> [Vec<Vec<f64>>; 2] {
         let unit = self.motors[motor].system.scales().angular_speed;
         let above = self.rotor_from_above(motor);
@@ -741,7 +744,7 @@ impl<'a> SteadyRun<'a> {
     }
 }
 
-/// Where the members are; none of a stator that does not yield.
+/// The states of the members; `None` for a rigid stator.
 fn ends_of(parts: &[SteadyRun<'_>]) -> Option<Ends> {
     let scales = parts[0].motors[0].system.scales();
     let of = |own: &Carried| own.member.left().map(|left| (own.index, left));
@@ -753,7 +756,7 @@ fn ends_of(parts: &[SteadyRun<'_>]) -> Option<Ends> {
     (!all.is_empty()).then(|| all.into_iter().map(|(_, left)| left.scaled(&scales, |unit| unit)).collect())
 }
 
-/// How long (rad) windows last together.
+/// Total duration (rad) of windows.
 fn of_windows(windows: &[Window]) -> f64 {
     windows.iter().map(|window| window.axial.duration).sum()
 }

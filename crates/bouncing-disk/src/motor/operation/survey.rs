@@ -1,12 +1,13 @@
 //! The vertical motions that coexist on a rigid stator, and how long irregular ones last.
 //!
-//! Only the disk is followed, so a thousand contacts take a millisecond: from rest and from throws, until the motion
-//! repeats itself or the longest run ends. Loads, lags and rotors share the result. Compliant contacts have 8 starts
-//! from rest and 8 throws of up to three times the platform's largest speed; rigid impacts have 16 throws, because a
-//! disk that rests continues as from rest. A run has at most 20,000 touches on a sine with compliant contacts, which
-//! are in closed form, and 2,000 otherwise. Irregular motions last from touch 256 to the last touch more than 5 %
-//! away from the final cycle. Throws of compliant contacts continue, 16 at a time, until 64 irregular motions have
-//! ended, none of at least 16 has, or 600,000 touches or 256 starts are spent. Rigid impacts on a stator with kinks
+//! Only the disk is followed, so a thousand contacts take a millisecond: from rest and from throws, until the
+//! motion repeats or the longest run ends. Loads, lags and rotors share the result. Compliant contacts have 8
+//! starts from rest and 8 throws of up to three times the platform's largest speed; rigid impacts have 16
+//! throws, because a disk that rests continues as from rest. A run has at most 20,000 touches on a sine with
+//! compliant contacts, which are in closed form, and 2,000 otherwise. The life of an irregular motion is
+//! counted from touch 256 to the last touch more than 5 % away from the final cycle. Throws with compliant
+//! contacts continue, 16 at a time, until one of these conditions holds: 64 irregular motions have ended,
+//! none of at least 16 has, or 600,000 touches or 256 starts are spent. Rigid impacts on a stator with kinks
 //! are not surveyed.
 
 use std::f64::consts::TAU;
@@ -24,28 +25,29 @@ use crate::motor::tape::recurrence::{Key, Recurrence, Repeats, Touch};
 use crate::motor::tape::source::Source;
 use crate::parameters::dimensionless::DimensionlessSystem;
 
-/// Starts that are followed at once, and most of all.
+/// Starts that are followed together, and largest total number.
 const STARTS: usize = 16;
 const MOST_STARTS: usize = 16 * STARTS;
 
-/// Irregular motions that end, after which their mean life is known well enough; until then further ones start, while all
-/// have had fewer touches than this.
+/// Number of ended irregular motions after which their mean life is known well enough. Until then further
+/// starts follow, as long as all together have had fewer touches than this.
 const ENOUGH_ENDS: u64 = 64;
 const MOST_TOUCHES: u64 = 600_000;
 
-/// A start whose motion repeats itself before so many touches was on its way to the cycle.
+/// A start whose motion repeats before this number of touches was already on its way to the cycle.
 const SETTLED: u64 = 256;
 
-/// Most steps of a motion, over the touches.
+/// Most steps of a motion per touch.
 const STEPS_OF_TOUCH: u64 = 8;
 
-/// Touches after which the state is remembered.
+/// Touches after which the state is stored.
 const MARK: u64 = 16;
 
-/// Most states from which a rotor may go on, of one start.
+/// Most states per start from which a rotor may continue.
 const MOST_STATES: usize = 16;
 
-/// Most touches of a start that is recorded in closed form, and of one that an engine follows or that has rigid impacts.
+/// Most touches of a start recorded in closed form, and of one that an engine follows or that has rigid
+/// impacts.
 const LONGEST: u64 = 20_000;
 const SHORTEST: u64 = 2_000;
 
@@ -53,14 +55,15 @@ const SHORTEST: u64 = 2_000;
 #[derive(Debug)]
 pub(crate) struct Survey {
     pub(crate) cycles: Vec<Surveyed>,
-    /// States in irregular motions, one of each first; `None` for rigid impacts, where rotors start from rest.
+    /// States in irregular motions, one of each first; `None` for rigid impacts, for which rotors start from
+    /// rest.
     pub(crate) irregular: Option<Vec<Source>>,
-    /// Starts from rest that were irregular to the last.
+    /// Number of starts from rest that were irregular to the last.
     pub(crate) from_rest: usize,
     pub(crate) life: Lived,
 }
 
-/// A cycle, how often it came from rest, and a disk on it.
+/// A cycle, how often it was reached from rest, and a disk on it.
 #[derive(Debug)]
 pub(crate) struct Surveyed {
     pub(crate) source: Source,
@@ -69,7 +72,7 @@ pub(crate) struct Surveyed {
     cycle: Cycle,
 }
 
-/// How long irregular motions were watched (rad), all of them and the longest, and how many ended.
+/// How long irregular motions were observed (rad), in total and at most, and how many ended.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Lived {
     pub(crate) total: f64,
@@ -78,7 +81,7 @@ pub(crate) struct Lived {
 }
 
 impl Lived {
-    /// Adds one that was watched for so long.
+    /// Adds a motion that was observed for this long.
     pub(crate) fn add(&mut self, lasted: f64, has_ended: bool) {
         self.total += lasted;
         self.longest = self.longest.max(lasted);
@@ -87,7 +90,8 @@ impl Lived {
 }
 
 impl Survey {
-    /// The motions of a disk of this system, from phases that the seed turns; `None` on a stator that yields, and for rigid impacts on one with kinks.
+    /// The motions of a disk of this system, from phases that the seed rotates; `None` for a compliant
+    /// stator, and for rigid impacts on one with kinks.
     pub(crate) fn of(
         stator: &Stator,
         system: &DimensionlessSystem,
@@ -113,7 +117,7 @@ impl Survey {
         }
         let (mut irregular, mut later, mut touches) = (Vec::new(), Vec::new(), 0);
         for begun in (0..MOST_STARTS).step_by(STARTS) {
-            // Those that come from rest are all among the first.
+            // Starts from rest are all among the first.
             let index = |own: usize| if begun == 0 { own } else { 2 * (begun + own) + 1 };
             let all = in_parallel(STARTS, |own| Followed::of(start(index(own))?, &mut watch.work()));
             for (own, followed) in all.into_iter().enumerate() {
@@ -146,7 +150,8 @@ impl Survey {
         Ok(Some(found))
     }
 
-    /// Adds the cycle of a motion that repeats itself; how long (rad) it lasted before it was on its way to the cycle.
+    /// Adds the cycle of a motion that repeats; returns how long (rad) it lasted before it was on its way to
+    /// the cycle.
     fn add_cycle(
         &mut self,
         followed: Followed,
@@ -171,7 +176,7 @@ impl Survey {
 /// A start that was followed.
 struct Followed {
     source: Source,
-    /// From time to time, when (rad) it touched the platform, and how.
+    /// Selected touches, each with its time (rad).
     marks: Vec<(f64, Key)>,
     states: Vec<(f64, Source)>,
     repeats: Option<Repeats>,
@@ -195,7 +200,7 @@ impl Followed {
             tape.restart();
             repeats = recurrence.add(touch, lasted);
             let Touch::At(key) = touch else {
-                // What comes to rest goes on as from rest.
+                // A disk that comes to rest continues as from rest.
                 if is_rigid {
                     break;
                 }

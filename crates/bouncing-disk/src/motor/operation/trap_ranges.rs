@@ -1,6 +1,6 @@
-//! Ranges of the preload that trap a motor, and the nearest of them.
+//! Ranges of the preload that trap a motor, and the nearest one.
 //!
-//! The speeds inside a trap come from operating points near both edges and in the middle.
+//! The speeds inside a trap are computed at operating points near both edges and in the middle.
 
 use std::f64::consts::PI;
 
@@ -22,10 +22,10 @@ pub const LEAST_TRAP_WIDTH: f64 = 5.0e-4;
 /// Most steps of a scan.
 const MOST_STEPS: f64 = 1.0e7;
 
-/// Halvings of a step that find the edge of a trap.
+/// Bisections of a step that locate the edge of a trap.
 const HALVINGS: u32 = 24;
 
-/// Where in a range of preloads the speed is computed, as shares of its width.
+/// Positions in a range of preloads at which the speed is computed, as shares of its width.
 const PLACES: [f64; 3] = [0.1, 0.5, 0.9];
 
 /// A range of the preload that traps a motor ([`Motor::trap_ranges`]).
@@ -44,29 +44,29 @@ pub struct TrapRange {
     /// The motion of the rotor in the middle of the range.
     pub verdict: TrapVerdict,
     /// The operation near the lower edge, in the middle and near the upper edge of the range (a tenth of the
-    /// width inside the edges), under the load of the data sheet. Most traps hardly slow a motor, some stop
+    /// width inside the edges), under the load of the data sheet. Most traps hardly slow a motor; some stop
     /// it.
     pub operations: [OperatingRow; 3],
 }
 
-/// The low-period trap that is nearest to a motor.
+/// The low-period trap nearest to a motor.
 ///
-/// A trap is a range of Gamma, at the motor's restitution. The motor gets into it by a change of preload, of
-/// amplitude or of frequency; the fields give the near edge of the trap for each of them, the others
+/// A trap is a range of Gamma at the motor's restitution. A change of preload, amplitude or frequency can
+/// take the motor into it; for each of them, a field gives the value at the near edge, with the others
 /// unchanged.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct NearestTrap {
-    /// The relative change of preload or of amplitude, whichever is smaller, that takes the motor to the near
+    /// The relative change of preload or amplitude, whichever is smaller, that takes the motor to the near
     /// edge; zero for a motor in the trap.
     pub relative_distance: f64,
-    /// Preload (m/s^2) at the near edge; that of the motor, if it is in the trap.
+    /// Preload (m/s^2) at the near edge; the motor's own if it is in the trap.
     pub preload_acceleration: f64,
     /// Amplitude (m) at the near edge.
     pub amplitude: f64,
     /// Drive frequency (Hz) at the near edge.
     pub drive_frequency: f64,
-    /// The range of Gamma of the trap, as far as the scan reached.
+    /// The range of Gamma of the trap, as far as the scan extended.
     pub forcing_from_to: [f64; 2],
     /// The motion of the rotor in the middle of this range.
     pub verdict: TrapVerdict,
@@ -76,10 +76,10 @@ pub struct NearestTrap {
 
 impl Motor {
     /// The ranges between two preloads (accelerations in m/s^2, the first one lower) that trap the motor and
-    /// are at least `least_relative_width` wide, in (0, 0.1]; [`LEAST_TRAP_WIDTH`] is a good choice. They
-    /// come in rising order, each with its speed inside, computed to the accuracy of `settings`.
+    /// are at least `least_relative_width` wide, in (0, 0.1]; [`LEAST_TRAP_WIDTH`] is a good choice. They are
+    /// in rising order, each with its speeds inside, computed to the accuracy of `settings`.
     ///
-    /// The items of `observer` are the steps of the scan, then the ranges.
+    /// The observer's items are the steps of the scan, then the ranges.
     ///
     /// ```
     /// # use bouncing_disk::core::Unobserved;
@@ -95,9 +95,9 @@ impl Motor {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for preloads that do not rise or are not positive, and for another width; an
-    /// error of the core for a scan of more than ten million steps, of half a width each; those of
-    /// [`Motor::operating_point`]; [`Error::SoftContact`].
+    /// [`Error::OutOfRange`] for preloads that do not rise or are not positive, and for a width outside its
+    /// range; an error of the core for a scan of more than ten million steps, of half a width each; the
+    /// errors of [`Motor::operating_point`]; [`Error::SoftContact`].
     pub fn trap_ranges(
         &self,
         [low, high]: [f64; 2],
@@ -148,14 +148,15 @@ impl Motor {
     }
 
     /// The nearest low-period trap that is at least [`LEAST_TRAP_WIDTH`] wide, if one lies within a relative
-    /// change of preload or amplitude of `relative_range`, in (0, 1]. Whether the motor itself is locked, in
-    /// however narrow a trap, [`MotorRegime::is_locked`](crate::motor::MotorRegime::is_locked) says.
+    /// change of preload or amplitude of `relative_range`, in (0, 1]. Use
+    /// [`MotorRegime::is_locked`](crate::motor::MotorRegime::is_locked) to check whether the motor itself is
+    /// locked, in however narrow a trap.
     ///
-    /// The items of `observer` are the steps of the scan.
+    /// The observer's items are the steps of the scan.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for another range; [`Error::SoftContact`] for contacts that take time; the errors of the
-    /// flights.
+    /// [`Error::OutOfRange`] for a `relative_range` outside (0, 1]; [`Error::SoftContact`] for compliant
+    /// contacts; the errors of the flights.
     pub fn nearest_trap(
         &self,
         relative_range: f64,
@@ -185,7 +186,7 @@ impl Motor {
     }
 }
 
-/// A scan over the logarithm of the forcing, relative to that of the motor.
+/// A scan over the logarithm of the forcing, relative to the motor's own.
 struct Scan<'a> {
     motor: &'a Motor,
     step: f64,
@@ -201,7 +202,7 @@ impl Scan<'_> {
     }
 
     /// The traps between two offsets that are at least two steps wide, cut off at these offsets. The scan
-    /// judges evenly spaced places, one step apart, so it misses only a trap with a hole at one of them.
+    /// tests equidistant points, one step apart, so it misses only a trap with a hole at one of them.
     fn ranges(&self, from: f64, to: f64, observer: &dyn Observer) -> Result<Vec<[f64; 2]>, Error> {
         // A stator at rest has no trap.
         if self.motor.system().peak_acceleration() <= 0.0 {

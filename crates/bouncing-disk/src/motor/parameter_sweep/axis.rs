@@ -4,10 +4,10 @@ use crate::error::{Error, check, within_limit};
 use crate::motor::data_sheet::motor_field::MotorField;
 use crate::motor::data_sheet::parameters::MotorParameters;
 
-/// Most cells of a sweep: a map of 300 by 300, say.
+/// Most cells of a sweep, for example a map of 300 by 300.
 pub const MAX_SWEEP_CELLS: usize = 100_000;
 
-/// A parameter and the values that it takes, in any order, in the unit of the parameter. Values may repeat.
+/// A parameter and its values, in any order, in the unit of the parameter. Values may repeat.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -26,7 +26,7 @@ impl SweepAxis {
     }
 }
 
-/// Checks the axes by themselves, whatever motor they are of.
+/// Checks the axes independently of any motor.
 pub(crate) fn check_axes(axes: &[SweepAxis]) -> Result<(), Error> {
     check((1..=2).contains(&axes.len()), "number of axes of a sweep", axes.len() as f64, "1 or 2")?;
     for axis in axes {
@@ -39,12 +39,12 @@ pub(crate) fn check_axes(axes: &[SweepAxis]) -> Result<(), Error> {
         if one == other {
             return Err(Error::RepeatedAxis { parameter: one.name() });
         }
-        // One of them would take the other's values away.
+        // One of them would clear the other's values.
         if one.excluded().contains(&other) || other.excluded().contains(&one) {
             return Err(Error::BothGiven { one: one.name(), other: other.name() });
         }
     }
-    // Before anything is done for each value.
+    // Checked before any work is done for each value.
     within_limit("cells of a sweep", cells(axes), MAX_SWEEP_CELLS)?;
     for axis in axes {
         for &value in &axis.values {
@@ -59,7 +59,7 @@ pub(crate) fn cells(axes: &[SweepAxis]) -> usize {
     axes.iter().fold(1, |cells, axis| cells.saturating_mul(axis.values.len()))
 }
 
-/// The values of the axes in a cell, which exists: the last axis varies fastest.
+/// The values of the axes in an existing cell; the last axis varies fastest.
 pub(crate) fn values_of_cell(axes: &[SweepAxis], cell: usize) -> impl Iterator<Item = (MotorField, f64)> {
     let mut stride = cells(axes);
     axes.iter().filter_map(move |axis| {
@@ -70,7 +70,7 @@ pub(crate) fn values_of_cell(axes: &[SweepAxis], cell: usize) -> impl Iterator<I
     })
 }
 
-/// The data sheet of a cell, which exists.
+/// The data sheet of an existing cell.
 pub(crate) fn sheet_of_cell(mut sheet: MotorParameters, axes: &[SweepAxis], cell: usize) -> MotorParameters {
     for (parameter, value) in values_of_cell(axes, cell) {
         parameter.set(&mut sheet, value);

@@ -6,21 +6,22 @@ use crate::motor::parameter_sweep::quantity::SweepQuantity;
 use crate::motor::parameter_sweep::result::MotorSweepResult;
 
 impl MotorSweepResult {
-    /// The cells as comma-separated text: a header, then for each cell, row by row, one line for each branch. The header
-    /// has units in the names; numbers are written so that reading them back is exact.
+    /// The cells as comma-separated text: a header, then one line for each branch of each cell, row by row.
+    /// The header has units in the names; numbers are written so that reading them back is exact.
     ///
-    /// The columns: the axes; `load_torque_n_m`, unless an axis is that; `way` of a continued sweep, `up` or `down`; `branch`, 1 for the one
-    /// that most rotors reach from rest; `motion`, which is `irregular`, `periodic` or `contact`; `life_s`, the mean life of
-    /// an irregular one, if some were seen to end; `state`, which is `steady`,
-    /// `unsettled` or `runaway`; `shortfall` of an unsettled cell: `error`, `drift` or `power-balance`; each
-    /// [`SweepQuantity`] of the table ([`SweepQuantity::of_table`]) followed by its standard error (`speed_rad_s`, `speed_error_rad_s`); the other
-    /// numbers of an [`OperatingPoint`]; `largest_torque_n_m` and `acceleration_rad_s2` of a runaway. Missing
-    /// values are empty.
+    /// The columns: the axes; `load_torque_n_m`, unless it is an axis; `way` of a continued sweep, `up` or
+    /// `down`; `branch`, 1 for the one that most rotors reach from rest; `motion`, which is `irregular`,
+    /// `periodic` or `contact`; `life_s`, the mean life of an irregular one, if some were seen to end;
+    /// `state`, which is `steady`, `unsettled` or `runaway`; `shortfall` of an unsettled cell: `error`,
+    /// `drift` or `power-balance`; each [`SweepQuantity`] of the table ([`SweepQuantity::of_table`]) followed
+    /// by its standard error (`speed_rad_s`, `speed_error_rad_s`); the other numbers of an
+    /// [`OperatingPoint`]; `largest_torque_n_m` and `acceleration_rad_s2` of a runaway. Missing values are
+    /// empty.
     #[must_use]
     pub fn to_csv(&self) -> String {
         let mut writer = csv::Writer::from_writer(Vec::new());
         let quantities = SweepQuantity::of_table(self.cells());
-        // Writing to memory does not fail, and all lines have as many fields.
+        // Writing to memory does not fail, and all lines have the same number of fields.
         let _ = writer.write_record(self.header(quantities));
         for (cell, (values, row)) in self.iter().enumerate() {
             for (branch, operation) in row.branches.iter().enumerate() {
@@ -62,7 +63,7 @@ impl MotorSweepResult {
     }
 }
 
-/// A number of an operating point, as it is written.
+/// A number of an operating point in written form.
 type OfPoint = fn(&OperatingPoint) -> String;
 
 /// The numbers of an operating point that have no standard error.
@@ -107,7 +108,7 @@ fn of_operation(operation: &Operation, quantities: &[SweepQuantity]) -> Vec<Stri
     fields
 }
 
-/// The shortest text that is read as the same number.
+/// The shortest text that reads back as the same number.
 fn written(value: f64) -> String {
     format!("{value:?}")
 }

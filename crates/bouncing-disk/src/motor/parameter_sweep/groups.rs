@@ -1,4 +1,4 @@
-//! Which cells of a sweep are computed together.
+//! Selects the cells of a sweep that are computed together.
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -15,16 +15,16 @@ use crate::motor::operation::of_motor::operations;
 use crate::motor::operation::point::OperatingRow;
 use crate::motor::operation::settings::OperatingSettings;
 
-/// An impact of a rotor that acts back on its stator takes so many times longer than an impact on a sine. A cell has so many
-/// times fewer impacts: otherwise the few cells that never settle would take most of an hour.
+/// Factor by which an impact of a rotor that acts back on its stator takes longer than one on a sine. A cell
+/// has this many times fewer impacts; otherwise a few cells that never settle would take most of an hour.
 const SHARE_OF_CELL: u64 = 100;
 
-/// Most cells of a group. Far fewer would not use a vertical motion well; with far more, much would be lost
-/// when a run is stopped.
+/// Most cells of a group. Far fewer would make poor use of a vertical motion; with far more, much would be
+/// lost when a run is stopped.
 const MOST_CELLS: usize = 256;
 
-/// Most rotors of a group on all of its vertical motions together: each has some hundred windows of 40 bytes,
-/// so that a group needs some 100 MB at most.
+/// Most rotors of a group on all of its vertical motions together. Each has a few hundred windows of 40
+/// bytes, so a group needs about 100 MB at most.
 const MOST_ROTORS: usize = 1 << 14;
 
 /// Most cells of a group, so that its memory is bounded for any number of vertical motions.
@@ -32,12 +32,12 @@ pub(crate) fn most_cells(settings: &OperatingSettings) -> usize {
     (MOST_ROTORS / settings.members.max(1)).clamp(1, MOST_CELLS)
 }
 
-/// The indices of the motors by groups of one vertical motion, at most so many in each.
+/// The indices of the motors, grouped by vertical motion, with at most `most` in each group.
 pub(crate) fn of(
     motors: impl Iterator<Item = Result<Motor, Error>>,
     most: usize,
 ) -> Result<Vec<Vec<usize>>, Error> {
-    // The group of a vertical motion that has room left.
+    // The group of each vertical motion that has room left.
     let mut open: BTreeMap<[u64; 6], usize> = BTreeMap::new();
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for (index, motor) in motors.enumerate() {
@@ -65,8 +65,8 @@ pub(crate) fn settings_of_each(motors: &[Motor], settings: &OperatingSettings) -
     OperatingSettings { most_impacts, ..*settings }
 }
 
-/// What is computed of each of so many groups, in their order; fewer where the watch stops. The items of the watch are
-/// the cells, `size` of each group.
+/// The results for each of a number of groups, in their order; fewer if the watch stops. The items of the
+/// watch are the cells, `size` of each group.
 pub(crate) fn over_groups<T: Send>(
     count: usize,
     size: impl Fn(usize) -> usize + Sync,
@@ -93,15 +93,15 @@ pub(crate) fn over_groups<T: Send>(
         }
         outcomes
     };
-    // The members of a group are spread over the threads, too, but end at different times.
+    // The members of a group are distributed over the threads, too, but end at different times.
     let workers = threads().min(count);
     let mut outcomes: Vec<_> = in_parallel(workers, |_| worker()).into_iter().flatten().collect();
     outcomes.sort_by_key(|(group, _)| *group);
     outcomes
 }
 
-/// The operations of many motors in any order, those of one vertical motion together; the failure of a motor that cannot be
-/// followed is that of all in its group.
+/// The operations of many motors in any order, with those of one vertical motion computed together; if a
+/// motor cannot be followed, its error applies to its whole group.
 pub(crate) fn operations_in_groups(
     motors: &[Motor],
     settings: &OperatingSettings,

@@ -4,57 +4,61 @@ use std::str::FromStr;
 
 use crate::motor::operation::point::{Estimate, OperatingRow, Operation};
 
-/// A quantity of an operating point that is an estimate with a standard error.
+/// A quantity of an operating point that is estimated with a standard error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub enum SweepQuantity {
     /// Mean angular speed (rad/s).
     Speed,
-    /// Mean torque that the load takes (N m): that of the row itself, so not in [`Self::ALL`].
+    /// Mean load torque (N m). Tables state it for each row anyway, so it is not in [`Self::ALL`].
     Torque,
     /// Load torque times mean speed (W).
     MechanicalPower,
-    /// Power that the platform puts in (W).
+    /// Power supplied by the platform (W).
     InputPower,
     /// Power lost in restitution (W).
     RestitutionLoss,
     /// Power lost in friction (W).
     FrictionLoss,
-    /// Mechanical power over the power put in.
+    /// Mechanical power divided by the input power.
     Efficiency,
-    /// Standard deviation of the speed over time (rad/s), as [`OperatingPoint::speed_deviation`](crate::motor::OperatingPoint::speed_deviation).
+    /// Standard deviation of the speed over time (rad/s); see
+    /// [`OperatingPoint::speed_deviation`](crate::motor::OperatingPoint::speed_deviation).
     SpeedDeviation,
-    /// Lower end of the range of the speed (rad/s), as [`OperatingPoint::speed_range`](crate::motor::OperatingPoint::speed_range).
+    /// Lower end of the speed range (rad/s); see
+    /// [`OperatingPoint::speed_range`](crate::motor::OperatingPoint::speed_range).
     SpeedLow,
-    /// Its upper end.
+    /// Upper end of the speed range (rad/s).
     SpeedHigh,
-    /// Time constant of the speed (s), as [`OperatingPoint::time_constant`](crate::motor::OperatingPoint::time_constant).
+    /// Time constant of the speed (s); see
+    /// [`OperatingPoint::time_constant`](crate::motor::OperatingPoint::time_constant).
     TimeConstant,
-    /// Where the rotor keeps one of two speeds, that between them (rad/s), as
+    /// Unstable speed (rad/s) between the two that a rotor may keep; see
     /// [`OperatingPoint::unstable_speed`](crate::motor::OperatingPoint::unstable_speed).
     UnstableSpeed,
-    /// Mean torque on a rotor that is held at rest (N m), as
+    /// Mean torque on a rotor that is held at rest (N m); see
     /// [`OperatingPoint::blocked_torque`](crate::motor::OperatingPoint::blocked_torque).
     BlockedTorque,
-    /// Amplitude under load of a stator that yields (m), as [`StatorPoint::amplitude`](crate::motor::StatorPoint::amplitude).
+    /// Amplitude of a compliant stator under load (m); see
+    /// [`StatorPoint::amplitude`](crate::motor::StatorPoint::amplitude).
     StatorAmplitude,
-    /// Power that the drive puts into such a stator (W).
+    /// Power that the drive supplies to a compliant stator (W).
     DrivePower,
-    /// Power lost in the damping of its modes (W).
+    /// Power lost in the damping of a compliant stator's modes (W).
     DampingLoss,
-    /// Mechanical power over the power of the drive.
+    /// Mechanical power divided by the drive's power.
     ElectricalEfficiency,
 }
 
 impl SweepQuantity {
-    /// All quantities but those of a stator that yields, in the order of the columns of a table.
+    /// All quantities except those of a compliant stator, in the order of the columns of a table.
     pub const ALL: [Self; 12] = {
         let [a, b, c, d, e, f, g, h, i, j, k, l, ..] = Self::WITH_STATOR;
         [a, b, c, d, e, f, g, h, i, j, k, l]
     };
 
-    /// All quantities, those of a stator that yields last.
+    /// All quantities, with those of a compliant stator last.
     pub const WITH_STATOR: [Self; 16] = [
         Self::Speed,
         Self::MechanicalPower,
@@ -74,7 +78,8 @@ impl SweepQuantity {
         Self::ElectricalEfficiency,
     ];
 
-    /// The quantities of a table of these operations: those of a stator only if one of them has it.
+    /// The quantities of a table of these operations; those of a stator are included only if one operation
+    /// has them.
     #[must_use]
     pub fn of_table(rows: &[OperatingRow]) -> &'static [Self] {
         let yields = |row: &OperatingRow| row.point().is_some_and(|point| point.stator.is_some());
@@ -105,7 +110,7 @@ impl SweepQuantity {
         }
     }
 
-    /// Its unit: `rad/s`, `N m`, `W`, `m`, or `1` for a number without a unit.
+    /// Its unit: `rad/s`, `N m`, `W`, `m`, or `1` for a dimensionless number.
     #[must_use]
     pub const fn unit(self) -> &'static str {
         match self {
@@ -120,9 +125,9 @@ impl SweepQuantity {
         }
     }
 
-    /// Its value, however well it is known; `None` for a runaway, for an undefined efficiency, for the quantities of a
-    /// stator that yields on one that does not, and for deviation, range, time constant and blocked torque of a rotor that
-    /// acts back on its stator.
+    /// Its value, however well it is known. `None` for a runaway, for an undefined efficiency, for quantities
+    /// of a compliant stator on a rigid one, and for deviation, range, time constant and blocked torque of a
+    /// rotor that acts back on its stator.
     #[must_use]
     pub fn of(self, operation: &Operation) -> Option<Estimate> {
         let point = operation.point()?;
@@ -153,7 +158,7 @@ impl SweepQuantity {
 impl FromStr for SweepQuantity {
     type Err = String;
 
-    /// By its name, or with hyphens: `mechanical-power`; `power` is that, too.
+    /// Parses the name, also with hyphens (`mechanical-power`); `power` is an alias of it.
     fn from_str(name: &str) -> Result<Self, String> {
         let plain = name.trim().replace('-', "_");
         let plain = if plain == "power" { "mechanical_power" } else { &plain };

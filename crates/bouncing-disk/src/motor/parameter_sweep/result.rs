@@ -31,8 +31,8 @@ impl MotorSweepResult {
         Self { motor, settings, axes, cells, continued }
     }
 
-    /// `up` or `down`: how the value of a continued sweep changed before this cell; the first cell has the way of the second.
-    /// `None` for other sweeps.
+    /// `up` or `down`: the direction in which the value of a continued sweep changed before this cell; the
+    /// first cell has the direction of the second. `None` for other sweeps.
     #[must_use]
     pub fn way(&self, cell: usize) -> Option<&'static str> {
         let values = &self.axes.first().filter(|_| self.continued)?.values;
@@ -46,26 +46,26 @@ impl MotorSweepResult {
         &self.motor
     }
 
-    /// How each cell was computed.
+    /// The settings for each cell.
     #[must_use]
     pub const fn settings(&self) -> &OperatingSettings {
         &self.settings
     }
 
-    /// The axes: one or two.
+    /// The one or two axes.
     #[must_use]
     pub fn axes(&self) -> &[SweepAxis] {
         &self.axes
     }
 
-    /// The operation of each cell, row by row: the first axis is that of the rows, and a single axis has one
-    /// cell in each.
+    /// The operation of each cell, row by row: the first axis counts the rows, and with a single axis each
+    /// row has one cell.
     #[must_use]
     pub fn cells(&self) -> &[OperatingRow] {
         &self.cells
     }
 
-    /// The cells with the values of the axes there, in the order of the axes.
+    /// The cells, each with its values in the order of the axes.
     pub fn iter(&self) -> impl Iterator<Item = (Vec<(MotorField, f64)>, &OperatingRow)> {
         self.cells.iter().enumerate().map(|(cell, operation)| {
             let values = values_of_cell(&self.axes, cell).collect();
@@ -74,7 +74,7 @@ impl MotorSweepResult {
     }
 
     /// The rows of a map: for each value of the first axis the operations along the second one; with a single
-    /// axis, one operation in each row.
+    /// axis, one operation per row.
     pub fn rows(&self) -> impl Iterator<Item = &[OperatingRow]> {
         let columns = self.axes.get(1).map_or(1, |axis| axis.values.len());
         self.cells.chunks(columns.max(1))

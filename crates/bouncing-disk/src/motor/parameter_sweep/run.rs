@@ -1,4 +1,5 @@
-//! All cells of a sweep: its groups over the threads, and the result that their operations make.
+//! Runs all cells of a sweep: distributes its groups over the threads, and combines their operations into the
+//! result.
 
 use bouncing_disk_core::Observer;
 use bouncing_disk_core::run::Watch;
@@ -10,14 +11,14 @@ use crate::motor::parameter_sweep::groups::over_groups;
 use crate::motor::parameter_sweep::result::MotorSweepResult;
 
 impl MotorSweep {
-    /// Computes all cells, over the threads of rayon's pool with the feature `parallel`.
+    /// Computes all cells, on the threads of rayon's pool with the feature `parallel`.
     ///
-    /// The items of `observer` are the cells. Whoever keeps the [operations](Self::operations) of single groups has
-    /// what is finished when a computation ends early; [`Self::result`] puts them together.
+    /// The observer's items are the cells. To keep finished work if a computation ends early, store the
+    /// [operations](Self::operations) of single groups; [`Self::result`] combines them.
     ///
     /// # Errors
-    /// Those of the flights, for the first group that fails; an error of the core
-    /// ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the observer breaks.
+    /// The errors of the flights, for the first group that fails; an error of the core
+    /// ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the observer stops the computation.
     pub fn run(&self, observer: &dyn Observer) -> Result<MotorSweepResult, Error> {
         let watch = Watch::begin(observer, 0, self.cells() as u64)?;
         let outcomes = over_groups(
@@ -38,8 +39,8 @@ impl MotorSweep {
     /// The result of the [operations](Self::operations) of all groups, in their order.
     ///
     /// # Errors
-    /// An error of the core ([`Unfitting`](bouncing_disk_core::Error::Unfitting)) for another number of groups, or
-    /// of operations of one.
+    /// An error of the core ([`Unfitting`](bouncing_disk_core::Error::Unfitting)) if the number of groups, or
+    /// of operations in one, is wrong.
     pub fn result(&self, groups: &[Vec<OperatingRow>]) -> Result<MotorSweepResult, Error> {
         let fits = |what, found: usize, expected: usize| {
             let (found, expected) = (found as u64, expected as u64);

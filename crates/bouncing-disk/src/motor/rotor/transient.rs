@@ -14,8 +14,7 @@ use crate::parameters::dimensionless::DimensionlessSystem;
 use crate::parameters::scales::Scales;
 use crate::parameters::system::System;
 
-/// Most periods of the platform that a transient may last: beyond 2^53 a double does not count them one by
-/// one.
+/// Most periods of the platform in a transient: beyond 2^53 a double cannot count them one by one.
 const MAX_PERIODS: f64 = 9_007_199_254_740_992.0;
 
 /// Shortest interval of a curve (rad): the rounding of a phase.
@@ -24,13 +23,13 @@ const SHORTEST_INTERVAL: f64 = 1.0e-15;
 /// Most intervals of a curve.
 pub(crate) const MAX_INTERVALS: usize = 1_000_000;
 
-/// The work of an event, in flights: one that ends a chatter takes longer than a flight.
+/// The cost of an event, in flights: one that ends a chatter takes longer than a flight.
 pub(crate) const FLIGHTS_OF_EVENT: u64 = 4;
 
 /// Events after which the work is counted.
 const EVENTS_BETWEEN_COUNTS: u64 = 64;
 
-/// How a transient is computed and sampled.
+/// Settings for computing and sampling a transient.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedSettings"))]
@@ -41,8 +40,8 @@ pub struct TransientSettings {
     /// 1e-15 rad of the platform's motion. Default 600.
     pub intervals: usize,
     /// Size of the relaunch perturbation in units of g/omega, in [0, 1e100]: each launch from rest, by a
-    /// separation or a kick, gets a relative velocity drawn evenly from [0, size). Zero gives the cycle chosen by
-    /// rounding. Default 1e-3.
+    /// separation or a kick, gets a relative velocity sampled uniformly from [0, size). Zero gives the cycle
+    /// selected by rounding. Default 1e-3.
     pub relaunch_perturbation: f64,
     /// Seed of the perturbations and of the starting phases. Default 1.
     pub seed: u64,
@@ -63,7 +62,7 @@ impl Default for TransientSettings {
 }
 
 impl TransientSettings {
-    /// Checks what does not depend on the motor.
+    /// Checks that do not depend on the motor.
     fn check(&self) -> Result<(), Error> {
         positive("duration", self.duration)?;
         moderate_not_negative("relaunch_perturbation", self.relaunch_perturbation)?;
@@ -83,7 +82,7 @@ impl TransientSettings {
             periods,
             "(0, 9007199254740992]",
         )?;
-        // The first holds in seconds, too, unless they are denormal.
+        // The first also holds in seconds, unless they are subnormal.
         let lasts =
             interval >= SHORTEST_INTERVAL && self.duration / self.intervals as f64 >= f64::MIN_POSITIVE;
         check(lasts, "duration of an interval", interval, "[1e-15, inf) (rad), at least 2.3e-308 s")?;
@@ -107,13 +106,13 @@ read_checked!(TransientSettings as UncheckedSettings {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedCurve"))]
 pub struct SpeedCurve {
-    /// Middles of the intervals (s).
+    /// Midpoints of the intervals (s).
     pub times: Vec<f64>,
     /// Mean angular speed in each interval (rad/s).
     pub speeds: Vec<f64>,
-    /// Impacts on the way, those of summed chattering sequences not counted.
+    /// Number of impacts, without those of summed chattering sequences.
     pub impacts: u64,
-    /// Separations from rest on the way.
+    /// Number of separations from rest.
     pub separations: u64,
 }
 
@@ -137,8 +136,8 @@ impl SpeedCurve {
     /// Mean speed (rad/s) over the last `fraction` in (0, 1] of the curve, at least over its last point.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for another fraction, for a curve without speeds, and for speeds that are not
-    /// finite.
+    /// [`Error::OutOfRange`] for a fraction outside (0, 1], for a curve without speeds, and for speeds that
+    /// are not finite.
     pub fn mean_over_last(&self, fraction: f64) -> Result<f64, Error> {
         let points = self.speeds.len();
         check(fraction > 0.0 && fraction <= 1.0, "fraction of the curve", fraction, "(0, 1]")?;
@@ -155,7 +154,7 @@ read_checked!(SpeedCurve as UncheckedCurve {
     separations: u64,
 });
 
-/// Checks that times and speeds are those of a curve that can be fitted, and begins at time zero or later.
+/// Checks that times and speeds form a curve that can be fitted and begins at time zero or later.
 pub(crate) fn check_curve(times: &[f64], speeds: &[f64]) -> Result<(), Error> {
     let first = times.first().copied().unwrap_or(0.0);
     check(
@@ -167,7 +166,7 @@ pub(crate) fn check_curve(times: &[f64], speeds: &[f64]) -> Result<(), Error> {
     check_rows(times, speeds)
 }
 
-/// [`check_curve`] of a record that may begin before time zero.
+/// [`check_curve`] for a record that may begin before time zero.
 pub(crate) fn check_rows(times: &[f64], speeds: &[f64]) -> Result<(), Error> {
     let n = times.len();
     check(n >= 3, "number of points of the speed curve", n as f64, "[3, inf)")?;
@@ -182,13 +181,13 @@ pub(crate) fn check_rows(times: &[f64], speeds: &[f64]) -> Result<(), Error> {
     Ok(())
 }
 
-/// The speed transient of a rotor that at `phase` lies at rest on the stator, which starts to vibrate.
+/// The speed transient of a rotor that lies at rest at `phase` on the stator, which starts to vibrate.
 ///
-/// The items of `observer` are the intervals of the curve.
+/// The observer's items are the intervals of the curve.
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for illegal settings, and for a speed that a double cannot hold; an error of the
-/// core where there is no memory for the curve; the errors of the flights.
+/// [`Error::OutOfRange`] for illegal settings, and for a speed that a double cannot represent; an error of
+/// the core if there is no memory for the curve; the errors of the flights.
 pub fn transient(
     system: &System,
     phase: Phase,
@@ -239,14 +238,14 @@ impl TransientRun {
         })
     }
 
-    /// Whether the motion has been added up to the end.
+    /// Whether the motion has been accumulated up to the end.
     #[inline(always)]
     pub(crate) fn is_done(&self) -> bool {
         self.bins.present.reached >= self.duration
     }
 
-    /// Adds the motion of some events, unless all has been added; whether there is more. The work is counted
-    /// for an observer.
+    /// Accumulates the motion of several events, unless it is complete; returns whether there is more. The
+    /// work is counted for an observer.
     pub(crate) fn advance(&mut self, work: &mut WorkCount<'_>) -> Result<bool, Error> {
         let mut events = 0;
         while events < EVENTS_BETWEEN_COUNTS && !self.is_done() {
@@ -257,7 +256,7 @@ impl TransientRun {
         Ok(!self.is_done())
     }
 
-    /// Adds the motion up to the next event.
+    /// Accumulates the motion up to the next event.
     #[inline(always)]
     pub(crate) fn step(&mut self) -> Result<(), Error> {
         match self.rotor.advance()? {
@@ -280,8 +279,8 @@ impl TransientRun {
         Ok(())
     }
 
-    /// Adds the rest of the present interval of a rotor that stays on the stator and changes its mode no
-    /// more: it turns to and fro with the stator, or slides on.
+    /// Accumulates the rest of the present interval for a rotor that stays on the stator and no longer
+    /// changes its mode: it swings with the stator, or continues to slide.
     fn add_interval_of_contact(&mut self) {
         let now = self.rotor.time();
         let began = seconds(now.periods as f64, now.phase.angle() - self.start, self.unit.time);
@@ -321,7 +320,7 @@ pub(crate) fn curve(
     Ok(SpeedCurve { times, speeds, impacts, separations })
 }
 
-/// Time (s) from whole periods and the change of the phase's angle; none is accumulated.
+/// Time (s) from whole periods and the change of the phase's angle, without accumulated rounding.
 #[inline(always)]
 pub(crate) fn seconds(periods: f64, ahead: f64, unit: f64) -> f64 {
     (periods * TAU + ahead) * unit
@@ -341,7 +340,7 @@ pub(crate) struct Bins {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Interval {
     pub(crate) index: usize,
-    /// When it ends (s).
+    /// Its end (s).
     pub(crate) end: f64,
     /// The angle turned in it so far.
     pub(crate) turned: f64,
@@ -358,7 +357,7 @@ impl Bins {
         Ok(Self { turned, width, present })
     }
 
-    /// Adds the `angle` turned from the time reached until `to`, evenly in time; what lies beyond the last
+    /// Adds the `angle` turned from the time reached until `to`, evenly in time; any part beyond the last
     /// interval is dropped.
     #[inline]
     pub(crate) fn add(&mut self, to: f64, angle: f64) {
@@ -377,7 +376,7 @@ impl Bins {
 }
 
 impl Interval {
-    /// As [`Bins::add`], for a time behind the end of the interval.
+    /// As [`Bins::add`], for a time after the end of the interval.
     #[inline]
     pub(crate) fn pass(&mut self, passed: &mut [f64], width: f64, to: f64, angle: f64) {
         let rate = angle / (to - self.reached);
@@ -405,12 +404,13 @@ mod tests {
     use super::*;
     use crate::testing::{self, refused};
 
-    /// A curve is off by at most a period of its platform where the sign is wrong, which nothing else sees.
+    /// With a wrong sign a curve would be off by up to a period of its platform, which no other test would
+    /// detect.
     #[test]
     fn the_angle_turned_in_a_period_adds_to_the_whole_ones() {
         let time = seconds(2.0, 0.5, 3.0);
         assert!((time - 3.0 * (2.0 * TAU + 0.5)).abs() < 1e-13, "{time}");
-        // The phase may lie behind that of the start.
+        // The phase may be behind the initial one.
         let time = seconds(2.0, -0.5, 3.0);
         assert!((time - 3.0 * (2.0 * TAU - 0.5)).abs() < 1e-13, "{time}");
     }
@@ -428,11 +428,12 @@ mod tests {
         }
     }
 
-    /// A motion that turns evenly between events, against the angle reached at the ends of the intervals.
+    /// A motion that turns uniformly between events, compared with the angle reached at the ends of the
+    /// intervals.
     #[test]
     fn intervals_hold_what_was_turned_in_them() {
         let events: Vec<(f64, f64)> = (1..=40_u32)
-            // Some events on the border of intervals, some several intervals apart.
+            // Some events on the boundary of intervals, some several intervals apart.
             .scan(0.0, |time, k| {
                 *time += [0.25, 0.125, 0.0625, 1.0 + 0.0625, 2.5][k as usize * 7 % 5];
                 Some((*time, f64::from(k * 13 % 9) - 3.0))
@@ -479,7 +480,7 @@ mod tests {
         assert!((bins.finished()[9] - 0.5).abs() < 1e-13, "what lies beyond the end is dropped");
     }
 
-    /// A denormal duration gave speeds that were no numbers, a huge one a transient without end.
+    /// A subnormal duration once gave NaN as speeds, and a huge one an endless transient.
     #[test]
     fn durations_that_periods_cannot_count_are_refused() {
         let phase = Phase::new(4.0).expect("finite");
@@ -523,7 +524,7 @@ mod tests {
         SpeedCurve { times, speeds: speeds.to_vec(), impacts: 0, separations: 0 }
     }
 
-    /// It was a panic on an empty curve, the whole curve for 7 and its last point for NaN.
+    /// An empty curve once caused a panic, 7 gave the mean of the whole curve and NaN its last point.
     #[test]
     fn the_mean_of_a_part_that_is_none_is_refused() {
         let mean = |(speeds, share): (&[f64], f64)| curve(speeds).mean_over_last(share);
@@ -557,8 +558,8 @@ mod tests {
         }
     }
 
-    /// A rotor that never leaves the stator and sticks to it turns to and fro, and one whose load exceeds the
-    /// friction slides ever faster: neither keeps the speed of the last event.
+    /// A rotor that never leaves the stator and sticks to it swings to and fro, and one whose load exceeds
+    /// the friction slides ever faster: neither keeps the speed of the last event.
     #[test]
     fn a_rotor_on_a_calm_stator_sticks_or_slides_on() {
         let motor = |friction: f64, load_acceleration: f64| {
@@ -578,9 +579,9 @@ mod tests {
         let settings = TransientSettings { duration: 1.0, intervals: 8, ..TransientSettings::default() };
         let phase = Phase::new(4.0).expect("finite");
         let sticking = transient(&motor(1.0, 0.0), phase, &settings, &Unobserved).expect("no failure");
-        // Over 8750 periods nothing is left but the ends of the interval.
+        // Over 8750 periods only the ends of the interval contribute.
         assert!(sticking.speeds[1..].iter().all(|speed| speed.abs() < 1e-8), "{:?}", sticking.speeds);
-        // Friction takes mu g a_e/a_g^2 = 30.9 rad/s^2 from a load of 50.
+        // Friction subtracts mu g a_e/a_g^2 = 30.9 rad/s^2 from a load of 50.
         let sliding = transient(&motor(0.1, 50.0), phase, &settings, &Unobserved).expect("no failure");
         let slowing = 50.0 - motor(0.1, 50.0).disk().friction_acceleration();
         for (time, speed) in sliding.times.iter().zip(&sliding.speeds) {

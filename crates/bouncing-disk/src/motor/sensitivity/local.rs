@@ -1,5 +1,5 @@
-//! Local sensitivities: the exponent of the power law by which the steady speed or the stall torque depends
-//! on a parameter, for small changes (Fig. 13).
+//! Local sensitivities: the exponent of the power law that relates the steady speed or the stall torque to a
+//! parameter, for small changes (Fig. 13).
 
 use bouncing_disk_core::numerics::elementary::{exp, hypot, ln};
 use bouncing_disk_core::numerics::random::SplitMix64;
@@ -16,7 +16,7 @@ use crate::motor::sensitivity::parameter::{SensitivityParameter, SensitivityQuan
 use crate::statistics::student_quantile;
 
 /// Steps of the central differences: changes of the logarithm of a parameter, of the phase lag in radians, or
-/// of the load in units of mu m g a_e. Up and down they make eight rotors, one full row.
+/// of the load in units of mu m g a_e. Up and down they need eight rotors, one full row.
 const STEPS: [f64; 4] = [0.16, 0.12, 0.08, 0.04];
 
 /// Loads relative to the stall load, as shares of mu m g a_e, at which the speeds are computed. The stall
@@ -26,16 +26,16 @@ const SHARES: [f64; 5] = [-0.06, -0.03, 0.0, 0.03, 0.06];
 /// The fewest motors for a regression.
 const LEAST_POINTS: usize = 5;
 
-/// How local sensitivities are computed.
+/// Settings for computing local sensitivities.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SensitivitySettings {
-    /// How each motor is operated.
+    /// Settings for the operation of each motor.
     pub operating: OperatingSettings,
-    /// For a parameter of the vertical motion: half the range of its logarithm over which motors are drawn,
+    /// For a parameter of the vertical motion: half the range of its logarithm over which motors are sampled,
     /// in (0, 2]. Default 0.2, which is from 82 % to 122 % of the motor's own value.
     pub half_range: f64,
-    /// The number of motors that are drawn over this range, in [5, 10000]. Default 24.
+    /// The number of motors sampled over this range, in [5, 10000]. Default 24.
     pub points: usize,
 }
 
@@ -64,14 +64,14 @@ impl SensitivitySettings {
 pub enum SensitivityMethod {
     /// By central differences of rotors on the same vertical motions.
     SharedMotion {
-        /// The standard error from the scatter of the members.
+        /// The standard error due to the scatter of the members.
         scatter: f64,
-        /// The error of fitting a cubic to the differences, estimated by adding a term of fifth order. It is
+        /// The error of fitting a cubic to the differences, estimated by adding a fifth-order term. It is
         /// zero if the scatter alone explains the change of the slope.
         curvature: f64,
     },
-    /// By a straight line through motors with different vertical motions, which are drawn over the range of
-    /// the settings.
+    /// By a straight line through motors with different vertical motions, sampled over the range in the
+    /// settings.
     Regression {
         /// Motors on the line.
         points: usize,
@@ -82,24 +82,24 @@ pub enum SensitivityMethod {
     },
 }
 
-/// How a quantity depends on a parameter, for small changes of a motor.
+/// The dependence of a quantity on a parameter, for small changes of a motor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LocalSensitivity {
     /// The parameter.
     pub parameter: SensitivityParameter,
     /// d ln(quantity)/d ln(parameter); for the phase lag, d ln(quantity)/d theta (1/rad); for the load
-    /// torque, the derivative of ln(quantity) by the torque in units of mu m g a_e.
+    /// torque, the derivative of ln(quantity) with respect to the torque in units of mu m g a_e.
     pub derivative: Estimate,
     /// How it was computed.
     pub method: SensitivityMethod,
 }
 
 impl Motor {
-    /// How the steady speed or the stall torque depends on these parameters for small changes of the motor,
-    /// in the order of the parameters.
+    /// The dependence of the steady speed or the stall torque on these parameters for small changes of the
+    /// motor, in the order of the parameters.
     ///
-    /// The items of `observer` are ensembles of motors that share a vertical motion.
+    /// The observer's items are ensembles of motors that share a vertical motion.
     ///
     /// ```no_run
     /// # use bouncing_disk::core::Unobserved;
@@ -118,9 +118,9 @@ impl Motor {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for illegal settings, for a parameter of zero, which has no logarithm, and for
-    /// one that leaves its range; [`Error::DoesNotTurn`] for a motor that does not turn,
-    /// [`Error::Overpowered`] for a load larger than friction can hold, [`Error::TooFewMotors`] if too few
-    /// motors are outside of traps; those of [`Motor::rigid_sine`] and [`Motor::operating_point`].
+    /// one that leaves its range; [`Error::DoesNotTurn`] for a motor that does not turn;
+    /// [`Error::Overpowered`] for a load larger than friction can hold; [`Error::TooFewMotors`] if too few
+    /// motors are outside traps; the errors of [`Motor::rigid_sine`] and [`Motor::operating_point`].
     pub fn local_sensitivities(
         &self,
         quantity: SensitivityQuantity,
@@ -157,7 +157,7 @@ impl Motor {
                 })?,
             });
         }
-        // Whatever it says, there is nothing left to stop.
+        // The answer does not matter, as nothing is left to stop.
         let _ = observer.observe(Progress { done: total, total });
         Ok(results)
     }
@@ -180,7 +180,7 @@ pub(crate) fn quantity_of(
     }
 }
 
-/// The logarithm's step, or that of what has none.
+/// A step in the logarithm, or in the parameter itself if it has none.
 fn moved(motor: &Motor, parameter: SensitivityParameter, step: f64) -> Result<Motor, Error> {
     let value = parameter.of(motor);
     let value = match parameter {
@@ -191,8 +191,8 @@ fn moved(motor: &Motor, parameter: SensitivityParameter, step: f64) -> Result<Mo
     parameter.set(motor, value)
 }
 
-/// All parameters that share the vertical motion: all their rotors, with all steps, on one ensemble of
-/// orbits.
+/// All parameters that do not affect the vertical motion: all their rotors, with all steps, on one ensemble
+/// of orbits.
 fn by_differences(
     motor: &Motor,
     quantity: SensitivityQuantity,
@@ -213,7 +213,7 @@ fn by_differences(
     if own.value.abs() <= 4.0 * own.standard_error {
         return Err(standing);
     }
-    // Of the odd polynomials of two and three terms through the differences, per member.
+    // For the odd polynomials of two and three terms through the differences, for each member.
     let [cubic, quintic] = [slope_weights(2), slope_weights(3)];
     let left_out = std::array::from_fn(|step| cubic[step] - quintic[step]);
     let slope = |values: &[Vec<f64>], first: usize, weights: &[f64; STEPS.len()]| {
@@ -242,8 +242,8 @@ fn by_differences(
     Ok(results)
 }
 
-/// The weights with which values at the steps give the slope at zero of the odd polynomial of so many terms
-/// that fits them with the least squares: its terms are made orthogonal one by one.
+/// The weights by which values at the steps give the slope at zero of the least-squares odd polynomial with
+/// this number of terms, which are made orthogonal one by one.
 fn slope_weights(terms: usize) -> [f64; STEPS.len()] {
     let dot = |one: &[f64; STEPS.len()], other: &[f64; STEPS.len()]| {
         one.iter().zip(other).map(|(one, other)| one * other).sum::<f64>()
@@ -265,8 +265,8 @@ fn slope_weights(terms: usize) -> [f64; STEPS.len()] {
     weights
 }
 
-/// The quantity of each motor and member, all on the same vertical motions: in the middle of rotors from far
-/// below and far above all steady speeds, and of those from above.
+/// The quantity for each motor and member, all on the same vertical motions: averaged over rotors from far
+/// below and far above all steady speeds, and for those from above.
 fn member_values(
     motors: &[Motor],
     nominal: &Motor,
@@ -307,8 +307,8 @@ fn member_values(
     }
 }
 
-/// The straight line through motors that are drawn over a range: one in each of its equal parts, as a grid
-/// could meet or miss the values at which a motor is in a trap.
+/// The straight line through motors sampled over a range. There is one in each of its equal parts, at random
+/// because a grid could systematically meet or miss the values that trap a motor.
 fn by_regression(
     motor: &Motor,
     parameter: SensitivityParameter,
@@ -357,7 +357,7 @@ struct RegressionLine {
     centre: f64,
     slope: f64,
     slope_error: f64,
-    /// Standard deviation about it.
+    /// Standard deviation from the line.
     scatter: f64,
 }
 
@@ -376,7 +376,7 @@ impl RegressionLine {
         Self {
             centre: y - slope * x,
             slope,
-            // Half of Student's interval over 1.96, as of all estimates.
+            // Half of Student's interval divided by 1.96, as for all estimates.
             slope_error: (variance / square).sqrt() * student_quantile(values.len() as f64 - 2.0)
                 / NORMAL_975,
             scatter: variance.sqrt(),
@@ -384,7 +384,7 @@ impl RegressionLine {
     }
 }
 
-/// Where the least-squares line through the speeds at these shares vanishes.
+/// The position at which the least-squares line through the speeds at these shares vanishes.
 fn crossing(shares: &[f64], speed: impl Fn(usize) -> f64) -> f64 {
     let x = mean(shares);
     let y = mean(&(0..shares.len()).map(&speed).collect::<Vec<_>>());

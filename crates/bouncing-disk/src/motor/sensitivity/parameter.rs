@@ -35,13 +35,13 @@ pub enum SensitivityParameter {
     GyrationRadius,
     /// Load torque T_L (N m).
     LoadTorque,
-    /// Axial amplitude A (m), the twist kept.
+    /// Axial amplitude A (m), at constant twist.
     Amplitude,
     /// Preload acceleration g (m/s^2).
     Preload,
     /// Coefficient of restitution.
     Restitution,
-    /// Drive frequency (Hz), the largest angular speed of the stator kept.
+    /// Drive frequency (Hz), at constant largest angular speed of the stator.
     DriveFrequency,
 }
 
@@ -76,13 +76,13 @@ impl SensitivityParameter {
         }
     }
 
-    /// The name of the parameter: that of the field, or `preload`.
+    /// The name of the parameter: the field's name, or `preload`.
     #[must_use]
     pub const fn name(self) -> &'static str {
         if matches!(self, Self::Preload) { "preload" } else { self.field().name() }
     }
 
-    /// Whether the vertical motion does not depend on it, so that all its values share one orbit.
+    /// Whether the vertical motion is independent of it, so that all its values share one orbit.
     #[must_use]
     pub const fn shares_vertical_motion(self) -> bool {
         !matches!(self, Self::Amplitude | Self::Preload | Self::Restitution | Self::DriveFrequency)
@@ -106,10 +106,10 @@ impl SensitivityParameter {
         }
     }
 
-    /// The motor with another value of it, which replaces an alternative in the data sheet.
+    /// The motor with another value of the parameter, which replaces an alternative in the data sheet.
     ///
     /// # Errors
-    /// Those of [`MotorParameters::build`](crate::motor::MotorParameters::build).
+    /// The errors of [`MotorParameters::build`](crate::motor::MotorParameters::build).
     pub fn set(self, motor: &Motor, value: f64) -> Result<Motor, Error> {
         let speed = motor.system().platform().peak_angular_speed();
         motor.with(|sheet| {

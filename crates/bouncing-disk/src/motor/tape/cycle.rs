@@ -1,4 +1,4 @@
-//! Motions that repeat: when a tape is one cycle, and the rotor that repeats with it.
+//! Motions that repeat: whether a tape is one cycle, and the rotor that repeats with it.
 
 use std::f64::consts::TAU;
 
@@ -15,21 +15,21 @@ use crate::error::Error;
 use crate::motor::batch::rotor_rows::WIDTH;
 use crate::stator::StatorLedger;
 
-/// Halvings that find the speed of a rotor that repeats with a cycle, to rounding.
+/// Bisections that find the speed of a rotor that repeats with a cycle, to rounding.
 const HALVINGS: u32 = 60;
 
-/// Steps of a contact in a period, in a cycle and in a coarser copy that shows what steps do.
+/// Steps per period during a contact, in a cycle and in a coarser copy that shows the error of the steps.
 const RESOLUTIONS: [f64; 2] = [2048.0, 1024.0];
 
-/// Most knots of a cycle, of any length.
+/// Most knots of a cycle of any length.
 const MOST_KNOTS: f64 = 65_536.0;
 
-/// What is known of a cycle.
+/// The record of a cycle.
 #[derive(Debug, Clone)]
 enum Recorded {
     /// Finely and coarsely recorded.
     Tapes(Box<[Tape; 2]>),
-    /// What the rotor does in it that it was found with.
+    /// The rotor's motion in the cycle as it was found.
     Window(Window),
 }
 
@@ -44,7 +44,7 @@ pub(crate) struct Cycle {
 }
 
 impl Cycle {
-    /// The cycle that a source repeats from where it is.
+    /// The cycle that a source repeats from its present state.
     pub(crate) fn record(
         source: &mut Source,
         repeats: Repeats,
@@ -81,17 +81,17 @@ impl Cycle {
         Self { recorded: Recorded::Window(window), touches, repeats, periods }
     }
 
-    /// The least number of touches after which all repeat: a motion that comes near to its cycle from both sides in turn
-    /// is first seen to repeat several of them.
+    /// The least number of touches after which everything repeats: a motion that approaches its cycle
+    /// alternately from both sides is first seen to repeat several cycles.
     pub(crate) fn least_touches(keys: &[Key]) -> u64 {
         let count = keys.len();
         let repeats = |period: &usize| count.is_multiple_of(*period) && are_same(keys, keys, *period, ONE);
         (1..count).find(repeats).unwrap_or(count) as u64
     }
 
-    /// Whether two are the same motion, entered at different touches or not.
+    /// Whether two cycles are the same motion, possibly entered at different touches.
     pub(crate) fn is_same(&self, other: &Self) -> bool {
-        // Each may be left at some distance from where it ends.
+        // Each may have been recorded at some distance from its limit.
         let within = ONE_OF_TWO.max(2.0 * (self.repeats.distance + other.repeats.distance));
         let is_same = |apart| are_same(&self.touches, &other.touches, apart, within);
         self.touches.len() == other.touches.len()
@@ -118,8 +118,8 @@ impl Cycle {
         }
     }
 
-    /// What rotors do in a cycle at whose end each is as fast as at its start: on the fine and on the coarse tape, in
-    /// the order of these places. Their speeds lie within these sizes.
+    /// The motion of rotors in a cycle after which each has its initial speed, on the fine and on the coarse
+    /// tape, in the order of these places. Their speeds lie within these limits.
     pub(crate) fn windows(
         &self,
         rotors: &[Rotors],
@@ -144,7 +144,8 @@ impl Cycle {
             for step in 0..=HALVINGS {
                 for (row, rotors) in rotors.iter_mut().enumerate() {
                     for own in 0..WIDTH {
-                        // Rotors never overtake each other, and come nearer: one that gains is too slow.
+                        // Rotors never overtake each other, and approach each other: one that gains speed is
+                        // too slow.
                         if step > 0 {
                             let gains = rotors.rows.speed[own] > middle[row][own];
                             let end = if gains { &mut low[row][own] } else { &mut high[row][own] };

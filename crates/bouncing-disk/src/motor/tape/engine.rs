@@ -1,4 +1,4 @@
-//! A tape from an engine: of any drive, of rigid and of compliant contacts, of a stator that yields.
+//! A tape recorded from an engine: with any drive, rigid or compliant contacts, or a compliant stator.
 
 use std::f64::consts::TAU;
 
@@ -13,11 +13,11 @@ use crate::motion::phase_time::PhaseTime;
 use crate::motion::state::{DiskState, Mode};
 use crate::motor::rotor::transient::FLIGHTS_OF_EVENT;
 
-/// An engine of a disk that friction does not turn, as the source of a tape.
+/// The engine of a disk without friction, as the source of a tape.
 #[derive(Debug, Clone)]
 pub(crate) struct EngineTape<E> {
     pub(crate) engine: E,
-    /// Contacts take time.
+    /// Whether contacts are compliant.
     takes_time: bool,
     generator: SplitMix64,
     perturbation: f64,
@@ -25,12 +25,12 @@ pub(crate) struct EngineTape<E> {
     energy: f64,
     /// Whether the disk has turned and not left the platform since.
     has_turned: bool,
-    /// When it touched last.
+    /// Time of the last touch.
     touched: Option<PhaseTime>,
 }
 
 impl<E: SteeredMotion + Clone> EngineTape<E> {
-    /// Each separation is perturbed by a speed of this size from a stream of this seed.
+    /// Each separation is perturbed by a speed of up to this size from a stream with this seed.
     pub(crate) fn new(engine: E, takes_time: bool, (perturbation, seed): (f64, u64)) -> Self {
         let mut tape = Self {
             engine,
@@ -45,12 +45,12 @@ impl<E: SteeredMotion + Clone> EngineTape<E> {
         tape
     }
 
-    /// Whether contacts take time.
+    /// Whether contacts are compliant.
     pub(crate) const fn takes_time(&self) -> bool {
         self.takes_time
     }
 
-    /// A speed for the next separation.
+    /// The perturbing speed for the next separation.
     pub(crate) fn perturbation(&mut self) -> f64 {
         self.perturbation * self.generator.unit()
     }
@@ -63,18 +63,19 @@ impl<E: SteeredMotion + Clone> EngineTape<E> {
             + self.engine.spring_energy(0.0, &state)
     }
 
-    /// Goes on with another engine.
+    /// Continues with another engine.
     pub(crate) fn resume(&mut self, engine: E) {
         self.engine = engine;
         self.energy = self.energy_now();
     }
 
-    /// Goes on where another source has left the disk with this energy.
+    /// Continues from a disk that another source has left with this energy.
     pub(crate) const fn energy_is(&mut self, energy: f64) {
         self.energy = energy;
     }
 
-    /// Records up to the next event; a disk that lies for ever, a period. The touch, if the event is one.
+    /// Records up to the next event, or a period for a disk that lies for ever. Returns the touch, if the
+    /// event is one.
     pub(crate) fn record(&mut self, tape: &mut Tape, work: &mut WorkCount<'_>) -> Result<Touch, Error> {
         work.spend(FLIGHTS_OF_EVENT)?;
         let before = self.engine.clone();
@@ -123,7 +124,7 @@ impl<E: SteeredMotion + Clone> EngineTape<E> {
         }
         let energy = self.energy_now();
         tape.axial.energy_change += energy - std::mem::replace(&mut self.energy, energy);
-        // A disk that never leaves the platform may turn there, where a contact unloads at less stiffness.
+        // In a contact with hysteresis, a disk that never leaves the platform may turn there.
         let turns = event == Event::Turn;
         let is_touch = matches!(event, Event::Impact { .. } | Event::Kick { .. } | Event::Recontact)
             || turns && self.has_turned;
@@ -140,8 +141,8 @@ impl<E: SteeredMotion + Clone> EngineTape<E> {
         Ok(Touch::At(Key::new(phase, [disk.axial_velocity, disk.height, 0.0], self.engine.modes())))
     }
 
-    /// A disk that lies on the platform for ever goes through a period of the drive; a stator that yields may take many
-    /// of them to settle.
+    /// A disk that lies on the platform for ever advances by a period of the drive; a compliant stator may
+    /// take many periods to settle.
     fn record_period(&mut self, tape: &mut Tape, lying: &E) -> Result<Touch, Error> {
         let period = TAU;
         let from = lying.time().phase.angle();

@@ -1,8 +1,9 @@
-//! Held amplitudes: on which motions of a stator that yields in its height a run may start.
+//! Held amplitudes: motions of a stator with a compliant height at which a run may start.
 //!
-//! Let the stator move as a sine of an amplitude A, whatever the disk does. The first harmonic of the contact force says
-//! which drive would keep it. Those amplitudes that ask for the drive that there is are nearly the steady ones, unstable
-//! ones and those that no run from rest comes to included (docs/numerics-dynamics.md, "The tape of the force").
+//! Let the stator move as a sine of amplitude A, whatever the disk does. The first harmonic of the contact
+//! force then determines the drive that would maintain this sine. Amplitudes for which it equals the
+//! available drive are nearly the steady ones, including unstable ones and those that no run from rest
+//! reaches (docs/numerics-dynamics.md, "The tape of the force").
 
 mod branch;
 
@@ -16,46 +17,49 @@ use crate::motion::state::{DiskState, Mode};
 use crate::motor::tape::held::branch::Search;
 use crate::stator::{StatorState, StatorSystem};
 
-/// Neighbouring amplitudes of a branch, and the least number of them.
+/// Ratio of neighbouring amplitudes of a branch, and the least number of them.
 const RATIO: f64 = 1.18;
 const LEAST_AMPLITUDES: f64 = 6.0;
 
-/// Two held amplitudes that differ by less than this share are one, found on two branches or by scatter.
+/// Two held amplitudes that differ by less than this share are the same, found on two branches or by scatter.
 const ONE: f64 = 0.05;
 
-/// By how much of the stator's speed the starts of two members on one held amplitude may differ.
+/// Largest difference of the starts of two members at one held amplitude, as a share of the stator's speed.
 const APART: f64 = 1.0e-6;
 
-/// A motion of disk and stator that the drive would keep if the stator moved as a sine.
+/// A motion of disk and stator that the drive would maintain if the stator moved as a sine.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Held {
-    /// In units of g/omega^2.
+    /// Amplitude in units of g/omega^2.
     pub(crate) amplitude: f64,
-    /// Whether a larger amplitude asks for a larger drive.
+    /// Whether a larger amplitude needs a larger drive.
     pub(crate) is_stable: bool,
-    /// How far (rad) the stator's phase is ahead of where it is without a disk, and how far its weight bends it.
+    /// The lead (rad) of the stator's phase over its phase without a disk, and its deflection by the disk's
+    /// weight.
     ahead: f64,
     sag: f64,
-    /// How far a contact is pressed in by the preload.
+    /// Indentation of a contact by the preload.
     compression: f64,
-    /// Disk and stator on it, at this phase of the drive.
+    /// Disk and stator in this motion, at this phase of the drive.
     time: PhaseTime,
     state: StatorState,
 }
 
-/// How a disk starts on a stator that moves with a held amplitude.
+/// The start of a disk on a stator that moves with a held amplitude.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum DiskStart {
-    /// On the motion that goes with the amplitude; in flight it is off by a tiny part of this share.
+    /// On the motion that belongs to the amplitude; in flight, perturbed by a tiny amount in proportion to
+    /// this share.
     OnMotion(f64),
-    /// At rest on the stator at this phase of the drive; a disk that lies there for ever is on that motion.
+    /// At rest on the stator at this phase of the drive; if the disk lies there for ever, it is on that
+    /// motion.
     AtRest(Phase),
-    /// Thrown up at this phase, so fast in units of the stator's speed, unless it lies there for ever.
+    /// Thrown up at this phase, with this multiple of the stator's speed, unless it lies there for ever.
     Thrown(Phase, f64),
 }
 
 impl Held {
-    /// The start of a run on it.
+    /// The start of a run at this held amplitude.
     pub(crate) fn start(&self, disk: DiskStart) -> (PhaseTime, StatorState) {
         let mut state = self.state;
         let (phase, speed, mode) = match disk {
@@ -82,8 +86,9 @@ impl Held {
     }
 }
 
-/// The held amplitudes of a stator with one mode, which moves in height, in rising order; none without a drive.
-/// Relaunches from rigid contacts are perturbed by speeds up to this size from a stream of this seed.
+/// The held amplitudes of a stator with one mode, which moves in height, in rising order; empty without a
+/// drive. Relaunches from rigid contacts are perturbed by speeds up to this size from a stream with this
+/// seed.
 pub(crate) fn held_amplitudes(
     system: &StatorSystem,
     perturbation: (f64, u64),
@@ -95,7 +100,7 @@ pub(crate) fn held_amplitudes(
     }
     let mut search = Search::new(system, perturbation, work)?;
     let mut found: Vec<Held> = search.lying()?.into_iter().collect();
-    // The mean force is 1 and never pulls, so that its first harmonic is at most 2; it puts no power in.
+    // The mean force is 1 and it never pulls, so its first harmonic is at most 2; it supplies no power.
     let [re, im] = search.follows();
     let size = hypot(search.stiffness[0], search.stiffness[1]);
     let least = (1.0 / hypot(re, im)).max(free - 2.0 / size);
@@ -118,7 +123,7 @@ pub(crate) fn held_amplitudes(
     Ok(found)
 }
 
-/// Adds one that is not known yet.
+/// Adds a held amplitude if it is new.
 fn add(found: &mut Vec<Held>, held: Held) {
     let is_known = |known: &Held| {
         known.is_stable == held.is_stable && (known.amplitude / held.amplitude - 1.0).abs() < ONE

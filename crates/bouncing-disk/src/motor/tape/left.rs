@@ -1,10 +1,10 @@
-//! Where a motion on a stator that yields was left, for another motor that goes on from there.
+//! The final state of a motion on a compliant stator, from which another motor may continue.
 
 use crate::motion::phase_time::PhaseTime;
 use crate::parameters::scales::Scales;
 use crate::stator::{MODES, StatorEngine, StatorState};
 
-/// Where a rotor on a stator that yields was left.
+/// The final state of a rotor on a compliant stator.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Left {
     pub(crate) time: PhaseTime,
@@ -14,7 +14,7 @@ pub(crate) struct Left {
 }
 
 impl Left {
-    /// Of an engine at a time before its next event.
+    /// The state of an engine at a time before its next event.
     pub(crate) fn of(engine: &StatorEngine, time: PhaseTime) -> Self {
         let state = engine.state_after(time.since(&engine.time()).radians()).1;
         Self { time, state, rises: engine.system().modes.map(|mode| mode.height != 0.0) }

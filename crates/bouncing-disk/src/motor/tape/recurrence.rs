@@ -6,48 +6,50 @@ use bouncing_disk_core::Phase;
 
 use crate::stator::MODES;
 
-/// A state that differs from an earlier one by less than this share of the largest seen repeats it. Two cycles must.
+/// A state repeats an earlier one if the difference is below this share of the largest state seen. Two cycles
+/// must do so.
 const SAME: f64 = 1.0e-11;
 
-/// A motion that comes so near to a stable cycle that is known stays on it.
+/// A motion that comes this close to a known stable cycle stays on it.
 const JOINS: f64 = 1.0e-5;
 
-/// A motion comes nearer to its cycle by at least the rest of this factor.
+/// A motion approaches its cycle by at least the remainder of this factor.
 const SLOWEST: f64 = 1.0 - 1.0e-5;
 
-/// A part of a state counts as at least this share of the largest.
+/// A component of a state counts as at least this share of the largest.
 const SMALL: f64 = 1.0e-3;
 
-/// A cycle takes a period of the drive at least.
+/// A cycle takes at least a period of the drive.
 const LEAST_CYCLE: f64 = PI;
 
-/// Touches that follow one another after a shorter time (rad) are one.
+/// Touches separated by less than this time (rad) count as one.
 pub(crate) const AT_ONCE: f64 = 1.0e-9;
 
 /// Most touches of a cycle.
 const LONGEST: u64 = 128;
 
-/// Where a disk touches the platform, or leaves it.
+/// The state in which a disk touches the platform, or leaves it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Key([f64; PARTS]);
 
 const PARTS: usize = 9;
 
-/// The place of the rotor's angular speed.
+/// Index of the rotor's angular speed.
 const SPEED: usize = 4;
 
 impl Key {
-    /// That of a disk that never touches: it repeats each period.
+    /// The key of a disk that never touches and repeats in each period.
     pub(crate) const LYING: Self = Self([0.0; PARTS]);
 
-    /// Of a disk with this velocity and height and, if it acts back, angular speed, and the modes of its stator.
+    /// The key of a disk with this velocity and height and, if it acts back, angular speed, and the modes of
+    /// its stator.
     pub(crate) const fn new(phase: Phase, disk: [f64; 3], modes: [[f64; 2]; MODES]) -> Self {
         let [[a, b], [c, d]] = modes;
         Self([phase.sin(), phase.cos(), disk[0], disk[1], disk[2], a, b, c, d])
     }
 
-    /// How far it is from another one, as the largest share of these sizes; a part that stays small counts as a share of
-    /// the others.
+    /// Its distance from another one, as the largest share of these sizes; a component that stays small
+    /// counts as a share of the others.
     fn distance(&self, other: &Self, sizes: [f64; PARTS]) -> f64 {
         // The angular speed has a unit of its own.
         let others = sizes.into_iter().enumerate().filter(|(part, _)| *part != SPEED);
@@ -57,7 +59,7 @@ impl Key {
     }
 }
 
-/// What a recorded step has shown.
+/// The result of a recorded step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Touch {
     None,
@@ -66,7 +68,8 @@ pub(crate) enum Touch {
     Lies,
 }
 
-/// The search for a cycle among the touches of a motion: each is compared with one that is renewed from time to time.
+/// The search for a cycle among the touches of a motion, each of which is compared with a reference that is
+/// renewed from time to time.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Recurrence {
     reference: Option<Key>,
@@ -75,25 +78,25 @@ pub(crate) struct Recurrence {
     /// Time (rad) since the reference.
     elapsed: f64,
     renewal: u64,
-    /// Touches of the cycle that was seen last, and by how much it missed.
+    /// Number of touches of the cycle that was seen last, and the distance by which it failed to close.
     seen: Option<(u64, f64)>,
-    /// The touches of cycles that other members have come to.
+    /// The touches of cycles that other members have reached.
     known: Vec<Vec<Key>>,
 }
 
 /// A cycle that was seen twice, or is known.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Repeats {
-    /// The place of a cycle that is known.
+    /// The index of a known cycle.
     pub(crate) known: Option<usize>,
-    /// Touches of a cycle, or periods of a disk that lies on the platform.
+    /// Touches of a cycle, or periods for a disk that lies on the platform.
     pub(crate) touches: u64,
-    /// How far the motion may still be from the cycle, as a share of the largest state.
+    /// Largest remaining distance of the motion from the cycle, as a share of the largest state.
     pub(crate) distance: f64,
 }
 
 impl Recurrence {
-    /// Adds what a step of this duration (rad) has shown: the cycle, if the motion repeats one.
+    /// Adds the result of a step of this duration (rad); returns the cycle, if the motion repeats one.
     pub(crate) fn add(&mut self, touch: Touch, duration: f64) -> Option<Repeats> {
         self.elapsed += duration;
         let key = match touch {
@@ -110,7 +113,7 @@ impl Recurrence {
             let touches = std::mem::take(&mut self.since);
             self.elapsed = 0.0;
             self.reference = Some(key);
-            // What is left of a geometric series that falls as the last two terms do.
+            // The remainder of a geometric series that falls as the last two terms do.
             return seen.filter(|seen| seen.0 == touches).map(|(_, before)| {
                 let ratio = if before > 0.0 { (off / before).min(SLOWEST) } else { 0.0 };
                 Repeats { known: None, touches, distance: off.max(f64::EPSILON) / (1.0 - ratio) }
@@ -129,12 +132,13 @@ impl Recurrence {
         None
     }
 
-    /// Other members have come to cycles with these touches.
+    /// Registers cycles with these touches that other members have reached.
     pub(crate) fn know(&mut self, cycles: &[&[Key]]) {
         self.known = cycles.iter().map(|touches| touches.to_vec()).collect();
     }
 
-    /// The known cycle that a touch with which the motion nearly repeats itself is very near to, and nearer than a cycle ago.
+    /// The known cycle that is very close to a touch at which the motion nearly repeats, and closer than a
+    /// cycle before.
     fn joined(&self, key: &Key) -> Option<Repeats> {
         let reference = self.reference?;
         let distance = |own: &Key| own.distance(key, self.largest);
@@ -147,21 +151,22 @@ impl Recurrence {
     }
 }
 
-/// Touches of one motion that differ by less than this share of the largest are one.
+/// Touches of one motion that differ by less than this share of the largest are the same.
 pub(crate) const ONE: f64 = 1.0e-7;
 
-/// The same of two motions that were found to repeat themselves: where the contact force just touches zero, touches differ
+/// The same for two motions that were found to repeat: if the contact force just touches zero, touches differ
 /// like the root of [`SAME`].
 pub(crate) const ONE_OF_TWO: f64 = 1.0e-5;
 
-/// Whether two cycles have the same touches, so many touches apart, within this share of the largest.
+/// Whether two cycles have the same touches, shifted by this number of touches, within this share of the
+/// largest.
 pub(crate) fn are_same(one: &[Key], other: &[Key], apart: usize, within: f64) -> bool {
     let sizes = one.iter().fold([0.0; PARTS], |most, key| most_of(most, key.0));
     let other = other.iter().cycle().skip(apart);
     one.iter().zip(other).all(|(one, other)| one.distance(other, sizes) < within)
 }
 
-/// A motion that touches nearer to a cycle than this share of the largest is on its way to it.
+/// A motion that touches closer to a cycle than this share of the largest is on its way to it.
 const NEAR: f64 = 0.05;
 
 /// Whether a touch is near one of a cycle's.
@@ -187,7 +192,7 @@ mod tests {
         std::iter::successors(Some(1.0), move |power| Some(power * of))
     }
 
-    /// The number of touches until a motion with these velocities is found to repeat itself, and the cycle.
+    /// The number of touches until a motion with these velocities is found to repeat, and the cycle.
     fn followed(velocities: impl Iterator<Item = f64>, cycle: &[Key]) -> (usize, Option<Repeats>) {
         let mut recurrence = Recurrence::default();
         recurrence.know(&[&[key(7.0)], cycle]);

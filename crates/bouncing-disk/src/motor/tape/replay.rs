@@ -1,7 +1,7 @@
 //! Rotors that are carried along a tape.
 //!
-//! In a step of contact the force is even and the stator's angular speed a straight line, so that the slip is one too,
-//! with at most one end: rotor, angle and energies follow exactly.
+//! In a step of contact the force is constant and the stator's angular speed linear, so the slip is linear,
+//! too, with at most one end: rotor, angle and energies follow exactly.
 
 use std::ops::Range;
 
@@ -13,25 +13,25 @@ use super::{Knot, Tape};
 use crate::motor::batch::rotor_rows::{RotorRows, Row, WIDTH};
 use crate::stator::{LoadLine, StatorLedger};
 
-/// What rotors have done.
+/// The accumulated motion of rotors.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Done {
     /// Angle turned.
     pub(crate) angle: Row,
     /// Integral of the square of the speed.
     pub(crate) square: Row,
-    /// Work of the stator by friction, and loss in it.
+    /// Work of the stator by friction, and loss in friction.
     pub(crate) work: Row,
     pub(crate) loss: Row,
-    /// Impulse, over the friction, that would act on a rotor that is held at rest.
+    /// Impulse, divided by the coefficient of friction, that would act on a rotor held at rest.
     pub(crate) held: Row,
-    /// Impulse of the law of the load, and work done against it.
+    /// Impulse of the load's law, and work done against it.
     pub(crate) law_impulse: Row,
     pub(crate) law_work: Row,
 }
 
 impl Done {
-    /// Adds what a rotor has done in a contact step.
+    /// Adds the motion of a rotor in a contact step.
     #[inline(always)]
     fn add(&mut self, own: usize, slid: &Slid) {
         self.angle[own] += slid.angle;
@@ -46,11 +46,11 @@ impl Done {
 pub(crate) struct Rotors {
     pub(crate) rows: RotorRows<Done>,
     pub(crate) count: usize,
-    /// How many times less inertia each has than the motor's.
+    /// Factor by which each has less inertia than the motor's rotor.
     pub(crate) quicker: Row,
-    /// The law, besides the constant loads of the rows.
+    /// The law, in addition to the constant loads of the rows.
     pub(crate) law: Vec<LoadLine>,
-    /// Which of the tape's columns has the stator's speed; `None` for a sine.
+    /// The tape's column with the stator's speed; `None` for a sine.
     pub(crate) column: Option<usize>,
 }
 
@@ -69,7 +69,7 @@ impl Rotors {
         rotors
     }
 
-    /// What the rotor in this place has done in a time (rad), from this speed on.
+    /// The motion of the rotor in this place over a time (rad), from this speed on.
     pub(crate) fn done(
         &self,
         own: usize,
@@ -94,7 +94,8 @@ impl Rotors {
         }
     }
 
-    /// The speed of the rotor in this place at this share of a step that it began with a speed, and whose contact has ended.
+    /// The speed of the rotor in this place at this share of a step, given its speed at the start of the
+    /// step, whose contact has ended.
     pub(crate) fn within(&self, own: usize, knot: &Knot, share: f64, before: f64) -> f64 {
         if knot.pressed > 0.0 {
             return before + share * (self.rows.speed[own] - before);
@@ -104,7 +105,7 @@ impl Rotors {
     }
 }
 
-/// Carries all rotors along these steps of a tape; the first is 1.
+/// Carries all rotors along these steps of a tape; the first knot is the start.
 pub(crate) struct Replay<'a> {
     pub(crate) tape: &'a Tape,
     pub(crate) steps: Range<usize>,
@@ -149,7 +150,7 @@ impl LaneLoop for Replay<'_> {
     }
 }
 
-/// A contact step.
+/// A contact step for all rotors.
 #[inline(always)]
 fn slide(rows: &mut RotorRows<Done>, knot: &Knot, from: Row, to: Row) {
     for own in 0..WIDTH {
@@ -166,19 +167,20 @@ fn slide(rows: &mut RotorRows<Done>, knot: &Knot, from: Row, to: Row) {
     }
 }
 
-/// A contact step on a rotor that is held at rest.
+/// A contact step for a rotor that is held at rest.
 #[inline(always)]
 fn hold(done: &mut Done, impulse: f64, from: Row, to: Row) {
     for own in 0..WIDTH {
         let (from, to) = (from[own], to[own]);
         let (size, sum) = (from.abs() + to.abs(), from + to);
-        // Of one sign all of it, else the difference of the parts on both sides of the reversal.
+        // All of it if the sign is constant, otherwise the difference of the parts on both sides of the
+        // reversal.
         let share = if from * to >= 0.0 { sum.signum() } else { sum / size };
         done.held[own] += if size > 0.0 { impulse * share } else { 0.0 };
     }
 }
 
-/// A flight.
+/// A flight of all rotors.
 #[inline(always)]
 fn fly(rows: &mut RotorRows<Done>, span: f64) {
     for own in 0..WIDTH {
@@ -190,13 +192,13 @@ fn fly(rows: &mut RotorRows<Done>, span: f64) {
     }
 }
 
-/// An impact.
+/// An impact of all rotors.
 #[inline(always)]
 fn hit(rows: &mut RotorRows<Done>, impulse: f64, stator: Row) {
     for (own, stator) in stator.into_iter().enumerate() {
         let (slip, most) = (rows.speed[own] - stator, rows.friction[own] * impulse);
         let change = (-slip).max(-most).min(most);
-        // A slip that ends does so exactly.
+        // A slip that ends becomes exactly zero.
         rows.speed[own] = if slip.abs() <= most { stator } else { rows.speed[own] + change };
         let done = &mut rows.tally;
         done.held[own] += if stator > 0.0 {
@@ -212,7 +214,7 @@ fn hit(rows: &mut RotorRows<Done>, impulse: f64, stator: Row) {
     }
 }
 
-/// A contact step under a law of the load, which is that of the speed in the middle.
+/// A contact step under a law of the load, evaluated at the speed in the middle.
 fn slide_under(rows: &mut RotorRows<Done>, count: usize, knot: &Knot, from: Row, to: Row, law: &[LoadLine]) {
     for own in 0..count {
         let speed = rows.speed[own];
@@ -237,7 +239,7 @@ fn slide_under(rows: &mut RotorRows<Done>, count: usize, knot: &Knot, from: Row,
     }
 }
 
-/// A flight under a law of the load: exactly, line by line.
+/// A flight under a law of the load, exactly, piece by piece.
 fn fly_under(rows: &mut RotorRows<Done>, count: usize, span: f64, law: &[LoadLine]) {
     for own in 0..count {
         let load = rows.load[own];
@@ -247,7 +249,7 @@ fn fly_under(rows: &mut RotorRows<Done>, count: usize, span: f64, law: &[LoadLin
             let braking = load + torque(law, speed);
             let line = line_of(law, speed, braking);
             let (slope, decay) = (line.slope, line.slope * left);
-            // How long the speed stays on the line.
+            // The time for which the speed stays on the piece.
             let bound = if braking > 0.0 { line.from } else { line.to };
             let share = slope * (speed - bound) / braking;
             let reach =
@@ -278,7 +280,7 @@ fn fly_under(rows: &mut RotorRows<Done>, count: usize, span: f64, law: &[LoadLin
     }
 }
 
-/// Below this share of a time constant an exponential is taken by its series, to fourth order.
+/// Below this share of a time constant an exponential is computed by its series, to fourth order.
 const TINY: f64 = 1.0e-4;
 
 /// The torque of a law at a speed.
@@ -287,7 +289,7 @@ pub(crate) fn torque(law: &[LoadLine], speed: f64) -> f64 {
     line.torque + line.slope * speed
 }
 
-/// The line of a law at a speed; at an end of two the one into which a rotor goes that is braked so.
+/// The piece of a law at a speed; at a node, the one that a rotor enters if braked in this direction.
 fn line_of(law: &[LoadLine], speed: f64, braking: f64) -> &LoadLine {
     let index = if braking > 0.0 {
         law.partition_point(|line| line.to < speed)
@@ -304,12 +306,12 @@ pub(crate) struct Step {
     /// The stator's angular speed at its start and its end.
     pub(crate) from: f64,
     pub(crate) to: f64,
-    /// Changes of the rotor's speed by friction and load over the whole step.
+    /// Changes of the rotor's speed by friction and by load over the whole step.
     pub(crate) friction: f64,
     pub(crate) load: f64,
 }
 
-/// A rotor after a step, and what it did in it.
+/// A rotor after a step, and its motion during it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Slid {
     pub(crate) speed: f64,
@@ -320,14 +322,14 @@ pub(crate) struct Slid {
 }
 
 impl Step {
-    /// A rotor with this speed at the start: it slides, and where its slip ends within the step it sticks or slides the
-    /// other way.
+    /// A rotor with this speed at the start: it slides, and if its slip ends within the step it then sticks
+    /// or slides the other way.
     #[inline(always)]
     pub(crate) fn slide(self, speed: f64) -> Slid {
         let Self { span, from, to, friction, load } = self;
         let gained = to - from;
         let (slip, pull) = (speed - from, gained + load);
-        // How the slip begins at zero: friction holds it unless the pull is larger.
+        // The start of a slip from zero: friction holds unless the pull is larger.
         let onset = if pull < -friction {
             1.0
         } else if pull > friction {
@@ -357,7 +359,7 @@ impl Step {
         let reached = if rest > 0.0 { middle } else { speed - (direction * friction + load) };
         let first = direction * friction * share;
         let slipped = 0.5 * (slip + if rest > 0.0 { 0.0 } else { end });
-        // And from there on.
+        // From there on.
         let left = -(onset * friction + pull) * rest;
         let (last, torque, again) = if onset == 0.0 {
             (to, pull * rest, 0.0)

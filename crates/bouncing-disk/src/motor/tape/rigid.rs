@@ -1,4 +1,4 @@
-//! A tape of rigid impacts on a sine: flights and impacts of the core's orbit, rests in between.
+//! A tape of rigid impacts on a sine: flights and impacts of the core's orbit, with rests in between.
 
 use std::f64::consts::TAU;
 
@@ -36,9 +36,9 @@ pub(crate) struct RigidTape {
 }
 
 impl RigidTape {
-    /// A disk that lies on the platform at `phase`, or is thrown up from it, so fast in units of the platform's largest speed;
-    /// each separation is perturbed by a speed of this size from a stream
-    /// of this seed.
+    /// A disk that lies on the platform at `phase`, or is thrown up from it with this multiple of the
+    /// platform's largest speed; each separation is perturbed by a speed of up to this size from a stream
+    /// with this seed.
     pub(crate) fn new(
         system: &DimensionlessSystem,
         (phase, thrown): (Phase, Option<f64>),
@@ -60,12 +60,12 @@ impl RigidTape {
         Ok(tape)
     }
 
-    /// When the recorded motion ends.
+    /// The end of the recorded motion.
     pub(crate) fn time(&self) -> PhaseTime {
         self.vertical.as_ref().map_or_else(|| self.engine.time(), VerticalMotion::now)
     }
 
-    /// Records up to the next impact, or the end of a rest; a disk that lies for ever, a period.
+    /// Records up to the next impact or the end of a rest, or a period for a disk that lies for ever.
     pub(crate) fn record(&mut self, tape: &mut Tape, work: &mut WorkCount<'_>) -> Result<Touch, Error> {
         let Some(vertical) = &mut self.vertical else {
             work.spend(FLIGHTS_OF_EVENT)?;
@@ -88,7 +88,7 @@ impl RigidTape {
                 self.rest(Some(&rest), tape)?;
                 Ok(Touch::None)
             }
-            // A platform that has let the disk go once does so for ever.
+            // A platform that has once fallen away from the disk does so again and again.
             Some(_) | None => Ok(Touch::None),
         }
     }
@@ -113,7 +113,8 @@ impl RigidTape {
         Key::new(impact.phase, [impact.velocity, 0.0, 0.0], [[0.0; 2]; MODES])
     }
 
-    /// A rest of the disk up to its separation, with the chatter before it; without an attachment, the first one.
+    /// A rest of the disk up to its separation, with the preceding chatter; without an attachment, the first
+    /// rest.
     fn rest(&mut self, rest: Option<&Attachment>, tape: &mut Tape) -> Result<(), Error> {
         let Some(vertical) = &self.vertical else { return Ok(()) };
         let began = vertical.now();
@@ -172,7 +173,7 @@ impl RigidTape {
         Ok(())
     }
 
-    /// A contact on which nothing ends.
+    /// A contact without an event at its end.
     fn press(&self, tape: &mut Tape, from: f64, duration: f64) {
         let peak = self.engine.system().vibration().peak_acceleration();
         tape.press(from, duration, |to| to + peak * (cos(from + to) - cos(from)));

@@ -1,4 +1,4 @@
-//! Where a tape comes from: the vertical motion of a disk that friction does not act back on.
+//! The source of a tape: the vertical motion of a disk, on which friction does not act back.
 
 use bouncing_disk_core::run::WorkCount;
 use bouncing_disk_core::{ChatterPolicy, Phase};
@@ -19,22 +19,23 @@ use crate::motor::stator::Stator;
 use crate::parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem};
 use crate::stator::{StatorEngine, StatorState, StatorSystem};
 
-/// What a tape is recorded from.
+/// The source from which a tape is recorded.
 #[derive(Debug, Clone)]
 pub(crate) enum Source {
     /// A sine with rigid impacts.
     Rigid(Box<RigidTape>),
-    /// A sine with contacts that take time.
+    /// A sine with compliant contacts.
     Taps(Box<TapTape>),
     /// Waveforms.
     Driven(Box<EngineTape<DrivenEngine>>),
-    /// A stator that yields in its height.
+    /// A stator with a compliant height.
     Yielding(Box<EngineTape<StatorEngine>>),
 }
 
 impl Source {
-    /// Of a disk that lies at a phase on this stator, on whose height friction does not act back, or is thrown up from it, so
-    /// fast in units of the platform's largest speed; not from a stator that yields.
+    /// The source for a disk that lies at a phase on this stator, or is thrown up from it with this multiple
+    /// of the platform's largest speed (not from a compliant stator). Friction must not act back on the
+    /// height.
     pub(crate) fn new(
         stator: &Stator,
         system: &DimensionlessSystem,
@@ -42,7 +43,7 @@ impl Source {
         perturbation: (f64, u64),
     ) -> Result<Self, Error> {
         let phase = start.0;
-        // Contacts that take time need no perturbation: no rest makes all motions one.
+        // Compliant contacts need no perturbation, as no rest merges all motions.
         let undisturbed = (0.0, perturbation.1);
         Ok(match stator {
             Stator::Sine => Self::Rigid(Box::new(RigidTape::new(system, start, perturbation)?)),
@@ -60,7 +61,7 @@ impl Source {
         })
     }
 
-    /// Of a disk that lies on a stator that moves by waveforms, or whose contacts take time.
+    /// The source for a disk on a stator that moves by waveforms, or with compliant contacts.
     pub(crate) fn driven(
         system: &DrivenSystem,
         (phase, thrown): (Phase, Option<f64>),
@@ -68,7 +69,7 @@ impl Source {
     ) -> Result<Self, Error> {
         let still = DrivenSystem { friction: 0.0, load: 0.0, angle: Drive::fourier(&[])?, ..system.clone() };
         let angular_speed = 0.0;
-        // A platform that does not move throws nothing.
+        // A platform at rest cannot throw.
         let start = match thrown.map(|share| share * system.height.bounds().speed) {
             Some(relative_speed) if relative_speed > 0.0 => {
                 DrivenStart::Launch { phase, relative_speed, angular_speed }
@@ -78,7 +79,7 @@ impl Source {
         Ok(Self::of_engine(DrivenEngine::new(still, start, ChatterPolicy::Complete)?, perturbation))
     }
 
-    /// Of a disk without friction, from where it is on a prescribed motion.
+    /// The source for a disk without friction, from its state in a prescribed motion.
     pub(crate) fn of_engine(engine: DrivenEngine, perturbation: (f64, u64)) -> Self {
         let compliance = engine.system().compliance.as_ref();
         let (takes_time, solver) = (compliance.is_some(), compliance.and_then(TapSolver::new));
@@ -98,7 +99,7 @@ impl Source {
         Ok(Self::Yielding(Box::new(EngineTape::new(engine, system.takes_time(), perturbation))))
     }
 
-    /// Goes on with another motion of the disk on a stator that yields.
+    /// Continues with another motion of the disk on a compliant stator.
     pub(crate) fn go_on_from(&mut self, time: PhaseTime, state: StatorState) -> Result<(), Error> {
         let Self::Yielding(source) = self else { return Ok(()) };
         let mut engine = StatorEngine::of_state(source.engine.system().clone(), time, state)?;
@@ -107,7 +108,7 @@ impl Source {
         Ok(())
     }
 
-    /// Records a step: up to the next event, or more.
+    /// Records a step: up to the next event, or further.
     pub(crate) fn record(&mut self, tape: &mut Tape, work: &mut WorkCount<'_>) -> Result<Touch, Error> {
         match self {
             Self::Rigid(source) => source.record(tape, work),
@@ -117,7 +118,7 @@ impl Source {
         }
     }
 
-    /// When what is recorded ends.
+    /// The end of the recorded motion.
     pub(crate) fn time(&self) -> PhaseTime {
         match self {
             Self::Rigid(source) => source.time(),
@@ -127,12 +128,12 @@ impl Source {
         }
     }
 
-    /// The phase (rad) there.
+    /// The phase (rad) at the end.
     pub(crate) fn phase(&self) -> f64 {
         self.time().phase.angle()
     }
 
-    /// Whether its contacts take time; of a stator that yields this is not said.
+    /// Whether its contacts are compliant; unspecified for a compliant stator.
     pub(crate) const fn takes_time(&self) -> bool {
         match self {
             Self::Taps(_) => true,
@@ -141,7 +142,7 @@ impl Source {
         }
     }
 
-    /// The disk there, on a prescribed motion by the general engine or in taps.
+    /// The disk at the end, for a prescribed motion by the general engine or in taps.
     pub(crate) fn disk(&self) -> Option<DiskState> {
         match self {
             Self::Taps(source) => Some(source.disk()),
@@ -156,7 +157,7 @@ impl Source {
     }
 }
 
-/// A disk on a sine whose contacts take time.
+/// A disk on a sine with compliant contacts.
 fn soft(system: &DimensionlessSystem, contact_time: f64) -> Result<DrivenSystem, Error> {
     bare(system.peak_acceleration(), system.restitution())?.with_contact_time(contact_time)
 }

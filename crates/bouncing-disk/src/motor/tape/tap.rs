@@ -1,9 +1,9 @@
-//! Taps: a flight and a contact that takes time, one after the other on a sine, without a search.
+//! Taps: alternating flights and compliant contacts on a sine, without a search.
 //!
-//! Since a touch the force is 1 + a cos t + b sin t + c u1 + d u2, with the two free oscillations u1, u2 of the
-//! spring and damper. These four functions are kept as polynomials on short pieces in Bernstein's form, whose
-//! coefficients decide on signs and roots (docs/numerics-dynamics.md). What they do not decide is left to
-//! [`CompliantPlatform`].
+//! After a touch the force is 1 + a cos t + b sin t + c u1 + d u2, with the two free oscillations u1, u2 of
+//! the spring and damper. These four functions are stored as polynomials on short pieces in Bernstein's form,
+//! whose coefficients decide on signs and roots (docs/numerics-dynamics.md). Cases that they do not decide
+//! are left to [`CompliantPlatform`].
 
 use core::f64::consts::TAU;
 use core::ops::RangeInclusive;
@@ -14,7 +14,7 @@ use bouncing_disk_core::numerics::elementary::{
 use bouncing_disk_core::{Launch, Phase, Vibration};
 use bouncing_disk_drives::compliance::CompliantPlatform;
 
-/// Coefficients of a piece: a polynomial with the function's first derivatives at both ends.
+/// Coefficients of a piece: a polynomial that matches the function's first derivatives at both ends.
 const COUNT: usize = 10;
 const DEGREE: f64 = 9.0;
 
@@ -33,27 +33,27 @@ const TERMS: usize = 9;
 /// Length of a piece, in radians of the fastest change.
 const PIECE: f64 = 1.5;
 
-/// Most pieces of a table: contacts that last for longer are left to the general solver.
+/// Most pieces of a table; longer contacts are left to the general solver.
 const MOST_PIECES: f64 = 256.0;
 
-/// A step in radians of the fastest change over which Taylor series hold: their first omitted terms are below
-/// 3e-17. [`Anchor`]s lie twice as far from each other.
+/// A step in radians of the fastest change for which Taylor series hold: their first omitted terms are below
+/// 3e-17. [`Anchor`]s are twice as far apart.
 const NEAR: f64 = 0.05;
 
-/// Rounding of the coefficients of a piece, in units of the terms that are added.
+/// Rounding of the coefficients of a piece, relative to their terms.
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
 
 /// Most pieces over which a short flight is followed.
 const SCANNED: f64 = 5.0;
 
-/// The share of its first piece over which a function that starts at zero must rise for certain.
+/// The share of its first piece over which a function that starts at zero must certainly rise.
 const START: f64 = 0.125;
 
-/// Halvings of a piece whose coefficients do not decide.
+/// Bisections of a piece whose coefficients do not decide.
 const HALVINGS: u32 = 6;
 
-/// Most steps to a root, which are of fourth order; after one that is smaller than [`LAST_STEP`], in radians of
-/// the fastest change, no more than rounding is left.
+/// Most fourth-order steps to a root; after one smaller than [`LAST_STEP`], in radians of the fastest change,
+/// only rounding is left.
 const STEPS: u32 = 12;
 const LAST_STEP: f64 = 5.0e-5;
 
@@ -63,8 +63,8 @@ pub(crate) struct TapSolver {
     vibration: Vibration,
     stiffness: f64,
     damping: f64,
-    /// Half the damping, and the frequency of the free oscillation or, beyond critical damping, the rate that
-    /// takes its place.
+    /// Half the damping, and the frequency of the free oscillation or, beyond critical damping, the
+    /// corresponding rate.
     decay: f64,
     frequency: f64,
     over: bool,
@@ -81,10 +81,10 @@ pub(crate) struct TapSolver {
     rate: f64,
     /// cos t, sin t, u1 and u2 over the time since the touch.
     pieces: Vec<[Piece; 4]>,
-    /// Their largest errors, with those of their coefficients.
+    /// Their largest errors, including those of their coefficients.
     errors: [f64; 4],
-    /// The four at the starts of the pieces and, evenly spaced, within the first, and the Taylor series of u1 and
-    /// u2 at zero.
+    /// The four functions at the starts of the pieces and at equidistant points within the first, and the
+    /// Taylor series of u1 and u2 at zero.
     starts: Vec<Anchor>,
     anchors: [Anchor; ANCHORS],
     spacing: f64,
@@ -100,7 +100,7 @@ pub(crate) struct TapInstant {
     pub(crate) sin: f64,
     /// See [`Self::sin`].
     pub(crate) cos: f64,
-    /// The gap less its steady part, and its derivative.
+    /// The gap minus its steady part, and its derivative.
     free: f64,
     free_slope: f64,
 }
@@ -108,15 +108,15 @@ pub(crate) struct TapInstant {
 /// Integrals of a contact, each up to a constant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct TapIntegrals {
-    /// Of the force.
+    /// Integral of the force.
     pub(crate) impulse: f64,
-    /// Of its integral.
+    /// Integral of that integral.
     pub(crate) lift: f64,
-    /// Of the force times the cosine of the phase.
+    /// Integral of the force times the cosine of the phase.
     pub(crate) force_cos: f64,
-    /// Of the force times the sine of the phase.
+    /// Integral of the force times the sine of the phase.
     pub(crate) force_sin: f64,
-    /// Of the square of the velocity relative to the platform, times the damping.
+    /// Integral of the square of the velocity relative to the platform, times the damping.
     pub(crate) loss: f64,
 }
 
@@ -125,11 +125,11 @@ pub(crate) struct TapIntegrals {
 pub(crate) struct TapTouch {
     /// Duration of the flight (rad).
     pub(crate) duration: f64,
-    /// Phase of the touch, and how often the phase has passed 0.
+    /// Phase of the touch, and the number of times the phase has passed 0.
     pub(crate) phase: Phase,
     /// See [`Self::phase`].
     pub(crate) turns: u64,
-    /// The gap: zero, or below where the force sets in again before the spring is free.
+    /// The gap: zero, or negative if the force returns before the spring is free.
     pub(crate) gap: f64,
     /// Velocity relative to the platform.
     pub(crate) velocity: f64,
@@ -144,11 +144,11 @@ pub(crate) struct Tap {
     pub(crate) start: TapInstant,
     /// The release.
     pub(crate) end: TapInstant,
-    /// The phase of the release, and how often the phase has passed 0 since the touch.
+    /// The phase of the release, and the number of times the phase has passed 0 since the touch.
     pub(crate) phase: Phase,
     /// See [`Self::phase`].
     pub(crate) turns: u64,
-    /// The force is at most that.
+    /// An upper bound on the force.
     pub(crate) largest_force: f64,
     /// Gap at the release.
     pub(crate) gap: f64,
@@ -157,7 +157,7 @@ pub(crate) struct Tap {
 }
 
 impl TapSolver {
-    /// The solver of this platform, if it is a sine and its spring has a damper.
+    /// The solver for this platform, if it is a sine and its spring has a damper.
     #[must_use]
     pub(crate) fn new(platform: &CompliantPlatform) -> Option<Self> {
         let vibration = platform.drive().as_vibration()?;
@@ -220,7 +220,7 @@ impl TapSolver {
             })
             .collect();
         solver.pieces = pieces;
-        // (h/2)^10/10! times the largest tenth derivative; the energy of a free oscillation falls.
+        // (h/2)^10/10! times the largest tenth derivative; the energy of a free oscillation decreases.
         let mut share = 1.0;
         for n in 1..=COUNT {
             share *= 0.5 * solver.length / n as f64;
@@ -260,7 +260,7 @@ impl TapSolver {
         [decayed * cos + self.decay * second, second]
     }
 
-    /// These over a step that is near.
+    /// The same over a short step.
     fn near_oscillations(&self, step: f64) -> [f64; 2] {
         self.series.map(|c| {
             let (s2, s4) = (step * step, (step * step) * (step * step));
@@ -270,7 +270,7 @@ impl TapSolver {
         })
     }
 
-    /// The instant at which cos t, sin t, u1 and u2 are these, `after` another one.
+    /// The instant with these values of cos t, sin t, u1 and u2, `after` another one.
     fn later(&self, from: &TapInstant, after: f64, [cos, sin, u1, u2]: Anchor) -> TapInstant {
         let (value, slope) = (from.free, from.free_slope);
         TapInstant {
@@ -282,7 +282,7 @@ impl TapSolver {
         }
     }
 
-    /// The instant `step` later, if that is near.
+    /// The instant `step` later, for a short step.
     fn moved(&self, from: &TapInstant, step: f64) -> TapInstant {
         let NearSine { sine, versine, .. } = NearSine::of(step);
         let [u1, u2] = self.near_oscillations(step);
@@ -294,7 +294,7 @@ impl TapSolver {
         }
     }
 
-    /// The instant `after` the touch of a contact that begins with `start`; nothing beyond the table.
+    /// The instant `after` the touch of a contact that begins with `start`; `None` beyond the table.
     #[must_use]
     pub(crate) fn instant(&self, start: &TapInstant, after: f64) -> Option<TapInstant> {
         let piece = (after >= 0.0).then_some((after / self.length) as usize)?;
@@ -306,8 +306,8 @@ impl TapSolver {
         Some(self.moved(&anchor, after - (begun + passed)))
     }
 
-    /// A root near an instant of the function whose value and three derivatives this gives; `None` if the steps do
-    /// not converge.
+    /// A root near an instant of the function with this value and these three derivatives; `None` if the
+    /// steps do not converge.
     pub(crate) fn polished(
         &self,
         start: &TapInstant,
@@ -386,7 +386,8 @@ impl TapSolver {
         let &TapInstant { after: t, sin: s, cos: c, free: h, free_slope: g } = at;
         let [p, r] = self.force;
         let (sc, ss) = (s * c, s * s);
-        // Of h cos and h sin, from the derivatives of h cos, h sin, h' cos and h' sin; then of h' cos, h' sin.
+        // First for h cos and h sin, from the derivatives of h cos, h sin, h' cos and h' sin; then for h'
+        // cos, h' sin.
         let first = -(g * c + self.damping * h * c + h * s);
         let second = -(g * s + self.damping * h * s - h * c);
         let [near, far] = self.gain;
@@ -404,7 +405,7 @@ impl TapSolver {
         }
     }
 
-    /// The contact after a touch, if its release is decided.
+    /// The contact after a touch, if its release can be decided.
     #[must_use]
     pub(crate) fn contact(&self, touch: &TapTouch) -> Option<Tap> {
         let &TapTouch { phase, gap, velocity, .. } = touch;
@@ -422,7 +423,7 @@ impl TapSolver {
         let slope = -(k * start.free_slope + c * value);
         let weights = [p * sin + r * cos, p * cos - r * sin, value, slope];
         let margin = self.margin(&weights, 1.0);
-        // The energy of a free oscillation falls.
+        // The energy of a free oscillation decreases.
         let largest = 1.0
             + (p * p + r * r).sqrt()
             + (value * value + slope * slope * self.inverse_stiffness).sqrt()
@@ -448,8 +449,8 @@ impl TapSolver {
             [self.force(at), slope, bend, third]
         })?;
         let slope = self.force_slopes(&end)[0];
-        // No second root within the margin: the force bends by less than twice its size times the square of the
-        // rate, and 288 of the lengths of a piece are more.
+        // There is no second root within the margin: the curvature of the force is below twice its size times
+        // the square of the rate, and 288 piece lengths exceed that.
         let bend = 288.0 * largest / (self.length * self.length);
         let within = (index * self.length..=(index + 1.0) * self.length).contains(&end.after);
         if !(within && slope < 0.0 && slope * slope > 8.0 * margin * bend) {
@@ -474,11 +475,11 @@ impl TapSolver {
         ROUNDING * constant + ((a + b) + (c + d))
     }
 
-    /// The flight from a release with this `gap` < 0 and `velocity` to the next touch, if it is decided.
+    /// The flight from a release with this `gap` < 0 and `velocity` to the next touch, if it can be decided.
     ///
-    /// Let z = k y + c y', what the spring and damper would pull with at the gap y. y exp(k t/c) rises where z > 0 and
-    /// falls where z < 0: so y vanishes once, at most, after z has fallen below zero for good, and at the release
-    /// z is zero and rises.
+    /// Let z = k y + c y', the force by which spring and damper would pull at the gap y. y exp(k t/c) rises
+    /// while z > 0 and falls while z < 0. So y vanishes at most once after z has fallen below zero for good;
+    /// at the release z is zero and rises.
     #[must_use]
     pub(crate) fn flight(&self, phase: Phase, gap: f64, velocity: f64) -> Option<TapTouch> {
         let (sin, cos) = (phase.sin(), phase.cos());
@@ -493,7 +494,7 @@ impl TapSolver {
         ];
         let rounding = self.margin(&[weights[3], weights[4], 0.0, 0.0], weights[0].abs());
         let release = Fall { sin, cos, gap, velocity };
-        // Beyond some pieces the search for impacts takes less time.
+        // Beyond a few pieces the search for impacts takes less time.
         let near = 2.0 * start <= SCANNED * self.length;
         let (mut below, mut fallen) = (gap, false);
         for (index, piece) in self.pieces.iter().enumerate() {
@@ -549,7 +550,7 @@ impl TapSolver {
                 let (phase, turns) = there.phase(phase, duration);
                 Some(TapTouch { duration, phase, turns, gap, velocity: there.velocity })
             };
-            // While the force would push, the gap falls below zero once at most.
+            // While the force would push, the gap falls below zero at most once.
             if let Some(touch) = touch
                 && touch.1.velocity < 0.0
             {
@@ -565,7 +566,7 @@ impl TapSolver {
         None
     }
 
-    /// The flight of a disk whose spring is `freed`: the sine's first impact ends it.
+    /// The flight of a disk whose spring is `freed`; it ends at the sine's first impact.
     fn long_flight(&self, phase: Phase, (freed, there): (f64, Fall)) -> Option<TapTouch> {
         let rises = there.velocity > 0.0;
         if !rises {
@@ -587,14 +588,14 @@ const fn gap_of([gap, speed, bend, third, _]: [f64; 5]) -> [f64; 4] {
     [gap, speed, bend, third]
 }
 
-/// The step to a root by the value and three derivatives of a function: of fourth order.
+/// The fourth-order step to a root from the value and three derivatives of a function.
 fn step_of([value, slope, bend, third]: [f64; 4]) -> f64 {
     let square = slope * slope;
     -value * (square - 0.5 * value * bend)
         / (slope * (square - value * bend) + value * value * third * (1.0 / 6.0))
 }
 
-/// A root in this range of the function whose value and three derivatives are made from those of the gap, and
+/// A root in this range of the function whose value and three derivatives are computed from the gap's, and
 /// the disk there.
 fn newton(
     from: f64,
@@ -615,7 +616,7 @@ fn newton(
     None
 }
 
-/// A disk that feels no force: sine and cosine of the phase, gap and relative velocity.
+/// A disk without force: sine and cosine of the phase, gap and relative velocity.
 #[derive(Debug, Clone, Copy)]
 struct Fall {
     sin: f64,
@@ -631,7 +632,7 @@ impl Fall {
         [self.gap, self.velocity, sine - 1.0, cosine, -sine]
     }
 
-    /// The disk so long after.
+    /// The disk at this time after the start.
     fn after(&self, t: f64, peak: f64) -> Self {
         let NearSine { sine, versine, deficit } = if t.abs() <= NEAR {
             NearSine::of(t)
@@ -653,7 +654,7 @@ impl Fall {
         }
     }
 
-    /// The phase so long after the start, and how many turns that takes away.
+    /// The phase at this time after the start, and the number of turns removed.
     fn phase(&self, from: Phase, after: f64) -> (Phase, u64) {
         let (angle, turns) = phase_of(from.angle() + after);
         (Phase::from_parts(angle, self.sin, self.cos), turns)
@@ -668,7 +669,7 @@ struct NearSine {
 }
 
 impl NearSine {
-    /// For a step that is near, by series up to the ninth power.
+    /// For a short step, by series up to the ninth power.
     fn of(t: f64) -> Self {
         let s = t * t;
         let versine = s * (0.5 - s * (1.0 / 24.0 - s * (1.0 / 720.0 - s * (1.0 / 40_320.0))));
@@ -677,7 +678,7 @@ impl NearSine {
     }
 }
 
-/// The phase at an angle, and how many turns that takes away.
+/// The phase at an angle, and the number of turns removed.
 fn phase_of(angle: f64) -> (f64, u64) {
     let phase = wrapped_angle(angle);
     (phase, ((angle - phase) / TAU + 0.5) as u64)
@@ -715,7 +716,7 @@ fn lowest(piece: &Piece) -> f64 {
     least(least(least(half[0], half[1]), least(half[2], half[3])), half[4])
 }
 
-/// The parts of a polynomial on both sides of a share of its piece.
+/// The parts of a polynomial on either side of a division of its piece.
 fn split(piece: &Piece, share: f64) -> (Piece, Piece) {
     let (mut left, mut right) = ([0.0; COUNT], *piece);
     for (i, value) in left.iter_mut().enumerate() {
@@ -727,8 +728,8 @@ fn split(piece: &Piece, share: f64) -> (Piece, Piece) {
     (left, right)
 }
 
-/// As [`first_fall`], of a function that may rise from zero at the start of its piece: the errors of the table
-/// vanish there with the fifth power of the time.
+/// As [`first_fall`], for a function that may rise from zero at the start of its piece: the errors of the
+/// table vanish there with the fifth power of the time.
 #[allow(clippy::option_option, reason = "not decided, and no root")]
 fn first_fall_after(piece: &Piece, margin: f64, [from_zero, for_good]: [bool; 2]) -> Option<Option<f64>> {
     if !from_zero {
@@ -744,9 +745,9 @@ fn first_fall_after(piece: &Piece, margin: f64, [from_zero, for_good]: [bool; 2]
     Some(first_fall(&far, margin, for_good, HALVINGS)?.map(|share| START + (1.0 - START) * share))
 }
 
-/// The share of the piece at which a function that starts above zero first falls below it, roughly, if it
-/// does, and, if it shall do so `for_good`, stays below up to the end of the piece; nothing if what lies within
-/// the margin of zero may decide.
+/// The approximate share of the piece at which a function that starts above zero first falls below it, if it
+/// does. With `for_good`, it must also stay below up to the end of the piece. `None` if values within the
+/// margin of zero may decide.
 #[allow(clippy::option_option, reason = "not decided, and no root")]
 fn first_fall(piece: &Piece, margin: f64, for_good: bool, halvings: u32) -> Option<Option<f64>> {
     let falls = piece.iter().position(|&value| value <= margin);

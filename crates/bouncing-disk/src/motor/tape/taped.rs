@@ -25,46 +25,46 @@ use crate::motor::tape::left::Left;
 use crate::parameters::dimensionless::DimensionlessSystem;
 use crate::stator::{LoadLine, StatorState};
 
-/// Knots after which a tape is replayed: few enough for the cache.
+/// Knots after which a tape is replayed, few enough for the cache.
 const BLOCK: usize = 4096;
 
-/// Steps of a contact in a period where speeds are wanted to a share of [`COARSE`] or more; their error is of second
-/// order in their length.
+/// Steps per period during a contact if speeds are required to a share of [`COARSE`] or more; their error is
+/// of second order in their length.
 const RESOLUTION: f64 = 128.0;
 const COARSE: f64 = 2.0e-3;
 
-/// Steps of a contact in a period for a speed that is wanted to this share.
+/// Steps per period during a contact for a speed that is required to this share.
 pub(crate) fn resolution(relative_error: f64) -> f64 {
     RESOLUTION * (COARSE / relative_error).max(1.0).sqrt()
 }
 
-/// By how much of itself a speed may be off that was computed with so many steps: a chord of the stator's speed is off
-/// by the square of its length over 8, and by 2/3 of this on average.
+/// Relative error of a speed that was computed with this number of steps: a chord of the stator's speed is
+/// off by the square of its length over 8, and by 2/3 of this on average.
 pub(crate) fn error_of_steps(resolution: f64) -> f64 {
     let step = TAU / resolution;
     step * step * (1.0 / 12.0)
 }
 
-/// How a rotor is turned.
+/// The rotary parameters of a rotor.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct TapedRotor {
     pub(crate) friction: f64,
-    /// The constant load, and what the law of the load adds.
+    /// The constant load, and the addition by the load's law.
     pub(crate) load: f64,
     pub(crate) law: Vec<LoadLine>,
     pub(crate) twist: Twist,
 }
 
-/// How the stator turns under a rotor.
+/// The twist of the stator under a rotor.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Twist {
-    /// As a sine: the parts of its speed that go with cosine and, falling, sine of the phase.
+    /// A sine: the coefficients of its speed for the cosine and, with opposite sign, the sine of the phase.
     Sine([f64; 2]),
     Waveform(Drive),
 }
 
 impl DrivenSystem {
-    /// How its rotor is turned.
+    /// The rotary parameters of its rotor.
     pub(crate) fn rotor(&self) -> TapedRotor {
         let (angle, start) = (&self.angle, self.angle.at(0.0));
         let is_sine = angle.next_joint(0.0).is_none() && angle.highest_harmonic() <= 1.0;
@@ -75,7 +75,7 @@ impl DrivenSystem {
 }
 
 impl Stator {
-    /// How a rotor of this system is turned whose motion does not act back on the stator.
+    /// The rotary parameters of this system's rotor, whose motion does not act back on the stator.
     pub(crate) fn rotor(&self, system: &DimensionlessSystem) -> TapedRotor {
         let (friction, load) = (system.friction(), system.load());
         let (cosine, sine) = system.twist_components();
@@ -103,14 +103,14 @@ pub(crate) struct Taped {
     recurrence: Recurrence,
     /// The cycle that the motion was found to repeat, after which no window is complete.
     repeats: Option<Repeats>,
-    /// How long (rad) it was followed.
+    /// The time (rad) for which it was followed.
     pub(crate) followed: f64,
     /// Windows begun.
     begun: usize,
 }
 
-/// When speeds are noted in the window of this number, after its start: once in each part of it, at places that fill the part
-/// evenly over many windows.
+/// The times, after its start, at which speeds are sampled in the window of this number: one in each part of
+/// it, at positions that fill the part evenly over many windows.
 pub(crate) fn sampled_at(window: usize, duration: f64) -> [f64; SAMPLES] {
     let share = golden_share(window);
     array::from_fn(|part| duration * ((part as f64 + share) / SAMPLES as f64))
@@ -122,8 +122,8 @@ fn speeds_of(rotors: &[Rotors], places: &[(usize, usize)]) -> Vec<f64> {
 }
 
 impl Taped {
-    /// Rotors with these angular speeds, and so many times less inertia than the motor's, on a tape with so many steps of a
-    /// contact in a period.
+    /// Rotors with these angular speeds, each with `quicker` times less inertia than the motor's, on a tape
+    /// with this number of steps per period during a contact.
     pub(crate) fn new(
         source: Source,
         resolution: f64,
@@ -168,7 +168,7 @@ impl Taped {
         Self { source, tape, rotors, places, runner, recurrence, repeats: None, followed: 0.0, begun: 0 }
     }
 
-    /// The same on a motion that is known to repeat itself.
+    /// The same on a motion that is known to repeat.
     pub(crate) fn on(self, repeats: Repeats) -> Self {
         Self { repeats: Some(repeats), ..self }
     }
@@ -177,26 +177,26 @@ impl Taped {
         speeds_of(&self.rotors, &self.places)
     }
 
-    /// When the last window ends.
+    /// The end of the last window.
     #[cfg(test)]
     pub(crate) fn time(&self) -> crate::motion::phase_time::PhaseTime {
         self.source.time()
     }
 
-    /// Where the disk and the stator that yields are.
+    /// The state of the disk and the compliant stator.
     pub(crate) fn left(&self) -> Option<Left> {
         let Source::Yielding(source) = &self.source else { return None };
         Some(Left::of(&source.engine, source.engine.time()))
     }
 
-    /// Goes on from where another motor was left, with the rotors as they are.
+    /// Continues from the final state of another motor, with the rotors unchanged.
     pub(crate) fn go_on_from(&mut self, time: PhaseTime, state: StatorState) -> Result<(), Error> {
         self.source.go_on_from(time, state)?;
         self.tape.begin(self.source.phase());
         Ok(())
     }
 
-    /// The cycle that the motion repeats, if it was found to do so.
+    /// The cycle that the motion repeats, if one was found.
     pub(crate) fn cycle(&mut self, work: &mut WorkCount<'_>) -> Result<Option<Cycle>, Error> {
         let Some(repeats) = self.repeats else { return Ok(None) };
         Cycle::record(&mut self.source, repeats, self.tape.twists(), work).map(Some)
@@ -206,7 +206,7 @@ impl Taped {
         self.repeats
     }
 
-    /// Other members have come to cycles with these touches.
+    /// Registers cycles with these touches that other members have reached.
     pub(crate) fn know(&mut self, cycles: &[&[Key]]) {
         self.recurrence.know(cycles);
     }
@@ -216,7 +216,8 @@ impl Taped {
         cycle.windows(&self.rotors, &self.places, largest, &self.runner)
     }
 
-    /// Carries all rotors along the tape, which begins at a time in its window, and notes their speeds when these are due.
+    /// Carries all rotors along the tape, which begins at this time in its window, and samples their speeds
+    /// when due.
     fn replay(
         &mut self,
         mut time: f64,
@@ -246,8 +247,8 @@ impl Taped {
         self.runner.run(Replay { tape, steps: start..tape.knots.len(), rotors });
     }
 
-    /// The next window: of `duration` rad at least, and of a number of impacts in a range, whatever the duration; up to
-    /// the end of an event. It ends early where the motion is found to repeat itself.
+    /// The next window: at least `duration` rad, and a number of impacts in a range whatever the duration, up
+    /// to the end of an event. It ends early if the motion is found to repeat.
     pub(crate) fn next_window(
         &mut self,
         duration: f64,

@@ -1,9 +1,9 @@
-//! Rotors on a sine with a contact that takes time, from release to release: one vertical motion carries them
-//! all, in closed form.
+//! Rotors on a sine with a compliant contact, from release to release: one vertical motion carries them all,
+//! in closed form.
 //!
-//! In a contact the slip of a rotor falls and rises with the platform's angular speed alone, except next to the
-//! extremes of that: it reverses once wherever the platform passes the rotor's speed. Where friction could hold
-//! a rotor, or change the number of its reversals, the general engine decides.
+//! In a contact the slip of a rotor falls and rises with the platform's angular speed alone, except next to
+//! the extremes of that speed: it reverses once whenever the platform passes the rotor's speed. If friction
+//! could hold a rotor, or change the number of its reversals, the general engine decides.
 
 use std::f64::consts::TAU;
 
@@ -15,8 +15,8 @@ use crate::motion::phase_time::PhaseTime;
 use crate::motor::tape::tap::{Tap, TapIntegrals, TapSolver};
 use crate::motor::tape::window::{AxialWindow, RotorWindow};
 
-/// How much earlier than expected (rad) a reversal may come: beyond, the last slip has the wrong sign, and the
-/// general engine decides.
+/// Largest time (rad) by which a reversal may precede its expected time; beyond it the last slip has the
+/// wrong sign, and the general engine decides.
 const EARLIER: f64 = 1.0e-3;
 
 /// Rotors between two contacts.
@@ -24,7 +24,7 @@ const EARLIER: f64 = 1.0e-3;
 pub(crate) struct Tapped {
     solver: TapSolver,
     rotors: Vec<TappedRotor>,
-    /// Whether the state is that of the rotors.
+    /// Whether the state belongs to the rotors.
     pub(crate) begun: bool,
     pub(crate) time: PhaseTime,
     /// Gap and velocity relative to the platform.
@@ -35,19 +35,20 @@ pub(crate) struct Tapped {
 struct TappedRotor {
     friction: f64,
     load: f64,
-    /// Largest angular speed of the platform, how far the angle is ahead of the height, and the parts of that
-    /// speed that go with cosine and sine of the phase.
+    /// Largest angular speed of the platform, the lead of its angle over its height, and the coefficients of
+    /// that speed for cosine and sine of the phase.
     twist: f64,
     lag: f64,
     parts: [f64; 2],
     speed: f64,
-    /// What the tap that is being computed makes of it.
+    /// Its value after the tap that is being computed.
     next: f64,
     done: RotorWindow,
 }
 
 impl Tapped {
-    /// The rotors of these systems, which share the height, if that and the angles are sines; without a state.
+    /// The rotors of these systems, which share the height, if the height and the angles are sines; without a
+    /// state.
     pub(crate) fn new<'a>(systems: impl Iterator<Item = &'a DrivenSystem>) -> Option<Self> {
         let mut solver = None;
         let mut rotors = Vec::new();
@@ -80,7 +81,7 @@ impl Tapped {
         self.rotors.iter().map(|rotor| rotor.speed)
     }
 
-    /// Goes on from this release, or from any other flight.
+    /// Continues from this release, or from any other flight.
     pub(crate) fn begin(&mut self, time: PhaseTime, launch: [f64; 2], speeds: impl Iterator<Item = f64>) {
         (self.begun, self.time, self.launch) = (true, time, launch);
         for (rotor, speed) in self.rotors.iter_mut().zip(speeds) {
@@ -88,14 +89,15 @@ impl Tapped {
         }
     }
 
-    /// Goes on to the next release; the angle that the first rotor turns, or nothing as for [`Self::tap`].
+    /// Advances to the next release; returns the angle that the first rotor turns, or `None` as for
+    /// [`Self::tap`].
     pub(crate) fn turn(&mut self) -> Option<f64> {
         self.tap(&mut AxialWindow::default())?;
         Some(self.rotors[0].done.angle)
     }
 
-    /// Goes on to the next release, and adds what is done up to there to a window; nothing happens if that is
-    /// not decided here.
+    /// Advances to the next release, and adds the motion up to it to a window; if it cannot be decided here,
+    /// nothing changes.
     pub(crate) fn tap(&mut self, axial: &mut AxialWindow) -> Option<()> {
         let [gap, velocity] = self.launch;
         let touch = self.solver.flight(self.time.phase, gap, velocity)?;
@@ -118,7 +120,7 @@ impl Tapped {
         Some(())
     }
 
-    /// Adds a relative speed; the energy that this gives.
+    /// Adds a relative speed; returns the added energy.
     pub(crate) fn perturb(&mut self, speed: f64) -> f64 {
         let before = self.solver.vibration().velocity(self.time.phase) + self.launch[1];
         self.launch[1] += speed;
@@ -127,12 +129,12 @@ impl Tapped {
 }
 
 impl TappedRotor {
-    /// The slip of a rotor at this speed where sine and cosine of the phase are these.
+    /// The slip of a rotor at this speed, for this sine and cosine of the phase.
     fn slip(&self, speed: f64, sin: f64, cos: f64) -> f64 {
         speed - (self.parts[0] * cos - self.parts[1] * sin)
     }
 
-    /// A flight and a contact; nothing if that is not decided here.
+    /// A flight and a contact; `None` if they cannot be decided here.
     fn carry(
         &mut self,
         solver: &TapSolver,
@@ -144,7 +146,7 @@ impl TappedRotor {
         let speed = self.speed - load * flight;
         self.done =
             RotorWindow { angle: flight * (self.speed - 0.5 * load * flight), ..RotorWindow::default() };
-        // Beyond this share of the platform's largest speed friction and load may be larger than its acceleration.
+        // Beyond this share of the platform's largest speed, friction and load may exceed its acceleration.
         let near = (mu * tap.largest_force + load.abs()) / self.twist;
         let drift = mu * (to.impulse - from.impulse) + load.abs() * tap.end.after;
         let clear = (speed.abs() - self.twist).abs() > drift + self.twist * near * near;
@@ -167,7 +169,7 @@ impl TappedRotor {
                 return None;
             }
             while next - begin < tap.end.after + EARLIER {
-                // The platform turns as fast as the rotor there, and falls or rises.
+                // The platform turns as fast as the rotor there, and accelerates or decelerates.
                 let near = solver.instant(&tap.start, next - begin)?;
                 let pull = direction * mu;
                 let reversal = solver.polished(&tap.start, near, |at| {
@@ -202,7 +204,7 @@ impl TappedRotor {
         Some(())
     }
 
-    /// Adds a slide; the speed at its end.
+    /// Adds a slide; returns the speed at its end.
     fn slide(&mut self, direction: f64, speed: f64, [from, to]: [&TapIntegrals; 2], span: f64) -> f64 {
         let (pull, load) = (direction * self.friction, self.load);
         let impulse = to.impulse - from.impulse;

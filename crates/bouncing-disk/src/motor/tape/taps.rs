@@ -1,4 +1,4 @@
-//! A tape of taps: of a sine and compliant contacts with a damper, from release to release in closed form.
+//! A tape of taps, for a sine and compliant contacts with a damper, from release to release in closed form.
 
 use bouncing_disk_core::run::WorkCount;
 
@@ -13,7 +13,7 @@ use crate::motion::state::DiskState;
 use crate::motor::tape::tap::TapSolver;
 use crate::stator::MODES;
 
-/// Taps, and the engine that decides where the closed forms do not.
+/// Taps, and the engine that takes over if the closed forms do not decide.
 #[derive(Debug, Clone)]
 pub(crate) struct TapTape {
     solver: TapSolver,
@@ -23,17 +23,17 @@ pub(crate) struct TapTape {
 }
 
 impl TapTape {
-    /// From where an engine is; the engine alone if the solver has no closed form.
+    /// A tape from the present state of an engine; only the engine is used if the solver has no closed form.
     pub(crate) const fn new(solver: TapSolver, engine: EngineTape<DrivenEngine>) -> Self {
         Self { solver, engine, release: None }
     }
 
-    /// When the recorded motion ends.
+    /// The end of the recorded motion.
     pub(crate) fn time(&self) -> PhaseTime {
         self.release.map_or_else(|| self.engine.engine.time(), |(time, _)| time)
     }
 
-    /// The disk there.
+    /// The disk at the end.
     pub(crate) fn disk(&self) -> DiskState {
         let Some((time, [gap, velocity])) = self.release else { return self.engine.engine.disk() };
         let vibration = self.solver.vibration();

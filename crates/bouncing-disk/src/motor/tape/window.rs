@@ -2,29 +2,29 @@
 
 use crate::stator::StatorLedger;
 
-/// Times in a window at which the speed is noted.
+/// Times in a window at which the speed is sampled.
 pub(crate) const SAMPLES: usize = 4;
 
 /// What is known of a rotor's speeds in a window.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) enum Speeds {
-    /// Nothing, as of a rotor that acts back.
+    /// Nothing, as for a rotor that acts back.
     #[default]
     Unknown,
-    /// At times spread evenly over the window, in their order; NaN where there is none.
+    /// At times spread evenly over the window, in their order; NaN if there is no sample.
     Samples([f64; SAMPLES]),
-    /// The least and the largest of a cycle.
+    /// The least and the largest speed of a cycle.
     Within([f64; 2]),
 }
 
 impl Speeds {
-    /// The samples that there are.
+    /// The available samples.
     pub(crate) fn samples(&self) -> impl Iterator<Item = f64> + use<> {
         let all = if let Self::Samples(all) = *self { all } else { [f64::NAN; SAMPLES] };
         all.into_iter().filter(|speed| speed.is_finite())
     }
 
-    /// Those of this window and of the one that follows it: every second sample of both.
+    /// The speeds of this window and the next one: every second sample of both.
     fn with(self, next: Self) -> Self {
         match (self, next) {
             (Self::Samples(own), Self::Samples(next)) => Self::Samples([own[0], own[2], next[0], next[2]]),
@@ -41,9 +41,9 @@ pub(crate) struct RotorWindow {
     pub(crate) angle: f64,
     /// Integral of the square of the speed.
     pub(crate) square: f64,
-    /// Impulse of friction, over its coefficient, on a rotor that is held at rest; NaN for one that acts back.
+    /// Impulse of friction, divided by its coefficient, on a rotor held at rest; NaN for one that acts back.
     pub(crate) held: f64,
-    /// Work of the platform by friction, and loss in it.
+    /// Work of the platform by friction, and loss in friction.
     pub(crate) friction_work: f64,
     pub(crate) friction_loss: f64,
     /// Work done against the load.
@@ -53,8 +53,8 @@ pub(crate) struct RotorWindow {
     /// Change of the kinetic energy.
     pub(crate) kinetic_change: f64,
     pub(crate) speeds: Speeds,
-    /// On a stator that yields: its energies, and the rotor's own vertical motion. Most stators do not, and there are many
-    /// windows.
+    /// On a compliant stator: its energies, and the rotor's own vertical motion. Boxed because there are many
+    /// windows and most stators are rigid.
     pub(crate) stator: Option<Box<(StatorLedger, AxialWindow)>>,
 }
 
@@ -72,7 +72,7 @@ pub(crate) struct AxialWindow {
     pub(crate) energy_change: f64,
     /// Time (rad) in contact.
     pub(crate) pressed: f64,
-    /// Impacts; periods of rotors that never bounce.
+    /// Impacts; for rotors that never bounce, periods.
     pub(crate) impacts: u64,
 }
 
@@ -103,12 +103,12 @@ impl RotorWindow {
 }
 
 impl AxialWindow {
-    /// Loss and impacts in a radian.
+    /// Loss and impacts per radian.
     pub(crate) fn rates(&self) -> [f64; 2] {
         [self.restitution_loss / self.duration, self.impacts as f64 / self.duration]
     }
 
-    /// Whether its rates are these, within the drift of a motion on its way to them.
+    /// Whether its rates agree with these, within the drift of a motion on its way to them.
     pub(crate) fn is_like(&self, rates: [f64; 2]) -> bool {
         self.rates().into_iter().zip(rates).all(|(own, other)| (own - other).abs() <= 0.02 * other.abs())
     }
@@ -124,11 +124,12 @@ impl AxialWindow {
     }
 }
 
-/// Cycles whose rates and speeds differ by less than this share are one.
+/// Cycles whose rates and speeds differ by less than this share are the same.
 const ALIKE: f64 = 1.0e-5;
 
 impl Window {
-    /// Whether a cycle has the rates of another one and moves its rotors alike, whose speeds lie within these sizes.
+    /// Whether a cycle has the rates of another one and moves its rotors, whose speeds lie within these
+    /// limits, in the same way.
     pub(crate) fn is_like(&self, other: &Self, largest: &[f64]) -> bool {
         let loses = |window: &Self| window.axial.restitution_loss / window.axial.duration;
         let speed = |window: &Self, rotor: usize| window.rotors[rotor].angle / window.axial.duration;
@@ -140,7 +141,7 @@ impl Window {
             && (0..self.rotors.len().min(other.rotors.len())).all(is_alike)
     }
 
-    /// This window and the one that follows it as one.
+    /// Merges this window with the next one.
     pub(crate) fn add(&mut self, next: &Self) {
         self.axial.add(&next.axial);
         for (rotor, next) in self.rotors.iter_mut().zip(&next.rotors) {

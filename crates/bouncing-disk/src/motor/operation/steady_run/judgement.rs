@@ -10,27 +10,27 @@ use crate::motor::operation::settling::{decided_by_start, drift, shortfall};
 use crate::motor::tape::taped::{error_of_steps, resolution};
 use crate::motor::tape::window::Window;
 
-/// Rotors with half the inertia may differ by this share of the requested error.
+/// Largest difference, as a share of the requested error, of rotors with half the inertia.
 const INERTIA_SHARE: f64 = 0.6;
 
-/// If the scatter is less than this share of the requested error, a longer run does not help: the rest is what the
-/// perturbation changes.
+/// If the scatter is less than this share of the requested error, a longer run does not help: the rest is due
+/// to the perturbation.
 const SCATTER_SHARE: f64 = 0.5;
 
-/// Rotors from below and from above that are farther apart than so many requested errors stay so.
+/// Rotors from below and from above that differ by more than this number of requested errors stay apart.
 const PARTED: f64 = 8.0;
 
-/// Least members that keep an amplitude of their own.
+/// Fewest members of a group with its own amplitude.
 const LEAST_OF_GROUP: usize = 2;
 
 /// The shortfall of irregular motions that have no window yet.
 const NOTHING_YET: Shortfall = Shortfall::Error { standard_error: f64::INFINITY, wanted: 1.0 };
 
-/// A motor whose disk stores more than this share of the power put in has not settled.
+/// A motor whose disk stores more than this share of the supplied power has not settled.
 const STORED_SHARE: f64 = 0.05;
 
 impl SteadyRun<'_> {
-    /// The largest speed (rad/s) of the motors without load, to which errors are relative.
+    /// The largest speed (rad/s) of the unloaded motors, to which errors are relative.
     pub(super) fn scale(&self) -> f64 {
         let unloaded = (0..self.motors.len()).filter(|motor| self.motors[*motor].is_unloaded());
         let scale = unloaded.map(|index| {
@@ -57,7 +57,8 @@ impl SteadyRun<'_> {
             return;
         }
         let scale = self.reference.unwrap_or_else(|| self.scale());
-        // A load may drive a rotor faster than it turns without one: the error is then a share of its own speed.
+        // A load may drive a rotor faster than it turns without one; the error is then a share of its own
+        // speed.
         let speeds: Vec<_> = (0..self.asked).map(|motor| self.speeds(motor)).collect();
         let wanted = |[middle, _]: &[Vec<Vec<f64>>; 2]| {
             let means: Vec<f64> = middle.iter().map(|windows| mean(windows)).collect();
@@ -78,8 +79,8 @@ impl SteadyRun<'_> {
             .collect();
     }
 
-    /// Whether rotors from far below and from far above stay apart: under a load that falls with the speed both are where
-    /// they remain, and no rotor passes from one to the other.
+    /// Whether rotors from far below and from far above stay apart: under a load that decreases with the
+    /// speed both may be steady, and no rotor passes from one to the other.
     pub(super) fn is_parted(&self, motor: usize) -> bool {
         if self.motors[motor].law().is_finite() {
             return false;
@@ -99,7 +100,8 @@ impl SteadyRun<'_> {
         settled(&below) && settled(&above) && of_all(&above) - of_all(&below) > PARTED * self.wanted[motor]
     }
 
-    /// The amplitude of a stator that yields, if it still drifts, as the speed would drift that follows it.
+    /// The drift of a compliant stator's amplitude, if it is significant, expressed as the resulting drift of
+    /// the speed.
     fn drifting_amplitude(&self, motor: usize, speeds: &[Vec<f64>]) -> Option<Shortfall> {
         let amplitudes = self.amplitudes(motor)?;
         let of_all = |all: &[Vec<f64>]| mean(&all.iter().map(|windows| mean(windows)).collect::<Vec<_>>());
@@ -109,7 +111,7 @@ impl SteadyRun<'_> {
         Some(Shortfall::Drift { drift, standard_error: standard_error.abs() })
     }
 
-    /// The amplitude of a stator that yields in the windows after the start-up, of each member.
+    /// The amplitude of a compliant stator in the windows after the start-up, for each member.
     fn amplitudes(&self, motor: usize) -> Option<Vec<Vec<f64>>> {
         let system = self.motors[motor].yielding().filter(|system| system.yields())?;
         let amplitude = |window: &&Window| {
@@ -119,8 +121,8 @@ impl SteadyRun<'_> {
         Some(self.averaged().iter().map(|windows| windows.iter().map(amplitude).collect()).collect())
     }
 
-    /// The members on each of the amplitudes that a stator keeps on irregular motions, and that do not drift; all of them
-    /// where they have one. Those of a part that falls apart again do so later.
+    /// The members at each of the amplitudes that a stator keeps in irregular motions without drift; all
+    /// members if there is only one amplitude. A group that splits again does so later.
     pub(super) fn groups(&self) -> Vec<Vec<usize>> {
         let amplitudes =
             (self.held.has_many() && self.ended_windows.is_empty()).then(|| self.amplitudes(0)).flatten();
@@ -135,7 +137,7 @@ impl SteadyRun<'_> {
         let (low, high) = order.split_at(gap + 1);
         let groups: Vec<Vec<usize>> =
             [low, high].map(|part| part.iter().map(|(_, index)| *index).collect()).into();
-        // What differs by less than is asked for is in the error.
+        // Differences below the requested accuracy are part of the error.
         if ratio(&gap) < 1.0 + self.settings.relative_error {
             return Vec::new();
         }
@@ -146,9 +148,9 @@ impl SteadyRun<'_> {
         if groups.iter().all(is_settled) { groups } else { Vec::new() }
     }
 
-    /// By how much (rad/s) the speed depends on the start, of a motor whose stator has kinks, or yields. Between two kinks
-    /// a stator may carry a whole family of motions, each of which keeps a speed of its own; one that yields may keep two
-    /// amplitudes, on each of which the motion is irregular.
+    /// The dependence (rad/s) of the speed on the start, for a motor whose stator has kinks or is compliant.
+    /// Between two kinks a stator may carry a whole family of motions, each of which keeps its own speed; a
+    /// compliant one may keep two amplitudes, with an irregular motion at each.
     pub(super) fn apart(&self, motor: usize, speeds: &[Vec<f64>]) -> f64 {
         if self.motors[motor].stator.has_kinks() || self.held.has_many() {
             decided_by_start(speeds).unwrap_or(0.0)
@@ -157,7 +159,7 @@ impl SteadyRun<'_> {
         }
     }
 
-    /// A dependence on the start that is larger than the requested error.
+    /// A dependence on the start that exceeds the requested error.
     fn undecided(&self, motor: usize, speeds: &[Vec<f64>]) -> Option<Shortfall> {
         let spread = self.apart(motor, speeds);
         let means: Vec<f64> = speeds.iter().map(|windows| mean(windows)).collect();
@@ -167,13 +169,13 @@ impl SteadyRun<'_> {
     }
 
     /// The energy that the disk still stores, if it is too large a part of the supplied energy. For a disk
-    /// that settles this part falls as one over the time for which it is followed.
+    /// that settles this part falls inversely with the time for which it is followed.
     fn unbalanced(&self, motor: usize) -> Option<Shortfall> {
         let units = Units::of(&self.motors[motor]);
         let sum = self.total(motor);
         let stored = sum.axial.energy_change * units.axial + sum.rotor.kinetic_change * units.rotary;
         let share = stored.abs() / sum.energy_scale(&units, &self.systems[motor], self.settings.members);
-        // A disk that is thrown ever higher stores what the platform gives, however much the rotor takes.
+        // A disk that is thrown ever higher stores the platform's energy, however much the rotor takes.
         let given = sum.axial.normal_work.abs() + sum.axial.perturbation_work;
         let peak = self.systems[motor].peak_acceleration();
         let moving = 0.5 * self.settings.members as f64 * peak * peak;
@@ -184,12 +186,12 @@ impl SteadyRun<'_> {
             .then_some(Shortfall::PowerBalance { stored_power: stored / time, input_power: input / time })
     }
 
-    /// All averaged windows.
+    /// The sum of all averaged windows.
     pub(super) fn total(&self, rotor: usize) -> Sum {
         Sum::of(self.averaged().into_iter().flatten(), rotor)
     }
 
-    /// The sums of a motor's two rotors in each member after the start-up.
+    /// The sums of a motor's two rotors for each member after the start-up.
     pub(super) fn pairs(&self, index: usize) -> Pairs {
         let halved =
             (self.is_quicker() && index < self.asked).then(|| self.motors.len() + self.asked + index);
@@ -199,7 +201,7 @@ impl SteadyRun<'_> {
         }
     }
 
-    /// The sums of two rotors in each member after the start-up.
+    /// The sums of two rotors for each member after the start-up.
     pub(super) fn pairs_of(&self, rotors: [usize; 2]) -> Pairs {
         let averaged = self.averaged();
         let [below, above] = rotors.map(|rotor| -> Vec<Sum> {
@@ -212,7 +214,7 @@ impl SteadyRun<'_> {
         Pairs { below, above, quickest, samples, are_perturbed, steps }
     }
 
-    /// The speeds of two rotors that were noted in each member after the start-up.
+    /// The sampled speeds of two rotors for each member after the start-up.
     pub(super) fn samples_of(&self, rotors: [usize; 2]) -> Vec<Vec<f64>> {
         let samples = |windows: &Vec<&Window>| {
             let of = |rotor: usize| windows.iter().flat_map(move |own| own.rotors[rotor].speeds.samples());
@@ -221,7 +223,7 @@ impl SteadyRun<'_> {
         self.averaged().iter().map(samples).collect()
     }
 
-    /// Whether members have perturbations of two sizes, each at its place.
+    /// Whether members have perturbations of different sizes, each at its index.
     fn are_perturbed(&self) -> bool {
         let count = self.members.len();
         !self.stators[0].takes_time()
@@ -235,8 +237,8 @@ impl SteadyRun<'_> {
         self.quicker.iter().any(|quicker| *quicker > 1.0)
     }
 
-    /// The mean speed (rad/s) of a motor, and by how much that of rotors with half the inertia differs where rotors have
-    /// less than their motors; `None` of no irregular motion.
+    /// The mean speed (rad/s) of a motor, and its difference for rotors with half the inertia if rotors have
+    /// less than their motors; `None` if no motion is irregular.
     fn with_bias(&self, index: usize) -> Option<(Estimate, [f64; 2])> {
         let unit = self.motors[index].system.scales().angular_speed;
         let speed = |sum: &Sum| sum.rotor.angle / sum.axial.duration * unit;
@@ -247,14 +249,14 @@ impl SteadyRun<'_> {
         Some((known, [bias, pairs.change(&pairs.of(&speed)[0]).ok()?]))
     }
 
-    /// Whether the inertia that is left out matters more than the requested error allows.
+    /// Whether the reduction of the inertia matters more than the requested error allows.
     pub(super) fn is_too_quick(&self) -> bool {
         let bias = |index| self.with_bias(index).map_or(0.0, |(_, [bias, _])| bias);
         self.is_quicker() && (0..self.asked).any(|index| bias(index) > INERTIA_SHARE * self.wanted[index])
     }
 
-    /// An error that is too large with the inertia that is left out and what the perturbation changes, if a longer run can
-    /// help.
+    /// An error, including the effects of the reduced inertia and of the perturbation, that is too large, if
+    /// a longer run can help.
     fn inaccurate(&self, index: usize) -> Option<Shortfall> {
         let (known, [bias, change]) = self.with_bias(index)?;
         let (standard_error, wanted) = (known.standard_error, self.wanted[index]);

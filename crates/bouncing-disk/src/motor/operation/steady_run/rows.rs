@@ -1,4 +1,4 @@
-//! What is stated of each motor: its operations, of the members and of the cycles that they came to.
+//! The results for each motor: its operations, from the members and from the cycles that they reached.
 
 use bouncing_disk_core::numerics::statistics::NORMAL_975;
 
@@ -12,7 +12,7 @@ use crate::motor::operation::point::{
 use crate::motor::operation::settling::left_out;
 use crate::motor::tape::window::RotorWindow;
 
-/// A speed below this share of the stator's is that of rounding.
+/// A speed below this share of the stator's counts as rounding.
 const LEAST_SPEED: f64 = 1.0e-12;
 
 /// The operations of each motor, of all parts.
@@ -23,7 +23,7 @@ pub(super) fn results_of(parts: &[SteadyRun<'_>]) -> Result<Vec<MotorResult>, Er
             branches.extend(part.branches(index)?);
         }
         branches.sort_by_key(|(from_rest, _, _)| std::cmp::Reverse(*from_rest));
-        // There are members, or they have repeated themselves.
+        // There are members, or they have repeated.
         let [middle, above] = branches[0].2.clone();
         let branches = branches.into_iter().map(|(_, operation, _)| operation).collect();
         Ok((OperatingRow { branches }, middle, above))
@@ -64,11 +64,12 @@ impl SteadyRun<'_> {
                 Some(shortfall) => Operation::Unsettled(point, shortfall),
             };
             let from_rest = self.members.iter().map(|own| own.from_rest).sum();
-            // What ends is not where most are in the end.
+            // A motion that ends is not where most rotors are finally.
             let from_rest = if self.life.ended > 0 { 0 } else { from_rest };
             branches.push((from_rest, operation, pairs.of(&speed)));
         }
-        // A rotor that the stator turns forwards from rest does not come to where rotors are driven back.
+        // A rotor that the stator turns forwards from rest does not reach the motion in which rotors are
+        // driven back.
         if let [(_, first, _), (_, _, _)] = &branches[..]
             && let Some(OperatingPoint { blocked_torque: Some(torque), speed, .. }) = first.point()
             && speed.value < 0.0
@@ -96,8 +97,8 @@ impl SteadyRun<'_> {
         Ok(branches)
     }
 
-    /// The motor that differs least from this one in its constant load, and in nothing else; none where each has a vertical
-    /// motion of its own.
+    /// The motor that differs least from this one in its constant load, and in nothing else; `None` if each
+    /// has its own vertical motion.
     fn beside(&self, index: usize) -> Option<usize> {
         let motor = &self.motors[index];
         if motor.stator.acts_back() {
@@ -133,13 +134,13 @@ impl SteadyRun<'_> {
         (known.value > NORMAL_975 * known.standard_error).then_some(known)
     }
 
-    /// What a motor's rotor does in each cycle.
+    /// The motion of a motor's rotor in each cycle.
     pub(super) fn cycles(&self, index: usize) -> Vec<Sum> {
         let of_cycle = |repeated: &Repeated| Sum::of(std::iter::once(&repeated.windows[0]), index);
         self.repeated.iter().map(of_cycle).collect()
     }
 
-    /// The operation of a motor each start of which keeps a cycle of its own.
+    /// The operation of a motor for which each start keeps its own cycle.
     fn family(&self, index: usize) -> Result<Operation, Error> {
         let cycles = self.cycles(index);
         let unit = self.motors[index].system.scales().angular_speed;
@@ -159,7 +160,7 @@ impl SteadyRun<'_> {
         Ok(Operation::Unsettled(OperatingPoint { speed, motion, ..point }, shortfall))
     }
 
-    /// The operating point of a motor; the others are the averages of the motor beside it, if there is one.
+    /// The operating point of a motor; `others` are the averages of the neighbouring motor, if there is one.
     fn point(
         &self,
         index: usize,
@@ -188,7 +189,7 @@ impl SteadyRun<'_> {
             estimate(&torque)?
         };
         let stator = motor.yielding().filter(|system| system.yields()).map(|system| {
-            // What no mode gives the disk a prescribed twist does.
+            // A prescribed twist does the work on the disk that no mode does.
             let drive = |sum: &Sum| {
                 let ledger = sum.stator();
                 input(sum) + (ledger.drive_work - ledger.disk_work) / sum.axial.duration * units.axial
@@ -208,7 +209,7 @@ impl SteadyRun<'_> {
             // About the mean of all members: the speed of one may wander for longer than it is followed.
             let RotorWindow { angle, square, .. } = sum.rotor;
             let squares = square - of_all * (2.0 * angle - of_all * sum.axial.duration);
-            // That of a slow rotor is inverse to its inertia.
+            // For a slow rotor it is inversely proportional to its inertia.
             let own = if let Averages::Members(_) = averages { self.quicker[index] } else { 1.0 };
             (squares / sum.axial.duration / own).max(0.0).sqrt() * units.speed
         };
@@ -269,8 +270,8 @@ impl SteadyRun<'_> {
         })
     }
 
-    /// How long an irregular motion lasts, in a unit of time per radian: beyond the start-up, in which a member may have
-    /// been on its way to a cycle from the start, it ends at a constant rate.
+    /// The life of an irregular motion, with `unit` as the time per radian. Beyond the start-up, during which
+    /// a member may have been on its way to a cycle from the start, it ends at a constant rate.
     fn life(&self, unit: f64) -> Life {
         let mut life = self.life;
         for own in &self.members {

@@ -1,7 +1,8 @@
-//! Branches of the vertical motion on a stator whose amplitude is held: from one amplitude to the next.
+//! Branches of the vertical motion on a stator whose amplitude is held, followed from one amplitude to the
+//! next.
 //!
-//! An irregular motion also counts if its needed drive has a minimum less than 10 % of 2/drive above the available
-//! drive, which the recoil of the real stator within a period can supply.
+//! An irregular motion also counts if the minimum of its required drive exceeds the available drive by less
+//! than 10 % of 2/drive, which the recoil of the real stator within a period can supply.
 
 use std::cell::Cell;
 
@@ -21,44 +22,46 @@ use crate::motor::tape::recurrence::{Recurrence, Touch};
 use crate::motor::tape::source::{Source, bare};
 use crate::stator::{MODES, ModeLaw, StatorState, StatorSystem};
 
-/// Steps of a contact in a period, of a motion that does not repeat itself and of a cycle.
+/// Steps per period during a contact, for a motion that does not repeat and for a cycle.
 const RESOLUTIONS: [f64; 2] = [64.0, 1024.0];
 
-/// Events in which a motion may settle, and touches over which the force of one that does not repeat itself is averaged.
+/// Events during which a motion may settle, and touches over which the force of one that does not repeat is
+/// averaged.
 const SETTLING: u64 = 300;
 const AVERAGED: u64 = 400;
 
-/// Steps along a branch are halved so many times where the drive changes by more than this share of the force: there a
-/// motion may be lost.
+/// Number of times that steps along a branch are halved if the drive changes by more than this share of the
+/// force, because a motion may be lost there.
 const HALVINGS: u32 = 3;
 const JUMP: f64 = 0.1;
 
-/// After so many parts of a step the rest is one.
+/// After this number of partial steps the remainder is one step.
 const MOST_PARTS: u32 = 6;
 
-/// The drive that an amplitude asks for is known if it is off by less than this share of the force, of a motion that repeats itself
-/// and of one that scatters; the amplitude, if it lies between two that differ by less than these shares of the bracket.
+/// The required drive for an amplitude counts as known if it is off by less than this share of the force, for
+/// a motion that repeats and for one that scatters. The amplitude is known if the ends of its bracket differ
+/// by less than these shares.
 const FOUND: [f64; 2] = [1.0e-7, 1.0e-3];
 const SAME: [f64; 2] = [1.0e-9, 1.0e-3];
 const MOST_STEPS: usize = 60;
 
-/// A drive that is found at a jump is off by more than this share of the force. One that is nowhere reached, but for so
-/// much, may be by the motor: the stator gives way, too.
+/// A drive found at a jump is off by more than this share of the force. If the available drive is nowhere
+/// reached but missed by no more than this, the motor may still reach it, because the stator gives way, too.
 const NEAR: f64 = 0.1;
 
-/// A vertical motion on a sine, and what keeps that.
+/// A vertical motion on a sine, and the drive that maintains the sine.
 #[derive(Debug, Clone, Copy)]
 struct Motion {
     time: PhaseTime,
     /// The disk; height and velocity are relative to the platform.
     disk: DiskState,
-    /// The drive that it asks for: the parts that go with sine and cosine of the stator's phase.
+    /// The required drive: the components with the sine and the cosine of the stator's phase.
     asked: [f64; 2],
-    /// Whether it was found to repeat itself.
+    /// Whether it was found to repeat.
     repeats: bool,
 }
 
-/// Where a branch of motions is.
+/// The present point on a branch of motions.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Branch {
     amplitude: f64,
@@ -69,7 +72,7 @@ pub(super) struct Branch {
 pub(super) struct Search<'a, 'w> {
     system: &'a StatorSystem,
     mode: ModeLaw,
-    /// M (f^2 - 1) and M d, and the drive, also its size.
+    /// M (f^2 - 1) and M d, and the drive with its magnitude.
     pub(super) stiffness: [f64; 2],
     drive: [f64; 2],
     pub(super) force: f64,
@@ -95,8 +98,8 @@ impl<'a, 'w> Search<'a, 'w> {
         Ok(Self { system, mode, stiffness, drive, force, share, compliance, perturbation, work })
     }
 
-    /// How a disk that never leaves the stator follows it: 1 in a rigid contact, (k + ic)/(k + ic - 1) in one that takes
-    /// time.
+    /// The response of a disk that never leaves the stator, relative to the stator: 1 in a rigid contact, (k
+    /// + ic)/(k + ic - 1) in a compliant one.
     pub(super) fn follows(&self) -> [f64; 2] {
         self.compliance.map_or([1.0, 0.0], |own| {
             let (k, c) = (own.stiffness(), own.damping());
@@ -105,7 +108,7 @@ impl<'a, 'w> Search<'a, 'w> {
         })
     }
 
-    /// The disk that lies on the stator for ever, which is a linear motion: exact.
+    /// The motion of a disk that lies on the stator for ever, which is linear and exact.
     pub(super) fn lying(&self) -> Result<Option<Held>, Error> {
         let [re, im] = self.follows();
         let asked = [self.stiffness[0] - re, self.stiffness[1] - im];
@@ -126,7 +129,7 @@ impl<'a, 'w> Search<'a, 'w> {
         self.held(&Branch { amplitude, motion }, true).map(Some)
     }
 
-    /// A held amplitude, with the stator's phase so that it answers to the drive.
+    /// A held amplitude, with the stator's phase relative to the drive.
     fn held(&self, &Branch { amplitude, motion }: &Branch, is_stable: bool) -> Result<Held, Error> {
         let ahead = atan2(self.drive[1], self.drive[0]) - atan2(motion.asked[1], motion.asked[0]);
         let phase = motion.time.phase;
@@ -148,14 +151,14 @@ impl<'a, 'w> Search<'a, 'w> {
         }
     }
 
-    /// A disk that is put on a stator.
+    /// A disk placed on a stator.
     pub(super) fn start(&mut self, amplitude: f64) -> Result<Branch, Error> {
         let start = DrivenStart::Contact { phase: Phase::new(0.0)?, angular_speed: 0.0 };
         let engine = DrivenEngine::new(self.platform(amplitude)?, start, ChatterPolicy::Complete)?;
         Ok(Branch { amplitude, motion: self.settled(amplitude, engine)? })
     }
 
-    /// The motion to which a disk comes on an amplitude from where it was on another one.
+    /// The motion that a disk reaches at an amplitude from its motion at another one.
     fn carried(&mut self, amplitude: f64, from: &Motion) -> Result<Motion, Error> {
         let phase = from.time.phase;
         let mut disk = from.disk;
@@ -179,7 +182,7 @@ impl<'a, 'w> Search<'a, 'w> {
                 break;
             }
         }
-        // One cycle gives all.
+        // A single cycle determines everything.
         tape.resolution = RESOLUTIONS[usize::from(repeats.is_some())];
         let mut left = repeats.map_or(AVERAGED, |repeats| repeats.touches);
         let mut sums = [0.0; 3];
@@ -206,7 +209,7 @@ impl<'a, 'w> Search<'a, 'w> {
         Ok(Motion { time, disk, asked, repeats: repeats.is_some() })
     }
 
-    /// By how much the drive that a motion asks for exceeds the one that there is, as a share of it.
+    /// The excess of the required drive over the available one, as a share of the latter.
     fn excess(&self, motion: &Motion) -> f64 {
         hypot(motion.asked[0], motion.asked[1]) / self.force - 1.0
     }
@@ -246,7 +249,7 @@ impl<'a, 'w> Search<'a, 'w> {
         Ok(())
     }
 
-    /// The next place of a branch on the way to an amplitude: nearer than that where the drive would change by much.
+    /// The next point of a branch on the way to an amplitude, closer if the drive would change by much.
     fn next(&mut self, branch: &Branch, target: f64, halvings: u32) -> Result<Branch, Error> {
         let (mut amplitude, known) = (target, self.excess(&branch.motion));
         let mut motion = self.carried(amplitude, &branch.motion)?;
@@ -260,7 +263,8 @@ impl<'a, 'w> Search<'a, 'w> {
         Ok(Branch { amplitude, motion })
     }
 
-    /// The amplitude between two at which the drive is the one that there is; none where it jumps over that.
+    /// The amplitude between two at which the required drive equals the available one; `None` if it jumps
+    /// over that.
     fn root(&mut self, [from, to]: [&Branch; 2], ends: [f64; 2]) -> Result<Option<Branch>, Error> {
         let at = |place: f64| from.amplitude + (to.amplitude - from.amplitude) * place;
         let share = self.share;
@@ -291,9 +295,9 @@ impl<'a, 'w> Search<'a, 'w> {
     }
 }
 
-/// When a held amplitude is known.
+/// The criterion for a known held amplitude.
 struct Bracket<'a> {
-    /// Whether the last motion repeats itself.
+    /// Whether the last motion repeats.
     repeats: &'a Cell<bool>,
     share: f64,
 }
