@@ -1,4 +1,4 @@
-//! The engine of a stator that yields.
+//! The engine of a compliant stator.
 
 use std::f64::consts::TAU;
 
@@ -27,7 +27,7 @@ fn start(phase: f64) -> DrivenStart {
     DrivenStart::Contact { phase: Phase::new(phase).expect("finite"), angular_speed: 0.0 }
 }
 
-/// The three stators, with masses around that of the disk.
+/// The three stators, with masses around the disk's.
 fn stators(random: &mut SplitMix64) -> Vec<Vec<YieldingMode>> {
     let mut between = |low: f64, high: f64| low + (high - low) * random.unit();
     let (mass, frequency, quality) = (between(0.2, 20.0), between(0.5, 2.0), between(0.5, 100.0));
@@ -75,7 +75,7 @@ fn energy_is_balanced_in_every_event() {
     }
 }
 
-/// Each event of the engine on a stator that does not yield, from the same state.
+/// Compares each event of the engine on a rigid stator, from the same state.
 #[test]
 fn an_infinite_mass_gives_the_events_of_the_engine() {
     for (peak, twist, lag) in [(1.2, 3.0, 0.4), (4.0, 2.0, -1.0), (30.0, 50.0, 0.0), (197.0, 4e3, 0.2)] {
@@ -129,8 +129,8 @@ fn an_infinite_mass_gives_the_events_of_the_engine() {
     }
 }
 
-/// m g sqrt(1 + (M/(m Q))^2) < F_0 = M omega^2 A_0/Q: of a disk in steady contact with a stator driven at its free
-/// resonance the force falls to zero there.
+/// m g sqrt(1 + (M/(m Q))^2) < F_0 = M omega^2 A_0/Q: for a disk in steady contact with a stator driven at
+/// its free resonance the force then falls to zero.
 #[test]
 fn a_disk_at_rest_lifts_off_at_the_exact_preload() {
     for (mass, quality) in [(0.3, 50.0), (10.0, 300.0), (300.0, 300.0), (2000.0, 20.0)] {
@@ -162,8 +162,8 @@ fn a_disk_at_rest_lifts_off_at_the_exact_preload() {
     }
 }
 
-/// A load that is a fan: the speed of a free disk has a closed form on each line, and energy is balanced across nodes and
-/// switches of the drive.
+/// A load with a fan's law: the speed of a free disk has a closed form on each piece, and energy is balanced
+/// across nodes and switches of the drive.
 #[test]
 fn a_load_of_lines_brakes_as_exponentials_and_balances_its_energy() {
     let base = base(5.0, 20.0, 0.2, 0.2, 0.5, 0.0);
@@ -219,7 +219,8 @@ fn a_load_of_lines_brakes_as_exponentials_and_balances_its_energy() {
     }
 }
 
-/// Free ringing after the drive is switched off, and from rest after it is switched on: the closed form of a circuit.
+/// Free ringing after the drive is switched off, and from rest after it is switched on: the closed form of a
+/// circuit.
 #[test]
 fn a_stator_rings_down_and_up_as_its_circuit() {
     use bouncing_disk_core::numerics::elementary::exp;
@@ -246,7 +247,8 @@ fn a_stator_rings_down_and_up_as_its_circuit() {
     assert!(place.abs() < 1e-9 && (speed - 5.0).abs() < 1e-9, "{place} {speed}");
 }
 
-/// Where a mode of much energy turns back little moves: ledgers and gaps of short flights keep their digits.
+/// Near the turning point of a mode with much energy little moves: ledgers and gaps of short flights keep
+/// their digits.
 #[test]
 fn short_flights_keep_their_digits() {
     let base = base(3.0, 0.5, 3.0, 0.001, 0.5, 0.001);
@@ -268,8 +270,8 @@ fn short_flights_keep_their_digits() {
     }
 }
 
-/// At P = 1 exactly the force touches zero at the crest, with the phase rounded: a flight of 1e-10 rad that is none. At
-/// P = 1 + 1e-11 one of 1.8e-5 rad ends when it does.
+/// At P = 1 exactly the force touches zero at the crest, with a rounded phase: an apparent flight of 1e-10
+/// rad must not occur. At P = 1 + 1e-11 one of 1.8e-5 rad ends at the right time.
 #[test]
 fn a_release_at_the_crest_ends_at_once() {
     let disk = |mode: crate::motion::state::Mode| crate::motion::state::DiskState {
@@ -298,8 +300,8 @@ fn a_release_at_the_crest_ends_at_once() {
     }
 }
 
-/// Between two events the gap stays open, the contact pressed, the slip in its direction and the grip within friction: so no
-/// event is missed, of seams and of systems in between.
+/// Between two events the gap stays open, the contact pressed, the slip in its direction and the grip within
+/// friction, so no event is missed, for systems at the limits and in between.
 fn attack_seams(count: usize, events: usize) -> usize {
     let mut random = SplitMix64::new(11);
     let mut done = 0;
@@ -352,12 +354,12 @@ fn attack_seams(count: usize, events: usize) -> usize {
                 system.base.parameters()
             );
             let (disk, modes) = (&record.ledger, &record.stator);
-            // A stiff contact that lasts is followed in many steps, each of which is rounded.
+            // A stiff contact of long duration is followed in many steps, each of which is rounded.
             let allowed = 1e-12 + 4.0 * f64::EPSILON * span / before.regime().flow.step();
             let axial = (disk.axial_closure().abs(), disk.axial_magnitude);
             let rotary = (disk.rotary_closure().abs(), disk.rotary_magnitude);
-            // What moves a mode may be a small difference of forces or torques on the disk: it is judged beside these,
-            // in the units of axial energy.
+            // The force on a mode may be a small difference of forces or torques on the disk: it is judged
+            // relative to these, in the units of axial energy.
             let left = axial.0 + 0.5 * rotary.0 + modes.closure().abs();
             let size = axial.1 + 0.5 * rotary.1 + modes.magnitude;
             assert!(
@@ -380,7 +382,7 @@ fn no_event_is_missed_on_seams() {
     assert!(attack_seams(250, 60) > 2_000);
 }
 
-/// A million events: some minutes.
+/// A million events, which take some minutes.
 #[test]
 #[ignore = "takes minutes"]
 fn no_event_is_missed_in_a_million() {
@@ -388,7 +390,7 @@ fn no_event_is_missed_in_a_million() {
 }
 
 impl StatorEngine {
-    /// That nothing has happened yet in this state of the present motion.
+    /// Checks that no event has happened yet in this state of the present motion.
     fn check_within(&self, state: &State, span: f64) {
         use crate::motion::engine::Stage;
         use linear_flow::size;
@@ -448,7 +450,7 @@ impl StatorEngine {
     }
 }
 
-/// A motion that is stored at any time, or paused, goes on to the same next event.
+/// A motion that is stored at any time, or paused, continues to the same next event.
 #[test]
 fn a_stored_motion_goes_on() {
     let mut random = SplitMix64::new(23);
@@ -462,7 +464,7 @@ fn a_stored_motion_goes_on() {
                 let Some(next) = engine.advance().expect("no failure") else { break };
                 let span = next.span.radians();
                 if span < 1e-3 {
-                    // The difference of two heights has lost the digits of so low a flight.
+                    // In so low a flight the difference of two heights has lost its digits.
                     continue;
                 }
                 let part = random.unit() * span;
@@ -490,7 +492,7 @@ fn a_stored_motion_goes_on() {
     }
 }
 
-/// A fan has a node at rest: a rotor that rests there, on a still stator or after a slip, goes on in time.
+/// A fan has a node at rest: a rotor that rests there, on a still stator or after a slip, continues in time.
 #[test]
 fn a_load_with_a_node_at_rest_does_not_stop_the_time() {
     let base = base(3.0, 5.0, 0.3, 0.2, 0.5, 0.0);

@@ -1,4 +1,5 @@
-//! The motion of a disk on s = P sin t, beta' = Q cos(t + lag) in small steps that know only the law of the force.
+//! The motion of a disk on s = P sin t, beta' = Q cos(t + lag) in small steps that use only the law of the
+//! force.
 
 use bouncing_disk_core::numerics::elementary::{cos, sin};
 
@@ -11,7 +12,7 @@ pub(crate) struct Law {
     pub(crate) lag: f64,
     pub(crate) friction: f64,
     pub(crate) load: f64,
-    /// That of a contact that takes time; the disk lies on a platform without one.
+    /// The spring of a compliant contact; without one the disk lies on the platform.
     pub(crate) spring: Option<Spring>,
 }
 
@@ -34,7 +35,7 @@ impl Law {
         self.load - self.twist * sin(t + self.lag)
     }
 
-    /// The force, of a spring that moved with the velocity `before` at the start of the step.
+    /// The force of a spring whose velocity was `before` at the start of the step.
     #[inline]
     pub(crate) fn force(&self, t: f64, [y, v, _]: [f64; 3], before: f64) -> f64 {
         let held = 1.0 - self.peak * sin(t);
@@ -59,7 +60,7 @@ impl Law {
         [state[1], force - 1.0 + self.peak * sin(t), turn]
     }
 
-    /// A step of the classical method of fourth order.
+    /// A step of the classical fourth-order method.
     #[inline]
     pub(crate) fn step(&self, t: f64, state: [f64; 3], h: f64, mode: Mode) -> [f64; 3] {
         let before = state[1];
@@ -72,11 +73,11 @@ impl Law {
         [0, 1, 2].map(|i| state[i] + h / 6.0 * (a[i] + 2.0 * (b[i] + c[i]) + d[i]))
     }
 
-    /// The times at which a disk that lies on the platform from `t` to `end`, first at this angular speed, slips,
-    /// sticks and reverses its slip.
+    /// The times at which a disk that lies on the platform from `t` to `end`, starting at this angular speed,
+    /// slips, sticks and reverses its slip.
     pub(crate) fn events_on_platform(&self, mut t: f64, speed: f64, end: f64) -> Vec<(f64, &'static str)> {
         const STEP: f64 = 1.0e-4;
-        // Positive where friction holds the disk; where it does not, the direction in which it slips.
+        // Positive if friction holds the disk; otherwise, the direction in which it slips.
         let margin = |t: f64| self.friction * self.force(t, [0.0; 3], 0.0) - self.needed(t).abs();
         let slipping = |t: f64| {
             Mode::Sliding(if self.needed(t) < 0.0 { SlipDirection::Forward } else { SlipDirection::Backward })

@@ -9,10 +9,10 @@ use crate::motion::event::Event;
 use crate::parameters::driven_platform::Waveform;
 use crate::testing::{self, refused};
 
-/// What rounding leaves, relative to the sizes of what is compared.
+/// Largest rounding difference, relative to the magnitudes compared.
 const ROUNDING: f64 = 1e-12;
 
-/// Compares each event of the sine's engine with that of the Fourier sum from the same state before.
+/// Compares each event of the sine's engine with the Fourier sum's next event from the same previous state.
 fn compare(
     system: crate::parameters::DimensionlessSystem,
     start: DrivenStart,
@@ -27,7 +27,7 @@ fn compare(
     let mut own = DrivenEngine::new(driven.clone(), start, policy).expect("legal");
     for _ in 0..events {
         let Ok(Some(record)) = engine.advance() else { break };
-        // Whether a slip that only touches zero ends there, rounding decides.
+        // Rounding decides whether a slip that only touches zero ends there.
         let rate = [SlipDirection::Forward, SlipDirection::Backward]
             .map(|direction| {
                 Touching { system: &driven, ride: Ride::Platform(&driven.height) }
@@ -39,7 +39,7 @@ fn compare(
             .fold(f64::INFINITY, f64::min);
         let slip_ends = matches!(record.event, Event::SlipToStick | Event::SlipReversal(_));
         let grazes = slip_ends && rate < 1e-6 * spin;
-        // The end of a slip that falls slowly is as uncertain as its speed over the rate.
+        // The end of a slip that falls slowly is as uncertain as its speed divided by the rate.
         let slow = if slip_ends { 0.02 * spin / rate } else { 0.0 };
         let Some(mut found) = own.advance().expect("no failure") else {
             prop_assert!(grazes, "{record:?}");
@@ -73,7 +73,7 @@ fn compare(
         let near = |one: f64, other: f64, size: f64| {
             (one - other).abs() <= ROUNDING * (size + one.abs() + other.abs())
         };
-        // A root of a slow fall is as uncertain as its slope is small.
+        // A root of a slow fall is uncertain in inverse proportion to its slope.
         prop_assert!(near(span, record.span.radians(), 1.0 + slow), "{span} {record:?}\n{found:?}");
         for (one, other) in [(found.before, record.before), (found.after, record.after)] {
             prop_assert!(near(one.height, other.height, size * (1.0 + span + slow)), "{one:?} {other:?}");
@@ -89,7 +89,7 @@ fn compare(
                 near(one.angle, other.angle, spin * (1.0 + span + slow) * (1.0 + span + slow)),
                 "{one:?} {other:?}"
             );
-            // Whether the last impact of a chatter ends a slip of one rounding, rounding decides.
+            // Rounding decides whether the last impact of a chatter ends a slip of one rounding.
             let slip = other.angular_speed - system.platform_angular_speed(record.time.phase);
             let hidden = matches!(record.event, Event::Attachment { .. }) && near(slip, 0.0, spin);
             prop_assert!(one.mode == other.mode || hidden, "{one:?} {other:?} {record:?}");
@@ -103,7 +103,8 @@ fn compare(
             near(ledger.friction_loss, record.ledger.friction_loss, magnitude),
             "{found:?} {record:?}"
         );
-        // The next event from the same state: a launch by its own speed, which a velocity would round.
+        // The next event from the same state: a launch by its own relative speed, which conversion to a
+        // velocity would round.
         let speed = match record.event {
             Event::Impact { axial_impact_velocity, .. } => -system.restitution() * axial_impact_velocity,
             _ => 0.0,
@@ -140,8 +141,8 @@ proptest! {
         compare(system, start, policy, 40)?;
     }
 
-    /// On platforms of all kinds: each ledger closes, its changes are those of the states, and a motion that
-    /// is resumed between two events has the same next one.
+    /// On platforms of all kinds, each ledger closes and agrees with the change of the states, and a motion
+    /// resumed between two events has the same next one.
     #[test]
     fn energy_is_balanced_on_every_platform(
         system in systems(), phase in testing::phase(), speed in 0.0..3.0_f64, spin in -2.0..2.0_f64,
@@ -176,11 +177,11 @@ proptest! {
                 let next = twin.advance().expect("no failure").expect("an event");
                 let ends = |event| matches!(event, Event::SlipToStick | Event::SlipReversal(_));
                 let same = std::mem::discriminant(&next.event) == std::mem::discriminant(&record.event);
-                // A slip may end where the angular acceleration jumps: whether before or after, rounding
-                // decides.
+                // A slip may end where the angular acceleration jumps: rounding decides whether before or
+                // after.
                 prop_assert!(same || ends(next.event) && ends(record.event), "{next:?}\n{record:?}");
                 let error = (span + next.span.radians() - record.span.radians()).abs();
-                // A slow impact is as uncertain as the height over its speed.
+                // A slow impact is as uncertain as the height divided by its speed.
                 let speed = match record.event {
                     Event::Impact { axial_impact_velocity, .. } => axial_impact_velocity.abs(),
                     _ => 1.0,
@@ -224,7 +225,7 @@ fn systems() -> impl Strategy<Value = DrivenSystem> {
     )
 }
 
-/// Each kind of event occurs in the comparison: chatters, kicks of nothing else.
+/// Each kind of event occurs in the comparison: chatters and, apart from the rest, kicks.
 #[test]
 fn the_comparison_meets_every_event() {
     let mut counts = [0; 7];
@@ -247,9 +248,9 @@ fn the_comparison_meets_every_event() {
     assert!(counts[..6].iter().all(|&count| count > 10), "{counts:?}");
 }
 
-/// A disk on a triangle of speed u and angular speed b, by hand: it is left behind at the crest and is back
-/// after 4 u with -2 u; at the trough it is hit with 2 u; where the angular speed drops by 2 b it slides for
-/// 2 b/mu and loses 2 b^2.
+/// A disk on a triangle of speed u and angular speed b, derived by hand. It is left behind at the crest and
+/// returns after 4 u with -2 u; at the trough it is hit with 2 u; after the angular speed drops by 2 b it
+/// slides for 2 b/mu and loses 2 b^2.
 #[test]
 fn kinks_leave_hit_and_turn_as_derived_by_hand() {
     let (u, b, quarter) = (0.3, 0.2, 0.25 * std::f64::consts::TAU);
@@ -318,7 +319,8 @@ fn bad_starts_and_states_are_refused_by_name() {
     refused("angle", [f64::INFINITY], |angle| go_on(DiskState { angle, ..state }));
 }
 
-/// It looked for the period of the end among numbers that doubles do not count one by one.
+/// Such a slip once led to a search for the final period among numbers too large for doubles to count one by
+/// one.
 #[test]
 fn a_slip_that_friction_hardly_ends_is_too_long() {
     let system = DrivenSystem {
@@ -338,8 +340,8 @@ fn a_slip_that_friction_hardly_ends_is_too_long() {
     assert!(matches!(engine.advance(), Ok(None)));
 }
 
-/// An engine for a disk in flight at the lowest point of a platform without a twist, at no distance and with this
-/// velocity relative to it; and the velocity of the platform there.
+/// An engine for a disk in flight at the lowest point of a platform without a twist, at zero distance and
+/// with this velocity relative to it; and the velocity of the platform there.
 fn flying_at_the_platform(height: Drive, relative: f64) -> (DrivenEngine, f64) {
     let system = DrivenSystem {
         angle: Drive::fourier(&[]).expect("legal"),
@@ -363,7 +365,7 @@ fn flying_at_the_platform(height: Drive, relative: f64) -> (DrivenEngine, f64) {
     (engine, at.velocity)
 }
 
-/// Where the platform presses, a disk that moves with it lies on it, whatever its state says.
+/// If the platform presses, a disk that moves with it lies on it, whatever its state says.
 #[test]
 fn a_state_of_flight_at_the_platform_is_one_of_contact() {
     for height in [Waveform::Parabolas, Waveform::Sine] {
@@ -372,14 +374,15 @@ fn a_state_of_flight_at_the_platform_is_one_of_contact() {
         assert_eq!(engine.state().mode, Mode::Sticking);
         let next = engine.advance().expect("no failure").expect("leaves");
         assert!(next.event == Event::Separation && next.span.radians() > 0.1, "{next:?}");
-        // Spans that are none count as zero, and too long ones end.
+        // Invalid spans count as zero, and too long ones are limited.
         for span in [f64::NAN, -1.0, f64::INFINITY] {
             assert!(engine.state_after(span).1.height.is_finite());
         }
     }
 }
 
-/// A platform that changes its velocity under a disk, between two engines, hits it at once or leaves it behind.
+/// A platform that changes its velocity under a disk, between two engines, hits it at once or leaves it
+/// behind.
 #[test]
 fn a_state_that_moves_against_the_platform_is_hit_or_leaves() {
     let next = |relative| {
@@ -392,7 +395,7 @@ fn a_state_that_moves_against_the_platform_is_hit_or_leaves() {
     let (impact, span, rebound) = next(-0.25);
     assert!((impact + 0.25).abs() < 1e-15 && span <= 0.0, "{impact} {span}");
     assert!((rebound - 0.125).abs() < 1e-15, "{rebound}");
-    // A disk that leaves falls back some 2 v/(1 + s'') later.
+    // A disk that leaves falls back about 2 v/(1 + s'') later.
     let (impact, span, _) = next(0.25);
     assert!(span > 0.1 && impact < -0.1, "{impact} {span}");
 }

@@ -32,7 +32,7 @@ fn one_run_is_fitted_by_its_residuals_and_several_by_their_scatter() {
     assert_eq!(few, Err(FitError::Refused(reason)));
 }
 
-/// The same rise, seen at other instants and for another time in each run.
+/// The same rise, sampled at other instants and for another time in each run.
 #[test]
 fn repeats_with_times_and_lengths_of_their_own_are_fitted_together() {
     let mut covered = [0; 2];
@@ -59,7 +59,7 @@ fn repeats_with_times_and_lengths_of_their_own_are_fitted_together() {
     assert!(covered.iter().all(|&count| count >= 90), "{covered:?}");
 }
 
-/// An observer is heard of one run and of several, and changes no bit.
+/// An observer is called for one run and for several, and does not change the result.
 #[test]
 fn a_fit_can_be_watched_and_stopped() {
     let mut noise = Noise::new(6);

@@ -1,8 +1,9 @@
-//! Fits of motors with known parameters. Coverage, accepted ranges that contain the truth:
+//! Fits of motors with known parameters. Coverage, as the number of accepted ranges that contain the truth:
 //!
-//! Run-ups of a motor of 40 kHz with 71 mm of gyration and rigid impacts, 1.5 s, 150 points with errors of 0.05 rad/s,
-//! one run each; friction 0.13 in [0.05, 0.5] and restitution in [0.1, 0.9]; 20 sets of this library and 20 of an
-//! independent program. In brackets the determined ranges (one, with two ends), and how many of these hold:
+//! Run-ups of a motor of 40 kHz with a gyration radius of 71 mm and rigid impacts, 1.5 s, 150 points with
+//! errors of 0.05 rad/s, one run each; friction 0.13 in [0.05, 0.5] and restitution in [0.1, 0.9]; 20 sets
+//! from this library and 20 from an independent program. In brackets the number of determined ranges (a
+//! single one with two ends), and how many of these contain the truth:
 //!
 //! | restitution | friction, library | independent | restitution, library | independent |
 //! | --- | --- | --- | --- | --- |
@@ -11,17 +12,19 @@
 //! | 0.45 | 20 (1, 1) | 20 (0) | 20 (0) | 20 (1, 1) |
 //! | 0.60 | 20 (1, 1) | 20 (2, 2) | 20 (9, 9) | 20 (5, 5) |
 //!
-//! One run says little here; with a known restitution the friction is determined to about 20 %. Friction alone, 0.2
-//! (the motor of Table III, one run-up of 1.2 s with a clock that is off, a dead time or an initial speed): a test
-//! asserts 8 of 9, all determined.
+//! One run gives little information here; with a known restitution the friction is determined to about 20 %.
+//! For friction alone, 0.2 (the motor of Table III, one run-up of 1.2 s with a clock error, a dead time or an
+//! initial speed), a test requires 8 of 9, all determined.
 //!
-//! Rated points, with the threshold 3.84, which accepts less than with the roughness added: for the prescribed motor
-//! of Table III and three points (no load, 10 uN m, 20 uN m, known to 1 and 2 %), friction 97 and twist 96 of 100;
-//! restitution from the no-load speed alone, with motions that lock in half of the range, 95; friction and restitution
-//! from three points of a motor on a stator of 50 g in volts, 95 and 99 of 100. A test asserts 4 of 5 on the
-//! prescribed motor. Not measured: mass and quality of the stator, more than two parameters.
+//! Rated points, with the threshold 3.84, which accepts less than with the roughness added. For the
+//! prescribed motor of Table III and three points (no load, 10 uN m, 20 uN m, known to 1 and 2 %): friction
+//! 97 and twist 96 of 100. For restitution from the no-load speed alone, with motions that lock in half of
+//! the range: 95. For friction and restitution from three points of a motor on a stator of 50 g in volts: 95
+//! and 99 of 100. A test requires 4 of 5 on the prescribed motor. Not measured: mass and quality of the
+//! stator, more than two parameters.
 //!
-//! Measured motors are as far from a smooth response as computed ones, some by three and four standard deviations.
+//! Measured motors deviate from a smooth response as much as computed ones, some by three or four standard
+//! deviations.
 
 use bouncing_disk_core::Unobserved;
 
@@ -47,13 +50,13 @@ fn under(load: f64, load_error: f64, speed_error: f64) -> RatedPoint {
     RatedPoint::under_load([load, load_error], [0.0, speed_error])
 }
 
-/// No load, a rated one and nearly the stall of the prescribed motor.
+/// No load, a rated load and nearly the stall load of the prescribed motor.
 fn prescribed_points() -> Vec<RatedPoint> {
     vec![under(0.0, 0.0, 0.3), under(1e-5, 1e-7, 0.3), under(2e-5, 4e-7, 0.5)]
 }
 
-/// Points as a maker would print them of this motor: of other starts, with errors of speeds and loads. Where it does
-/// not hold a load there is no speed to print, and others are drawn.
+/// Catalogue points of this motor, computed from other starts, with errors of speeds and loads. If it does
+/// not hold a load, there is no speed to print, and the point is sampled again.
 fn printed(motor: &Motor, points: &[RatedPoint], seed: u64) -> Vec<RatedPoint> {
     let mut noise = Noise::new(seed.wrapping_mul(7919));
     let mut of = |(index, point): (usize, &RatedPoint)| {
@@ -83,8 +86,8 @@ fn fit(motor: &Motor, points: &[RatedPoint], ranges: &[FitRange], seed: u64) -> 
     MotorFit::new(motor, points, &[], ranges, &settings(seed), &Unobserved)
 }
 
-/// How many of the accepted ranges of each parameter hold the truth, and how many exclude anything; a refused fit is a
-/// miss.
+/// How many of the accepted ranges of each parameter contain the truth, and how many exclude any value; a
+/// rejected fit is a miss.
 fn covered(
     motor: &Motor,
     points: &[RatedPoint],
@@ -108,7 +111,8 @@ fn ranges_hold_the_truth() {
     assert!(counts.iter().all(|count| count[0] >= 4 && count[1] == 5), "{counts:?}");
 }
 
-/// Hours on one core; the figures, and what has not been run to its end, are at the head of this file.
+/// Takes hours on one core; the figures, and the runs that were not completed, are in the header of this
+/// file.
 #[test]
 #[ignore = "takes hours"]
 fn ninety_of_a_hundred_ranges_hold_the_truth() {
@@ -118,7 +122,7 @@ fn ninety_of_a_hundred_ranges_hold_the_truth() {
     let typical = covered(&prescribed, &prescribed_points(), &[FRICTION, TWIST], 0..100);
     let rough = covered(&prescribed, &prescribed_points()[..1], &[RESTITUTION], 0..100);
     let yielding = covered(&volts, &loads, &[FRICTION, RESTITUTION], 0..100);
-    // The rotor takes nearly all of the amplitude.
+    // The rotor absorbs nearly all of the amplitude.
     let marginal = covered(&volts, &preloads, &[MASS, QUALITY], 0..100);
     for counts in [typical, rough, yielding, marginal] {
         println!("{counts:?}");
@@ -126,7 +130,8 @@ fn ninety_of_a_hundred_ranges_hold_the_truth() {
     }
 }
 
-/// A stator of ten times the mass changes the speed without load by 4 rad/s: a speed with an error of 3 says nothing.
+/// A stator of ten times the mass changes the no-load speed by 4 rad/s, so a speed with an error of 3 gives
+/// no information.
 #[test]
 fn a_speed_that_is_badly_known_leaves_the_mass_of_a_stator_open() {
     let motor = settled_soon().with(|sheet| {
@@ -153,10 +158,10 @@ fn a_load_that_a_motor_holds_bounds_the_friction() {
     let few = MotorFitSettings { most_evaluations: 24, ..settings(1) };
     let fit = MotorFit::new(&motor, &points, &[], &[FRICTION, RESTITUTION], &few, &Unobserved).expect("fits");
     let friction = &fit.estimate(FitParameter::Friction).expect("fitted").accepted[0];
-    // At half of the friction nothing holds the load; the emulator is smooth across that.
+    // At half the friction nothing holds the load; the emulator is smooth across that transition.
     assert!(friction.low.is_some_and(|low| low > FRICTION.low), "{fit}");
     assert!(friction.contains(0.1) && !fit.undetermined.is_empty(), "{fit}");
-    // And a speed beyond the stator's no parameter explains.
+    // And no parameter explains a speed above the stator's.
     let beyond =
         RatedPoint { speed: 2.0 * motor.system().platform().peak_angular_speed(), ..points[0].clone() };
     let error =
@@ -193,7 +198,7 @@ fn illegal_points_are_refused_by_name() {
     assert!(both(good.at(MotorField::LoadTorque, 0.0), &[FRICTION]));
 }
 
-/// Against a response that is known, bent like a collapse.
+/// Compared with a known response that is bent like a collapse.
 #[test]
 fn an_emulator_knows_how_well_it_knows() {
     let response =
@@ -234,7 +239,7 @@ fn an_emulator_knows_how_well_it_knows() {
     assert!((0.2..1.6).contains(&share), "{share}");
 }
 
-/// Three points of the same response to one parameter; the node at k is off by a bias.
+/// Three points of the same response to one parameter; the node at k is biased.
 fn surface_of(response: fn(f64) -> f64, points: [[f64; 2]; 3], bias: &dyn Fn(f64) -> f64) -> Surface {
     let nodes = design(1, 30, 1);
     let value =
@@ -244,7 +249,7 @@ fn surface_of(response: fn(f64) -> f64, points: [[f64; 2]; 3], bias: &dyn Fn(f64
     Surface::new(1, measured, vec![vec![0]; 3], &nodes, &values, None, &|| true).expect("finite")
 }
 
-/// Between two places of the profile the deviance falls from 100 to 0 and rises again, on both sides.
+/// Between two points of the profile the deviance falls from 100 to 0 and rises again, on both sides.
 #[test]
 fn a_second_narrow_solution_is_found() {
     let mut surface = surface_of(|x| 10.0 * x * x, [[10.0 * 0.53 * 0.53, 0.05]; 3], &|_| 0.0);
@@ -254,7 +259,8 @@ fn a_second_narrow_solution_is_found() {
     assert!(narrow(&accepted[0], -0.53) && narrow(&accepted[1], 0.53), "{accepted:?}");
 }
 
-/// The deviance at the truth is 8, and less where the speeds may be off: a little, or so much that they say nothing.
+/// The deviance at the truth is 8, and less at points where the speeds are uncertain: slightly, or so much
+/// that they give no information.
 #[test]
 fn a_place_is_not_excluded_because_another_one_is_less_known() {
     for bias in [0.3, 1.0, 30.0] {
@@ -345,7 +351,7 @@ mod transients {
         MeasuredTransient { speed_error: Some(0.2), ..MeasuredTransient::new(kind, runs) }
     }
 
-    /// Synthetic: a run-up of this motor from a random phase, with independent errors of its speeds.
+    /// Synthetic data: a run-up of this motor from a random phase, with independent errors of its speeds.
     fn synthetic(motor: &Motor, duration: f64, seed: u64) -> (Vec<f64>, Vec<f64>) {
         let mut generator = SplitMix64::new(seed);
         let phase = Phase::new(TAU * generator.unit()).expect("legal");
@@ -372,7 +378,7 @@ mod transients {
         fitted(&Motor::paper_70_khz(), &[of_run(TransientKind::RunUp, run.0, run.1)], &[WIDE])
     }
 
-    /// Whatever the clock, the dead time and the speed at the first row.
+    /// Whatever the clock error, the dead time and the speed at the first row.
     #[test]
     fn ranges_of_the_friction_hold_the_truth() {
         let mut held = 0;
@@ -381,7 +387,7 @@ mod transients {
             let off = [0.0, 0.4, -0.4][trial as usize % 3];
             times.iter_mut().for_each(|time| *time += off);
             if trial % 3 == 1 {
-                // It stood for a while before.
+                // It stood still for a while before.
                 let first = times[0];
                 let before = (0..20).map(|k| first - 0.01 * f64::from(20 - k));
                 times = before.chain(times).collect();
@@ -413,7 +419,7 @@ mod transients {
         assert!((drift - 6.0).abs() < 2.0, "{drift}");
     }
 
-    /// Eq. (17): a sliding rotor loses mu N a_e/(m a_g^2) in a second.
+    /// Eq. (17): a sliding rotor loses mu N a_e/(m a_g^2) per second.
     #[test]
     fn a_braking_tail_gives_the_friction() {
         let motor = Motor::paper_70_khz();
@@ -433,7 +439,7 @@ mod transients {
             assert!((own.value.expect("determined") / friction - 1.0).abs() < 0.03, "{fit}");
             assert_eq!(fit.switched_on, [None]);
         }
-        // A fan brakes it, too: the friction alone would be larger.
+        // A fan brakes it, too; without accounting for it the friction would appear larger.
         let fan = LoadLaw::fan(20.0, 1e-5, 3).expect("legal");
         let loaded = motor.with(|sheet| sheet.load = Some(fan)).expect("legal");
         let (mut speed, mut time, mut rows) = (25.0_f64, 0.0, Vec::new());
@@ -453,7 +459,7 @@ mod transients {
         assert!(fit.estimate(FitParameter::Friction).expect("fitted").accepted[0].contains(0.1), "{fit}");
     }
 
-    /// An inertia on the shaft makes the rise longer, which friction alone would not explain.
+    /// An inertia on the shaft makes the rise longer than friction alone could explain.
     #[test]
     fn a_load_with_inertia_is_legal() {
         let shaft = LoadLaw::constant(0.0).and_then(|load| load.with_inertia(2.0 * built().inertia()));

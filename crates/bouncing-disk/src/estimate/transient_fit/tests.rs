@@ -1,4 +1,4 @@
-//! Fits of synthetic curves, made of known parameters and seeded noise.
+//! Fits of synthetic curves with known parameters and seeded noise.
 //!
 //! Coverage: the number of 100 seeded intervals of steady speed, time constant and their quotient that contain the
 //! truth (the tests require 90), from rest; with any start:
@@ -33,7 +33,7 @@ fn rise(times: &[f64], steady: f64, constant: f64) -> Vec<f64> {
     times.iter().map(|time| steady * exponential(time / constant)).collect()
 }
 
-/// A member: its own steady speed and noise that remembers itself.
+/// A member with its own steady speed and autocorrelated noise.
 fn member(times: &[f64], noise: &mut Noise) -> Vec<f64> {
     let steady = STEADY * (1.0 + 0.05 * noise.normal());
     let scatter = noise.correlated(times.len(), 0.8);
@@ -51,7 +51,7 @@ fn coverage(fit: impl FnMut(u64) -> Result<TransientFit, FitError>) -> [u32; 3] 
     coverage_of([STEADY, CONSTANT], fit)
 }
 
-/// Of 100 fits those that hold the truth, or are refused and state nothing, which 80 must not be.
+/// How many of 100 fits contain the truth; rejected ones state nothing, and 80 must not be rejected.
 fn coverage_of(truth: [f64; 2], mut fit: impl FnMut(u64) -> Result<TransientFit, FitError>) -> [u32; 3] {
     let fits: Vec<TransientFit> = (1..=100).filter_map(|seed| fit(seed).ok()).collect();
     assert!(fits.len() >= 80, "{} fits of 100", fits.len());
@@ -68,10 +68,10 @@ fn coverage_of(truth: [f64; 2], mut fit: impl FnMut(u64) -> Result<TransientFit,
     covered
 }
 
-/// Settings of fits of which there are many.
+/// Settings for tests with many fits.
 const FEW: FitSettings = FitSettings { resamples: 300, from_rest: false, ..FROM_REST };
 
-/// Notes a case of which fewer than 90 intervals hold the truth.
+/// Records a case in which fewer than 90 intervals contain the truth.
 fn note(case: String, covered: [u32; 3], missed: &mut Vec<(String, [u32; 3])>) {
     println!("{case}: {covered:?}");
     if covered.iter().any(|&count| count < 90) {
@@ -93,8 +93,8 @@ fn intervals_of_synthetic_ensembles_cover_the_truth() {
     assert!(missed.is_empty(), "{missed:#?}");
 }
 
-/// Noise that is white, correlated, or grows along the curve; few rows, a short curve; whatever is known of
-/// the start.
+/// Noise that is white, correlated, or grows along the curve; few rows, a short curve; with and without
+/// knowledge of the start.
 #[test]
 fn intervals_of_synthetic_measurements_cover_the_truth() {
     let even = |_: f64| 1.0;
@@ -130,13 +130,13 @@ fn intervals_of_synthetic_measurements_cover_the_truth() {
     assert!(missed.is_empty(), "{missed:#?}");
 }
 
-/// A clock that is early or late, a dead time, rows before the switch-on, a start in the middle of the rise:
-/// of one run and of five.
+/// A clock that is early or late, a dead time, rows before the switch-on, a start in the middle of the rise,
+/// for one run and for five.
 #[test]
 fn the_start_of_a_record_does_not_mislead_its_fit() {
     const OWN: [f64; 2] = [21.5, 0.85];
     let clock: Vec<f64> = (0..=100).map(|i| 0.05 * f64::from(i)).collect();
-    // What the clock shows at the start of the rise, the first row, and the speed at the start.
+    // The clock's reading at the start of the rise, the first row, and the speed at the start.
     let mut missed = Vec::new();
     for (zero, first, speed, members, noise) in [
         (-0.05, 0.0, 0.0, 5, 0.15),
@@ -221,7 +221,7 @@ fn the_grid_finds_the_fits_of_the_search() {
             };
             let by_constant = found.log_constant - bouncing_disk_core::numerics::elementary::ln(constant);
             let by_steady = found.steady / steady - 1.0;
-            // A ramp has a kink at every point, where the gain has none of a parabola's.
+            // A ramp has a kink at every point, so its gain is not a parabola there.
             let tolerance = if is_ramp { 5e-3 } else { 1e-4 };
             assert!(
                 by_constant.abs() < tolerance && by_steady.abs() < tolerance,
@@ -247,20 +247,20 @@ fn the_mean_curve_is_what_is_fitted() {
     for estimate in [fit.steady_speed(), fit.time_constant(), fit.stall_acceleration()] {
         assert!(estimate.low < estimate.value && estimate.value < estimate.high, "{estimate:?}");
     }
-    // Curves of an ensemble are these runs.
+    // The same runs as curves of an ensemble.
     let curves: Vec<SpeedCurve> = runs
         .iter()
         .map(|run| SpeedCurve { times: times.clone(), speeds: run.clone(), impacts: 900, separations: 100 })
         .collect();
     assert_eq!(TransientFit::new(&curves, &FROM_REST), Ok(fit));
-    // The same bits again, others by another seed.
+    // The same bits if repeated, others for another seed.
     assert_eq!(fit_runs(&times, &runs, &FROM_REST), Ok(fit));
     let other = fit_runs(&times, &runs, &FitSettings { seed: 2, ..FROM_REST }).expect("fitted");
     assert_ne!(other, fit);
     assert!((other.steady_speed().high - fit.steady_speed().high).abs() < 0.2);
 }
 
-/// Four times the members halve an interval, but for Student's quantile.
+/// Four times as many members halve an interval, apart from Student's quantile.
 #[test]
 fn intervals_narrow_with_the_root_of_the_members() {
     let times = times(120, 4.0);
@@ -289,7 +289,7 @@ fn a_ramp_is_told_from_an_exponential() {
         let ramp = fit.ramp.expect("fitted");
         assert!(ramp.constant.contains(1.1) && ramp.steady_speed.contains(STEADY), "{ramp:?}");
         assert!(ramp.stall_acceleration.contains(STEADY / 1.1), "{ramp:?}");
-        // What is stated and drawn is the form that fits, which no more than the curve rises beyond its plateau.
+        // The better form is stated and plotted; it rises no more than the curve beyond its plateau.
         assert_eq!(fit.better(), &ramp);
         for time in times.iter().filter(|time| **time >= fit.start_time) {
             let own = STEADY * (time / 1.1).min(1.0);
@@ -402,7 +402,7 @@ fn a_plateau_that_is_a_flight_is_refused() {
         matches!(refusal(fit(5)), FitRefusal::TooFewFlights { flights, .. } if (0.8..1.0).contains(&flights))
     );
     assert!(fit(20).is_ok());
-    // Runs of which nobody counted the flights.
+    // Runs without a count of flights.
     let still = SpeedCurve { separations: 0, ..curve(0) };
     assert!(TransientFit::new(&vec![still; 5], &FitSettings::default()).is_ok());
 }
@@ -445,7 +445,7 @@ fn curves_of_any_size_have_intervals() {
             near(own.time_constant(), expected.time_constant(), time);
         }
     }
-    // A stall acceleration that no double holds.
+    // A stall acceleration that a double cannot represent.
     let times: Vec<f64> = ordinary.iter().map(|value| value * 1e-200).collect();
     let runs: Vec<Vec<f64>> =
         runs.iter().map(|run| run.iter().map(|value| value * 1e200).collect()).collect();
@@ -470,13 +470,13 @@ fn a_curve_without_scatter_has_an_interval_next_to_nothing() {
 
 #[test]
 fn many_points_and_members_are_condensed() {
-    // An ensemble of more members than groups, and a curve of more points than are fitted.
+    // An ensemble with more members than groups, and a curve with more points than are fitted.
     let few = times(60, 4.0);
     let runs = ensemble(&few, 1_300, 6);
     let fit = fit_runs(&few, &runs, &FROM_REST).expect("fitted");
     assert!(fit.members == 1_300 && fit.steady_speed().contains(STEADY), "{fit:?}");
     let width = fit.steady_speed().high - fit.steady_speed().low;
-    // 5 % of the speed scatter between members, and the noise of each adds little.
+    // The speed scatters by 5 % between members, and the noise of each adds little.
     let expected = 2.0 * 1.96 * 0.05 * STEADY / 1_300.0_f64.sqrt();
     assert!((0.8..1.6).contains(&(width / expected)), "{width} {expected}");
     let many = times(1_000_000, 4.0);
@@ -546,12 +546,12 @@ fn a_refusal_says_why_with_its_numbers() {
     );
 }
 
-/// The constants that are tried end where a double does.
+/// The trial constants end at the largest double.
 #[test]
 fn a_record_that_ends_at_the_largest_times_ends_the_search() {
     let mut times = times(60, 5.0);
     times[59] = 1e308;
     let speeds = rise(&times, 20.0, 0.85);
-    // Without an end of the search this call would not return.
+    // Without a limit on the search this call would not return.
     let _ = TransientFit::of_measured(&[(times.as_slice(), speeds.as_slice())], &FEW, &Unobserved);
 }

@@ -9,12 +9,12 @@ use super::*;
 use crate::parameters::dimensionless::DimensionlessParameters;
 use crate::testing::golden_spread;
 
-/// Pieces that a chatter needs, and what rounding may add next to restitution 1, where 50 impacts change a
-/// share by as much as rounding does.
+/// Pieces that a chatter needs, and the number that rounding may add near restitution 1, where 50 impacts
+/// change a share by as much as rounding does.
 const MOST_PIECES: u32 = 6;
 const MOST_ROUNDED_PIECES: u32 = 32;
 
-/// A chatter that the complete policy sums, as it starts.
+/// A chatter that the complete policy sums, at its start.
 #[derive(Debug)]
 struct Case {
     system: DimensionlessSystem,
@@ -58,7 +58,7 @@ fn an_impact_adds_its_work_and_its_slip_to_the_terms_that_balance() {
     assert!((ledger.friction_loss - 0.5 * 2.75).abs() < 1e-15, "{ledger:?}");
 }
 
-/// Rotors whose friction, twist, load and speed differ, on the vertical motion that they share.
+/// Rotors with different friction, twist, load and speed, on the vertical motion that they share.
 #[test]
 fn rotors_on_one_vertical_motion_chatter_as_each_alone() {
     for restitution in [0.0, 0.5, 1.0 - 1e-9] {
@@ -73,7 +73,7 @@ fn rotors_on_one_vertical_motion_chatter_as_each_alone() {
     }
 }
 
-/// Largest launch speed with which the disk attaches; `None` where the platform does not pull back.
+/// Largest launch speed with which the disk attaches; `None` if the platform does not pull back.
 fn largest_speed(system: &DimensionlessSystem, phase: Phase) -> Option<f64> {
     let accepted = |exponent: f64| {
         let speed = pow(10.0, exponent);
@@ -85,8 +85,8 @@ fn largest_speed(system: &DimensionlessSystem, phase: Phase) -> Option<f64> {
     accepted(slow)
 }
 
-/// Chatters of every kind: with friction and twist or without, loads that friction just holds, slips from
-/// none to one that outlasts the chatter, phases up to a separation.
+/// Chatters of every kind: with and without friction and twist, with loads that friction just holds, slips
+/// from zero to one that outlasts the chatter, and phases up to a separation.
 fn cases(restitution: f64, peak_acceleration: f64, count: u64) -> impl Iterator<Item = Case> {
     (0..count).filter_map(move |k| {
         let pick = |stride: u64| golden_spread(stride * k + stride / 3);
@@ -122,9 +122,9 @@ fn cases(restitution: f64, peak_acceleration: f64, count: u64) -> impl Iterator<
 
 const PEAKS: [f64; 7] = [0.0, 1e-9, 0.5, 1.0, 1.000_000_267_196_965_4, 2.0, 197.39];
 
-/// Sizes to which the rounding of a chatter is relative.
+/// Magnitudes to which the rounding of a chatter is relative.
 struct Scales {
-    /// Of the impulses, with what the rounding of the pull next to a separation is.
+    /// Of the impulses, including the rounding of the pull near a separation.
     impulse: f64,
     speed: f64,
     angle: f64,
@@ -170,7 +170,7 @@ fn sums_in_closed_form_are_those_of_the_impacts_one_by_one() {
             let energy = scales.speed * scales.speed;
             near("friction loss", |chatter| chatter.ledger.friction_loss, energy);
             near("friction work", |chatter| chatter.ledger.friction_work, energy);
-            // What the loop leaves after its last impact.
+            // The remainder after the loop's last impact.
             let rest = case.at.duration - counted.time;
             let angle = counted.angle + rest * counted.angular_speed;
             assert_near("angle", closed.angle, angle, scales.angle, tolerance, &case);
@@ -182,7 +182,7 @@ fn sums_in_closed_form_are_those_of_the_impacts_one_by_one() {
     }
 }
 
-/// In the middle of a chatter, too: the state after the last impact by then.
+/// Also in the middle of a chatter: the state after the last impact by then.
 #[test]
 fn the_middle_of_a_chatter_is_that_of_the_impacts_one_by_one() {
     for restitution in [0.5, 0.9, 0.99, 0.999] {
@@ -210,7 +210,7 @@ fn the_middle_of_a_chatter_is_that_of_the_impacts_one_by_one() {
     }
 }
 
-/// Where the loop still can be followed, with millions of impacts.
+/// Cases with millions of impacts, which the loop can still follow.
 #[test]
 fn millions_of_impacts_agree_with_the_closed_form() {
     let restitution = 1.0 - 1e-5;
@@ -223,15 +223,16 @@ fn millions_of_impacts_agree_with_the_closed_form() {
     }
 }
 
-/// A load that friction just holds, in every impact and to the last bit: rounding may decide at each of them,
-/// and the pieces are few all the same.
+/// A load that friction just holds in every impact, to the last bit: rounding may decide at each of them, and
+/// the pieces are few nevertheless.
 #[test]
 fn friction_at_its_limit_takes_few_pieces() {
     for restitution in [0.9, 0.999, 1.0 - 1e-7, 1.0 - f64::EPSILON / 2.0] {
         for k in 0..2_000_u64 {
             let friction = 0.1 + golden_spread(k);
             let limit = 0.5 * (1.0 + restitution) * friction;
-            // A few units in the last place about the limit, or the platform's own speed on both sides of it.
+            // A few units in the last place about the limit, or the platform's own speed on either side of
+            // it.
             let load = limit + limit * f64::EPSILON * (golden_spread(7 * k) * 9.0 - 4.0).round();
             let twist_speed = [0.0, 0.0, limit, 3.0 * limit][(k % 4) as usize];
             let phase_lag = if k % 8 < 4 { 0.0 } else { golden_spread(11 * k) };
@@ -245,7 +246,8 @@ fn friction_at_its_limit_takes_few_pieces() {
             }
             .build()
             .unwrap();
-            // For the twisting platforms: about the phase where its acceleration takes what the load leaves.
+            // For twisting platforms, near the phase at which its acceleration uses the torque that the load
+            // leaves.
             let phase = Phase::new(golden_spread(13 * k) * std::f64::consts::TAU).unwrap();
             let Some(speed) = largest_speed(&system, phase) else { continue };
             let launch = Launch::new(phase, speed).unwrap();
@@ -262,7 +264,7 @@ fn friction_at_its_limit_takes_few_pieces() {
     }
 }
 
-/// A slip that ends in a given impact, to the bit or next to it, ends there or in the next one.
+/// A slip that ends in a given impact, exactly or nearly, ends there or in the next one.
 #[test]
 fn a_slip_that_ends_in_an_impact_ends_there() {
     for restitution in [0.9, 0.999] {
@@ -289,8 +291,8 @@ fn a_slip_that_ends_in_an_impact_ends_there() {
     }
 }
 
-/// A chatter is its flights and impacts one by one, here from the first impacts of single launches: friction
-/// that slides throughout in the first impacts and stops the slip in later ones, against a load.
+/// A chatter consists of its flights and impacts one by one, here from the first impacts of single launches.
+/// Against a load, friction slides throughout in the first impacts and stops the slip in later ones.
 #[test]
 fn a_chatter_is_its_impacts_one_by_one() {
     let system = DimensionlessParameters {
@@ -324,7 +326,7 @@ fn a_chatter_is_its_impacts_one_by_one() {
             let slip = spin_now - system.platform_angular_speed(phase);
             let push = -(1.0 + restitution) * impact.velocity;
             let impulse = -slip.signum() * slip.abs().min(friction * push);
-            // The loss is that of the slip's energy, of which the platform takes no part.
+            // The loss is that of the slip's energy; the platform contributes nothing.
             friction_loss += 0.5 * (slip * slip - (slip + impulse) * (slip + impulse));
             spin_now += impulse;
             launch = -restitution * impact.velocity;
@@ -332,7 +334,7 @@ fn a_chatter_is_its_impacts_one_by_one() {
         }
         let own = Chatter::new(&system, start, speed, spin, longest);
         let near = |own: f64, other: f64| (own - other).abs() <= 1e-11 * other.abs();
-        // The last impacts of the two are found to another share of the first one.
+        // The last impacts of the two methods are determined to different shares of the first one.
         assert!(longest < 1.0 || own.impacts > impacts && own.impacts < impacts + 12, "{own:?} {impacts}");
         assert!(longest >= 1.0 || own.impacts == impacts && near(own.launch_speed, launch), "{own:?}");
         assert!(near(own.time, time) && near(own.angle, angle), "{own:?} {time} {angle}");

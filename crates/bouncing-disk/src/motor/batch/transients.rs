@@ -198,7 +198,7 @@ impl<'a> Worker<'a> {
             // From the last lane on, so that a transient that is moved into a gap has already been checked.
             for batch in (0..used).rev() {
                 let first = batch * Flights::LANES;
-                // The flights name the lanes in their order, and those of later batches have been taken.
+                // The flights list the lanes in order, and later batches have been processed.
                 let failed = failures.iter().rev().map_while(|(lane, _)| lane.checked_sub(first));
                 let mut waiting =
                     failed.fold(rotors[batch].attended(&may_rest[batch]), |bits, own| bits | 1 << own);
@@ -244,7 +244,7 @@ impl<'a> Worker<'a> {
     }
 }
 
-/// Takes a transient to its next flight; `None` if it is done before.
+/// Advances a transient to its next flight; `None` if it is done before.
 fn fly_next(run: &mut TransientRun, work: &mut WorkCount<'_>) -> Result<Option<Launch>, Error> {
     while !run.is_done() {
         if let Some(launch) = run.rotor.launch() {
@@ -256,7 +256,7 @@ fn fly_next(run: &mut TransientRun, work: &mut WorkCount<'_>) -> Result<Option<L
     Ok(None)
 }
 
-/// The work after an impact that differs from lane to lane; true if the transient is done.
+/// The work after an impact that is specific to a lane; true if the transient is done.
 fn attend(
     lane: usize,
     run: &mut TransientRun,
@@ -275,7 +275,7 @@ fn attend(
     }
     let Some(state) = flights.state(lane) else { return Ok(false) };
     let orbit = run.rotor.system().map().orbit(state, ChatterPolicy::Complete);
-    // It bounces on, with the launch that the lane has.
+    // It bounces on, with the lane's launch.
     if orbit.launch().is_some() {
         return Ok(false);
     }

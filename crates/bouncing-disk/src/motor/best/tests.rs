@@ -1,6 +1,6 @@
-//! Optima against independent grids: 400 points along one field, 20 by 20 over two. Of 60 ranges of random motors (25
-//! points in each, three times as accurate) 59 hold only points within 1 % of their best, and one holds points up to
-//! 1.1 % below it.
+//! Optima compared with independent grids: 400 points along one field, 20 by 20 over two. Of 60 ranges of
+//! random motors (25 points in each, three times as accurate), 59 contain only points within 1 % of their
+//! best, and one contains points up to 1.1 % below it.
 
 use std::f64::consts::PI;
 
@@ -21,7 +21,8 @@ fn sought(objective: SweepQuantity, ranges: &[SearchRange], bounds: &[&str]) -> 
     BestSearch { objective, ranges: ranges.to_vec(), bounds }
 }
 
-/// A motor of 40 kHz with contacts of 0.77 periods, which is tapped once a period: its curves are exact and smooth.
+/// A motor of 40 kHz with contacts of 0.77 periods, which is tapped once per period, so that its curves are
+/// exact and smooth.
 fn tapped() -> Motor {
     let sheet = |sheet: &mut MotorParameters| {
         (sheet.drive_frequency, sheet.amplitude) = (40e3, Some(0.5e-6));
@@ -53,7 +54,8 @@ fn value(motor: &Motor, quantity: SweepQuantity, set: impl FnOnce(&mut MotorPara
     quantity.of(row.expect("no failure").operation()).expect("known").value
 }
 
-/// Against the curve itself: no lag of a comb is better, and both ends of the range are within 1 %, but not much more.
+/// Compared with the curve itself: no lag on a grid is better, and both ends of the range are within 1 %, but
+/// not much more.
 #[test]
 fn the_best_lag_is_not_beaten_and_its_range_holds() {
     let motor = tapped();
@@ -73,13 +75,13 @@ fn the_best_lag_is_not_beaten_and_its_range_holds() {
     let turned = best(&motor, &sought(SweepQuantity::Speed, &[range(MotorField::PhaseLag, -PI, PI)], &[]));
     let off = (turned.values[0].value.value - own.value.value).abs();
     assert!(off < 2.0 * (turned.values[0].value.standard_error + own.value.standard_error), "{off}");
-    // A range that ends before has its best value at the end.
+    // A range that ends earlier has its best value at the end.
     let short = range(MotorField::PhaseLag, own.value.value + 0.3, 2.0);
     let short = best(&motor, &sought(SweepQuantity::Speed, &[short], &[])).values[0];
     assert!(short.is_at_end && (short.value.value - own.value.value - 0.3).abs() < 0.02, "{short:?}");
 }
 
-/// Without a bound the best preload is the least one; with one it is where the bound is just kept.
+/// Without a bound the best preload is the smallest one; with a bound it is the one that just satisfies it.
 #[test]
 fn a_bound_is_kept() {
     let motor = tapped();
@@ -117,7 +119,7 @@ fn what_is_nowhere_is_told() {
     let error = slippery.best(&sought(SweepQuantity::Speed, &[lag], &[]), &quick(), &Unobserved);
     let error = error.expect_err("nothing turns it");
     assert!(matches!(error, Error::NotPositive { quantity: "speed", .. }), "{error}");
-    // No stator yields.
+    // No stator is compliant.
     let error = run(&sought(SweepQuantity::DrivePower, &friction, &[])).expect_err("no drive");
     assert!(matches!(error, Error::NotPositive { quantity: "drive_power", .. }), "{error}");
 }
@@ -153,7 +155,7 @@ fn threads_change_no_bit_and_a_stop_is_told() {
     check_stops(None, |observer| motor.best(&sought, &quick(), observer));
 }
 
-/// Contacts of 0.28 periods whose motion is irregular. All seeds gave the same bits.
+/// Contacts of 0.28 periods whose motion is irregular. All seeds once gave the same bits.
 #[test]
 fn seeds_tell_the_error_of_irregular_contacts() {
     let motor = tapped().with(|sheet| sheet.contact = Some(Contact::lasting(7e-6))).expect("legal");
@@ -171,8 +173,9 @@ fn seeds_tell_the_error_of_irregular_contacts() {
     assert!(ratio > 0.3 && ratio < 1.7, "{ratio} {speeds:?}");
 }
 
-/// Next to 78 N a cycle of 8.7 rad/s and an irregular motion of 0.2 rad/s coexist, and the seed chooses which comes first: the place
-/// was found for the cycle, and the speed of the other one was stated for it.
+/// Near 78 N a cycle of 8.7 rad/s and an irregular motion of 0.2 rad/s coexist, and the seed decides which
+/// one is listed first. The optimum was once located for the cycle, but reported with the speed of the other
+/// motion.
 #[test]
 fn of_coexisting_motions_the_one_that_was_found_is_stated() {
     let sheet = |sheet: &mut MotorParameters| {
@@ -191,7 +194,7 @@ fn of_coexisting_motions_the_one_that_was_found_is_stated() {
     assert!(found.value.value > 8.0 && found.row.branches.len() > 1 && found.branch > 0, "{found:?}");
 }
 
-/// Against the closed form of a mean: Student's error with the scatter of the values.
+/// Compared with the closed form for a mean: Student's error from the scatter of the values.
 #[test]
 fn the_jackknife_of_a_mean_is_its_error() {
     let values = [1.0, 4.0, 2.0, 8.0, 5.0, 7.0, 3.0, 6.0];

@@ -32,7 +32,7 @@ fn designers() -> MotorParameters {
     }
 }
 
-/// A rotor by density and size, with all that is optional.
+/// A rotor given by density and size, with all optional fields.
 fn disc() -> MotorParameters {
     MotorParameters {
         mass: None,
@@ -64,7 +64,7 @@ fn the_preset_is_the_motor_of_table_iii_to_the_last_bit() {
     assert_eq!(same, motor);
 }
 
-/// Whatever is legal, of a pair that excludes each other exactly one is needed.
+/// Whatever the values, exactly one of a pair of alternatives is required.
 #[test]
 fn alternatives_are_given_once() {
     type Set = fn(&mut MotorParameters, Option<f64>);
@@ -121,7 +121,7 @@ fn force_speed_and_torque_become_those_of_the_system() {
     let (platform, disk) = (motor.system().platform(), motor.system().disk());
     assert!((platform.angular_frequency() - TAU * 40e3).abs() < 1e-9);
     assert!((platform.peak_angular_speed() - 12.0).abs() < 1e-14);
-    // F/m, to which no weight is added.
+    // F/m, without an added weight.
     assert!((motor.preload_acceleration() - 250.0).abs() < 1e-12);
     assert!((motor.preload_force() - 5.0).abs() < 1e-15);
     // The largest torque: 5 N, 0.1, 1.25 mm.
@@ -139,10 +139,10 @@ fn force_speed_and_torque_become_those_of_the_system() {
     assert_eq!(motor.preload_change_bound(), None);
 }
 
-/// Every field at every seam: an error that names it, or a motor without a number that is none.
+/// Every field at every limit of its range: an error that names it, or a motor without NaN.
 #[test]
 fn every_field_is_checked_at_every_seam() {
-    // What a combination is out of range by.
+    // The quantities by which a combination is out of range.
     const COMBINED: [&str; 6] =
         ["twist_speed", "moment of inertia", "load", "load_acceleration", "friction", "twist_amplitude"];
     for base in [designers(), disc()] {
@@ -179,7 +179,7 @@ fn every_field_is_checked_at_every_seam() {
                         assert!(value.is_finite(), "{place}");
                         assert!(motor.mass() > 0.0 && motor.preload_force() > 0.0, "{place}");
                         assert!(motor.largest_torque().is_finite(), "{place}");
-                        // What is told does not fail, whatever it tells.
+                        // Printing never fails.
                         assert!(!motor.to_string().is_empty());
                     }
                 }
@@ -190,7 +190,8 @@ fn every_field_is_checked_at_every_seam() {
     }
 }
 
-/// What each of these data sheets is warned of: the names of fields, or of what follows from several.
+/// The warnings of each of these data sheets, as the names of fields, or of quantities that follow from
+/// several.
 fn told(sheet: MotorParameters) -> Vec<String> {
     sheet.build().expect("legal").warnings().iter().map(ToString::to_string).collect()
 }
@@ -234,7 +235,7 @@ fn the_traps_of_units_are_told() {
     }
 }
 
-/// What is usual ends where it is said to end; and where a value is far outside, too.
+/// The usual ranges end where documented, and so does the far range.
 #[test]
 fn warnings_begin_where_they_are_said_to() {
     let of = |constant: f64| {
@@ -249,7 +250,7 @@ fn warnings_begin_where_they_are_said_to() {
         motor.warnings().len()
     };
     assert_eq!([0.1, 500.0, 500.0_f64.next_up()].map(readings), [0, 0, 1]);
-    // Nothing moves, nothing rubs: taken as meant.
+    // Nothing moves, nothing rubs: assumed to be intended.
     let still = MotorParameters {
         amplitude: Some(0.0),
         peak_angular_speed: Some(0.0),
@@ -287,7 +288,8 @@ fn a_spring_that_is_too_stiff_for_the_flights_is_told() {
     assert!(hard > 0.01 && told == [MotorWarning::PreloadChanges { bound: hard }], "{hard} {told:?}");
     let motor = motor.with(|sheet| sheet.spring_constant = Some(2_000.0)).expect("legal");
     assert!((motor.static_deflection().expect("a spring") - 2.5e-3).abs() < 1e-17);
-    // The formula by hand, in SI: V = (U + r sqrt(U^2 + 4 A g (1-r)/(1+r)))/(1-r), with U = A omega.
+    // The formula evaluated by hand, in SI: V = (U + r sqrt(U^2 + 4 A g (1-r)/(1+r)))/(1-r), with U = A
+    // omega.
     let (speed, g, r): (f64, f64, f64) = (0.5e-6 * TAU * 40e3, 250.0, 0.5);
     let launch = (speed + r * (speed * speed + 4.0 * 0.5e-6 * g * (1.0 - r) / (1.0 + r)).sqrt()) / (1.0 - r);
     let expected = 0.5e-6 + launch * launch / (2.0 * g);
@@ -325,14 +327,14 @@ fn a_stator_that_never_falls_away_throws_nothing() {
     }
 }
 
-/// Against what the core and the paper say of these parameters, each in another way.
+/// Compared with the results of the core and the paper for these parameters, each obtained in another way.
 #[test]
 fn regimes_are_those_that_are_known() {
     let low = |regime: &MotorRegime| matches!(regime, MotorRegime::LowPeriodChattering(_));
     assert!(low(&regime_of(0.48, 0.5)), "{:?}", regime_of(0.48, 0.5));
-    // Without restitution every impact is the end of a round.
+    // Without restitution every impact ends a round.
     assert!(low(&regime_of(60.0, 0.0)), "{:?}", regime_of(60.0, 0.0));
-    // A periodic motion without rest, which the core finds by iterating and refining.
+    // A periodic motion without rest, which the core finds by iteration and refinement.
     for (forcing, restitution) in [(0.7, 0.3), (1.0, 0.5)] {
         let vibration = Vibration::from_axial_forcing(forcing).expect("legal");
         let map = ImpactMap::new(vibration, restitution).expect("legal");
@@ -346,7 +348,8 @@ fn regimes_are_those_that_are_known() {
             MotorRegime::Periodic { impacts: orbit.period(), platform_periods: orbit.platform_periods };
         assert_eq!(regime_of(forcing, restitution), expected);
     }
-    // A long cycle of rests, 4393 impacts without perturbation, and a periodic motion that settles slowly.
+    // A long cycle of rests, with 4393 impacts without perturbation, and a periodic motion that settles
+    // slowly.
     let vertical = |peak_acceleration: f64, restitution: f64| {
         let system = ForcingParameters {
             axial_forcing: peak_acceleration / PI,
@@ -359,7 +362,7 @@ fn regimes_are_those_that_are_known() {
     let long = vertical(1.5, 0.9);
     assert!(matches!(long, MotorRegime::LongChattering { rests: 1.., .. }), "{long:?}");
     assert_eq!(vertical(1.05, 0.999), MotorRegime::Periodic { impacts: 2, platform_periods: 8 });
-    // Chaos, whose exponent the core's sweep finds from another start.
+    // Chaos, with an exponent that the core's sweep finds from another start.
     let map = ImpactMap::new(Vibration::from_axial_forcing(5.0).expect("legal"), 0.9).expect("legal");
     let state = ImpactState::from_normalised(1.0, 30.0).expect("legal");
     let expected = lyapunov_exponents(&[(map, state)], 100, 5_000, &Unobserved).expect("no failure")[0]
@@ -370,7 +373,7 @@ fn regimes_are_those_that_are_known() {
     assert!((lyapunov_exponent / expected - 1.0).abs() < 0.1, "{lyapunov_exponent} {expected}");
 }
 
-/// The mean time between rests is that of the ensembles, which are computed by other code, with other random
+/// The mean time between rests agrees with that of the ensembles, which use other code and other random
 /// numbers.
 #[test]
 fn the_paper_s_motor_rests_as_often_as_its_ensemble() {
@@ -404,7 +407,7 @@ fn reports_tell_what_there_is() {
     for warning in &report.warnings {
         assert!(text.contains(&format!("\nwarning: {warning}")), "{text}");
     }
-    // What the motor prints by itself are the report's lines without the motion.
+    // The motor itself prints the lines of the report without the motion.
     for line in motor.to_string().lines() {
         assert!(text.lines().any(|other| other == line), "{line}: {text}");
     }
@@ -420,8 +423,8 @@ fn a_report_can_be_stopped() {
     check_stops(None, |observer| motor.report(observer));
 }
 
-/// The same report each time: it has no state, and its perturbations a fixed seed. It does not see the
-/// rotation.
+/// The report is the same each time: it has no state, and its perturbations have a fixed seed. It does not
+/// depend on the rotation.
 #[test]
 fn reports_do_not_depend_on_what_turns() {
     let motor = designers().build().expect("legal");
@@ -461,7 +464,7 @@ mod stored {
     fn through_serde(motor: &Motor) {
         let text = serde_json::to_string(motor).expect("writes");
         assert_eq!(serde_json::from_str::<Motor>(&text).expect("legal"), *motor);
-        // What serde writes is a data sheet, too.
+        // The output of serde is a data sheet, too.
         assert_eq!(Motor::from_json(&text), Ok(motor.clone()));
         let mut binary = Vec::new();
         ciborium::into_writer(motor, &mut binary).expect("writes");
@@ -592,7 +595,8 @@ fn yielding() -> Vec<Motor> {
     [axial, force, volts, circuit, twisting, torsional, torque, both].map(motor).to_vec()
 }
 
-/// A sheet, its files and its system have the same stator, to the last bit, and what is computed follows the sheet.
+/// A sheet, its files and its system have the same stator, to the last bit, and derived values follow the
+/// sheet.
 #[test]
 fn a_stator_is_read_as_it_is_written() {
     for motor in yielding() {
@@ -612,7 +616,7 @@ fn a_stator_is_read_as_it_is_written() {
         assert!(
             (again.stator().expect("yields").motion().amplitude / platform.amplitude() - 1.0).abs() < 1e-13
         );
-        // Twice the force, and other changes of the system that cannot hold.
+        // Twice the force, and other inconsistent changes of the system.
         let sheet = motor.parameters();
         for field in [MotorField::StatorVolts, MotorField::StatorForce] {
             let Some(value) = field.value(sheet) else { continue };
@@ -635,7 +639,7 @@ fn a_stator_is_read_as_it_is_written() {
 fn a_load_is_read_as_it_is_written() {
     let law = LoadLaw::fan(20.0, 1e-6, 7).and_then(|law| law.with_factors(&[0.1, 0.3], &[0.7, 0.0]));
     let law = law.and_then(|law| law.with_inertia(1e-7)?.with_drive(0.05, 0.4)).expect("legal");
-    // Only a stator that yields is switched on and off.
+    // Only a compliant stator can be switched on and off.
     let constant = LoadLaw::constant(1e-7).expect("legal");
     for (motor, load) in [(yielding()[0].clone(), law), (Motor::paper_70_khz(), constant)] {
         let motor = motor.with(|sheet| sheet.load = Some(load)).expect("legal");
@@ -691,7 +695,7 @@ fn faults_of_a_table_stator_are_told() {
         let error = Motor::from_toml(&text.replace(from, to)).expect_err(to).to_string();
         assert!(error.contains(told), "{to}: {error}");
     }
-    // In volts, the amplitude of the sheet gives way, and there is nothing to compute another one from.
+    // In volts the amplitude of the sheet is removed, and nothing is given to compute another one from.
     let table = "[stator]\nmass = 0.05\nquality = 300.0\n";
     let by_amplitude = format!("{}{table}", Motor::paper_70_khz().to_toml());
     let volts = Motor::from_toml_with(&by_amplitude, &[(MotorField::StatorVolts, 20.0)]);
@@ -704,7 +708,7 @@ fn faults_of_a_table_stator_are_told() {
     assert_eq!(Motor::from_toml(&prescribed), Err(Error::NotGiven { field: "amplitude" }.into()));
 }
 
-/// A motion that is prescribed cannot be switched; what a report states does not depend on the load.
+/// A prescribed motion cannot be switched; the statements of a report do not depend on the load.
 #[test]
 fn a_load_on_a_motion_that_is_prescribed() {
     let motor = Motor::paper_70_khz();
@@ -720,7 +724,7 @@ fn a_load_on_a_motion_that_is_prescribed() {
     assert!(heavy.iter().any(|warning| matches!(warning, MotorWarning::Overload { .. })), "{heavy:?}");
 }
 
-/// Nothing treats a yielding stator as a prescribed one, nor a load that varies as none.
+/// No analysis treats a compliant stator as a prescribed one, or ignores a varying load.
 #[test]
 fn what_needs_a_prescribed_motion_refuses_a_stator_that_yields() {
     use crate::motor::operation::settings::OperatingSettings;
@@ -750,7 +754,8 @@ fn what_needs_a_prescribed_motion_refuses_a_stator_that_yields() {
     }
 }
 
-/// The engine decides above which preload a rotor in steady contact is no longer lifted, also off resonance.
+/// The engine shows the preload above which a rotor in steady contact is no longer lifted, also off
+/// resonance.
 #[test]
 fn the_preload_that_is_not_lifted_is_that_of_the_engine() {
     use crate::motion::phase_time::PhaseTime;
@@ -781,7 +786,7 @@ fn the_preload_that_is_not_lifted_is_that_of_the_engine() {
             let warns = motor.warnings().iter().any(|own| matches!(own, MotorWarning::NotLifted { .. }));
             assert_ne!(warns, lifts);
             let system = StatorSystem::of_system(motor.system(), motor.mass()).expect("legal");
-            // The steady motion of the pair is the imaginary part of P K/(K - 1) exp(i tau), less the sag.
+            // The steady motion of the pair is the imaginary part of P K/(K - 1) exp(i tau), minus the sag.
             let (re, im) = (mass * (f * f - 1.0), mass * f / quality);
             let (pair, peak) = (re - 1.0, motor.system().peak_acceleration());
             let share = peak / (pair * pair + im * im);
@@ -803,7 +808,7 @@ fn the_preload_that_is_not_lifted_is_that_of_the_engine() {
     }
 }
 
-/// Rigid impacts on modes are no model of contacts that last longer than a period.
+/// Rigid impacts on modes are no valid model of contacts that last longer than a period.
 #[test]
 fn rigid_impacts_on_a_stator_that_yields_are_warned_of() {
     let warned = |contact: Option<Contact>| {

@@ -5,7 +5,7 @@ use super::*;
 use crate::motor::{MAX_SWEEP_CELLS, MotorSweepResult, OperatingRow, operations};
 use crate::testing::{check_stops, refused};
 
-/// Little is asked for, so that much can be tried.
+/// Low accuracy, so that many cases can be tested.
 fn rough() -> OperatingSettings {
     OperatingSettings {
         relative_error: 0.2,
@@ -33,14 +33,14 @@ fn loads(shares: &[f64]) -> SweepAxis {
     SweepAxis::new(MotorField::LoadTorque, shares.iter().map(|share| share * largest).collect())
 }
 
-/// Six groups, one of a motor that never bounces; all states but a drift occur.
+/// Six groups, one of them with a motor that never bounces; all states except a drift occur.
 fn mixed() -> MotorSweep {
     let amplitudes = [1e-8, 0.0, 1.5e-8, 1e-8, 2e-8, 4e-11, 3e-8];
     sweep(&[axis(MotorField::Amplitude, &amplitudes), loads(&[0.0, 0.5, 1.2])]).expect("legal")
 }
 
-/// Each row of a map of amplitude and load is the torque-speed curve of its amplitude, wherever the load's
-/// axis is.
+/// Each row of a map of amplitude and load is the torque-speed curve of its amplitude, whichever axis is the
+/// load's.
 #[test]
 fn the_rows_of_a_map_are_curves() {
     let (amplitudes, shares) = ([1e-8, 1.7e-8], [0.0, 0.3, 0.6, -0.2, 1.1]);
@@ -66,7 +66,7 @@ fn the_rows_of_a_map_are_curves() {
     }
 }
 
-/// Where everything shares one motion, a map is one call for all of its motors.
+/// If everything shares one motion, a map is one call for all of its motors.
 #[test]
 fn a_map_of_one_motion_is_one_group() {
     let axes = [axis(MotorField::PhaseLag, &[0.0, 0.4, 3.5]), axis(MotorField::Friction, &[0.05, 0.1, 0.0])];
@@ -95,7 +95,7 @@ fn values_may_be_few_alike_unsorted_and_extreme() {
     assert_eq!(many.cells()[0], many.cells()[2]);
     assert_eq!(many.cells()[1], alone);
     assert!(many.matrix(SweepQuantity::Speed).iter().flatten().all(Option::is_some));
-    // The sign of nothing makes no other motion.
+    // The sign of zero does not make another motion.
     assert_eq!(many.cells()[3], many.cells()[4]);
 }
 
@@ -130,7 +130,7 @@ fn axes_that_are_none_are_refused_with_the_reason() {
     ] {
         refused(told, [vec![axis(PhaseLag, &[0.0, 1.0]), axis(field, &[0.2, value])]], of);
     }
-    // What a value needs beside itself is named, too.
+    // Additional values that a value needs are named, too.
     refused(Error::NotGiven { field: "rotor_radius" }, [vec![axis(Density, &[7850.0])]], of);
     refused("members", [OperatingSettings { members: 1, ..rough() }], |settings| {
         MotorSweep::new(Motor::paper_70_khz(), vec![axis(Friction, &[0.1])], settings)
@@ -161,7 +161,7 @@ fn an_alternative_takes_the_place_of_the_other_one() {
     let second = sweep.motor_of(1).expect("legal");
     assert_eq!(second.parameters().preload_acceleration, None);
     assert!((second.preload_acceleration() / motor.preload_acceleration() - 2.0).abs() < 1e-15);
-    // The motor itself stays what it is, and what it has already is not replaced.
+    // The motor itself is unchanged, and a field that it already has is not replaced.
     assert_eq!(*sweep.motor(), motor);
     let own = MotorSweep::new(motor, vec![axis(MotorField::PreloadAcceleration, &[9.8])], rough());
     assert_eq!(own.expect("legal").replaced(), []);
@@ -175,7 +175,7 @@ fn threads_change_no_bit_and_a_stop_is_told() {
     assert!(done.iter().any(|&done| 0 < done && done < 21), "{done:?}");
 }
 
-/// A motor whose flights are too long to be followed takes no other with it.
+/// A motor whose flights are too long to be followed does not affect others.
 #[test]
 fn a_group_that_fails_leaves_the_others() {
     let motor = Motor::paper_70_khz().with(|sheet| sheet.restitution = 0.99).expect("legal");
@@ -204,8 +204,9 @@ fn the_operations_of_another_sweep_are_refused() {
     assert_eq!(sweep.result(&[Vec::new()]), Err(unfitting("cells of a group of a sweep", 0, 1)));
 }
 
-/// Up and down the preload a hard rotor on a heavy stator keeps what it does: tapped once a period, or at rest, where both are
-/// steady. From rest a point by itself is that on the way down; from a launch the engine keeps the taps.
+/// While the preload rises and falls, a hard rotor on a heavy stator keeps its motion: tapped once per
+/// period, or at rest, where both are steady. A single point from rest agrees with the way down; from a
+/// launch the engine keeps the taps.
 #[test]
 fn a_continued_sweep_keeps_what_the_rotor_does() {
     use crate::driven::DrivenStart;
@@ -249,7 +250,7 @@ fn a_continued_sweep_keeps_what_the_rotor_does() {
     let alone = pressed.torque_speed_curve(&[0.0], &settings, &Unobserved).expect("no failure");
     let (alone, down) = (alone[0].point().expect("no runaway").speed, point(7).speed);
     assert!((alone.value - down.value).abs() < 0.02 * down.value, "{alone:?} {down:?}");
-    // From a launch at the speed with which a rotor comes back after a period.
+    // From a launch at the speed with which a rotor returns after a period.
     let system = StatorSystem::of_system(pressed.system(), pressed.mass()).expect("legal");
     let start = |phase: f64| DrivenStart::Launch {
         phase: Phase::new(phase).expect("finite"),
@@ -269,7 +270,7 @@ fn a_continued_sweep_keeps_what_the_rotor_does() {
         (last / std::f64::consts::TAU - 1.0).abs() < 1e-3 && (amplitude / known - 1.0).abs() < 0.1
     });
     assert!(taps, "no launch leads to taps");
-    // Two axes, and a stator that does not yield.
+    // Two axes, and a rigid stator.
     let two = vec![SweepAxis::new(field, vec![1.0]), SweepAxis::new(MotorField::Friction, vec![0.1])];
     assert!(MotorSweep::new(motor, two, settings).and_then(MotorSweep::continued).is_err());
     let prescribed = MotorSweep::new(plain, vec![SweepAxis::new(field, vec![1.0])], settings);

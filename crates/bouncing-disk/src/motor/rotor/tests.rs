@@ -7,7 +7,7 @@ use crate::motion::initial_condition::InitialCondition;
 use crate::parameters::dimensionless::DimensionlessParameters;
 use crate::testing::golden_spread;
 
-/// A motor's chatter ends with the angular speed that the engine's does: next to restitution 1, too.
+/// A motor's chatter ends with the same angular speed as the engine's, also near restitution 1.
 #[test]
 fn a_long_chatter_ends_as_in_the_engine() {
     let mut count = 0;
@@ -30,7 +30,7 @@ fn a_long_chatter_ends_as_in_the_engine() {
             let Some(at) = system.map().accumulation(launch) else { continue };
             let slip = [0.0, 1.0, at.duration * (pick(13) - 0.5)][(k % 3) as usize];
             let spin = system.platform_angular_speed(phase) + slip;
-            // What a disk that is launched here does after an impact: both go on from the same one.
+            // The motion of a disk launched here after an impact: both continue from the same one.
             let impact = ImpactState::new(phase, -speed / restitution).unwrap();
             let orbit = system.map().orbit(impact, ChatterPolicy::Complete);
             if orbit.launch().is_some() {

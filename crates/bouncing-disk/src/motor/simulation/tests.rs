@@ -10,7 +10,7 @@ fn begun(motor: &Motor) -> Result<MotorSimulation, Error> {
     MotorSimulation::new(motor, MotorInputs::of(motor), SimulationSettings::default())
 }
 
-/// The same on one mode that also twists, without the number of its twist, and on two modes.
+/// The same on one mode that also twists, without a separate value of its twist, and on two modes.
 fn twisting() -> [Motor; 2] {
     let change = |change: fn(&mut StatorParameters)| {
         in_volts().with(|sheet| sheet.stator.iter_mut().for_each(change)).expect("legal")
@@ -23,7 +23,8 @@ fn twisting() -> [Motor; 2] {
     [one, two]
 }
 
-/// Rigid, soft, and on a stator that yields with both; of one mode that twists under a load with a slope, and of two.
+/// Rigid contact, compliant contact, and both with a compliant stator; one mode that twists under a load with
+/// a slope, and two modes.
 fn motors() -> Vec<Motor> {
     let soft =
         |motor: &Motor| motor.with(|sheet| sheet.contact = Some(Contact::lasting(1e-5))).expect("legal");
@@ -34,7 +35,7 @@ fn motors() -> Vec<Motor> {
     vec![paper.clone(), soft(&paper), volts.clone(), soft(&volts), fan, two]
 }
 
-/// The time of each change, and the inputs from it on.
+/// The time of each change, and the inputs from then on.
 fn script(motor: &Motor) -> Vec<(f64, MotorInputs)> {
     let start = MotorInputs::of(motor);
     let loaded = MotorInputs { load_torque: 5e-6, ..start };
@@ -76,7 +77,8 @@ fn constant_inputs_give_the_same_bits_in_steps_of_any_length() {
     }
 }
 
-/// The power of the drive, less the losses, over a long time is that of an operating point; so are speed and amplitude.
+/// The power of the drive minus the losses, over a long time, agrees with an operating point; so do speed and
+/// amplitude.
 #[test]
 fn long_runs_have_the_means_of_operating_points() {
     for motor in [Motor::paper_70_khz(), in_volts()] {
@@ -120,7 +122,7 @@ fn inputs_act_as_the_table_of_a_load() {
     }
 }
 
-/// Under a rotor that weighs next to nothing the circuit takes what it takes without one.
+/// Under a rotor of negligible mass the circuit draws the same current and power as without one.
 #[test]
 fn the_current_is_that_of_the_circuit() {
     let motor = in_volts().with(|sheet| (sheet.mass, sheet.preload_force) = (Some(1e-12), Some(1e-11)));
@@ -130,7 +132,7 @@ fn the_current_is_that_of_the_circuit() {
     for frequency in [70e3, 70.1e3, 69.9e3] {
         inputs.drive_frequency = frequency;
         simulation.set_inputs(inputs).expect("legal");
-        // Until the ringing of the change is gone.
+        // Until the ringing after the change has decayed.
         simulation.advance(simulation.time() + 0.05, &Unobserved).expect("no failure");
         let end = simulation.advance(simulation.time() + 0.01, &Unobserved).expect("no failure");
         let known =
@@ -162,10 +164,10 @@ fn illegal_inputs_are_refused_and_change_nothing() {
     assert_eq!(other.advance(0.002, &Unobserved), simulation.advance(0.002, &Unobserved));
 }
 
-/// A rotor that lies on a stator that is off, and one that a load turns there: nothing happens for a long time.
+/// A rotor that lies on a stator that is off, and one that a load turns there: no event for a long time.
 #[test]
 fn a_rest_of_an_hour_costs_little() {
-    // A load with a slope is followed.
+    // A load with a slope is followed step by step.
     let motors = motors().into_iter().filter(|motor| motor.load().is_none());
     for (motor, load_torque) in motors.flat_map(|motor| [(motor.clone(), 0.0), (motor, 1e-3)]) {
         let mut simulation = begun(&motor).expect("legal");
@@ -174,7 +176,7 @@ fn a_rest_of_an_hour_costs_little() {
         simulation.advance(1.0, &Unobserved).expect("no failure");
         let start = simulation.advance(3599.0, &Unobserved).expect("no failure");
         let end = simulation.advance(3600.0, &Unobserved).expect("no failure");
-        // What friction cannot hold falls evenly.
+        // Under the part of the load that friction cannot hold, the speed falls uniformly.
         let gained = -(load_torque - motor.largest_torque()).max(0.0) / motor.inertia();
         let (mean, change) = (end.angle - start.angle, end.speed - start.speed);
         assert!((change - gained).abs() <= 1e-9 * gained.abs() + 1e-12, "{start:?} {end:?} {gained}");
@@ -191,7 +193,7 @@ fn a_rest_of_an_hour_costs_little() {
     }
 }
 
-/// On a stator too slow to throw it: friction gives it on average what the load takes, and the drive what that costs.
+/// On a stator too slow to throw it: on average friction supplies the load, and the drive supplies the power.
 #[test]
 fn a_rotor_that_creeps_has_the_power_of_its_operating_point() {
     let creeping = Motor::paper_70_khz().with(|sheet| {
@@ -213,7 +215,7 @@ fn a_rotor_that_creeps_has_the_power_of_its_operating_point() {
     assert!((end.shaft_torque - 4e-5).abs() < 1e-7, "{end:?}");
 }
 
-/// One mode does both: at half of the volts half of the twist, and nothing jumps.
+/// One mode does both: at half the volts it has half the twist, and nothing jumps.
 #[test]
 fn the_twist_of_a_mode_follows_the_drive() {
     let [one, _] = twisting();
@@ -227,7 +229,8 @@ fn the_twist_of_a_mode_follows_the_drive() {
     assert!(twist(MotorInputs { drive: 0.0, ..start }).abs() < 1e-12 * whole);
 }
 
-/// Switched on from rest, a mode rings up; of a step that takes no time the means are those before.
+/// Switched on from rest, a mode rings up; for a step of zero duration the means are those of the previous
+/// step.
 #[test]
 fn a_drive_that_is_off_at_the_start_rings_up() {
     let motor = in_volts();
@@ -243,7 +246,7 @@ fn a_drive_that_is_off_at_the_start_rings_up() {
     assert_eq!((again.power, again.shaft_torque), (late.power, late.shaft_torque));
 }
 
-/// Amplitude and current at the ends of these steps of an odd part of a period.
+/// Amplitude and current at the ends of these steps, which are an odd fraction of a period.
 fn sampled(simulation: &mut MotorSimulation, steps: u32) -> Vec<[f64; 2]> {
     let part = 0.137 / simulation.inputs().drive_frequency;
     let begun = simulation.time();
@@ -254,7 +257,7 @@ fn sampled(simulation: &mut MotorSimulation, steps: u32) -> Vec<[f64; 2]> {
     (1..=steps).map(&mut at).collect()
 }
 
-/// Off the resonance, too: without a rotor those of the closed form.
+/// Also off resonance: without a rotor they agree with the closed form.
 #[test]
 fn amplitude_and_current_are_constant_at_any_frequency_of_the_drive() {
     let motor = in_volts().with(|sheet| (sheet.mass, sheet.preload_force) = (Some(1e-14), Some(1e-13)));
@@ -312,7 +315,7 @@ fn a_static_sag_is_no_vibration() {
     assert!(end.speed > 0.1 && end.amplitude < 1e-19, "{end:?}");
 }
 
-/// Least squares of samples at even parts of a period: the amplitude of a constant and a sine.
+/// Least-squares fit of samples at equidistant times in a period: the amplitude of a constant plus a sine.
 fn fitted(samples: &[(f64, f64)]) -> f64 {
     let part = |of: fn((f64, f64)) -> f64| {
         2.0 / samples.len() as f64
@@ -321,8 +324,8 @@ fn fitted(samples: &[(f64, f64)]) -> f64 {
     hypot(part(|(sin, _)| sin), part(|(_, cos)| cos))
 }
 
-/// Under a rotor they are those of a least-squares fit to each period of the motion: to rounding if the rotor lies on
-/// the stator, and up to its harmonics if it taps in each period.
+/// Under a rotor they agree with a least-squares fit to each period of the motion: to rounding if the rotor
+/// lies on the stator, and up to its harmonics if it taps in each period.
 #[test]
 fn amplitude_and_current_are_those_of_a_fit_to_the_motion() {
     const SAMPLES: u32 = 64;

@@ -1,4 +1,4 @@
-//! Motors on all stators, against each other and against what is known of them.
+//! Motors on all kinds of stators, compared with each other and with known results.
 
 use bouncing_disk_core::numerics::elementary::hypot;
 use bouncing_disk_core::numerics::statistics::NORMAL_975;
@@ -21,22 +21,22 @@ fn settings() -> OperatingSettings {
     OperatingSettings { relative_error: 0.04, members: 4, ..OperatingSettings::default() }
 }
 
-/// The motor with a stator that moves like this.
+/// The motor with a stator that moves by these waveforms.
 fn moved(motor: &Motor, height: Waveform, angle: Waveform) -> Motor {
     motor.with(|sheet| (sheet.drive.height, sheet.drive.angle) = (height, angle)).expect("legal")
 }
 
-/// The motor with its sine as a sum of one harmonic, which is computed as any waveform is.
+/// The motor with its sine as a sum of one harmonic, which is computed like any waveform.
 fn as_a_sum(motor: &Motor) -> Motor {
     moved(motor, Waveform::Fourier(vec![(1.0, 0.0)]), Waveform::Sine)
 }
 
-/// The motor with contacts that take this time (s).
+/// The motor with contacts of this duration (s).
 fn touching(motor: &Motor, time: f64) -> Motor {
     motor.with(|sheet| sheet.contact = Some(Contact::lasting(time))).expect("legal")
 }
 
-/// Of one motor on both engines: chaotic orbits, so the means agree, not the impacts.
+/// One motor on both engines: the orbits are chaotic, so the means agree, but not the impacts.
 #[test]
 fn a_sine_as_a_waveform_turns_the_motor_as_the_sine_does() {
     let motor = Motor::paper_70_khz();
@@ -70,21 +70,21 @@ fn a_sine_as_a_waveform_turns_the_motor_as_the_sine_does() {
         let own = driven.transient(phase, &settings, &Unobserved).expect("no failure");
         let sine = crate::motor::transient(strong.system(), phase, &settings, &Unobserved);
         let sine = sine.expect("no failure");
-        // Flights of hundreds of periods round the phase by 1e-13 rad, and each of the few impacts that
-        // follow multiplies that by some hundred: its speed decides on another long flight.
+        // Flights of hundreds of periods round the phase by 1e-13 rad. Each of the few impacts that follow
+        // multiplies this by about a hundred, because its speed determines another long flight.
         let near = |(own, sine): (&f64, &f64)| (own - sine).abs() <= 1e-8 * sine.abs();
         assert!(own.speeds.iter().zip(&sine.speeds).all(near), "{own:?} {sine:?}");
     }
 }
 
-/// A stator that saws: its kinks end each rest by a kick, and never by a separation.
+/// A stator with a sawtooth: its kinks end each rest by a kick, and never by a separation.
 fn sawing(amplitude: f64) -> Motor {
     let sheet = Motor::paper_70_khz().with(|sheet| sheet.amplitude = Some(amplitude)).expect("legal");
     let shape = Waveform::Sawtooth(0.7);
     moved(&sheet, shape.clone(), shape)
 }
 
-/// The seed of the perturbations matters if there are any, and only then.
+/// The seed of the perturbations matters only if there are any.
 #[test]
 fn relaunches_by_kicks_are_perturbed_as_separations_are() {
     let run = |relaunch_perturbation: f64, seed: u64| {
@@ -105,8 +105,8 @@ fn relaunches_by_kicks_are_perturbed_as_separations_are() {
     assert!(known.speeds != calm.speeds && run(1e-3, 2).speeds != known.speeds, "{known:?}");
 }
 
-/// Amplitudes that differ by a billionth give the same speed within the stated errors, whatever cycle their rounding
-/// would select.
+/// Amplitudes that differ by a billionth give the same speed within the stated errors, whatever cycle their
+/// rounding would select.
 #[test]
 fn a_stator_with_kinks_does_not_lock_the_motor_on_a_rounded_cycle() {
     let points = [0.0, 1.0, 2.0, 3.0].map(|k| {
@@ -121,8 +121,8 @@ fn a_stator_with_kinks_does_not_lock_the_motor_on_a_rounded_cycle() {
     assert!(points.iter().all(|point| point.perturbation_power > 0.0), "{points:?}");
 }
 
-/// A triangle at 1 nm kicks the rotor once, and then carries it in flights that keep their phase: each start has
-/// a speed of its own.
+/// A triangle at 1 nm kicks the rotor once, and then carries it in flights that keep their phase, so each
+/// start has its own speed.
 #[test]
 fn a_neutral_family_of_motions_is_said_to_depend_on_the_start() {
     let sheet = Motor::paper_70_khz().with(|sheet| sheet.amplitude = Some(1e-9)).expect("legal");
@@ -132,7 +132,7 @@ fn a_neutral_family_of_motions_is_said_to_depend_on_the_start() {
     let Operation::Unsettled(point, Shortfall::Start { spread, .. }) = curve[0].operation() else {
         panic!("{:?}", curve[0])
     };
-    // The 95 % interval covers the speed of each start, and with it those of a motor started once.
+    // The 95 % interval covers the speed from each start, and so the speed of a motor started once.
     assert!(*spread > 1.0, "{point:?} {spread}");
     for seed in 1..4 {
         let settings =
@@ -144,8 +144,8 @@ fn a_neutral_family_of_motions_is_said_to_depend_on_the_start() {
     }
 }
 
-/// A short contact gives the speed of rigid impacts; one of a period taps the rotor in every period at the
-/// crest, so that the lag of its predecessors beats the paper's.
+/// A short contact gives the speed for rigid impacts; one of a period taps the rotor in every period at the
+/// crest, so that the lag of its predecessors is better than the paper's.
 #[test]
 fn the_contact_time_decides_on_the_best_lag() {
     let period = 1.0 / 70e3;
@@ -170,7 +170,8 @@ fn the_contact_time_decides_on_the_best_lag() {
     assert!(own.energy_residual < 1e-9, "{own:?}");
 }
 
-/// Without amplitude the stator turns the rotor forwards as much as backwards: its speed is zero, and no rounding of it.
+/// Without amplitude the stator turns the rotor forwards as much as backwards: its speed is exactly zero, not
+/// a rounding of it.
 #[test]
 fn a_stator_that_only_turns_leaves_the_rotor_at_rest() {
     let motor = Motor::paper_70_khz().with(|sheet| sheet.amplitude = Some(0.0)).expect("legal");
@@ -183,8 +184,8 @@ fn a_stator_that_only_turns_leaves_the_rotor_at_rest() {
     }
 }
 
-/// A slow rotor turns with less inertia where the tape takes long to record; at its own it has the same speed within the
-/// errors, which hold the bias. The time constants are 10,000 to 60,000 periods.
+/// A slow rotor has less inertia if the tape takes long to record; at its own inertia it has the same speed
+/// within the errors, which include the bias. The time constants are 10,000 to 60,000 periods.
 #[test]
 fn slow_rotors_turn_as_fast_at_their_own_inertia() {
     let mut within = 0;
@@ -216,8 +217,8 @@ fn slow_rotors_turn_as_fast_at_their_own_inertia() {
     assert!(within >= 9, "{within} of 10");
 }
 
-/// Taps in closed form give the run-up of the engine, which follows an angle with a second harmonic, be it
-/// ever so small.
+/// Taps in closed form give the same run-up as the engine, which handles an angle with a second harmonic,
+/// however small.
 #[test]
 fn run_ups_by_taps_are_those_of_the_engine() {
     let speeds = |angle: Waveform, lag: f64| {
@@ -230,13 +231,13 @@ fn run_ups_by_taps_are_those_of_the_engine() {
         let own = speeds(Waveform::Sine, lag);
         let engine = speeds(Waveform::Fourier(vec![(1.0, 0.0), (1e-300, 0.0)]), lag);
         for (own, engine) in own.iter().zip(&engine) {
-            // A tap lasts a thousandth of an interval, within which its angle counts as even.
+            // A tap lasts a thousandth of an interval, within which its angle is assumed to grow uniformly.
             assert!((own - engine).abs() < 1e-4 * engine, "{lag}: {own} {engine}");
         }
     }
 }
 
-/// The speed without load is that of the bare motor, as the stall is.
+/// The no-load speed is the bare motor's, as is the stall load.
 #[test]
 fn a_speed_without_load_is_without_the_law_of_the_load() {
     let paper = Motor::paper_70_khz();
@@ -301,8 +302,8 @@ fn on_stator(mass: f64, quality: f64, change: impl FnOnce(&mut MotorParameters))
     motor.expect("legal")
 }
 
-/// A stator of a thousand tons is prescribed; one of 10 g is damped by the rotor, and lifts none that presses too
-/// hard, but answers.
+/// A stator of a thousand tonnes is effectively prescribed; one of 10 g is damped by the rotor, and does not
+/// lift a rotor with too large a preload, but an operation is still found.
 #[test]
 fn a_stator_yields_by_its_mass() {
     let point = |motor: &Motor| {
@@ -328,7 +329,7 @@ fn a_stator_yields_by_its_mass() {
     let drive = stator.drive_power.value;
     let lost = stator.damping_loss.value + own.restitution_loss.value + own.friction_loss.value;
     assert!((drive / 8.17e-3 - 1.0).abs() < 0.02 && (drive / lost - 1.0).abs() < 0.02, "{own:?}");
-    // A rotor that is never lifted off: by periods, in place of impacts.
+    // A rotor that is never lifted off, for which periods count instead of impacts.
     let few = OperatingSettings { most_impacts: 2_000, ..settings() };
     let weighed = light(25.0).torque_speed_curve(&[0.0], &few, &Unobserved).expect("no failure");
     let weighed = *weighed[0].point().expect("it does not run away");
@@ -336,8 +337,9 @@ fn a_stator_yields_by_its_mass() {
     assert!(weighed.stator.expect("yields").amplitude.value < 1e-9, "{weighed:?}");
 }
 
-/// Under a load that falls with the speed a slow rotor has two stable speeds: where it is driven back through the steep part
-/// below zero, and beyond the fall. A load above the torque at rest keeps a rotor from rest at the former.
+/// Under a load that decreases with the speed a slow rotor has two stable speeds: one at which it is driven
+/// back through the steep part below zero, and one beyond the fall. A load above the torque at rest keeps a
+/// rotor from rest at the former.
 #[test]
 fn a_load_that_falls_with_the_speed_leaves_two_operations() {
     let sheet = |inertia: f64, most: f64| {
@@ -360,11 +362,11 @@ fn a_load_that_falls_with_the_speed_leaves_two_operations() {
     let both = operated(&motor);
     let found = speeds(&both);
     assert!(found.len() == 2 && found[0] < 0.0 && (found[1] - 7.3).abs() < 0.3, "{both:?}");
-    // The line of the load has the torque at rest there.
+    // The piece of the load has the torque at rest there.
     let blocked = both.point().and_then(|point| point.blocked_torque).expect("nothing acts back").value;
     assert!((found[0] - (blocked / most - 1.0)).abs() < 0.05, "{both:?}");
-    // Between them a rotor falls back or speeds up: from small steps with the speed held.
-    // The engine of the whole motor falls back from below the speed between them, and speeds up from above it.
+    // Between them a rotor falls back or speeds up, by integration in small steps with the speed held. The
+    // engine of the whole motor falls back from below the unstable speed, and speeds up from above it.
     let between = both.point().and_then(|point| point.unstable_speed).expect("found");
     let unit = motor.system().scales().angular_speed;
     let system = motor.stator_motion().yielded().expect("it has a law").clone();
@@ -389,8 +391,8 @@ fn a_load_that_falls_with_the_speed_leaves_two_operations() {
     assert_eq!(operated(&sheet(10e-3, 5.2e-3)).branches.len(), 1);
 }
 
-/// A load over the speed: its mean torque is that of its mean speed on a line, with a node on it or not, and the torque
-/// that is asked for comes on top. What varies in time is refused.
+/// A load over the speed: its mean torque is the torque at the mean speed on one piece, with or without a
+/// node on it, and the requested torque is added. A time-dependent load is an error.
 #[test]
 fn operating_points_are_under_the_law_of_the_load() {
     let motor = |load: LoadLaw| Motor::paper_70_khz().with(|sheet| sheet.load = Some(load)).expect("legal");
@@ -404,7 +406,7 @@ fn operating_points_are_under_the_law_of_the_load() {
         let found = *point(law, 3e-6).steady().expect("known");
         let mean = 3e-6 + 0.7e-6 * found.speed.value;
         assert!((found.load_torque / mean - 1.0).abs() < 1e-9, "{found:?}");
-        // Beside the scatter both have the error of the steps, which is a share of each.
+        // In addition to the scatter both have the error of the steps, which is a share of each value.
         let [error, steps] = [0.7e-6 * found.speed.standard_error, 3e-6 * 1.1e-4];
         assert!((found.load_torque_error - error).abs() < 1e-6 * error + steps, "{found:?}");
         assert!(found.energy_residual < 1e-9 && found.stator.is_none(), "{found:?}");
@@ -427,13 +429,13 @@ fn operating_points_are_under_the_law_of_the_load() {
     assert_eq!(refused, Err(Error::LoadInTime));
 }
 
-/// Requested errors are relative to the speed without load or law: of a fan that nearly stalls the motor, and of a
-/// load that friction alone does not hold.
+/// Requested errors are relative to the speed without load or law, both for a fan that nearly stalls the
+/// motor and for a load that friction alone does not hold.
 #[test]
 fn errors_are_relative_to_the_speed_without_the_law_of_the_load() {
     let wanted = |load: Result<LoadLaw, Error>, torque: f64| {
         let motor = Motor::paper_70_khz().with(|sheet| sheet.load = load.ok()).expect("legal");
-        // What drifts by chance does not say which error it lacks.
+        // A random drift does not state which error is missing.
         let mut seeds = (1..10).filter_map(|seed| {
             let few = OperatingSettings { relative_error: 1e-6, most_impacts: 100_000, seed, ..settings() };
             match *motor.torque_speed_curve(&[torque], &few, &Unobserved).expect("no failure")[0].operation()
@@ -459,11 +461,12 @@ fn a_stall_is_that_of_the_motor_without_the_law_of_its_load() {
         let motor = Motor::paper_70_khz().with(|sheet| sheet.load = load.ok()).expect("legal");
         motor.stall_load(&few, &Unobserved)
     };
-    // Bit for bit, also where the budget is too small for a stall.
+    // Bit for bit, even if the budget is too small for a stall.
     assert_eq!(stall(LoadLaw::constant(10e-6)), stall(LoadLaw::constant(0.0)));
 }
 
-/// The drive is switched off at half of a run-up: the modes ring down within 2 Q/omega, and the rotor stops.
+/// The drive is switched off in the middle of a run-up: the modes ring down within 2 Q/omega, and the rotor
+/// stops.
 #[test]
 fn a_run_up_ends_when_the_drive_is_switched_off() {
     let motor = on_stator(1.0, 300.0, |sheet| {

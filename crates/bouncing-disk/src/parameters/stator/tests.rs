@@ -1,4 +1,5 @@
-//! The circuit's closed forms beside the two differential equations, their limits, and every bad input.
+//! The circuit's closed forms compared with the two differential equations, their limits, and every invalid
+//! input.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -49,7 +50,7 @@ fn solved(mode: &VibrationMode, omega: f64, force: f64, phase: f64) -> [f64; 2] 
     [(rest * on + damper * off) / determinant, (rest * off - damper * on) / determinant]
 }
 
-/// Without a rotor the tip moves as it should, and current and power are those of the two equations, each at 16
+/// Without a rotor the tip moves as specified, and current and power agree with the two equations, each at 16
 /// instants of a period.
 #[test]
 fn the_closed_forms_solve_the_differential_equations() {
@@ -99,7 +100,7 @@ fn the_closed_forms_solve_the_differential_equations() {
             }
             assert!((power - found.power).abs() <= 1e-12 * circuit.volts * size, "{power} {}", found.power);
         }
-        // What the supply gives is what the modes lose.
+        // The supply provides the power that the modes lose.
         let lost =
             stator.modes().iter().zip([motion.amplitude, motion.twist_amplitude]).map(|(mode, moved)| {
                 0.5 * mode.mass * mode.angular_frequency / mode.quality * (OMEGA * moved) * (OMEGA * moved)
@@ -112,15 +113,16 @@ fn the_closed_forms_solve_the_differential_equations() {
 #[test]
 fn at_resonance_at_rest_and_at_the_anti_resonance_it_is_the_textbook() {
     let stator = volts().build(TWISTING).expect("legal");
-    // alpha V Q/(M omega^2), the force a quarter of a period ahead; F/k at rest.
+    // alpha V Q/(M omega^2), with the force a quarter of a period ahead; F/k at rest.
     assert!((stator.motion().amplitude / (2.4 * 300.0 / (0.01 * OMEGA * OMEGA)) - 1.0).abs() < 1e-14);
     assert!((stator.modes()[0].phase - FRAC_PI_2).abs() < 1e-15);
     assert!((stator.amplitude_at(0.0) / (2.4 / (0.01 * OMEGA * OMEGA)) - 1.0).abs() < 1e-14);
-    // Slowly it is the capacitance C_0 + alpha^2/k.
+    // At low frequency the capacitance is C_0 + alpha^2/k.
     let slow = stator.electrical_input_at(1e-3).expect("a circuit").current.expect("known");
     let whole = 1e-9 + 2.4 * 2.4 / (0.01 * OMEGA * OMEGA);
     assert!((slow.0 / (1e-3 * whole) - 1.0).abs() < 1e-12 && (slow.1 - FRAC_PI_2).abs() < 1e-9);
-    // At the anti-resonance only the losses let a current flow: V omega C_0 omega omega_1/(Q (omega^2 - omega_1^2)).
+    // At the anti-resonance only the losses let a current flow: V omega C_0 omega omega_1/(Q (omega^2 -
+    // omega_1^2)).
     let open = StatorParameters {
         force_per_volt: None,
         anti_resonance: Some(71e3),
@@ -134,13 +136,13 @@ fn at_resonance_at_rest_and_at_the_anti_resonance_it_is_the_textbook() {
     let left = 1.0 / (1e5 * (71.0 / 70.0 - 70.0 / 71.0));
     let known = open.circuit().expect("a circuit").volts * TAU * 71e3 * 1e-9 * left;
     assert!((current(71e3) / known - 1.0).abs() < 1e-6, "{} {known}", current(71e3));
-    // With its own force per volt it is the same stator.
+    // With the computed force per volt it is the same stator.
     let same = StatorParameters { force_per_volt: open.circuit().map(|own| own.force_per_volt), ..volts() };
     let same = StatorParameters { quality: Some(1e5), resonance: Some(70e3), ..same };
     assert_eq!(same.build(TWISTING).expect("legal").modes(), open.modes());
 }
 
-/// Force, volts and amplitude that belong together give the same stator.
+/// Equivalent force, volts and amplitude give the same stator.
 #[test]
 fn every_drive_gives_the_same_modes() {
     let stator = torsional().build(GIVEN).expect("legal");

@@ -3,7 +3,7 @@ use std::process::id;
 
 use super::*;
 
-/// A path at which nothing is, removed at the end.
+/// A path without a file, removed at the end.
 struct Scratch(PathBuf);
 
 impl Scratch {
@@ -39,7 +39,7 @@ fn open(scratch: &Scratch) -> Opened {
     Journal::open(&scratch.0, &key(0.1), 100)
 }
 
-/// Numbers whose last bits are lost where floats are not written and read with care.
+/// Numbers whose last bits are lost unless floats are written and read with care.
 fn result(index: usize) -> Vec<f64> {
     (0..5).map(|k| (index as f64 + 0.1 * f64::from(k)).sqrt() / 3.0e7).chain([-0.0, 5e-324]).collect()
 }
@@ -66,12 +66,12 @@ fn what_was_finished_comes_back_bit_for_bit() {
         [0, 3, 99].map(|index| (index, result(index).iter().map(|x| x.to_bits()).collect::<Vec<_>>()));
     assert_eq!(bits(&finished), expected);
     assert_eq!((journal.done(), journal.items(), finished.total()), (3, 100, 100));
-    // What is there stays, and is not written again.
+    // Existing results stay, and are not written again.
     let before = scratch.bytes();
     journal.append(3, &vec![1.0]).expect("ignored");
     journal.record(&finished).expect("ignored");
     assert_eq!(scratch.bytes(), before);
-    // A run's results go in together; the others may be read meanwhile.
+    // The results of a run are recorded together; others may be read meanwhile.
     let mut more = PartialResults::new(100);
     more.extend([(5, result(5)), (3, vec![1.0]), (6, result(6))]);
     journal.record(&more).expect("writable");
@@ -79,7 +79,7 @@ fn what_was_finished_comes_back_bit_for_bit() {
     let read = Journal::<Vec<f64>>::read(&scratch.0, &key(0.1), 100).expect("readable");
     assert_eq!(read.get(3), Some(&result(3)));
     assert_eq!(read.done(), 5);
-    // Every line is an object of JSON; the first names program, versions, parameters, seed and policy.
+    // Every line is a JSON object; the first names program, versions, parameters, seed and policy.
     let text = String::from_utf8(scratch.bytes()).expect("text");
     let lines: Vec<Value> = text.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect();
     assert_eq!(lines.len(), 6);
@@ -92,7 +92,7 @@ fn what_was_finished_comes_back_bit_for_bit() {
     assert_eq!(lines[2]["index"], 99);
 }
 
-/// A process may be killed when any number of bytes has been written.
+/// A process may be killed after writing any number of bytes.
 #[test]
 fn a_file_that_ends_anywhere_loses_only_the_line_that_was_not_finished() {
     let scratch = Scratch::new("torn");
@@ -101,7 +101,7 @@ fn a_file_that_ends_anywhere_loses_only_the_line_that_was_not_finished() {
     for length in 0..=whole.len() {
         scratch.write(&whole[..length]);
         let lines = ends.iter().filter(|end| **end <= length).count();
-        // Reading touches nothing.
+        // Reading changes nothing.
         let read = Journal::<Vec<f64>>::read(&scratch.0, &key(0.1), 100).expect("readable");
         assert_eq!((read.done(), scratch.bytes().len()), (lines.saturating_sub(1) as u64, length));
         let (mut journal, finished) = open(&scratch).expect("opens");
@@ -111,7 +111,7 @@ fn a_file_that_ends_anywhere_loses_only_the_line_that_was_not_finished() {
         }
         assert_eq!(scratch.bytes(), whole, "{length}");
     }
-    // What a power cut leaves in place of what was not on the disk yet.
+    // A power cut may leave this instead of data that were not yet on the disk.
     scratch.write([&whole[..ends[2]], &[0; 50]].concat());
     assert_eq!(open(&scratch).expect("opens").1.done(), 2);
     assert_eq!(scratch.bytes(), whole[..ends[2]]);
@@ -161,7 +161,7 @@ fn a_newer_format_is_refused_by_name_whatever_follows() {
         assert!(text.contains(words), "{words}: {text}");
     }
     assert_eq!(scratch.bytes(), file.as_bytes());
-    // A key of another format is the caller's fault.
+    // A key of another format is the caller's error.
     let figure = Provenance::new(Format { name: "figure", version: 1, oldest: 1 });
     assert!(matches!(Journal::<f64>::open(&scratch.0, &figure, 1), Err(StorageError::OtherFormat { .. })));
 }
@@ -194,12 +194,12 @@ fn a_changed_line_is_named() {
     assert!(matches!(error, StorageError::Damaged { line: 4, .. }), "{error:?}");
     scratch.write(text.replace("\"friction\":0.1", "\"friction\":0.10"));
     assert!(matches!(open(&scratch), Err(StorageError::Damaged { line: 1, .. })));
-    // Without the line the others can be read.
+    // Without the damaged line the others can be read.
     let others: String =
         text.lines().filter(|line| !line.contains("\"index\":2,")).map(|line| format!("{line}\n")).collect();
     scratch.write(others);
     assert_eq!(open(&scratch).expect("opens").1.done(), 3);
-    // An item beyond those of the header: the last that exists is 2.
+    // An item beyond those of the header: the last existing one is 2.
     let fewer = || Journal::<Vec<f64>>::open(&scratch.0, &key(0.1), 3);
     scratch.write("");
     drop(fewer().expect("opens"));
@@ -237,10 +237,10 @@ fn what_could_not_be_read_again_is_not_written() {
     assert_eq!((scratch.bytes(), journal.done()), (before, 1));
 }
 
-/// Where a process that is to be killed writes its journal.
+/// The journal of a process that is to be killed.
 const TO_BE_KILLED: &str = "BOUNCING_DISK_TEST_JOURNAL";
 
-/// Runs itself as a process of its own, which it kills as soon as some items more are finished.
+/// Runs itself as a separate process, and kills it as soon as a few more items are finished.
 #[test]
 fn a_process_that_is_killed_goes_on_where_it_was() {
     const ITEMS: usize = 1_000_000;
@@ -272,7 +272,7 @@ fn a_process_that_is_killed_goes_on_where_it_was() {
     assert!(finished.iter().map(|(index, own)| (index, own.clone())).eq(expected));
 }
 
-/// 0 and -0 are equal numbers and other parameters, and so are none and one that is absent.
+/// 0 and -0 are equal numbers but different parameters, as are `None` and an absent one.
 #[test]
 fn parameters_that_look_alike_are_others() {
     let scratch = Scratch::new("alike");
@@ -288,8 +288,8 @@ fn parameters_that_look_alike_are_others() {
     assert!(error.to_string().ends_with("is null, but absent is requested"), "{error}");
 }
 
-/// While a process is being started it holds a copy of every open file: the lock of a journal that is closed
-/// must not live on in it.
+/// While a process is being started it holds a copy of every open file: the lock of a closed journal must not
+/// survive in it.
 #[test]
 fn a_journal_can_be_opened_again_while_processes_start() {
     let scratch = Scratch::new("spawning");

@@ -43,7 +43,7 @@ pub(in crate::toss) fn orbits() -> Vec<(f64, f64, PeriodicOrbit)> {
     all
 }
 
-/// Systems with random twist, lag and load, from nearly none to strong.
+/// Systems with random twist, lag and load, from nearly zero to strong.
 fn random_systems(forcing: f64, restitution: f64, random: &mut SplitMix64) -> Vec<DimensionlessSystem> {
     (0..12)
         .map(|k| {
@@ -54,7 +54,7 @@ fn random_systems(forcing: f64, restitution: f64, random: &mut SplitMix64) -> Ve
         .collect()
 }
 
-/// The engine, which knows nothing of this, keeps the steady spin for a period of the orbit.
+/// The engine, which uses none of this, keeps the steady spin for a period of the orbit.
 #[test]
 fn the_engine_keeps_the_steady_spin_on_every_orbit() {
     let mut random = SplitMix64::new(1);
@@ -88,7 +88,7 @@ fn the_engine_keeps_the_steady_spin_on_every_orbit() {
     assert!(unstable > 50 && sliding > 50, "{unstable} {sliding}");
 }
 
-/// On an orbit that attracts, the engine comes to the steady spin from another one.
+/// On an attracting orbit the engine reaches the steady spin from another one.
 #[test]
 fn the_engine_settles_on_the_steady_spin() {
     let mut random = SplitMix64::new(2);
@@ -122,7 +122,7 @@ fn the_engine_settles_on_the_steady_spin() {
     assert!(tried > 30, "{tried}");
 }
 
-/// From any spin, by single rounds: first none of the impacts sticks, in the end one does, for ever.
+/// From any spin, by single rounds: at first none of the impacts sticks, and finally one always does.
 #[test]
 fn every_spin_is_forgotten_in_finitely_many_rounds() {
     let mut random = SplitMix64::new(3);
@@ -153,8 +153,8 @@ fn every_spin_is_forgotten_in_finitely_many_rounds() {
     assert!(slid > 20 && rounds_of_all > 100, "{slid} {rounds_of_all}");
 }
 
-/// Over a period friction gives what the load takes, and what it can give is friction times the time: the
-/// mean normal force is the weight.
+/// Over a period friction supplies the load, and its capacity is friction times the time, because the mean
+/// normal force is the weight.
 #[test]
 fn impulses_balance_the_load_and_the_weight() {
     let mut random = SplitMix64::new(4);
@@ -202,7 +202,7 @@ fn a_strong_twist_leaves_the_weighted_median() {
     }
 }
 
-/// One impact: Eq. (16), less what the load takes in the flight.
+/// One impact: Eq. (16), minus the loss by the load during the flight.
 #[test]
 fn one_impact_turns_by_equation_16() {
     for load in [0.0, 0.3, -0.39] {
@@ -230,7 +230,7 @@ fn a_load_as_large_as_friction_keeps_spins_and_a_larger_one_none() {
             let outcome = rotary_response(&held, &orbit).expect("an orbit");
             let RotaryOutcome::Kept { limit: Some(limit) } = outcome else { panic!("{outcome:?}") };
             assert_eq!(outcome.multiplier(), Some(1.0));
-            // Just beyond the limit all impacts slide, and the spin is kept; within, one sticks.
+            // Just beyond the limit all impacts slide, and the spin is kept; within it, one sticks.
             for off in [1e-6, 0.5, 50.0] {
                 let speed = limit - sign * off;
                 let round = rotary_round(&held, &orbit, speed).expect("a round");
@@ -273,7 +273,7 @@ fn what_is_no_orbit_of_the_system_is_refused() {
     assert!(matches!(rotary_response(&here, &orbit), Err(Error::OutOfRange { .. })));
 }
 
-/// No twist: the disk stands still, and everything sticks.
+/// Without twist the disk stands still, and everything sticks.
 #[test]
 fn without_twist_and_load_the_disk_stands_still() {
     for (forcing, restitution, orbit) in orbits() {

@@ -1,4 +1,4 @@
-//! Contacts that take time against an integration in small steps.
+//! Compliant contacts compared with an integration in small steps.
 
 use bouncing_disk_core::numerics::elementary::{cos, sin};
 use proptest::prelude::*;
@@ -9,7 +9,7 @@ use crate::testing::small_steps::{Law, Spring};
 /// Steps per radian of the fastest change.
 const STEPS: f64 = 400.0;
 
-/// Follows each segment of `events` events, from the state at its start.
+/// Follows each segment of `events` events from the state at its start.
 fn follow(law: &Law, system: &DrivenSystem, events: usize) -> Result<[usize; 8], TestCaseError> {
     let compliance = *system.compliance.as_ref().expect("a contact that takes time").compliance();
     let fastest = 1.0 + compliance.stiffness().sqrt() + compliance.damping();
@@ -49,7 +49,7 @@ fn follow(law: &Law, system: &DrivenSystem, events: usize) -> Result<[usize; 8],
             let before = state[1];
             state = law.step(t, state, h, segment.state.mode);
             k += 1.0;
-            // Nothing has happened that the engine has not seen.
+            // No event has happened that the engine has missed.
             let force = law.force(t + h, state, before);
             let slack = 1e-4 * scale * (1.0 + fastest);
             match segment.state.mode {
@@ -128,7 +128,7 @@ proptest! {
 #[test]
 fn all_events_of_a_contact_that_takes_time_happen() {
     let mut counts = [0; 8];
-    // The last one is damped critically: its terms have a factor t.
+    // The last one is critically damped: its terms have a factor t.
     for (hysteretic, peak, restitution, time) in [
         (false, 20.0, 0.5, 3.7),
         (true, 20.0, 0.5, 3.7),
@@ -144,7 +144,7 @@ fn all_events_of_a_contact_that_takes_time_happen() {
     assert!(counts.iter().all(|&count| count > 0), "{counts:?}");
 }
 
-/// Short slides under a fast platform, the second next to the resonance of the spring: the slip is a small
+/// Short slides under a fast platform, the second near the resonance of the spring: the slip is a small
 /// difference of the platform's speeds.
 #[test]
 fn the_energy_of_a_short_slide_closes_to_the_rounding_of_what_it_is_made_of() {

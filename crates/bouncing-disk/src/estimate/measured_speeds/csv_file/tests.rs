@@ -46,8 +46,8 @@ fn runs_follow_each_other_or_alternate() {
     assert_eq!(runs.runs()[0].speeds, [4.0, 5.0, 6.0]);
 }
 
-/// What an oscilloscope, a tacho and a spreadsheet of another country write: the units are in the file or
-/// given.
+/// Files as written by an oscilloscope, a tachometer and a spreadsheet with another locale: the units are in
+/// the file or given.
 #[test]
 fn values_are_read_as_instruments_write_them() {
     let expected = read(PLAIN).expect("well formed");
@@ -83,7 +83,7 @@ fn values_are_read_as_instruments_write_them() {
         fault("t (s),n (rpm)\nms,rpm\n0,0\n1,1\n2,2\n")
             .contains("line 2, field 1: the unit of the time is \"ms\"")
     );
-    // One decimal mark in a file, and no thousands.
+    // One decimal mark per file, and no thousands separators.
     let marks = |rows: &str| fault(format!("time_s;speed_rad_s\n{rows}"));
     assert!(marks("0,5;1.5\n1;2\n").contains("line 2, field 2: the decimal mark of the file is ambiguous"));
     assert!(marks("0;1.234,5\n").contains("line 2, field 2"));
@@ -121,7 +121,7 @@ fn a_wrong_header_is_named() {
             assert!(fault.contains(": the header line is missing, because this line has numbers"), "{fault}");
         }
     }
-    // The text of a file is shown without doing anything.
+    // Control characters of a file are shown without effect.
     assert!(fault("time_s,\u{1b}[2J\n").contains("\"\\u{1b}[2J\""));
     assert!(fault(format!("time_s,{}\n", "x".repeat(5_000))).len() < 500);
 }
@@ -227,7 +227,7 @@ fn only_regular_files_are_read() {
         let socket = folder.join("socket");
         let _socket = std::os::unix::net::UnixListener::bind(&socket).expect("writable");
         assert_eq!(reason(&socket).to_string(), "it is a socket, not a regular file");
-        // A named pipe would wait for a writer for ever; only a program of the system makes one.
+        // A named pipe would wait for a writer for ever; creating one needs an external program.
         let pipe = folder.join("pipe");
         if std::process::Command::new("mkfifo").arg(&pipe).status().is_ok_and(|status| status.success()) {
             assert_eq!(reason(&pipe).to_string(), "it is a named pipe, not a regular file");

@@ -11,11 +11,11 @@ use crate::testing::golden_spread;
 
 const CLOSURE: f64 = 1.0e-13;
 
-/// The largest restitution that is legal.
+/// The largest legal restitution.
 const LAST: f64 = 1.0 - f64::EPSILON / 2.0;
 
 impl Engine {
-    /// The attachment that the orbit is about to report, of a disk in the engine's state.
+    /// The attachment that the orbit is about to report, for a disk in the engine's state.
     pub(crate) fn attached_after(mut self, orbit: Orbit) -> EventRecord {
         self.ground.orbit = Some(orbit);
         self.advance().unwrap().unwrap()
@@ -61,8 +61,7 @@ fn attachments(
     })
 }
 
-/// Energy, momentum and states at the end of every chatter, however slow, however long, however close to a
-/// separation.
+/// Energy, momentum and states at the end of every chatter, however slow, long or close to a separation.
 #[test]
 fn every_attachment_closes_its_balance() {
     for restitution in [pow(2.0, -60.0), 0.5, 0.7246, 0.9, 0.99, 0.9999, 1.0 - 1e-7, 1.0 - 1e-12, LAST] {
@@ -90,8 +89,8 @@ fn every_attachment_closes_its_balance() {
     }
 }
 
-/// In the middle of a chatter the disk is above the platform by no more than the flight then has, and turns
-/// between the start and the end.
+/// In the middle of a chatter the height of the disk above the platform is at most that of the current
+/// flight, and its angle lies between those at the start and the end.
 #[test]
 fn the_middle_of_every_chatter_is_known() {
     for restitution in [0.9, 1.0 - 1e-4, 1.0 - 1e-7, LAST] {
@@ -121,7 +120,7 @@ fn the_middle_of_every_chatter_is_known() {
     }
 }
 
-/// The launch that used to stay at the smallest number for ever, and the restitution next to 1: one event
+/// A launch whose speed once stayed at the smallest number for ever, and a restitution near 1: one event
 /// each.
 #[test]
 fn chatters_that_never_ended_are_one_event() {

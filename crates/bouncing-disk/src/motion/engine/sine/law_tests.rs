@@ -10,14 +10,13 @@ use crate::motion::PAPER_CUT;
 use crate::parameters::dimensionless::ForcingParameters;
 use crate::testing;
 
-/// Rounding of a ledger's closure relative to the sizes of its terms.
+/// Rounding of a ledger's closure relative to the magnitudes of its terms.
 const CLOSURE: f64 = 1.0e-13;
 
 const FORCING: ForcingParameters =
     ForcingParameters { axial_forcing: 0.45, angular_forcing: 2.0, phase_lag: 0.2, restitution: 0.5 };
 
-/// A law of a user's, which the library knows nothing of: one restitution up to a speed, another from there
-/// on.
+/// A user's law, unknown to the library: one restitution up to a speed, another from there on.
 #[derive(Debug, Clone, Copy)]
 struct Brittle {
     restitution: f64,
@@ -49,8 +48,8 @@ fn law() -> impl Strategy<Value = KuwabaraKono> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 1000, ..ProptestConfig::default() })]
 
-    /// Energy is accounted for in every event and over all of them; the loss in restitution and the axial
-    /// impulse are those of the law at that speed, and friction stays within the cone of that impulse.
+    /// Energy is balanced in every event and in total; the loss in restitution and the axial impulse follow
+    /// the law at that speed, and friction stays within the cone of that impulse.
     #[test]
     fn every_ledger_closes_under_a_law((system, start, _) in testing::motion(), law in law()) {
         let engine = Engine::with_law(system, law, start, PAPER_CUT).unwrap();
@@ -67,7 +66,7 @@ proptest! {
             let impulse = (1.0 + restitution) * speed;
             let rebound = restitution * speed;
             let lost = 0.5 * (speed * speed - rebound * rebound);
-            // Where a cut puts the disk on a platform that falls away, the rebound is taken, too.
+            // If a cut puts the disk on a platform that falls away, it also removes the rebound.
             let taken = record.axial_impulse < impulse * (1.0 - 1e-14);
             let (impulse, lost) = if taken { (speed, 0.5 * speed * speed) } else { (impulse, lost) };
             prop_assert!((record.axial_impulse - impulse).abs() <= 1e-14 * impulse, "{record:?}");
@@ -79,7 +78,7 @@ proptest! {
         prop_assert!(total.relative_closure() <= 1e-10, "{:e}", total.relative_closure());
     }
 
-    /// The vertical motion is that of the map under the law, bit for bit.
+    /// The vertical motion agrees with the map under the law, bit for bit.
     #[test]
     fn engine_and_map_agree_under_a_law(
         (system, _, _) in testing::motion(), law in law(), phase in testing::phase(), speed in 0.01..3.0_f64,
@@ -109,7 +108,7 @@ proptest! {
         }
     }
 
-    /// A law that is constant, but not known to be so, gives the records of the system's own constant.
+    /// A law that is constant, but not known to be so, gives the same records as the system's own constant.
     #[test]
     fn a_constant_law_gives_the_bits_of_the_systems_restitution((system, start, _) in testing::motion()) {
         let policy = ChatterPolicy::Cut(PAPER_CUT);
@@ -128,7 +127,7 @@ fn lying() -> InitialCondition {
     InitialCondition::Contact { phase: Phase::new(4.0).unwrap(), angular_speed: 0.0 }
 }
 
-/// A finer cut moves the attachment by no more than the coarser one says.
+/// A finer cut moves the attachment by no more than the error of the coarser one.
 #[test]
 fn the_error_of_a_cut_covers_a_finer_one() {
     let law = KuwabaraKono::new(0.1, 1.0).unwrap();
@@ -148,7 +147,7 @@ fn the_error_of_a_cut_covers_a_finer_one() {
         let (time, finer) = attachment(pow(10.0, -f64::from(exponent)));
         let moved = time.since(&last).radians();
         assert!(moved > 0.0 && moved <= bound && finer < bound, "{moved} {bound} {finer}");
-        // What is left is the finer cut's own error.
+        // The remainder is the finer cut's own error.
         assert!(moved + finer >= 0.5 * bound, "{moved} {bound} {finer}");
         (last, bound) = (time, finer);
     }
@@ -175,7 +174,7 @@ fn an_illegal_restitution_is_the_last_thing_that_an_engine_tells() {
     }
 }
 
-/// Nothing asks for the law of a disk that never leaves the platform.
+/// The law is never evaluated for a disk that never leaves the platform.
 #[test]
 fn a_disk_that_rests_for_ever_needs_no_law() {
     let system = ForcingParameters { axial_forcing: 0.2, ..FORCING }.build().unwrap();

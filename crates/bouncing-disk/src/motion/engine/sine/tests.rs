@@ -10,10 +10,10 @@ use crate::motion::state::Mode;
 use crate::parameters::dimensionless::{DimensionlessParameters, ForcingParameters};
 use crate::testing::{self, small_steps::Law};
 
-/// Rounding of a ledger's closure relative to the sizes of its terms.
+/// Rounding of a ledger's closure relative to the magnitudes of its terms.
 const CLOSURE: f64 = 1.0e-13;
 
-/// Rounding of states that are computed in two ways, relative to the sizes involved.
+/// Rounding of states that are computed in two ways, relative to the magnitudes involved.
 const ROUNDING: f64 = 1.0e-12;
 
 fn records(
@@ -39,9 +39,9 @@ fn energy(state: &DiskState) -> (f64, f64) {
     )
 }
 
-/// Friction that all but holds the load lets the disk slide for thousands of periods, and the angle is a
-/// small difference of what the two would give alone: the balance knows its rounding, and the angle is v^2/(2
-/// (mu - l)) as far as mu and l are known.
+/// Friction that nearly holds the load lets the disk slide for thousands of periods, and the angle is a small
+/// difference of the angles that the two would cause alone. The balance accounts for its rounding, and the
+/// angle is v^2/(2 (mu - l)) to the accuracy of mu and l.
 #[test]
 fn a_slip_that_friction_and_load_all_but_hold_closes_its_balance() {
     let phase = Phase::new(2.884_361_746_820_472).unwrap();
@@ -70,7 +70,7 @@ fn a_slip_that_friction_and_load_all_but_hold_closes_its_balance() {
                 let Ok(records) = Engine::new(system, start, ChatterPolicy::Complete)
                     .and_then(|engine| engine.take(4).collect::<Result<Vec<_>, _>>())
                 else {
-                    // Longer than its end could be resolved.
+                    // Too long for its end to be resolved.
                     continue;
                 };
                 for record in &records {
@@ -100,7 +100,7 @@ fn a_slip_that_friction_and_load_all_but_hold_closes_its_balance() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 2000, ..ProptestConfig::default() })]
 
-    /// Energy is accounted for in every event, and no loss is negative.
+    /// Energy is balanced in every event, and no loss is negative.
     #[test]
     fn every_ledger_closes((system, start, policy) in testing::motion()) {
         for record in records(&system, start, policy, 60) {
@@ -111,7 +111,7 @@ proptest! {
         }
     }
 
-    /// What the ledgers say is what the states show.
+    /// The ledgers agree with the changes of the states.
     #[test]
     fn ledgers_tell_the_change_of_the_states((system, start, policy) in testing::motion()) {
         for record in records(&system, start, policy, 40) {
@@ -186,8 +186,8 @@ proptest! {
         }
     }
 
-    /// The dense motion meets the events, stays above the platform, slips the way its mode says, and sticks
-    /// only where friction can hold it.
+    /// The dense motion passes through the events, stays above the platform, slips in the direction of its
+    /// mode, and sticks only where friction can hold it.
     #[test]
     fn dense_motion_respects_its_mode((system, start, policy) in testing::motion()) {
         let mut last = *Engine::new(system, start, policy).unwrap().state();
@@ -200,7 +200,8 @@ proptest! {
             let end = record.evaluate(&system, 1.0);
             let speed = peak + 1.0 + record.segment.state.axial_velocity.abs();
             prop_assert!((end.disk.height - record.before.height).abs() <= ROUNDING * speed * speed, "{record:?}");
-            // The rates count for a radian at least: the ends are known to the rounding of their phases.
+            // The rates count for at least a radian, because the ends are known to the rounding of their
+            // phases.
             let turned = spin
                 + record.segment.state.angular_speed.abs()
                 + (system.load().abs() + system.friction() * (1.0 + peak)) * (1.0 + record.span.radians());
@@ -235,7 +236,7 @@ proptest! {
         }
     }
 
-    /// Time never runs back, and a segment of contact has a bounded number of events.
+    /// Time never decreases, and a segment of contact has a bounded number of events.
     #[test]
     fn contact_events_are_few((system, start, policy) in testing::motion()) {
         let mut time = PhaseTime::in_first_period(Phase::new(0.0).unwrap());
@@ -264,7 +265,7 @@ proptest! {
             DimensionlessParameters { friction: 0.0, twist_speed, ..system.parameters() }.build().unwrap();
         for record in records(&system, start, policy, 60) {
             prop_assert!(record.after.mode != Mode::Sticking, "{record:?}");
-            // The end of a slip meets the platform's speed to the rounding of its phase.
+            // At the end of a slip the speed agrees with the platform's to the rounding of its phase.
             let rounding = ROUNDING
                 * (twist_speed + system.load().abs() * (1.0 + record.span.radians())
                     + record.segment.state.angular_speed.abs());
@@ -282,7 +283,7 @@ proptest! {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 64, ..ProptestConfig::default() })]
 
-    /// The vertical motion is that of the map, bit for bit.
+    /// The vertical motion agrees with the map, bit for bit.
     #[test]
     fn engine_and_map_agree_bit_for_bit(
         (system, start, policy) in testing::motion(), speed in 0.01..3.0_f64, phase in testing::phase(),
@@ -326,8 +327,8 @@ fn lively() -> DimensionlessSystem {
         .unwrap()
 }
 
-/// Impacts and half-periods follow the sums of Zeno: a drop from height h comes to rest after
-/// sqrt(2 h) (1 + r)/(1 - r).
+/// Impacts and half-periods follow Zeno's sums: a drop from height h comes to rest after sqrt(2 h) (1 + r)/(1
+/// - r).
 #[test]
 fn a_drop_on_a_still_platform_comes_to_rest_after_zenos_time() {
     for restitution in [0.0, 0.1, 0.5, 0.8, 0.95] {
@@ -354,7 +355,7 @@ fn a_drop_on_a_still_platform_comes_to_rest_after_zenos_time() {
     }
 }
 
-/// The impulses of a complete chatter are those of the explicit bounces that the paper's policy goes through.
+/// The impulses of a complete chatter agree with those of the explicit bounces under the paper's policy.
 #[test]
 fn chatter_sums_agree_with_explicit_bounces() {
     let system = lively();
@@ -373,7 +374,7 @@ fn chatter_sums_agree_with_explicit_bounces() {
         }
         totals
     });
-    // The cut takes away speeds below pi 1e-6.
+    // The cut removes speeds below pi 1e-6.
     assert!((totals[0].0 - totals[1].0).abs() < 2e-5, "{totals:?}");
     assert!((totals[0].1 - totals[1].1).abs() < 2e-5, "{totals:?}");
     assert!((totals[0].2 - totals[1].2).abs() < 1e-9, "{totals:?}");
@@ -382,7 +383,7 @@ fn chatter_sums_agree_with_explicit_bounces() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 200, max_global_rejects: 100_000, ..ProptestConfig::default() })]
 
-    /// The contact solver against small steps of the friction law itself.
+    /// Compares the contact solver with small steps of the friction law itself.
     #[test]
     fn contact_events_are_those_of_a_fine_time_integration(
         peak in prop_oneof![Just(0.0), 0.0..1.0_f64, 1.0..1.5_f64], twist in 0.0..3.0_f64, lag in -3.0..3.0_f64,
@@ -420,7 +421,7 @@ proptest! {
             })
             .take_while(|event| event.0 < angle + until)
             .collect();
-        // Events that crowd together are beyond the resolution of the steps.
+        // The steps cannot resolve events that crowd together.
         prop_assume!(found.windows(2).all(|pair| pair[1].0 - pair[0].0 > 2e-2));
         prop_assume!(found.first().is_none_or(|first| first.0 - angle > 2e-2));
         let law = Law { peak, twist, lag, friction, load, spring: None };
@@ -437,7 +438,7 @@ proptest! {
     }
 }
 
-/// A disk at rest on a gentle platform slips for ever, lazily, and one that friction holds ends the sequence.
+/// A disk at rest on a gentle platform slips for ever, slowly, and one that friction holds ends the sequence.
 #[test]
 fn a_resting_disk_slips_periodically_or_ends() {
     let gentle = DimensionlessParameters {
@@ -483,7 +484,7 @@ fn a_still_platform_brakes_the_disk_uniformly() {
     assert!(matches!(error, Error::SlipTooLong { .. }), "{error}");
 }
 
-/// The perturbed launch is what the next flight starts with, and its ledger closes.
+/// The next flight starts with the perturbed launch, and its ledger closes.
 #[test]
 fn a_perturbed_launch_flies_with_its_new_speed() {
     let system = lively();
@@ -505,7 +506,7 @@ fn a_perturbed_launch_flies_with_its_new_speed() {
     assert!(engine.perturb_launch(-1.0).is_err());
 }
 
-/// Where the platform falls away a disk put on it flies at once.
+/// If the platform falls away, a disk placed on it flies at once.
 #[test]
 fn a_platform_that_falls_away_launches_the_disk_at_once() {
     let start = InitialCondition::Contact { phase: Phase::new(FRAC_PI_2).unwrap(), angular_speed: 0.0 };
@@ -514,8 +515,8 @@ fn a_platform_that_falls_away_launches_the_disk_at_once() {
     assert!(engine.launches());
 }
 
-/// Long flights at 70 kHz: energy is accounted for to rounding over 1e5 events, and the angle is the integral
-/// of the angular speed.
+/// Long flights at 70 kHz: energy is balanced to rounding over 1e5 events, and the angle is the integral of
+/// the angular speed.
 #[test]
 fn motor_flights_close_and_the_angle_does_not_drift() {
     let mut worst = (0.0_f64, 0.0_f64, 0.0_f64);
@@ -545,8 +546,8 @@ fn motor_flights_close_and_the_angle_does_not_drift() {
     assert!(worst.0 < 1e-14 && worst.1 < 1e-12 && worst.2 < 1e-14, "{worst:?}");
 }
 
-/// A cut takes the rebound also where the platform falls away: the disk leaves with the platform's velocity, and the
-/// energy balance has what was taken.
+/// A cut also removes the rebound if the platform falls away: the disk leaves with the platform's velocity,
+/// and the energy balance includes the removed energy.
 #[test]
 fn a_cut_where_the_platform_falls_away_lets_the_disk_go_at_once() {
     let system =

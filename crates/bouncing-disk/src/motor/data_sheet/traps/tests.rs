@@ -12,7 +12,7 @@ fn at_forcing(motor: &Motor, forcing: f64) -> Motor {
         .expect("legal")
 }
 
-/// The verdict from 64 relaunches is that of the report, which follows 20 000 impacts.
+/// The verdict from 64 relaunches agrees with the report's, which follows 20 000 impacts.
 #[test]
 fn the_verdict_is_that_of_the_report() {
     let (mut traps, mut agree, mut tried) = (0, 0, 0);
@@ -35,7 +35,7 @@ fn the_verdict_is_that_of_the_report() {
     assert!(traps >= 3 && agree >= tried - 1, "{traps} {agree} {tried}");
 }
 
-/// A flight of n and a half periods lands where the stator recedes as fast as the rotor falls.
+/// A flight of n and a half periods lands when the stator recedes as fast as the rotor falls.
 #[test]
 fn traps_of_a_single_flight_are_at_half_a_forcing() {
     let motor = Motor::paper_70_khz();
@@ -76,7 +76,7 @@ fn many_preloads_are_judged_one_by_one() {
         assert_eq!(*verdict, alone.trap_verdict().expect("no failure"));
         assert!((0.0..1.0).contains(&verdict.forcing_fraction), "{verdict:?}");
     }
-    // A stator that never throws traps nothing.
+    // A stator that never throws has no traps.
     assert!(verdicts[3].axial_forcing < 1.0 / PI && !verdicts[3].is_trap && verdicts[3].cycle.is_none());
     assert_eq!(low_period_traps(&motor, &[], &Unobserved).expect("nothing to do"), []);
     refused("preload_acceleration", [0.0, -1.0, f64::NAN, f64::INFINITY], |bad| {
@@ -97,7 +97,7 @@ fn the_nearest_trap_is_that_of_a_dense_scan() {
         let trap = motor.nearest_trap(range, &Unobserved).expect("no failure").expect("one");
         let [from, to] = trap.forcing_from_to;
         assert!(from < to && trap.verdict.is_trap, "{trap:?}");
-        // The near edge is one, by each of its values.
+        // Each of the values gives the near edge.
         let edge = |change: &dyn Fn(&mut crate::motor::MotorParameters)| {
             motor.with(|sheet| change(sheet)).expect("legal").system().axial_forcing()
         };
@@ -118,7 +118,7 @@ fn the_nearest_trap_is_that_of_a_dense_scan() {
         }
         let distance = 1.0 - (forcing.min(near) / forcing.max(near));
         assert!((trap.relative_distance - distance).abs() < 1e-12, "{trap:?}");
-        // Nothing nearer on a grid of its own; behind the edge there is no trap.
+        // An independent grid finds nothing nearer; beyond the edge there is no trap.
         let away =
             |offset: f64| at_forcing(&motor, forcing + offset).trap_verdict().expect("no failure").is_trap;
         if trap.relative_distance > 0.0 {
@@ -126,7 +126,7 @@ fn the_nearest_trap_is_that_of_a_dense_scan() {
             for k in 0..200 {
                 let offset = gap * (0.999_99 * f64::from(k) / 200.0);
                 let found = away(offset) || away(-offset);
-                // What is narrower than the step may be missed.
+                // A trap narrower than the step may be missed.
                 let wide = found && away(offset + trap.forcing_step) && away(offset - trap.forcing_step);
                 assert!(!wide, "{k} {trap:?}");
             }

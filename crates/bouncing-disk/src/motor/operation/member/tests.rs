@@ -20,8 +20,8 @@ fn member(systems: &[DimensionlessSystem], stators: &[Stator], index: usize) -> 
     }
 }
 
-/// The engine of each rotor alone, perturbed by the same stream, hits at the same times. It turns as fast within the error of
-/// the steps of a rest.
+/// The engine of each rotor alone, perturbed by the same stream, has impacts at the same times. Its speed
+/// agrees within the error of the steps of a rest.
 #[test]
 fn a_rotor_on_a_tape_of_rigid_impacts_is_that_of_its_engine() {
     for amplitude in [1e-8, 2e-9, 6e-11] {
@@ -59,7 +59,7 @@ fn a_rotor_on_a_tape_of_rigid_impacts_is_that_of_its_engine() {
                 while let Some((at, speeds)) = samples.next_if(|(at, _)| at.order(&engine.time()).is_lt()) {
                     let share = at.since(&begins).radians() / record.span.radians();
                     let (own, known) = (speeds[rotor], record.evaluate(system, share).disk.angular_speed);
-                    // The line of a step of a rest is off by an eighth of its square.
+                    // The linear approximation over a step of a rest is off by an eighth of its square.
                     assert!(
                         (own - known).abs() < 5e-4 * size,
                         "{amplitude} {rotor}: {own} {known} of {size}"
@@ -77,7 +77,8 @@ fn a_rotor_on_a_tape_of_rigid_impacts_is_that_of_its_engine() {
     }
 }
 
-/// The same for compliant contacts and waveforms, over a few flights: chaos amplifies the rounding of two motions.
+/// The same for compliant contacts and waveforms, over a few flights, because chaos amplifies the rounding
+/// differences of the two motions.
 #[test]
 fn a_rotor_on_any_tape_is_that_of_its_engine() {
     let sheet = Motor::paper_70_khz().with(|sheet| sheet.friction = 1.0).expect("legal");

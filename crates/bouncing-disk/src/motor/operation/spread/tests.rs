@@ -1,9 +1,10 @@
 //! The spread over the tolerances of the inputs.
 //!
-//! At tolerances of zero 16 runs gave no spread in 7 cases, within its error of zero in 5 more, and beyond two errors
-//! in 2. If samples stopped when their own error is small, those that agree by luck would show spreads of up to 1.6
-//! errors, in each of eight seeds. At 5 N the 40 kHz motor (12 rad/s, radii of 12.5 and 10 mm) stalls at 3.715(21)
-//! mN m; the samples give 3.94(2) with a deviation of 0.08(1), from 3.72 to 4.09.
+//! At zero tolerances 16 runs gave no spread in 7 cases, a spread within its error of zero in 5 more, and one
+//! beyond two errors in 2. If samples stopped when their own error is small, those that agree by luck would
+//! show spreads of up to 1.6 errors, in each of eight seeds. At 5 N the 40 kHz motor (12 rad/s, radii of 12.5
+//! and 10 mm) stalls at 3.715(21) mN m; the samples give 3.94(2) with a deviation of 0.08(1), from 3.72 to
+//! 4.09.
 
 use super::*;
 use crate::testing::{check_stops, refused};
@@ -13,8 +14,8 @@ fn quick() -> OperatingSettings {
     OperatingSettings { relative_error: 0.1, members: 4, ..OperatingSettings::default() }
 }
 
-/// Draws of a known spread and of known errors: the stated spread holds the true one, or is off by twice its
-/// error at most.
+/// Samples with a known spread and known errors: the stated spread agrees with the true one within twice its
+/// error.
 #[test]
 fn the_spread_of_known_draws_is_found() {
     let normal = |random: &mut SplitMix64| (0..12).map(|_| random.unit()).sum::<f64>() - 6.0;
@@ -51,7 +52,7 @@ fn a_motor_that_is_exactly_known_has_no_spread() {
     assert!(spread.standard_deviation.value < 0.01 * spread.mean.value, "{spread:?}");
 }
 
-/// Between 4.9 and 5.1 N this motor has speeds from 4 to 10 rad/s, while each is known to 0.04 rad/s.
+/// Between 4.9 and 5.1 N this motor has speeds from 4 to 10 rad/s, although each is known to 0.04 rad/s.
 #[test]
 fn the_spread_of_a_motor_is_that_of_its_neighbours() {
     let motor = small_motor(5.0);
@@ -82,8 +83,8 @@ fn small_motor(preload: f64) -> Motor {
         .expect("legal")
 }
 
-/// At 6 N it locks: its speed is known to next to nothing, and lies elsewhere for its neighbours. At 2 N its
-/// stall load is practically the largest torque.
+/// At 6 N it locks: its speed has almost no error, but differs for its neighbours. At 2 N its stall load is
+/// practically the largest torque.
 #[test]
 fn a_locked_motor_has_a_spread_and_a_stall_at_the_limit_an_error() {
     let motor = small_motor(6.0);
@@ -123,17 +124,17 @@ fn a_spread_can_be_stopped() {
     check_stops(None, |observer| motor.speed_spreads(&[0.0], &quick(), &tolerance, observer));
 }
 
-/// What never leaves the stator has an exact operation at once, which rests on friction and lag: none without
-/// lag.
+/// A rotor that never leaves the stator has an exact operation at once, due to friction and lag; it does not
+/// turn without lag.
 #[test]
 fn a_motor_that_is_never_thrown_is_answered_at_once() {
     let began = std::time::Instant::now();
     let settings = OperatingSettings::default();
     let still = Motor::paper_70_khz().with(|sheet| sheet.amplitude = Some(4e-11)).expect("legal");
     assert!(matches!(still.stall_load(&settings, &Unobserved), Err(Error::DoesNotTurn { .. })));
-    // The rotor slides, and is dragged by where the stator presses harder: S(x) of a normal force 1 - P sin
-    // tau, whose half where cos(tau + theta) > x is, with c = acos x, (c + P sin c sin theta)/pi; it balances
-    // at 1/2.
+    // The rotor slides, and is dragged along when the stator presses harder. For the normal force 1 - P sin
+    // tau, the share S(x) of the half-cycle in which cos(tau + theta) > x is, with c = acos x, (c + P sin c
+    // sin theta)/pi; it balances at 1/2.
     let lag: f64 = 0.9;
     let motor = still.with(|sheet| sheet.phase_lag = lag).expect("legal");
     let point =
@@ -155,7 +156,7 @@ fn a_motor_that_is_never_thrown_is_answered_at_once() {
     // S(0) of the same normal force.
     let share = 2.0 * peak * bouncing_disk_core::numerics::elementary::sin(lag) / std::f64::consts::PI;
     assert!((stall.share - share).abs() < 2e-3, "{stall:?} {share}");
-    // In units of torque it is proportional to the amplitude alone, of which 1 % on either side has a
+    // In units of torque it is proportional to the amplitude alone; a tolerance of 1 % on either side has a
     // deviation of 1 %/sqrt(3).
     let tolerance = InputTolerance { draws: 12, ..InputTolerance::default() };
     let spread =

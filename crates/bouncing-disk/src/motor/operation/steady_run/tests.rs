@@ -1,8 +1,8 @@
-//! Steady runs: energies, limits, shortfalls, and whether the stated errors are true.
+//! Steady runs: energies, limits, shortfalls, and the validity of the stated errors.
 //!
-//! Coverage: of 100 ensembles with other seeds, the number whose 95 % intervals contain the mean of three long ones
-//! (64 members, 0.2 %), whose own error is added (16 members and 1 % unless stated). Scatter and stated error in
-//! rad/s; the load over the largest torque.
+//! Coverage: of 100 ensembles with other seeds, the number whose 95 % intervals contain the mean of three
+//! long ones (64 members, 0.2 %), whose own error is added (16 members and 1 % unless stated). Scatter and
+//! stated error in rad/s; the load over the largest torque.
 //!
 //! | motor | load | scatter | stated | hold |
 //! | --- | --- | --- | --- | --- |
@@ -14,8 +14,8 @@
 //! | 40 kHz, 0.5 um, 5 N, 12 rad/s, lag 30 degrees | 0.5 | 0.055 | 0.054 | 92 |
 //! | | 0.8 | 0.069 | 0.059 | 91 |
 //!
-//! Stall loads: 40 kHz, against four runs of 64 members at 0.2 %, 99 of 100 at 5 %, 95 at 2 %, 92 at 1 %; Table III
-//! at 5 %, against three runs at 0.3 %, 39 of 40.
+//! Stall loads: for 40 kHz, compared with four runs of 64 members at 0.2 %, 99 of 100 at 5 %, 95 at 2 %, 92
+//! at 1 %; for Table III at 5 %, compared with three runs at 0.3 %, 39 of 40.
 
 use std::f64::consts::{PI, TAU};
 
@@ -32,7 +32,7 @@ use crate::motor::{Estimate, TransientSettings};
 use crate::testing::{check_stops, motor, refused, tried_motor};
 use crate::{Engine, InitialCondition, Motor};
 
-/// Mass of the rotor (kg): any will do.
+/// Mass of the rotor (kg); its value does not matter.
 const MASS: f64 = 0.02;
 
 /// This motor under a share of the largest mean torque of friction.
@@ -50,9 +50,9 @@ fn operated(motors: &[LoadedMotor<'_>], settings: &OperatingSettings) -> Vec<Ope
         .collect()
 }
 
-/// The energy that comes in is the work done, the losses and what is stored: over whole runs, with loads that
-/// brake, drive and nearly run away, on platforms of every strength, with and without twist, friction and
-/// rebound.
+/// The energy supplied equals the work done, the losses and the stored energy: over whole runs, with loads
+/// that brake, drive and nearly run away, on platforms of every strength, with and without twist, friction
+/// and rebound.
 #[test]
 fn energy_is_balanced() {
     let settings = OperatingSettings {
@@ -76,13 +76,13 @@ fn energy_is_balanced() {
         motors.push(loaded(&slippery, 0.0));
         for operation in operated(&motors, &settings) {
             let point = operation.point().expect("none runs away");
-            // Each impact, or event of a contact, rounds the energy of the rotor once, at worst always to one
-            // side.
+            // Each impact, or event of a contact, rounds the energy of the rotor once, in the worst case
+            // always in the same direction.
             let events = point.impacts.max(50_000);
             let rounding = events as f64 * f64::EPSILON;
             assert!(point.energy_residual < rounding, "{operation:?}");
             if operation.steady().is_some() {
-                // The same of the means, but for what the disk has stored in the meantime.
+                // The same holds for the means, apart from the energy that the disk has stored meanwhile.
                 let put_in = point.input_power.value + point.perturbation_power;
                 let out =
                     point.mechanical_power.value + point.restitution_loss.value + point.friction_loss.value;
@@ -115,7 +115,7 @@ fn half_a_circle_of_lag_turns_the_motor_round() {
     }
 }
 
-/// Friction gives mu m g a_e on average at most: the seam is there, and to the last bit.
+/// Friction gives at most mu m g a_e on average: the limit lies there, to the last bit.
 #[test]
 fn a_load_above_the_largest_torque_of_friction_runs_away() {
     let settings = OperatingSettings { relative_error: 0.5, members: 4, ..OperatingSettings::default() };
@@ -128,7 +128,7 @@ fn a_load_above_the_largest_torque_of_friction_runs_away() {
     let friction = base.dimensionless().friction();
     for load in [friction, 1.5 * friction, -friction, -2.0 * friction, 1e6] {
         let mut motor = exact(load);
-        // The unit may round the load below the friction.
+        // Conversion of units may round the load below the friction.
         if motor.load().abs() < friction {
             motor = exact(load * (1.0 + 2.0 * f64::EPSILON));
         }
@@ -154,7 +154,7 @@ fn a_load_above_the_largest_torque_of_friction_runs_away() {
             assert!(matches!(operation.operation(), Operation::Runaway { .. }), "{newtons} {operation:?}");
         }
     }
-    // What nothing holds, nothing drives: it stands still to the bit. The least load runs away with it.
+    // A rotor that nothing holds or drives stands exactly still. The least load runs away with it.
     let slippery = base.with_disk(|rotor| rotor.friction = 0.0).expect("legal");
     let still = LoadedMotor::on_sine(slippery, MASS, 0.0);
     let point = *operated(&[still], &settings)[0].steady().expect("steady");
@@ -163,8 +163,8 @@ fn a_load_above_the_largest_torque_of_friction_runs_away() {
     assert!(matches!(operated(&[pushed], &settings)[0], Operation::Runaway { .. }));
 }
 
-/// The engine followed without perturbation locks on a cycle that the rounding has chosen, with a perfect
-/// energy balance: what a new user took for the motor's speed.
+/// The engine without perturbation locks on a cycle selected by rounding, with a perfect energy balance,
+/// which a new user took for the motor's speed.
 #[test]
 fn the_cycle_of_the_rounding_is_not_mistaken_for_the_motor() {
     let settings = OperatingSettings::default();
@@ -184,15 +184,15 @@ fn the_cycle_of_the_rounding_is_not_mistaken_for_the_motor() {
     let (time, angle) = begun.expect("it has begun");
     let units = motor.system.scales();
     let mean = (engine.state().angle - angle) / engine.time().since(&time).radians() * units.angular_speed;
-    // 8.4 rad/s for 5.7, and nothing in its energies warns.
+    // 8.4 rad/s instead of 5.7, and no warning in its energies.
     assert!(ledger.relative_closure() < 1e-12);
     assert!((mean - point.speed.value).abs() > 20.0 * point.speed.standard_error, "{mean} {point:?}");
     assert!(point.speed.standard_error <= 0.01 * 8.0, "{point:?}");
     assert!(point.perturbation_power < 1e-6 * point.input_power.value, "{point:?}");
     let zero = OperatingSettings { relaunch_perturbation: 0.0, ..settings };
     refused("relaunch_perturbation", [zero], |zero| operate(&[motor], &zero, &Unobserved).map(|_| ()));
-    // Ten times more or less of it, or other seeds: the same within the errors, and these are those of the
-    // mean.
+    // Ten times more or less perturbation, or other seeds, give the same within the errors, which are errors
+    // of the mean.
     let mut deviations = Vec::new();
     for (relaunch_perturbation, seed) in [(1e-2, 1), (1e-4, 1), (1e-3, 2), (1e-3, 300), (1e-3, 4000)] {
         let other = OperatingSettings { relaunch_perturbation, seed, ..settings };
@@ -204,7 +204,7 @@ fn the_cycle_of_the_rounding_is_not_mistaken_for_the_motor() {
     assert!(deviations.iter().all(|deviation| deviation.abs() < 4.0), "{deviations:?}");
 }
 
-/// The end of the curve without load is what the transients rise to.
+/// The end of the curve without load is the speed to which the transients rise.
 #[test]
 fn the_speed_without_load_is_that_of_the_transients() {
     let system = motor(1e-8, 0.0);
@@ -232,11 +232,12 @@ fn a_spent_budget_is_said() {
         panic!("{operation:?}")
     };
     assert!(standard_error > wanted && (wanted / 21.4e-4 - 1.0).abs() < 0.05, "{operation:?}");
-    // Windows are judged as if they were equally long: they are but for an event.
+    // Windows are judged as if they were equally long, which they are up to one event.
     assert!((standard_error - point.speed.standard_error).abs() <= 0.01 * standard_error);
     assert_eq!(operation.steady(), None);
     assert_eq!(operation.point(), Some(&point));
-    // Of a rotor that the load drives back faster than it turns without one, the error is a share of its own speed.
+    // If the load drives a rotor back faster than it turns without one, the error is a share of its own
+    // speed.
     let motor = loaded(&system, 0.97);
     let operation = operated(&[motor], &OperatingSettings { members: 4, ..settings })[0];
     let Operation::Unsettled(point, Shortfall::Error { wanted, .. }) = operation else {
@@ -276,8 +277,8 @@ fn illegal_settings_are_named() {
     assert!(matches!(error, Error::NotShared { .. }), "{error}");
 }
 
-/// Where the platform hardly falls away, or the disk never comes to rest: a number with its error, or what it
-/// lacks.
+/// If the platform hardly falls away, or the disk never comes to rest: a number with its error, or a
+/// shortfall.
 #[test]
 fn platforms_of_every_strength_are_judged() {
     let settings = OperatingSettings {
@@ -308,8 +309,8 @@ mod searches {
     use super::*;
     use crate::motor::operation::stall_load::stall_load;
 
-    /// Under the stall load the motor stands still; a little less and it turns, a little more and it is
-    /// driven back. The paper's estimate from the transient is another number.
+    /// Under the stall load the motor stands still; under slightly less it turns, and under slightly more it
+    /// is driven back. The paper's estimate from the transient is another number.
     #[test]
     fn the_stall_load_is_bracketed_by_what_turns_and_what_does_not() {
         let settings = OperatingSettings::default();
@@ -333,7 +334,7 @@ mod searches {
             let slope = (speed(2) - speed(0)) / (high - low);
             let off = speed(1) / slope;
             assert!(off.abs() < 2.0 * stall.torque.standard_error, "{stall:?} is off by {off}");
-            // The speeds are known to 1 % of that without load and what the perturbation changes.
+            // The speeds are known to 1 % of the no-load speed, plus the effect of the perturbation.
             assert!(stall.torque.standard_error < 2e-2 * stall.torque.value.abs(), "{stall:?}");
             // Other members than those that found it.
             let others = OperatingSettings { seed: 77, ..settings };
@@ -350,8 +351,8 @@ mod searches {
         }
     }
 
-    /// The many small impacts of a motor at 1 nm are not enough to be rid of the start-up: the loads that its
-    /// speeds seem to vanish at had errors of a ten-thousandth.
+    /// The many small impacts of a motor at 1 nm do not suffice to complete the start-up: the loads at which
+    /// its speeds appeared to vanish once had stated errors of a ten-thousandth.
     #[test]
     fn a_stall_is_refused_where_speeds_still_drift() {
         let motor = loaded(&motor(1e-9, 0.0), 0.0);
@@ -374,9 +375,9 @@ mod searches {
     }
 }
 
-/// However loose the error is that is asked for, the one that is stated is true: the speeds differ from those
-/// of long runs with other seeds by as much as both errors say. A start-up that was taken for steady made
-/// them five errors too small.
+/// However loose the requested error, the stated one is true: the speeds differ from those of long runs with
+/// other seeds by as much as both errors allow. A start-up taken for a steady state once made them wrong by
+/// five errors.
 #[test]
 fn stated_errors_hold_where_loose_ones_are_asked_for() {
     let mut random = SplitMix64::new(7);
@@ -394,13 +395,12 @@ fn stated_errors_hold_where_loose_ones_are_asked_for() {
         let speed = |relative_error: f64, seed: u64| {
             let settings = OperatingSettings { relative_error, seed, ..OperatingSettings::default() };
             let operation = operated(&[loaded(&system, share)], &settings)[0];
-            // What the perturbation changes may be more than is asked for.
+            // The effect of the perturbation may exceed the requested error.
             operation.point().unwrap_or_else(|| panic!("{operation:?}")).speed
         };
         let (loose, long) = (speed(0.5, seed), speed(0.02, 100 + seed));
         let error = hypot(loose.standard_error, long.standard_error);
-        // Of a motor that locks on one motion, and is known to far better than was asked for, nothing is
-        // said.
+        // A motor that locks on one motion, and is known far better than requested, is not judged.
         if error > 1e-4 * long.value.abs() {
             let errors = (loose.value - long.value) / error;
             assert!(errors.abs() < 4.0, "{system:?} {loose:?} {long:?}");
@@ -411,8 +411,8 @@ fn stated_errors_hold_where_loose_ones_are_asked_for() {
 }
 
 /// The motor of Table III with a lag of 0.5 and a preload for a forcing of 3, under half of the largest
-/// torque: 5.482(12) rad/s by `experiments/judge`, which shares nothing with this crate. As the load slows
-/// the rise, a quarter of the time that it takes without one left speeds down to 4.9 that were stated to
+/// torque: 5.482(12) rad/s by `experiments/judge`, which shares nothing with this crate. The load slows the
+/// rise. After a quarter of the unloaded rise time, speeds were once as low as 4.9 with a stated error of
 /// 0.09.
 #[test]
 fn speeds_under_a_load_that_slows_the_rise_have_true_errors() {
@@ -431,8 +431,9 @@ fn speeds_under_a_load_that_slows_the_rise_have_true_errors() {
     assert!(within + 1 >= tries, "{within} of {tries}");
 }
 
-/// A rotor that is hit once in each period has the stator's speed after each impact, and its load slows it in flight: the
-/// range is what one flight takes, and the mean falls with the load as if the time constant was half of a period.
+/// A rotor that is hit once in each period has the stator's speed after each impact, and its load slows it in
+/// flight. So the range is the loss in one flight, and the mean falls with the load as if the time constant
+/// were half a period.
 #[test]
 fn a_locked_motor_has_the_range_and_the_time_constant_of_its_flights() {
     let base = System::motor();
@@ -461,7 +462,7 @@ fn a_locked_motor_has_the_range_and_the_time_constant_of_its_flights() {
     }
 }
 
-/// The speed of an irregular motion is nearly normal about its mean.
+/// The speed of an irregular motion is nearly normally distributed about its mean.
 #[test]
 fn the_range_of_an_irregular_motion_has_its_deviation() {
     let system = motor(1e-8, 0.0);
@@ -474,13 +475,13 @@ fn the_range_of_an_irregular_motion_has_its_deviation() {
     assert!(((high.value - low.value) / (2.0 * NORMAL_975 * deviation) - 1.0).abs() < 0.2, "{point:?}");
 }
 
-/// Two rotors beside the steady speed, on one vertical motion, come nearer to each other by a factor e in the time constant that
-/// the slope of the torque-speed curve says.
+/// Two rotors near the steady speed, on one vertical motion, approach each other by a factor e in the time
+/// constant given by the slope of the torque-speed curve.
 #[test]
 fn the_time_constant_is_that_of_the_approach() {
     let system = motor(1e-8, 0.0);
     let motors = [loaded(&system, 0.0), loaded(&system, 0.05)];
-    // So few members have one size of the perturbation.
+    // With so few members all have the same perturbation size.
     let settings = OperatingSettings { members: 6, relative_error: 0.003, ..OperatingSettings::default() };
     let row = operate(&motors, &settings, &Unobserved).expect("no failure").rows.remove(0);
     let point = row.point().expect("none runs away");
@@ -502,13 +503,13 @@ fn the_time_constant_is_that_of_the_approach() {
         ((high - low) / (2.0 * apart), window.axial.duration * scales.time / constant.value)
     };
     let (left, times): (Vec<f64>, Vec<f64>) = (0..64).map(decay).unzip();
-    // Rotors that meet stay together: the mean of what is left decays.
+    // Rotors that meet stay together, so the mean of the remaining differences decays.
     let (found, expected) = (Estimate::of(&left).expect("finite"), exp(-mean(&times)));
     let error = hypot(found.standard_error, expected * (constant.standard_error / constant.value));
     assert!((found.value - expected).abs() < 3.0 * error && error < 0.1, "{found:?} {expected} {constant:?}");
 }
 
-/// A ball that is thrown in time with an elastic platform is thrown ever higher: no mean of it is steady.
+/// A ball thrown in time with an elastic platform is thrown ever higher, so it has no steady mean.
 #[test]
 fn a_disk_that_stores_what_it_is_given_is_not_steady() {
     let settings = OperatingSettings {

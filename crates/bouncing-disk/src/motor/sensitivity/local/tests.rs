@@ -21,12 +21,12 @@ fn near(one: &LocalSensitivity, truth: f64) -> bool {
     (one.derivative.value - truth).abs() <= 4.0 * one.derivative.standard_error + 1e-6
 }
 
-/// What the units relate.
+/// Parameters that the units relate.
 const RELATED: [P; 5] =
     [P::Friction, P::PeakAngularSpeed, P::ContactRadius, P::GyrationRadius, P::LoadTorque];
 
-/// What follows from the units: the rotary motion knows friction, twist and radii only as mu and as Q = a_g^2
-/// Phi omega^2 /(a_e g), and a speed is Q times a function of Q/mu without load.
+/// Consequences of the units: the rotary motion depends on friction, twist and radii only through mu and Q =
+/// a_g^2 Phi omega^2 /(a_e g), and without load a speed is Q times a function of Q/mu.
 #[test]
 fn exponents_of_the_speed_obey_the_units() {
     let motor = Motor::paper_70_khz();
@@ -39,7 +39,7 @@ fn exponents_of_the_speed_obey_the_units() {
     assert!(near(&contact, friction.derivative.value), "{contact:?} {friction:?}");
     assert!(near(&gyration, -2.0 * friction.derivative.value), "{gyration:?} {friction:?}");
     assert!(load.derivative.value < -0.3, "{load:?}");
-    // Friction leaves the speed alone (Fig. 13).
+    // The speed does not depend on friction (Fig. 13).
     assert!(friction.derivative.value.abs() < 0.1, "{friction:?}");
     for one in [friction, twist, contact, gyration, load] {
         assert!(one.derivative.standard_error < 0.1, "{one:?}");
@@ -64,7 +64,7 @@ fn exponents_of_the_stall_obey_the_units() {
     assert!((friction.derivative.value - 1.0).abs() < 0.1, "{friction:?}");
 }
 
-/// Differences on shared motions against motors that are operated one by one.
+/// Differences on shared motions, compared with motors that are operated one by one.
 #[test]
 fn differences_are_those_of_whole_operations() {
     let motor = Motor::paper_70_khz()
@@ -91,7 +91,7 @@ fn differences_are_those_of_whole_operations() {
     assert!(lag.derivative.value < -0.5, "{lag:?}");
 }
 
-/// The speed knows neither the preload nor the amplitude (Sec. V).
+/// The speed depends on neither the preload nor the amplitude (Sec. V).
 #[test]
 fn the_speed_is_fitted_over_a_range_of_the_vertical_motion() {
     let motor = Motor::paper_70_khz();
@@ -110,7 +110,7 @@ fn the_speed_is_fitted_over_a_range_of_the_vertical_motion() {
 #[test]
 fn the_stall_is_fitted_over_a_range_of_preloads() {
     let motor = Motor::paper_70_khz();
-    // A wide range makes up for rough stalls, which cost little.
+    // A wide range makes up for rough stalls, which are cheap.
     let operating = OperatingSettings { relative_error: 0.1, members: 4, ..quick().operating };
     let settings = SensitivitySettings { operating, half_range: 0.7, ..quick() };
     let stall = motor
@@ -123,8 +123,8 @@ fn the_stall_is_fitted_over_a_range_of_preloads() {
 #[test]
 fn lines_have_the_errors_of_textbooks() {
     let line = RegressionLine::through(&[-1.0, 0.0, 1.0, 2.0], &[1.0, 3.0, 4.0, 8.0]);
-    // By hand: rests 0.3, 0.1, -1.1, 0.7 about 2.9 + 2.2 x, their variance 1.8/2; squares of the offsets 5.
-    // The interval is Student's with two degrees of freedom.
+    // By hand: residuals 0.3, 0.1, -1.1, 0.7 about 2.9 + 2.2 x, with variance 1.8/2; squares of the offsets
+    // 5. The interval is Student's with two degrees of freedom.
     assert!((line.slope - 2.2).abs() < 1e-14 && (line.centre - 2.9).abs() < 1e-14);
     assert!(
         (line.scatter - 0.9_f64.sqrt()).abs() < 1e-14
@@ -132,7 +132,7 @@ fn lines_have_the_errors_of_textbooks() {
     );
 }
 
-/// Odd polynomials of as many terms have their slopes exactly, and the least squares those of more terms
+/// Odd polynomials with this number of terms have exact slopes, and least squares give those with more terms
 /// nearly.
 #[test]
 fn slopes_are_those_of_odd_polynomials() {
@@ -161,7 +161,7 @@ fn what_has_no_sensitivity_is_refused() {
     let still = P::PeakAngularSpeed.set(&motor, 0.0).expect("legal");
     let error = of(&still, &[P::Friction], &quick()).expect_err("still");
     assert!(matches!(error, Error::DoesNotTurn { .. }), "{error}");
-    // A load that one of the differences cannot hold.
+    // A load that one of the differences would take beyond the limit.
     let loaded = P::LoadTorque.set(&motor, 0.97 * motor.largest_torque()).expect("legal");
     let error = of(&loaded, &[P::LoadTorque], &quick()).expect_err("runs away");
     assert!(matches!(error, Error::Overpowered { .. }), "{error}");
@@ -170,7 +170,7 @@ fn what_has_no_sensitivity_is_refused() {
         with(SensitivitySettings { half_range, ..quick() })
     });
     refused("points", [4, 10_001], |points| with(SensitivitySettings { points, ..quick() }));
-    // A plastic rotor repeats a ramp whatever the preload: nothing is left for a line.
+    // A plastic rotor repeats a ramp whatever the preload, so no points are left for a line.
     let plastic = P::Restitution.set(&motor, 0.0).expect("legal");
     let error = of(&plastic, &[P::Preload], &quick()).expect_err("traps");
     assert!(matches!(error, Error::TooFewMotors { left, traps, needed: 5 } if left + traps == 8), "{error}");
@@ -187,7 +187,7 @@ fn sensitivities_can_be_stopped() {
     }
 }
 
-/// A parameter that is set is the one that is read, and the others are kept.
+/// A parameter that is set is read back, and the others are unchanged.
 #[test]
 fn parameters_are_set_one_by_one() {
     let motor = Motor::paper_70_khz().with(|sheet| sheet.load_torque = 1e-6).expect("legal");

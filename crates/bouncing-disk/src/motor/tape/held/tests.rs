@@ -1,5 +1,5 @@
-//! Held amplitudes, for 40 kHz, 60 g, Q = 200 and contacts of 0.56 periods, against fourth-order integration in small
-//! steps with the amplitude held and free:
+//! Held amplitudes for 40 kHz, 60 g, Q = 200 and contacts of 0.56 periods, compared with fourth-order
+//! integration in small steps, with the amplitude held and free:
 //!
 //! | preload | held (nm) | small steps, held (nm) | small steps, free (nm) |
 //! | --- | --- | --- | --- |
@@ -49,17 +49,17 @@ fn rigid(sheet: &mut MotorParameters, _: &mut StatorParameters) {
     sheet.contact = None;
 }
 
-/// So sharp that it rings for 32,000 periods, and as far without a rotor.
+/// So sharp that it rings for 32,000 periods, with the same amplitude without a rotor.
 fn sharp(_: &mut MotorParameters, table: &mut StatorParameters) {
     (table.quality, table.volts) = (Some(1e5), Some(0.04));
 }
 
-/// 2000 times as heavy as the rotor, and as far without it.
+/// 2000 times as heavy as the rotor, with the same amplitude without it.
 fn heavy(_: &mut MotorParameters, table: &mut StatorParameters) {
     (table.mass, table.volts) = (Some(40.0), Some(20.0 * (40.0_f64 / 0.06).sqrt()));
 }
 
-/// The held amplitudes, those in nm, and the stator without friction.
+/// The held amplitudes, also in nm, and the stator without friction.
 fn held(motor: &Motor) -> (Vec<Held>, Vec<(f64, bool)>, StatorSystem) {
     let system = motor.on_shaft().expect("legal");
     let still = system.with_disk(|disk| disk.friction = 0.0).expect("legal");
@@ -72,11 +72,11 @@ fn held(motor: &Motor) -> (Vec<Held>, Vec<(f64, bool)>, StatorSystem) {
     (found, amplitudes, own)
 }
 
-/// A held amplitude is where a run starts, and no result: it need not be nearer than this share.
+/// A held amplitude is a start for a run, not a result, so an error of this share is acceptable.
 const START: f64 = 5e-3;
 
-/// A program of small steps of fourth order (1000 in a period), which holds the amplitude and halves brackets, finds the
-/// same, unstable ones included.
+/// A program with fourth-order steps (1000 per period), which holds the amplitude and bisects brackets, finds
+/// the same amplitudes, including unstable ones.
 #[test]
 fn held_amplitudes_are_those_of_small_steps() {
     let at_seven = [(7.2946, true), (11.1613, false)];
@@ -87,12 +87,12 @@ fn held_amplitudes_are_those_of_small_steps() {
             assert!(found.iter().any(|one| is_it(&one)), "{newtons}: {found:?}");
         }
     }
-    // It lies on the stator: amplitude of the linear motion of both.
+    // It lies on the stator: the amplitude of their joint linear motion.
     let (_, found, _) = held(&in_volts(12.0, |_, _| {}));
     assert!((found[0].0 / 5.9235 - 1.0).abs() < 1e-4, "{found:?}");
 }
 
-/// A disk that lies on the stator has its linear motion from the start: period by period to rounding.
+/// A disk that lies on the stator has its linear motion from the start, in every period to rounding.
 #[test]
 fn a_disk_that_lies_on_the_stator_starts_on_its_steady_motion() {
     type Change = fn(&mut MotorParameters, &mut StatorParameters);
@@ -121,8 +121,8 @@ fn a_disk_that_lies_on_the_stator_starts_on_its_steady_motion() {
     }
 }
 
-/// On a heavy stator the amplitude stays where it is held, which needs the right phase of the drive: within 40 periods
-/// a wrong one would be halfway corrected.
+/// On a heavy stator the amplitude stays at the held value only with the right phase of the drive: within 40
+/// periods a wrong one would be half corrected.
 #[test]
 fn a_run_on_a_held_amplitude_keeps_it() {
     let (found, _, system) = held(&in_volts(5.0, heavy));
@@ -148,14 +148,14 @@ fn is_at(point: &OperatingPoint, speed: [f64; 2], amplitude: [f64; 2]) -> bool {
     (point.speed.value - speed[0]).abs() < speed[1] && (own - amplitude[0]).abs() < amplitude[1]
 }
 
-/// Amplitudes and speeds by small steps of fourth order of stator and rotor, under 2 mN m.
+/// Amplitudes and speeds from fourth-order integration of stator and rotor in small steps, under 2 mN m.
 #[test]
 fn operations_on_a_stator_that_yields_are_those_of_small_steps() {
     let lies = operated(&in_volts(12.0, |_, _| {}), 2e-3);
     let point = lies.steady().expect("settled");
     assert_eq!(lies.branches.len(), 1, "{lies:?}");
     assert!(is_at(point, [5.63, 0.03], [5.9235, 1e-3]), "{point:?}");
-    // Two states, by the start.
+    // Two states, depending on the start.
     let both = operated(&in_volts(8.0, |_, _| {}), 2e-3);
     let points: Vec<_> = both.branches.iter().map(|own| own.steady().expect("settled")).collect();
     assert!(points.iter().any(|own| is_at(own, [7.291, 0.03], [6.3458, 1e-3])), "{both:?}");
@@ -163,7 +163,7 @@ fn operations_on_a_stator_that_yields_are_those_of_small_steps() {
     assert_eq!(points.len(), 2);
 }
 
-/// Run from rest, small steps come to these only after hundreds of thousands of periods.
+/// From rest, integration in small steps reaches these only after hundreds of thousands of periods.
 #[test]
 fn stators_that_ring_for_long_settle() {
     let row = operated(&in_volts(5.0, sharp), 0.0);
@@ -175,8 +175,9 @@ fn stators_that_ring_for_long_settle() {
     assert!(points.iter().any(|own| is_at(own, [8.4, 0.2], [504.73, 0.03])), "{row:?}");
 }
 
-/// With rigid impacts on a stator of 20 rotors and quality 1000 the motion is irregular on either of two amplitudes: 4.977 nm
-/// from rest, and 45.8(1.1) nm, at 9.140 and 8.75(4) rad/s by small steps.
+/// With rigid impacts on a stator of 20 rotor masses and quality 1000 the motion is irregular at either of
+/// two amplitudes: 4.977 nm from rest, and 45.8(1.1) nm, at 9.140 and 8.75(4) rad/s by integration in small
+/// steps.
 #[test]
 fn irregular_motions_on_two_amplitudes_are_two_branches() {
     let motor = in_volts(5.0, |sheet, table| {

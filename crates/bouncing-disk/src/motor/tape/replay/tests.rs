@@ -3,8 +3,8 @@ use bouncing_disk_core::sweep::LaneRunner;
 
 use super::*;
 
-/// A step by many small ones that know no closed form: friction acts against the slip, and holds where the pull is
-/// weaker.
+/// A step divided into many small ones without closed forms: friction acts against the slip, and holds if the
+/// pull is weaker.
 fn small_steps(step: Step, mut speed: f64) -> Slid {
     const COUNT: usize = 200_000;
     let (mut slid, share) =
@@ -14,7 +14,7 @@ fn small_steps(step: Step, mut speed: f64) -> Slid {
         let stator = step.from + gained * (index as f64 + 0.5) * share;
         let slip = speed - stator;
         let most = step.friction * share;
-        // The speed of a rotor that friction does not act on, against where the stator then is.
+        // The speed of a rotor without friction, relative to the stator's speed at that time.
         let free = slip - (gained + step.load) * share;
         let impulse = (-free).clamp(-most, most);
         let after = speed - step.load * share + impulse;
@@ -39,7 +39,7 @@ fn a_step_is_what_small_steps_make_of_it() {
             friction: [0.0, between(0.0, 0.3), between(0.5, 3.0)][trial % 3],
             load: [0.0, between(-0.5, 0.5)][trial % 2],
         };
-        // Next to the stator's speed, on it, and far from it.
+        // Near the stator's speed, equal to it, and far from it.
         for speed in [step.from, step.from + 1e-9, between(-1.5, 1.5), 5.0, -5.0] {
             let (own, known) = (step.slide(speed), small_steps(step, speed));
             let size = 1.0 + speed.abs();
@@ -52,7 +52,7 @@ fn a_step_is_what_small_steps_make_of_it() {
             ] {
                 assert!((one - other).abs() < 1e-4 * size * size, "{step:?} {speed}: {own:?} {known:?}");
             }
-            // What comes in goes out.
+            // The energy supplied equals the energy used.
             let kinetic = 0.5 * (own.speed - speed) * (own.speed + speed);
             let left = own.work - own.loss - step.load * (own.angle / step.span) - kinetic;
             assert!(left.abs() < 1e-14 * size * size, "{step:?} {speed}: {left}");
@@ -61,7 +61,8 @@ fn a_step_is_what_small_steps_make_of_it() {
     }
 }
 
-/// In flight the exact decay on each line is that of small steps, through nodes of the law and where it drives.
+/// In flight the exact decay on each piece agrees with small steps, across nodes of the law and where it
+/// drives.
 #[test]
 fn a_flight_under_a_law_is_what_small_steps_make_of_it() {
     let law = [
@@ -105,7 +106,7 @@ fn a_flight_under_a_law_is_what_small_steps_make_of_it() {
     }
 }
 
-/// A rotor that is held at rest gets the force where the stator turns forwards less the rest.
+/// A rotor held at rest gets the impulse of the time during which the stator turns forwards minus the rest.
 #[test]
 fn a_held_rotor_gets_the_difference_of_both_directions() {
     let held = |from: f64, to: f64| {
@@ -120,7 +121,8 @@ fn a_held_rotor_gets_the_difference_of_both_directions() {
     }
 }
 
-/// Of a rotor that slides throughout, an even force takes what the sine says: a chord as long as the arc on average.
+/// On a rotor that slides throughout, a constant force does the work that the exact sine implies: on average
+/// a chord is as long as the arc.
 #[test]
 fn a_slide_on_a_sine_takes_its_mean_speed() {
     use std::f64::consts::FRAC_PI_2;
@@ -140,7 +142,7 @@ fn a_slide_on_a_sine_takes_its_mean_speed() {
     });
     // Friction 0.1 times the force 3 times the integral of 2 cos over a quarter of a period.
     let done = rotors[0].rows.tally;
-    // The series of the chord leaves out 17 h^6/20160 and less.
+    // The series of the chord omits terms of 17 h^6/20160 and smaller.
     let step = std::f64::consts::TAU / 32.0;
     let cube = step * step * step;
     let left_out = 17.0 / 20_160.0 * cube * cube;

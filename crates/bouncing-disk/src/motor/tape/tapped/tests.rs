@@ -12,8 +12,8 @@ use crate::motion::energy::EnergyLedger;
 use crate::motion::event::{Event, Motion, SteeredMotion};
 use crate::motion::phase_time::phase_at;
 
-/// Times, speeds and energies of a tap agree to this share of their sizes, which for the energies are those of
-/// the engine's terms; each balance closes to a tenth of it.
+/// Times, speeds and energies of a tap agree to this share of their magnitudes (for energies, of the engine's
+/// terms); each balance closes to a tenth of it.
 const AGREEMENT: f64 = 1.0e-11;
 
 /// A system; its contact time is in periods.
@@ -32,7 +32,7 @@ struct Case {
 const MOTOR: Case =
     Case { peak: 197.4, twist: 4.27e5, lag: 0.0, load: 0.0, friction: 1.0, restitution: 0.5, periods: 1.0 };
 
-/// A rotor in both, and how many of the taps were decided.
+/// A rotor in both, and the number of taps that were decided.
 struct Pair {
     case: Case,
     engine: DrivenEngine,
@@ -63,7 +63,7 @@ impl Pair {
         Self { case, engine, tapped, taps: 0, decided: 0 }
     }
 
-    /// A tap from a release; nothing if the disk is not released any more.
+    /// A tap from a release; `None` if the disk is not released again.
     fn tap(&mut self, time: PhaseTime, launch: [f64; 2], speed: f64) -> Option<()> {
         let Self { case, engine, tapped, .. } = self;
         engine.fly_from(time, launch, speed);
@@ -85,7 +85,7 @@ impl Pair {
             let fastest = 1.0 + case.twist + speed.abs() + case.load.abs() * duration;
             let velocity = 1.0 + case.peak + launch[1] + launched[1];
             let (size, twist) = (ledger.axial_magnitude, ledger.rotary_magnitude);
-            // The impulse is a difference of the platform's speeds, with some eight roundings of each.
+            // The impulse is a difference of the platform's speeds, with about eight roundings of each.
             let rounding = 16.0 * f64::EPSILON / AGREEMENT * case.friction * (1.0 + case.peak) * fastest;
             let kinetic = 0.5 * (own - speed) * (own + speed);
             let load = case.load * done.angle;
@@ -110,7 +110,7 @@ impl Pair {
         engine.flight().map(|_| ())
     }
 
-    /// So many taps one after the other, with perturbations.
+    /// This number of consecutive taps, with perturbations.
     fn follow(&mut self, taps: u64) {
         let mut random = SplitMix64::new(7);
         while self.engine.flight().is_none() {
@@ -128,7 +128,7 @@ impl Pair {
     }
 }
 
-/// Evenly distributed logarithms.
+/// Uniformly distributed logarithms.
 fn between(random: &mut SplitMix64, low: f64, high: f64) -> f64 {
     low * exp(random.unit() * ln(high / low))
 }
@@ -173,8 +173,8 @@ fn taps_of_any_system_are_those_of_the_engine() {
     assert!(taps > 5_000 && decided > taps / 2, "{decided} {taps}");
 }
 
-/// Releases with next to no speed, rotors at the extremes of the platform's speed, and at its speed where the
-/// disk touches and leaves it.
+/// Releases with almost no speed, rotors at the extremes of the platform's speed, and at its speed at touch
+/// or release.
 #[test]
 fn taps_on_seams_are_those_of_the_engine_or_left_to_it() {
     let mut random = SplitMix64::new(5);
@@ -215,7 +215,8 @@ fn taps_on_seams_are_those_of_the_engine_or_left_to_it() {
     assert!(decided > taps / 2, "{decided} {taps}");
 }
 
-/// Both against steps of 1/2000 of a period that know only the law of the force, sliding friction and flight.
+/// Both compared with steps of 1/2000 of a period that use only the law of the force, sliding friction and
+/// flight.
 #[test]
 fn a_motor_turns_as_small_steps_say() {
     for periods in [0.8, 2.0, 5.0] {
@@ -252,8 +253,8 @@ fn a_motor_turns_as_small_steps_say() {
     }
 }
 
-/// Releases from which the force nearly or really sets in and ends again within a radian, next to one at which it
-/// does so before the touch.
+/// Releases after which the force nearly or actually returns and ends again within a radian, next to one
+/// after which it does so before the touch.
 #[test]
 fn the_force_may_set_in_again_and_end_before_the_touch() {
     let mut random = SplitMix64::new(11);
