@@ -1,7 +1,7 @@
 //! A disk on a platform with any periodic motion: Fourier sums, piecewise polynomials, measured waveforms.
 //!
-//! The laws are the same as in [`motion`](crate::motion), but the height s and the angle beta may be any
-//! periodic functions. In contact the force is N = 1 + s'' (Eq. 3), and a sliding disk accelerates at
+//! The laws are the same as in [`motion`](crate::motion), but the height s and the angle beta of Eq. (1) may
+//! be any periodic functions. In contact the force is N = 1 + s'' (Eq. 3), and a sliding disk accelerates at
 //! -sgn(w_T) mu N - l (Eqs. 4 and 12). Impacts follow Eqs. (5) to (10). Unlike the sine, a drive may have
 //! *kinks*, at which its velocity jumps. If the height's velocity jumps down, the platform leaves the disk
 //! behind; if it jumps up, the platform hits a disk in contact ([`Event::Kick`](crate::Event::Kick)); if the
@@ -120,11 +120,11 @@ impl DrivenSystem {
         self.with_compliance(compliance)
     }
 
-    /// As [`Self::with_contact_time`], with a spring that [unloads](Compliance::hysteretic) at a lower
+    /// Like [`Self::with_contact_time`], with a spring that [unloads](Compliance::hysteretic) at a lower
     /// stiffness instead of a damper.
     ///
     /// # Errors
-    /// As for [`Self::with_contact_time`].
+    /// The errors of [`Self::with_contact_time`].
     pub fn with_hysteretic_contact(self, contact_time: f64) -> Result<Self, Error> {
         let compliance = Compliance::hysteretic(contact_time, self.restitution)?;
         self.with_compliance(compliance)

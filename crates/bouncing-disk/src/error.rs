@@ -178,7 +178,7 @@ pub enum Error {
     Waveform {
         /// Height or angle.
         of: &'static str,
-        /// What is wrong.
+        /// The error.
         source: bouncing_disk_core::Error,
     },
     /// The pieces of a waveform do not join.

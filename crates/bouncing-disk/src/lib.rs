@@ -19,27 +19,27 @@
 //! The names at the root describe one disk on one platform. Everything else is in modules, each of which
 //! begins with an example and an equation:
 //!
-//! | chapter | about |
+//! | module | contents |
 //! | --- | --- |
-//! | [`parameters`] | stroke, units, and the numbers without units that decide the motion |
+//! | [`parameters`] | stroke, units, and the dimensionless numbers that determine the motion |
 //! | [`motion`] | states, segments and energies between events |
 //! | [`toss`] | single tosses, many tosses |
-//! | [`driven`] | platforms that move in any way: waveforms, their tosses |
-//! | [`stator`] | stators that yield: their modes feel the impacts and the friction |
+//! | [`driven`] | platforms with any periodic motion: waveforms and their tosses |
+//! | [`stator`] | compliant stators, whose modes react to impacts and friction |
 //! | [`motor`] | motors: run-up, speed under a load, sweeps, sensitivities |
 //! | [`estimate`] | fits of computed and measured speeds, with intervals |
 //! | `store` | the origin of files, and the journal of a long computation (feature `storage`) |
 //! | [`mod@core`] | the vertical motion: flights, the impact map and its orbits, attractors, chaos |
 //!
-//! | feature | default | what it does |
+//! | feature | default | effect |
 //! | --- | --- | --- |
-//! | `parallel` | yes | ensembles, grids and sweeps over the threads of rayon's pool, with the same bits |
+//! | `parallel` | yes | ensembles, grids and sweeps use the threads of rayon's pool, with the same bits |
 //! | `serde` | yes | `Serialize` for results; `Deserialize` for users' input |
 //! | `json` | yes | a motor's data sheet as JSON |
 //! | `toml` | no | a motor's data sheet as TOML |
 //! | `storage` | yes | provenance of stored files, and the journal of a long computation |
-//! | `fit` | no | what nobody knows of a motor from its transients, or from rated points |
-//! | `csv` | no | measured speeds from comma-separated files, sweeps written as such |
+//! | `fit` | no | estimates of unknown motor parameters from transients or catalogue points |
+//! | `csv` | no | reading measured speeds from CSV files, writing sweeps to them |
 //!
 //! Deserialising runs the same checks as construction: a value outside its range, a missing required key and
 //! an unknown key are errors. JSON has no infinity or NaN, so an infinite error bound or an undefined

@@ -10,12 +10,12 @@
 //! use bouncing_disk::core::{ChatterPolicy, Phase};
 //! use bouncing_disk::{Engine, Event, InitialCondition, System, Trajectory};
 //!
-//! // The dough of Table I, from rest on the hand, until it has landed for the first time.
+//! // The dough of Table I, from rest on the hand until its first landing.
 //! let start = InitialCondition::Contact { phase: Phase::new(0.0)?, angular_speed: 0.0 };
 //! let mut engine = Engine::new(System::pizza_toss(), start, ChatterPolicy::Complete)?;
 //! let thrown = Trajectory::record(&mut engine, |record| matches!(record.event, Event::Impact { .. }))?;
 //! assert!(thrown.records().iter().any(|record| record.event == Event::Separation));
-//! // Each term of the energy balance is computed on its own, and together they close.
+//! // Each term of the energy balance is computed separately, and together they close.
 //! assert!(thrown.ledger().relative_closure() < 1e-12);
 //! # Ok::<(), bouncing_disk::Error>(())
 //! ```

@@ -10,7 +10,7 @@
 //! use bouncing_disk::Motor;
 //! use bouncing_disk::motor::{OperatingSettings, Operation};
 //!
-//! // The motor of Table III under a fifth of the largest torque, its speed to 5 % of that without load.
+//! // The motor of Table III under a fifth of the largest torque, its speed known to 5 % of the no-load speed.
 //! let motor = Motor::paper_70_khz();
 //! let settings = OperatingSettings { relative_error: 0.05, ..OperatingSettings::default() };
 //! let load = 0.2 * motor.largest_torque();

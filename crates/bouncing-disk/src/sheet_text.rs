@@ -55,7 +55,7 @@ pub fn from_json<T: DeserializeOwned>(text: &str) -> Result<T, SheetTextError> {
 /// Reads a TOML table.
 ///
 /// # Errors
-/// As [`from_json`].
+/// The errors of [`from_json`].
 #[cfg(feature = "toml")]
 pub fn from_toml<T: DeserializeOwned>(text: &str) -> Result<T, SheetTextError> {
     let text = without_mark(text);

@@ -180,7 +180,7 @@ impl StatorSystem {
     /// rigid platform lasts `contact_time` (rad of the drive) and has the system's restitution.
     ///
     /// # Errors
-    /// As [`Self::new`]; for a contact time, also the errors of [`Compliance::new`], within
+    /// The errors of [`Self::new`]; for a contact time, also the errors of [`Compliance::new`], within
     /// [`CONTACT_TIMES`].
     pub fn build(
         system: &DimensionlessSystem,

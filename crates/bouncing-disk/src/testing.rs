@@ -87,7 +87,7 @@ impl Told for FitRefusal {
     }
 }
 
-/// A row of a table of rejected calls: `told` for each of these arguments.
+/// A row of a table of rejected calls: each of these arguments must give the error `told`.
 pub(crate) fn refused<A, T: Debug, E: Into<FitError>>(
     told: impl Told,
     arguments: impl IntoIterator<Item = A>,
@@ -203,7 +203,7 @@ pub(crate) fn golden_spread(k: u64) -> f64 {
     (k as f64 * 0.618_033_988_749_894_9) % 1.0
 }
 
-/// A number whose logarithm is uniform between those of `low` and `high`.
+/// A number between `low` and `high` with a uniformly distributed logarithm.
 pub(crate) fn log_uniform(low: f64, high: f64) -> impl Strategy<Value = f64> {
     let (low, high) = (
         bouncing_disk_core::numerics::elementary::ln(low),

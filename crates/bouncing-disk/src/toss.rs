@@ -10,7 +10,7 @@
 //! use bouncing_disk::System;
 //! use bouncing_disk::toss::{InitialSpin, single_toss};
 //!
-//! // The toss of Table I, and the same toss by a hand that is a tenth faster.
+//! // The toss of Table I, and the same toss by a hand that is faster by a tenth.
 //! let toss = single_toss(&System::pizza_toss(), InitialSpin::AbsoluteRest)?;
 //! let hand = System::pizza_toss().with_platform(|hand| hand.angular_frequency *= 1.1)?;
 //! let faster = single_toss(&hand, InitialSpin::AbsoluteRest)?;

@@ -316,8 +316,7 @@ impl Touching<'_> {
         let mut work = SlideWork::default();
         if periods > 0.0 {
             let one = self.slide_work_within(direction, at, speed, TAU);
-            // The slip in each period is that of the previous period minus the loss; the impulse of the force
-            // over a period is 2 pi.
+            // In each period the slip decreases by the loss; the impulse of the force over a period is 2 pi.
             let loss = TAU * (self.system.friction + direction.sign() * self.system.load);
             work.carried = periods * one.carried;
             work.slipped = periods * one.slipped - TAU * loss * 0.5 * periods * (periods - 1.0);

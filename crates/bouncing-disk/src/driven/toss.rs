@@ -73,7 +73,7 @@ pub fn single_toss(
 /// [`multi_toss`](crate::toss::multi_toss) on a platform with any periodic motion; kicks count as impacts.
 ///
 /// # Errors
-/// As [`multi_toss`](crate::toss::multi_toss); the errors of [`DrivenEngine::new`] and [`DrivenMap::new`];
+/// The errors of [`multi_toss`](crate::toss::multi_toss), [`DrivenEngine::new`] and [`DrivenMap::new`];
 /// [`Error::OutOfRange`] for a compliant contact, as cycles and exponents are defined for rigid impacts.
 pub fn multi_toss(
     system: DrivenSystem,

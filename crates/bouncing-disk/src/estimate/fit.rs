@@ -106,7 +106,7 @@ impl RampFit {
     /// As [`ExponentialFit::new`], with the ramp instead of the exponential.
     ///
     /// # Errors
-    /// As [`ExponentialFit::new`].
+    /// The errors of [`ExponentialFit::new`].
     pub fn new(times: &[f64], speeds: &[f64]) -> Result<Self, Error> {
         observed(&Unobserved, |work| Self::counted(times, speeds, work))
     }

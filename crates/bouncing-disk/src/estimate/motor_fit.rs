@@ -140,7 +140,7 @@ pub struct FittedPoint {
 /// };
 /// use bouncing_disk::motor::{TransientSettings, transient};
 ///
-/// // Synthetic: a run of the paper's motor with a friction of 0.2, where its data sheet says 0.1. Its clock is off.
+/// // Synthetic: a run of the paper's motor with friction 0.2 instead of the 0.1 in its data sheet. Its clock is off.
 /// let sheet = Motor::paper_70_khz();
 /// let built = sheet.with(|sheet| sheet.friction = 0.2)?;
 /// let settings = TransientSettings { duration: 2.0, intervals: 200, ..TransientSettings::default() };

@@ -151,7 +151,7 @@ pub enum RiseForm {
 /// let fit = TransientFit::new(&TransientEnsemble::new(&motor, &settings, 8, &Unobserved)?.curves, &FitSettings::default())?;
 /// assert!(fit.steady_speed().low > 15.0 && fit.steady_speed().high < 23.0);
 ///
-/// // Too short for any statement: the speed still rises at the end.
+/// // Too short: the speed still rises at the end.
 /// let settings = TransientSettings { duration: 0.4, intervals: 120, ..TransientSettings::default() };
 /// let refused = TransientFit::new(&TransientEnsemble::new(&motor, &settings, 8, &Unobserved)?.curves, &FitSettings::default());
 /// assert!(matches!(refused, Err(FitError::Refused(_))));

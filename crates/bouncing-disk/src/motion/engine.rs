@@ -165,8 +165,8 @@ impl<G: Ground> Engine<G> {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] or an error of the core for an illegal start. Errors of the first event are
-    /// returned with that event, except that a start in the air on the sine computes its first impact at
-    /// once, and a start in contact on a drive the end of the contact.
+    /// returned with that event. There are two exceptions: a start in the air on the sine computes its first
+    /// impact at once, and a start in contact on a drive computes the end of the contact.
     pub fn new<S: OnGround<Ground = G>>(
         system: S,
         start: InitialCondition,

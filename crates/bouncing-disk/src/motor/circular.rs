@@ -28,7 +28,7 @@ pub fn occupied_arc(phases: impl IntoIterator<Item = f64>) -> Option<f64> {
 /// ```
 /// use bouncing_disk::motor::circular::distinct;
 ///
-/// // The last one is the first one again, across the end of the period.
+/// // The last one equals the first one, across the end of the period.
 /// assert_eq!(distinct([0.0, 0.25, 0.25 + 1e-9, 1.0 - 1e-9], 1e-6), 2);
 /// ```
 pub fn distinct(phases: impl IntoIterator<Item = f64>, apart: f64) -> usize {

@@ -38,7 +38,7 @@ use crate::parameters::system::{Beyond, System};
 /// ```
 /// use bouncing_disk::Motor;
 ///
-/// // The paper's motor under a spring that presses with 5 N, in place of its own weight.
+/// // The paper's motor pressed by a spring with 5 N instead of by its own weight.
 /// let motor = Motor::paper_70_khz().with(|sheet| {
 ///     sheet.preload_acceleration = None;
 ///     sheet.preload_force = Some(5.0);

@@ -247,7 +247,7 @@ struct ContactPart {
 /// use bouncing_disk::System;
 /// use bouncing_disk::motor::NormalImpulses;
 ///
-/// // The motor of Table III: where friction pushes forwards half of the time is its steady speed.
+/// // The motor of Table III: at its steady speed friction pushes forwards half of the time.
 /// let motor = System::motor();
 /// let impulses = NormalImpulses::of(motor.dimensionless().map(), 2_000, 1e-3)?;
 /// let balance = impulses.balance(motor.platform().phase_lag());

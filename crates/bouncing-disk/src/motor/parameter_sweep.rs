@@ -60,7 +60,7 @@ use crate::motor::parameter_sweep::axis::{SweepAxis, cells, check_axes, sheet_of
 /// assert_eq!((sweep.cells(), sweep.groups().len()), (6, 1));
 /// let speeds = sweep.run(&Unobserved)?.matrix(SweepQuantity::Speed);
 /// assert!(speeds[0][0] > speeds[0][1] && speeds[0][1] < speeds[1][1]);
-/// // The last load is more than the smaller friction can hold: there is no speed.
+/// // The last load exceeds the torque of the smaller friction: there is no speed.
 /// assert_eq!(speeds[0][2], None);
 /// # Ok::<(), bouncing_disk::Error>(())
 /// ```

@@ -60,7 +60,7 @@ impl Motor {
     /// to a chatter of 1e-7 rad.
     ///
     /// # Errors
-    /// As [`Self::transient`].
+    /// The errors of [`Self::transient`].
     pub fn run_up(
         &self,
         phase: Phase,

@@ -66,7 +66,7 @@ materials! {
     Skin: 5.0e-6, 2.0e-3, 0.45;
 }
 
-/// Where disk and platform touch.
+/// The geometry of the contact between disk and platform.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -109,7 +109,7 @@ pub struct Contact {
     /// Materials of the disk and of the platform.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub materials: Option<[Material; 2]>,
-    /// Where they touch; needed with materials.
+    /// Geometry of the contact; needed with materials.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub geometry: Option<Geometry>,
     /// Radius of the ball (m).

@@ -75,7 +75,7 @@ impl ForcingParameters {
     /// Checks the ranges.
     ///
     /// # Errors
-    /// As [`DimensionlessParameters::build`].
+    /// The errors of [`DimensionlessParameters::build`].
     pub fn build(self) -> Result<DimensionlessSystem, Error> {
         let vibration = Vibration::from_axial_forcing(self.axial_forcing)?;
         moderate_not_negative("angular_forcing", self.angular_forcing)?;

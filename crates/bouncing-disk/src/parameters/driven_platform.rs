@@ -504,7 +504,7 @@ impl DriveParameters {
     /// Checks the shapes and the phase.
     ///
     /// # Errors
-    /// As [`DrivenPlatform::new`].
+    /// The errors of [`DrivenPlatform::new`].
     pub fn check(&self) -> Result<(), Error> {
         self.start_phase.map(|phase| finite("start_phase", phase)).transpose()?;
         self.height.check("height")?;

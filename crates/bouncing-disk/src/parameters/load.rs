@@ -13,7 +13,7 @@ struct Nodes {
 }
 
 impl Nodes {
-    /// The names are those of the abscissas, of the values and of their number.
+    /// `names` are the names of the abscissas, of the values and of their number.
     fn new(names: [&'static str; 3], places: &[f64], values: &[f64], least: usize) -> Result<Self, Error> {
         let (count, mut nodes) = (places.len(), [(0.0, 0.0); MAX_LOAD_NODES]);
         if values.len() != count {
@@ -57,7 +57,7 @@ pub struct LoadSegment {
 /// ```
 /// use bouncing_disk::parameters::LoadLaw;
 ///
-/// // A fan that takes 1 mN m at 20 rad/s, and stops after 2 s: its torque is known to 5 uN m.
+/// // A fan that takes 1 mN m at 20 rad/s, and stops after 2 s; its torque is accurate to 5 uN m.
 /// let fan = LoadLaw::fan(20.0, 1e-3, 7)?.with_factors(&[2.0], &[0.0])?;
 /// assert!((fan.torque_at(8.0, 1.0) - 0.16e-3).abs() <= 1e-3 / (4.0 * 49.0));
 /// assert_eq!((fan.torque_at(8.0, 3.0), fan.next_change_after(0.0)), (0.0, Some(2.0)));
@@ -121,7 +121,7 @@ impl LoadLaw {
     /// Multiplies the torque by a factor from each of these times (s) on; the factor is 1 before the first.
     ///
     /// # Errors
-    /// As [`Self::new`]; two empty lists are legal.
+    /// The errors of [`Self::new`]; two empty lists are legal.
     pub fn with_factors(self, times: &[f64], factors: &[f64]) -> Result<Self, Error> {
         let names = ["load.times", "load.factors", "number of load.times"];
         Ok(Self { factors: Nodes::new(names, times, factors, 0)?, ..self })

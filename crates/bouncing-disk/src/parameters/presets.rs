@@ -83,7 +83,7 @@ impl System {
     /// ```
     /// use bouncing_disk::System;
     ///
-    /// // The same motor with ten times the amplitude and a little less friction.
+    /// // The same motor with ten times the amplitude and slightly less friction.
     /// let motor = System::motor()
     ///     .with_platform(|stator| stator.amplitude = 1e-7)?
     ///     .with_disk(|rotor| rotor.friction = 0.09)?;

@@ -222,7 +222,7 @@ impl System {
 impl TryFrom<System> for DimensionlessSystem {
     type Error = Error;
 
-    /// As for a reference.
+    /// The same as for a reference.
     fn try_from(system: System) -> Result<Self, Error> {
         Self::try_from(&system)
     }

@@ -129,7 +129,7 @@ impl<const N: usize> LinearFlow<N> {
         Functional { now: of, columns, sizes, step: self.step }
     }
 
-    /// The state on so much of the next step.
+    /// The state over the next step, up to `length` of it.
     #[must_use]
     pub(crate) fn expand(&self, state: &Vector<N>, length: f64) -> StateStep<N> {
         let mut terms = [*state; DEGREE + 1];
@@ -298,7 +298,7 @@ impl TaylorStep {
     /// [`Self::first_fall`] from a later time on; immediate if the function is already below zero.
     ///
     /// # Errors
-    /// As [`Self::first_fall`].
+    /// The errors of [`Self::first_fall`].
     pub(crate) fn first_fall_from(&self, mut from: f64, to: f64) -> Result<Option<[f64; 2]>, Error> {
         let to = to.min(self.step);
         if from > 0.0 {

@@ -48,7 +48,7 @@ pub const JOURNAL: Format = Format { name: "bouncing-disk journal", version: 1, 
 ///     // Here the process is killed.
 /// }
 ///
-/// // The next one goes on where it was.
+/// // The next process continues from there.
 /// let (mut journal, mut finished) = Journal::open(&path, &roots, 1_000)?;
 /// assert_eq!(finished.done(), 400);
 /// for index in finished.open(1_000)? {
@@ -59,7 +59,7 @@ pub const JOURNAL: Format = Format { name: "bouncing-disk journal", version: 1, 
 /// assert_eq!(finished.into_results()?, expected);
 /// # drop(journal);
 ///
-/// // Other parameters are another computation.
+/// // Other parameters define another computation.
 /// let others = Provenance::new(JOURNAL).with("quantity", "square roots")?.with("first", &3.0)?;
 /// let error = Journal::<f64>::open(&path, &others, 1_000).expect_err("of another key");
 /// assert!(error.to_string().ends_with("its provenance.parameters.first is 2.0, but 3.0 is requested"));

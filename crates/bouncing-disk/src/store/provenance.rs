@@ -38,13 +38,13 @@ pub struct Format {
 /// const SPEEDS: Format = Format { name: "speeds", version: 1, oldest: 1 };
 /// let provenance = Provenance::new(SPEEDS).with("system", &System::motor())?.with_seed(1);
 ///
-/// // It goes into a file together with the data, and comes back with them.
+/// // It is written to a file together with the data, and read back with them.
 /// let text = serde_json::json!({ "provenance": provenance, "speed_rad_per_s": [1.0, 2.5] }).to_string();
 /// let stored: serde_json::Value = serde_json::from_str(&text).expect("just written");
 /// let path = Path::new("speeds.json");
 /// assert_eq!(Provenance::read(SPEEDS, &stored["provenance"], path)?, provenance);
 ///
-/// // A file of tomorrow is refused by name.
+/// // A file of a newer format gives a specific error.
 /// let tomorrow = Format { version: 2, ..SPEEDS };
 /// let newer = serde_json::json!(Provenance::new(tomorrow));
 /// let refused = Provenance::read(SPEEDS, &newer, path);

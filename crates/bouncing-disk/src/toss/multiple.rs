@@ -508,7 +508,7 @@ mod tests {
     }
 
     proptest! {
-        /// The next collision is that of the map, bit for bit, and the rotary derivative is 0 or 1.
+        /// The next collision agrees with the map, bit for bit, and the rotary derivative is 0 or 1.
         #[test]
         fn the_next_collision_map_is_block_triangular(
             forcing in 0.3_f64..3.0, angular_forcing in 0.0_f64..10.0, lag in -PI..PI,

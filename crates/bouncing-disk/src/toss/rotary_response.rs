@@ -109,7 +109,7 @@ pub fn period_one_rotary_speed(system: &DimensionlessSystem, impact_phase: Phase
 ///
 /// let system = ForcingParameters { axial_forcing: 0.45, angular_forcing: 1.0, phase_lag: 0.3, restitution: 0.5 }.build()?;
 /// let pair = system.map().period_one_pair(1).expect("born at 1/3");
-/// // On the saddle, which no motion approaches by itself, the disk also turns as Eq. (16) says.
+/// // On the saddle, which no motion approaches by itself, the disk also turns according to Eq. (16).
 /// let saddle = pair.saddle.orbit(system.map())?.expect("admissible");
 /// let outcome = rotary_response(&system, &saddle)?;
 /// let spin = outcome.steady().expect("no load");

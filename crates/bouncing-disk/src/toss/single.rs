@@ -96,7 +96,7 @@ pub fn single_toss(system: &System, initial: InitialSpin) -> Result<TossPerforma
 /// The whole toss of `system`'s disk, from the start until the dough lands.
 ///
 /// # Errors
-/// As [`single_toss`].
+/// The errors of [`single_toss`].
 pub fn toss_trajectory(system: &System, initial: InitialSpin) -> Result<Trajectory, Error> {
     Trajectory::record(&mut toss_engine(system, initial)?, |record| {
         matches!(record.event, Event::Impact { .. })

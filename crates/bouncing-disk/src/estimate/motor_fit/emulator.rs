@@ -13,8 +13,8 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use crate::statistics::student_quantile;
 
-/// The variance of the trend's coefficients relative to that of the values; large, so that any trend is
-/// possible.
+/// The ratio of the variance of the trend's coefficients to the variance of the values; large, so that any
+/// trend is possible.
 const TREND: f64 = 10.0;
 
 /// Bounds of the lengths, and of the variances relative to the variance of the values.

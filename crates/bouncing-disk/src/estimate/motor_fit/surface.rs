@@ -130,8 +130,8 @@ impl Surface {
         (rest.norm_squared(), weights.iter().map(|weight| -2.0 * ln(*weight)).sum())
     }
 
-    /// The excess of the deviance over that of the best point, or the drop of the likelihood if that is less:
-    /// a point is not excluded because another one is less well known.
+    /// The excess of the deviance over its value at the best point, or the drop of the likelihood if that is
+    /// less: a point is not excluded because another one is less well known.
     pub(crate) fn excess(&self, place: &DVector<f64>) -> f64 {
         let ((own, doubt), (least, known)) =
             (self.deviance_and_doubt(place), self.deviance_and_doubt(&self.best));

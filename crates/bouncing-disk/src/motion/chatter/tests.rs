@@ -124,7 +124,7 @@ const PEAKS: [f64; 7] = [0.0, 1e-9, 0.5, 1.0, 1.000_000_267_196_965_4, 2.0, 197.
 
 /// Magnitudes to which the rounding of a chatter is relative.
 struct Scales {
-    /// Of the impulses, including the rounding of the pull near a separation.
+    /// The magnitude of the impulses, including the rounding of the pull near a separation.
     impulse: f64,
     speed: f64,
     angle: f64,
@@ -148,7 +148,7 @@ fn assert_near(name: &str, closed: f64, counted: f64, scale: f64, tolerance: f64
     assert!((closed - counted).abs() <= tolerance * scale, "{name}: {closed:e}, {counted:e} {case:?}");
 }
 
-/// The closed form against today's loop, where both can be had.
+/// The closed form agrees with the loop over impacts in all cases that both can handle.
 #[test]
 fn sums_in_closed_form_are_those_of_the_impacts_one_by_one() {
     for restitution in [1.0 / 1024.0, 0.5, 0.9, 0.99, 0.999] {
@@ -326,7 +326,7 @@ fn a_chatter_is_its_impacts_one_by_one() {
             let slip = spin_now - system.platform_angular_speed(phase);
             let push = -(1.0 + restitution) * impact.velocity;
             let impulse = -slip.signum() * slip.abs().min(friction * push);
-            // The loss is that of the slip's energy; the platform contributes nothing.
+            // The loss is the whole energy of the slip; the platform contributes nothing.
             friction_loss += 0.5 * (slip * slip - (slip + impulse) * (slip + impulse));
             spin_now += impulse;
             launch = -restitution * impact.velocity;

@@ -54,7 +54,7 @@ impl<L: RestitutionLaw> Engine<SineGround<L>> {
     /// use bouncing_disk::{Engine, InitialCondition, System};
     /// use bouncing_disk::motion::PAPER_CUT;
     ///
-    /// // The dough keeps its restitution at 1 m/s, and has a higher one in slower impacts.
+    /// // The dough has its usual restitution at 1 m/s, and a higher one in slower impacts.
     /// let system = System::pizza_toss();
     /// let law = KuwabaraKono::new(system.disk().restitution(), 1.0 / system.scales().velocity)?;
     /// let start = InitialCondition::Contact { phase: bouncing_disk::core::Phase::new(0.0)?, angular_speed: 0.0 };
@@ -128,7 +128,7 @@ impl<L: RestitutionLaw> Engine<SineGround<L>> {
     /// use bouncing_disk::{Engine, InitialCondition, System};
     /// use bouncing_disk::motion::PhaseSpan;
     ///
-    /// // A disk that turns on a platform at rest brakes, and nothing happens before it stops.
+    /// // A disk that turns on a platform at rest brakes, without any event before it stops.
     /// let still = System::pizza_toss().with_platform(|hand| (hand.amplitude, hand.twist_amplitude) = (0.0, 0.0))?;
     /// let start = InitialCondition::Contact { phase: Phase::new(0.0)?, angular_speed: 20.0 };
     /// let engine = Engine::new(still, start, ChatterPolicy::Complete)?;

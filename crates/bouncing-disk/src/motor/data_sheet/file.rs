@@ -67,14 +67,14 @@ impl Motor {
     /// nor needed. A new value removes the alternatives that its field excludes ([`MotorField::set`]).
     ///
     /// # Errors
-    /// As [`Self::from_json`].
+    /// The errors of [`Self::from_json`].
     #[cfg(feature = "json")]
     pub fn from_json_with(text: &str, changes: &[(MotorField, f64)]) -> Result<Self, MotorFileError> {
         Ok(motor_of(sheet_text::from_json(text)?, changes)?)
     }
 
-    /// The data sheet in the form that [`Self::from_json`] reads, one field per line, to the last bit. The
-    /// units are those of [`MotorParameters`](crate::motor::MotorParameters), as JSON cannot state them.
+    /// The data sheet in the form that [`Self::from_json`] reads, one field per line, to the last bit. For
+    /// the units see [`MotorParameters`](crate::motor::MotorParameters), as JSON cannot state them.
     #[cfg(feature = "json")]
     #[must_use]
     pub fn to_json(&self) -> String {
@@ -93,7 +93,7 @@ impl Motor {
     /// accepted.
     ///
     /// # Errors
-    /// As `Motor::from_json`.
+    /// The errors of `Motor::from_json`.
     #[cfg(feature = "toml")]
     pub fn from_toml(text: &str) -> Result<Self, MotorFileError> {
         Self::from_toml_with(text, &[])
@@ -114,7 +114,7 @@ impl Motor {
     /// ```
     ///
     /// # Errors
-    /// As [`Self::from_toml`].
+    /// The errors of [`Self::from_toml`].
     #[cfg(feature = "toml")]
     pub fn from_toml_with(text: &str, changes: &[(MotorField, f64)]) -> Result<Self, MotorFileError> {
         Ok(motor_of(sheet_text::from_toml(text)?, changes)?)

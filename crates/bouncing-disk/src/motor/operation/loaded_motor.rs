@@ -41,10 +41,10 @@ pub(crate) struct LoadedMotor<'a> {
 /// The largest speeds of a stator, which set the scale of starts and errors.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct LargestSpeeds {
-    /// Of the height (g/omega), and of the angle (g a_e/(a_g^2 omega)).
+    /// Largest speeds of the height (g/omega) and of the angle (g a_e/(a_g^2 omega)).
     pub(crate) height: f64,
     pub(crate) angle: f64,
-    /// Of the angle (rad/s).
+    /// Largest speed of the angle (rad/s).
     pub(crate) angular_speed: f64,
 }
 

@@ -174,10 +174,10 @@ pub(crate) enum Member {
 
 impl Member {
     /// The member of this `index` among the number that `settings` states. Each of the first `bracketed`
-    /// systems has two rotors, one from far below all steady speeds and one, listed after those of all
-    /// systems, from equally far above; the others start at rest. Each system has its stator, all of one
-    /// kind. A rotor on a tape has `quicker` times less inertia than its motor; if some do, a third rotor for
-    /// each of the first systems has half of that.
+    /// systems has two rotors: one from far below all steady speeds, and one from equally far above, listed
+    /// after the rotors of all systems. The other systems have one rotor, which starts at rest. Each system
+    /// has its stator, all of one kind. A rotor on a tape has `quicker` times less inertia than its motor; if
+    /// some do, a third rotor for each of the first systems has half of that.
     pub(crate) fn new(
         systems: &[DimensionlessSystem],
         stators: &[Stator],

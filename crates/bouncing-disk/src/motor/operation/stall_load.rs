@@ -261,8 +261,8 @@ impl Search<'_> {
 }
 
 /// The error of the straight line between two neighbouring loads, as a share of their distance: nearly zero
-/// if the neighbouring speeds continue the line, and that of a uniform distribution between the two loads if
-/// a locked motor jumps.
+/// if the neighbouring speeds continue the line, and the deviation of a uniform distribution between the two
+/// loads if a locked motor jumps.
 fn unresolved(value: impl Fn(usize) -> f64, loads: usize, below: usize) -> f64 {
     let bends = [below.checked_sub(1), Some(below)].into_iter().flatten().filter(|first| first + 2 < loads);
     let bend = bends.map(|first| (value(first) - 2.0 * value(first + 1) + value(first + 2)).abs());

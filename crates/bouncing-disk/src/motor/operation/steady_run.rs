@@ -45,9 +45,9 @@ const WINDOW_OF_DECAY: f64 = 0.75;
 /// The same, as a share, for a stator whose members start at held amplitudes.
 const HELD_SHARE: f64 = 0.3;
 
-/// A slow rotor has less inertia than its motor, so that its rise takes at most this number of periods, times
-/// the platform's largest speed P (which sets the length of flights), divided by the smaller of the requested
-/// error and this one. The speed is then off by a third of the requested error.
+/// A slow rotor has less inertia than its motor, so that its rise takes at most this number times P/e
+/// periods. P is the platform's largest speed, which sets the length of flights, and e the requested error or
+/// this limit, whichever is smaller. The speed is then off by a third of the requested error.
 const PERIODS_OF_RISE: f64 = 0.3;
 
 /// The same for rigid impacts on a compliant stator, whose long flights take longest to record; if the speed

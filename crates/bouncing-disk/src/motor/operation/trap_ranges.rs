@@ -88,7 +88,7 @@ impl Motor {
     ///
     /// let settings = OperatingSettings { relative_error: 0.05, members: 4, ..OperatingSettings::default() };
     /// let traps = Motor::paper_70_khz().trap_ranges([9.8, 9.9], LEAST_TRAP_WIDTH, &settings, &Unobserved)?;
-    /// // Outside of the traps it turns at 21 rad/s.
+    /// // Outside the traps it turns at 21 rad/s.
     /// assert!(!traps.is_empty());
     /// assert!(traps.iter().all(|trap| trap.operations[1].point().is_some_and(|point| point.speed.value < 30.0)));
     /// # Ok::<(), bouncing_disk::Error>(())

@@ -111,7 +111,7 @@ impl Motor {
     ///     SensitivityQuantity::SteadySpeed,
     ///     &[SensitivityParameter::Friction, SensitivityParameter::PeakAngularSpeed],
     ///     &SensitivitySettings::default(), &Unobserved)?;
-    /// // Friction hardly matters to the speed without load, and the speed of the stator all the more.
+    /// // The speed without load hardly depends on friction, but strongly on the speed of the stator.
     /// assert!(all[0].derivative.value < 0.1 && all[1].derivative.value > 0.9);
     /// # Ok::<(), bouncing_disk::Error>(())
     /// ```

@@ -21,7 +21,7 @@ const LONGEST: f64 = 0.1;
 /// The thickness of a rough layer in root mean squares of its heights; a thousandth of the surface is higher.
 const LAYER: f64 = 3.0;
 
-/// Compliance of a 90 degree wedge loaded along one of its faces, over that of a half space.
+/// Compliance of a 90 degree wedge loaded along one of its faces, relative to a half space.
 const WEDGE: f64 = 0.5 * FRAC_PI_2 * (1.0 / (FRAC_PI_4 + 0.5) + 1.0 / (FRAC_PI_4 - 0.5));
 
 /// The sharpest edge of a ring (m).
@@ -167,7 +167,7 @@ struct RingContact {
     edge: f64,
     /// 1/E' of ball and ring (1/Pa), E' = E/(1 - nu^2).
     compliances: [f64; 2],
-    /// Compliance of the ring over that of a half space.
+    /// Compliance of the ring relative to a half space.
     softer: f64,
 }
 
