@@ -74,7 +74,8 @@ pub enum Error {
     /// No point of the searched ranges satisfies the bounds.
     #[error("nowhere in the ranges is {quantity} surely {} {bound:?}: the nearest is {nearest:?}", if *is_least { ">=" } else { "<=" })]
     NotKept {
-        /// The quantity that violates its bound at the point that satisfies most bounds.
+        /// The quantity that violates its bound most at the point that comes closest to satisfying all
+        /// bounds.
         quantity: &'static str,
         /// Whether the bound is a lower one.
         is_least: bool,

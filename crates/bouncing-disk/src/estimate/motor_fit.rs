@@ -85,8 +85,8 @@ pub struct MotorFitSettings {
     pub operating: OperatingSettings,
     /// Computed members of each transient, which determine the scatter of a run, in [16, 4096]. Default 32.
     pub members: usize,
-    /// The largest accepted sum of squares, as a multiple of the value that one of 10,000 sound fits exceeds, at least
-    /// 1. Default 1.
+    /// The largest accepted sum of squares, as a multiple of the value that one of 10,000 sound fits exceeds.
+    /// At least 1, which is the default.
     pub largest_misfit: f64,
 }
 

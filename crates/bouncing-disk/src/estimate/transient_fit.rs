@@ -47,8 +47,8 @@ const MOST_GROUPS: usize = 512;
 /// A rise below this share of the steady speed counts as rounding.
 const NO_RISE: f64 = 1.0e-9;
 
-/// A start is not from rest if its value lies outside its interval by this multiple of the distance to the
-/// interval's end: three standard errors.
+/// The data contradict a start from rest if the fitted initial speed differs from the expected one by more
+/// than this multiple of the distance to the end of its interval: three standard errors.
 const DENIED: f64 = 1.5;
 
 /// Intervals are widened if the mean over runs deviates from its fit by more than this multiple of its

@@ -120,7 +120,7 @@ pub(crate) struct Step {
 pub(crate) struct Passed {
     pub(crate) change: RotaryChange,
     pub(crate) ledger: EnergyLedger,
-    /// The disk just before the event; its angle is counted by the engine.
+    /// The disk just before the event, without its angle, which the engine accumulates.
     pub(crate) before: DiskState,
 }
 

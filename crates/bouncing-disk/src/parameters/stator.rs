@@ -190,7 +190,7 @@ impl StatorModes {
         self.parameters.kind == StatorKind::Axial
     }
 
-    /// The equivalent circuit; `None` if neither the force per volt nor the anti-resonance is given.
+    /// The equivalent circuit; `None` unless the force per volt or the anti-resonance is given.
     #[must_use]
     pub const fn circuit(&self) -> Option<Circuit> {
         self.circuit

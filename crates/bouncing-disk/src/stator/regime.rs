@@ -9,8 +9,8 @@
 //! T = 0,   T = -+mu N,        or   T - sum of psi_j r_j'' = load + beta''
 //! ```
 //!
-//! with the steady height s and angle beta. There is one system each for flight, a compliant and a rigid
-//! contact, combined with flight, sliding forwards or backwards, and sticking.
+//! with the steady height s and angle beta. The alternatives for N are flight, compliant contact and rigid
+//! contact; those for T are flight, sliding forwards or backwards, and sticking.
 
 use std::f64::consts::TAU;
 

@@ -225,7 +225,7 @@ fn systems() -> impl Strategy<Value = DrivenSystem> {
     )
 }
 
-/// Each kind of event occurs in the comparison: chatters and, apart from the rest, kicks.
+/// Each kind of event that occurs on a sine is part of the comparison.
 #[test]
 fn the_comparison_meets_every_event() {
     let mut counts = [0; 7];

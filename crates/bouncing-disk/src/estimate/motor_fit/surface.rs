@@ -162,7 +162,7 @@ impl Surface {
         jacobian
     }
 
-    /// Nodes near a place of one coordinate at which the deviance is small.
+    /// Nodes near this position of one coordinate at which the deviance is small.
     fn starts(&self, index: usize, at: f64) -> Vec<DVector<f64>> {
         let away = |node: &DVector<f64>| 10.0 * (node[index] - at).abs();
         let mut all: Vec<(f64, &DVector<f64>)> =

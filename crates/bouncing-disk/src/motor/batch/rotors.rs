@@ -86,7 +86,7 @@ impl Rotors {
         self.take(lane, run, curve);
     }
 
-    /// Takes over motion and curve from a transient that is about to fly.
+    /// Takes over motion and curve from a transient that is about to start a flight.
     pub(crate) fn take(&mut self, lane: usize, run: &mut TransientRun, curve: &mut Vec<f64>) {
         self.speed[lane] = run.rotor.speed();
         self.periods[lane] = run.rotor.time().periods as f64;

@@ -42,8 +42,8 @@ impl Pairs {
         if self.are_perturbed { Estimate::of_decade(values) } else { Estimate::of(values) }
     }
 
-    /// The standard deviation of a value over a decade of the perturbation, as far as it exceeds twice the
-    /// amount that the scatter of the members explains.
+    /// The standard deviation of a value over a decade of the perturbation, after subtracting twice the
+    /// variance that the scatter of the members explains.
     pub(super) fn change(&self, values: &[f64]) -> Result<f64, Error> {
         if !self.are_perturbed {
             return Ok(0.0);

@@ -99,8 +99,7 @@ impl LoadedMotor<'_> {
         self.system.dimensionless().load()
     }
 
-    /// Whether a mean speed differs from zero: by more than four of its standard errors, and by more than
-    /// rounding.
+    /// Whether a mean speed differs from zero: by more than four standard errors, and by more than rounding.
     pub(crate) fn turns(&self, speed: Estimate) -> bool {
         self.turns_by(4.0, speed)
     }

@@ -327,8 +327,8 @@ fn lively() -> DimensionlessSystem {
         .unwrap()
 }
 
-/// Impacts and half-periods follow Zeno's sums: a drop from height h comes to rest after sqrt(2 h) (1 + r)/(1
-/// - r).
+/// Impacts and half-periods follow Zeno's sums: a drop from height h comes to rest after
+/// sqrt(2 h) (1 + r)/(1 - r).
 #[test]
 fn a_drop_on_a_still_platform_comes_to_rest_after_zenos_time() {
     for restitution in [0.0, 0.1, 0.5, 0.8, 0.95] {

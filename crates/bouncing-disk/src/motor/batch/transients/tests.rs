@@ -7,8 +7,7 @@ use crate::motor::TransientSettings;
 use crate::testing::check_endless;
 use crate::{DiskParameters, PlatformParameters, System};
 
-/// Motors about Table III: chattering ones, plastic ones, loaded ones, some that never bounce, some that
-/// fail.
+/// Motors near Table III: chattering ones, plastic ones, loaded ones, some that never bounce, some that fail.
 fn member(k: u32) -> TransientMember {
     let share = |factor: f64| (f64::from(k) * factor) % 1.0;
     let omega = TAU * [70e3, 70e3, 30e3][k as usize % 3];

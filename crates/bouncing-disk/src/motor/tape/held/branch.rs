@@ -98,8 +98,8 @@ impl<'a, 'w> Search<'a, 'w> {
         Ok(Self { system, mode, stiffness, drive, force, share, compliance, perturbation, work })
     }
 
-    /// The response of a disk that never leaves the stator, relative to the stator: 1 in a rigid contact, (k
-    /// + ic)/(k + ic - 1) in a compliant one.
+    /// The response of a disk that never leaves the stator, relative to the stator: 1 in a rigid contact,
+    /// (k + ic)/(k + ic - 1) in a compliant one.
     pub(super) fn follows(&self) -> [f64; 2] {
         self.compliance.map_or([1.0, 0.0], |own| {
             let (k, c) = (own.stiffness(), own.damping());
