@@ -789,8 +789,7 @@ fn isolated_impacts_last_and_rebound_as_they_say() {
     let critical = libm::exp(-2.0);
     let mut restitutions = vec![0.001, 0.05, 0.5, 0.9, 1.0 - 1e-6];
     restitutions.extend([critical, critical * (1.0 - 1e-8), critical * (1.0 + 1e-8)]);
-    restitutions
-        .extend([-1_i64, 1].map(|by| f64::from_bits((critical.to_bits() as i64 + by) as u64)));
+    restitutions.extend([-1_i64, 1].map(|by| f64::from_bits((critical.to_bits() as i64 + by) as u64)));
     let law = Law { harmonics: Vec::new(), weight: 0.0 };
     let mut worst = (0.0_f64, 0.0_f64);
     for e in restitutions {
