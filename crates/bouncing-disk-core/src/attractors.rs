@@ -1,9 +1,9 @@
-//! Attractors: the motions on which the disk ends, from which starts, and how certain that is.
+//! Attractors: the final motions of the disk, their basins, and how certain the answers are.
 //!
 //! Every impact is slower than [`ImpactMap::impact_speed_bound`](crate::ImpactMap::impact_speed_bound), so
-//! that starts in that region find every attractor that is not too small. A start counts as caught by a
-//! periodic orbit within its [trapping radius](crate::orbits::PeriodicOrbit::trapping_radius), the one
-//! definition of "near enough" here.
+//! starts in this region find every attractor that is not too small. A start counts as captured by a periodic
+//! orbit within its [trapping radius](crate::orbits::PeriodicOrbit::trapping_radius), the only definition of
+//! "near enough" here.
 //!
 //! ```
 //! use bouncing_disk_core::attractors::{AttractorSearch, Axis, BasinSettings, Grid};
@@ -18,9 +18,8 @@
 //! # Ok::<(), bouncing_disk_core::Error>(())
 //! ```
 //!
-//! [`verdicts`] tells whether single orbits rest, repeat or are chaotic; [`BasinEntropy`] and
-//! [`BoundaryScaling`] measure basins. The methods:
-//! docs/numerics-dynamics.md.
+//! [`verdicts`] decides whether single orbits rest, repeat or are chaotic; [`BasinEntropy`] and
+//! [`BoundaryScaling`] measure basins. The methods: docs/numerics-dynamics.md.
 
 mod attracting_map;
 pub(crate) mod attraction;

@@ -1,9 +1,9 @@
-//! One flight: from the launch off the platform to the first impact on it.
+//! One flight: from the launch to the first impact on the platform.
 //!
 //! The gap between disk and platform after a flight of h radians is (w + P cos tau) h - h^2/2 - P (sin(tau +
 //! h) - sin tau), and its first zero h > 0 is the impact (Eq. 11 of Liu, Friend and Yeo).
 //! [`Vibration::first_impact`](crate::Vibration::first_impact) finds it with certainty
-//! (docs/numerics-impacts.md); [`mod@reference`] finds it slowly by another way, as a check.
+//! (docs/numerics-impacts.md); [`mod@reference`] finds it slowly by an independent method, as a check.
 //!
 //! ```
 //! use bouncing_disk_core::{Launch, Phase, Vibration};
@@ -14,7 +14,7 @@
 //! # Ok::<(), bouncing_disk_core::Error>(())
 //! ```
 //!
-//! One flight after the other makes the [impact map](crate::map).
+//! Successive flights make the [impact map](crate::map).
 
 pub(crate) mod bounds;
 pub(crate) mod drop;
@@ -25,7 +25,7 @@ pub(crate) mod launch;
 pub(crate) mod platform;
 pub mod reference;
 
-// The model reads a drop through the same check.
+// The model checks the drops that it reads with this function.
 #[doc(hidden)]
 pub use drop::check_drop;
 pub use first_impact::MAX_FLIGHT_DURATION;

@@ -1,7 +1,7 @@
-//! The vertical motion of a disk that bounces on a sinusoidally vibrating platform, without units.
+//! The vertical motion of a disk that bounces on a sinusoidally vibrating platform, in dimensionless form.
 //!
-//! Time is counted in radians of the platform's phase (1/omega), length in g/omega^2; the one parameter of
-//! the platform is its peak acceleration P = pi Gamma in units of g.
+//! Time is counted in radians of the platform's phase (1/omega), length in g/omega^2; the platform's only
+//! parameter is its peak acceleration P = pi Gamma in units of g.
 //!
 //! ```
 //! use std::f64::consts::TAU;
@@ -20,8 +20,8 @@
 //! # }
 //! ```
 //!
-//! The names at the root describe one disk on one platform. Everything else is in chapters, whose first pages
-//! each have an example and an equation:
+//! The names at the root describe one disk on one platform. Everything else is in chapters; the first page of
+//! each gives an example and an equation:
 //!
 //! | chapter | about |
 //! | --- | --- |
@@ -42,8 +42,8 @@
 //!
 //! Deserialising runs the same checks as construction: a value outside its range, a missing key of a required
 //! value and an unknown key are errors. An infinite error bound is `null` in JSON, which has no such number.
-//! With `serde_json`, switch on its feature `float_roundtrip`: without it a third of all numbers change in
-//! the last bit when they are read.
+//! With `serde_json`, enable its feature `float_roundtrip`: without it a third of all numbers change in their
+//! last bit when they are read.
 
 pub mod attractors;
 pub mod chaos;
@@ -65,7 +65,7 @@ pub use flight::platform::vibration::Vibration;
 pub use map::impact_map::{Attachment, ImpactMap, ImpactState, Orbit, OrbitEvent};
 pub use numerics::error::Error;
 pub use sweep::bouncing_map::BouncingMap;
-// The model reads as the core does.
+// The model deserialises in the same way as the core.
 #[doc(hidden)]
 pub use numerics::stored;
 pub use run::{Observer, Progress, Unobserved};

@@ -1,4 +1,4 @@
-//! The impact map: from one impact to the next, with its derivative, its inverse and the law of restitution.
+//! The impact map: from one impact to the next, its derivative, its inverse and the law of restitution.
 //!
 //! A disk that arrives with the velocity w' leaves with the speed -r w', and the next impact is the first
 //! zero of the gap of its flight. The map contracts areas of (phase, velocity) by r^2.

@@ -1,7 +1,7 @@
-//! Long calls: their progress, how to stop them, and how a loop of your own counts its work.
+//! Long calls: how to watch and stop them, and how your own loop counts its work.
 //!
-//! Every call that may take longer than 0.1 s takes an [`Observer`] as its last argument, [`Unobserved`] for
-//! none; every thread calls it at least once in [`FLIGHTS_BETWEEN_CALLS`] flights.
+//! Every call that may take longer than 0.1 s takes an [`Observer`] as its last argument, or [`Unobserved`]
+//! for none; every thread calls it at least once per [`FLIGHTS_BETWEEN_CALLS`] flights.
 
 use core::ops::ControlFlow;
 use core::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -9,43 +9,41 @@ use std::sync::Mutex;
 
 use crate::numerics::error::Error;
 
-/// Work between two calls of an observer from one thread, counted in flights: about a millisecond, and
-/// about ten without optimisation, so that every thread calls an observer far more often than every 50 ms.
+/// Work of one thread between two calls of an observer, in flights: about a millisecond, about ten without
+/// optimisation. So every thread calls an observer far more often than every 50 ms.
 ///
-/// Work is counted and not timed because nothing on the way to a result looks at a clock. In lockstep the
-/// lanes of a batch count whether they are in use or not, and a batch that is compared with many known orbits
-/// counts as more flights.
+/// Work is counted and not timed because no computation of a result reads a clock. In lockstep all lanes of a
+/// batch count, in use or not, and a batch that is compared with many known orbits counts as more flights.
 pub const FLIGHTS_BETWEEN_CALLS: u64 = 1 << 13;
 
-/// The progress of a call: finished items and all items.
+/// The progress of a call: finished items and their total.
 ///
 /// Each call that takes an [`Observer`] documents its items: rows of a grid, orbits, impacts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Progress {
     /// Finished items.
     pub done: u64,
-    /// All items, or their largest possible number where it is known only at the end.
+    /// The number of all items, or an upper bound if the number is known only at the end.
     pub total: u64,
 }
 
 impl Progress {
-    /// The finished share, in [0, 1]; 1 without items.
+    /// The finished share, in [0, 1]; 1 if there are no items.
     #[must_use]
     pub fn fraction(&self) -> f64 {
         if self.total == 0 { 1.0 } else { self.done.min(self.total) as f64 / self.total as f64 }
     }
 }
 
-/// Sees the progress of a long call, and may stop it.
+/// Receives the progress of a long call, and may stop it.
 ///
-/// Every call that may take longer than 0.1 s takes an observer as its last argument, [`Unobserved`] for
+/// Every call that may take longer than 0.1 s takes an observer as its last argument, or [`Unobserved`] for
 /// none. It is called before the first work, after every [`FLIGHTS_BETWEEN_CALLS`] flights of each thread,
-/// and when all is done. Where it breaks, the call returns [`Error::Stopped`], except at the last call, when
-/// all is done. The calls come from the threads that do the work, several at a time and in no certain order,
-/// so that `done` of one call may be less than that of the one before. No bit of a result depends on an
-/// observer.
+/// and when all is done. If it breaks, the call returns [`Error::Stopped`], except at the last call, when all
+/// is done. The working threads call it concurrently and in no fixed order, so `done` of one call may be less
+/// than in the call before. An observer never changes any bit of a result.
 ///
-/// A function or closure of this form is an observer; the core looks at no clock, but the observer may.
+/// Any function or closure with this signature is an observer. The core reads no clock, but the observer may.
 ///
 /// ```
 /// use std::ops::ControlFlow;
@@ -72,7 +70,7 @@ impl Progress {
 /// # Ok::<(), Error>(())
 /// ```
 pub trait Observer: Sync {
-    /// Takes notice of the progress; a break stops the call.
+    /// Receives the progress; a break stops the call.
     fn observe(&self, progress: Progress) -> ControlFlow<()>;
 }
 
@@ -93,11 +91,11 @@ impl Observer for Unobserved {
     }
 }
 
-/// A call that is observed: counts the finished items of all threads, and remembers that the observer has
-/// broken.
+/// The progress of an observed call: counts the finished items of all threads, and remembers whether the
+/// observer has broken.
 ///
-/// The long calls of this crate and of the model count with it; a loop of your own around single
-/// flights may do so too.
+/// The long calls of this crate and of the model count their work with it; your own loop over single flights
+/// may do so too.
 ///
 /// ```
 /// use bouncing_disk_core::run::Watch;
@@ -133,8 +131,8 @@ impl core::fmt::Debug for Watch<'_> {
 }
 
 impl<'o> Watch<'o> {
-    /// Begins a call of `total` items, of which earlier ones have finished `done`, and asks the observer for
-    /// the first time.
+    /// Begins a call of `total` items, `done` of which earlier calls have finished, and calls the observer
+    /// for the first time.
     ///
     /// # Errors
     /// [`Error::Stopped`] if it breaks.
@@ -149,7 +147,7 @@ impl<'o> Watch<'o> {
         self.done.fetch_add(items, Ordering::Relaxed);
     }
 
-    /// Sets how many items are finished: for a call of one thread, which knows.
+    /// Sets how many items are finished: for a single-threaded call, which keeps its own count.
     pub fn set_done(&self, items: u64) {
         self.done.store(items, Ordering::Relaxed);
     }
@@ -166,7 +164,7 @@ impl<'o> Watch<'o> {
         self.stopped.load(Ordering::Relaxed)
     }
 
-    /// Asks the observer, unless it has broken before.
+    /// Calls the observer, unless it has broken before.
     ///
     /// # Errors
     /// [`Error::Stopped`] if it breaks or has broken.
@@ -187,7 +185,7 @@ impl<'o> Watch<'o> {
     /// Reports to the observer that all is done; its answer no longer matters.
     pub fn end(&self) {
         let Progress { total, .. } = self.progress();
-        // Whatever it says, there is nothing left to stop.
+        // The answer does not matter: nothing is left to stop.
         let _ = self.observer.observe(Progress { done: total, total });
     }
 
@@ -198,7 +196,7 @@ impl<'o> Watch<'o> {
     }
 }
 
-/// The work of one thread of a call that is observed: see [`Watch::work`].
+/// The work of one thread of an observed call: see [`Watch::work`].
 #[derive(Debug, Clone)]
 pub struct WorkCount<'w> {
     watch: &'w Watch<'w>,
@@ -206,20 +204,20 @@ pub struct WorkCount<'w> {
 }
 
 impl<'w> WorkCount<'w> {
-    /// Counts work, in flights; asks the observer after every [`FLIGHTS_BETWEEN_CALLS`].
+    /// Counts work, in flights; calls the observer after every [`FLIGHTS_BETWEEN_CALLS`].
     ///
     /// # Errors
-    /// [`Error::Stopped`] if it breaks, or has broken when another thread asked.
+    /// [`Error::Stopped`] if it breaks, or has broken in another thread.
     #[inline(always)]
     pub fn spend(&mut self, flights: u64) -> Result<(), Error> {
         self.work += flights;
         if self.work < FLIGHTS_BETWEEN_CALLS { Ok(()) } else { self.ask() }
     }
 
-    /// Counts items as finished that are a flight each.
+    /// Counts finished items of one flight each.
     ///
     /// # Errors
-    /// Those of [`Self::spend`].
+    /// Errors of [`Self::spend`].
     #[inline]
     pub fn finish(&mut self, flights: u64) -> Result<(), Error> {
         self.watch.finish(flights);
@@ -232,22 +230,22 @@ impl<'w> WorkCount<'w> {
         self.watch.ask()
     }
 
-    /// The call whose work it is.
+    /// The call that the work belongs to.
     #[must_use]
     pub const fn watch(&self) -> &'w Watch<'w> {
         self.watch
     }
 }
 
-/// The results of `of` for the indices from 0 to `count`, in this order: with the feature `parallel` over the
-/// threads of rayon's pool, each index on its own.
+/// The results of `of` for the indices from 0 to `count`, in this order. With the feature `parallel` the
+/// threads of rayon's pool share the indices.
 ///
-/// A thread that waits for results takes part in the work; calls may be nested.
+/// A thread that waits for results helps with the work; calls may be nested.
 pub fn in_parallel<R: Send>(count: usize, of: impl Fn(usize) -> R + Sync) -> Vec<R> {
     let results: Vec<Mutex<Option<R>>> = (0..count).map(|_| Mutex::new(None)).collect();
     for_each_index(count, &|index| {
         let result = of(index);
-        // Nobody else has it.
+        // No other thread locks it.
         if let Ok(mut place) = results[index].lock() {
             *place = Some(result);
         }
@@ -264,7 +262,7 @@ pub fn threads() -> usize {
     1
 }
 
-// Without a parameter of type: what rayon needs is compiled once and not for every call.
+// Not generic, so that the code rayon needs is compiled once and not for every call.
 fn for_each_index(count: usize, work: &(dyn Fn(usize) + Sync)) {
     #[cfg(feature = "parallel")]
     {
@@ -275,8 +273,8 @@ fn for_each_index(count: usize, work: &(dyn Fn(usize) + Sync)) {
     (0..count).for_each(work);
 }
 
-/// A function with which each part of a long call counts its flights, in steps of its own; an error ends the
-/// call.
+/// The function with which a part of a long call counts its flights, in steps of its own choice; an error
+/// ends the call.
 pub(crate) type Tick<'t> = &'t mut dyn FnMut(u64) -> Result<(), Error>;
 
 #[cfg(test)]
@@ -287,7 +285,7 @@ pub(crate) mod testing {
 
     use super::{Observer, Progress};
 
-    /// An observer that breaks when it is asked for the nth time and from then on.
+    /// An observer that breaks at its nth call and at every later one.
     #[derive(Debug)]
     pub(crate) struct StopAfter {
         calls: u64,
@@ -300,7 +298,7 @@ pub(crate) mod testing {
             Self { calls, asked: AtomicU64::new(0), last: Mutex::default() }
         }
 
-        /// How often it was asked.
+        /// How often it was called.
         pub(crate) fn asked(&self) -> u64 {
             self.asked.load(Ordering::Relaxed)
         }
@@ -347,10 +345,10 @@ mod tests {
         watch.finish(2);
         assert_eq!((work.spend(1), calls.asked()), (Ok(()), 2));
         assert_eq!(watch.progress(), Progress { done: 7, total: 100 });
-        // Much work at a time asks once.
+        // A large amount of work calls the observer once.
         let stopped = Err(Error::Stopped { done: 7, total: 100 });
         assert_eq!((work.spend(u64::MAX / 2), calls.asked()), (stopped, 3));
-        // It is not asked again, by no thread.
+        // No thread calls it again.
         assert_eq!((watch.work().spend(FLIGHTS_BETWEEN_CALLS), calls.asked()), (stopped, 3));
         assert!(watch.is_stopped());
     }

@@ -64,20 +64,19 @@ pub(crate) fn may_return_soon(peak: f64, sine: f64, cosine: f64, speed: f64) -> 
     speed < (if late > early { late } else { early }) + BEND_SHARE * peak
 }
 
-/// The speed, negative, with which a disk comes down to the height of the crests; not a number where it stays
-/// below.
+/// The (negative) speed with which a disk comes down to the height of the crests; NaN if it stays below them.
 ///
-/// `disk_speed` is that at launch, from `depth` below the crests.
+/// `disk_speed` is the speed at launch, from `depth` below the crests.
 #[inline(always)]
 pub(crate) fn arc_speed(disk_speed: f64, depth: f64) -> f64 {
     -(disk_speed * disk_speed - 2.0 * depth).sqrt()
 }
 
-/// Whether a launch clears inflection and crest, given as times and gaps there, without a dip between them:
-/// for certain, though others may, too.
+/// Whether a launch certainly clears inflection and crest without a dip between them, given times and gaps
+/// there. A launch that fails may clear them, too.
 ///
-/// The gap is convex between the two. It has no dip if it falls or rises all the way, or if it is positive
-/// even where the tangents at both ends meet, below which a convex function cannot lie.
+/// The gap is convex between the two. It does not dip to zero if it falls or rises all the way, or if the
+/// tangents at both ends, below which a convex function cannot lie, meet at a positive gap.
 #[inline(always)]
 pub(crate) fn clears_by_tangents(
     peak: f64,
@@ -122,7 +121,7 @@ mod tests {
             let vibration = vibration(k);
             let (p, phase) =
                 (vibration.peak_acceleration(), Phase::new(TAU * spread(k, 0.569_840_29)).expect("finite"));
-            // Around the bounds of those that return at once and of those about to separate.
+            // Around the bounds for an immediate return and for a disk about to separate.
             let pull = (1.0 - p * phase.sin()).max(0.0);
             let share = spread(k, 0.618_033_99);
             let speed = match k % 3 {
@@ -130,7 +129,7 @@ mod tests {
                 1 => (0.5 * SHORT_FLIGHT * pull + 0.01 * p) * libm::exp10(-2.0 * share),
                 _ => 0.375 * pull * pull / (p * phase.cos().abs()) * (0.8 + 0.3 * share),
             };
-            // Nothing leaves a platform that is about to catch up with it without speed.
+            // No disk leaves a platform that is about to catch up with it, without speed.
             if !(speed > 0.0 && speed.is_finite()) {
                 continue;
             }
@@ -151,8 +150,8 @@ mod tests {
         assert!(short > 10_000 && spared > 10_000, "{short} {spared}");
     }
 
-    /// Launches of all phases and speeds: none that is certain to clear the first crest touches the platform
-    /// before it, unless within half a radian; and most of those that clear it are certain.
+    /// No launch at any phase and speed that is certain to clear the first crest touches the platform before
+    /// it, unless within half a radian; and most launches that clear it are certain.
     #[test]
     fn a_crest_that_is_surely_cleared_is_cleared() {
         let (mut certain, mut hit, mut doubtful) = (0, 0, 0);
@@ -169,7 +168,7 @@ mod tests {
             let form = LaunchForm { angle: phase.angle(), peak: p, speed, sine, cosine };
             if vibration.crests.surely_cleared(p, phase.angle(), disk_speed, arc_speed) {
                 certain += 1;
-                // A short flight is found before anybody asks for the crest.
+                // A short flight is found before the crest matters.
                 if may_return_soon(p, sine, cosine, speed) {
                     continue;
                 }

@@ -6,9 +6,9 @@
 //! gap(t) = gap_0 + v t - t^2/2 + P [sin tau (1 - cos t) + cos tau (t - sin t)]
 //! ```
 //!
-//! whose terms are accurate relative to themselves: neither a gap far below the rounding of P nor a velocity
-//! far above the platform's cancels in it. A disk that is above the crests for longer is followed from where
-//! it comes down to them.
+//! whose terms are each accurate in the relative sense: neither a gap far below the rounding of P nor a
+//! velocity far above the platform's cancels. A disk that stays above the crests for longer is followed from
+//! the moment when it comes down to them.
 
 use core::f64::consts::{PI, TAU};
 
@@ -30,24 +30,24 @@ const LARGEST_VELOCITY: f64 = 1.0e9;
 /// Relative size of the last Newton step of the search: the remaining error is of the order of its square.
 const LAST_STEP: f64 = 1.0e-9;
 
-/// Relative distance from the lowest point of the gap at which a dip counts as found: the gap there is higher
-/// by that number's square at most, relative to the terms it is formed from.
+/// Relative distance from the lowest point of the gap at which a dip counts as found. The gap there exceeds
+/// the minimum by at most the square of this number, relative to the terms that form it.
 const DIP_ACCURACY: f64 = 1.0e-9;
 
-/// A disk that falls at least this fast meets a platform nearer than [`BRIEFEST`] rad with that velocity, to
-/// all digits: there is no time for a pull of up to 1e8 to change it.
+/// A disk that falls at least this fast hits a platform that is less than [`BRIEFEST`] rad away with this
+/// velocity, to all digits: a pull of up to 1e8 has no time to change it.
 const SLOWEST_BRIEF: f64 = 1.0e-200;
 
-/// Evaluations after which the search bisects the logarithm of the time, and after which it reports an error:
-/// from there on bisection needs some 75.
+/// Evaluations after which the search bisects the logarithm of the time, and after which it reports an error;
+/// this bisection needs about 75.
 const PATIENCE: u32 = 40;
 const MAX_EVALUATIONS: u32 = 200;
 
-/// Checks that a disk may start in the air at `gap` with `relative_velocity`, within the ranges of
+/// Checks that `gap` and `relative_velocity` of a disk that starts in the air are within the ranges of
 /// [`Vibration::first_impact_of_drop`].
 ///
 /// # Errors
-/// [`Error::OutOfRange`] names the number.
+/// [`Error::OutOfRange`] names the offending number.
 pub fn check_drop(gap: f64, relative_velocity: f64) -> Result<(), Error> {
     within("gap", gap, f64::MIN_POSITIVE, LARGEST_GAP, "[2.3e-308, 1e17] (units of g/omega^2)")?;
     within(
@@ -61,12 +61,12 @@ pub fn check_drop(gap: f64, relative_velocity: f64) -> Result<(), Error> {
 }
 
 impl Vibration {
-    /// The first impact of a disk that at `phase` is `gap` above the platform (a normal number up to 1e17, in
-    /// units of g/omega^2) and moves with `relative_velocity` in [-1e9, 1e9] (disk minus platform, units of
-    /// g/omega, of either sign).
+    /// The first impact of a disk that starts in the air at `phase`. It is `gap` above the platform (a normal
+    /// number up to 1e17, in units of g/omega^2) and moves with `relative_velocity` in [-1e9, 1e9] (disk
+    /// minus platform, units of g/omega, of either sign).
     ///
-    /// The guarantee is that of [`Self::first_impact`]; here the first piece may be convex and entered
-    /// falling. A short flight has relative accuracy, however small the gap or fast the disk.
+    /// The guarantee of [`Self::first_impact`] holds; here the first piece may be convex and entered with a
+    /// falling gap. A short flight is accurate in the relative sense, however small the gap or fast the disk.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a gap or a velocity outside these ranges;
@@ -96,8 +96,8 @@ impl Vibration {
         let form = DropForm::new(p, phase, gap, velocity);
         let disk_speed = velocity + p * phase.cos();
         let depth = (p - p * phase.sin()) - gap;
-        // Speed with which the disk comes down to the height of the crests, and when, as the root that does
-        // not cancel; where it does not reach that height, when it is highest.
+        // Speed at which the disk comes down to the height of the crests, and the time, computed as the root
+        // that does not cancel; if it does not reach that height, the time of its highest point.
         let radicand = disk_speed * disk_speed - 2.0 * depth;
         let fall = if radicand > 0.0 { radicand.sqrt() } else { 0.0 };
         let free = if disk_speed > 0.0 { disk_speed + fall } else { -2.0 * depth / (fall - disk_speed) };
@@ -108,7 +108,7 @@ impl Vibration {
             let crest = self.crest_after(phase.angle(), if brief { free } else { 0.0 });
             let bracket = self
                 .bracket_of_drop(&form, crest, &mut evaluations)
-                // A disk that passes its crest by a rounding is hit by the next one.
+                // A disk that clears its crest by a rounding error is hit by the next one.
                 .or_else(|| {
                     brief.then(|| self.bracket_of_drop(&form, crest + TAU, &mut evaluations)).flatten()
                 });
@@ -120,14 +120,14 @@ impl Vibration {
         self.impact_after_arc(phase.angle(), (free, fall), velocity, evaluations)
     }
 
-    /// The time from a phase with this angle to the first crest that comes later than `time` < 2 pi.
+    /// The time from a phase with this angle to the first crest after `time` < 2 pi.
     fn crest_after(&self, angle: f64, time: f64) -> f64 {
         let crest = if angle < CREST { CREST - angle } else { (CREST - angle) + TAU };
         if crest > time { crest } else { crest + TAU }
     }
 
-    /// The window of the first root up to the crest, piece by piece of constant curvature; `None` if the disk
-    /// clears it.
+    /// The window of the first root up to the crest, searched over pieces of constant curvature sign; `None`
+    /// if the disk clears the crest.
     fn bracket_of_drop(&self, form: &DropForm, crest: f64, evaluations: &mut u32) -> Option<Bracket> {
         let angle = form.phase.angle();
         let mut convex = self.falls_away_at(angle);
@@ -141,7 +141,8 @@ impl Vibration {
             if gap <= 0.0 {
                 return Some(Bracket { lo, hi });
             }
-            // Only a convex piece can dip; within the rounding of 1 - P sin tau a concave one may be convex.
+            // Only a convex piece can dip; within the rounding of 1 - P sin tau a concave piece may be
+            // convex.
             if slope < 0.0
                 && slope_at_end > 0.0
                 && let Some(hi) = form.dip(lo, hi, evaluations)
@@ -195,10 +196,10 @@ impl DropForm {
         if t <= SHORT_FLIGHT { self.short.curvature(t) } else { self.long.taylor(t).0.curvature }
     }
 
-    /// Where a parabola with the pull at the start would end.
+    /// The end of the parabola with the pull at the start.
     fn guess(&self) -> f64 {
         let pull = self.short.pull.max(0.0);
-        // A hypotenuse does not underflow.
+        // `hypot` does not underflow.
         let fall = hypot(self.velocity, (2.0 * pull).sqrt() * self.gap.sqrt());
         if self.velocity < 0.0 {
             2.0 * self.gap / (fall - self.velocity)
@@ -207,8 +208,7 @@ impl DropForm {
         }
     }
 
-    /// The root in a bracket that holds exactly one, the gap falling through it, and the relative velocity
-    /// there.
+    /// The root in a bracket with exactly one, through which the gap falls, and the relative velocity there.
     fn root(&self, mut bracket: Bracket, evaluations: &mut u32) -> Result<(f64, f64), Error> {
         let before = *evaluations;
         let guess = self.guess();
@@ -244,12 +244,12 @@ impl DropForm {
         }
     }
 
-    /// A time in (`lo`, `hi`) where the gap is not positive, or `None`: the slope must change from negative
-    /// to positive, and but for rounding the piece be convex. As [`GapForm::dip`], relative to the time since
-    /// the start.
+    /// A time in (`lo`, `hi`) at which the gap is not positive, or `None`. The slope must change from
+    /// negative to positive, and the piece be convex up to rounding. Like [`GapForm::dip`], but relative to
+    /// the time since the start.
     fn dip(&self, mut lo: f64, mut hi: f64, evaluations: &mut u32) -> Option<f64> {
         let before = *evaluations;
-        // Where the curvature at the start stops the disk.
+        // The time at which the curvature at the start would stop the disk.
         let stop = -self.velocity / self.curvature(0.0);
         let mut t = if stop > lo && stop < hi { stop } else { 0.5 * (lo + hi) };
         loop {

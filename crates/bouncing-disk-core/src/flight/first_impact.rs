@@ -47,10 +47,10 @@ impl Vibration {
     /// The first impact after `launch` (Eq. 11).
     ///
     /// The impact phase is accurate to 1e-14 of a period or to the conditioning of the problem, whichever is
-    /// larger (docs/numerics-impacts.md states the bound).
+    /// worse (docs/numerics-impacts.md states the bound).
     ///
     /// # Errors
-    /// [`Error::NoLiftOff`] for a launch from rest where the platform does not fall away;
+    /// [`Error::NoLiftOff`] for a launch from rest while the platform does not fall away;
     /// [`Error::FlightTooLong`] beyond [`MAX_FLIGHT_DURATION`].
     pub fn first_impact(&self, launch: Launch) -> Result<Impact, Error> {
         self.impact_after(launch.phase(), launch.relative_speed())

@@ -1,5 +1,5 @@
-//! The gap between disk and platform in three forms, each without cancellation where it is used, and the
-//! search of a root that is known to be the only one in its window.
+//! Three forms of the gap between disk and platform, each without cancellation in its range, and the search
+//! for the only root in a window.
 
 use crate::flight::platform::vibration::Vibration;
 use crate::numerics::elementary::{
@@ -7,7 +7,7 @@ use crate::numerics::elementary::{
 };
 use crate::numerics::error::Error;
 
-/// Flights up to this long (rad) are solved through the series of gap(h)/h; longer ones through the pair.
+/// Longest flight (rad) solved with the series of gap(h)/h; longer ones use the pair.
 pub(crate) const SHORT_FLIGHT: f64 = 0.5;
 
 /// Bounds the last step (rad) times one plus its relative curvature. The remainder of the fifth-order series
@@ -21,21 +21,21 @@ const LAST_SHORT_STEP: f64 = 1.0e-9;
 /// Evaluations after which the search reports [`Error::NoConvergence`]; bisection alone needs about 60.
 const MAX_EVALUATIONS: u32 = 200;
 
-/// Evaluations after which a search may be a graze, where the gap is flat and series do not converge.
+/// Evaluations after which the root may be a graze, at which the gap is flat and series do not converge.
 const PATIENCE: u32 = 8;
 
-/// A flight this brief (rad) or briefer is 2 w/(1 - P sin tau) long, to all digits: the terms of a further
+/// The duration (rad) up to which a flight lasts 2 w/(1 - P sin tau), to all digits: the terms of a further
 /// evaluation would underflow.
 pub(crate) const BRIEFEST: f64 = 1.0e-290;
 
-/// Evaluations after which the search of a short flight bisects the logarithm of the time: a root tens of
-/// decades below the bracket's end is not come near by halving it.
+/// Evaluations after which the search of a short flight bisects the logarithm of the time: halving would take
+/// too long to approach a root tens of decades below the bracket's end.
 const PATIENCE_OF_SCALE: u32 = 64;
 
 /// Rounding error of one evaluation of the gap, relative to the sum of the sizes of its terms.
 const GAP_ROUNDING: f64 = 4.5e-16;
 
-/// A window in time with exactly one root, the gap falling through it.
+/// A time window with exactly one root, through which the gap falls.
 #[derive(Clone, Copy)]
 pub(crate) struct Bracket {
     pub(crate) lo: f64,
@@ -44,11 +44,11 @@ pub(crate) struct Bracket {
 
 impl Bracket {
     /// A time between both ends that roughly halves the number of doubles between them. Bisection needs this
-    /// where the root may be many decades below the upper end. At most 12 steps lead to within a factor of
-    /// two.
+    /// if the root may be many decades below the upper end. At most 12 steps come within a factor of two of
+    /// the root.
     pub(crate) fn geometric_middle(self) -> f64 {
         let arithmetic = 0.5 * (self.lo + self.hi);
-        // The bits of positive doubles are in their order.
+        // The bits of positive doubles are ordered like the doubles.
         let (lo, hi) = (self.lo.max(0.0).to_bits(), self.hi.max(0.0).to_bits());
         let middle = f64::from_bits(lo + hi.saturating_sub(lo) / 2);
         if middle > self.lo && middle < self.hi { middle } else { arithmetic }
@@ -110,22 +110,22 @@ impl GapTaylor {
         self.slope * self.slope - 2.0 * self.gap * self.curvature
     }
 
-    /// The step to the root of the quadratic model, given the square `root` of its radicand, with the sign
-    /// that does not cancel.
+    /// The step to the root of the quadratic model, given the square `root` of its radicand, in the form that
+    /// does not cancel.
     #[inline(always)]
     pub(crate) fn quadratic_step(&self, root: f64) -> f64 {
         -2.0 * self.gap / (self.slope - root)
     }
 
-    /// The quadratic step `d` improved by one Newton step on the polynomial of the sixth order, whose
-    /// quadratic part has the slope -`root` there.
+    /// The quadratic step `d` improved by one Newton step on the sixth-order polynomial, whose quadratic part
+    /// has the slope -`root` there.
     #[inline(always)]
     pub(crate) fn corrected_step(&self, d: f64, root: f64) -> f64 {
         let correction = self.correction(d, root);
         if correction.abs() < 0.5 * d.abs() { d + correction } else { d }
     }
 
-    /// [`Self::corrected_step`] with a mask in place of a selection; the same but for the sign of zero.
+    /// [`Self::corrected_step`] with a mask instead of a selection; the same except for the sign of zero.
     #[inline(always)]
     pub(crate) fn corrected_step_of_lane(&self, d: f64, root: f64) -> f64 {
         let correction = self.correction(d, root);
@@ -176,7 +176,8 @@ pub(crate) trait GapForm: Copy {
     /// Bound on the rounding error of the gap at `t`.
     fn rounding(&self, t: f64) -> f64;
 
-    /// The root in `bracket`, which must hold exactly one, the gap falling through it, from a first `guess`.
+    /// The root in `bracket`, which must contain exactly one, through which the gap falls, from a first
+    /// `guess`.
     ///
     /// Each step is the root of the quadratic model with the next two terms as a correction, kept inside the
     /// shrinking bracket by bisection; the last one is the fifth-order series reversal, whose smallness
@@ -223,18 +224,18 @@ pub(crate) trait GapForm: Copy {
         }
     }
 
-    /// Whether the gap is nothing but rounding, or the bracket two neighbours: the impact is a graze, known
-    /// to its conditioning limit.
+    /// Whether the gap is pure rounding error, or the bracket two neighbouring doubles: then the impact is a
+    /// graze, known to its conditioning limit.
     #[cold]
     fn is_settled(&self, bracket: Bracket, t: f64, gap: f64) -> bool {
         gap.abs() <= self.rounding(t) || bracket.hi - bracket.lo <= 4.0 * f64::EPSILON * (1.0 + bracket.hi)
     }
 
-    /// A time in (`lo`, `hi`) where the gap is not positive, or `None` if there is none: the piece must be
-    /// convex, with a slope that changes from negative to positive.
+    /// A time in (`lo`, `hi`) at which the gap is not positive, if there is one. The piece must be convex,
+    /// with a slope that changes from negative to positive.
     ///
     /// Newton steps on the slope approach the minimum; the tangents, which a convex function never crosses,
-    /// end the search as soon as they prove that it is positive.
+    /// end the search as soon as they prove that the minimum is positive.
     #[cold]
     fn dip(&self, mut lo: f64, mut hi: f64, evaluations: &mut u32) -> Option<f64> {
         let mut t = 0.5 * (lo + hi);
@@ -277,7 +278,7 @@ pub(crate) struct CrestForm {
 }
 
 impl CrestForm {
-    /// Gap at a time whose platform depth below the crest, P (1 - sin), is known in closed form.
+    /// Gap at a time at which the platform's depth below the crest, P (1 - sin), is known in closed form.
     #[inline(always)]
     pub(crate) fn gap_over(&self, platform_depth: f64, t: f64) -> f64 {
         (platform_depth - self.depth) + t * (self.speed - 0.5 * t)
@@ -336,7 +337,7 @@ pub(crate) struct LaunchForm {
 }
 
 impl LaunchForm {
-    /// 1 - cos t and sin t, each in relative accuracy.
+    /// 1 - cos t and sin t, each with relative accuracy.
     #[inline(always)]
     fn versine_and_sine(t: f64) -> (f64, f64) {
         Self::versine_and_sine_of_half(sin_cos_bounded(0.5 * t))
@@ -402,7 +403,7 @@ impl GapForm for LaunchForm {
     }
 }
 
-/// A launch that is [brief](is_brief) is no faster than this, whatever pulls the disk back: less than 1 + P.
+/// Largest speed of a [brief](is_brief) launch, for any pull on the disk: the pull is below 1 + P.
 pub(crate) const FASTEST_BRIEF: f64 = BRIEFEST * Vibration::MAX_PEAK_ACCELERATION;
 
 /// Whether a launch with `speed` against `pull` returns within [`BRIEFEST`].
@@ -411,7 +412,7 @@ pub(crate) fn is_brief(speed: f64, pull: f64) -> bool {
     speed < 0.5 * BRIEFEST * pull
 }
 
-/// gap(h)/h for h up to [`SHORT_FLIGHT`], in relative accuracy: the launch itself is divided out.
+/// gap(h)/h for h up to [`SHORT_FLIGHT`], with relative accuracy: the launch itself is divided out.
 #[derive(Clone, Copy)]
 pub(crate) struct ShortForm {
     pub(crate) speed: f64,
@@ -446,13 +447,13 @@ impl ShortForm {
         (self.cosine * sin_h - self.pull) - self.sine * (h2 * versine_ratio(h))
     }
 
-    /// Whether what this Newton step leaves is below rounding.
+    /// Whether the error left by this Newton step is below rounding.
     #[inline(always)]
     pub(crate) fn is_last(step: f64, h: f64, slope: f64) -> bool {
         (step.abs() <= LAST_SHORT_STEP * h) & (slope < 0.0)
     }
 
-    /// The relative velocity a last `step` behind `h`, where it is `velocity`; not positive.
+    /// The relative velocity a last `step` after `h`, at which it is `velocity`; not positive.
     #[inline(always)]
     pub(crate) fn impact_velocity(&self, h: f64, velocity: f64, step: f64) -> f64 {
         let impact = velocity + self.curvature(h) * step;
@@ -470,9 +471,9 @@ impl ShortForm {
         2.0 * x * (1.0 + x * ((2.0 / 3.0) * beta + x * ((1.0 / 3.0) * gamma + (8.0 / 9.0) * (beta * beta))))
     }
 
-    /// The root in (0, `end`) of a flight that starts in a concave piece which reaches to `end`: gap/h has at
-    /// most one there, so the one that Newton's iteration finds is the first. `None` if it does not find one
-    /// at once.
+    /// The root in (0, `end`) of a flight that starts in a concave piece that reaches to `end`. There gap/h
+    /// has at most one root, so the root found by Newton's iteration is the first. `None` if the iteration
+    /// does not find one at once.
     #[inline(always)]
     pub(crate) fn root_in_first_piece(&self, end: f64, evaluations: &mut u32) -> Option<(f64, f64)> {
         let mut h = self.expected();
@@ -492,7 +493,7 @@ impl ShortForm {
         None
     }
 
-    /// The root of gap(h)/h in a bracket that holds exactly one, and the relative velocity there.
+    /// The root of gap(h)/h in a bracket that contains exactly one, and the relative velocity there.
     pub(crate) fn root(&self, mut bracket: Bracket, evaluations: &mut u32) -> Result<(f64, f64), Error> {
         let mut h = 0.5 * (bracket.lo + bracket.hi);
         let before = *evaluations;
@@ -526,7 +527,8 @@ impl ShortForm {
         }
     }
 
-    /// A time in (`lo`, `hi`) where the gap is not positive, or `None`: as [`GapForm::dip`], by bisection.
+    /// A time in (`lo`, `hi`) at which the gap is not positive, or `None`: like [`GapForm::dip`], by
+    /// bisection.
     #[cold]
     pub(crate) fn dip(&self, mut lo: f64, mut hi: f64, evaluations: &mut u32) -> Option<f64> {
         while hi - lo > 1.0e-9 * hi && *evaluations < MAX_EVALUATIONS {
@@ -556,7 +558,7 @@ mod tests {
     use super::*;
     use crate::numerics::testing::spread;
 
-    /// Jets of gaps of every size, above platforms of every strength.
+    /// Taylor coefficients of gaps of every size, above platforms of every strength.
     fn taylors() -> impl Iterator<Item = (f64, GapTaylor)> {
         (0..400_000).map(|k| {
             let peak = libm::exp10(4.0 * spread(k, 0.754_877_666) - 1.0);
@@ -583,8 +585,8 @@ mod tests {
         assert!(!flat.is_near_root() && !flat.is_surely_near_root(1.0));
     }
 
-    /// At the largest gap of either sign that the quick test accepts, where its two estimates are nearly
-    /// equalities: on a still platform for the first condition, for the second about P = sqrt(2) and 45
+    /// At the largest gap of either sign that the quick test accepts, at which its two estimates are nearly
+    /// equalities: for the first condition on a still platform, for the second near P = sqrt(2) and 45
     /// degrees, where the curvature vanishes.
     #[test]
     fn the_quick_test_is_right_up_to_its_limit() {
@@ -609,7 +611,7 @@ mod tests {
                 taylor(accepted).is_near_root() && taylor(-accepted).is_near_root(),
                 "{peak} {slope} {accepted}"
             );
-            // Not idle: nearly all that is near is accepted.
+            // The test is effective: it accepts nearly all points near the root.
             limits += u32::from(!taylor(1.06 * accepted).is_near_root());
         }
         assert!(limits > 1_000, "{limits}");

@@ -15,8 +15,8 @@ impl Vibration {
     /// `impact`, the result of [`Self::first_impact`], in units of g/omega^2. Infinite if the gap has no
     /// minimum on the way.
     ///
-    /// If it is small against P, a slightly different launch would have met the platform earlier. It is
-    /// computed apart from the impact because an orbit does not need it.
+    /// If it is small compared with P, a slightly different launch would have hit the platform earlier. It is
+    /// computed separately from the impact because an orbit does not need it.
     ///
     /// The gap has at most one minimum in each interval in which the platform falls away faster than the
     /// disk. The minima are a concave sequence (the disk's parabola, sampled once a period), so the first or
@@ -31,8 +31,8 @@ impl Vibration {
         let speed = launch.relative_speed() + peak * phase.cos();
         let duration = impact.duration();
         let width = PI - 2.0 * self.separation_angle;
-        // Interval k is [first + 2 pi k, that + width]; one that the launch lies in has rising gap
-        // throughout.
+        // Interval k is [first + 2 pi k, that + width]; in an interval that contains the launch, the gap
+        // rises throughout.
         let first = self.time_to_separation(phase.angle());
         // A minimum needs a falling gap at the start of the interval and a rising one at its end.
         let slope = self.separation_speed;
@@ -47,7 +47,7 @@ impl Vibration {
         minimum(lowest).min(minimum(highest))
     }
 
-    /// The smallest gap in the convex interval of `width` that starts `start` after a launch with disk speed
+    /// The smallest gap in the convex interval of `width` that begins `start` after a launch with disk speed
     /// `speed`, `depth` below the crests.
     fn smallest_gap(&self, speed: f64, depth: f64, start: f64, width: f64) -> f64 {
         let peak = self.peak_acceleration();
@@ -69,7 +69,7 @@ impl Vibration {
             t = next;
         }
         let h = start + t;
-        // Height above the crests as a product, where the parabola reaches them, so that nothing large
+        // If the parabola reaches the crests, the height above them as a product, so that nothing large
         // cancels.
         let radicand = speed * speed - 2.0 * depth;
         let above = if radicand > 0.0 && speed > 0.0 {

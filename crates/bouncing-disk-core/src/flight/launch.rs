@@ -19,9 +19,9 @@ read_checked!(Launch as UncheckedLaunch { phase: Phase, relative_speed: f64 } =>
 impl Launch {
     /// A launch at `phase` with `relative_speed` >= 0 (disk minus platform, in units of g/omega).
     ///
-    /// Speed zero means "from rest on the platform": where the platform falls away, P sin tau >= 1, the disk
-    /// separates; elsewhere the flight is refused ([`Error::NoLiftOff`]), not the launch, which has no
-    /// platform.
+    /// Speed zero means "from rest on the platform". If the platform falls away, P sin tau >= 1, the disk
+    /// separates; otherwise the flight returns [`Error::NoLiftOff`]. The launch itself is legal, because it
+    /// knows no platform.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a negative or non-finite speed.
@@ -97,8 +97,7 @@ impl Impact {
         self.periods as f64 * TAU + self.remainder
     }
 
-    /// A copy field by field: a value that was just written in parts can be read as a whole only after a
-    /// stall.
+    /// A copy field by field: reading as a whole a value that was just written in parts causes a stall.
     #[inline(always)]
     pub(crate) const fn in_parts(self) -> Self {
         let Self { periods, remainder, turns, phase, velocity, evaluations } = self;
@@ -106,8 +105,8 @@ impl Impact {
     }
 }
 
-/// Phase and relative speed of a disk about as fast as a platform with P = 2 at its fastest: launched so, it
-/// may dip below it between separation and crest. Where the speed is negative there is no such launch.
+/// Phase and relative speed of a disk about as fast as a platform with P = 2 at its fastest. Such a launch
+/// may dip below the platform between separation and crest. If the speed is negative there is no such launch.
 #[cfg(test)]
 pub(crate) fn launch_that_may_dip(
     vibration: &crate::flight::platform::vibration::Vibration,

@@ -1,8 +1,8 @@
-//! A second, independent solver of Eq. (11), for cross-checks: slow, simple, and sharing nothing with
-//! [`Vibration::first_impact`] but the equation.
+//! A second, independent solver of Eq. (11), for cross-checks: slow and simple, it shares only the equation
+//! with [`Vibration::first_impact`].
 //!
 //! It walks from the launch in steps that cannot jump over a zero of the gap (conservative advancement),
-//! until a single zero is in plain sight, and leaves that to Brent's method of the `roots` crate.
+//! until a single zero is isolated, and refines it with Brent's method of the `roots` crate.
 
 use roots::{Convergency, find_root_brent};
 
@@ -18,13 +18,13 @@ const MAX_STEPS: u32 = 1_000_000;
 /// Conservative steps are shortened by this share, far more than their rounding.
 const STEP_SHARE: f64 = 1.0 - 1.0e-9;
 
-/// Two times (rad) this close, relative to the duration, are the same: four units in the last place.
+/// Relative difference below which two times (rad) are equal: four units in the last place.
 const TIME_TOLERANCE: f64 = 4.0 * f64::EPSILON;
 
 /// Iterations after which Brent's method gives up; bisection alone needs about 60.
 const MAX_ITERATIONS: usize = 300;
 
-/// The first impact as the reference solver sees it.
+/// The first impact according to the reference solver.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ReferenceImpact {
@@ -74,7 +74,7 @@ impl Gap {
     }
 }
 
-/// h - sin h, in relative accuracy.
+/// h - sin h, with relative accuracy.
 fn deficit(h: f64, sine: f64) -> f64 {
     if h > 1.0 {
         return h - sine;
@@ -99,7 +99,7 @@ fn parabola_end(gap: f64, velocity: f64, bend: f64) -> f64 {
 
 impl Sample {
     /// A step that cannot reach a zero. The curvature of the gap, P sin - 1, is never below -(1 + P), and
-    /// over a step s not below P sin - P |cos| s - P s^2/2 - 1, which is the better bound where the platform
+    /// over a step s not below P sin - P |cos| s - P s^2/2 - 1. The latter bound is better if the platform
     /// almost falls freely.
     fn safe_step(&self, peak: f64) -> f64 {
         let mut best = parabola_end(self.gap, self.velocity, 1.0 + peak);
@@ -116,14 +116,14 @@ impl Sample {
         best * STEP_SHARE
     }
 
-    /// Whether the gap falls all the time for the next `time`: its curvature is at most P - 1.
+    /// Whether the gap certainly falls during the next `time`: its curvature is at most P - 1.
     fn falls_for(&self, time: f64, peak: f64) -> bool {
         self.velocity + (peak - 1.0).max(0.0) * time < 0.0
     }
 }
 
-/// When Brent's method ends: at an exact zero, or at a bracket as narrow as doubles can resolve times.
-/// The gap itself has no tolerance: at motor scale any absolute one is wrong.
+/// The stopping criterion of Brent's method: an exact zero, or a bracket as narrow as the resolution of
+/// doubles. There is no tolerance on the gap itself: at motor scale any absolute one is wrong.
 struct ExactOrNarrow;
 
 impl Convergency<f64> for ExactOrNarrow {
@@ -143,10 +143,10 @@ impl Convergency<f64> for ExactOrNarrow {
 /// The first impact after `launch`, by conservative advancement and Brent's method.
 ///
 /// For cross-checks of [`Vibration::first_impact`]: it takes tens to thousands of evaluations of the gap, and
-/// its phase has the rounding of the whole duration. The first zero is certain up to that rounding.
+/// its phase carries the rounding of the whole duration. The first zero is certain up to this rounding.
 ///
 /// # Errors
-/// [`Error::NoLiftOff`] for a launch from rest where the platform does not fall away,
+/// [`Error::NoLiftOff`] for a launch from rest while the platform does not fall away,
 /// [`Error::FlightTooLong`] beyond [`MAX_FLIGHT_DURATION`], [`Error::NoConvergence`] if the steps run out.
 pub fn first_impact_by_advancement(vibration: &Vibration, launch: Launch) -> Result<ReferenceImpact, Error> {
     let peak = vibration.peak_acceleration();
@@ -170,7 +170,7 @@ pub fn first_impact_by_advancement(vibration: &Vibration, launch: Launch) -> Res
     };
     loop {
         let sample = gap.at(h);
-        // Twice the Newton step: past the zero, if the gap falls all the way.
+        // Twice the Newton step lies past the zero if the gap falls all the way.
         let ahead = -2.0 * sample.gap / sample.velocity;
         if sample.gap > 0.0 && sample.velocity < 0.0 && sample.falls_for(ahead, peak) {
             let end = h + ahead;
@@ -180,7 +180,7 @@ pub fn first_impact_by_advancement(vibration: &Vibration, launch: Launch) -> Res
         }
         let step = if sample.gap > 0.0 { sample.safe_step(peak) } else { 0.0 };
         if step <= TIME_TOLERANCE * h {
-            // A graze: the gap is nothing but rounding.
+            // A graze: the gap is pure rounding error.
             return Ok(impact(&mut gap, h, phase.angle()));
         }
         if gap.evaluations >= MAX_STEPS {
@@ -190,10 +190,10 @@ pub fn first_impact_by_advancement(vibration: &Vibration, launch: Launch) -> Res
     }
 }
 
-/// The one zero in [`lo`, `hi`].
+/// The only zero in [`lo`, `hi`].
 ///
-/// `find_root_brent` of `roots` 0.0.8 returns its last iterate but one when it has converged, so the
-/// narrowest bracket that it has seen counts, not its answer.
+/// `find_root_brent` of `roots` 0.0.8 returns its last iterate but one after convergence, so the narrowest
+/// bracket seen is used, not its answer.
 fn refined(gap: &mut Gap, lo: f64, hi: f64, angle: f64) -> Result<ReferenceImpact, Error> {
     let (mut above, mut below) = ((lo, f64::INFINITY), (hi, f64::NEG_INFINITY));
     let found = find_root_brent(

@@ -14,10 +14,10 @@ impl ImpactMap {
         Launch::known(impact.phase(), speed)
     }
 
-    /// The accumulation point of the chatter that follows a launch, or `None` unless a bound shows that the
-    /// disk chatters to rest and the closed form is exact to 1e-16 rad, for the pull 1 - P sin tau given by P
+    /// The accumulation point of the chatter that follows a launch. `None` unless a bound shows that the disk
+    /// chatters to rest and that the closed form is exact to 1e-16 rad, for the pull 1 - P sin tau given by P
     /// and the carried pair. Near weightlessness one rounding of P or of the phase changes the pull and the
-    /// duration: that is the conditioning of the problem and is not part of the bound.
+    /// duration; this conditioning of the problem is not part of the bound.
     ///
     /// The accumulation point lies before the next separation. A chatter that ends before it has changed the
     /// phase has the duration 0.
@@ -36,25 +36,25 @@ impl ImpactMap {
         self.vibration().accumulation(launch.phase(), launch.relative_speed(), self.restitution())
     }
 
-    /// The chatter after a launch in closed form, for one that [`Self::accumulation`] accepts with a duration
-    /// above 0 and a restitution above 0: every impact of it, and their sums, at once.
+    /// The chatter after a launch in closed form: all its impacts and their sums at once. The launch must be
+    /// one that [`Self::accumulation`] accepts with a duration above 0, and the restitution above 0.
     #[must_use]
     pub fn chatter_series(&self, launch: Launch) -> ChatterSeries {
         self.vibration().chatter_series(launch.phase(), launch.relative_speed(), self.restitution())
     }
 
-    /// The impacts of the chatter after a launch that [`Self::accumulation`] accepts with a duration above 0,
-    /// until they carry less than 1e-17 of the first one's impulse or are launched with less than the
-    /// smallest normal number.
+    /// The impacts of the chatter after a launch that [`Self::accumulation`] accepts with a duration above 0.
+    /// They end when an impact carries less than 1e-17 of the first one's impulse, or its launch speed is
+    /// below the smallest normal number.
     ///
-    /// They are computed lazily, and there are 39/(1 - r) of them: near r = 1 that may take for ever.
-    /// [`Self::chatter_series`] has every one of them, and their sums, at once.
+    /// They are computed lazily. There are 39/(1 - r) of them, so near r = 1 this may take forever.
+    /// [`Self::chatter_series`] gives all of them, and their sums, at once.
     pub fn chatter_impacts(&self, launch: Launch) -> impl Iterator<Item = ChatterImpact> + use<> {
         self.vibration().chatter_impacts(launch.phase(), launch.relative_speed(), self.restitution())
     }
 
-    /// Whether the disk is certain to chatter to rest after a launch before the platform falls away: proven
-    /// long before [`Self::accumulation`] can tell where.
+    /// Whether the disk is certain to chatter to rest after a launch before the platform falls away. This is
+    /// proven long before [`Self::accumulation`] can locate the accumulation point.
     #[must_use]
     #[inline]
     pub fn chatters_to_rest(&self, launch: Launch) -> bool {
@@ -62,17 +62,17 @@ impl ImpactMap {
     }
 }
 
-/// Rounding of the bound, with room to spare.
+/// A generous bound on the rounding of the bound.
 const ROUNDING: f64 = 1.0e-12;
 
-/// How often the window is drawn in to the bound that it gave.
+/// How often the window is shortened to the bound that it gave.
 const WINDOWS: u32 = 4;
 
 impl<L: RestitutionLaw> ImpactMap<L> {
-    /// A time (rad) within which the disk comes to rest after an impact, for good until the platform falls
-    /// away: a bound on the error of a cut that puts the disk on the platform at this impact. `None` where no
-    /// bound is known: where the law has no [`rebound_sum`](RestitutionLaw::rebound_sum), or where the
-    /// chatter is so long that the pull 1 - P sin tau may change by much. For the pull that P and the carried
+    /// A time (rad) within which the disk comes to rest after an impact, until the platform falls away. It
+    /// bounds the error of a cut that puts the disk on the platform at this impact. It is `None` if no bound
+    /// is known: the law has no [`rebound_sum`](RestitutionLaw::rebound_sum), or the chatter is so long that
+    /// the pull 1 - P sin tau may change considerably. The bound holds for the pull that P and the carried
     /// pair give (docs/numerics-dynamics.md, "The error of a cut").
     ///
     /// ```
@@ -91,7 +91,7 @@ impl<L: RestitutionLaw> ImpactMap<L> {
         let phase = impact.phase();
         let (peak, pull) = (self.vibration().peak_acceleration(), self.vibration().contact_force(phase));
         let drift = self.vibration().velocity(phase).abs();
-        // Also refuses what is no number.
+        // NaN fails here too.
         if !(launches >= 0.0 && pull > 0.0) {
             return None;
         }

@@ -22,7 +22,7 @@ pub struct ImpactState {
     velocity: f64,
 }
 
-/// Phase and velocity; a precision given applies to both.
+/// Phase and velocity; a given precision applies to both.
 impl core::fmt::Display for ImpactState {
     fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         formatter.write_str("impact at ")?;
@@ -62,7 +62,7 @@ impl ImpactState {
         Self::new(Phase::new(angle)?, -normalised_speed * core::f64::consts::PI)
     }
 
-    /// The state at an impact that was computed.
+    /// The state at a computed impact.
     pub const fn of_impact(phase: Phase, velocity: f64) -> Self {
         Self { phase, velocity }
     }
@@ -100,9 +100,9 @@ impl From<&Impact> for ImpactState {
 
 /// The vertical impact map: vibration of the platform and law of restitution.
 ///
-/// Closed forms, the proof of rest, periodic orbits, batches and basins are those of a constant restitution,
-/// the paper's law. Under [another one](Self::with_law) there are steps and their derivatives, iterates, and
-/// orbits that end a chatter by a cut.
+/// Closed forms, the proof of rest, periodic orbits, batches and basins need a constant restitution, the
+/// paper's law. [Other laws](Self::with_law) offer steps and their derivatives, iterates, and orbits that end
+/// a chatter by a cut.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedMap<L>"))]
@@ -121,7 +121,7 @@ impl<L: core::fmt::Display> core::fmt::Display for ImpactMap<L> {
 read_checked!(ImpactMap<L> as UncheckedMap { vibration: Vibration, restitution: L });
 
 impl<L> ImpactMap<L> {
-    /// Vibration and law have been checked when they were read.
+    /// Vibration and law were checked when they were read.
     fn check(&self) -> Result<(), Error> {
         Ok(())
     }
@@ -161,7 +161,7 @@ impl ImpactMap {
 }
 
 impl<L: RestitutionLaw> ImpactMap<L> {
-    /// The map of a disk with this law of restitution on a vibrating platform.
+    /// The map of a disk on a vibrating platform, with this law of restitution.
     ///
     /// ```
     /// use bouncing_disk_core::chaos::TangentGrowth;
@@ -202,9 +202,9 @@ impl<L: RestitutionLaw> ImpactMap<L> {
         Ok(-self.restitution_at(0.0 - velocity)? * velocity)
     }
 
-    /// The impact that follows the one in `state`, without any chattering policy: a chattering disk is
-    /// followed through ever smaller impacts until its speed underflows. [`Self::orbit`] and
-    /// [`Self::state_after`] end a chatter.
+    /// The impact after the one in `state`, without any chattering policy: a chattering disk is followed
+    /// through ever smaller impacts until its speed underflows. [`Self::orbit`] and [`Self::state_after`] end
+    /// a chatter.
     ///
     /// # Errors
     /// [`Error::NoLiftOff`] if the disk stays on the platform (restitution or speed zero), those of
@@ -215,8 +215,8 @@ impl<L: RestitutionLaw> ImpactMap<L> {
     }
 
     /// The impact a number of [steps](Self::step) after the one in `state`: the same bits as step by step,
-    /// and faster where the compiler would pass the state through memory. As there, no policy ends a chatter.
-    /// The items of `observer` are the impacts.
+    /// but faster because the state stays in registers. As in a step, no policy ends a chatter. The items of
+    /// `observer` are the impacts.
     ///
     /// ```
     /// # use bouncing_disk_core::{ImpactMap, ImpactState, Unobserved, Vibration};
@@ -228,7 +228,7 @@ impl<L: RestitutionLaw> ImpactMap<L> {
     /// ```
     ///
     /// # Errors
-    /// That of the first step that fails (see [`Self::step`]).
+    /// The error of the first step that fails (see [`Self::step`]).
     pub fn iterate(
         &self,
         mut state: ImpactState,
@@ -240,7 +240,7 @@ impl<L: RestitutionLaw> ImpactMap<L> {
         let mut left = impacts;
         while left > 0 {
             let part = left.min(FLIGHTS_BETWEEN_CALLS);
-            // The loop stands here, not in `steps`: the compiler makes it a sixtieth slower otherwise.
+            // The loop is here and not in `steps`, where the compiler makes it a sixtieth slower.
             for _ in 0..part {
                 state = self.step(state)?.into();
             }
@@ -251,7 +251,7 @@ impl<L: RestitutionLaw> ImpactMap<L> {
         Ok(state)
     }
 
-    /// Some steps that nobody watches.
+    /// A number of steps without an observer.
     #[inline]
     pub(crate) fn steps(&self, mut state: ImpactState, impacts: u64) -> Result<ImpactState, Error> {
         for _ in 0..impacts {
@@ -260,10 +260,10 @@ impl<L: RestitutionLaw> ImpactMap<L> {
         Ok(state)
     }
 
-    /// [`Self::step`] with the derivative of the next (phase, velocity) by the present (phase, velocity), in
+    /// [`Self::step`] with the derivative of the next (phase, velocity) with respect to the present one, in
     /// radians and units of g/omega. Column-major: `x_axis` is the derivative by the phase.
     ///
-    /// It is singular at a graze (impact velocity zero): the entries are infinite there.
+    /// It is singular at a graze (impact velocity zero), with infinite entries.
     ///
     /// ```
     /// # use bouncing_disk_core::orbits::Multipliers;
@@ -278,7 +278,7 @@ impl<L: RestitutionLaw> ImpactMap<L> {
     /// ```
     ///
     /// # Errors
-    /// Those of [`Self::step`]; [`Error::OutOfRange`] if the law has no finite derivative there.
+    /// Errors of [`Self::step`]; [`Error::OutOfRange`] if the law has no finite derivative there.
     pub fn step_with_derivative(&self, state: ImpactState) -> Result<(Impact, DMat2), Error> {
         let impact = self.step(state)?;
         let slope = launch_slope(&self.restitution, 0.0 - state.velocity)?;
@@ -286,7 +286,7 @@ impl<L: RestitutionLaw> ImpactMap<L> {
     }
 
     /// The derivative at `state`, whose next impact is the one in `next` after a flight of the duration `h`;
-    /// `slope` is that of the launch speed by the impact speed.
+    /// `slope` is the derivative of the launch speed by the impact speed.
     fn derivative_by_slope(&self, state: ImpactState, next: ImpactState, h: f64, slope: f64) -> DMat2 {
         let p = self.vibration.peak_acceleration();
         let (s, c) = (state.phase.sin(), state.phase.cos());
@@ -306,9 +306,9 @@ impl<L: RestitutionLaw> ImpactMap<L> {
 
     /// The orbit that starts with the impact in `state`; the first item is the next event.
     ///
-    /// The closed form of [`ChatterPolicy::Complete`] holds for a constant restitution: under another law it
-    /// is an error of the first event, and so is a restitution outside its range. [`ChatterPolicy::Cut`] ends
-    /// a chatter under every law; its error is the `error_bound` of the [`Attachment`].
+    /// The closed form of [`ChatterPolicy::Complete`] holds for a constant restitution: under another law, or
+    /// with a restitution outside its range, the first event is an error. [`ChatterPolicy::Cut`] ends a
+    /// chatter under every law; its error is the `error_bound` of the [`Attachment`].
     #[must_use]
     pub fn orbit(&self, state: ImpactState, policy: ChatterPolicy) -> Orbit<L> {
         Orbit::after_impact(self.clone(), policy, state)
@@ -317,7 +317,7 @@ impl<L: RestitutionLaw> ImpactMap<L> {
     /// The orbit of a disk that starts in the air: see [`Vibration::first_impact_of_drop`].
     ///
     /// # Errors
-    /// Those of [`Vibration::first_impact_of_drop`].
+    /// Errors of [`Vibration::first_impact_of_drop`].
     pub fn orbit_from_drop(
         &self,
         phase: Phase,
@@ -343,13 +343,15 @@ impl<L: RestitutionLaw> ImpactMap<L> {
 pub enum OrbitEvent {
     /// The disk hits the platform.
     Impact(Impact),
-    /// The disk comes to rest on the platform. On a sine that falls away from it, it separates again; on a drive the
-    /// separation is an event of its own. In a contact that takes time it stays for ever; the error bound is infinite
-    /// where only 4096 turns of the spring without a release say so.
+    /// The disk comes to rest on the platform. On a sine that falls away from it, it separates again; on a
+    /// drive the separation is an event of its own. In a compliant contact it stays forever; the error bound
+    /// is infinite if this is only inferred from 4096 turns of the spring without a release.
     Attachment(Attachment),
-    /// On a drive: the contact force falls to zero, or the velocity of the platform drops, and the disk leaves.
+    /// On a drive: the disk leaves, because the contact force falls to zero or the velocity of the platform
+    /// drops.
     Separation(ContactChange),
-    /// On a drive: the velocity of the platform rises, which hits the disk that rests on it, at zero distance.
+    /// On a drive: the velocity of the platform jumps up and hits the disk that rests on it, at zero
+    /// distance.
     Kick(ContactChange),
 }
 
@@ -360,12 +362,12 @@ pub enum OrbitEvent {
 pub struct ContactChange {
     /// The time since the disk came to rest, in radians.
     pub duration: f64,
-    /// When.
+    /// The phase of the event.
     pub phase: Phase,
     /// How often the phase passed 0 (mod 2 pi) since the disk came to rest.
     pub turns: u64,
     /// The velocity of the disk relative to the platform just after the platform's velocity has jumped,
-    /// before any law of impact: zero or positive for a separation, negative for a kick.
+    /// before any law of impact applies. It is zero or positive for a separation, negative for a kick.
     pub velocity: f64,
 }
 
@@ -379,20 +381,20 @@ impl ContactChange {
     }
 }
 
-/// A spell of contact between the end of a chattering sequence and the next separation.
+/// A segment of contact between the end of a chattering sequence and the next separation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedAttachment"))]
 pub struct Attachment {
-    /// The accumulation point, where the disk attaches. Under [`ChatterPolicy::Cut`] the last impact itself,
-    /// with duration zero. A constant restitution has no bound on the remainder (`error_bound` is infinite
-    /// unless the speed was 0); another law has that of [`ImpactMap::comes_to_rest_within`], infinite where
-    /// there is none.
+    /// The accumulation point, where the disk attaches. Under [`ChatterPolicy::Cut`] it is the last impact
+    /// itself, with duration zero. A cut under a constant restitution gives no bound on the remainder:
+    /// `error_bound` is infinite unless the speed was 0. Under another law the bound is
+    /// [`ImpactMap::comes_to_rest_within`], infinite if this is `None`.
     pub accumulation: Accumulation,
     /// Launch speed after the last impact, in units of g/omega, from which the chatter started.
     pub last_speed: f64,
-    /// The phase at which it separates, and how often the phase passes 0 (mod 2 pi) from the attachment to
-    /// there; `None` on a drive, and if the disk rests for ever (P <= 1).
+    /// The phase of the next separation, and how often the phase passes 0 (mod 2 pi) between attachment and
+    /// separation; `None` on a drive, and if the disk rests forever (P <= 1).
     pub separation: Option<(Phase, u64)>,
 }
 
@@ -424,11 +426,11 @@ enum Next {
     Attach(Accumulation, f64),
     /// Report this error.
     Fail(Error),
-    /// Nothing more: it rests for ever, or an error was reported.
+    /// Nothing more: the disk rests forever, or an error was reported.
     End,
 }
 
-/// The lazy sequence of [`OrbitEvent`]s of one orbit. It ends if the disk rests for ever, and after an error.
+/// The lazy sequence of [`OrbitEvent`]s of one orbit. It ends if the disk rests forever, and after an error.
 #[derive(Debug, Clone)]
 pub struct Orbit<L = Constant> {
     map: ImpactMap<L>,
@@ -466,8 +468,8 @@ impl<L: RestitutionLaw> Orbit<L> {
         orbit
     }
 
-    /// The motion after an impact at `phase` with relative `velocity`, which ends a flight of `duration` and
-    /// launches the disk with `speed`.
+    /// The motion after an impact at `phase` with relative `velocity`. The impact ends a flight of `duration`
+    /// and launches the disk with `speed`.
     fn after(&mut self, phase: Phase, velocity: f64, speed: f64, duration: f64) -> Next {
         match self.policy {
             ChatterPolicy::Complete => {
@@ -475,7 +477,7 @@ impl<L: RestitutionLaw> Orbit<L> {
                 match constant
                     .and_then(|restitution| self.map.vibration.accumulation(phase, speed, restitution))
                 {
-                    // A chatter for which no time is left does not happen.
+                    // A chatter without time left does not happen.
                     Some(at) => Next::Attach(at, if at.duration > 0.0 { speed } else { 0.0 }),
                     None => Next::Launch(phase, speed),
                 }
@@ -485,7 +487,7 @@ impl<L: RestitutionLaw> Orbit<L> {
                 if !self.short_flights.attaches(&cut, duration, -velocity) && speed > 0.0 {
                     Next::Launch(phase, speed)
                 } else if self.map.vibration.falls_away_at(phase.angle()) {
-                    // Put on a platform that falls away, the disk is in flight again at once.
+                    // On a platform that falls away the disk is in flight again at once.
                     Next::Launch(phase, 0.0)
                 } else {
                     let error_bound = if speed > 0.0 { self.error_of_cut(phase, velocity) } else { 0.0 };
@@ -495,8 +497,9 @@ impl<L: RestitutionLaw> Orbit<L> {
         }
     }
 
-    /// Bound on the time (rad) for which the disk would continue to bounce after an impact that a cut ends;
-    /// `None` for a constant restitution, for which [`ChatterPolicy::Complete`] has the exact time.
+    /// Bound on the time (rad) during which the disk would go on bouncing after an impact at which a cut ends
+    /// the chatter; `None` for a constant restitution, for which [`ChatterPolicy::Complete`] has the exact
+    /// time.
     fn error_of_cut(&self, phase: Phase, velocity: f64) -> f64 {
         match self.map.restitution.constant(Internal) {
             Some(_) => f64::INFINITY,
@@ -507,7 +510,7 @@ impl<L: RestitutionLaw> Orbit<L> {
         }
     }
 
-    /// Where and how fast the disk leaves the platform next: `None` if it is about to attach or has ended.
+    /// The next launch: `None` if the disk is about to attach or the orbit has ended.
     #[must_use]
     pub const fn launch(&self) -> Option<Launch> {
         match self.next {
@@ -516,7 +519,7 @@ impl<L: RestitutionLaw> Orbit<L> {
         }
     }
 
-    /// Gives the next launch another speed >= 0 (a perturbation of a relaunch); ignored if none is due.
+    /// Sets the speed >= 0 of the next launch (a perturbation of a relaunch); ignored if none is due.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a negative or non-finite speed.
@@ -528,7 +531,7 @@ impl<L: RestitutionLaw> Orbit<L> {
         Ok(())
     }
 
-    /// How a chatter ends.
+    /// The policy that ends a chatter.
     #[must_use]
     pub const fn policy(&self) -> ChatterPolicy {
         self.policy
@@ -540,8 +543,8 @@ impl<L: RestitutionLaw> Orbit<L> {
         &self.map
     }
 
-    /// [`Self::after`], of a phase in parts: a reference to the impact would keep it in memory, where the
-    /// next flight waits for it.
+    /// [`Self::after`] with the phase in parts: a reference would keep the impact in memory, and the next
+    /// flight would wait for it.
     #[inline(never)]
     fn settle(&mut self, angle: f64, sin: f64, cos: f64, velocity: f64, speed: f64, duration: f64) {
         self.next = self.after(Phase::from_parts(angle, sin, cos), velocity, speed, duration);
@@ -563,7 +566,7 @@ impl<L: RestitutionLaw> Orbit<L> {
         Ok(Some(OrbitEvent::Impact(impact)))
     }
 
-    /// [`Self::report`] under a law that is no constant.
+    /// [`Self::report`] under a law that is not constant.
     #[inline(never)]
     fn report_by_law(&mut self, impact: Impact) -> Result<Option<OrbitEvent>, Error> {
         match self.map.rebound_speed(impact.velocity) {
@@ -587,9 +590,9 @@ impl<L: RestitutionLaw> Orbit<L> {
     /// The next event, or `None` after the end of the orbit.
     ///
     /// # Errors
-    /// Those of [`Vibration::first_impact`]; [`Error::IllegalRestitution`] in place of the impact whose
-    /// restitution the law does not give; [`Error::NoClosedForm`]. An error ends the orbit.
-    // By a call, a motor's transient takes 2 % longer.
+    /// Errors of [`Vibration::first_impact`]; [`Error::IllegalRestitution`] instead of an impact for which
+    /// the law gives no legal restitution; [`Error::NoClosedForm`]. An error ends the orbit.
+    // Without inlining, a motor's transient takes 2 % longer.
     #[inline(always)]
     pub fn advance(&mut self) -> Result<Option<OrbitEvent>, Error> {
         match self.next {

@@ -7,24 +7,23 @@ use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::elementary::wrapped_angle;
 use crate::numerics::error::{Error, within};
 
-/// The phase pi - tau, at which the platform that runs backwards has the height that it has at tau.
+/// The phase pi - tau, at which the platform running backwards is at its height at tau.
 fn mirrored(phase: Phase) -> Phase {
-    // Sine and cosine of the mirrored angle are known without rounding, the angle is not.
+    // Mirroring rounds the angle, but not its sine and cosine.
     Phase::from_parts(wrapped_angle(PI - phase.angle()), phase.sin(), -phase.cos())
 }
 
 impl ImpactMap {
     /// The impact before the one in `state`: the only one that [`Self::step`] maps to it.
     ///
-    /// Backwards in time the platform vibrates as it does forwards, but from the phase pi - tau, and the disk
+    /// Backwards in time the platform vibrates in the same way, but from the phase pi - tau, and the disk
     /// leaves it with the speed |v|. The first impact of that flight is the previous impact. The disk arrives
-    /// there with the speed of its launch, which is the restitution times the unknown impact speed. So the
-    /// inverse exists wherever the restitution is not 0 and the disk was in flight before the impact, and
-    /// speeds grow on the way back.
+    /// there with its launch speed, the restitution times the unknown impact speed. So the inverse exists if
+    /// the restitution is not 0 and the disk was in flight before the impact, and speeds grow backwards.
     ///
-    /// It jumps where the flight grazes the platform on its way, as [`Self::step`] does. An impact without
-    /// speed can only be the graze of a flight where the platform falls away faster than the disk; if one is
-    /// returned, it was followed by a launch without speed.
+    /// Like [`Self::step`], it jumps where the flight grazes the platform. An impact with zero speed can only
+    /// be a graze while the platform falls away faster than the disk; if one is returned, a launch with zero
+    /// speed followed it.
     ///
     /// ```
     /// # use bouncing_disk_core::{ImpactMap, ImpactState, Vibration};
@@ -36,9 +35,9 @@ impl ImpactMap {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for restitution 0, which forgets the speed of an impact, and where the speed
-    /// before is more than a double holds; [`Error::NoLiftOff`] for an impact without speed on a platform
-    /// that does not fall away; those of [`Vibration::first_impact`](crate::Vibration::first_impact).
+    /// [`Error::OutOfRange`] for restitution 0, which forgets the speed of an impact, and if the earlier
+    /// speed overflows a double; [`Error::NoLiftOff`] for an impact with zero speed on a platform that does
+    /// not fall away; errors of [`Vibration::first_impact`](crate::Vibration::first_impact).
     pub fn step_back(&self, state: ImpactState) -> Result<ImpactState, Error> {
         let restitution = self.restitution();
         within("restitution of an inverse", restitution, f64::MIN_POSITIVE, 1.0, "(0, 1), a normal number")?;
@@ -68,7 +67,7 @@ mod tests {
         phase.min(TAU - phase).max((a.velocity() - b.velocity()).abs())
     }
 
-    /// Both ways round, with the error that the derivative of the way promises.
+    /// In both orders, with the error expected from the derivative.
     #[test]
     fn it_undoes_a_step_and_a_step_undoes_it() {
         let mut random = SplitMix64::new(18);
@@ -129,7 +128,7 @@ mod tests {
             let error = map(1.5, restitution).step_back(start).expect_err("forgotten");
             assert!(matches!(error, Error::OutOfRange { field: "restitution of an inverse", .. }), "{error}");
         }
-        // The speed before exceeds what a double holds.
+        // The earlier speed overflows a double.
         let error = map(1.5, f64::MIN_POSITIVE).step_back(state(1.0, -30.0)).expect_err("too fast");
         assert!(matches!(error, Error::OutOfRange { field: "axial_impact_velocity", .. }), "{error}");
         // A disk at rest on a platform that does not fall away did not arrive in flight; a graze did.

@@ -1,5 +1,5 @@
-//! Laws of restitution: the share of its speed that an impact leaves the disk, and the trait for laws of
-//! your own. Derived in docs/numerics-dynamics.md.
+//! Laws of restitution: the share of its speed that the disk keeps in an impact, and the trait for your own
+//! laws. Derived in docs/numerics-dynamics.md.
 
 use core::fmt::{self, Debug, Display};
 
@@ -7,10 +7,10 @@ use crate::numerics::error::{Error, within};
 
 pub(crate) mod kuwabara_kono;
 
-/// A law of restitution: the share of the relative axial speed that an impact leaves.
+/// A law of restitution: the share of the relative axial speed that is left after an impact.
 ///
-/// [`Constant`] is the paper's, [`KuwabaraKono`](crate::map::KuwabaraKono) that of viscoelastic bodies. A law
-/// of your own needs two methods:
+/// [`Constant`] is the paper's law, [`KuwabaraKono`](crate::map::KuwabaraKono) is for viscoelastic bodies.
+/// Your own law needs two methods:
 ///
 /// ```
 /// use bouncing_disk_core::map::RestitutionLaw;
@@ -36,33 +36,33 @@ pub(crate) mod kuwabara_kono;
 /// # Ok::<(), bouncing_disk_core::Error>(())
 /// ```
 ///
-/// The same speed must always give the same restitution; that it lies in [0, 1] is checked at every impact.
-/// There are no further checks: a law that grows with the speed, or that jumps, is followed as it is.
+/// The same speed must always give the same restitution, and every impact checks that it lies in [0, 1].
+/// There are no further checks: a law may grow with the speed, or jump.
 pub trait RestitutionLaw: Clone + Debug {
     /// The coefficient of restitution, in [0, 1], of an impact with the relative axial speed |w_A| >= 0
     /// (units of g/omega).
     ///
-    /// A value outside its range, or none, ends the motion with [`Error::IllegalRestitution`] at that impact.
+    /// A value outside this range, or NaN, ends the motion with [`Error::IllegalRestitution`] at that impact.
     fn restitution(&self, impact_speed: f64) -> f64;
 
-    /// The derivative of [`Self::restitution`] by the speed (units of omega/g). Below the smallest normal
-    /// number, at speed 0 above all, it may be infinite: only its product with the speed matters, and that
-    /// counts as 0 there.
+    /// The derivative of [`Self::restitution`] by the speed (units of omega/g). At speeds below the smallest
+    /// normal number, in particular 0, it may be infinite: only its product with the speed matters, which
+    /// then counts as 0.
     fn derivative(&self, impact_speed: f64) -> f64;
 
-    /// A bound on the sum of all speeds with which the disk leaves a platform at rest after an impact at this
-    /// speed, until it rests: for a law that does not grow with the speed, the integral of r/(1 - r) over the
-    /// speeds from 0 to this one, or anything above it. The error of a cut follows from it
+    /// A bound on the sum of all launch speeds after an impact at this speed on a platform at rest, until the
+    /// disk rests. For a law that does not grow with the speed, it is the integral of r/(1 - r) over the
+    /// speeds from 0 to this one, or anything larger. It gives the error of a cut
     /// ([`ImpactMap::comes_to_rest_within`](crate::ImpactMap::comes_to_rest_within)).
     ///
-    /// `None`, the default, is for a law that may grow with the speed, and for an unknown one: its cuts have
-    /// no bound.
+    /// `None`, the default, is for a law that may grow with the speed or is unknown: its cuts have no error
+    /// bound.
     fn rebound_sum(&self, _impact_speed: f64) -> Option<f64> {
         None
     }
 
-    /// The restitution of every speed, where it is the same and known to be legal. [`Constant`] alone has
-    /// one, as no other crate can name the argument: the closed forms of a chatter rely on it.
+    /// The restitution if it is the same at every speed and known to be legal. Only [`Constant`] returns one,
+    /// because no other crate can name the argument: the closed forms of a chatter rely on this.
     #[doc(hidden)]
     #[inline(always)]
     fn constant(&self, _: Internal) -> Option<f64> {
@@ -70,7 +70,7 @@ pub trait RestitutionLaw: Clone + Debug {
     }
 }
 
-/// Only this crate can name it: nobody else overrides a method that takes it.
+/// Only this crate can name it, so no other crate can override a method that takes it.
 #[derive(Debug, Clone, Copy)]
 pub struct Internal;
 
@@ -154,8 +154,7 @@ pub(crate) fn restitution_of<L: RestitutionLaw>(law: &L, impact_speed: f64) -> R
     }
 }
 
-/// The derivative of the launch speed r(v) v by the impact speed v, which is the restitution of a constant
-/// law.
+/// The derivative of the launch speed r(v) v by the impact speed v; for a constant law, the restitution.
 pub(crate) fn launch_slope<L: RestitutionLaw>(law: &L, impact_speed: f64) -> Result<f64, Error> {
     let restitution = restitution_of(law, impact_speed)?;
     if law.constant(Internal).is_some() || impact_speed < f64::MIN_POSITIVE {

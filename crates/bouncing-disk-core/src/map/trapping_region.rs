@@ -1,15 +1,15 @@
-//! Bounds on sustained speeds: no periodic orbit and no attractor is faster. Proven in
+//! Bounds on sustained speeds: no periodic orbit and no attractor exceeds them. The proof is in
 //! docs/numerics-dynamics.md, "Bounded speeds".
 
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::ImpactMap;
 
-/// By how much its roundings, at most ten and all of positive numbers, may reduce a bound.
+/// The largest factor by which its roundings may reduce a bound: at most ten, all of positive numbers.
 const ROUNDINGS: f64 = 1.0 + 8.0 * f64::EPSILON;
 
 impl ImpactMap {
-    /// The bound M on the disk's own speed |u| after an impact (u = w + P cos tau, relative to the ground and
-    /// not to the platform; units of g/omega), of every periodic orbit and every attractor.
+    /// The bound M on the disk's own speed |u| after an impact, for every periodic orbit and every attractor.
+    /// Here u = w + P cos tau, relative to the ground and not to the platform, in units of g/omega.
     ///
     /// An impact leaves u' = -r V + (1 + r) P cos tau', where the disk lands with V^2 = u^2 + 2 P (sin tau -
     /// sin tau'), at most u^2 + 4 P. Hence |u'| <= f(|u|) = r sqrt(u^2 + 4 P) + (1 + r) P. The slope of f is
@@ -17,12 +17,12 @@ impl ImpactMap {
     ///
     /// M = q + r sqrt(q (q + 4/(1 + r))), q = P/(1 - r),
     ///
-    /// and any excess of |u| over M shrinks by at least the factor r in every impact: a slower disk stays
-    /// slower, a periodic orbit cannot be faster, and every other orbit tends to M or below.
-    /// A disk at rest leaves the platform with at most P <= M.
+    /// and every impact shrinks any excess of |u| over M by at least the factor r. So a disk slower than M
+    /// stays slower, a periodic orbit cannot be faster, and every other orbit tends to M or below. A disk at
+    /// rest leaves the platform with at most P <= M.
     ///
-    /// The number is rounded upwards. It is P where the restitution is 0, and grows like 2 P/(1 - r) towards
-    /// 1.
+    /// The bound is rounded upwards. It is P for restitution 0, and grows like 2 P/(1 - r) as the restitution
+    /// tends to 1.
     ///
     /// ```
     /// # use bouncing_disk_core::{ImpactMap, Vibration};
@@ -36,17 +36,17 @@ impl ImpactMap {
     pub fn launch_speed_bound(&self) -> f64 {
         let r = self.restitution();
         let p = self.vibration().peak_acceleration();
-        // A quotient that is not normal has lost digits.
+        // A subnormal quotient has lost digits.
         let q = if p > 0.0 { (p / (1.0 - r)).next_up() } else { 0.0 };
         ROUNDINGS * (q + r * (q.sqrt() * (q + 4.0 / (1.0 + r)).sqrt()))
     }
 
     /// The bound on the impact speed |w_A| (relative to the platform, units of g/omega) of every periodic
-    /// orbit and every attractor: sqrt(M^2 + 4 P) + P with the [`Self::launch_speed_bound`] M, as the disk
-    /// lands with at most the first part of it and the platform is no faster than the second. Rounded
-    /// upwards.
+    /// orbit and every attractor: sqrt(M^2 + 4 P) + P with the [`Self::launch_speed_bound`] M. The first term
+    /// bounds the disk's own landing speed, the second the platform's speed. Rounded upwards.
     ///
-    /// Divided by pi it is in the units of the paper's figures (`ImpactState::normalised_speed`).
+    /// Divided by pi it is in the units of the paper's figures
+    /// ([`ImpactState::normalised_speed`](crate::ImpactState::normalised_speed)).
     #[must_use]
     pub fn impact_speed_bound(&self) -> f64 {
         let p = self.vibration().peak_acceleration();
@@ -54,11 +54,11 @@ impl ImpactMap {
     }
 
     /// The bound on the impact speed at this phase: sqrt(M^2 + 2 P (1 - sin tau)) + P cos tau with the
-    /// [`Self::launch_speed_bound`] M, or 0 where that is negative (a platform that falls faster than any
-    /// disk is not hit), as the disk lands at the platform's height there. Rounded upwards.
+    /// [`Self::launch_speed_bound`] M, since the disk lands at the platform's height there. It is 0 if this
+    /// is negative (a platform that falls faster than any disk is not hit). Rounded upwards.
     ///
-    /// The impacts within it are the trapping region: an orbit that starts there stays, every periodic
-    /// orbit and every attractor lies in it, and every other orbit enters it up to an excess that dies out.
+    /// The impacts within it form the trapping region. An orbit that starts there stays, every periodic orbit
+    /// and every attractor lies in it, and the distance of every other orbit from it tends to 0.
     ///
     /// ```
     /// # use bouncing_disk_core::{ImpactMap, Phase, Vibration};
@@ -72,12 +72,12 @@ impl ImpactMap {
         let p = self.vibration().peak_acceleration();
         let launch = self.launch_speed_bound();
         let landing = (launch * launch + 2.0 * p * (1.0 - phase.sin()).max(0.0)).sqrt();
-        // Where the platform falls the difference is rounded as its larger part is.
+        // While the platform falls, the rounding of the difference is relative to its larger part.
         (landing + p * phase.cos() + (ROUNDINGS - 1.0) * (landing + p)).max(0.0)
     }
 
-    /// The bound on the duration of a flight (rad) of every periodic orbit and every attractor: it is u - V,
-    /// at most M + sqrt(M^2 + 4 P). Rounded upwards.
+    /// The bound on the duration of a flight (rad) of every periodic orbit and every attractor: the
+    /// difference of launch and landing velocity, at most M + sqrt(M^2 + 4 P). Rounded upwards.
     #[must_use]
     pub fn flight_duration_bound(&self) -> f64 {
         let launch = self.launch_speed_bound();
@@ -85,7 +85,7 @@ impl ImpactMap {
     }
 }
 
-/// The largest speed, relative to the ground, with which a disk lands that was launched with this one.
+/// The largest landing speed of a disk launched at this speed, both relative to the ground.
 fn landing_speed_bound(launch: f64, peak_acceleration: f64) -> f64 {
     (launch * launch + 4.0 * peak_acceleration).sqrt()
 }
@@ -104,7 +104,7 @@ mod tests {
         ImpactMap::new(Vibration::new(peak_acceleration).expect("legal"), restitution).expect("legal")
     }
 
-    /// The speed after the fastest next impact, as the proof has it.
+    /// The speed after the fastest next impact, as in the proof.
     fn next_bound(map: &ImpactMap, speed: f64) -> f64 {
         let (r, p) = (map.restitution(), map.vibration().peak_acceleration());
         r * (speed * speed + 4.0 * p).sqrt() + (1.0 + r) * p
@@ -137,7 +137,7 @@ mod tests {
         for case in 0..2_000 {
             let map = map(if case % 10 == 0 { 0.0 } else { 12.0 * random.unit() }, 0.95 * random.unit());
             let phase = Phase::new(TAU * random.unit()).expect("finite");
-            // The boundary itself among them.
+            // Includes the boundary itself.
             let share = if case % 3 == 0 { 1.0 } else { random.unit() };
             let mut state =
                 ImpactState::new(phase, -share * map.impact_speed_bound_at(phase)).expect("legal");

@@ -8,17 +8,16 @@ use crate::numerics::stored::read_checked;
 
 /// A phase of the platform's cycle: the angle tau in [0, 2 pi) with its sine and cosine.
 ///
-/// The three travel together because an impact is found with all of them known: an orbit that carries the
-/// pair does not pay for it again at the next launch. The carried pair may differ from [`sin_cos`] of the
-/// angle, in the last place after a flight of more than half a radian, so a chaotic orbit continues bit for
-/// bit only from all three numbers.
+/// The three are kept together because the solver finds an impact with all of them known: an orbit that
+/// carries the pair need not recompute it at the next launch. The carried pair may differ from [`sin_cos`] of
+/// the angle, in the last place after a flight of more than half a radian. So a chaotic orbit continues bit
+/// for bit only from all three numbers.
 ///
-/// How far the two may drift apart: a flight of more than half a radian evaluates the pair anew, so that it
-/// agrees with the angle to 7e-16. A shorter one turns the pair that it started with, and both it and the
-/// angle are rounded: with each further flight in an unbroken sequence of short ones they may part by 7e-16
-/// more at most. Measured: 8e-13 after 1e7 flights, as expected for roundings of either sign. An attachment
-/// begins a new pair, so that the sequence is that of one chatter: about a hundred flights at restitution
-/// 0.5.
+/// The drift between angle and pair is bounded. A flight of more than half a radian evaluates the pair again,
+/// so that it agrees with the angle to 7e-16. A shorter flight rotates its initial pair, and both pair and
+/// angle are rounded: each further flight in an unbroken sequence of short ones adds at most 7e-16. The
+/// measured drift is 8e-13 after 1e7 flights, as expected for roundings of either sign. An attachment begins
+/// a new pair, so a sequence is one chatter: about a hundred flights at restitution 0.5.
 ///
 /// All three numbers are stored, so that an orbit resumes bit for bit from a deserialised phase.
 /// Deserialising checks that the angle is in [0, 2 pi) and the pair within 1e-9 of its sine and cosine.
@@ -39,8 +38,8 @@ impl core::fmt::Display for Phase {
     }
 }
 
-/// The largest difference of a pair that is read from that of its angle: far more than any orbit drifts, far
-/// less than for another angle.
+/// The largest accepted difference between a deserialised pair and the sine and cosine of its angle: far more
+/// than any orbit's drift, far less than for another angle.
 pub(crate) const PAIR_TOLERANCE: f64 = 1.0e-9;
 
 read_checked!(Phase as UncheckedPhase { angle: f64, sin: f64, cos: f64 });
@@ -55,7 +54,7 @@ impl Phase {
         }
         let own = sin_cos(angle);
         for (field, value, own) in [("sine of a phase", sin, own.0), ("cosine of a phase", cos, own.1)] {
-            // Not a number is near nothing.
+            // NaN is never near.
             let near = (value - own).abs() <= PAIR_TOLERANCE;
             if !near {
                 return illegal(field, value, "within 1e-9 of that of its angle");
@@ -84,15 +83,14 @@ impl Phase {
         Self { angle, sin, cos }
     }
 
-    /// A copy number by number: a value that was just written in parts can be read as a whole only after a
-    /// stall.
+    /// A copy number by number: reading as a whole a value that was just written in parts causes a stall.
     #[inline(always)]
     pub(crate) const fn in_parts(self) -> Self {
         Self::from_parts(self.angle, self.sin, self.cos)
     }
 
     /// A phase from its three numbers.
-    // The model turns phases with it.
+    // The model rotates phases with it.
     #[doc(hidden)]
     #[must_use]
     #[inline(always)]

@@ -1,4 +1,4 @@
-//! The platform's vertical vibration, in units where time is 1/omega and length g/omega^2.
+//! The platform's vertical vibration, with time in units of 1/omega and length in units of g/omega^2.
 
 use crate::flight::platform::phase::Phase;
 use crate::numerics::elementary::{CREST, asin};
@@ -8,7 +8,7 @@ use core::f64::consts::{PI, TAU};
 
 /// The vertical vibration of the platform, P sin tau, with the constants of its flights computed once.
 ///
-/// The one parameter is P = pi Gamma = A omega^2 / g: the platform's peak acceleration in units of the
+/// Its only parameter is P = pi Gamma = A omega^2 / g: the platform's peak acceleration in units of the
 /// preload acceleration. In these units P is also its amplitude and its peak speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -28,10 +28,10 @@ pub struct Vibration {
     /// P - P sin sigma: how far the platform is below its crest at separation.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) separation_depth: f64,
-    /// A gap at a crest or an inflection that may be rounding only, in the crest form.
+    /// The size of a gap at a crest or an inflection that may be pure rounding error, in the crest form.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) doubtful_gap: f64,
-    /// Which launches clear the first crest for certain.
+    /// Bounds for launches that certainly clear the first crest.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) crests: Crests,
 }
@@ -62,7 +62,7 @@ impl Vibration {
             Self::MAX_PEAK_ACCELERATION,
             "[0, 1e8] (units of the preload acceleration)",
         )?;
-        // sqrt(P^2 - 1) without cancellation next to P = 1.
+        // sqrt(P^2 - 1) without cancellation near P = 1.
         let (separation_angle, separation_speed, separation_depth) = if p > 1.0 {
             (asin(1.0 / p), ((p - 1.0) * (p + 1.0)).sqrt(), p - 1.0)
         } else {
@@ -95,7 +95,7 @@ impl Vibration {
     /// A vibration with the paper's axial forcing parameter Gamma = A omega^2 / (pi g).
     ///
     /// # Errors
-    /// As [`Self::new`].
+    /// Errors of [`Self::new`].
     pub fn from_axial_forcing(axial_forcing: f64) -> Result<Self, Error> {
         within(
             "axial_forcing",
@@ -152,20 +152,19 @@ impl Vibration {
     }
 }
 
-/// Share of 1 + P by which the gaps and speeds of [`Crests`] and of the bounds of a flight exceed a tie: far
-/// more than their rounding.
+/// Share of 1 + P by which the gaps and speeds of [`Crests`] and of the flight bounds exceed a tie: far more
+/// than their rounding.
 pub(crate) const CLEAR: f64 = 1.0e-9;
 
-/// Share of 1 + P by which a disk at the crest must be faster than one that falls past it.
+/// Share of 1 + P by which a disk at the crest must exceed the speed of one that falls past it.
 const CLEAR_FALL: f64 = 1.0e-5;
 
-/// The numbers that decide whether launches clear the first crest.
+/// The numbers that decide whether a launch clears the first crest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Crests {
     /// Time from the separation to the crest (rad).
     pub(crate) separation_to_crest: f64,
-    /// A disk that has at least this speed at the crest has not been slower than the platform since the
-    /// separation.
+    /// A disk at least this fast at the crest has not been slower than the platform since the separation.
     pub(crate) rising_speed: f64,
 }
 
@@ -209,7 +208,7 @@ impl Vibration {
         angle >= self.separation_angle && angle < self.retention_angle
     }
 
-    /// Time from `angle` to the next phase sigma, in (0, 2 pi].
+    /// Time from `angle` to the next separation phase sigma, in (0, 2 pi].
     #[inline(always)]
     pub(crate) fn time_to_separation(&self, angle: f64) -> f64 {
         let ahead = self.separation_angle - angle;

@@ -8,15 +8,15 @@ use crate::numerics::error::{Error, within};
 use crate::numerics::stored::read_checked;
 
 /// Newton steps to the fifth root of the restitution. From the right of the root of a convex function they
-/// never pass it; most seen: 7.
+/// never pass the root; at most 7 were needed.
 const NEWTON_STEPS: u32 = 20;
 
 /// The restitution of viscoelastic bodies in Hertzian contact: at low speed 1 - r is proportional to
 /// |w_A|^(1/5) (Kuwabara and Kono 1987).
 ///
-/// r is the solution in (0, 1] of r + x r^(3/5) = 1, with x proportional to |w_A|^(1/5): it has the first two
-/// terms of the exact series, 1 - x + (3/5) x^2 (Ramirez et al. 1999), and falls towards 0 as |w_A|^(-1/3) at
-/// any higher speed. The derivation is in docs/numerics-dynamics.md.
+/// r is the solution in (0, 1] of r + x r^(3/5) = 1, with x proportional to |w_A|^(1/5): it agrees with the
+/// exact series 1 - x + (3/5) x^2 (Ramirez et al. 1999) to this order, and falls towards 0 as |w_A|^(-1/3) at
+/// high speed. The derivation is in docs/numerics-dynamics.md.
 ///
 /// ```
 /// use bouncing_disk_core::map::{KuwabaraKono, RestitutionLaw};
@@ -70,14 +70,15 @@ impl KuwabaraKono {
         self.reference_speed
     }
 
-    /// x of r + x r^(3/5) = 1; where no double holds it, the largest one, at which no rebound is left.
+    /// x of r + x r^(3/5) = 1; if it overflows, the largest double, which leaves no rebound.
     fn dissipation(&self, impact_speed: f64) -> f64 {
         let x = self.scale * pow(impact_speed, 0.2);
         if x > f64::MAX { f64::MAX } else { x }
     }
 }
 
-/// The fifth root y of the restitution: y^5 + x y^3 = 1, which grows with y and is convex.
+/// The fifth root y of the restitution: the solution of y^5 + x y^3 = 1, whose left side grows with y and is
+/// convex.
 fn fifth_root(x: f64) -> f64 {
     // Both are to the right of the root: there y^5 + x y^3 is 1 + x and 1 + y^5.
     let mut y = if x <= 1.0 { 1.0 } else { pow(x, -1.0 / 3.0) };
@@ -108,7 +109,7 @@ impl RestitutionLaw for KuwabaraKono {
         let y = fifth_root(x);
         let square = y * y;
         let share = 1.0 / (5.0 * (square / x) + 3.0);
-        // The share first: the speed alone may be too small to be divided by.
+        // The share is multiplied first: the speed alone may be too small a divisor.
         if impact_speed > 0.0 { -(square * square * y * share) / impact_speed } else { f64::NEG_INFINITY }
     }
 
