@@ -1,8 +1,8 @@
-//! Periodic orbits: how to find them, how stable they are, and where they begin, double and end.
+//! Periodic orbits: how to find them, their stability, and their births, doublings and ends.
 //!
 //! An orbit of n impacts in k periods of the platform is a fixed point of the n-th iterate of the impact map.
-//! It attracts where both eigenvalues of the derivative, its Floquet multipliers, lie inside the unit circle;
-//! a fold has one at 1, a period doubling one at -1. The orbit with one impact in each period has a closed
+//! It attracts if both eigenvalues of the derivative, its Floquet multipliers, lie inside the unit circle. At
+//! a fold one of them is 1, at a period doubling -1. The orbit with one impact in each period has a closed
 //! form: cos tau = (1 - r) / ((1 + r) Gamma).
 //!
 //! ```
@@ -17,8 +17,8 @@
 //! # Ok::<(), bouncing_disk_core::Error>(())
 //! ```
 //!
-//! [`ContinuedMap::continued`] follows an orbit over a parameter. The orbits on
-//! which a disk ends are in [`attractors`](crate::attractors). How it is computed: docs/numerics-dynamics.md.
+//! [`ContinuedMap::continued`] follows an orbit over a parameter. [`attractors`](crate::attractors) finds the
+//! orbits on which a disk ends. The methods are in docs/numerics-dynamics.md.
 
 pub(crate) mod cascade;
 pub(crate) mod closing;

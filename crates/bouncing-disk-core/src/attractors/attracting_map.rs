@@ -1,4 +1,4 @@
-//! What the search for final motions needs of a map beyond [`BouncingMap`].
+//! The trait of maps whose attractors and basins can be searched for; it extends [`BouncingMap`].
 
 use core::f64::consts::{PI, TAU};
 use core::ops::{ControlFlow, Range};
@@ -17,25 +17,25 @@ use crate::run::{Observer, Watch, in_parallel};
 use crate::sweep::bouncing_map::BouncingMap;
 use crate::sweep::{SweepEvent, sweep};
 
-/// Orbits of one impact that are tried as candidates, from those with the longest flights down.
+/// Largest number of one-impact orbits tried as candidates, longest flights first.
 const MOST_PERIOD_ONE: u64 = 10_000;
 
-/// Phases at which a disk is put on a drive, to see where rests end.
+/// Phases at which a disk is put on a drive, to see at which phases rests end.
 const PUT_ON: u32 = 64;
 
-/// Impacts after which a start that was seen to rest is left.
+/// Impacts after which a start that was seen to rest is abandoned.
 const MOST_TO_REST: u32 = 1 << 16;
 
-/// Two rests that end as near to each other as this (rad) end at one phase.
+/// Phase difference (rad) below which two rests end at the same phase.
 const SAME_END: f64 = 1.0e-9;
 
-/// Where the rests of one orbit end, until one ends where an earlier one did.
+/// The phases at which the rests of one orbit end, until one repeats.
 struct RestEnds {
     rests: bool,
-    /// Impacts that it may still make.
+    /// Impacts left to the orbit.
     left: u32,
     phases: Vec<Phase>,
-    /// The smallest of those phases (rad) that repeat.
+    /// The smallest of the repeating phases (rad).
     cycle: Option<f64>,
 }
 
@@ -76,7 +76,7 @@ impl RestEnds {
         ControlFlow::Break(())
     }
 
-    /// Whether the first rests of both end at one phase, or both end on one cycle.
+    /// Whether the first rests of both end at the same phase, or both end on the same cycle.
     fn is_same(&self, other: &Self) -> bool {
         let first = match (self.phases.first(), other.phases.first()) {
             (Some(one), Some(other)) => same_end(one.angle(), other.angle()),
@@ -88,22 +88,22 @@ impl RestEnds {
 
 /// A map whose attractors and basins are computed.
 pub trait AttractingMap: BouncingMap {
-    /// The work of an impact, in flights of the sine: the budget of a search is divided by it.
+    /// The work of an impact, in flights of the sine; it divides the budget of a search.
     const WORK: u64 = 32;
 
-    /// The speed (units of g/omega) that no impact of an attractor exceeds. With a compliant contact it is the speed of
-    /// the fastest start of a search.
+    /// The speed (units of g/omega) that no impact of an attractor exceeds. For a compliant contact it is the
+    /// speed of the fastest start of a search.
     fn impact_speed_bound(&self) -> f64;
 
-    /// The same of impacts at one phase.
+    /// The speed that no impact of an attractor at this phase exceeds.
     fn impact_speed_bound_at(&self, _phase: Phase) -> f64 {
         self.impact_speed_bound()
     }
 
-    /// Gives `add` the orbits of closed form that may attract, until it fails.
+    /// Passes the orbits known in closed form that may attract to `add`, until it fails.
     ///
     /// # Errors
-    /// Those of `add`.
+    /// Errors of `add`.
     #[doc(hidden)]
     fn closed_forms(&self, _add: &mut dyn FnMut(PeriodicOrbit) -> Result<(), Error>) -> Result<(), Error> {
         Ok(())
@@ -123,17 +123,17 @@ pub trait AttractingMap: BouncingMap {
     /// The periodic orbit next to `guess`, with its least period.
     ///
     /// # Errors
-    /// Those of [`BouncingMap::refine`].
+    /// Errors of [`BouncingMap::refine`].
     #[doc(hidden)]
     fn prime_orbit(&self, guess: &[ImpactState]) -> Result<PeriodicOrbit, Error> {
         newton::prime_orbit(guess, |guess| self.refine(guess), PeriodicOrbit::determinant)
     }
 
-    /// Starts that come to rest, from those seen and from a disk that is put on the platform: one for each phase at which
-    /// the first rest ends, and one for each cycle of rests.
+    /// Starts that come to rest, from those seen and from a disk placed on the platform: one for each phase
+    /// at which the first rest ends, and one for each cycle of rests.
     ///
     /// # Errors
-    /// Those of a flight.
+    /// Errors of a flight.
     #[doc(hidden)]
     fn to_rests(&self, seen: &[ImpactState], observer: &dyn Observer) -> Result<Vec<ImpactState>, Error> {
         let put_on = (0..PUT_ON).map(|k| {
@@ -144,7 +144,7 @@ pub trait AttractingMap: BouncingMap {
         let orbits: Vec<_> = starts.iter().map(|start| self.orbit(*start, ChatterPolicy::Complete)).collect();
         let ends = sweep(
             &orbits,
-            // A disk that is put on and leaves at once has not rested.
+            // A disk that leaves as soon as it is placed has not rested.
             |index| RestEnds::new(if index < PUT_ON as usize { 0 } else { MOST_TO_REST }),
             RestEnds::see,
             observer,
@@ -166,10 +166,10 @@ pub trait AttractingMap: BouncingMap {
         belonging::check(orbit, |state| self.step(state), |state| self.step_with_derivative(state))
     }
 
-    /// Refuses an orbit of another map, and one that is not stable.
+    /// Checks that `orbit` is a stable orbit of this map.
     ///
     /// # Errors
-    /// Those of [`Self::check_orbit`]; [`Error::NotAttracting`].
+    /// Errors of [`Self::check_orbit`]; [`Error::NotAttracting`].
     fn check_attracting(&self, orbit: &PeriodicOrbit) -> Result<(), Error> {
         self.check_orbit(orbit)?;
         if orbit.stability() != Stability::Stable {
@@ -179,20 +179,20 @@ pub trait AttractingMap: BouncingMap {
         Ok(())
     }
 
-    /// A radius (rad): every start within it of an impact of `orbit` is proven to end on the orbit.
+    /// A radius (rad) around each impact of `orbit` within which every start provably ends on the orbit.
     ///
     /// # Errors
-    /// Those of [`Self::check_attracting`]; [`Error::NothingProven`] where no region is.
+    /// Errors of [`Self::check_attracting`]; [`Error::NothingProven`] if no region can be proven.
     fn proven_radius(&self, orbit: &PeriodicOrbit) -> Result<f64, Error> {
         self.check_attracting(orbit)?;
         Err(Error::NothingProven { region: 0.0 })
     }
 
-    /// The labels of all cells of a grid, [`UNDECIDED`] outside of these rows, which are the items of the
+    /// The labels of all cells of a grid, [`UNDECIDED`] outside these rows. The rows are the items of the
     /// observer.
     ///
     /// # Errors
-    /// Those of [`Self::basins_of_rows`].
+    /// Errors of [`Self::basins_of_rows`].
     fn labels_of_rows(
         &self,
         grid: Grid,
@@ -226,14 +226,16 @@ pub trait AttractingMap: BouncingMap {
         Ok(labels)
     }
 
-    /// The basins on a grid: at rest, or the known orbit within whose radius an impact is the first to be (a radian
-    /// counts as much as the [speed scale](BouncingMap::speed_scale)).
+    /// The basins on a grid: each start comes to rest, or belongs to the known orbit whose radius one of its
+    /// impacts is the first to enter (a radian counts as much as the [speed
+    /// scale](BouncingMap::speed_scale)).
     ///
     /// The items of `observer` are the rows.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for more than 250 known orbits; [`Error::NotAnOrbit`] for one of another map;
-    /// [`Error::TooLarge`] for a grid of more than [`MAX_CELLS`] cells or than there is memory for; those of a flight.
+    /// [`Error::OutOfRange`] for more than 250 known orbits; [`Error::NotAnOrbit`] for an orbit of another
+    /// map; [`Error::TooLarge`] for a grid of more than [`MAX_CELLS`] cells or too large for the memory;
+    /// errors of a flight.
     fn basins(
         &self,
         grid: Grid,
@@ -247,7 +249,7 @@ pub trait AttractingMap: BouncingMap {
     /// [`Self::basins`] of some rows of the grid.
     ///
     /// # Errors
-    /// [`Error::Unfitting`] for rows outside the grid, or no rows; the others as for [`Self::basins`].
+    /// [`Error::Unfitting`] for rows outside the grid, or no rows; errors of [`Self::basins`].
     fn basins_of_rows(
         &self,
         grid: Grid,
@@ -276,17 +278,17 @@ impl AttractingMap for ImpactMap {
         self.impact_speed_bound_at(phase)
     }
 
-    /// The nodes of one impact.
+    /// The one-impact nodes.
     fn closed_forms(&self, add: &mut dyn FnMut(PeriodicOrbit) -> Result<(), Error>) -> Result<(), Error> {
         let (r, forcing) = (self.restitution(), self.vibration().axial_forcing());
-        // A node attracts from its birth to its doubling: the longest flights do, down to some number of
-        // periods.
+        // A node attracts from its birth to its doubling: this holds for the longest flights, down to a
+        // certain number of periods.
         let longest = ((1.0 + r) * forcing / (1.0 - r)) as u64;
         let longest = longest.saturating_add(1);
         for k in (longest.saturating_sub(MOST_PERIOD_ONE).max(1)..=longest).rev() {
             let Some(pair) = self.period_one_pair(k) else { continue };
             let Some(orbit) = pair.node.orbit(self)? else { continue };
-            // All with shorter flights have doubled, too.
+            // All orbits with shorter flights have doubled, too.
             if orbit.stability() == Stability::Unstable {
                 break;
             }
@@ -307,7 +309,7 @@ impl AttractingMap for ImpactMap {
         self.prime_orbit(guess)
     }
 
-    /// At its lowest point: all rests end at one phase.
+    /// From the lowest point of the platform: all rests end at the same phase.
     fn to_rests(&self, _seen: &[ImpactState], _observer: &dyn Observer) -> Result<Vec<ImpactState>, Error> {
         Ok(vec![ImpactState::of_impact(Phase::new(1.5 * PI)?, 0.0)])
     }
@@ -316,7 +318,7 @@ impl AttractingMap for ImpactMap {
         orbit.proven_radius(self)
     }
 
-    /// In lanes.
+    /// In lockstep lanes.
     fn labels_of_rows(
         &self,
         grid: Grid,

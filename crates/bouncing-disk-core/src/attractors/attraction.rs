@@ -1,5 +1,5 @@
-//! How near a start must come to an attracting periodic orbit to count as caught: a radius that is proven,
-//! and one that samples make wider (docs/numerics-dynamics.md, "Radii of attraction").
+//! The distance from an attracting periodic orbit within which a start counts as captured: a proven radius,
+//! and a wider one supported by samples (docs/numerics-dynamics.md, "Radii of attraction").
 //!
 //! Distances are in radians; a radian of phase counts as much as the speed P.
 
@@ -15,35 +15,35 @@ use crate::numerics::error::Error;
 use crate::orbits::periodic::{PeriodicOrbit, distance};
 use crate::run::{Observer, Watch, WorkCount};
 
-/// The radius that is tried first, the largest, and the one at which the search gives up.
+/// The first radius tried, the largest, and the one at which the search gives up.
 const FIRST_RADIUS: f64 = 0.1;
 const LARGEST_RADIUS: f64 = 1.0;
 const SMALLEST_RADIUS: f64 = 1.0e-5;
 
-/// Ratio of the radii of successive wider circles, and the share of the widest that the result is.
+/// Ratio of the radii of successive wider circles, and the ratio of the result to the widest radius.
 const WIDENING: f64 = 1.15;
 const SHARE_OF_WIDEST: f64 = 0.7;
 
-/// Most impacts of an orbit that is tested by whether its circles trap.
+/// Most impacts of an orbit that is tested for trapping circles.
 const SHORT: usize = 8;
 
-/// For the test of whether starts come back nearer to the impact that they began beside: the largest radius,
-/// the one at which the search gives up, the circles of each trial as shares of its radius, the starts on
-/// each circle, and the share of the radius that the result is.
+/// For the test whether starts return nearer to their initial impact: the largest radius, the one at which
+/// the search gives up, the circles of each trial as shares of its radius, the starts on each circle, and the
+/// ratio of the result to the radius.
 const LARGEST_CIRCLE: f64 = 0.05;
 const SMALLEST_CIRCLE: f64 = 1.0e-8;
 const CIRCLES: [f64; 3] = [1.0, 0.5, 0.25];
 const CIRCLE_SAMPLES: u32 = 16;
 const SHARE_OF_CIRCLE: f64 = 0.5;
 
-/// The share of its first distance at which a start is near enough to stop following it; the rounds of the
-/// orbit after which a slower one, as next to a doubling or a fold, must at least be nearer; and how far that
-/// one may have strayed, as a multiple of its first distance.
+/// The share of its initial distance at which a start is near enough to stop; the rounds of the orbit after
+/// which a slower start, as near a doubling or a fold, must at least be nearer; and the largest distance
+/// allowed meanwhile, as a multiple of the initial distance.
 const NEARER: f64 = 0.125;
 const ROUNDS: u32 = 200;
 const STRAYING: f64 = 4.0;
 
-/// The largest region whose contraction is tried, what rounding may take from the bounds, and the smallest
+/// The largest region whose contraction is tried, the margin for rounding in the bounds, and the smallest
 /// region, in roundings.
 const LARGEST_REGION: f64 = 0.5;
 const ROUNDINGS: f64 = 0.99;
@@ -52,7 +52,7 @@ const SMALLEST_REGION: f64 = 64.0 * f64::EPSILON;
 /// Squarings of the derivative around the orbit: its power 2^64 is zero in doubles.
 const SQUARINGS: u32 = 64;
 
-/// A number that lies within a radius about its middle.
+/// A number known to lie within a radius about a centre.
 #[derive(Clone, Copy)]
 struct Ball(f64, f64);
 
@@ -70,7 +70,7 @@ impl Ball {
         Self(by * self.0, by.abs() * self.1)
     }
 
-    /// Infinite if zero lies in it.
+    /// Infinite if the ball contains zero.
     fn inverse(self) -> Self {
         let least = self.0.abs() - self.1;
         Self(1.0 / self.0, if least > 0.0 { self.1 / (self.0.abs() * least) } else { f64::INFINITY })
@@ -102,14 +102,14 @@ fn largest_eigenvalue(form: DMat2) -> f64 {
 }
 
 impl Flight {
-    /// How much the derivative may differ from that of the orbit's flight (Frobenius), if both impacts lie
-    /// within `reach` of the orbit's.
+    /// A bound on the difference (Frobenius norm) between the derivative of a flight and that of the orbit's
+    /// flight, if both impacts lie within `reach` of the orbit's.
     fn change_of_derivative(&self, map: &ImpactMap, reach: f64) -> f64 {
         let (p, r) = (map.vibration().peak_acceleration(), map.restitution());
         let wave = |at: ImpactState| (Ball(at.phase().sin(), reach), Ball(at.phase().cos(), reach));
         let ((s, c), (s1, c1)) = (wave(self.from), wave(self.to));
         let h = Ball(self.duration, 2.0 * reach);
-        // The formulas of the derivative, in their order.
+        // The formulas of the derivative, in order.
         let arrival = Ball(self.to.velocity(), p * reach).inverse();
         let by_phase = s.times(h).plus(c1).plus(c.scaled(-1.0)).scaled(p).times(arrival);
         let by_speed = h.scaled(r).times(arrival);
@@ -121,8 +121,8 @@ impl Flight {
         parts.iter().fold(0.0, |sum, part| sum + part * part).sqrt()
     }
 
-    /// Whether no start within `reach` meets the platform before the flight's end. An earlier impact would
-    /// begin as a graze, a minimum of the gap, where the platform falls away faster than the disk.
+    /// Whether no start within `reach` hits the platform before the flight's end. An earlier impact would
+    /// first appear as a graze, a minimum of the gap, while the platform falls away faster than the disk.
     fn is_clear(&self, map: &ImpactMap, reach: f64) -> bool {
         let (p, r) = (map.vibration().peak_acceleration(), map.restitution());
         if p <= 1.0 {
@@ -143,7 +143,7 @@ impl Flight {
         while start < last {
             let end = start + PI - 2.0 * separation;
             let (mut low, mut high) = (start.max(first), end.min(last));
-            // Where the launch lies in the stretch the gap rises from zero, throughout.
+            // If the launch lies in this stretch, the gap rises from zero throughout.
             let from_launch = start <= -reach && end >= reach;
             start += TAU;
             if from_launch {
@@ -169,9 +169,9 @@ impl Flight {
     }
 }
 
-/// The flights of an orbit that attracts. Distances about its impacts are measured by the forms Q_i = 1 +
-/// D_i^T Q_(i+1) D_i, to first order the sum of the squares of this distance and all later ones, so that each
-/// step reduces it.
+/// The flights of an attracting orbit. The forms Q_i = 1 + D_i^T Q_(i+1) D_i measure distances from its
+/// impacts: to first order the sum of the squares of this distance and all later ones, so that each step
+/// reduces it.
 fn flights(map: &ImpactMap, orbit: &PeriodicOrbit) -> Result<Vec<Flight>, Error> {
     let p = map.vibration().peak_acceleration();
     let n = orbit.states.len();
@@ -199,17 +199,17 @@ fn flights(map: &ImpactMap, orbit: &PeriodicOrbit) -> Result<Vec<Flight>, Error>
 }
 
 impl PeriodicOrbit {
-    /// A radius (rad) within which every start beside an impact of this orbit is proven to end on it, but for
-    /// the rounding of the bounds.
+    /// A radius (rad) about each impact of this orbit within which every start provably ends on it, up to the
+    /// rounding of the bounds.
     ///
     /// The linearised map contracts in suitable norms. The exact map then contracts wherever its derivative
-    /// differs from that on the orbit by less than the margin of this contraction. The code bounds the
-    /// difference over the whole region, and shows that no flight from there meets the platform earlier.
+    /// differs from the derivative on the orbit by less than the margin of this contraction. The code bounds
+    /// the difference over the whole region, and shows that no flight from there hits the platform earlier.
     ///
     /// # Errors
     /// [`Error::NotAnOrbit`] for an orbit of another map; [`Error::NotAttracting`] unless the orbit is
     /// [stable](Self::stability); [`Error::NothingProven`] if the region would be no larger than the
-    /// rounding, as next to a graze; those of [`Vibration::first_impact`](crate::Vibration::first_impact).
+    /// rounding, as near a graze; errors of [`Vibration::first_impact`](crate::Vibration::first_impact).
     pub fn proven_radius(&self, map: &ImpactMap) -> Result<f64, Error> {
         map.check_attracting(self)?;
         let flights = flights(map, self)?;
@@ -217,7 +217,7 @@ impl PeriodicOrbit {
         let widest = flights.iter().fold(1.0_f64, |most, flight| most.max(flight.largest));
         let contracts = |reach: f64| {
             flights.iter().enumerate().all(|(i, flight)| {
-                // sqrt(1 - 1/L), and what it leaves to 1.
+                // sqrt(1 - 1/L), and its difference from 1.
                 let (own, next) = (1.0 / flight.largest, flights[(i + 1) % n].largest);
                 let left = own / (1.0 + (1.0 - own).max(0.0).sqrt());
                 flight.change_of_derivative(map, reach) * next.sqrt() <= ROUNDINGS * left
@@ -234,27 +234,28 @@ impl PeriodicOrbit {
         Err(Error::NothingProven { region: reach })
     }
 
-    /// The radius (rad) within which a start counts as caught by this orbit: the
-    /// [proven](AttractingMap::proven_radius) one, or a larger one that samples support.
+    /// The radius (rad) within which a start counts as captured by this orbit: the
+    /// [proven](AttractingMap::proven_radius) radius, or a larger one supported by samples.
     ///
-    /// An orbit of at most eight impacts gets the first radius of 0.1, 0.05, ... rad that traps: `samples`
-    /// starts on a circle of this radius about each impact stay within four radii of the orbit, and end
-    /// within one. If 0.1 rad already traps, wider circles are tried, each 1.15 times the last and with four
-    /// times as many starts. A circle passes if all its starts come within 0.1 rad of the orbit; the result
-    /// is 0.7 times the radius of the last circle before the first that fails, and at least 0.1 rad.
+    /// For an orbit of at most eight impacts it is the first radius of 0.1, 0.05, ... rad that traps:
+    /// `samples` starts on a circle of this radius about each impact stay within four radii of the orbit, and
+    /// end within one radius. If 0.1 rad already traps, wider circles are tried, each 1.15 times the last and
+    /// with four times as many starts. A circle passes if all its starts come within 0.1 rad of the orbit;
+    /// the result is 0.7 times the radius of the last circle before the first that fails, and at least 0.1
+    /// rad.
     ///
-    /// A longer orbit, and one with a shear so strong that no radius traps, is tested with less: 16 starts on
+    /// A longer orbit, and one with a shear so strong that no radius traps, gets a weaker test: 16 starts on
     /// each of three circles about each impact, of the radius R = 0.05, 0.025, ... rad, of R/2 and of R/4.
-    /// Every start must come back to within an eighth of its first distance from that impact, however far it
-    /// strays on the way; or, if it approaches more slowly, it must be nearer than it began after 200 rounds
-    /// of the orbit, and never have been farther away than four times its first distance. The result is half
-    /// of the first R that passes.
+    /// Every start must return to within an eighth of its initial distance from that impact, however far it
+    /// strays on the way. If it approaches more slowly, it must be nearer than initially after 200 rounds of
+    /// the orbit, and never farther away than four times its initial distance. The result is half of the
+    /// first R that passes.
     ///
-    /// The items of `observer` are the starts, counted at their maximum.
+    /// The items of `observer` are the starts; their total is an upper bound.
     ///
     /// # Errors
     /// [`Error::NotAnOrbit`] for an orbit of another map; [`Error::NotAttracting`] unless the orbit is
-    /// [stable](Self::stability); those of [`Self::proven_radius`] where samples find no radius either.
+    /// [stable](Self::stability); errors of [`Self::proven_radius`] if samples find no radius either.
     pub fn trapping_radius<M: AttractingMap>(
         &self,
         map: &M,
@@ -283,7 +284,7 @@ impl PeriodicOrbit {
         }
     }
 
-    /// The radius of circles that trap, widened; `None` if even the smallest does not.
+    /// The widened radius of circles that trap; `None` if even the smallest does not trap.
     fn sampled(
         &self,
         search: &mut Search<'_, impl AttractingMap>,
@@ -306,7 +307,7 @@ impl PeriodicOrbit {
         Ok(Some(inner.max(SHARE_OF_WIDEST * widest)))
     }
 
-    /// Half the radius of the circles from which starts come back nearer; `None` if it is not above `least`.
+    /// Half the radius of the circles from which starts return nearer; `None` if it is not above `least`.
     fn sampled_circles(
         &self,
         search: &mut Search<'_, impl AttractingMap>,
@@ -328,7 +329,7 @@ impl PeriodicOrbit {
         Ok(radius.map(|radius| SHARE_OF_CIRCLE * radius))
     }
 
-    /// The work of a flight, and of its distance from this orbit, in the units of an observer.
+    /// The work of a flight and of its distance from this orbit, in units of an observer.
     fn flights_of_step(&self) -> u64 {
         1 + self.period() as u64 / 16
     }
@@ -393,14 +394,14 @@ fn first_halving(
     Ok(None)
 }
 
-/// How many circles there are at most from the first radius down.
+/// The largest number of circles from the first radius down.
 fn halvings() -> u64 {
     core::iter::successors(Some(FIRST_RADIUS), |radius| Some(0.5 * radius))
         .take_while(|radius| *radius > SMALLEST_RADIUS)
         .count() as u64
 }
 
-/// How many circles there are at most beyond the first.
+/// The largest number of circles beyond the first.
 fn widenings() -> u64 {
     core::iter::successors(Some(FIRST_RADIUS), |radius| Some(WIDENING * radius))
         .take_while(|radius| *radius < LARGEST_RADIUS)
@@ -416,7 +417,7 @@ struct Search<'w, M> {
 
 impl<M: AttractingMap> Search<'_, M> {
     /// Whether all starts on the circles of this radius about the impacts of the orbit pass. A start below
-    /// the platform does not.
+    /// the platform fails.
     fn all_on_circle(
         &mut self,
         orbit: &PeriodicOrbit,
@@ -440,9 +441,9 @@ impl<M: AttractingMap> Search<'_, M> {
         Ok(true)
     }
 
-    /// Whether a start comes back nearer to `centre`, the impact of the orbit that it began beside, by the
-    /// rule of [`PeriodicOrbit::trapping_radius`]. (A verdict asks less: whether an orbit approaches any of
-    /// the impacts.)
+    /// Whether a start returns nearer to `centre`, the impact of the orbit near which it began, by the rule
+    /// of [`PeriodicOrbit::trapping_radius`]. A verdict requires less: that the orbit approaches any of the
+    /// impacts.
     fn returns_nearer(
         &mut self,
         period: u64,
@@ -496,8 +497,8 @@ mod tests {
         }
     }
 
-    /// Whatever starts within the proven radius ends on the orbit, on its edge, too; and an orbit that
-    /// attracts has one.
+    /// Every start within the proven radius ends on the orbit, also on its edge; and every attracting orbit
+    /// has one.
     #[test]
     fn starts_within_the_proven_radius_end_on_the_orbit() {
         let mut random = SplitMix64::new(6);
@@ -531,7 +532,7 @@ mod tests {
         assert!(narrowest > 1e-8, "{narrowest}");
     }
 
-    /// One impact every eight periods: samples found no circle that traps it.
+    /// One impact every eight periods: samples once found no circle that traps it.
     #[test]
     fn a_fast_orbit_has_the_radius_that_its_attractor_has() {
         let map = map(0.9, 0.8);
@@ -541,7 +542,7 @@ mod tests {
         assert!(proven.as_ref().is_ok_and(|proven| *proven > 1e-5), "{proven:?}");
     }
 
-    /// Close to its birth and to its doubling an orbit attracts slowly, or from nearby only.
+    /// Close to its birth and to its doubling an orbit attracts slowly, or only from nearby.
     #[test]
     fn the_ends_of_a_window_have_smaller_radii() {
         let radius = |forcing| {
@@ -557,7 +558,7 @@ mod tests {
         assert!(radius(doubling - 1e-3) > 1e-5 && radius(doubling - 1e-9) > 1e-15);
     }
 
-    /// The attractor of four impacts at Gamma = 0.486 that docs/errata.md describes, and period 1 next to its
+    /// The attractor of four impacts at Gamma = 0.486 that docs/errata.md describes, and period 1 near its
     /// doubling.
     #[test]
     fn sheared_and_slow_orbits_have_a_radius() {

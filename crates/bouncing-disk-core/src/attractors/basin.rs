@@ -21,23 +21,23 @@ use crate::run::Observer;
 use crate::sweep::SweepEvent;
 use crate::sweep::bouncing_map::{BouncingMap, BouncingOrbit as _};
 
-/// The fate of a start: one byte a cell.
+/// The fate of a start, in one byte.
 pub type Label = u8;
 /// Neither at rest nor near a known orbit after the allowed number of impacts: undecided, or on a chaotic
 /// attractor.
 pub const UNDECIDED: Label = 0;
 /// The disk came to rest on the platform: the basin of the chattering orbit.
 pub const ATTACHED: Label = 1;
-/// The first known periodic orbit; the next ones count up from here.
+/// The first known periodic orbit; the labels of the next ones count up from here.
 pub const FIRST_ORBIT: Label = 2;
 
-/// Most labels of one grid.
+/// Largest number of cells of one grid.
 pub const MAX_CELLS: u64 = 1 << 31;
 
-/// Most known orbits that labels can tell apart.
+/// Largest number of known orbits that labels can distinguish.
 const MAX_KNOWN: f64 = 250.0;
 
-/// One axis of a grid: `cells` cells of equal width from `low` to `high`, each stood for by its centre.
+/// One axis of a grid: `cells` cells of equal width from `low` to `high`, each represented by its centre.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedAxis"))]
@@ -51,7 +51,7 @@ impl Axis {
     /// An axis from `low` < `high` with 1 to 100 000 cells.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for an empty, reversed or non-finite axis, also one whose length overflows.
+    /// [`Error::OutOfRange`] for an empty, reversed or non-finite axis, or one whose length overflows.
     pub fn new(low: f64, high: f64, cells: usize) -> Result<Self, Error> {
         within("axis low end", low, f64::MIN, f64::MAX, "finite")?;
         if !(high > low && (high - low).is_finite()) {
@@ -83,7 +83,7 @@ impl Axis {
         self.cells
     }
 
-    /// Centre of cell `index`; that of the last cell for an index beyond it.
+    /// Centre of cell `index`; for an index beyond the last cell, the centre of the last.
     #[must_use]
     pub fn centre(&self, index: usize) -> f64 {
         let index = index.min(self.cells - 1);
@@ -104,18 +104,19 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Largest number of periods, of either sign, on the phase axis: beyond it a double does not hold the
-    /// half of one.
+    /// Largest number of periods, of either sign, on the phase axis: beyond it a double cannot resolve half a
+    /// period.
     pub const MAX_PERIODS: f64 = 4_503_599_627_370_496.0;
 
-    /// Largest normalised speed on the speed axis: no flight is as fast, and its square is far from overflow.
+    /// Largest normalised speed on the speed axis: no flight is this fast, and its square is far from
+    /// overflow.
     pub const MAX_SPEED: f64 = 1.0e100;
 
     /// A grid of impact phases in periods, within [`Self::MAX_PERIODS`] of zero, and normalised impact speeds
     /// in [0, [`Self::MAX_SPEED`]].
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for an axis that leaves these ranges.
+    /// [`Error::OutOfRange`] for an axis outside these ranges.
     pub fn new(phase: Axis, speed: Axis) -> Result<Self, Error> {
         for end in [phase.low(), phase.high()] {
             within(
@@ -131,7 +132,7 @@ impl Grid {
         Ok(Self { phase, speed })
     }
 
-    /// Impact phase (rad) of the cells of a column, in [0, 2 pi]: whole periods leave nothing to round.
+    /// Impact phase (rad) of the cells of a column, in [0, 2 pi]: whole periods are removed without rounding.
     #[must_use]
     pub fn impact_angle(&self, column: usize) -> f64 {
         let cycles = self.phase.centre(column);
@@ -153,7 +154,7 @@ impl Grid {
 
 read_checked!(Grid as UncheckedGrid { phase: Axis, speed: Axis } => Grid::new);
 
-/// An attracting periodic orbit and how near a start must come to count as caught.
+/// An attracting periodic orbit and the radius within which a start counts as captured.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedKnownOrbit"))]
@@ -165,13 +166,12 @@ pub struct KnownOrbit {
 read_checked!(KnownOrbit as UncheckedKnownOrbit { orbit: PeriodicOrbit, radius: f64 } => KnownOrbit::new);
 
 impl KnownOrbit {
-    /// An orbit with the `radius` in radians (a radian counts as much as the speed P) within which it
-    /// catches: see [`PeriodicOrbit::trapping_radius`].
+    /// An orbit with its capture `radius` in radians (a radian counts as much as the speed P): see
+    /// [`PeriodicOrbit::trapping_radius`].
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a negative or non-finite radius; for an orbit that [`ImpactMap::refine`]
-    /// would not return, those it returns: without impacts or with too many, at rest, without a period of the
-    /// platform.
+    /// would not return, its errors: no impacts or too many, at rest, no period of the platform.
     pub fn new(orbit: PeriodicOrbit, radius: f64) -> Result<Self, Error> {
         within("attraction radius", radius, 0.0, f64::MAX, "[0, inf) (rad)")?;
         orbit.check()?;
@@ -191,14 +191,14 @@ impl KnownOrbit {
     }
 }
 
-/// The label of the first known orbit within whose radius an impact is; speeds count in units of `scale`.
+/// The label of the first known orbit whose radius contains the impact; speeds are in units of `scale`.
 pub(super) fn caught(known: &[KnownOrbit], state: ImpactState, scale: f64) -> Option<Label> {
     let index = known.iter().position(|known| known.orbit.distance(state, scale) <= known.radius)?;
     Some(FIRST_ORBIT + index as Label)
 }
 
-/// The label that an impact in `state` decides: near a known orbit, or (complete policy) certain to
-/// chatter to rest.
+/// The label of a start with an impact in `state`, if this decides it: near a known orbit, or (under the
+/// complete policy) certain to chatter to rest.
 pub(super) fn settles(
     map: &impl BouncingMap,
     state: ImpactState,
@@ -212,7 +212,7 @@ pub(super) fn settles(
 /// The label of a start; `follow` is called before each flight.
 ///
 /// # Errors
-/// Those of a flight and of `follow`.
+/// Errors of a flight and of `follow`.
 pub(super) fn label_of_start(
     map: &impl BouncingMap,
     start: ImpactState,
@@ -238,12 +238,12 @@ pub(super) fn label_of_start(
     Ok(UNDECIDED)
 }
 
-/// Refuses more known orbits than a label can count.
+/// Checks that labels can distinguish all known orbits.
 pub(crate) fn check_number_of(known: &[KnownOrbit]) -> Result<(), Error> {
     within("number of known orbits", known.len() as f64, 0.0, MAX_KNOWN, "[0, 250]").map(|_| ())
 }
 
-/// The same, and orbits of another map.
+/// Checks the number of known orbits, and that they belong to this map.
 pub(super) fn check_known(
     known: &[KnownOrbit],
     check_orbit: impl Fn(&PeriodicOrbit) -> Result<(), Error>,
@@ -252,7 +252,7 @@ pub(super) fn check_known(
     known.iter().try_for_each(|known| check_orbit(&known.orbit))
 }
 
-/// Refuses rows that a grid does not have, and no rows.
+/// Checks that there are rows, and that the grid contains them.
 pub(super) fn check_rows(grid: Grid, rows: &Range<usize>) -> Result<(), Error> {
     let refuse = |what, found: usize, expected: usize| {
         Err(Error::Unfitting { what, found: found as u64, expected: expected as u64 })
@@ -267,14 +267,14 @@ pub(super) fn check_rows(grid: Grid, rows: &Range<usize>) -> Result<(), Error> {
     Ok(())
 }
 
-/// How long a start is followed.
+/// The settings that limit how long a start is followed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct BasinSettings {
     /// Impacts after which a start is left [`UNDECIDED`].
     pub max_impacts: u32,
-    /// How a chattering sequence ends.
+    /// The policy that ends a chattering sequence.
     pub policy: ChatterPolicy,
 }
 
@@ -284,7 +284,7 @@ impl Default for BasinSettings {
     }
 }
 
-/// Labels of a grid, row by row (speed), lowest speed first; in a row by phase.
+/// Labels of a grid, row by row: rows by rising speed, cells in a row by rising phase.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Basins {
@@ -293,7 +293,7 @@ pub struct Basins {
 }
 
 impl Basins {
-    /// Checks what is read: whole rows, one at least, of labels that orbits may have.
+    /// Checks deserialised basins: at least one row, only whole rows, and labels that orbits can have.
     fn check(&self) -> Result<(), Error> {
         let Self { labels, columns } = self;
         within("columns of basins", *columns as f64, 1.0, 100_000.0, "[1, 100000]")?;
@@ -308,8 +308,8 @@ impl Basins {
         Ok(())
     }
 
-    /// The labels of at least one whole row, found in another way or returned from a program that has them as
-    /// an array: measuring a boundary needs nothing else.
+    /// Basins of at least one whole row of labels from another source, such as an array in another program.
+    /// Measuring a boundary needs only labels.
     ///
     /// ```
     /// use bouncing_disk_core::attractors::{ATTACHED, Basins, FIRST_ORBIT};
@@ -320,19 +320,18 @@ impl Basins {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a number of columns outside [1, 100000] and for a label that no orbit has;
-    /// [`Error::Unfitting`] for rows that are not whole.
+    /// [`Error::OutOfRange`] for a number of columns outside [1, 100000] and for a label that no orbit can
+    /// have; [`Error::Unfitting`] for an incomplete row.
     pub fn of_labels(labels: Vec<Label>, columns: usize) -> Result<Self, Error> {
         let basins = Self { labels, columns };
         basins.check().map(|()| basins)
     }
 
-    /// The basins of grids that lie on one another, from the slowest starts on: their rows one after the
-    /// other.
+    /// The basins of grids stacked on one another, slowest starts first: their rows in sequence.
     ///
     /// # Errors
-    /// [`Error::Unfitting`] if their numbers of columns differ, or there are no basins; [`Error::TooLarge`]
-    /// for more than [`MAX_CELLS`] cells.
+    /// [`Error::Unfitting`] if the numbers of columns differ, or there are no basins; [`Error::TooLarge`] for
+    /// more than [`MAX_CELLS`] cells.
     pub fn stacked(parts: impl IntoIterator<Item = Self>) -> Result<Self, Error> {
         let mut parts = parts.into_iter();
         let Some(mut whole) = parts.next() else {
@@ -384,11 +383,11 @@ impl Basins {
         self.labels.iter().filter(|&&own| own == label).count() as f64 / self.labels.len() as f64
     }
 
-    /// How many cells have this label, with the interval that a sample of as many starts leaves for the
-    /// share. For [`UNDECIDED`] these are the cells without a known fate.
+    /// The number of cells with this label, with the confidence interval that a random sample of this size
+    /// gives for the share. For [`UNDECIDED`] these are the cells without a known fate.
     ///
-    /// The cells of a grid are more even than a random sample: the error of the grid is about half the share
-    /// of the cells at a boundary at most, and mostly far less.
+    /// The cells of a grid are more even than a random sample: its error is at most about half the share of
+    /// the boundary cells, and mostly far less.
     #[must_use]
     pub fn share(&self, label: Label) -> Fraction {
         let count = self.labels.iter().filter(|&&own| own == label).count() as u64;
@@ -400,12 +399,11 @@ impl Basins {
 impl ImpactMap {
     /// The label of one start: [`ATTACHED`], the index of a known orbit + [`FIRST_ORBIT`], or [`UNDECIDED`].
     ///
-    /// This call serves loops over starts and does not check that the known orbits belong to this map, as
-    /// [`Self::basins`] does: see [`Self::check_orbit`].
+    /// This call is for loops over starts. Unlike [`Self::basins`] it does not check that the known orbits
+    /// belong to this map: see [`Self::check_orbit`].
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for more than 250 known orbits; those of
-    /// [`crate::Vibration::first_impact`].
+    /// [`Error::OutOfRange`] for more than 250 known orbits; errors of [`crate::Vibration::first_impact`].
     pub fn basin_label(
         &self,
         start: ImpactState,
@@ -418,14 +416,14 @@ impl ImpactMap {
 
     /// The basins on a grid.
     ///
-    /// The labels are the same for any number of threads.
+    /// The labels do not depend on the number of threads.
     ///
     /// The items of `observer` are the rows.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for more than 250 known orbits; [`Error::NotAnOrbit`] for one of another map;
-    /// [`Error::TooLarge`] for a grid of more than [`MAX_CELLS`] cells or than there is memory for; those of
-    /// [`crate::Vibration::first_impact`].
+    /// [`Error::OutOfRange`] for more than 250 known orbits; [`Error::NotAnOrbit`] for an orbit of another
+    /// map; [`Error::TooLarge`] for a grid of more than [`MAX_CELLS`] cells or too large for the memory;
+    /// errors of [`crate::Vibration::first_impact`].
     pub fn basins(
         &self,
         grid: Grid,
@@ -438,11 +436,10 @@ impl ImpactMap {
     }
 }
 
-/// Impacts of known orbits that a state is compared with in about the time of a flight.
+/// Impacts of known orbits with which a state can be compared in about the time of a flight.
 const TARGETS_OF_FLIGHT: usize = 8;
 
-/// The work of a flight, and of the comparison of its impact with the known orbits, in the units of an
-/// observer.
+/// The work of a flight and of comparing its impact with the known orbits, in units of an observer.
 pub(super) fn flights_of_label(known: &[KnownOrbit]) -> u64 {
     let impacts: usize = known.iter().map(|known| known.orbit.period()).sum();
     1 + (impacts / TARGETS_OF_FLIGHT) as u64
@@ -521,7 +518,8 @@ mod tests {
         assert_eq!(axis(0.0, 1.0, 4).centre(usize::MAX).to_bits(), 0.875_f64.to_bits());
     }
 
-    /// Their phases had no fraction of a period, their speeds became infinite in the units of the map.
+    /// Their phases would have no fraction of a period, or their speeds become infinite in the units of the
+    /// map.
     #[test]
     fn axes_beyond_what_phases_and_speeds_can_hold_are_no_grid() {
         let ordinary = axis(0.0, 1.0, 3);
@@ -529,7 +527,7 @@ mod tests {
         refused(Grid::new(axis(-1e16, 1.0, 3), ordinary), "impact phase");
         refused(Grid::new(ordinary, axis(0.0, 1.7e308, 3)), "highest normalised speed");
         refused(Grid::new(ordinary, axis(-1.0, 1.0, 3)), "lowest normalised speed");
-        // Too fast for a flight that can be followed, but an error, not a defect.
+        // Too fast for a flight: an error, not a panic.
         let fast = Grid::new(ordinary, axis(0.0, Grid::MAX_SPEED, 3)).expect("legal");
         for policy in [ChatterPolicy::Complete, crate::chatter::policy::PAPER_POLICY] {
             let settings = BasinSettings { max_impacts: 3, policy };
@@ -558,7 +556,7 @@ mod tests {
         assert_eq!((known.orbit(), known.radius().to_bits()), (&orbit(), 0.1_f64.to_bits()));
     }
 
-    /// A label is one byte: the 255th orbit's ran over.
+    /// A label is one byte: the label of the 255th orbit would overflow.
     #[test]
     fn one_start_knows_no_more_orbits_than_a_grid() {
         let far = KnownOrbit::new(orbit(), 0.0).expect("legal");

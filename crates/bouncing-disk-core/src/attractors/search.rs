@@ -22,7 +22,7 @@ use crate::run::Observer;
 use cells::VisitedCells;
 use settings::AttractorSearch;
 
-/// Most attractors but for the disk at rest: as many as labels tell apart.
+/// Most attractors apart from the disk at rest: as many as labels can distinguish.
 const MOST_ATTRACTORS: usize = 250;
 
 /// The motion of a disk after it has come to rest on the platform.
@@ -31,20 +31,20 @@ const MOST_ATTRACTORS: usize = 250;
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedAfterRest"))]
 #[non_exhaustive]
 pub enum AfterRest {
-    /// It stays for ever: the platform never falls away (P <= 1).
+    /// It stays forever: the platform never falls away (P <= 1).
     StaysForEver,
     /// It separates, always in the same way, and comes to rest again.
     RestsAgain(RestCycle),
-    /// It separates and does not come to rest again in the search: the rest is no attractor but leads to the
-    /// motion at this index of [`Attractors::all`], and so do all starts that come to rest. If that is a
-    /// transient, the disk may rest again later.
+    /// It separates and does not come to rest again in the search: the rest is not an attractor. It leads to
+    /// the motion at this index of [`Attractors::all`], and so do all starts that come to rest. If this
+    /// motion is a transient, the disk may rest again later.
     LeadsTo(usize),
     /// On a drive: rests end at several phases, and different motions follow.
     Several {
         /// Whether each of these motions comes to rest again and again, or stays.
         last: bool,
     },
-    /// It separates, and the impacts of the search do not show what follows.
+    /// It separates, and the search does not decide its further motion.
     Undecided,
 }
 
@@ -57,7 +57,7 @@ read_checked!(enum AfterRest as UncheckedAfterRest {
 });
 
 impl AfterRest {
-    /// The number of the attractor that the rest leads to, in [`Attractors::all`]; `None` where it lasts.
+    /// The number of the attractor that the rest leads to, in [`Attractors::all`]; `None` if the rest lasts.
     #[must_use]
     pub const fn leads_to(&self) -> Option<usize> {
         match self {
@@ -66,7 +66,7 @@ impl AfterRest {
         }
     }
 
-    /// Reading has already checked the parts; [`Attractors`] checks the number.
+    /// The parts are checked when they are read; [`Attractors`] checks the number.
     const fn check(&self) -> Result<(), Error> {
         match *self {
             Self::LeadsTo(0) => {
@@ -77,17 +77,17 @@ impl AfterRest {
     }
 }
 
-/// Where one orbit of a motion without a period has been, and how long others have stayed there.
+/// The cells visited by one orbit of an aperiodic motion, and how long other orbits stay there.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedRecurrence"))]
 pub struct Recurrence {
-    /// The cells that it visited in the second half of its impacts.
+    /// The cells visited in the second half of its impacts.
     pub cells: VisitedCells,
-    /// Impacts for which orbits that began on it were followed; of a transient, those after which its starts
-    /// were counted.
+    /// Impacts over which orbits that began on it were followed; for a transient, the number after which its
+    /// starts were counted.
     pub impacts: u64,
-    /// How many of the orbits that began on it, at most 1,024, did not leave.
+    /// The number of orbits, of at most 1,024 that began on it, that did not leave.
     pub orbits: u64,
     /// Its last impact.
     pub state: ImpactState,
@@ -101,7 +101,7 @@ read_checked!(Recurrence as UncheckedRecurrence {
 });
 
 impl Recurrence {
-    /// Checks what is read: an orbit has been somewhere.
+    /// Checks deserialised cells: an orbit has visited at least one.
     fn check(&self) -> Result<(), Error> {
         let (cells, impacts) = (self.cells.visited().len() as f64, self.impacts as f64);
         within("visited cells", cells, 1.0, f64::MAX, "at least 1")?;
@@ -115,39 +115,38 @@ impl Recurrence {
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedKind"))]
 #[non_exhaustive]
 pub enum AttractorKind {
-    /// The disk comes to rest on the platform. Every map has such starts; maps differ in what follows.
+    /// The disk comes to rest on the platform. Every map has such starts; the motion after the rest differs.
     Rest(AfterRest),
-    /// A [stable](crate::orbits::Stability) periodic orbit, and its [`PeriodicOrbit::trapping_radius`]; 0
-    /// where there is none, as next to a graze.
+    /// A [stable](crate::orbits::Stability) periodic orbit, and its [`PeriodicOrbit::trapping_radius`]; 0 if
+    /// there is none, as near a graze.
     Periodic(KnownOrbit),
     /// A periodic orbit with a multiplier that is 1 or -1 within rounding, as in the fold in which two orbits
-    /// are born: it attracts from one side, or rounding decides whether it does. Starts approach it ever more
-    /// slowly and stay undecided in basins.
+    /// are born: it attracts from one side only, or rounding decides whether it attracts. Starts approach it
+    /// ever more slowly and stay undecided in basins.
     Marginal(PeriodicOrbit),
-    /// A motion whose small perturbations grow for certain
-    /// ([`Verdict::Chaotic`](crate::attractors::Verdict::Chaotic)), and which none of
-    /// [`Recurrence::orbits`] orbits has left within [`Recurrence::impacts`] impacts. Nothing is claimed
-    /// beyond that number.
+    /// A motion whose small perturbations certainly grow
+    /// ([`Verdict::Chaotic`](crate::attractors::Verdict::Chaotic)). None of [`Recurrence::orbits`] orbits has
+    /// left it within [`Recurrence::impacts`] impacts; nothing is claimed beyond this number.
     Chaotic {
         /// The largest Lyapunov exponent per impact.
         exponent: f64,
-        /// Its standard error, by batch means.
+        /// Its standard error, from batch means.
         standard_error: f64,
-        /// Where it has been.
+        /// The cells it has visited.
         recurrence: Recurrence,
     },
     /// A motion whose small perturbations grow, and which orbits leave, or may leave because they were not
-    /// followed for long enough for dissipation to act
-    /// ([`BouncingMap::transient_impacts`](crate::BouncingMap::transient_impacts)). Its starts are those that are
+    /// followed long enough for dissipation to act
+    /// ([`BouncingMap::transient_impacts`](crate::BouncingMap::transient_impacts)). Its starts are those
     /// still on it after [`Recurrence::impacts`] impacts.
     Transient {
         /// The largest Lyapunov exponent per impact.
         exponent: f64,
-        /// Its standard error, by batch means.
+        /// Its standard error, from batch means.
         standard_error: f64,
-        /// Its mean life, or a bound of it.
+        /// Its mean lifetime, or a bound on it.
         lifetime: Lifetime,
-        /// Where it has been.
+        /// The cells it has visited.
         recurrence: Recurrence,
     },
 }
@@ -173,7 +172,7 @@ impl AttractorKind {
         }
     }
 
-    /// The orbit of a periodic or marginal one.
+    /// The orbit of a periodic or marginal attractor.
     #[must_use]
     pub const fn orbit(&self) -> Option<&PeriodicOrbit> {
         match self {
@@ -198,7 +197,7 @@ impl AttractorKind {
         Ok(())
     }
 
-    /// Where a motion without a period has been.
+    /// The cells visited by an aperiodic motion, and its survival.
     #[must_use]
     pub const fn recurrence(&self) -> Option<&Recurrence> {
         match self {
@@ -208,7 +207,7 @@ impl AttractorKind {
     }
 
     /// The cycle of a disk that comes to rest again and again: [`RestCycle::is_exact`] tells whether its
-    /// numbers are those of exact arithmetic or chosen by rounding.
+    /// numbers hold in exact arithmetic or are chosen by rounding.
     #[must_use]
     pub const fn rest_cycle(&self) -> Option<&RestCycle> {
         match self {
@@ -217,9 +216,9 @@ impl AttractorKind {
         }
     }
 
-    /// Whether the motion lasts: for ever at rest, and on an attracting orbit; for as many impacts as
-    /// [`Recurrence::impacts`] tells if it is chaotic. Not, or not for certain, if the disk rests and may
-    /// never do so again, on a marginal orbit, and in a transient.
+    /// Whether the motion lasts: forever at rest and on an attracting orbit, for [`Recurrence::impacts`]
+    /// impacts if it is chaotic. It does not, or not certainly, on a marginal orbit, in a transient, and if
+    /// the disk rests and may never rest again.
     #[must_use]
     pub const fn lasts(&self) -> bool {
         match self {
@@ -233,8 +232,8 @@ impl AttractorKind {
     }
 }
 
-/// `comes to rest for ever`, `periodic orbit: impacts 1, platform periods 1`, and so on; a precision given
-/// applies to the exponent. Words count attractors from one, as [labels](Attractors::label) do.
+/// `comes to rest for ever`, `periodic orbit: impacts 1, platform periods 1`, and so on; a given precision
+/// applies to the exponent. The text numbers attractors from one, like [labels](Attractors::label).
 impl core::fmt::Display for AttractorKind {
     fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         let digits = formatter.precision().unwrap_or(4);
@@ -283,25 +282,25 @@ impl core::fmt::Display for AttractorKind {
     }
 }
 
-/// An attractor, and how many starts have ended on it.
+/// An attractor, and the number of starts that ended on it.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Attractor {
     /// Its kind.
     pub kind: AttractorKind,
-    /// How many of the starts ended on it: 0 if it was only a candidate. Its interval is that of the basin's
+    /// The share of starts that ended on it, 0 if it was only a candidate. Its interval is for the basin's
     /// share of the trapping region.
     pub starts: Fraction,
 }
 
 /// The attractors of a map: the disk at rest, and all others that were found.
 ///
-/// Their numbers are those of [`Self::all`]: the disk at rest has 0; then come the periodic ones by impacts,
-/// platform periods and falling speed, the marginal ones in the same order, then all others as they were
-/// found.
+/// They are numbered as in [`Self::all`]. The disk at rest is 0; then come the periodic ones by impacts,
+/// platform periods and decreasing speed, the marginal ones in the same order, and all others in the order of
+/// discovery.
 ///
-/// Those of a sine are stored and read by serde.
+/// With serde they are stored and read for a sine.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Attractors<M = ImpactMap> {
@@ -324,8 +323,8 @@ impl<'de> serde::Deserialize<'de> for Attractors {
 }
 
 impl Attractors {
-    /// Checks what is read: the disk at rest first, then periodic ones, then all others, no more than there
-    /// are labels, orbits of this map, and of no more starts than there were.
+    /// Checks deserialised attractors: the disk at rest first, then periodic ones, then all others; no more
+    /// than there are labels; orbits of this map; and no more starts than were followed.
     fn check(&self) -> Result<(), Error> {
         let refuse = |what, found: usize, expected: usize| {
             Err(Error::Unfitting { what, found: found as u64, expected: expected as u64 })
@@ -372,13 +371,13 @@ impl<M> Attractors<M> {
         &self.map
     }
 
-    /// How they were searched for.
+    /// The settings of the search.
     #[must_use]
     pub const fn search(&self) -> &AttractorSearch {
         &self.search
     }
 
-    /// The disk at rest, which is number 0, and all other attractors.
+    /// All attractors; number 0 is the disk at rest.
     #[must_use]
     pub fn all(&self) -> &[Attractor] {
         &self.all
@@ -389,8 +388,8 @@ impl<M> Attractors<M> {
         self.all.iter().enumerate().filter(|(_, attractor)| attractor.kind.lasts())
     }
 
-    /// The starts that ended on none of them: their perturbations neither grow nor shrink for certain, as
-    /// where motion creeps past the place of a fold, or they shrink but no period was found; or the
+    /// The starts that ended on none of them. Their perturbations neither certainly grow nor certainly
+    /// shrink, as when motion creeps past a fold; or they shrink but no period was found; or the
     /// [budget](AttractorSearch::budget) was used up.
     #[must_use]
     pub fn undecided(&self) -> Fraction {
@@ -400,8 +399,8 @@ impl<M> Attractors<M> {
     }
 
     /// The label of the attractor with this number in [`Self::basins`]:
-    /// [`ATTACHED`](crate::attractors::ATTACHED) of the disk at rest, then from
-    /// [`FIRST_ORBIT`](crate::attractors::FIRST_ORBIT) on; `None` if there is no such attractor.
+    /// [`ATTACHED`](crate::attractors::ATTACHED) for the disk at rest, then counting from
+    /// [`FIRST_ORBIT`](crate::attractors::FIRST_ORBIT); `None` if there is no such attractor.
     #[must_use]
     pub fn label(&self, number: usize) -> Option<Label> {
         (number < self.all.len()).then(|| label_of(number))
@@ -413,7 +412,7 @@ impl<M> Attractors<M> {
         self.all.get(usize::from(label).checked_sub(1)?)
     }
 
-    /// The periodic attractors, as the basins of known orbits take them: number 1, 2, ...
+    /// The periodic attractors, numbers 1, 2, ..., in the form needed for basins of known orbits.
     pub fn known(&self) -> impl Iterator<Item = &KnownOrbit> {
         self.all.iter().filter_map(|attractor| match &attractor.kind {
             AttractorKind::Periodic(known) => Some(known),
@@ -422,7 +421,7 @@ impl<M> Attractors<M> {
     }
 }
 
-/// The label of the attractor with a number that exists: at most 251.
+/// The label of an attractor with an existing number: at most 251.
 const fn label_of(number: usize) -> Label {
     number as Label + 1
 }
@@ -431,25 +430,25 @@ impl<M: AttractingMap> Attractors<M> {
     /// The attractors of a map, found without any known orbit.
     ///
     /// Starts are spread evenly over the trapping region ([`AttractingMap::impact_speed_bound_at`]), which no
-    /// attractor can leave, so that no window can miss one. Each is followed until it rests, or is seen to
-    /// come ever nearer to a periodic orbit, which is then refined; of those that do neither, one is followed
-    /// for as many impacts as the [search](AttractorSearch::with_impacts) allows, and so are 1,024 orbits that
-    /// begin where it has been. If none of these leaves, others that return to the cells it has visited are on
-    /// the same attractor. If one does, it is a [transient](AttractorKind::Transient), and all starts are
-    /// followed for so many impacts, or for as many as the budget allows. Periodic
-    /// orbits are the same as in [`ImpactMap::periodic_orbits`], wherever they begin.
+    /// attractor can leave, so the result does not depend on a chosen window. Each start is followed until it
+    /// rests, or is seen to approach a periodic orbit, which is then refined. Of the remaining starts one is
+    /// followed for as many impacts as the [search](AttractorSearch::with_impacts) allows, and so are 1,024
+    /// orbits that begin near its impacts. If none of these leaves, all starts that return to the visited
+    /// cells are on the same attractor. If one leaves, the motion is a [transient](AttractorKind::Transient),
+    /// and all starts are followed for as many impacts, or for as many as the budget allows. Periodic orbits
+    /// are the same as in [`ImpactMap::periodic_orbits`], except for their first impact.
     ///
-    /// Attracting orbits with one impact, by their closed form, and those that [`AttractorSearch::orbits`]
-    /// finds are included in any case, however small their basins.
+    /// Attracting one-impact orbits, known in closed form, and attracting orbits found by
+    /// [`AttractorSearch::orbits`] are always included, however small their basins.
     ///
-    /// On a drive a rest may end at several phases. Where the motions that follow differ, they are
+    /// On a drive a rest may end at several phases. If the motions that follow differ, they are
     /// [`AfterRest::Several`].
     ///
-    /// Two things are not proven. An attractor whose basin no start has hit is missed; its share is then
-    /// below the upper end of the [interval](Fraction::interval) of zero starts. And a chaotic motion may end
-    /// after more impacts than it states.
+    /// Two things are not proven. The search misses an attractor whose basin contains no start; its share is
+    /// then below the upper end of the [interval](Fraction::interval) of zero starts. And a chaotic motion
+    /// may end after more impacts than it states.
     ///
-    /// The items of `observer` are the starts, each counted when it has been examined and when its
+    /// The items of `observer` are the starts. Each counts twice: when it has been examined, and when its
     /// attractor is known.
     ///
     /// ```
@@ -465,7 +464,7 @@ impl<M: AttractingMap> Attractors<M> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::TooLarge`] for more than 250 attractors beside the disk at rest; those of
+    /// [`Error::TooLarge`] for more than 250 attractors apart from the disk at rest; errors of
     /// [`Vibration::first_impact`](crate::Vibration::first_impact).
     pub fn find(map: &M, search: &AttractorSearch, observer: &dyn Observer) -> Result<Self, Error> {
         find::find(map, search, observer)
@@ -476,7 +475,7 @@ impl ImpactMap {
     /// The attractors: [`Attractors::find`].
     ///
     /// # Errors
-    /// Those of [`Attractors::find`].
+    /// Errors of [`Attractors::find`].
     pub fn attractors(&self, search: &AttractorSearch, observer: &dyn Observer) -> Result<Attractors, Error> {
         Attractors::find(self, search, observer)
     }

@@ -1,5 +1,5 @@
-//! The long-term behaviour of an orbit of the impact map: a verdict with its evidence, for one start or for
-//! many in lockstep.
+//! The long-term behaviour of an orbit of the impact map: a verdict with its evidence, for one start or many
+//! in lockstep.
 
 mod display;
 mod proof;
@@ -18,7 +18,7 @@ use crate::sweep::lyapunov::LyapunovEstimate;
 use crate::sweep::sweep_with;
 use witness::Witness;
 
-/// The long-term behaviour of an orbit, with the evidence. Impacts and rests are those of
+/// The long-term behaviour of an orbit, with the evidence. Impacts and rests are counted under
 /// [`ChatterPolicy::Complete`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -26,24 +26,24 @@ use witness::Witness;
 #[non_exhaustive]
 pub enum Verdict {
     /// The orbit came so near to an attracting periodic orbit that it was seen to converge to it. The
-    /// periodic orbit is a solution of [`ImpactMap::refine`] of the smallest period, with multipliers inside
-    /// the unit circle by more than [their error](crate::orbits::PeriodicOrbit::multiplier_error), and no
-    /// impact of it chatters to rest.
+    /// periodic orbit is a solution of [`ImpactMap::refine`] with the smallest period. Its multipliers lie
+    /// inside the unit circle by more than [their error](crate::orbits::PeriodicOrbit::multiplier_error), and
+    /// none of its impacts chatters to rest.
     Periodic {
         /// Impacts of one period of the orbit.
         impacts: u64,
-        /// Periods of the platform that it takes, at least 1.
+        /// Periods of the platform in one period of the orbit, at least 1.
         platform_periods: u64,
         /// Its Floquet multipliers.
         multipliers: Multipliers,
         /// One of its impacts, from which all others follow.
         state: ImpactState,
-        /// How near the followed orbit was to it (rad; a radian counts as much as the speed P).
+        /// The distance of the followed orbit from it (rad; a radian counts as much as the speed P).
         distance: f64,
-        /// Impacts after which this was seen.
+        /// Impacts after which this was observed.
         after: u64,
-        /// 1 if the disk came to rest on the way, 0 if not: the basin of a start with a rest is that of
-        /// the attached disk by [`ImpactMap::basin_label`], as the flight from a rest begins anew.
+        /// 1 if the disk came to rest on the way, 0 if not. By [`ImpactMap::basin_label`] a start with a rest
+        /// is in the basin of the attached disk, as the flight from a rest begins again.
         rests: u64,
     },
     /// Small perturbations grow by more than neutral motion, the escape from a periodic orbit and the error
@@ -57,29 +57,30 @@ pub enum Verdict {
         standard_error: f64,
         /// Impacts over which it was measured, after the transient.
         impacts: u64,
-        /// Periods of the platform that these took.
+        /// Periods of the platform during these impacts.
         platform_periods: u64,
         /// 1 if the disk came to rest before, 0 if not.
         rests: u64,
     },
     /// The disk comes to rest on the platform, separates, and comes to rest again: as it always separates in
-    /// the same way, this repeats for ever, and no perturbation survives the rest.
+    /// the same way, this repeats forever, and no perturbation survives the rest.
     Chattering {
         /// The cycle that repeats.
         cycle: RestCycle,
-        /// Impacts before the rest with which the cycle begins.
+        /// Impacts before the rest that begins the cycle.
         after: u64,
     },
-    /// The disk has come to rest on a platform that never falls away from it: a sine with P <= 1, or a soft contact that holds it.
+    /// The disk has come to rest on a platform that never falls away from it: a sine with P <= 1, or a
+    /// compliant contact that holds it.
     AtRest {
         /// Phase at which it comes to rest.
         phase: Phase,
-        /// Impacts before, without those that are summed.
+        /// Earlier impacts, except summed ones.
         after: u64,
     },
-    /// The allowed number of impacts decides nothing for certain.
+    /// The allowed number of impacts gives no certain answer.
     Undecided {
-        /// Why.
+        /// The reason.
         reason: UndecidedReason,
         /// 1 if the disk came to rest before, 0 if not.
         rests: u64,
@@ -91,81 +92,81 @@ pub enum Verdict {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedCycle"))]
 pub struct RestCycle {
-    /// Impacts, without those that are summed.
+    /// Impacts, except summed ones.
     pub impacts: u64,
     /// Periods of the platform, at least 1.
     pub platform_periods: u64,
-    /// Flights that last longer than half a period of the platform. The short ones of a chatter get shorter
-    /// without end: their number depends on how they are summed rather than on the motion.
+    /// Flights that last longer than half a period of the platform. The short flights of a chatter have no
+    /// end: their number depends on how they are summed rather than on the motion.
     pub long_flights: u64,
-    /// How far rounding may have carried the impacts of the round away from those of exact arithmetic (rad
-    /// and g/omega), to first order; 1 where it is 1 or more.
+    /// The largest deviation of the impacts of the round from exact arithmetic due to rounding (rad and
+    /// g/omega), to first order; capped at 1.
     pub rounding_error: f64,
-    /// Whether the numbers above are those of exact arithmetic.
+    /// Whether the numbers above hold in exact arithmetic.
     pub trust: CycleTrust,
 }
 
-/// Whether a [`RestCycle`] is the one of exact arithmetic.
+/// Whether a [`RestCycle`] holds in exact arithmetic.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedTrust"))]
 #[non_exhaustive]
 pub enum CycleTrust {
-    /// Rounding stays far below what would change a flight.
+    /// Rounding is far too small to change a flight.
     Exact,
     /// The round is so long that rounding has grown to the size of the motion: another program finds another
-    /// cycle. All of them share only statistics, such as the growth between two rests.
+    /// cycle. All such cycles share only statistics, such as the growth between two rests.
     ChosenByRounding {
         /// The mean logarithmic growth of a small perturbation per flight, over the flights from the first
-        /// impact of the round to the rest; `None` where one of them grazes.
+        /// impact of the round to the rest; `None` if one of them grazes.
         exponent: Option<f64>,
         /// Its standard error; `None` for fewer than 16 flights.
         standard_error: Option<f64>,
     },
 }
 
-/// Why there is no verdict.
+/// The reason why there is no verdict.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedReason"))]
 #[non_exhaustive]
 pub enum UndecidedReason {
-    /// The exponent is no farther from zero than neutral motion and its error can explain
-    /// ([`LyapunovEstimate::threshold`]), and no period up to the longest one was proved.
+    /// The exponent is not farther from zero than neutral motion and its error can explain
+    /// ([`LyapunovEstimate::threshold`]), and no period up to the longest was proved.
     ExponentNearZero {
         /// The largest exponent per impact.
         exponent: f64,
         /// Its standard error.
         standard_error: f64,
     },
-    /// Perturbations shrink, but no period up to the longest one was proved: a longer one, or one that is
-    /// approached too slowly.
+    /// Perturbations shrink, but no period up to the longest was proved: the period is longer, or the
+    /// approach too slow.
     NoPeriodFound {
         /// The largest exponent per impact.
         exponent: f64,
         /// Its standard error.
         standard_error: f64,
     },
-    /// The orbit stays at a periodic one that does not attract for certain: the larger modulus of its
-    /// multipliers is 1 within their error, or above, where the start was on it to the last bits.
+    /// The orbit stays at a periodic orbit that does not certainly attract: the larger modulus of its
+    /// multipliers is 1 within their error, or above 1 if the start was on it to the last bits.
     OnPeriodicOrbit {
         /// Impacts of one period of the orbit.
         impacts: u64,
-        /// Periods of the platform that it takes, at least 1.
+        /// Periods of the platform in one period of the orbit, at least 1.
         platform_periods: u64,
         /// Its Floquet multipliers.
         multipliers: Multipliers,
-        /// How far they may be off
+        /// The error of the multipliers
         /// ([`PeriodicOrbit::multiplier_error`](crate::orbits::PeriodicOrbit::multiplier_error)).
         multiplier_error: f64,
         /// One of its impacts.
         state: ImpactState,
     },
-    /// The disk has come to rest in a soft contact, and no bound proves that it stays.
+    /// The disk has come to rest in a compliant contact, and no bound proves that it stays.
     RestNotProven {
         /// Its phase.
         phase: Phase,
-        /// Impacts before.
+        /// Earlier impacts.
         after: u64,
     },
     /// Perturbations grow, but the orbit was not followed long enough for dissipation to end a transient.
@@ -174,11 +175,11 @@ pub enum UndecidedReason {
         exponent: f64,
         /// Its standard error.
         standard_error: f64,
-        /// Impacts needed, with those of the transient ([`BouncingMap::transient_impacts`]).
+        /// Impacts needed, including the transient ([`BouncingMap::transient_impacts`]).
         needed: f64,
     },
-    /// An impact has no speed, or one so small that the derivative exceeds what a double holds; or it is on a kink of a
-    /// drive, where there is no derivative.
+    /// An impact has zero speed, or one so small that the derivative overflows a double; or it is at a kink
+    /// of a drive, which has no derivative.
     Grazing {
         /// Impacts up to this one.
         impacts: u64,
@@ -238,7 +239,7 @@ fn check_rests(rests: u64) -> Result<(), Error> {
 }
 
 impl Verdict {
-    /// Checks a verdict that is read: whether [`ImpactMap::verdict`] could give it.
+    /// Checks that a deserialised verdict could come from [`ImpactMap::verdict`].
     fn check(&self) -> Result<(), Error> {
         match *self {
             Self::Periodic { impacts, platform_periods, multipliers, state, distance, rests, .. } => {
@@ -274,7 +275,7 @@ impl RestCycle {
         within("rounding error of a cycle", self.rounding_error, 0.0, 1.0, "[0, 1]").map(|_| ())
     }
 
-    /// Whether the numbers of the cycle are those of exact arithmetic.
+    /// Whether the numbers of the cycle hold in exact arithmetic.
     #[must_use]
     pub const fn is_exact(&self) -> bool {
         matches!(self.trust, CycleTrust::Exact)
@@ -329,7 +330,7 @@ impl ImpactMap {
     /// ```
     ///
     /// # Errors
-    /// Those of [`verdicts`].
+    /// Errors of [`verdicts`].
     pub fn verdict(&self, state: ImpactState, settings: VerdictSettings) -> Result<Verdict, Error> {
         verdict(self, state, settings)
     }
@@ -340,8 +341,8 @@ fn verdict<M: BouncingMap>(map: &M, state: ImpactState, settings: VerdictSetting
     verdicts.pop().ok_or(Error::Stopped { done: 0, total: 1 })
 }
 
-/// The long-term behaviour of the orbit of each of `starts`, in their order. Those of the sine advance in lockstep,
-/// with the bits of [`ImpactMap::verdict`].
+/// The long-term behaviour of the orbits of all `starts`, in order. Orbits on a sine advance in lockstep,
+/// with the same bits as [`ImpactMap::verdict`].
 ///
 /// The items of `observer` are the orbits. [`each_verdict`] keeps the verdicts of a stopped call.
 ///
@@ -364,7 +365,7 @@ fn verdict<M: BouncingMap>(map: &M, state: ImpactState, settings: VerdictSetting
 /// ```
 ///
 /// # Errors
-/// Those of [`VerdictSettings::check`]; those of [`sweep`](crate::sweep::sweep()).
+/// Errors of [`VerdictSettings::check`] and of [`sweep`](crate::sweep::sweep()).
 pub fn verdicts<M: BouncingMap>(
     starts: &[(M, ImpactState)],
     settings: VerdictSettings,
@@ -377,11 +378,11 @@ pub fn verdicts<M: BouncingMap>(
 }
 
 /// [`verdicts`] of `count` orbits without keeping starts or verdicts: `start` makes the start of an index
-/// when it is needed, and `each` takes the verdicts in order, `None` where there is no start. Memory does not
-/// grow with their number. The items of the observer are the orbits.
+/// when it is needed, and `each` receives the verdicts in order, `None` for a missing start. Memory use does
+/// not depend on their number. The items of the observer are the orbits.
 ///
 /// # Errors
-/// Those of [`verdicts`] and of `start`; [`Error::Stopped`] if the observer breaks.
+/// Errors of [`verdicts`] and of `start`; [`Error::Stopped`] if the observer breaks.
 pub fn each_verdict<M: BouncingMap, E: From<Error>>(
     count: usize,
     mut start: impl FnMut(usize) -> Result<Option<(M, ImpactState)>, E>,
@@ -391,7 +392,7 @@ pub fn each_verdict<M: BouncingMap, E: From<Error>>(
 ) -> Result<(), E> {
     settings.check()?;
     let total = count as u64;
-    // At least one call of the observer, also of nothing.
+    // At least one call of the observer, even without orbits.
     for first in (0..count.max(1)).step_by(M::TOGETHER) {
         let block: Vec<_> =
             (first..count.min(first + M::TOGETHER)).map(&mut start).collect::<Result<_, E>>()?;
@@ -417,17 +418,17 @@ pub fn each_verdict<M: BouncingMap, E: From<Error>>(
     Ok(())
 }
 
-/// The largest tolerance of a return.
+/// The largest tolerance for a return.
 const LARGEST_TOLERANCE: f64 = 1.0e-2;
 
 /// The fewest impacts that an exponent is measured over: batches of four.
 const FEWEST_IMPACTS: f64 = 64.0;
 
-/// How long an orbit is followed for its verdict, and how.
+/// The settings for following an orbit to its verdict.
 ///
-/// An orbit that repeats or rests is decided as soon as this is seen. The others are followed for
-/// `transient` + `impacts` impacts; after a rest on a platform that falls away this begins again, once for each phase at
-/// which it does.
+/// An orbit that repeats or rests is decided as soon as this is observed. The others are followed for
+/// `transient` + `impacts` impacts. After a rest on a platform that falls away this starts again, once for
+/// each phase at which the rest ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedSettings"))]
@@ -436,11 +437,12 @@ pub struct VerdictSettings {
     pub transient: u64,
     /// Impacts over which the exponent is measured, at least 64. Default 100,000.
     pub impacts: u64,
-    /// The longest period searched for, in impacts, in [1, 4096]. Default 256. The proof of a period
-    /// makes some fifty times as many flights at most, and 8,192 more, between two calls of an observer.
+    /// The longest period searched for, in impacts, in [1, 4096]. Default 256. Between two calls of an
+    /// observer the proof of a period makes at most about fifty times as many flights, plus 8,192.
     pub longest_period: usize,
-    /// How near an impact must come to an earlier one for a period to be tried (rad, and relative speed), in
-    /// (0, 0.01]. Default 1e-7. It decides how soon a period is found; its existence is then proved.
+    /// The distance between an impact and an earlier one below which a period is tried (rad, and relative
+    /// speed), in (0, 0.01]. Default 1e-7. It decides how soon a period is found; its existence is then
+    /// proved.
     pub tolerance: f64,
 }
 
@@ -461,7 +463,7 @@ impl VerdictSettings {
     /// Checks the ranges.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] with the field that is out of its range.
+    /// [`Error::OutOfRange`] names the field that is out of its range.
     pub fn check(&self) -> Result<(), Error> {
         within("impacts", self.impacts as f64, FEWEST_IMPACTS, f64::MAX, "at least 64")?;
         let longest = self.longest_period as f64;
@@ -471,7 +473,7 @@ impl VerdictSettings {
         Ok(())
     }
 
-    /// Impacts after which an orbit is left.
+    /// Impacts after which an orbit is abandoned.
     pub(crate) const fn allowed(&self) -> u64 {
         self.transient.saturating_add(self.impacts)
     }

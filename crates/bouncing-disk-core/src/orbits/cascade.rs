@@ -1,8 +1,8 @@
 //! The period-doubling cascade to as many digits as the arithmetic carries: from one doubling to the next by
 //! Newton's iteration on the impact times (docs/numerics-dynamics.md, "The doubling cascade").
 //!
-//! No step iterates the map to convergence, so slow attraction does not matter. For r = 0.1, 0.5 and 0.8 no
-//! flight has another minimum of the gap; for r = 0.01 the orbit of the third doubling would dip through the
+//! No step iterates the map to convergence, so slow attraction does not matter. For r = 0.1, 0.5 and 0.8 the
+//! gap of no flight has another minimum; for r = 0.01 the orbit of the third doubling would dip through the
 //! platform.
 //!
 //! Doubles carry the forcings to n = 13: the stated error is 9e-14 at n = 12 for r = 0.1, and the differences
@@ -20,38 +20,38 @@ use crate::numerics::real::Real;
 use crate::orbits::periodic::MAX_PERIOD;
 use crate::run::{Observer, Watch};
 
-/// The largest number of doublings: the last one is that of the orbit of period [`MAX_PERIOD`].
+/// The largest number of doublings: the last one is the doubling of the orbit of period [`MAX_PERIOD`].
 pub const MAX_DOUBLINGS: usize = 13;
 
-/// A graze margin that doubles can no longer tell from none (units of g/omega^2): their gap is exact to 1e-14
+/// A graze margin that doubles cannot distinguish from zero (units of g/omega^2): their gap is exact to 1e-14
 /// of the peak acceleration and the flight, and the phases here to all their digits.
 const UNSURE_MARGIN: f64 = 1.0e-9;
 
-/// A period doubling of the cascade that starts from the orbit with one impact per period of the platform.
+/// A period doubling of the cascade that starts at the orbit with one impact per period of the platform.
 ///
 /// `R` is the kind of number: `f64`, or [`DoubleDouble`](crate::numerics::double_double::DoubleDouble).
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct CascadeDoubling<R = f64> {
-    /// Its number n, from 1 on.
+    /// Its number n, counted from 1.
     pub number: usize,
     /// Period (in impacts) of the orbit that loses its stability, 2^(n - 1).
     pub period: usize,
     /// The forcing Gamma_n.
     pub axial_forcing: R,
-    /// How far rounding may have moved the forcing.
+    /// A bound on the error of the forcing due to rounding.
     pub forcing_error: f64,
-    /// The multiplier that the search reached, -1 but for rounding, which grows 6.6 times from one
-    /// doubling to the next.
+    /// The multiplier that the search reached: -1 up to rounding, which grows 6.6 times from one doubling to
+    /// the next.
     pub multiplier: R,
     /// The largest distance (rad) of an impact of the orbit from the one half a period later; 0 for n = 1.
     pub width: R,
-    /// How near a flight of the orbit comes to an earlier impact, in units of g/omega^2; infinite if none
-    /// comes near; NaN on a drive.
+    /// The smallest graze margin of the orbit's flights, in units of g/omega^2; infinite if no flight has
+    /// one; NaN on a drive.
     pub graze_margin: f64,
 }
 
-/// `Gamma_3 = 0.5401020860760664, of the orbit of 4 impacts`; a precision given is the number of decimals.
+/// `Gamma_3 = 0.5401020860760664, of the orbit of 4 impacts`; a given precision is the number of decimals.
 impl<R: Real> core::fmt::Display for CascadeDoubling<R> {
     fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         let Self { number, period, axial_forcing, .. } = self;
@@ -62,34 +62,34 @@ impl<R: Real> core::fmt::Display for CascadeDoubling<R> {
     }
 }
 
-/// The doublings that were found, and why there are not as many as were asked for.
+/// The doublings found, and the reason if there are fewer than requested.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DoublingCascade<R = f64> {
-    /// In their order, at least one.
+    /// The doublings in order, at least one.
     pub doublings: Vec<CascadeDoubling<R>>,
-    /// What ended the cascade before the number of doublings that were asked for.
+    /// The error that ended the cascade before the requested number of doublings.
     pub ended_by: Option<Error>,
 }
 
 impl<R> DoublingCascade<R> {
-    /// As many doublings as were asked for.
+    /// All requested doublings.
     ///
     /// # Errors
-    /// The one that ended the cascade before.
+    /// The error that ended the cascade early.
     pub fn complete(self) -> Result<Vec<CascadeDoubling<R>>, Error> {
         self.ended_by.map_or(Ok(self.doublings), Err)
     }
 }
 
-/// The first `count`, in [1, [`MAX_DOUBLINGS`]], period doublings of the orbit with one impact per period of the
-/// platform, for `restitution` in (0, 1), to as many digits as its kind of number has.
+/// The first `count`, in [1, [`MAX_DOUBLINGS`]], period doublings of the orbit with one impact per period of
+/// the platform, for `restitution` in (0, 1), to all digits of its number type.
 ///
-/// In doubles every forcing is the one of a multiplier of -1, within [`CascadeDoubling::forcing_error`]: at
-/// most 1.5e-13 at the thirteenth. The rounding error grows 6.6 times in the multiplier and 1.4 times in the
-/// forcing from one doubling to the next (docs/numerics-dynamics.md); the distances of the doublings
-/// shrink 4.67 times, so that ratios of distances have six digits at the twelfth.
-/// [`DoubleDouble`](crate::numerics::double_double::DoubleDouble) has sixteen more; then read a decimal
-/// restitution from a text, as the double `0.1` is not a tenth.
+/// In doubles every forcing gives the multiplier -1 to within [`CascadeDoubling::forcing_error`], at most
+/// 1.5e-13 at the thirteenth doubling. From one doubling to the next the rounding error grows 6.6 times in
+/// the multiplier and 1.4 times in the forcing (docs/numerics-dynamics.md). The distances between doublings
+/// shrink 4.67 times, so ratios of distances have six digits at the twelfth.
+/// [`DoubleDouble`](crate::numerics::double_double::DoubleDouble) gives sixteen more; then parse a decimal
+/// restitution from text, as the double `0.1` is not a tenth.
 ///
 /// The items of `observer` are the doublings.
 ///
@@ -108,13 +108,13 @@ impl<R> DoublingCascade<R> {
 /// # Ok::<(), bouncing_disk_core::Error>(())
 /// ```
 ///
-/// A cascade may end earlier: by [`Error::NotSettled`] if a branch is lost, and with the margin where an orbit comes so
-/// near to an earlier impact that more digits than those of doubles would decide; by [`Error::EarlierImpact`] if the
-/// orbit meets the platform earlier. It then has the doublings up to there, and that error.
+/// A cascade may end early. It ends with [`Error::NotSettled`] if a branch is lost, with the margin if an
+/// orbit comes so near an earlier impact that doubles cannot decide, and with [`Error::EarlierImpact`] if the
+/// orbit hits the platform earlier. The result then contains the doublings up to there, and the error.
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for the restitution or the count; [`Error::Stopped`] if the observer breaks; what ends the
-/// cascade before its first doubling.
+/// [`Error::OutOfRange`] for the restitution or the count; [`Error::Stopped`] if the observer breaks; the
+/// error that ends the cascade before its first doubling.
 pub fn doubling_cascade<R: Real>(
     restitution: R,
     count: usize,
@@ -123,7 +123,7 @@ pub fn doubling_cascade<R: Real>(
     let (found, lost) = flip_points(restitution, count, observer)?;
     let mut described = found.iter().map(|found| {
         let (number, graze_margin) = (found.number, found.graze_margin);
-        // The margin is one of doubles, and proves nothing of further digits.
+        // The margin is computed in doubles, and proves nothing about further digits.
         if R::EPSILON < f64::EPSILON && graze_margin < UNSURE_MARGIN {
             let (what, iterations) = ("graze of a cascade in doubles", number as u32);
             return Err(Error::NotSettled { what, iterations, residual: graze_margin });
@@ -158,7 +158,7 @@ pub(crate) struct Found<R> {
     pub(crate) graze_margin: f64,
 }
 
-/// The first doublings in any precision, and why there is no further one.
+/// The first doublings in any precision, and the reason why there is no further one.
 pub(crate) fn flip_points<R: Real>(
     restitution: R,
     count: usize,

@@ -39,7 +39,7 @@ pub enum ContinuationParameter {
     Forcing,
     /// The coefficient of restitution, in (0, 1).
     Restitution,
-    /// The number of a family of maps, as `bouncing_disk_drives::DrivenFamily`.
+    /// The number of a family of maps, such as `bouncing_disk_drives::DrivenFamily`.
     Number,
 }
 
@@ -60,7 +60,7 @@ pub trait ClosingMap: Clone + Debug {
     #[doc(hidden)]
     const IS_QUADRATIC: bool = true;
 
-    /// Its value of a parameter; `None` if it has no such parameter.
+    /// The map's value of a parameter; `None` if it has no such parameter.
     fn parameter(&self, by: ContinuationParameter) -> Option<f64>;
 
     /// The map with another value of a parameter.

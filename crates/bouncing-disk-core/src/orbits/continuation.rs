@@ -32,7 +32,7 @@ use walker::Walker;
 /// a product and a quotient with pi.
 const ROUNDED: f64 = 4.0 * f64::EPSILON;
 
-/// The parameter, range and resolution of a continuation.
+/// The settings of a continuation: parameter, range and resolution.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedContinuation"))]
@@ -57,18 +57,18 @@ read_checked!(Continuation as UncheckedContinuation {
 });
 
 impl Continuation {
-    /// The most points of a branch.
+    /// The largest number of points of a branch.
     pub const MAX_POINTS: usize = 1_000_000;
 
     /// A continuation in `parameter` between `low` < `high`, at first towards higher values (`rising`) or
     /// lower ones.
     ///
-    /// The arclength is that of first impact and parameter: radians, units of 1 + P, and the forcing at the
-    /// start (for the restitution: 1) count alike. The first step is 0.01, the largest 0.05, and there are at
-    /// most 10,000 points: see [`Self::with_steps`].
+    /// The arclength is measured in first impact and parameter: radians, units of 1 + P, and the forcing at
+    /// the start (for the restitution: 1) count alike. The first step is 0.01, the largest 0.05, and there
+    /// are at most 10,000 points: see [`Self::with_steps`].
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if the range is empty or leaves that of the parameter.
+    /// [`Error::OutOfRange`] if the range is empty or exceeds the parameter's range.
     pub fn new(
         parameter: ContinuationParameter,
         (low, high): (f64, f64),
@@ -79,11 +79,11 @@ impl Continuation {
         settings.check().map(|()| settings)
     }
 
-    /// The same with another first step and largest step (arclength, in [1e-9, 1]), and at most
+    /// The same continuation with another first step and largest step (arclength, in [1e-9, 1]), and at most
     /// `max_points` in [2, 1e6].
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for any of them, and for a first step above the largest.
+    /// [`Error::OutOfRange`] for any of these numbers, and for a first step above the largest.
     pub fn with_steps(self, first_step: f64, largest_step: f64, max_points: usize) -> Result<Self, Error> {
         let settings = Self { first_step, largest_step, max_points, ..self };
         settings.check().map(|()| settings)
@@ -106,7 +106,7 @@ impl Continuation {
         Ok(())
     }
 
-    /// Refuses a map outside the range, and a disk without restitution.
+    /// Checks that the map is within the range, and that its restitution is not 0.
     pub(super) fn check_map<M: ContinuedMap>(&self, map: &M) -> Result<(), Error> {
         within("restitution of a continuation", map.restitution(), f64::MIN_POSITIVE, 1.0, "(0, 1)")?;
         let (what, index, count) = ("parameter of a continuation", self.parameter as usize, 3);
@@ -128,21 +128,21 @@ impl Continuation {
         self.parameter
     }
 
-    /// The range of the parameter.
+    /// The range of the parameter, low and high end.
     #[must_use]
     pub const fn range(&self) -> (f64, f64) {
         (self.low, self.high)
     }
 
-    /// The most points.
+    /// The largest number of points.
     #[must_use]
     pub const fn max_points(&self) -> usize {
         self.max_points
     }
 }
 
-/// A map whose periodic orbits can be continued in a parameter. [`ImpactMap`] has its forcing and its restitution,
-/// `bouncing_disk_drives::DrivenFamily` its number.
+/// A map whose periodic orbits can be continued in a parameter. The parameters of [`ImpactMap`] are its
+/// forcing and its restitution; `bouncing_disk_drives::DrivenFamily` has its number.
 pub trait ContinuedMap: ClosingMap {
     /// The work of a flight, in flights of the sine.
     #[doc(hidden)]
@@ -151,7 +151,7 @@ pub trait ContinuedMap: ClosingMap {
     /// Checks that `orbit` is an orbit of this map: that each of its impacts leads to the next one.
     ///
     /// # Errors
-    /// [`Error::NotAnOrbit`] and the others of [`ImpactMap::check_orbit`](crate::ImpactMap::check_orbit).
+    /// [`Error::NotAnOrbit`] and other errors of [`ImpactMap::check_orbit`](crate::ImpactMap::check_orbit).
     fn check_orbit(&self, orbit: &PeriodicOrbit) -> Result<(), Error>;
 
     /// Whether the platform meets the disk between two impacts.
@@ -183,10 +183,10 @@ pub trait ContinuedMap: ClosingMap {
     /// pseudo-arclength: through folds, and along unstable parts, until it ends
     /// ([`BranchEnd`]).
     ///
-    /// Doublings, folds, and where the orbit ceases to exist are located to the rounding. Two of one kind
-    /// within one step are missed: see [`Continuation::with_steps`].
+    /// Doublings, folds and the end of the orbit are located to within rounding. Two of one kind within one
+    /// step are missed: see [`Continuation::with_steps`].
     ///
-    /// The items of `observer` are the points that are allowed.
+    /// The items of `observer` are the allowed points.
     ///
     /// ```
     /// # use bouncing_disk_core::orbits::{BifurcationKind, Continuation, ContinuationParameter, ContinuedMap as _};
@@ -201,9 +201,9 @@ pub trait ContinuedMap: ClosingMap {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if the parameter of this map is outside of the range, or the restitution is 0;
-    /// [`Error::NotOfKind`] if it has no such parameter; [`Error::NotAnOrbit`] if `orbit` is not an orbit of this
-    /// map; [`Error::NoBranch`] if it is not an isolated one: start near a fold or a birth, not on it.
+    /// [`Error::OutOfRange`] if the parameter of this map is outside the range, or the restitution is 0;
+    /// [`Error::NotOfKind`] if it has no such parameter; [`Error::NotAnOrbit`] if `orbit` is not an orbit of
+    /// this map; [`Error::NoBranch`] if it is not an isolated one: start near a fold or a birth, not on it.
     fn continued(
         &self,
         orbit: &PeriodicOrbit,
@@ -217,8 +217,8 @@ pub trait ContinuedMap: ClosingMap {
         self.continued_from(orbit, settings, observer)
     }
 
-    /// The first `count` period doublings, in [1, [`MAX_DOUBLINGS`]], from `orbit` on: of its branch, of the branch that
-    /// begins there, and so on. There are fewer where a branch ends before it doubles.
+    /// The first `count` period doublings, in [1, [`MAX_DOUBLINGS`]], starting from `orbit`: of its branch,
+    /// of the branch that begins there, and so on. There are fewer if a branch ends before it doubles.
     ///
     /// The items of `observer` are the doublings.
     ///
@@ -257,10 +257,10 @@ pub trait ContinuedMap: ClosingMap {
         Ok(found)
     }
 
-    /// [`Self::continued`] from an orbit of this map or of one next to it.
+    /// [`Self::continued`] from an orbit of this map or of a neighbouring map.
     ///
     /// # Errors
-    /// Those of [`Self::continued`], but for [`Error::NotAnOrbit`].
+    /// Errors of [`Self::continued`] except [`Error::NotAnOrbit`].
     // The explorer draws branches with it.
     #[doc(hidden)]
     fn continued_from(
@@ -278,9 +278,9 @@ pub trait ContinuedMap: ClosingMap {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedPoint"))]
 pub struct BranchPoint {
-    /// The value of the parameter that is varied.
+    /// The value of the varied parameter.
     pub parameter: f64,
-    /// The orbit, an orbit of the map: no earlier impact forestalls a flight.
+    /// The orbit, an exact orbit of the map: no earlier impact ends a flight.
     pub orbit: PeriodicOrbit,
     /// The trace of the derivative around the orbit.
     pub trace: f64,
@@ -319,7 +319,7 @@ impl BranchPoint {
         1.0 + self.trace + self.determinant
     }
 
-    /// Whether the orbit attracts, where rounding leaves no doubt of it ([`Stability::Stable`]).
+    /// Whether the orbit attracts beyond any rounding error ([`Stability::Stable`]).
     #[must_use]
     pub fn is_stable(&self) -> bool {
         self.orbit.stability() == Stability::Stable
@@ -335,30 +335,31 @@ pub enum BifurcationKind {
     Doubling,
     /// A multiplier is 1, and the branch turns back in the parameter.
     Fold,
-    /// A flight touches the platform before its impact: beyond, an earlier impact forestalls it.
+    /// A flight touches the platform before its impact: beyond this point an earlier impact prevents it.
     Graze {
-        /// Which flight, the one after this impact.
+        /// The index of the impact before the flight.
         flight: usize,
     },
-    /// The speed of an impact falls to zero, or the force of a compliant contact only touches zero: beyond, the disk
-    /// passes without this impact, or is not released there.
+    /// The speed of an impact falls to zero, or the force of a compliant contact only touches zero: beyond
+    /// this point the disk passes without this impact, or is not released there.
     VanishingImpact {
-        /// Which impact.
+        /// The index of the impact.
         impact: usize,
     },
-    /// An impact passes a place at which the acceleration of the platform jumps, and with it the multipliers: an orbit
-    /// gains or loses its stability, or the branch turns back in the parameter. Where the velocity jumps, it ends.
+    /// An impact passes a phase at which the acceleration of the platform jumps, and so do the multipliers:
+    /// an orbit gains or loses its stability, or the branch turns back in the parameter. If the velocity
+    /// jumps, the branch ends.
     BorderCollision {
-        /// Which impact.
+        /// The index of the impact.
         impact: usize,
     },
-    /// The second half of the orbit becomes a repetition of the first: the orbit is born here, by a doubling
+    /// The second half of the orbit becomes a repetition of the first: the orbit is born here, in a doubling
     /// of its half.
     Birth,
 }
 
 impl BifurcationKind {
-    /// Its name: `vanishing impact`.
+    /// Its name, such as `vanishing impact`.
     #[must_use]
     pub const fn name(&self) -> &'static str {
         match self {
@@ -379,10 +380,10 @@ impl BifurcationKind {
 pub struct Bifurcation {
     /// Its kind.
     pub kind: BifurcationKind,
-    /// The orbit there. At a graze and at a vanishing impact it is the last one whose speeds and gaps have
-    /// the signs of an orbit, to their accuracy: rounding decides which impact the map finds first, and the
-    /// last of [`Branch::points`] is one that the map confirms. At a birth it is the orbit that doubles its
-    /// period, with half the impacts.
+    /// The orbit at this point. At a graze and at a vanishing impact it is the last one whose speeds and gaps
+    /// have the signs of an orbit, to their accuracy. There rounding decides which impact the map finds
+    /// first, so the last of [`Branch::points`] is one that the map confirms. At a birth it is the orbit that
+    /// doubles its period, with half the impacts.
     pub point: BranchPoint,
 }
 
@@ -390,30 +391,30 @@ pub struct Bifurcation {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LocatedDoubling {
-    /// The orbit there.
+    /// The orbit at the doubling.
     pub point: BranchPoint,
-    /// How far the errors of the orbit may have moved the parameter: the error of the trace over its slope.
+    /// The error of the parameter due to the errors of the orbit: the error of the trace over its slope.
     pub parameter_error: f64,
     /// The largest distance (rad) of an impact from the one half a period later; 0 for a single impact.
     pub width: f64,
 }
 
-/// Why a branch ends.
+/// The reason why a branch ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum BranchEnd {
-    /// The parameter reaches this end of its range: the last orbit lies there, to the rounding, or to 1e-9
-    /// next to a birth just beyond.
+    /// The parameter reaches this end of its range: the last orbit lies there to within rounding, or to 1e-9
+    /// near a birth just beyond.
     RangeLimit(f64),
     /// The orbit ceases to exist or to be prime in the last bifurcation of the branch.
     Bifurcation,
     /// The branch is back at its start.
     Closed,
-    /// There are as many points as were allowed.
+    /// The branch has the largest allowed number of points.
     PointLimit(usize),
-    /// Newton's method finds no next point even at this arclength: by rounding, at the end of the range in which a
-    /// family has maps, or for an unknown reason.
+    /// Newton's method finds no next point even at this arclength: because of rounding, at the end of a
+    /// family's range, or for an unknown reason.
     StepTooSmall(f64),
 }
 
@@ -422,16 +423,16 @@ pub enum BranchEnd {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Branch<M = ImpactMap> {
-    /// The parameter that is varied.
+    /// The varied parameter.
     pub parameter: ContinuationParameter,
-    /// The map at the start of the branch: the other parameters.
+    /// The map at the start of the branch, with the values of the other parameters.
     pub map: M,
     /// The orbits in the order of the arclength; the last one lies at the end, or within a step of the birth
     /// that ends the branch.
     pub points: Vec<BranchPoint>,
     /// The bifurcations on the way, in the order of the arclength.
     pub bifurcations: Vec<Bifurcation>,
-    /// Why the branch ends.
+    /// The reason why the branch ends.
     pub end: BranchEnd,
 }
 
@@ -471,10 +472,10 @@ impl<M: ContinuedMap> Branch<M> {
     }
 
     /// The branch of twice the period that begins at number `index` of this branch's [`Self::bifurcations`],
-    /// which must be a doubling. Its first point is the one after the doubling; `rising` of the settings has
-    /// no meaning, as it goes to either side.
+    /// which must be a doubling. Its first point is the one after the doubling. The settings' `rising` has no
+    /// meaning, as the branch may go to either side.
     ///
-    /// The items of `observer` are the points that are allowed.
+    /// The items of `observer` are the allowed points.
     ///
     /// # Errors
     /// [`Error::NotOfKind`] if there is no such bifurcation or it is not a doubling; [`Error::NoBranch`] if

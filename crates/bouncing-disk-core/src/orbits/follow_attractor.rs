@@ -7,7 +7,7 @@ use crate::map::impact_map::{ImpactMap, ImpactState, OrbitEvent};
 use crate::numerics::error::Error;
 use crate::run::{Observer, Tick, Unobserved, Watch};
 
-/// Impacts after which an observer may be asked.
+/// Impacts between two possible calls of an observer.
 const IMPACTS_BETWEEN_TICKS: usize = 1_024;
 
 /// A value of the forcing, and a state of the followed attractor there.
@@ -32,10 +32,11 @@ pub struct Following<Forcings> {
     forcings: Forcings,
 }
 
-/// Follows the attractor that `start` lies on (or is attracted to) through `forcings`.
+/// Follows the attractor of `start` through `forcings`.
 ///
 /// At each forcing the orbit from the state carried over runs for `transient` impacts. The walk ends before
-/// the forcing at which the disk comes to rest during that transient: the attractor is lost to chattering.
+/// the first forcing at which the disk comes to rest during this transient: there the attractor is lost to
+/// chattering.
 pub fn follow_attractor<Forcings: IntoIterator<Item = f64>>(
     restitution: f64,
     forcings: Forcings,
@@ -70,7 +71,7 @@ impl ImpactMap {
     /// The items of `observer` are the impacts.
     ///
     /// # Errors
-    /// Those of [`Vibration::first_impact`].
+    /// Errors of [`Vibration::first_impact`].
     pub fn state_after(
         &self,
         start: ImpactState,
@@ -125,7 +126,7 @@ mod tests {
             let exact = followed.map.period_one(1).expect("exists");
             assert!((followed.state.phase().angle() - exact.phase().angle()).abs() < 1e-9);
         }
-        // Next to its birth the orbit attracts only from very near: the followed state is lost in one large
+        // Near its birth the orbit attracts only from very near: the followed state is lost in one large
         // step.
         let lost = follow_attractor(0.5, [0.335, 0.4, 0.32, 0.4], start, 500, ChatterPolicy::Complete);
         assert_eq!(lost.count(), 2);

@@ -25,7 +25,7 @@ pub const MAX_NEWTON_STEPS: u32 = 50;
 /// The longest period searched for and refined.
 pub const MAX_PERIOD: usize = 4_096;
 
-/// A real number or a pair of conjugates: the two Floquet multipliers of an orbit of the 2-D impact map.
+/// The two Floquet multipliers of an orbit of the 2-D impact map: both real, or a conjugate pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedMultipliers"))]
@@ -41,7 +41,7 @@ pub enum Multipliers {
     },
 }
 
-/// How far rounding may make the second of two equal multipliers the larger one.
+/// The largest excess of the second of two equal multipliers over the first due to rounding.
 const MULTIPLIER_ROUNDING: f64 = 1.0e-12;
 
 read_checked!(enum Multipliers as UncheckedMultipliers {
@@ -50,7 +50,7 @@ read_checked!(enum Multipliers as UncheckedMultipliers {
 });
 
 impl Multipliers {
-    /// Real and imaginary part of each.
+    /// Real and imaginary part of each multiplier.
     #[must_use]
     pub const fn pairs(&self) -> [[f64; 2]; 2] {
         match *self {
@@ -82,8 +82,8 @@ impl Multipliers {
         Self::of_invariants(matrix.x_axis.x + matrix.y_axis.y, matrix.determinant())
     }
 
-    /// The eigenvalues of a real 2x2 matrix with this trace and determinant: [`Self::of`], where the
-    /// determinant is known better than the entries (that of an orbit of n impacts is r^(2n)).
+    /// The eigenvalues of a real 2x2 matrix with this trace and determinant: [`Self::of`] for a determinant
+    /// known better than the entries (for an orbit of n impacts it is r^(2n)).
     #[must_use]
     pub fn of_invariants(trace: f64, determinant: f64) -> Self {
         let half_trace = 0.5 * trace;
@@ -96,7 +96,7 @@ impl Multipliers {
         Self::Real(large, if large == 0.0 { 0.0 } else { determinant / large })
     }
 
-    /// The larger modulus: the orbit attracts where it is below one.
+    /// The larger modulus: the orbit attracts if it is below one.
     #[must_use]
     pub fn spectral_radius(&self) -> f64 {
         match *self {
@@ -106,8 +106,8 @@ impl Multipliers {
     }
 
     /// The largest Lyapunov exponent per impact of an orbit of `impacts` with these multipliers: the
-    /// logarithm of [`Self::spectral_radius`] over their number; minus infinity where both multipliers are
-    /// zero.
+    /// logarithm of [`Self::spectral_radius`] over the number of impacts; minus infinity if both multipliers
+    /// are zero.
     ///
     /// ```
     /// use bouncing_disk_core::orbits::Multipliers;
@@ -141,16 +141,17 @@ impl core::fmt::Display for Multipliers {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedOrbit"))]
 pub struct PeriodicOrbit {
-    /// The impacts of one period of the orbit, in their order.
+    /// The impacts of one period of the orbit, in order.
     pub states: Vec<ImpactState>,
-    /// How many periods of the platform one period of the orbit takes.
+    /// Periods of the platform in one period of the orbit.
     pub platform_periods: u64,
     /// The derivative of the map around the orbit, from its first impact.
     pub monodromy: DMat2,
-    /// How far rounding of the map's parameters, by a unit in the last place, and of the solution may have
-    /// moved the impacts (rad, and relative speed); near a fold two orbits within it count as one.
+    /// The largest change of the impacts (rad, and relative speed) due to rounding of the solution, and of
+    /// the map's parameters by a unit in the last place. Near a fold two orbits within this distance count as
+    /// one.
     pub position_error: f64,
-    /// How far this rounding may have moved the trace of the derivative.
+    /// The largest change of the derivative's trace due to this rounding.
     pub trace_error: f64,
 }
 
@@ -162,13 +163,13 @@ read_checked!(PeriodicOrbit as UncheckedOrbit {
     trace_error: f64,
 });
 
-/// Whether a periodic orbit attracts, the most stable first.
+/// The stability of a periodic orbit, most stable first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Stability {
     /// Both multipliers lie inside the unit circle by more than their uncertainty: the orbit attracts.
     Stable,
     /// A multiplier is 1 or -1 within its uncertainty, as in a fold or a doubling: the orbit is semi-stable,
-    /// or rounding decides whether it attracts and whether it exists.
+    /// or rounding decides whether it attracts or even exists.
     Marginal,
     /// A multiplier lies outside the unit circle by more than its uncertainty.
     Unstable,
@@ -186,7 +187,7 @@ impl core::fmt::Display for Stability {
 }
 
 impl PeriodicOrbit {
-    /// Checks an orbit that is read: whether [`ImpactMap::refine`] could give it.
+    /// Checks that a deserialised orbit could come from [`ImpactMap::refine`].
     pub(crate) fn check(&self) -> Result<(), Error> {
         let most = MAX_PERIOD as f64;
         within("impacts of a periodic orbit", self.states.len() as f64, 1.0, most, "[1, 4096]")?;
@@ -198,7 +199,7 @@ impl PeriodicOrbit {
         self.check_motion()
     }
 
-    /// Refuses a disk at rest.
+    /// Checks that the disk is not at rest.
     ///
     /// # Errors
     /// [`Error::ImpactWithoutSpeed`] and [`Error::NoPlatformPeriods`].
@@ -225,8 +226,8 @@ impl PeriodicOrbit {
         Self { states, platform_periods, monodromy, position_error, trace_error }
     }
 
-    /// Whether the orbit attracts, as far as rounding can tell. With the trace T and the determinant D < 1
-    /// both multipliers lie inside the unit circle if |T| < 1 + D.
+    /// The stability of the orbit, to within rounding. With the trace T and the determinant D < 1 both
+    /// multipliers lie inside the unit circle if |T| < 1 + D.
     ///
     /// ```
     /// # use bouncing_disk_core::orbits::Stability;
@@ -261,7 +262,7 @@ impl PeriodicOrbit {
         Multipliers::of_invariants(self.trace(), self.determinant())
     }
 
-    /// The error of the multipliers: how far [`Self::trace_error`] moves the roots of m^2 - T m + D, at a
+    /// The error of the multipliers: the change of the roots of m^2 - T m + D by [`Self::trace_error`], at a
     /// double root by its square root.
     #[must_use]
     pub fn multiplier_error(&self) -> f64 {
@@ -271,10 +272,11 @@ impl PeriodicOrbit {
         0.5 * self.trace_error + (change / radicand.sqrt()).min(change.sqrt())
     }
 
-    /// Phase space shrinks, so that the determinant is at most 1 in size. Where perturbations grow a lot, that of the
-    /// product of many matrices is all rounding and may have any size: over hundreds of impacts with multipliers up
-    /// to 1e18, 1e19 instead of 1e-140. Without the limit five chaotic orbits among 6,000 forcings near Gamma = 0.54509
-    /// (r = 0.5) would count as periodic.
+    /// The determinant of the derivative, limited to magnitude 1, since phase space contracts. If
+    /// perturbations grow strongly, the determinant of a product of many matrices is pure rounding and may
+    /// have any size: over hundreds of impacts with multipliers up to 1e18, 1e19 instead of 1e-140. Without
+    /// the limit five chaotic orbits among 6,000 forcings near Gamma = 0.54509 (r = 0.5) would count as
+    /// periodic.
     #[doc(hidden)]
     #[must_use]
     pub fn determinant(&self) -> f64 {
@@ -288,14 +290,14 @@ impl PeriodicOrbit {
         self.monodromy.x_axis.x + self.monodromy.y_axis.y
     }
 
-    /// det(1 + monodromy) = (1 + m1)(1 + m2): falls through zero where the orbit doubles its period.
+    /// det(1 + monodromy) = (1 + m1)(1 + m2): falls through zero when the orbit doubles its period.
     #[must_use]
     pub fn flip_function(&self) -> f64 {
         1.0 + self.trace() + self.determinant()
     }
 }
 
-/// The smaller way round the circle from `from` to `to`, in (-pi, pi].
+/// The shorter way around the circle from `from` to `to`, in (-pi, pi].
 pub fn phase_difference(to: f64, from: f64) -> f64 {
     let difference = to - from;
     if difference > PI {
@@ -307,7 +309,7 @@ pub fn phase_difference(to: f64, from: f64) -> f64 {
     }
 }
 
-/// Refuses periods and tolerances that [`repeats`] does not take.
+/// Checks period and tolerance for [`repeats`].
 pub(crate) fn check_repeats(longest: usize, tolerance: f64) -> Result<(), Error> {
     within("longest period", longest as f64, 1.0, MAX_PERIOD as f64, "[1, 4096] impacts")?;
     within("tolerance", tolerance, 0.0, f64::MAX, "[0, inf)").map(|_| ())
@@ -328,8 +330,8 @@ impl ImpactMap {
     /// The period-1 orbit with one impact every `platform_periods` >= 1 periods, in closed form:
     /// cos tau = k (1 - r)/((1 + r) Gamma), impact speed 2 pi k/(1 + r); `None` below its threshold.
     ///
-    /// Of the two phases the one in [0, pi/2] is returned: the other is always a saddle. [`Self::refine`],
-    /// not this function, checks that no earlier impact prevents the orbit.
+    /// The result is the solution in [0, pi/2]; the other phase always gives a saddle. This function does not
+    /// check that no earlier impact prevents the orbit, but [`Self::refine`] does.
     #[must_use]
     pub fn period_one(&self, platform_periods: u64) -> Option<ImpactState> {
         let k = platform_periods as f64;
@@ -343,11 +345,11 @@ impl ImpactMap {
     }
 
     /// The impact speed of the orbits with one impact every `platform_periods` periods, 2 pi k/(1 + r) (units
-    /// of g/omega), at whatever forcing they exist.
+    /// of g/omega), at every forcing at which they exist.
     ///
-    /// A flight of k periods ends at the phase, and so at the height and the speed of the platform, at which
-    /// it began. On it gravity changes the velocity by 2 pi k: the launch speed u and the impact speed w,
-    /// both relative to the platform, satisfy u + w = 2 pi k and, by the impact, u = r w.
+    /// A flight of k periods ends at its initial phase, and so at the initial height and speed of the
+    /// platform. During the flight gravity changes the velocity by 2 pi k: the launch speed u and the impact
+    /// speed w, both relative to the platform, satisfy u + w = 2 pi k and, by the impact, u = r w.
     ///
     /// ```
     /// # use bouncing_disk_core::{ImpactMap, Vibration};
@@ -379,7 +381,7 @@ impl ImpactMap {
     /// such period exists or the disk comes to rest (judged by [`ChatterPolicy::Complete`]).
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for `longest` or `tolerance`; those of
+    /// [`Error::OutOfRange`] for `longest` or `tolerance`; errors of
     /// [`Vibration::first_impact`](crate::Vibration::first_impact).
     pub fn period_of(
         &self,
@@ -415,11 +417,11 @@ impl ImpactMap {
     /// period (at most `longest`), then [`Self::refine`]. `None` if it comes to rest (judged by
     /// [`ChatterPolicy::Complete`]) or shows no period.
     ///
-    /// The items of `observer` are the impacts of the transient, of the search for the period and of
-    /// the refinement, counted at their maximum.
+    /// The items of `observer` are the impacts of the transient, of the search for the period and of the
+    /// refinement, at their maximum.
     ///
     /// # Errors
-    /// Those of [`Self::refine`] and [`Self::period_of`].
+    /// Errors of [`Self::refine`] and [`Self::period_of`].
     pub fn settled_orbit(
         &self,
         state: ImpactState,
@@ -428,7 +430,7 @@ impl ImpactMap {
         tolerance: f64,
         observer: &dyn Observer,
     ) -> Result<Option<PeriodicOrbit>, Error> {
-        // Two periods are compared, another one is the guess.
+        // Two periods are compared, and a third is the guess.
         let searched = (3 + u64::from(MAX_NEWTON_STEPS)).saturating_mul(longest as u64);
         let watch = Watch::begin(observer, 0, searched.saturating_add(transient as u64))?;
         let mut work = watch.work();
@@ -460,7 +462,7 @@ impl ImpactMap {
     }
 }
 
-/// The distance of two impacts, in units where a radian and the speed `speed_scale` count alike.
+/// The distance of two impacts, in units in which a radian and the speed `speed_scale` count alike.
 pub(crate) fn distance(a: ImpactState, b: ImpactState, speed_scale: f64) -> f64 {
     let phase = phase_difference(a.phase().angle(), b.phase().angle());
     let velocity = (a.velocity() - b.velocity()) / speed_scale;

@@ -1,5 +1,5 @@
-//! How the share of cells with an uncertain fate falls as starts are known better: the uncertainty exponent
-//! of a basin boundary, and its dimension (S. W. McDonald, C. Grebogi, E. Ott, J. A. Yorke, Physica D 17, 125
+//! The uncertainty exponent of a basin boundary and its dimension, from the share of cells with an uncertain
+//! fate over the accuracy of a start (S. W. McDonald, C. Grebogi, E. Ott, J. A. Yorke, Physica D 17, 125
 //! (1985)).
 //!
 //! Tests: a straight boundary, alternately coloured gaps of Cantor's set (1 + ln 2/ln 3, found to 0.02),
@@ -13,10 +13,10 @@ use crate::numerics::error::{Error, within};
 use crate::numerics::fraction::Fraction;
 use crate::run::{Observer, Watch};
 
-/// The fewest distances to which a power law is fitted.
+/// Smallest number of distances for fitting a power law.
 const FEWEST: usize = 3;
 
-/// How many labels the code reads in the time of one flight, roughly.
+/// Approximate number of labels read in the time of one flight.
 const CELLS_OF_FLIGHT: usize = 16;
 
 /// The largest difference between the slopes from one distance to the next that still counts as a power law:
@@ -31,7 +31,7 @@ const SPREAD_OF_SLOPE: f64 = 0.2;
 pub struct UncertainShare {
     /// The distance, in cells along each axis.
     pub distance: usize,
-    /// The share of cells with a differently labelled cell in the square within this distance about them.
+    /// The share of cells with a differently labelled cell within this distance along both axes.
     pub uncertain: Fraction,
 }
 
@@ -40,26 +40,26 @@ pub struct UncertainShare {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub enum BoundaryFit {
-    /// It is a power, over the distances of the fit.
+    /// The share follows a power law over the distances of the fit.
     PowerLaw {
         /// The uncertainty exponent alpha: the share grows like distance^alpha.
         exponent: f64,
-        /// Its standard error, from the scatter about the line in the logarithms.
+        /// Its standard error, from the scatter about the line in logarithms.
         standard_error: f64,
-        /// The boundary's dimension 2 - alpha: 1 of a smooth curve, up to 2.
+        /// The boundary's dimension 2 - alpha, from 1 (a smooth curve) to 2.
         dimension: f64,
         /// The smallest slope from one distance to the next, and the largest.
         slopes: (f64, f64),
     },
-    /// It is not: the slopes from one distance to the next differ by more than 0.05 plus a fifth of their
-    /// mean. This also happens on a grid so coarse that most of its cells are uncertain.
+    /// There is no power law: the slopes from one distance to the next differ by more than 0.05 plus a fifth
+    /// of their mean. This also happens on a grid so coarse that most of its cells are uncertain.
     NoPowerLaw {
         /// The smallest and the largest slope.
         slopes: (f64, f64),
     },
-    /// Fewer than three distances have any uncertain cell, too few for a fit.
+    /// At fewer than three distances there is any uncertain cell, too few for a fit.
     TooFew {
-        /// The number of distances that have one.
+        /// The number of distances with uncertain cells.
         distances: usize,
     },
 }
@@ -70,17 +70,17 @@ pub enum BoundaryFit {
 pub struct BoundaryScaling {
     /// One share for each distance, in rising order, all counted over the same cells.
     pub shares: Vec<UncertainShare>,
-    /// The fit of a line to the logarithms of the shares above zero, over those of the distances.
+    /// The line fitted to the logarithms of the non-zero shares over the logarithms of the distances.
     pub fit: BoundaryFit,
 }
 
 impl Basins {
-    /// The share of cells whose fate is uncertain if a start is known only to within a distance, given in
-    /// cells; and the power law of this share, with its exponent and the dimension of the basin boundary.
+    /// The share of cells whose fate is uncertain if a start is known only to within a distance in cells, and
+    /// the power law of this share: its exponent and the dimension of the basin boundary.
     ///
     /// A cell is uncertain if a cell with another label lies within that distance along both axes. For all
-    /// `distances` (such as 1, 2, 4, 8, ... or 1, 3, 9, ...) the same cells count: those farther from the
-    /// edges of the grid than the largest distance. Undecided cells count as a basin of their own.
+    /// `distances` (such as 1, 2, 4, 8, ... or 1, 3, 9, ...) the same cells count: all that are farther from
+    /// the edges of the grid than the largest distance. Undecided cells count as a basin of their own.
     ///
     /// The items of `observer` are the rows of cells that count, once for each distance.
     ///
@@ -99,8 +99,8 @@ impl Basins {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for distances that do not rise from 1 at least, and where no cell is far enough
-    /// from the edges.
+    /// [`Error::OutOfRange`] if the distances do not increase from at least 1, or no cell is far enough from
+    /// the edges.
     pub fn boundary_scaling(
         &self,
         distances: &[usize],
@@ -134,7 +134,7 @@ impl Basins {
         let inner = margin..self.columns() - margin;
         let mut work = watch.work();
         let spent = (inner.len() * distance / CELLS_OF_FLIGHT) as u64 + 1;
-        // The least and the largest label along each row first: the square has one label where both agree.
+        // First the smallest and the largest label along each row: the square has one label if both agree.
         let extent = |labels: &[Label]| {
             labels
                 .iter()
@@ -164,7 +164,7 @@ impl Basins {
     }
 }
 
-/// A line through points of logarithms, the abscissas rising.
+/// The fit of a line to points of logarithms with increasing abscissas.
 fn fit(points: &[(f64, f64)]) -> BoundaryFit {
     if points.len() < FEWEST {
         return BoundaryFit::TooFew { distances: points.len() };
@@ -238,8 +238,8 @@ mod tests {
         assert!((found - 1.0).abs() < 1e-13 && error < 1e-13, "{found} {error}");
     }
 
-    /// The gaps of Cantor's set belong to two basins in turn, by their size: the boundary is that set along
-    /// the columns, and a line along the rows.
+    /// The gaps of Cantor's set belong to two basins alternately, by size: the boundary is that set along the
+    /// columns, and a line along the rows.
     #[test]
     fn a_cantor_set_has_its_dimension() {
         let digits = 7;
@@ -264,7 +264,7 @@ mod tests {
 
     #[test]
     fn what_is_no_power_law_says_so() {
-        // Stripes: from half their width on everything is uncertain.
+        // Stripes: beyond half their width everything is uncertain.
         let stripes = basins(200, 200, |_, column| Label::from(column / 8 % 2 == 0));
         let scaling = stripes.boundary_scaling(&[1, 2, 4, 8, 16], &Unobserved).expect("fits");
         assert!(matches!(scaling.fit, BoundaryFit::NoPowerLaw { slopes } if slopes.1 - slopes.0 > 0.3));

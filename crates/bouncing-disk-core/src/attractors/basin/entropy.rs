@@ -1,4 +1,4 @@
-//! The entropy of basins: how uncertain the fate of a start known only up to a box is (A. Daza, A.
+//! The entropy of basins: the uncertainty of the fate of a start known only to within a box (A. Daza, A.
 //! Wagemakers, B. Georgeot, D. Guery-Odelin, M. A. F. Sanjuan, Sci. Rep. 6, 31416 (2016)).
 
 use super::{Basins, Label, UNDECIDED};
@@ -11,26 +11,26 @@ use crate::numerics::error::{Error, within};
 pub struct BasinEntropy {
     /// Cells along each side of a box.
     pub box_side: usize,
-    /// Boxes: those that fit into the grid whole.
+    /// Boxes that lie completely within the grid.
     pub boxes: u64,
     /// Boxes with more than one label.
     pub boundary_boxes: u64,
-    /// Cells of the boxes that are undecided. They count as a label of their own.
+    /// Undecided cells in the boxes. They count as a label of their own.
     pub undecided_cells: u64,
     /// Labels that occur in the boxes.
     pub labels: u64,
     /// S_b, the mean over the boxes of -sum p ln p, p being the shares of the labels in a box: 0 if each box
     /// has one label, at most the logarithm of the number of labels.
     pub entropy: f64,
-    /// S_bb, the same mean over the boxes with more than one label; `None` if there is no such box. A box
-    /// that a smooth curve between two basins cuts has ln 2 at most: a larger mean over boxes that are small
-    /// beside the basins shows that the boundary is not smooth, a smaller one shows nothing.
+    /// S_bb, the same mean over the boxes with more than one label; `None` if there is no such box. A box cut
+    /// by a smooth curve between two basins contributes at most ln 2. So a larger mean over boxes much
+    /// smaller than the basins shows that the boundary is not smooth; a smaller mean shows nothing.
     pub boundary_entropy: Option<f64>,
 }
 
 impl Basins {
-    /// The entropy over boxes of `box_side` x `box_side` cells in [2, 100 000]; those at the upper ends of
-    /// the axes that would not be whole are omitted. Boxes of 5 x 5 are usual.
+    /// The entropy over boxes of `box_side` x `box_side` cells in [2, 100 000]; incomplete boxes at the upper
+    /// ends of the axes are omitted. Boxes of 5 x 5 cells are usual.
     ///
     /// ```
     /// use bouncing_disk_core::attractors::{Axis, BasinSettings, Grid};
@@ -88,7 +88,7 @@ impl Basins {
         })
     }
 
-    /// How many cells of a box have each label.
+    /// The number of cells of a box with each label.
     fn counts(&self, (row, column): (usize, usize), side: usize) -> [u32; Label::MAX as usize + 1] {
         let mut counts = [0; Label::MAX as usize + 1];
         for line in row..row + side {
@@ -124,8 +124,8 @@ mod tests {
         assert!(entropy.boundary_entropy.is_some_and(|own| (own - sum / 2.0).abs() < 1e-15));
     }
 
-    /// Cells without any order of three kinds have nearly the largest entropy there is, and a straight
-    /// boundary stays below ln 2.
+    /// Random cells of three kinds have nearly the largest possible entropy, and a straight boundary stays
+    /// below ln 2.
     #[test]
     fn the_limits_are_those_of_order_and_of_chance() {
         let mut random = SplitMix64::new(1);

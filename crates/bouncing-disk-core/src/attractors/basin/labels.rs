@@ -9,11 +9,11 @@ use crate::numerics::error::{Error, room_for};
 use crate::run::{Observer, Watch, in_parallel, threads};
 
 impl ImpactMap {
-    /// The labels of all cells of a grid, [`UNDECIDED`] outside of these rows, which are the items of the
+    /// The labels of all cells of a grid, [`UNDECIDED`] outside these rows. The rows are the items of the
     /// observer.
     ///
     /// # Errors
-    /// Those of [`Self::basins`].
+    /// Errors of [`Self::basins`].
     pub(crate) fn labels_of_rows(
         &self,
         grid: Grid,
@@ -24,8 +24,8 @@ impl ImpactMap {
     ) -> Result<Vec<Label>, Error> {
         check_known(known, |orbit| self.check_orbit(orbit))?;
         let (columns, height) = (grid.phase().cells(), grid.speed().cells());
-        // The system provides these zeros at once; writing those of a large grid would take seconds without a
-        // call of the observer. The first line checks that there is room for them.
+        // The system provides these zeros at once; writing the zeros of a large grid would take seconds
+        // without a call of the observer. The first line checks that there is enough memory.
         drop(room_for::<Label>("cells of a grid", columns as u64 * height as u64, MAX_CELLS)?);
         let mut labels = vec![UNDECIDED; columns * height];
         let mut finished: Vec<bool> = (0..height).map(|row| !rows.contains(&row)).collect();
@@ -41,7 +41,7 @@ impl ImpactMap {
         let left = open(&finished);
         match outcome {
             Err(Error::Stopped { .. }) if left > 0 => Err(Error::Stopped { done: total - left, total }),
-            // After one thread got the order to stop, others may have finished all rows.
+            // After one thread was told to stop, others may have finished all rows.
             Ok(()) | Err(Error::Stopped { .. }) => {
                 watch.end();
                 Ok(labels)

@@ -1,4 +1,4 @@
-//! Labels of many starts at once: as [`ImpactMap::basin_label`], with the flights in lockstep.
+//! Labels of many starts at once, as by [`ImpactMap::basin_label`], with the flights in lockstep.
 
 use super::screen::{Judge, LabelMasks};
 use super::starts::{Cell, Cells, Starts};
@@ -9,7 +9,7 @@ use crate::numerics::error::Error;
 use crate::sweep::lockstep::lanes::{Batch, FlightScheduler, InstructionSet, LANES, Lanes, Purpose};
 
 /// Batches that are computed together. More of them fill the vectors of the rarer kinds of flight better;
-/// with these, what a thread holds still fits into the second-level cache of small processors.
+/// with this number a thread's data still fit into the second-level cache of small processors.
 const BATCHES: usize = 24;
 
 impl ImpactMap {
@@ -33,13 +33,13 @@ impl ImpactMap {
         let mut verdicts = LabelMasks::new();
         while lockstep.lanes > 0 {
             lockstep.fly()?;
-            // From the last lane, so that a lane moved into a gap has been judged.
+            // From the last lane down, so that a lane moved into a gap has already been judged.
             for number in (0..lockstep.lanes.div_ceil(LANES)).rev() {
                 lockstep.judge(number, &mut starts, &mut verdicts)?;
             }
             lockstep.give_up(&mut starts);
         }
-        // Lanes run empty when the call is stopped, too.
+        // Lanes also run empty when the call is stopped.
         if cells.watch.is_stopped() { cells.watch.ask() } else { Ok(()) }
     }
 
@@ -73,9 +73,9 @@ struct Lockstep<'a> {
     /// The cell of each lane, and the round before its first flight.
     cell: Vec<Cell>,
     begun: Vec<u64>,
-    /// Lanes in use: the first ones.
+    /// The number of lanes in use, which are the first ones.
     lanes: usize,
-    /// Flights made, and the round in which some lane may have spent its impacts.
+    /// Flights made, and the round in which the first lane may have spent its impacts.
     round: u64,
     deadline: u64,
 }
@@ -105,7 +105,7 @@ impl<'a> Lockstep<'a> {
         failure.map_or(Ok(()), Err)
     }
 
-    /// Labels the lanes of a batch that their impacts decide, and begins other starts there.
+    /// Labels the lanes of a batch that are decided by their impacts, and begins other starts there.
     fn judge(
         &mut self,
         number: usize,
@@ -191,7 +191,8 @@ mod tests {
         let known: Vec<_> = orbit
             .and_then(|orbit| orbit.trapping_radius(&map, 64, &Unobserved).ok().map(|radius| (orbit, radius)))
             .into_iter()
-            // The same orbit again, with more room: the first one that catches a start has it.
+            // The same orbit again with a wider radius: the first orbit that captures a start decides its
+            // label.
             .flat_map(|(orbit, radius)| {
                 [radius, 1.5 * radius].map(|radius| KnownOrbit::new(orbit.clone(), radius).expect("legal"))
             })

@@ -1,4 +1,4 @@
-//! Which impacts of a batch decide the label of their start, as `settles` finds it.
+//! A fast screen for the impacts of a batch that decide the label of their start, consistent with `settles`.
 
 use core::f64::consts::TAU;
 
@@ -13,7 +13,7 @@ use crate::sweep::lockstep::lanes::{Batch, Dispatch, Impacts, LANES, Lanes, Mask
 /// Share by which the screen's radius exceeds the known orbit's, so that its rounding does not matter.
 const SLACK: f64 = 1.0e-9;
 
-/// Targets that a batch is compared with between two looks at an observer.
+/// Targets with which a batch is compared between two calls of an observer.
 const TARGETS_AT_ONCE: usize = 1 << 12;
 
 /// The work of comparing a batch with a target, in flights.
@@ -28,7 +28,7 @@ struct Target {
     square_radius: f64,
 }
 
-/// The labels that the impacts of lanes decide, as `settles` finds them.
+/// The labels decided by the impacts of the lanes, consistent with `settles`.
 #[derive(Debug, Clone)]
 pub(super) struct LabelMasks {
     pub(super) labels: Mask,
@@ -74,8 +74,8 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Finds the lanes whose impacts decide their labels. `spend` gets the work of this in the units of an
-    /// observer: the flights of a batch, and the comparisons with the targets.
+    /// Finds the lanes whose impacts decide their labels. `spend` receives the work in units of an observer:
+    /// the flights of a batch, and the comparisons with the targets.
     #[inline(always)]
     pub(super) fn screen(
         &self,
@@ -86,7 +86,7 @@ impl<'a> Judge<'a> {
         spend(LANES as u64)?;
         let (mut left, mut begins) = (self.targets.as_slice(), true);
         loop {
-            // From the last one: the first known orbit that catches a state has it.
+            // From the last one down: the first known orbit that captures a state decides its label.
             let (others, targets) = left.split_at(left.len().saturating_sub(TARGETS_AT_ONCE));
             spend(FLIGHTS_OF_TARGET * targets.len() as u64)?;
             self.dispatch.run(Screen {
@@ -105,12 +105,12 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// The work of resolving a doubt, in the units of an observer.
+    /// The work of resolving a doubt, in units of an observer.
     pub(super) const fn work_of_doubt(&self) -> u64 {
         (self.targets.len() / TARGETS_OF_FLIGHT) as u64
     }
 
-    /// The label of a lane that was found settled, if the doubt is resolved so.
+    /// The label of a settled lane, with its doubt resolved; `None` if this leaves the start undecided.
     #[inline(always)]
     pub(super) fn label(&self, verdicts: &LabelMasks, batch: &Batch, lane: usize) -> Option<Label> {
         if verdicts.doubtful[lane] == 0 {
@@ -165,7 +165,7 @@ fn find_rest(impacts: &Impacts, proof: RestProof, restitution: f64, verdicts: &m
 fn find_caught(impacts: &Impacts, target: Target, inverse_peak: f64, verdicts: &mut LabelMasks) {
     let label = u64::from(target.label);
     let (least, most) = (target.square_radius * (1.0 - SLACK), target.square_radius * (1.0 + SLACK));
-    // Chosen from copies: masked stores are slow.
+    // Selected from copies: masked stores are slow.
     let (labels, doubtful) = (verdicts.labels, verdicts.doubtful);
     for lane in 0..LANES {
         let turned = (impacts.angle[lane] - target.angle).abs();

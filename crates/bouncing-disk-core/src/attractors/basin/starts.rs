@@ -1,4 +1,4 @@
-//! The cells of a grid, handed out in shares to the threads, and from there start by start to lanes.
+//! The cells of a grid, distributed in shares to the threads, and start by start to their lanes.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -11,17 +11,17 @@ use crate::sweep::lockstep::lanes::{Batch, LANES, Lanes};
 
 use core::f64::consts::PI;
 
-/// Most cells in a share, but for longer rows: enough that a thread seldom waits for the next one, few enough
-/// for the threads to finish together.
+/// Most cells in a share, except for longer rows: enough that a thread seldom waits for the next share, few
+/// enough for the threads to finish together.
 const SHARE: usize = 1_024;
 
-/// Some rows of the grid: the first of them, and their labels.
+/// A block of rows of the grid: the first row, and the labels.
 pub(super) struct Share<'l> {
     pub(super) first_row: usize,
     pub(super) labels: &'l mut [Label],
 }
 
-/// The cells of a grid in rows that are not finished, whose labels are written share by share.
+/// The cells of a grid in unfinished rows, whose labels are written share by share.
 pub(super) struct Cells<'l> {
     pub(super) phases: Vec<Phase>,
     /// Impact speeds of the rows.
@@ -32,7 +32,7 @@ pub(super) struct Cells<'l> {
     pub(super) watch: &'l Watch<'l>,
 }
 
-/// The rows that are not finished, in shares of neighbours.
+/// The unfinished rows, in shares of neighbouring rows.
 fn shares<'l>(
     mut labels: &'l mut [Label],
     finished: &[bool],
@@ -84,7 +84,7 @@ impl<'l> Cells<'l> {
         self.shares.lock().unwrap_or_else(PoisonError::into_inner).next()
     }
 
-    /// Leaves nothing to take: after a failure.
+    /// Removes all remaining shares, after a failure.
     pub(super) fn give_up(&self) {
         while self.take().is_some() {}
     }
@@ -109,10 +109,11 @@ impl Cell {
     pub(super) const NONE: Self = Self { share: 0, index: 0 };
 }
 
-/// Starts that have been screened and are not decided yet, a batch at a time.
+/// Starts that have been screened but not decided, one batch at a time.
 pub(super) struct Starts<'c, 'l> {
     cells: &'c Cells<'l>,
-    /// The shares taken, and how many of their cells have no label yet; those with none make room for others.
+    /// The shares taken, with the number of their cells without a label; completed shares make room for
+    /// others.
     shares: Vec<(Share<'l>, usize)>,
     finished: Vec<usize>,
     /// The next cell to begin: its share, and its index, row and column there.
@@ -164,8 +165,8 @@ impl<'c, 'l> Starts<'c, 'l> {
         }
     }
 
-    /// The next start that is not decided at once: its cell, and its lane of [`Self::batch`]. The cells of
-    /// the others get their labels. None once the call is stopped.
+    /// The next start that is not decided at once: its cell, and its lane of [`Self::batch`]. Starts decided
+    /// at once get their labels on the way. `None` once the call is stopped.
     #[inline(always)]
     pub(super) fn next(&mut self, judge: &Judge<'_>) -> Option<(Cell, usize)> {
         let lane = loop {
@@ -192,7 +193,7 @@ impl<'c, 'l> Starts<'c, 'l> {
         &self.batch
     }
 
-    /// Puts the next cells into the batch; how many there were.
+    /// Puts the next cells into the batch and returns their number.
     fn fill(&mut self) -> usize {
         for lane in 0..LANES {
             if self.column == self.cells.phases.len() {
@@ -217,7 +218,8 @@ impl<'c, 'l> Starts<'c, 'l> {
         LANES
     }
 
-    /// Labels those of the first `count` lanes of the batch that are decided at once, and opens the others.
+    /// Labels those lanes among the first `count` of the batch that are decided at once, and opens the
+    /// others.
     fn screen(&mut self, judge: &Judge<'_>, count: usize) -> Result<(), Error> {
         let work = &mut self.work;
         judge.screen(self.batch.impacts(), &mut self.verdicts, |flights| work.spend(flights))?;

@@ -1,4 +1,4 @@
-//! Basins of the attractors that were found.
+//! Basins of the attractors found by a search.
 
 use core::ops::{ControlFlow, Range};
 
@@ -14,11 +14,11 @@ use crate::numerics::error::Error;
 use crate::run::{Observer, Progress, Unobserved};
 use crate::sweep::{SweepEvent, sweep};
 
-/// Impacts of an undecided start that are compared with the cells of the attractors that have any, after
-/// those that were allowed.
+/// Further impacts of an undecided start, after the allowed ones, that are compared with the cells of
+/// aperiodic attractors.
 const COMPARED: u32 = 256;
 
-/// Starts that are followed at a time, for their memory.
+/// Starts that are followed at a time, to limit the memory.
 const AT_ONCE: usize = 1 << 14;
 
 /// The tests that label a start.
@@ -32,7 +32,7 @@ struct Labels<'a, M> {
 /// A start on its way to its label.
 struct OnItsWay {
     impacts: u32,
-    /// Impacts in the cells of each attractor that has any.
+    /// Impacts in the cells of each attractor known by its cells.
     hits: Vec<u32>,
     label: Option<Label>,
 }
@@ -48,7 +48,7 @@ impl<'a, M: AttractingMap> Labels<'a, M> {
         }
     }
 
-    /// Impacts after which a start is left.
+    /// Impacts after which a start is abandoned.
     fn allowed(&self) -> u32 {
         let compared = if self.cells.is_empty() { 0 } else { COMPARED };
         self.settings.max_impacts.saturating_add(compared)
@@ -72,8 +72,8 @@ impl<'a, M: AttractingMap> Labels<'a, M> {
         if own.impacts >= self.allowed() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
-    /// The label of a start that has been followed: that of the attractor whose cells hold most of the last
-    /// impacts, if it is half of them.
+    /// The label of a start that has been followed: the attractor whose cells contain most of the last
+    /// impacts, if at least half of them.
     fn label(&self, own: &OnItsWay) -> Label {
         if let Some(label) = own.label {
             return label;
@@ -89,7 +89,7 @@ impl<'a, M: AttractingMap> Labels<'a, M> {
         most.1
     }
 
-    /// The labels of starts, in their order.
+    /// The labels of the starts, in order.
     fn of(&self, starts: &[ImpactState], observer: &dyn Observer) -> Result<Vec<Label>, Error> {
         let mut labels = Vec::with_capacity(starts.len());
         let mut open = Vec::new();
@@ -114,7 +114,7 @@ impl<'a, M: AttractingMap> Labels<'a, M> {
             observer,
         )?;
         for (index, own) in open.into_iter().zip(&followed) {
-            // An orbit that ends without an event has not left the platform.
+            // An orbit that ends without an event has never left the platform.
             let left = own.label.is_none() && own.impacts < self.allowed();
             labels[index] = if left { ATTACHED } else { self.label(own) };
         }
@@ -150,7 +150,7 @@ fn start_of(grid: &Grid, row: usize, column: usize) -> Result<ImpactState, Error
     ImpactState::from_normalised(grid.impact_angle(column), grid.speed().centre(row))
 }
 
-/// Reports the progress of some starts to the observer of all rows, after the rows that are finished.
+/// Reports the progress of a part to the observer of all rows, added to the finished rows.
 struct Rows<'o> {
     observer: &'o dyn Observer,
     done: u64,
@@ -164,25 +164,25 @@ impl Observer for Rows<'_> {
 }
 
 impl<M: AttractingMap> Attractors<M> {
-    /// The label of one start: that of the attractor it ends on ([`Self::label`]), or [`UNDECIDED`].
+    /// The label of one start: the label of its attractor ([`Self::label`]), or [`UNDECIDED`].
     ///
-    /// Rests and periodic attractors are recognised as by [`ImpactMap::basin_label`](crate::ImpactMap::basin_label). A start that is
-    /// undecided after [`BasinSettings::max_impacts`] is compared with the attractors that are known by their
-    /// cells: it is followed for 256 more impacts, half of which at least must lie in the cells of one of
-    /// them.
+    /// Rests and periodic attractors are recognised as by
+    /// [`ImpactMap::basin_label`](crate::ImpactMap::basin_label). A start that is undecided after
+    /// [`BasinSettings::max_impacts`] is compared with the attractors known by their cells: it is followed
+    /// for 256 more impacts, at least half of which must lie in the cells of one attractor.
     ///
     /// # Errors
-    /// Those of [`ImpactMap::basin_label`](crate::ImpactMap::basin_label).
+    /// Errors of [`ImpactMap::basin_label`](crate::ImpactMap::basin_label).
     pub fn basin_label(&self, start: ImpactState, settings: BasinSettings) -> Result<Label, Error> {
         let labels = Labels::new(self, settings).of(&[start], &Unobserved)?;
         Ok(labels.first().copied().unwrap_or(UNDECIDED))
     }
 
-    /// The basins on a grid, each cell with its [`Self::basin_label`]. A label depends on its start alone: it
-    /// is the same in every window and for every number of threads.
+    /// The basins on a grid, each cell with its [`Self::basin_label`]. A label depends only on its start, not
+    /// on the window or the number of threads.
     ///
-    /// The items of `observer` are the rows, each of which counts twice where there are attractors that are
-    /// known by their cells.
+    /// The items of `observer` are the rows, each of which counts twice if there are attractors known by
+    /// their cells.
     ///
     /// ```
     /// use bouncing_disk_core::attractors::{AttractorSearch, Axis, BasinSettings, FIRST_ORBIT, Grid};
@@ -198,7 +198,7 @@ impl<M: AttractingMap> Attractors<M> {
     /// ```
     ///
     /// # Errors
-    /// Those of [`ImpactMap::basins`](crate::ImpactMap::basins).
+    /// Errors of [`ImpactMap::basins`](crate::ImpactMap::basins).
     pub fn basins(
         &self,
         grid: Grid,
@@ -220,16 +220,16 @@ impl<M: AttractingMap> Attractors<M> {
         let open = (0..labels.len()).filter(|index| labels[*index] == UNDECIDED).collect::<Vec<_>>();
         let second = Rows { observer, done: rows, total: 2 * rows };
         labelling.label_cells(&grid, &mut labels, &open, &second)?;
-        // Whatever it says, there is nothing left to stop.
+        // The answer does not matter: nothing is left to stop.
         let _ = observer.observe(Progress { done: 2 * rows, total: 2 * rows });
         Basins::of_labels(labels, grid.phase().cells())
     }
 
-    /// Some rows of [`Self::basins`], with the very same labels. A long computation is done some rows at a
-    /// time, on one machine or many, and put together by [`Basins::stacked`].
+    /// A block of rows of [`Self::basins`], with identical labels. A long computation can run in blocks of
+    /// rows, on one machine or many; [`Basins::stacked`] joins them.
     ///
-    /// The items of `observer` are these rows, each of which counts twice where there are attractors that
-    /// are known by their cells.
+    /// The items of `observer` are these rows, each of which counts twice if there are attractors known by
+    /// their cells.
     ///
     /// ```
     /// # use bouncing_disk_core::attractors::{AttractorSearch, Axis, BasinSettings, Basins, Grid};
@@ -243,7 +243,7 @@ impl<M: AttractingMap> Attractors<M> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Unfitting`] for rows outside the grid, or no rows; those of [`Self::basins`].
+    /// [`Error::Unfitting`] for rows outside the grid, or no rows; errors of [`Self::basins`].
     pub fn basins_of_rows(
         &self,
         grid: Grid,
@@ -256,7 +256,7 @@ impl<M: AttractingMap> Attractors<M> {
         let labelling = Labels::new(self, settings);
         let count = rows.len() as u64;
         let recurrent = !labelling.cells.is_empty();
-        // Each row counts twice where undecided starts are compared with cells.
+        // Each row counts twice if undecided starts are compared with cells.
         let total = if recurrent { 2 * count } else { count };
         let own = |progress: Progress| observer.observe(Progress { total, ..progress });
         let labels = self.map.labels_of_rows(grid, rows.clone(), &labelling.known, settings, &own);
@@ -268,7 +268,7 @@ impl<M: AttractingMap> Attractors<M> {
         if recurrent {
             let open: Vec<_> = cells.clone().filter(|index| labels[*index] == UNDECIDED).collect();
             labelling.label_cells(&grid, &mut labels, &open, &Rows { observer, done: count, total })?;
-            // Whatever it says, there is nothing left to stop.
+            // The answer does not matter: nothing is left to stop.
             let _ = observer.observe(Progress { done: total, total });
         }
         labels.truncate(cells.end);

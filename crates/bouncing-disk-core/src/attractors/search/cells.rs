@@ -6,8 +6,8 @@ use crate::map::impact_map::ImpactState;
 use crate::numerics::error::{Error, not_negative, within};
 use crate::numerics::stored::read_checked;
 
-/// Cells of impacts that an orbit has visited: of a grid with the same number of cells along the phase, from
-/// 0 to 2 pi, and along the impact speed, from 0 to `top`.
+/// Cells that contain impacts of an orbit, in a grid with the same number of cells along both axes: the phase
+/// from 0 to 2 pi, and the impact speed from 0 to `top`.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedCells"))]
@@ -27,7 +27,7 @@ impl VisitedCells {
     /// The fewest and the most cells along an axis.
     pub const SIDES: (u32, u32) = (8, 4_096);
 
-    /// Checks what is read: cells of the grid, in rising order.
+    /// Checks deserialised cells: cells of the grid, in increasing order.
     fn check(&self) -> Result<(), Error> {
         let (least, most) = Self::SIDES;
         within("cells along an axis", self.side.into(), least.into(), most.into(), "[8, 4096]")?;
@@ -56,7 +56,7 @@ impl VisitedCells {
         self.top
     }
 
-    /// The visited cells, rising: those of the slowest impacts first, each row by phase.
+    /// The visited cells in increasing order: slowest impacts first, each row by phase.
     #[must_use]
     pub fn visited(&self) -> &[u32] {
         &self.visited
@@ -68,8 +68,8 @@ impl VisitedCells {
         cell(self.side, self.top, state).is_some_and(|cell| self.visited.binary_search(&cell).is_ok())
     }
 
-    /// The centres of the visited cells, in their order: phase (rad) and impact velocity (units of g/omega, <
-    /// 0).
+    /// The centres of the visited cells, in the same order: phase (rad) and impact velocity (units of
+    /// g/omega, < 0).
     pub fn centres(&self) -> impl Iterator<Item = (f64, f64)> {
         let side = f64::from(self.side);
         self.visited.iter().map(move |cell| {
@@ -103,7 +103,8 @@ impl CellMarks {
         Self { side, top, marks: vec![false; side as usize * side as usize] }
     }
 
-    /// Marks the cell of an impact, and tells whether it was marked before; one beyond the top has none.
+    /// Marks the cell of an impact, and returns whether it was marked before. An impact beyond the top has no
+    /// cell.
     pub(super) fn visit(&mut self, state: ImpactState) -> bool {
         let cell = cell(self.side, self.top, state);
         cell.is_some_and(|cell| core::mem::replace(&mut self.marks[cell as usize], true))

@@ -1,9 +1,10 @@
 //! The search for attractors.
 //!
-//! Starts that come to the cells of a motion on which perturbations do not certainly grow, as below a fold or
-//! for periods above the longest one, are undecided like it. The 1,024 orbits about a motion begin a relative
-//! 1e-7 away from its impacts, because those share its future. A search covers the trapping region and not a
-//! plotted window, so the label of a start depends on the start alone.
+//! Starts that return to the cells of an undecided motion, on which perturbations do not certainly grow, are
+//! undecided too: for example below a fold, or for periods above the longest one. The 1,024 orbits about a
+//! motion begin a relative 1e-7 away from its impacts, because an orbit through an impact itself has the same
+//! future. A search covers the trapping region and not a plotted window, so the label of a start depends only
+//! on the start.
 //!
 //! An orbit that creeps towards a marginal one as 1/n may pass it after about 1e8 impacts if rounding
 //! shifts the fold.
@@ -30,20 +31,21 @@ use crate::run::{Observer, Progress};
 use core::f64::consts::TAU;
 use core::ops::ControlFlow;
 
-/// Starts on each circle by which the radius of an attractor is found.
+/// Starts on each circle that is sampled for the radius of an attractor.
 const SAMPLES: u32 = 64;
 
-/// An orbit has left a motion if fewer of its impacts lie in the cells than this share of what is usual there.
+/// An orbit has left a motion if the share of its impacts in the cells is below this part of the motion's
+/// coverage.
 const HAS_LEFT: f64 = 0.5 * SHARE_IN_CELLS;
 
-/// The least share of impacts in cells visited before by which cells tell motions apart.
+/// The smallest share of impacts in already visited cells for which cells can distinguish motions.
 const LEAST_COVERAGE: f64 = 0.1;
 
-/// How many cells away an orbit that creeps towards a marginal one may have been from it.
+/// Largest distance, in cells, of an orbit from the marginal orbit towards which it creeps.
 const CELLS_AWAY: f64 = 1.5;
 
-/// Reports the progress of a part to the observer of the whole search: the items of the part, or none of
-/// them, after those that are done.
+/// Reports the progress of a part to the observer of the whole search: the items of the part, if they count,
+/// added to the finished ones.
 struct Part<'o> {
     observer: &'o dyn Observer,
     done: u64,
@@ -59,7 +61,7 @@ impl Observer for Part<'_> {
 }
 
 impl Part<'_> {
-    /// The error of a part that was stopped, with the numbers of the whole.
+    /// The error of a stopped part, with the numbers of the whole search.
     fn whole<T>(&self, result: Result<T, Error>) -> Result<T, Error> {
         result.map_err(|error| match error {
             Error::Stopped { done, .. } => {
@@ -77,11 +79,11 @@ struct Periodic {
     starts: u64,
 }
 
-/// A motion without a period, which is known by its cells.
+/// An aperiodic motion, known by its cells.
 struct Recurrent {
     /// The exponent per impact and its standard error.
     growth: (f64, f64),
-    /// Whether it was followed for long enough for dissipation to act.
+    /// Whether it was followed long enough for dissipation to act.
     settled: bool,
     recurrence: Recurrence,
     lifetime: Lifetime,
@@ -89,27 +91,27 @@ struct Recurrent {
 }
 
 impl Recurrent {
-    /// Whether no orbit was seen to leave it, and dissipation had the time to act.
+    /// Whether no orbit was seen to leave it, and dissipation had time to act.
     const fn lasts(&self) -> bool {
         self.settled && self.lifetime.left() == 0
     }
 }
 
-/// A start without a verdict: where it was when all were followed, and where it is.
+/// A start without a verdict: its state when all were followed, and its present state.
 #[derive(Clone, Copy)]
 struct Open {
     from: ImpactState,
     at: ImpactState,
 }
 
-/// Where a start is that was followed, and after how many impacts; its fate if it rests or repeats itself.
+/// The state of a followed start and its number of impacts; its fate if it rests or repeats itself.
 struct Reached {
     seen: Option<Seen>,
     state: ImpactState,
     impacts: u64,
 }
 
-/// Where a disk ends that has come to rest.
+/// The further motion of a disk that has come to rest.
 enum RestLeadsTo {
     Periodic(PeriodicOrbit),
     Recurrent(usize),
@@ -122,7 +124,7 @@ impl RestLeadsTo {
         match (self, other) {
             (Self::Periodic(one), Self::Periodic(other)) => same_orbit(one, other),
             (Self::Recurrent(one), Self::Recurrent(other)) => one == other,
-            // Of one cycle there is one start.
+            // Each cycle has one start.
             (Self::Nothing(AfterRest::RestsAgain(_)), _) => false,
             (Self::Nothing(one), Self::Nothing(other)) => one == other,
             _ => false,
@@ -146,11 +148,11 @@ struct Finder<'a, M> {
     rests: u64,
     periodic: Vec<Periodic>,
     recurrent: Vec<Recurrent>,
-    /// Starts that were followed, and those whose attractor is known.
+    /// The number of followed starts plus the number of starts whose attractor is known.
     done: u64,
     /// Impacts that the search may still make.
     budget: u64,
-    /// Impacts for which all starts without a verdict were followed, once they have been.
+    /// Impacts for which all starts without a verdict were followed, once this has happened.
     followed: Option<u64>,
 }
 
@@ -181,7 +183,7 @@ pub(crate) fn find<M: AttractingMap>(
     let after = finder.after_rest(&resting)?;
     let found = finder.into_attractors(after)?;
     let total = 2 * u64::from(search.starts());
-    // Whatever it says, there is nothing left to stop.
+    // The answer does not matter: nothing is left to stop.
     let _ = observer.observe(Progress { done: total, total });
     Ok(found)
 }
@@ -212,7 +214,7 @@ impl<'a, M: AttractingMap> Finder<'a, M> {
         self.budget = self.budget.saturating_sub(impacts);
     }
 
-    /// Counts so many starts with this fate, if it is one that lasts.
+    /// Counts `starts` starts with this fate, if the fate lasts.
     fn close(&mut self, seen: &Seen, starts: u64) -> bool {
         match *seen {
             Seen::Rest => self.rests += starts,
@@ -244,19 +246,19 @@ impl<'a, M: AttractingMap> Finder<'a, M> {
         }
     }
 
-    /// Counts starts that stay at an orbit through this impact, unless that repels.
+    /// Counts starts that stay at an orbit through this impact, unless the orbit repels.
     fn stays_at(&mut self, state: ImpactState, impacts: u64, starts: u64) -> bool {
         let orbit = self.not_repelling(state, impacts);
         orbit.map(|orbit| self.add(orbit, starts)).is_some()
     }
 
-    /// The orbit of so many impacts through this one, unless it repels.
+    /// The orbit of `impacts` impacts through this one, unless it repels.
     fn not_repelling(&self, state: ImpactState, impacts: u64) -> Option<PeriodicOrbit> {
         let orbit = self.orbit_through(state, impacts).ok();
         orbit.filter(|orbit| orbit.stability() != Stability::Unstable)
     }
 
-    /// The orbit of so many impacts through this one, its fastest impact first.
+    /// The orbit of `impacts` impacts through this one, its fastest impact first.
     fn orbit_through(&self, state: ImpactState, impacts: u64) -> Result<PeriodicOrbit, Error> {
         let mut states = vec![state];
         for _ in 1..impacts {
@@ -294,15 +296,15 @@ impl<'a, M: AttractingMap> Finder<'a, M> {
         })
     }
 
-    /// Finds the attractors of the starts that have neither rested nor repeated themselves: one after the
-    /// other is followed for long, and the others are compared with where it has been. As soon as one leaves
-    /// the others are followed, too: those that are still under way have not left for so many impacts, also
-    /// when they are followed again from where they were.
+    /// Finds the attractors of the starts that have neither rested nor repeated themselves. One after the
+    /// other is followed for long, and the others are compared with its cells. As soon as one leaves, the
+    /// others are followed, too: the starts still under way have not left for as many impacts. This also
+    /// holds if they are followed again from their last state.
     fn settle(&mut self, mut open: Vec<Open>) -> Result<(), Error> {
         while let Some(start) = open.first().copied() {
             let comparison = open.len() as u64 * (self.transient() + COMPARED);
             let most = self.followed.unwrap_or(u64::MAX).min(self.budget.saturating_sub(comparison) / 4);
-            // Starts for which the budget does not suffice stay undecided.
+            // Starts beyond the budget stay undecided.
             let Some(look) = self.search.look_within(most) else { break };
             open.remove(0);
             self.done += 1;
@@ -310,7 +312,7 @@ impl<'a, M: AttractingMap> Finder<'a, M> {
             let looks = (look, self.search.cells());
             let long = part.whole(long_look(self.map, start.from, false, looks, &part))?;
             self.spend(long.impacts);
-            // Next to a doubling only the motion itself shows whether it repeats after twice as many impacts.
+            // Near a doubling only the motion itself shows whether it repeats after twice as many impacts.
             let twice = match long.seen {
                 Seen::Verdict(Verdict::Undecided {
                     reason: UndecidedReason::OnPeriodicOrbit { impacts, .. },
@@ -339,21 +341,21 @@ impl<'a, M: AttractingMap> Finder<'a, M> {
                     self.recurrent[number].starts += back;
                 }
             } else {
-                // It neither repeats itself nor separates from its neighbours, and those that come where it
-                // has been are undecided, too.
+                // It neither repeats itself nor separates from its neighbours: starts that return to its
+                // cells are undecided, too.
                 open = self.compare(&long, &open)?.0;
             }
         }
         Ok(())
     }
 
-    /// Impacts that are skipped before starts are compared with cells: none after they have been followed.
+    /// Impacts that are skipped before starts are compared with cells: none once they have been followed.
     fn transient(&self) -> u64 {
         if self.followed.is_some() { 0 } else { self.search.first_look().transient }
     }
 
-    /// Follows all starts without a verdict, for half of the impacts that are left; those that are still
-    /// under way.
+    /// Follows all starts without a verdict, for half of the remaining impacts, and returns those still under
+    /// way.
     fn follow_all(&mut self, open: &[Open]) -> Result<Vec<Open>, Error> {
         let each = self.budget / (2 * (open.len() as u64).max(1));
         let impacts = each.min(self.search.long_look().allowed());
@@ -370,7 +372,7 @@ impl<'a, M: AttractingMap> Finder<'a, M> {
         Ok(left)
     }
 
-    /// Follows starts for so many impacts, or until they rest or repeat themselves.
+    /// Follows starts for `impacts` impacts, or until they rest or repeat themselves.
     fn follow(&mut self, starts: &[ImpactState], impacts: u64) -> Result<Vec<Reached>, Error> {
         let (map, part, settings) = (self.map, self.part(), self.search.long_look());
         let mut all = part.whole(follow(map, starts, &|_| impacts, settings, &part))?;
@@ -380,14 +382,14 @@ impl<'a, M: AttractingMap> Finder<'a, M> {
         let mut seen: Vec<_> = all.iter().map(|own| own.rests.then_some(Seen::Rest)).collect();
         let mut on = Vec::new();
         for (index, verdict) in returned.into_iter().zip(verdicts) {
-            // A rest may come after these impacts.
+            // A rest may occur after these impacts.
             if !matches!(verdict, Seen::Rest) && self.close(&verdict, 0) {
                 seen[index] = Some(verdict);
             } else if all[index].impacts < impacts {
                 on.push(index);
             }
         }
-        // A near return that proves nothing: further on, whether or not it repeats itself.
+        // The near return proves nothing: the start is followed further, without a test for repetition.
         let states: Vec<_> = on.iter().map(|index| all[*index].state).collect();
         let rest = |index: usize| impacts - all[on[index]].impacts;
         let none = VerdictSettings { tolerance: 0.0, ..settings };
@@ -402,8 +404,8 @@ impl<'a, M: AttractingMap> Finder<'a, M> {
         Ok(reached.map(|(seen, Followed { state, impacts, .. })| Reached { seen, state, impacts }).collect())
     }
 
-    /// The number of the motion without a period on which this orbit is, and whether it is new; `None` if
-    /// its perturbations do not grow for certain.
+    /// The number of this orbit's aperiodic motion, and whether the motion is new; `None` if its
+    /// perturbations do not certainly grow.
     fn recurs(&mut self, long: &LongLook, look: VerdictSettings) -> Result<Option<(usize, bool)>, Error> {
         let same = |known: &Recurrent| overlap(&known.recurrence.cells, &long.cells);
         if let Some(number) = self.recurrent.iter().position(same) {
@@ -431,9 +433,9 @@ impl<'a, M: AttractingMap> Finder<'a, M> {
         Ok(Some((self.recurrent.len() - 1, true)))
     }
 
-    /// How long orbits stay where this one has been, from orbits that begin on it and are followed for so
-    /// many impacts, and the number of those that have not left. A quarter of them comes first: if one of
-    /// these leaves, the others need not be followed.
+    /// The lifetime of orbits on this motion, from orbits that begin on it and are followed for `impacts`
+    /// impacts, and the number that have not left. A quarter of them comes first: if one of these leaves, the
+    /// others need not be followed.
     fn lifetime(&mut self, long: &LongLook, impacts: u64) -> Result<(Lifetime, u64), Error> {
         let every = |first: bool| {
             let own = long.beside.iter().enumerate();
@@ -468,7 +470,7 @@ impl<'a, M: AttractingMap> Finder<'a, M> {
         let part = self.part();
         let ends: Vec<_> = on.iter().map(|(_, state)| *state).collect();
         let shares = part.whole(share_in(self.map, &ends, &long.cells, 0, &part))?;
-        // Those that rest soon after these impacts have not left within them.
+        // Orbits that rest soon after these impacts have not left within them.
         let gone = |share: &Option<f64>| share.is_some_and(|share| share < HAS_LEFT * long.coverage);
         let elsewhere: Vec<_> =
             on.iter().zip(&shares).filter(|(_, share)| gone(share)).map(|((start, _), _)| *start).collect();
@@ -480,8 +482,8 @@ impl<'a, M: AttractingMap> Finder<'a, M> {
         Ok((Lifetime::new(total as f64, left)?, stay))
     }
 
-    /// The starts whose attractor is not known but for those that rest or come back to these cells, and how
-    /// many do.
+    /// The starts whose attractor remains unknown, and the number of those that rest or return to these
+    /// cells.
     fn compare(&mut self, long: &LongLook, open: &[Open]) -> Result<(Vec<Open>, u64), Error> {
         let part = self.part();
         let at: Vec<_> = open.iter().map(|start| start.at).collect();
@@ -507,7 +509,7 @@ impl<'a, M: AttractingMap> Finder<'a, M> {
         let (map, part) = (self.map, self.part());
         map.closed_forms(&mut |orbit| {
             self.add_candidate(orbit);
-            // There may be thousands, for little dissipation: there is no need to tell them apart.
+            // With little dissipation there may be thousands: there is no need to distinguish them.
             self.check_count()
         })?;
         if let Some(search) = self.search.orbits() {
@@ -524,11 +526,11 @@ impl<'a, M: AttractingMap> Finder<'a, M> {
         }
     }
 
-    /// The further motion of a disk at rest; on a drive, of a rest that ends at each of the phases that were seen.
+    /// The further motion of a disk at rest; on a drive, after a rest that ends at each of the phases seen.
     fn after_rest(&mut self, resting: &[ImpactState]) -> Result<RestLeadsTo, Error> {
         let part = self.part();
         let starts = part.whole(self.map.to_rests(resting, &part))?;
-        // What has been spent does not count: a rest is there in any case.
+        // The budget already spent does not count: a rest always exists.
         let most = self.search.budget() / (4 * M::WORK * (starts.len() as u64).max(1));
         let mut all = Vec::new();
         for start in starts {
@@ -538,7 +540,7 @@ impl<'a, M: AttractingMap> Finder<'a, M> {
         if all.iter().all(|other| other.is_same(&first)) {
             return Ok(first);
         }
-        // Whether an unknown motion differs from the others is not known.
+        // An unknown motion may or may not differ from the others.
         if all.iter().chain([&first]).any(RestLeadsTo::is_undecided) {
             return Ok(RestLeadsTo::Nothing(AfterRest::Undecided));
         }
@@ -546,7 +548,7 @@ impl<'a, M: AttractingMap> Finder<'a, M> {
         Ok(RestLeadsTo::Nothing(AfterRest::Several { last }))
     }
 
-    /// The motion of a start after its first rest, over so many impacts at most.
+    /// The motion of a start after its first rest, over at most `most` impacts.
     fn after_rest_of(&mut self, start: ImpactState, most: u64) -> Result<RestLeadsTo, Error> {
         let look = self.search.look_within(most).unwrap_or_else(|| self.search.first_look());
         let part = self.part();
@@ -580,7 +582,7 @@ impl<'a, M: AttractingMap> Finder<'a, M> {
         })
     }
 
-    /// Refuses more attractors than there are labels.
+    /// Checks that there are labels for all attractors.
     fn check_count(&self) -> Result<(), Error> {
         let count = self.periodic.len() + self.recurrent.len();
         if count > MOST_ATTRACTORS {
@@ -661,7 +663,7 @@ mod tests {
         let (life, stay) = finder.life_of(&long, starts, 4_000).expect("no failure");
         assert_eq!((life.left(), life.impacts(), stay), (0, 64_000.0, 16));
         assert!(finder.budget <= search.budget() - 64_000);
-        // The slowest impacts, where this motion never comes.
+        // The slowest impacts, which this motion never makes.
         let mut marks = CellMarks::new(64, map.impact_speed_bound());
         marks.visit(ImpactState::from_normalised(1.0, 1e-3).expect("legal"));
         let elsewhere = LongLook { cells: marks.into_cells(), ..long.clone() };

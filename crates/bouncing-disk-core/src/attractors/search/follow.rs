@@ -16,15 +16,15 @@ use crate::sweep::bouncing_map::BouncingMap;
 use crate::sweep::{SweepEvent, sweep};
 
 /// Impacts of a start that are compared with the cells of an attractor, and the share of them that must lie
-/// there.
+/// in the cells.
 pub(super) const COMPARED: u64 = 512;
 pub(super) const SHARE_IN_CELLS: f64 = 0.5;
 
-/// Orbits of an attractor without a period that are followed to see whether any leaves it.
+/// Orbits of an aperiodic attractor that are followed to see whether any leaves it.
 pub(super) const FOLLOWED: usize = 1_024;
 
-/// How much slower than an impact of the attractor each of them begins: states of one orbit have the same
-/// future, and one beside it has its own after some hundred impacts.
+/// The share by which each of them begins slower than an impact of the attractor. States of one orbit have
+/// the same future; a neighbouring state has its own after about a hundred impacts.
 const BESIDE: f64 = 1.0e-7;
 
 /// The observed fate of a start.
@@ -32,11 +32,11 @@ const BESIDE: f64 = 1.0e-7;
 pub(super) enum Seen {
     /// It has come to rest.
     Rest,
-    /// The verdict of the witness.
+    /// The verdict of the orbit's witness.
     Verdict(Verdict),
 }
 
-/// The orbits of starts, with chatters that are summed.
+/// The orbits of the starts, with chatters summed.
 fn orbits<M: BouncingMap>(map: &M, starts: &[ImpactState]) -> Vec<M::Orbit> {
     starts.iter().map(|start| map.orbit(*start, ChatterPolicy::Complete)).collect()
 }
@@ -69,23 +69,23 @@ pub(super) fn first_look(
     Ok(seen.collect())
 }
 
-/// An orbit that was followed for long.
+/// An orbit followed for long.
 #[derive(Debug, Clone)]
 pub(super) struct LongLook {
     pub(super) seen: Seen,
-    /// The cells that it visited in the second half of its impacts.
+    /// The cells visited in the second half of its impacts.
     pub(super) cells: VisitedCells,
     /// Impacts since the start or the rest.
     pub(super) impacts: u64,
     pub(super) last: ImpactState,
-    /// Starts beside evenly spaced impacts of the second half.
+    /// Starts near evenly spaced impacts of the second half.
     pub(super) beside: Vec<ImpactState>,
-    /// The share of its last impacts, a quarter of the second half, in cells that it had visited before; 0 if
-    /// there are none.
+    /// The share of its last impacts, a quarter of the second half, in cells visited before; 0 if there are
+    /// none.
     pub(super) coverage: f64,
 }
 
-/// One orbit that is followed for long.
+/// An orbit being followed for long.
 struct Recorder<'m, M> {
     witness: Witness<'m, M>,
     marks: CellMarks,
@@ -97,8 +97,8 @@ struct Recorder<'m, M> {
     rests: bool,
 }
 
-/// The fate of a start that is followed for long, and where its orbit has been: through its first rest, or
-/// up to it.
+/// The fate of a start that is followed for long, and the cells visited by its orbit, through its first rest
+/// or up to it.
 pub(super) fn long_look(
     map: &impl AttractingMap,
     start: ImpactState,
@@ -166,17 +166,17 @@ pub(super) fn long_look(
     Ok(LongLook { seen, cells: marks.into_cells(), impacts, last, beside, coverage })
 }
 
-/// Where an orbit is that was followed without a verdict.
+/// The state of an orbit that was followed without a verdict.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Followed {
     pub(super) impacts: u64,
     pub(super) state: ImpactState,
     pub(super) rests: bool,
-    /// It nearly repeated itself there, and is followed no further.
+    /// Whether it nearly repeated itself there, so that it is followed no further.
     pub(super) repeats: bool,
 }
 
-/// Follows each start for so many impacts as are given for it, without derivatives, until it rests or nearly
+/// Follows each start for its given number of impacts, without derivatives, or until it rests or nearly
 /// repeats itself.
 pub(super) fn follow(
     map: &impl BouncingMap,
@@ -208,14 +208,14 @@ pub(super) fn follow(
         },
         observer,
     )?;
-    // An orbit that ends without an event has not left the platform.
+    // An orbit that ends without an event has never left the platform.
     let ended = |own: &Followed, most| own.rests || !(own.repeats || own.impacts >= most);
     let followed = followed.into_iter();
     Ok(followed.map(|(own, _, most)| Followed { rests: ended(&own, most), ..own }).collect())
 }
 
-/// The share of impacts of each start, after the transient, that lie in these cells: `None` for those that
-/// rest before they have been compared.
+/// The share of each start's impacts after the transient that lie in these cells: `None` for a start that
+/// rests before the comparison.
 pub(super) fn share_in(
     map: &impl BouncingMap,
     starts: &[ImpactState],
@@ -244,7 +244,7 @@ pub(super) fn share_in(
     Ok(seen.into_iter().map(share).collect())
 }
 
-/// After how many of so many impacts each orbit was in these cells for the last time.
+/// The number of impacts, out of `impacts`, after which each orbit was last in these cells.
 pub(super) fn last_in(
     map: &impl BouncingMap,
     starts: &[ImpactState],
@@ -269,8 +269,7 @@ pub(super) fn last_in(
     Ok(seen.into_iter().map(|(_, last)| last).collect())
 }
 
-/// Whether two orbits have been in the same cells: half of the cells of the one that has been in fewer of
-/// them.
+/// Whether two orbits have visited the same cells: at least half of the cells of the orbit with fewer cells.
 pub(super) fn overlap(one: &VisitedCells, other: &VisitedCells) -> bool {
     let (few, many) = if one.visited().len() <= other.visited().len() { (one, other) } else { (other, one) };
     if few.visited().is_empty() {
@@ -281,7 +280,7 @@ pub(super) fn overlap(one: &VisitedCells, other: &VisitedCells) -> bool {
 }
 
 impl<M> Attractors<M> {
-    /// The attractors that are known by their cells, with their numbers.
+    /// The attractors known by their cells, with their numbers.
     pub(super) fn recurrences(&self) -> impl Iterator<Item = (usize, &Recurrence)> {
         self.all.iter().enumerate().filter_map(|(number, own)| Some((number, own.kind.recurrence()?)))
     }

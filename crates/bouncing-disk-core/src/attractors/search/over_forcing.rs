@@ -1,4 +1,4 @@
-//! Attractors and the shares of their basins from one forcing to the next.
+//! Attractors and the shares of their basins as the forcing varies.
 
 use super::settings::AttractorSearch;
 use super::{Attractor, AttractorKind, Attractors};
@@ -9,10 +9,10 @@ use crate::numerics::stored::read_checked;
 use crate::orbits::periodic::{PeriodicOrbit, phase_difference};
 use crate::run::{Observer, Progress, Watch};
 
-/// Most forcings of one call.
+/// Largest number of forcings of one call.
 pub const MAX_FORCINGS: usize = 1 << 16;
 
-/// An attractor that was followed from one forcing to the next.
+/// An attractor that is followed from one forcing to the next.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -33,15 +33,16 @@ pub struct AttractorsAt {
     pub axial_forcing: f64,
     /// The attractors, with their shares of the trapping region at this forcing.
     pub attractors: Attractors,
-    /// Which of [`BasinFractions::followed`] each of them is.
+    /// The index of each of them in [`BasinFractions::followed`].
     pub followed: Vec<usize>,
-    /// How far each of them is from where it was at the forcing before (rad; a radian counts as much as the
-    /// speed P at this one): the mean distance of an impact of one from the nearest of the other, the larger
-    /// of both ways. `None` for one that appears, and for the disk at rest.
+    /// The distance of each from its counterpart at the previous forcing (rad; a radian counts as much as the
+    /// speed P at the present one). It is the mean distance of an impact of one from the nearest impact of
+    /// the other, the larger of both directions. `None` for an attractor that appears, and for the disk at
+    /// rest.
     pub moved: Vec<Option<f64>>,
 }
 
-/// The shares of basins over the forcing.
+/// The shares of the basins over the forcing.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedFractions"))]
@@ -61,7 +62,7 @@ read_checked!(BasinFractions as UncheckedFractions {
 });
 
 impl BasinFractions {
-    /// Checks what is read: each attractor is one of those that are followed, while it is there.
+    /// Checks deserialised data: each attractor is a followed one between its appearance and its end.
     fn check(&self) -> Result<(), Error> {
         let unfitting = |what, found: usize, expected: usize| {
             Err(Error::Unfitting { what, found: found as u64, expected: expected as u64 })
@@ -97,7 +98,7 @@ impl BasinFractions {
         Ok(())
     }
 
-    /// The attractor that is followed under this number, at each forcing: `None` where it is not there.
+    /// The attractor followed under this number, at each forcing: `None` if it does not exist there.
     pub fn over(&self, followed: usize) -> impl Iterator<Item = (f64, Option<&Attractor>)> {
         self.at.iter().map(move |at| {
             let number = at.followed.iter().position(|own| *own == followed);
@@ -106,10 +107,10 @@ impl BasinFractions {
     }
 }
 
-/// Where an attractor is: phase (rad) and velocity (units of g/omega).
+/// The location of an attractor: phases (rad) and velocities (units of g/omega).
 pub(super) type Places = Vec<(f64, f64)>;
 
-/// The places of an attractor that moves; none of the disk at rest.
+/// The places of a moving attractor; `None` for the disk at rest.
 pub(super) fn places(attractor: &Attractor) -> Option<Places> {
     let impacts = |orbit: &PeriodicOrbit| {
         Some(orbit.states.iter().map(|state| (state.phase().angle(), state.velocity())).collect())
@@ -124,8 +125,8 @@ pub(super) fn places(attractor: &Attractor) -> Option<Places> {
     }
 }
 
-/// The mean distance of a place of `one` from the nearest of `other` (rad; a radian counts as much as the
-/// speed P).
+/// The mean distance of a place of `one` from the nearest place of `other` (rad; a radian counts as much as
+/// the speed P).
 fn one_way(one: &Places, other: &Places, peak: f64) -> f64 {
     let nearest = |from: &(f64, f64)| {
         let square = other.iter().fold(f64::INFINITY, |least, to| {
@@ -137,7 +138,7 @@ fn one_way(one: &Places, other: &Places, peak: f64) -> f64 {
     one.iter().map(nearest).sum::<f64>() / one.len() as f64
 }
 
-/// For each of `new` the number of the one of `old` that it was, and the distance: the nearest pairs within
+/// For each of `new` the index of its counterpart in `old`, and the distance: the nearest pairs within
 /// `reach` first, each once.
 pub(super) fn matched(
     old: &[Option<Places>],
@@ -168,9 +169,10 @@ pub(super) fn matched(
 }
 
 /// The attractors at each of `forcings` (Gamma, in the order in which they are to be followed) for this
-/// restitution, matched from forcing to forcing: each is the one of the forcing before that is nearest to it,
-/// if within `reach` (rad, in [0, 100]); one without such a neighbour appears, and one that none continues
-/// vanishes. An orbit that doubles its period continues as the doubled one next to it.
+/// restitution, matched from forcing to forcing: each continues the nearest attractor at the previous
+/// forcing, if this is within `reach` (rad, in [0, 100]). An attractor without such a predecessor appears,
+/// and one without a successor vanishes. An orbit that doubles its period continues as the doubled orbit near
+/// it.
 ///
 /// The items of `observer` are the forcings.
 ///
@@ -190,7 +192,7 @@ pub(super) fn matched(
 ///
 /// # Errors
 /// [`Error::OutOfRange`] for a forcing, the restitution or `reach`; [`Error::TooLarge`] for more than
-/// [`MAX_FORCINGS`]; those of [`ImpactMap::attractors`].
+/// [`MAX_FORCINGS`]; errors of [`ImpactMap::attractors`].
 pub fn basin_fractions_over(
     restitution: f64,
     forcings: &[f64],
@@ -203,12 +205,12 @@ pub fn basin_fractions_over(
 }
 
 impl BasinFractions {
-    /// Adds the attractors at more forcings after the present ones: the same result as if all had been given
-    /// at once, also after storing.
+    /// Adds the attractors at more forcings after the present ones: the same result as from a single call
+    /// with all forcings, also after storing and reading.
     ///
-    /// In this way a long list of forcings is computed in parts.
+    /// So a long list of forcings can be computed in parts.
     ///
-    /// The items of `observer` are the forcings that are added.
+    /// The items of `observer` are the added forcings.
     ///
     /// ```
     /// # use bouncing_disk_core::attractors::{AttractorSearch, basin_fractions_over};
@@ -221,7 +223,7 @@ impl BasinFractions {
     /// ```
     ///
     /// # Errors
-    /// Those of [`basin_fractions_over`]; [`Error::TooLarge`] for more than [`MAX_FORCINGS`] in all.
+    /// Errors of [`basin_fractions_over`]; [`Error::TooLarge`] for more than [`MAX_FORCINGS`] in all.
     pub fn extended(
         &self,
         forcings: &[f64],
@@ -257,13 +259,13 @@ impl BasinFractions {
         Ok(extended)
     }
 
-    /// Adds the attractors at the next forcing, of which some were there at the last one.
+    /// Adds the attractors at the next forcing, some of which continue earlier ones.
     fn add(&mut self, forcing: f64, attractors: Attractors, matches: &[Option<(usize, f64)>]) {
         let index = self.at.len();
         let last = self.at.last().map_or(&[][..], |at| &at.followed);
         let mut followed = Vec::with_capacity(matches.len());
         for (number, own) in matches.iter().enumerate() {
-            // The disk at rest is there at every forcing, first.
+            // The disk at rest exists at every forcing and comes first.
             let before = if number == 0 { last.first() } else { own.and_then(|(old, _)| last.get(old)) };
             match before {
                 Some(before) => followed.push(*before),

@@ -7,10 +7,10 @@ use crate::numerics::stored::read_checked;
 use crate::orbits::periodic::MAX_PERIOD;
 use crate::orbits::periodic::catalogue::OrbitSearch;
 
-/// Fewest impacts of a start for anything to be said about its motion.
+/// Fewest impacts of a start that allow any statement about its motion.
 const FEWEST_EACH: u64 = 256;
 
-/// How attractors are searched for ([`ImpactMap::attractors`](crate::ImpactMap::attractors)).
+/// The settings of a search for attractors ([`ImpactMap::attractors`](crate::ImpactMap::attractors)).
 ///
 /// ```
 /// use bouncing_disk_core::attractors::AttractorSearch;
@@ -43,12 +43,12 @@ read_checked!(AttractorSearch as UncheckedSearch {
     budget: u64,
 });
 
-/// The default budget, also of a search that was stored before there was one.
+/// The default budget, also for a search stored before the budget existed.
 const fn default_budget() -> u64 {
     1 << 28
 }
 
-/// The search after each change of a number.
+/// The default search.
 impl Default for AttractorSearch {
     fn default() -> Self {
         Self {
@@ -64,15 +64,15 @@ impl Default for AttractorSearch {
 }
 
 impl AttractorSearch {
-    /// Most starts.
+    /// Largest number of starts.
     pub const MAX_STARTS: u32 = 1 << 18;
 
-    /// Most impacts.
+    /// Largest number of impacts.
     pub const MAX_IMPACTS: u64 = 1 << 40;
 
-    /// The same from this number of starts in [0, 2^18], spread evenly over the trapping region. Default
-    /// 1,024: if they were random, an attractor whose basin has a share of 1 % of the region would be
-    /// missed once in 30,000 at most. With 0 there are only the candidates.
+    /// The same search with this number of starts in [0, 2^18], spread evenly over the trapping region.
+    /// Default 1,024: if they were random, a basin with 1 % of the region would be missed at most once in
+    /// 30,000 searches. With 0 there are only the candidates.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for the number.
@@ -81,10 +81,10 @@ impl AttractorSearch {
         search.check().map(|()| search)
     }
 
-    /// The same with these numbers of impacts: `transient` in [1, 2^40] that are skipped (default 2,000),
-    /// and then `impacts` in [64, 2^40] (default 100,000). For so many impacts in all orbits of each motion
-    /// without a period are followed, and all starts if one leaves it; all other starts are followed for
-    /// twice the transient at most.
+    /// The same search with these numbers of impacts: `transient` in [1, 2^40] that are skipped (default
+    /// 2,000), and then `impacts` in [64, 2^40] (default 100,000). Orbits of each aperiodic motion are
+    /// followed for the sum of both, and so are all starts if one orbit leaves it. All other starts are
+    /// followed for at most twice the transient.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for either number.
@@ -93,7 +93,7 @@ impl AttractorSearch {
         search.check().map(|()| search)
     }
 
-    /// The same with this longest period of an attractor (impacts, in [1, 4096]; default 256).
+    /// The same search with this longest period of an attractor (impacts, in [1, 4096]; default 256).
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for the number.
@@ -102,7 +102,7 @@ impl AttractorSearch {
         search.check().map(|()| search)
     }
 
-    /// The same with this number of cells in [8, 4096] along both axes of the grid that distinguishes
+    /// The same search with this number of cells in [8, 4096] along both axes of the grid that distinguishes
     /// aperiodic attractors. Default 256.
     ///
     /// # Errors
@@ -112,18 +112,18 @@ impl AttractorSearch {
         search.check().map(|()| search)
     }
 
-    /// The same with this search for periodic orbits, the attracting ones of which are candidates however
-    /// small their basins; `None` for those of one impact alone, whose closed form costs nothing. Default:
-    /// two impacts and 64 periods of the platform, from 48 x 48 starts.
+    /// The same search with this search for periodic orbits; attracting ones become candidates however small
+    /// their basins. `None` leaves only one-impact orbits, whose closed form costs nothing. Default: two
+    /// impacts and 64 periods of the platform, from 48 x 48 starts.
     #[must_use]
     pub const fn with_orbits(self, orbits: Option<OrbitSearch>) -> Self {
         Self { orbits, ..self }
     }
 
-    /// The same with about this number of impacts at most, in [256 a start, 2^50]; default 2^28, which takes
-    /// up to ten seconds on two cores. It does not count the search for periodic orbits
-    /// ([`Self::with_orbits`]) and the proofs of periods. Many starts are followed for fewer impacts each, and
-    /// starts that are still under way when it is used up are undecided.
+    /// The same search with about this number of impacts at most, in [256 per start, 2^50]; default 2^28,
+    /// which takes up to ten seconds on two cores. The search for periodic orbits ([`Self::with_orbits`]) and
+    /// the proofs of periods do not count. Many starts are followed for fewer impacts each, and starts still
+    /// under way when the budget is used up are undecided.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for the number. A smaller number of [starts](Self::with_starts) allows a smaller
@@ -149,19 +149,19 @@ impl AttractorSearch {
         Ok(())
     }
 
-    /// Starts.
+    /// The number of starts.
     #[must_use]
     pub const fn starts(&self) -> u32 {
         self.starts
     }
 
-    /// Impacts that are skipped.
+    /// The number of skipped impacts.
     #[must_use]
     pub const fn transient(&self) -> u64 {
         self.transient
     }
 
-    /// Impacts, after the transient, over which orbits of motions without a period are followed.
+    /// Impacts, after the transient, over which orbits of aperiodic motions are followed.
     #[must_use]
     pub const fn impacts(&self) -> u64 {
         self.impacts
@@ -185,13 +185,14 @@ impl AttractorSearch {
         self.orbits
     }
 
-    /// Impacts of the whole search but for periodic orbits.
+    /// Impacts of the whole search, except for the search for periodic orbits.
     #[must_use]
     pub const fn budget(&self) -> u64 {
         self.budget
     }
 
-    /// How every start is followed at first: for a quarter of the budget at most, or 96 impacts.
+    /// The settings with which every start is followed at first: for at most a quarter of the budget, or 96
+    /// impacts.
     pub(super) fn first_look(&self) -> VerdictSettings {
         let most = self.budget / (4 * u64::from(self.starts.max(1)));
         let transient = self.transient.min(most / 2);
@@ -199,7 +200,7 @@ impl AttractorSearch {
         VerdictSettings { transient, impacts, ..self.long_look() }
     }
 
-    /// [`Self::long_look`] with at most so many impacts; `None` if these are too few.
+    /// [`Self::long_look`] with at most this number of impacts; `None` if it is too small.
     pub(super) fn look_within(&self, impacts: u64) -> Option<VerdictSettings> {
         let look = self.long_look();
         if impacts >= look.allowed() {
@@ -210,7 +211,7 @@ impl AttractorSearch {
         (all >= FEWEST_EACH).then_some(VerdictSettings { transient, impacts: all - transient, ..look })
     }
 
-    /// How one start of each attractor is followed that is not found at first.
+    /// The settings with which one start of each attractor that is not found at first is followed.
     pub(super) fn long_look(&self) -> VerdictSettings {
         VerdictSettings {
             transient: self.transient,

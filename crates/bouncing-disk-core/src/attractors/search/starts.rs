@@ -10,7 +10,7 @@ use crate::map::impact_map::ImpactState;
 /// most even sequence of its kind in two dimensions (M. Roberts' R2; g = 1.32471795724...).
 const STEPS: [u64; 2] = [0xc13f_a9a9_02a6_328f, 0x91e1_0da5_c79e_7b1d];
 
-/// Tries per requested start: the region fills at least a quarter of the rectangle about it.
+/// Tries per requested start: the region fills at least a quarter of its bounding rectangle.
 const TRIES: u64 = 16;
 
 /// A fixed-point number in [0, 1), to the 53 bits that a double has.
@@ -18,8 +18,8 @@ fn unit(fixed: u64) -> f64 {
     (fixed >> 11) as f64 * (1.0 / 9_007_199_254_740_992.0)
 }
 
-/// So many impacts in the trapping region, evenly by its area in (phase, velocity): the points of a sequence
-/// over the rectangle about it that lie inside.
+/// The requested number of impacts, evenly spread over the area of the trapping region in (phase, velocity):
+/// the points of a sequence over its bounding rectangle that lie inside.
 pub(super) fn starts(map: &impl AttractingMap, count: u32) -> Vec<ImpactState> {
     let fastest = map.impact_speed_bound();
     let mut starts = Vec::with_capacity(count as usize);
@@ -65,7 +65,7 @@ mod tests {
         }
     }
 
-    /// Each of 8 x 8 cells inside the region has its share of the starts, give or take a sixth.
+    /// Each of the 8 x 8 cells inside the region contains its share of the starts, to within a sixth.
     #[test]
     fn starts_are_even() {
         let map = map(0.5, 0.5);
@@ -76,7 +76,7 @@ mod tests {
             let column = (at.phase().cycles() * 8.0) as usize;
             counts[(-at.velocity() / fastest * 8.0) as usize][column.min(7)] += 1.0;
         }
-        // The lowest four rows lie inside at all phases but those of a falling platform.
+        // The lowest four rows lie inside at all phases except while the platform falls.
         let expected = counts[0][0];
         assert!(expected > 200.0);
         for row in &counts[..3] {

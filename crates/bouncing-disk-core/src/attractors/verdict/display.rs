@@ -3,7 +3,7 @@
 use super::{RestCycle, UndecidedReason, Verdict};
 
 /// `2 impacts in 2 periods of the platform, multipliers ...`, `chaos, exponent 0.41 +- 0.01`, and so on; a
-/// precision given applies to the numbers.
+/// given precision applies to the numbers.
 impl core::fmt::Display for Verdict {
     fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         let digits = formatter.precision().unwrap_or(4);

@@ -1,4 +1,4 @@
-//! Whether an orbit that nearly repeats itself is on its way to an attracting periodic orbit, or stays at
+//! The proof that an orbit that nearly repeats itself approaches an attracting periodic orbit, or stays at
 //! one.
 
 use super::VerdictSettings;
@@ -9,43 +9,43 @@ use crate::orbits::periodic::{Multipliers, PeriodicOrbit, Stability};
 use crate::sweep::bouncing_map::BouncingMap;
 
 /// If the parts of a solution repeat each other to within this (rad, relative speed), the code looks for the
-/// shorter orbit: next to a doubling the equations are nearly singular, and rounding may move their solution
+/// shorter orbit: near a doubling the equations are nearly singular, and rounding may move their solution
 /// that far.
 const NEARLY_SAME: f64 = 1.0e-2;
 
 /// At this distance (rad) rounding keeps an orbit from approaching further.
 const ROUNDING_DISTANCE: f64 = 1.0e-11;
 
-/// Most impacts over which an orbit must come nearer.
+/// Largest number of impacts within which an orbit must come nearer.
 const MOST_CONFIRMING: u64 = 8_192;
 
-/// An orbit that is farther from a periodic one than this may come nearer by chance: it wanders, or goes round it.
+/// An orbit farther from a periodic one than this (rad) may come nearer by chance: it wanders, or circles it.
 const NEAR: f64 = 1.0e-2;
 
-/// By what factor an orbit that was farther may go away again while it comes nearer.
+/// Largest factor by which a more distant orbit may recede again while it approaches.
 const MOST_DETOUR: f64 = 10.0;
 
-/// An orbit that turns about a periodic one is not seen to come nearer where the multipliers leave more than this share of the
-/// distance, unless it is as near as [`LINEAR`].
+/// An orbit that rotates about a periodic one cannot be seen to approach if the multipliers leave more than
+/// this share of the distance, unless it is within [`LINEAR`].
 const UNSEEN: f64 = 0.9;
 
-/// So near (rad) no other orbit attracts.
+/// Distance (rad) within which no other orbit attracts.
 const LINEAR: f64 = 1.0e-5;
 
-/// How near an orbit must stay to a neutral one that it was on (rad).
+/// The distance (rad) within which an orbit must stay near a neutral one on which it was.
 const STAYS_WITHIN: f64 = 2.0e-6;
 
-/// Multipliers with a larger error prove nothing.
+/// Largest error of multipliers that still prove anything.
 const LARGEST_ERROR: f64 = 1.0e-2;
 
-/// A periodic orbit next to a followed one.
+/// A periodic orbit near a followed orbit.
 pub(super) struct Proof {
     pub(super) orbit: PeriodicOrbit,
     pub(super) distance: f64,
     pub(super) stability: Stability,
 }
 
-/// The periodic orbit that the orbit from `state` approaches, or else one at which it stays; the orbit from
+/// The periodic orbit that the orbit from `state` approaches, otherwise one at which it stays. The orbit from
 /// `state` nearly repeats itself after `period` impacts.
 pub(super) fn prove(
     map: &impl BouncingMap,
@@ -53,7 +53,7 @@ pub(super) fn prove(
     period: usize,
     settings: &VerdictSettings,
 ) -> Option<Proof> {
-    // Next to a doubling the impacts of both halves of the orbit look like one.
+    // Near a doubling the impacts of both halves of the orbit look the same.
     let twice = 2 * period;
     let candidates = [Some(period), (twice <= settings.longest_period).then_some(twice)];
     let orbits = candidates.into_iter().flatten().map_while(|period| {
@@ -91,8 +91,8 @@ fn impacts_from(map: &impl BouncingMap, state: ImpactState, count: usize) -> Opt
     }
 }
 
-/// The orbit with its smallest period: a shorter one that it nearly repeats, unless that repels and this one
-/// does not.
+/// The orbit with its smallest period: a shorter one that it nearly repeats, unless the shorter repels and
+/// this one does not.
 fn prime(map: &impl BouncingMap, orbit: PeriodicOrbit) -> PeriodicOrbit {
     let is = |orbit: &PeriodicOrbit, least| is_known(orbit) && orbit.stability() <= least;
     let least = if is(&orbit, Stability::Marginal) { Stability::Marginal } else { Stability::Unstable };
@@ -103,10 +103,10 @@ fn prime(map: &impl BouncingMap, orbit: PeriodicOrbit) -> PeriodicOrbit {
     found.unwrap_or(orbit)
 }
 
-/// Whether the orbit from `state` comes nearer to the periodic one, after whole periods of it: by at least
-/// half of the decrease that the multipliers predict, within about twice the time in which they shrink a
-/// distance to a third, or within [`MOST_CONFIRMING`] impacts if these are fewer. One that is far away must come
-/// [near](NEAR) first, and then not go away again.
+/// Whether the orbit from `state` comes nearer to the periodic one, after whole periods. It must achieve at
+/// least half of the decrease that the multipliers predict, within about twice the time in which they shrink
+/// a distance to a third, or within [`MOST_CONFIRMING`] impacts if these are fewer. A distant orbit must come
+/// [near](NEAR) first, and then not recede.
 fn comes_nearer(
     map: &impl BouncingMap,
     orbit: &PeriodicOrbit,
@@ -142,15 +142,15 @@ fn comes_nearer(
     distances.map_while(|distance| distance.filter(|own| *own <= farthest)).any(|own| own <= near)
 }
 
-/// Whether the orbit from `state` stays so near to the periodic one over the most impacts of a proof.
+/// Whether the orbit from `state` stays within `most` of the periodic one over the most impacts of a proof.
 fn stays_within(map: &impl BouncingMap, orbit: &PeriodicOrbit, state: ImpactState, most: f64) -> bool {
     let rounds = (MOST_CONFIRMING as usize / orbit.period()).max(1);
     let mut distances = distances(map, orbit, state).take(rounds);
     distances.all(|distance| distance.is_some_and(|distance| distance <= most))
 }
 
-/// The distances of the orbit from `state` from the periodic one after each of its periods; `None` from where
-/// it has no next impact.
+/// The distances of the orbit from `state` from the periodic one after each of its periods; `None` once it
+/// has no next impact.
 fn distances(
     map: &impl BouncingMap,
     orbit: &PeriodicOrbit,

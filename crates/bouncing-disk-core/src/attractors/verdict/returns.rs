@@ -1,11 +1,11 @@
-//! Which impacts come near to an earlier one.
+//! The detection of impacts that come near an earlier one.
 
 use super::VerdictSettings;
 use crate::map::impact_map::ImpactState;
 use crate::orbits::periodic::phase_difference;
 
-/// After a return that proved nothing the next one counts only after as many further impacts as half of those
-/// so far, and these.
+/// Fewest further impacts before the next return counts, after a return that proved nothing. The total wait
+/// is this number plus half of all impacts so far.
 const LEAST_WAIT: u64 = 16;
 
 /// Compares each impact with one reference (R. P. Brent, BIT 20, 176 (1980)). The reference is renewed after
@@ -14,12 +14,12 @@ const LEAST_WAIT: u64 = 16;
 #[derive(Debug, Clone)]
 pub(crate) struct Returns {
     reference: Option<ImpactState>,
-    /// Impacts since the reference, and after how many it is renewed.
+    /// Impacts since the reference, and the number after which it is renewed.
     age: usize,
     window: usize,
     /// Passes of the phase through 0 since the reference.
     turns: u64,
-    /// Impacts so far, and the number from which on the next return counts.
+    /// Impacts so far, and the number after which the next return counts.
     impacts: u64,
     wait: u64,
     /// The nearest return to this reference and to the last one: distance and impacts.
@@ -32,7 +32,7 @@ impl Returns {
     }
 
     /// Takes the next impact, before which the phase passed 0 `turns` times. If this impact is a return,
-    /// gives the number of impacts after which it comes.
+    /// gives the number of impacts since the reference.
     #[inline]
     pub(crate) fn see(
         &mut self,
@@ -51,7 +51,7 @@ impl Returns {
         let speed = 1.0 + reference.velocity().abs();
         let phase = phase_difference(state.phase().angle(), reference.phase().angle()).abs();
         let distance = phase.max((state.velocity() - reference.velocity()).abs() / speed);
-        // Impacts of one chatter are near to each other and no return.
+        // Impacts of one chatter are close to each other, but not returns.
         let counts = self.turns > 0;
         if counts && self.nearest[0].is_none_or(|(least, _)| distance < least) {
             self.nearest[0] = Some((distance, age));
@@ -64,12 +64,12 @@ impl Returns {
         (counts && distance <= settings.tolerance && self.impacts >= self.wait).then_some(age)
     }
 
-    /// A return proved nothing.
+    /// Notes that a return proved nothing.
     pub(super) const fn reject(&mut self) {
         self.wait = self.impacts + self.impacts / 2 + LEAST_WAIT;
     }
 
-    /// How near the nearest return came, and after how many impacts.
+    /// The distance of the nearest return, and its number of impacts.
     pub(super) fn nearest(&self) -> Option<(f64, usize)> {
         self.nearest.into_iter().flatten().min_by(|one, other| one.0.total_cmp(&other.0))
     }
@@ -84,8 +84,7 @@ mod tests {
         ImpactState::new(Phase::new(angle).expect("legal"), velocity).expect("legal")
     }
 
-    /// A sequence of this period is found, after fewer impacts than four periods, and none that is longer
-    /// than allowed.
+    /// A sequence of each period is found in fewer impacts than four periods, and none longer than allowed.
     #[test]
     fn every_period_up_to_the_longest_is_found() {
         for period in [1_usize, 2, 3, 5, 7, 16, 31, 64, 65] {
@@ -113,7 +112,7 @@ mod tests {
         assert_eq!(returns.nearest(), None);
     }
 
-    /// A return that is tried in vain is not tried again at each impact.
+    /// A return that proved nothing is not tried again at every impact.
     #[test]
     fn after_a_rejection_another_return_is_waited_for() {
         let settings = VerdictSettings::default();
@@ -128,7 +127,7 @@ mod tests {
         assert!((5..40).contains(&tried), "{tried}");
     }
 
-    /// The nearest return is found among those of the last two references.
+    /// The nearest return is found among the returns to the last two references.
     #[test]
     fn the_nearest_return_has_its_impacts() {
         let settings = VerdictSettings { longest_period: 8, ..VerdictSettings::default() };

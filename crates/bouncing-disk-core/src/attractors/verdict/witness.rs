@@ -1,9 +1,9 @@
-//! Follows one orbit until there is a verdict on it.
+//! A witness that follows one orbit until there is a verdict.
 //!
-//! The rounding error of a cycle on a drive is the sum of the solver's bounds, each magnified, and 1e-9 rad
-//! for the phase of leaving; it is 1 if a graze is in doubt. A kick counts as an impact there.
+//! On a drive the rounding error of a cycle is the sum of the solver's bounds, each magnified, plus 1e-9 rad
+//! for the phase of separation; it is 1 if a graze is in doubt. A kick counts as an impact.
 //!
-//! A cycle that cannot end within the allowed impacts is called chaotic; its number of rests tells where it
+//! A cycle that cannot end within the allowed impacts is called chaotic; its number of rests shows where it
 //! began. A window whose period exceeds the longest one has a negative exponent and is undecided.
 
 use core::f64::consts::PI;
@@ -25,25 +25,24 @@ use crate::sweep::{SweepEvent, SweepImpact};
 /// A flight is long if it lasts longer than this (rad), half a period of the platform.
 const LONG_FLIGHT: f64 = PI;
 
-/// The largest rounding error (rad and g/omega) of a cycle that counts as that of exact arithmetic: a
-/// thousandth of the size of the motion. The terms neglected beside the first order are then a thousandth of
-/// this error.
+/// The largest rounding error (rad and g/omega) of a cycle that counts as exact: a thousandth of the size of
+/// the motion. The neglected higher-order terms are then a thousandth of this error.
 const TRUSTED_ROUNDING: f64 = 1.0e-3;
 
 /// The course of the motion since the disk separated from rest.
 #[derive(Debug, Clone)]
 struct Round {
-    /// Where it separated.
+    /// The phase of the separation.
     from: Phase,
-    /// Impacts before that.
+    /// Impacts before the separation.
     before: u64,
-    /// Impacts since, a kick among them.
+    /// Impacts since then, including a kick.
     impacts: u64,
     long_flights: u64,
     turns: u64,
     /// Logarithms of the growth of a perturbation by each flight after the first impact.
     growth: BatchMeans,
-    /// Whether all of them are known.
+    /// Whether all these logarithms are known.
     is_known: bool,
     /// The error of the last impact, and the largest so far.
     rounding: f64,
@@ -79,42 +78,43 @@ impl Round {
     /// Multiplies the earlier error by the growth, and adds the error of this impact.
     fn round(&mut self, growth: f64, error: f64) {
         self.rounding = self.rounding * growth + error;
-        // Also of what is no number.
+        // This also holds for NaN.
         let told = if self.rounding < 1.0 { self.rounding } else { 1.0 };
         self.worst_rounding = self.worst_rounding.max(told);
     }
 }
 
-/// Two separations at phases (rad) as near as this are one.
+/// Phase difference (rad) below which two separations are the same.
 const SAME_SEPARATION: f64 = 1.0e-9;
 
-/// An orbit that returns to within this (rad, and relative speed) is on a periodic one, whatever
-/// perturbations of it do: of the pairs of impacts that are compared a chaotic one has about one in 1e8 as
-/// near.
+/// An orbit that returns to within this (rad, and relative speed) is on a periodic orbit, even if its
+/// perturbations grow: on a chaotic orbit only about one in 1e8 of the compared pairs of impacts is this
+/// close.
 const ON_AN_ORBIT: f64 = 1.0e-9;
 
-/// An orbit under way to its verdict.
+/// An orbit on the way to its verdict.
 #[derive(Debug, Clone)]
 pub(crate) struct Witness<'m, M> {
     map: &'m M,
     settings: VerdictSettings,
     state: ImpactState,
-    /// Impacts since the start or since the last separation, and those before.
+    /// Impacts since the start or since the last separation, and earlier ones.
     impacts: u64,
     before: u64,
     returns: Returns,
     /// The growth of a perturbation, from the end of the transient or from the first impact after a rest.
     tangent: TangentGrowth,
-    /// Its logarithms after the transient, and the turns of the phase there.
+    /// The logarithms of the growth after the transient, and the turns of the phase.
     growth: BatchMeans,
     turns: u64,
-    /// How often areas have shrunk by e since, where they do not shrink by the restitution squared in each impact.
+    /// The logarithm of the contraction of areas since then, on maps that do not contract areas by the
+    /// squared restitution in each impact.
     shrunk: f64,
     grazed: Option<(u64, Phase)>,
-    /// Where the disk came to rest that has not separated since, and the error of that.
+    /// The phase at which a disk came to rest that has not separated since, and its error.
     attached: Option<(Phase, f64)>,
     round: Option<Round>,
-    /// The rounds before it: more than none only where the disk leaves the platform at several phases.
+    /// The earlier rounds: there are any only if the disk leaves the platform at several phases.
     earlier: Vec<Round>,
     verdict: Option<Verdict>,
 }
@@ -140,7 +140,7 @@ impl<'m, M: BouncingMap> Witness<'m, M> {
         }
     }
 
-    /// Takes the next event of the orbit.
+    /// Receives the next event of the orbit.
     pub(crate) fn see(&mut self, event: &SweepEvent) -> ControlFlow<()> {
         match event {
             SweepEvent::Impact(impact) => self.impact(impact),
@@ -151,9 +151,10 @@ impl<'m, M: BouncingMap> Witness<'m, M> {
         if self.verdict.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
-    /// The verdict, once the orbit has been followed to it.
+    /// The verdict, once the orbit has been followed far enough.
     pub(crate) fn verdict(self) -> Verdict {
-        // An orbit ends without a verdict where the disk stays on the platform, perhaps without an impact or a chatter.
+        // An orbit ends without a verdict if the disk stays on the platform, perhaps without an impact or a
+        // chatter.
         let (phase, error) = self.attached.unwrap_or((self.state.phase(), 0.0));
         let after = self.before + self.impacts;
         self.verdict.unwrap_or(if error.is_finite() || self.map.shrinks_areas_exactly() {
@@ -194,7 +195,7 @@ impl<'m, M: BouncingMap> Witness<'m, M> {
         }
         let state = impact.state;
         if self.round.is_some() && self.impacts == 1 {
-            // The disk left the platform at a state that is known but for this.
+            // The error of the state in which the disk left the platform.
             let error = self.map.separation_error() + f64::EPSILON * (1.0 + state.velocity().abs());
             if let Some(round) = &mut self.round {
                 round.round(0.0, error);
@@ -214,7 +215,7 @@ impl<'m, M: BouncingMap> Witness<'m, M> {
         }
         if !self.tangent.is_bounded() {
             self.grazed = Some((self.before + self.impacts, state.phase()));
-            // Of what follows no growth is known.
+            // The growth of the following flights is unknown.
             if let Some(round) = &mut self.round {
                 round.worst_rounding = 1.0;
             }
@@ -243,7 +244,7 @@ impl<'m, M: BouncingMap> Witness<'m, M> {
         let same =
             |round: &Round| phase_difference(round.from.angle(), phase.angle()).abs() <= SAME_SEPARATION;
         if let Some(first) = self.earlier.iter().position(same) {
-            // On either side of the seam, the turn between them belongs to neither.
+            // If the phases lie on either side of the seam, the turn between them belongs to neither.
             let seam = phase.angle() - self.earlier[first].from.angle();
             if let Some(last) = self.earlier.last_mut() {
                 last.turns = last.turns.saturating_add_signed(i64::from(seam > PI) - i64::from(seam < -PI));
@@ -252,20 +253,20 @@ impl<'m, M: BouncingMap> Witness<'m, M> {
             self.verdict = Some(Verdict::Chattering { cycle: cycle(&self.earlier[first..]), after });
             return;
         }
-        // From here on nothing depends on what was before.
+        // From here on nothing depends on the past.
         let (after, earlier) = (self.before + self.impacts, core::mem::take(&mut self.earlier));
         let start = (self.map, ImpactState::of_impact(phase, 0.0));
         let round = Some(Round::new(phase, after, kicks));
         *self = Self { before: after, round, earlier, ..Self::new(start, self.settings) };
     }
 
-    /// How often the disk has come to rest.
+    /// The number of times the disk has come to rest.
     const fn rests(&self) -> u64 {
         self.round.is_some() as u64
     }
 
-    /// The verdict if the orbit is on its way to an attracting one with this period, or stays at one that is
-    /// no less stable than `least`.
+    /// The verdict if the orbit approaches an attracting one of this period, or stays at one no less stable
+    /// than `least`.
     fn periodic(&self, period: usize, least: Stability) -> Option<Verdict> {
         let proof = prove(self.map, self.state, period, &self.settings)?;
         let Proof { orbit, distance, stability } = proof;
@@ -293,11 +294,11 @@ impl<'m, M: BouncingMap> Witness<'m, M> {
         if let Some((impacts, phase)) = self.grazed {
             return Verdict::Undecided { reason: UndecidedReason::Grazing { impacts, phase }, rests };
         }
-        // There are 64 impacts at least.
+        // There are at least 64 impacts.
         let nothing = LyapunovEstimate { exponent: 0.0, standard_error: 0.0, impacts: self.impacts };
         let estimate = LyapunovEstimate::of(&self.growth).unwrap_or(nothing);
         let LyapunovEstimate { exponent, standard_error, impacts } = estimate;
-        // An orbit that approaches slowly has not returned to within the tolerance; one that started on a
+        // A slowly approaching orbit has not returned to within the tolerance; one that started on a
         // repelling orbit may have stayed there.
         let nearest = self.returns.nearest();
         let nearest = nearest.filter(|(distance, _)| !estimate.grows() || *distance <= ON_AN_ORBIT);
@@ -323,7 +324,7 @@ impl<'m, M: BouncingMap> Witness<'m, M> {
     }
 }
 
-/// What repeats after these rounds.
+/// The cycle that repeats after these rounds.
 fn cycle(rounds: &[Round]) -> RestCycle {
     let sum = |of: fn(&Round) -> u64| rounds.iter().map(of).sum();
     let mut worst = &rounds[0];

@@ -1,10 +1,10 @@
 //! From one period doubling to the next, in any precision.
 //!
-//! The orbit of twice the period is followed in the amplitude s, the distance of an impact from the one half
-//! a period later, and not in the forcing: at its birth s = 0 the forcing is stationary in s, so that the
+//! The orbit of twice the period is followed in the amplitude s and not in the forcing, s being the distance
+//! of an impact from the one half a period later. At its birth s = 0 the forcing is stationary in s, so the
 //! equations bordered by the amplitude stay regular. The trace of its derivative falls nearly linearly in
-//! s^2, from 1 + r^2n at the birth to -1 - r^2n where it doubles its own period: that is found by regula
-//! falsi, with both ends known.
+//! s^2, from 1 + r^2n at the birth to -1 - r^2n at its own doubling, which regula falsi finds between the two
+//! known ends.
 
 use super::recurrence::{Equations, ImpactTimes};
 use crate::flight::launch::Launch;
@@ -21,33 +21,33 @@ const MAX_NEWTON_STEPS: u32 = 40;
 /// Steps of the regula falsi.
 const MAX_STEPS: u32 = 80;
 
-/// How often an amplitude that leads nowhere is halved.
+/// How often an amplitude without a solution is halved.
 const MAX_HALVINGS: u32 = 30;
 
-/// A residual of this many roundings may be all that rounding leaves: the rounding of a few dozen operations
-/// on numbers of the size of the peak acceleration and the flights.
+/// Residuals of up to this many roundings may be pure rounding error: a few dozen operations on numbers of
+/// the size of the peak acceleration and the flights.
 const LEFT_BY_ROUNDING: f64 = 1.0e3;
 
-/// How much more a rounding in every impact moves the multiplier from one doubling to the next (J. P.
-/// Crutchfield, M. Nauenberg and J. Rudnick, Phys. Rev. Lett. 46, 933 (1981)).
+/// The growth, from one doubling to the next, of the change of the multiplier by a rounding in every impact
+/// (J. P. Crutchfield, M. Nauenberg and J. Rudnick, Phys. Rev. Lett. 46, 933 (1981)).
 const NOISE_GROWTH: f64 = 6.619;
 
-/// How much the distance of the doublings shrinks from one to the next.
+/// The ratio of successive distances between doublings.
 const SHRINKING: f64 = 4.669;
 
-/// Roundings of the forcing at the first doubling, with room to spare: the header of `cascade.rs` states the
-/// measured ones.
+/// Roundings of the forcing at the first doubling, a generous bound: the header of `cascade.rs` states the
+/// measured errors.
 const FIRST_ROUNDINGS: f64 = 8.0;
 
-/// By how much the durations of one flight may differ that were found in two ways (relative). More is another
-/// flight.
+/// Largest relative difference between two computed durations of the same flight. A larger one means
+/// different flights.
 const SAME_FLIGHT: f64 = 1.0e-6;
 
-/// The amplitude that is tried first on the orbit of period 2 (rad).
+/// The first amplitude (rad) tried on the orbit of period 2.
 const FIRST_AMPLITUDE: f64 = 0.1;
 
-/// A little more than the square of 2.5029: the share of the squared amplitude of one doubling that is tried
-/// on the next.
+/// The ratio of the squared amplitude first tried at a doubling to that of the previous doubling: one over a
+/// little more than the square of 2.5029.
 const SHARE_OF_LAST: f64 = 1.0 / 6.5;
 
 /// An orbit at the forcing where it doubles its period.
@@ -55,23 +55,24 @@ const SHARE_OF_LAST: f64 = 1.0 / 6.5;
 pub(crate) struct FlipPoint<R> {
     pub(crate) times: ImpactTimes<R>,
     pub(crate) peak: R,
-    /// The multiplier that was left, near -1.
+    /// The multiplier reached, near -1.
     pub(crate) multiplier: R,
     /// The largest distance (rad) of an impact from the one half a period later; 0 for a single impact.
     pub(crate) width: R,
 }
 
-/// How far rounding may move the forcing of a doubling, relative.
+/// A bound on the relative change of a doubling's forcing due to rounding.
 pub(crate) fn rounding<R: Real>(number: usize) -> f64 {
     R::EPSILON * FIRST_ROUNDINGS * pow(NOISE_GROWTH / SHRINKING, number as f64 - 1.0)
 }
 
-/// How far rounding may move the width of a doubling's orbit, relative, and the multiplier.
+/// Bounds on the relative change of the width of a doubling's orbit, and on the change of the multiplier, due
+/// to rounding.
 pub(crate) fn width_rounding<R: Real>(number: usize) -> f64 {
     4.0 * R::EPSILON * FIRST_ROUNDINGS * pow(NOISE_GROWTH, number as f64 - 1.0)
 }
 
-/// A number to a whole power.
+/// A number to an integer power.
 fn power<R: Real>(base: R, exponent: usize) -> R {
     let (mut result, mut factor, mut left) = (R::of(1.0), base, exponent);
     while left > 0 {
@@ -84,13 +85,13 @@ fn power<R: Real>(base: R, exponent: usize) -> R {
     result
 }
 
-/// The determinant of the derivative around an orbit of so many impacts. If it underflows, it is zero.
+/// The determinant of the derivative around an orbit of `impacts` impacts; zero if it underflows.
 fn determinant<R: Real>(restitution: R, impacts: usize) -> R {
     let tiny = pow(restitution.value(), 2.0 * impacts as f64) < 1.0e-60;
     if tiny { R::of(0.0) } else { power(restitution, 2 * impacts) }
 }
 
-/// The quantity that is held while an orbit is corrected.
+/// The quantity that is kept fixed while an orbit is corrected.
 #[derive(Debug, Clone, Copy)]
 enum Held<R> {
     /// The peak acceleration.
@@ -158,7 +159,7 @@ impl<R: Real> Bracket<R> {
         a + (b - a) * (f / (f - g))
     }
 
-    /// Takes in a value; the one that stays for a second time is made smaller.
+    /// Narrows the bracket by a value; an end that stays for a second time is reduced.
     fn narrow(&mut self, at: R, value: R) {
         let zero = R::of(0.0);
         let weight = |old: R| {
@@ -205,7 +206,7 @@ pub(crate) fn first_flip<R: Real>(restitution: R, tick: Tick<'_>) -> Result<Flip
         let (times, flip) = at(peak, tick)?;
         let still = (peak - last).magnitude().value() <= R::EPSILON * peak.value();
         if still || flip.value() == 0.0 {
-            // m1 + m2 = trace, m1 m2 = r^2: next to the flip 1 + m1 is the flip function by 1 + m2.
+            // m1 + m2 = trace, m1 m2 = r^2: near the flip 1 + m1 is the flip function over 1 + m2.
             let multiplier = flip / (one - determinant) - one;
             return Ok(FlipPoint { times, peak, multiplier, width: R::of(0.0) });
         }
@@ -243,7 +244,7 @@ impl<R: Real> DoubledBranch<'_, R> {
     fn at(&self, amplitude: R, from: Option<&Doubled<R>>, tick: Tick<'_>) -> Result<Doubled<R>, Error> {
         let n = self.at_birth.times.len();
         let seed = match from {
-            // The distances from the middle grow with the amplitude.
+            // The distances from the centre grow with the amplitude.
             Some(known) => {
                 let now = known.times.phases[self.widest + n] - known.times.phases[self.widest];
                 let share = R::of(0.5) * amplitude / now;
@@ -284,7 +285,7 @@ pub(crate) fn next_flip<R: Real>(
     let (direction, widest) = equations.flipping_direction();
     let determinant = determinant(restitution, 2 * n);
     let branch = DoubledBranch { at_birth: before, direction, widest, restitution, determinant };
-    // The squared amplitude at which the flip function is looked for, from that of the doubling before.
+    // The squared amplitude at which to evaluate the flip function, from the previous doubling.
     let mut square = if before.width > zero {
         before.width * before.width * R::of(SHARE_OF_LAST)
     } else {
@@ -293,7 +294,7 @@ pub(crate) fn next_flip<R: Real>(
     let mut halvings = 0;
     let mut known = loop {
         match branch.at(square.sqrt(), None, tick) {
-            // An amplitude beyond the next doubling will do, too, as long as the branch reaches it.
+            // An amplitude beyond the next doubling is also fine, as long as the branch reaches it.
             Ok(doubled) => break doubled,
             Err(stopped @ Error::Stopped { .. }) => return Err(stopped),
             Err(error) if halvings == MAX_HALVINGS => return Err(error),
@@ -303,7 +304,7 @@ pub(crate) fn next_flip<R: Real>(
             }
         }
     };
-    // At the birth the multiplier is 1: the flip function is 2 (1 + r^2n) there, without an evaluation.
+    // At the birth the multiplier is 1: the flip function is known there, 2 (1 + r^2n).
     let mut bracket = Bracket { low: (zero, R::of(2.0) * (one + determinant)), high: (square, known.flip) };
     let mut steps = 0;
     while bracket.high.1 > zero {
@@ -351,7 +352,7 @@ pub(crate) fn next_flip<R: Real>(
 
 impl<R: Real> FlipPoint<R> {
     /// The smallest graze margin of its flights, in units of g/omega^2, after a check that the certified
-    /// solver finds each flight as the orbit has it: none that meets the platform earlier.
+    /// solver finds the same flights, so that none hits the platform earlier.
     pub(crate) fn graze_margin(&self, restitution: R) -> Result<f64, Error> {
         let vibration = Vibration::new(self.peak.value())?;
         let equations = self.times.equations(self.peak, restitution);

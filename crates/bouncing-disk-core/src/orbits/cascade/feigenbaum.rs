@@ -17,44 +17,44 @@ use super::CascadeDoubling;
 use super::branch::width_rounding;
 use crate::numerics::real::Real;
 
-/// The first doubling of an estimate with an error: one ratio of distances less, one of widths; one step of
-/// extrapolation less, two of them; and two changes of these.
+/// The first doubling that gives an estimate with an error. Ratios of distances and widths need earlier
+/// doublings, so do one and two steps of extrapolation, and two changes of the extrapolated values.
 const FIRST_ESTIMATE: usize = 7;
 
 /// An error is this many times the larger one of the last two changes.
 const CHANGES: f64 = 2.0;
 
-/// How much the extrapolation may enlarge the rounding of a ratio, with room to spare.
+/// A generous bound on the factor by which extrapolation enlarges the rounding of a ratio.
 const ENLARGED_ROUNDING: f64 = 4.0;
 
-/// Estimates, from the doublings up to one of them, of Feigenbaum's constants delta = 4.6692016091... and
-/// alpha = 2.5029078750..., which are not put in.
+/// Estimates of Feigenbaum's constants delta = 4.6692016091... and alpha = 2.5029078750... from the doublings
+/// up to one of them. The known values are not used.
 ///
 /// From doubling to doubling, the ratios' distances from their limits shrink by 1/delta and -1/alpha.
-/// This part is removed with the ratios' own values, for alpha also the part that shrinks by 1/alpha^2
-/// (docs/numerics-dynamics.md). The error is twice the larger of the last two changes of the extrapolated
-/// value, plus rounding: not a bound, but confirmed by the next doubling.
+/// Extrapolation with the ratios' own values removes this part, for alpha also the part that shrinks by
+/// 1/alpha^2 (docs/numerics-dynamics.md). The error is twice the larger of the last two changes of the
+/// extrapolated value, plus rounding: not a bound, but confirmed by the next doubling.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FeigenbaumEstimate {
-    /// The number n of the last doubling that was used.
+    /// The number n of the last doubling used.
     pub number: usize,
     /// (Gamma_(n-1) - Gamma_(n-2)) / (Gamma_n - Gamma_(n-1)).
     pub forcing_ratio: f64,
-    /// The width of the orbit of doubling n - 1 over that of doubling n.
+    /// The ratio of the orbits' widths at doublings n - 1 and n.
     pub width_ratio: f64,
     /// delta, extrapolated.
     pub delta: f64,
-    /// How far delta may be off.
+    /// The estimated error of delta.
     pub delta_error: f64,
     /// The magnitude of alpha, extrapolated.
     pub alpha: f64,
-    /// How far alpha may be off.
+    /// The estimated error of alpha.
     pub alpha_error: f64,
 }
 
 /// `delta = 4.66920160910 +- 3e-10, alpha = 2.50290787600 +- 3e-8, from 13 doublings` in extended precision;
-/// a precision given is the number of decimals of the constants.
+/// a given precision is the number of decimals of the constants.
 impl core::fmt::Display for FeigenbaumEstimate {
     fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         let decimals = formatter.precision().unwrap_or(11);
@@ -64,8 +64,8 @@ impl core::fmt::Display for FeigenbaumEstimate {
     }
 }
 
-/// Feigenbaum's constants from a cascade, one estimate for each doubling from the seventh on. Rounding ends
-/// their progress at the eleventh or so in doubles, and beyond the last in double-doubles.
+/// Feigenbaum's constants from a cascade, one estimate for each doubling from the seventh. In doubles
+/// rounding ends their progress near the eleventh doubling, in double-doubles beyond the last.
 ///
 /// ```
 /// use bouncing_disk_core::orbits::{doubling_cascade, feigenbaum_estimates};
@@ -82,8 +82,8 @@ pub fn feigenbaum_estimates<R: Real>(cascade: &[CascadeDoubling<R>]) -> Vec<Feig
     estimates(&cascade.iter().map(point).collect::<Vec<_>>())
 }
 
-/// The values with the part taken out that shrinks by `ratio` from one to the next; the first ones have none
-/// before them.
+/// The values without the part that shrinks by `ratio` from one to the next; `None` for the first values,
+/// which have no predecessor.
 fn without<R: Real>(values: &[Option<R>], ratio: impl Fn(usize) -> Option<R>) -> Vec<Option<R>> {
     let at = |i: usize| {
         let (before, now, ratio) = (values[i.checked_sub(1)?]?, values[i]?, ratio(i)?);
@@ -92,14 +92,14 @@ fn without<R: Real>(values: &[Option<R>], ratio: impl Fn(usize) -> Option<R>) ->
     (0..values.len()).map(at).collect()
 }
 
-/// An extrapolated value and its error but for rounding.
+/// An extrapolated value and its error, without rounding.
 fn with_error<R: Real>(values: &[Option<R>], i: usize) -> Option<(f64, f64)> {
     let (now, before, first) = (values[i]?, values[i.checked_sub(1)?]?, values[i.checked_sub(2)?]?);
     let changes = [now - before, before - first].map(|change| change.magnitude().value());
     Some((now.value(), CHANGES * changes[0].max(changes[1])))
 }
 
-/// The estimates from (forcing, width, error of the forcing) of the doublings from the first one on.
+/// The estimates from (forcing, width, error of the forcing) of all doublings from the first.
 fn estimates<R: Real>(points: &[(R, R, f64)]) -> Vec<FeigenbaumEstimate> {
     let one = R::of(1.0);
     let distance = |i: usize| points[i].0 - points[i - 1].0;

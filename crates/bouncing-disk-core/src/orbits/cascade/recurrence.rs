@@ -1,9 +1,9 @@
-//! A periodic orbit as a closed sequence of impact times alone.
+//! A periodic orbit represented by a closed sequence of impact times alone.
 //!
-//! Two impacts at the phases a and b, a flight of h = b - a + 2 pi k apart, determine the flight between
-//! them: with D = (sin b - sin a)/h the disk leaves with the speed P D + h/2 and arrives with P D - h/2. The
-//! law of restitution at every impact is then one equation in three successive times, and its linearisation a
-//! three-term recurrence. A flight needs one sine and cosine, and no equation has to be solved for it.
+//! Two impacts at the phases a and b, separated by a flight of h = b - a + 2 pi k, determine this flight:
+//! with D = (sin b - sin a)/h the disk leaves with the speed P D + h/2 and arrives with P D - h/2. The law of
+//! restitution at every impact is then one equation in three successive times, and its linearisation a
+//! three-term recurrence. A flight costs one sine and cosine, and no equation has to be solved.
 //!
 //! With the relative launch speed w_i, the relative impact velocity u_i and the flight h_i after impact i,
 //! the law w_i + r u_i = 0 has the derivatives
@@ -18,16 +18,16 @@
 
 use crate::numerics::real::Real;
 
-/// The impacts of an orbit by their phases (rad, not reduced), and the periods of the platform that the
-/// flight after each of them adds to the difference of the phases.
+/// The impacts of an orbit, given by their phases (rad, not reduced), and the periods of the platform that
+/// each following flight adds to the difference of the phases.
 #[derive(Debug, Clone)]
 pub(crate) struct ImpactTimes<R> {
     pub(crate) phases: Vec<R>,
     pub(crate) periods: Vec<i32>,
 }
 
-/// The law of restitution at one impact, `w + r u = 0`, and its derivatives by the phases of the impact
-/// before, of itself and of the impact after, and by the peak acceleration.
+/// The law of restitution at one impact, `w + r u = 0`, and its derivatives by the phases of the previous,
+/// this and the next impact, and by the peak acceleration.
 #[derive(Debug, Clone, Copy)]
 struct ImpactEquation<R> {
     residual: R,
@@ -43,7 +43,7 @@ pub(crate) struct Equations<R> {
     of_impacts: Vec<ImpactEquation<R>>,
     /// The largest residual, and the largest speed of an impact.
     pub(crate) worst: f64,
-    /// The launch speeds relative to the platform that the law of restitution asks for, and the durations of
+    /// The launch speeds relative to the platform required by the law of restitution, and the durations of
     /// the flights.
     pub(crate) flights: Vec<(f64, f64)>,
 }
@@ -51,17 +51,17 @@ pub(crate) struct Equations<R> {
 /// A 2x2 matrix by columns.
 type Columns<R> = [[R; 2]; 2];
 
-/// The solution of all equations except the closing one: it takes the changes at the impact before the first
-/// and at the first to the same changes one turn later.
+/// The solution of all equations except the closing one: it maps the changes at the impact before the first
+/// and at the first to the same changes one round later.
 struct Transfer<R> {
-    /// The changes that a unit change of either would make, one after the other.
+    /// The changes caused by a unit change of either, in sequence.
     homogeneous: [Vec<R>; 2],
-    /// The changes that the residuals and a unit of the peak acceleration make.
+    /// The changes caused by the residuals and by a unit of the peak acceleration.
     particular: [Vec<R>; 2],
 }
 
-/// The changes of all phases that make up the residuals, and those that a unit of the peak acceleration
-/// makes.
+/// The changes of all phases that cancel the residuals, and the changes caused by a unit of the peak
+/// acceleration.
 #[derive(Debug)]
 pub(crate) struct Correction<R> {
     pub(crate) by_residual: Vec<R>,
@@ -108,7 +108,7 @@ impl<R: Real> ImpactTimes<R> {
             }
         });
         let of_impacts = of_impacts.collect();
-        // By the law: where the restitution is tiny the difference of the speeds holds only rounding.
+        // By the law: for a tiny restitution the difference of the speeds is pure rounding error.
         let launch = |i: usize| (-restitution * flights[(i + n - 1) % n].3).value();
         let flights = (0..n).map(|i| (launch(i), flights[i].0.value())).collect();
         Equations { of_impacts, worst, flights }
@@ -154,13 +154,13 @@ impl<R: Real> Equations<R> {
         first[0] + second[1]
     }
 
-    /// The changes that an orbit which flips (multiplier -1) returns with the other sign, scaled so that the
-    /// largest is 1, and where that is.
+    /// The changes that return with the opposite sign after one round of a flipping orbit (multiplier -1),
+    /// scaled so that the largest is 1, and the index of the largest.
     pub(crate) fn flipping_direction(&self) -> (Vec<R>, usize) {
         let transfer = self.transfer();
         let [first, second] = transfer.monodromy();
         let n = self.of_impacts.len();
-        // (M + 1) y = 0: of the two rows the larger one.
+        // (M + 1) y = 0: the larger of the two rows.
         let one = R::of(1.0);
         let rows = [[first[0] + one, second[0]], [first[1], second[1] + one]];
         let size = |row: &[R; 2]| row[0].magnitude().value().max(row[1].magnitude().value());
@@ -180,14 +180,14 @@ impl<R: Real> Equations<R> {
         (changes, widest)
     }
 
-    /// The changes of the phases that close the linearised orbit; not finite where it has a multiplier of
+    /// The changes of the phases that close the linearised orbit; not finite if it has a multiplier of
     /// exactly 1.
     pub(crate) fn corrected(&self) -> Correction<R> {
         let transfer = self.transfer();
         let [first, second] = transfer.monodromy();
         let n = self.of_impacts.len();
         let one = R::of(1.0);
-        // (1 - M) y = the change that the right side makes of zero in one turn.
+        // (1 - M) y = the change that the right side produces from zero in one round.
         let (a, b, c, d) = (one - first[0], -second[0], -first[1], one - second[1]);
         let determinant = a * d - b * c;
         let [by_residual, by_peak] = [0, 1].map(|k| {

@@ -1,4 +1,4 @@
-//! Whether a periodic orbit is an orbit of a map: the one check of all functions that take both.
+//! The check that a periodic orbit belongs to a map, shared by all functions that take both.
 
 use glam::DMat2;
 
@@ -8,12 +8,12 @@ use crate::flight::launch::Impact;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::error::{Error, within};
 
-/// How far from the next impact of its own orbit a step may end (rad, or relative to 1 + the largest impact
-/// speed): the largest residual of a refined orbit, 1e-11, made generous.
+/// Largest distance between the end of a step and the next impact of its orbit (rad, or relative to 1 + the
+/// largest impact speed): the largest residual of a refined orbit, 1e-11, with a generous margin.
 const CLOSES: f64 = 1.0e-9;
 
-/// The rounding of an impact in the same units, made generous. A step magnifies it by its derivative: next to
-/// a graze to far more than [`CLOSES`].
+/// A generous bound on the rounding of an impact in the same units. A step magnifies it by its derivative,
+/// near a graze to far more than [`CLOSES`].
 const ROUNDING: f64 = 1.0e-14;
 
 impl ImpactMap {
@@ -34,18 +34,18 @@ impl ImpactMap {
     /// ```
     ///
     /// # Errors
-    /// [`Error::NotAnOrbit`] with the first impact that does not lead to the next one, and by how much it
-    /// misses it; [`Error::OutOfRange`] for an orbit without impacts or with more than [`MAX_PERIOD`]; those of
-    /// [`Self::step`] but for [`Error::NoLiftOff`].
+    /// [`Error::NotAnOrbit`] with the first impact that does not lead to the next one, and the distance;
+    /// [`Error::OutOfRange`] for an orbit without impacts or with more than [`MAX_PERIOD`]; errors of
+    /// [`Self::step`] except [`Error::NoLiftOff`].
     pub fn check_orbit(&self, orbit: &PeriodicOrbit) -> Result<(), Error> {
         check(orbit, |state| self.step(state), |state| self.step_with_derivative(state))
     }
 }
 
-/// The check of any map that steps and has a derivative.
+/// The same check for any map with steps and a derivative.
 ///
 /// # Errors
-/// Those of [`ImpactMap::check_orbit`].
+/// Errors of [`ImpactMap::check_orbit`].
 pub fn check(
     orbit: &PeriodicOrbit,
     step: impl Fn(ImpactState) -> Result<Impact, Error>,

@@ -2,10 +2,10 @@
 //! (docs/numerics-dynamics.md, "The search for periodic orbits").
 //!
 //! The starts cover all impact speeds up to sqrt(U^2 + 2 P (1 - sin tau)) + P cos tau, with U = M, the bound
-//! on launch speeds. For orbits of at most K periods of the platform U may be less. A disk that lands rising
-//! is overtaken by the platform: 0 < V <= P, so u^2 <= P^2 + 4 P. Any other with u^2 > 4 P lands with V <=
-//! -sqrt(u^2 - 4 P), after a flight of at least u + sqrt(u^2 - 4 P). If that is at most 2 pi K, then u <= pi
-//! K + P/(pi K). U is the larger of these two bounds, and at most M.
+//! on launch speeds. For orbits of at most K periods of the platform U may be smaller. A disk that lands
+//! while rising is overtaken by the platform: 0 < V <= P, so u^2 <= P^2 + 4 P. Any other disk with u^2 > 4 P
+//! lands with V <= -sqrt(u^2 - 4 P), after a flight of at least u + sqrt(u^2 - 4 P). If that is at most 2 pi
+//! K, then u <= pi K + P/(pi K). U is the larger of these two bounds, and at most M.
 //!
 //! Coverage on 20 random maps (6 in the last line) with r 0.1 to 0.9 and Gamma 0.1 to 3; time on two cores:
 //!
@@ -44,13 +44,13 @@ read_checked!(OrbitSearch as UncheckedSearch {
 });
 
 impl OrbitSearch {
-    /// The most impacts of an orbit that is searched for.
+    /// The largest number of impacts of an orbit.
     pub const MAX_IMPACTS: usize = 64;
 
-    /// The most periods of the platform that such an orbit takes.
+    /// The largest number of platform periods of an orbit.
     pub const MAX_PLATFORM_PERIODS: u64 = 10_000;
 
-    /// The most starts along each axis.
+    /// The largest number of starts along each axis.
     pub const MAX_STARTS: u32 = 4_096;
 
     /// A search for all orbits of at most `max_impacts` in [1, 64] impacts and `max_platform_periods` in [1,
@@ -63,7 +63,7 @@ impl OrbitSearch {
         search.check().map(|()| search)
     }
 
-    /// The same with these numbers of starts along the axes of phase and speed, each in [2, 4096].
+    /// The same search with these numbers of starts along the axes of phase and speed, each in [2, 4096].
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for either number.
@@ -85,13 +85,13 @@ impl OrbitSearch {
         Ok(())
     }
 
-    /// The most impacts of an orbit.
+    /// The largest number of impacts of an orbit.
     #[must_use]
     pub const fn max_impacts(&self) -> usize {
         self.max_impacts
     }
 
-    /// The most periods of the platform that an orbit takes.
+    /// The largest number of platform periods of an orbit.
     #[must_use]
     pub const fn max_platform_periods(&self) -> u64 {
         self.max_platform_periods
@@ -116,12 +116,12 @@ impl OrbitSearch {
 pub struct OrbitCoverage {
     /// The settings: limits and starts.
     pub search: OrbitSearch,
-    /// The largest speed of a start: no impact of a periodic orbit is faster
-    /// ([`ImpactMap::impact_speed_bound`], less where the periods of the platform are limited; units of
+    /// The largest speed of a start: no impact of a periodic orbit is faster. It is
+    /// [`ImpactMap::impact_speed_bound`], or less because the periods of the platform are limited (units of
     /// g/omega).
     pub impact_speed_bound: f64,
-    /// An orbit with the most impacts that were searched for cannot take more periods of the platform than
-    /// this: if the limit of the search is not below it, the search omits no orbit for its length.
+    /// The largest number of platform periods of an orbit with the largest number of impacts: if the limit of
+    /// the search is not below it, the search omits no orbit for its length.
     pub longest_platform_periods: u64,
     /// Starts, on a grid of cells over all phases and all impact speeds up to the bound.
     pub starts: u64,
@@ -132,26 +132,26 @@ pub struct OrbitCoverage {
     pub attempts: u64,
     /// Attempts that ended on a periodic orbit within the limits.
     pub converged: u64,
-    /// Attempts that ended on a solution that is not an orbit: a disk at rest, no period of the platform, or
-    /// more than the limit.
+    /// Attempts that ended on a solution that is not a valid orbit: a disk at rest, no period of the
+    /// platform, or more than the limit.
     pub refused: u64,
-    /// Attempts whose Newton iteration did not settle.
+    /// Attempts whose Newton iteration did not converge.
     pub not_settled: u64,
-    /// How many of the orbits are also found from every other start along both axes alone: if all are, a grid
-    /// of twice the spacing would have sufficed.
+    /// The number of orbits that are also found from only every other start along both axes: if all are, a
+    /// grid of twice the spacing would have sufficed.
     pub found_by_coarser: u64,
-    /// How many orbits a single attempt found. Its share of `converged` estimates the share of further
-    /// attempts that would find yet another orbit (Good and Turing).
+    /// The number of orbits found by a single attempt only. Its share of `converged` estimates the share of
+    /// further attempts that would find yet another orbit (Good and Turing).
     pub found_once: u64,
 }
 
-/// The periodic orbits that were found, and the coverage.
+/// The periodic orbits found, and the coverage.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct OrbitsFound {
-    /// Orbits of the map (no earlier impact forestalls a flight) that repeat no shorter one, by rising number
-    /// of impacts, then of platform periods, then by falling speed of their fastest impact, which is the
-    /// first of each.
+    /// Orbits of the map (no earlier impact ends a flight) that do not repeat a shorter one. They are sorted
+    /// by number of impacts, then of platform periods, then by decreasing speed of their fastest impact,
+    /// which is the first of each.
     pub orbits: Vec<PeriodicOrbit>,
     /// The coverage.
     pub coverage: OrbitCoverage,
@@ -166,14 +166,14 @@ struct Row {
 impl ImpactMap {
     /// The periodic orbits of few impacts, stable and unstable.
     ///
-    /// Those of one impact come from the closed form and are complete. All others are found by Newton's
-    /// method on all impacts at once, from the first 1, 2, ... impacts of orbits that start on a grid over
-    /// all impacts that a periodic orbit can have ([`Self::impact_speed_bound`]). The exact map decides where
-    /// a flight ends, so that a converged solution is an orbit of it. A search from a grid cannot prove that
-    /// it is complete: [`OrbitCoverage`] states which starts were tried, and whether half the resolution
-    /// would have found the same.
+    /// Orbits of one impact come from the closed form and are complete. All others are found by Newton's
+    /// method on all impacts at once. The guesses are the first 1, 2, ... impacts of orbits that start on a
+    /// grid over all impacts that a periodic orbit can have ([`Self::impact_speed_bound`]). The exact map
+    /// decides where a flight ends, so a converged solution is an orbit of the map. A search from a grid
+    /// cannot prove that it is complete: [`OrbitCoverage`] states which starts were tried, and whether half
+    /// the resolution would have found the same.
     ///
-    /// Two orbits whose impacts agree within 1e-6 (rad, and relative speed) count as one; next to a fold or a
+    /// Two orbits whose impacts agree within 1e-6 (rad, and relative speed) count as one; near a fold or a
     /// doubling they do if their [errors](PeriodicOrbit::position_error) overlap.
     ///
     /// The items of `observer` are the starts.
@@ -192,8 +192,7 @@ impl ImpactMap {
     /// ```
     ///
     /// # Errors
-    /// Those of [`Vibration::first_impact`](crate::Vibration::first_impact) but for
-    /// [`Error::NoLiftOff`].
+    /// Errors of [`Vibration::first_impact`](crate::Vibration::first_impact) except [`Error::NoLiftOff`].
     pub fn periodic_orbits(
         &self,
         search: &OrbitSearch,
@@ -209,7 +208,7 @@ impl ImpactMap {
             let Some(pair) = self.period_one_pair(k) else { break };
             for member in [pair.node, pair.saddle] {
                 if let Some(orbit) = member.orbit(self)? {
-                    // The closed form is no luck of the grid.
+                    // The closed form does not depend on the grid.
                     catalogue.add(orbit, 2, true);
                 }
             }
@@ -230,7 +229,7 @@ impl ImpactMap {
         Ok(OrbitsFound { orbits: catalogue.into_sorted(), coverage })
     }
 
-    /// The starts of one phase.
+    /// Searches from the starts of one phase.
     fn search_row(
         &self,
         search: &OrbitSearch,
@@ -238,8 +237,8 @@ impl ImpactMap {
         column: u32,
         mut work: WorkCount<'_>,
     ) -> Result<Row, Error> {
-        // The count begins anew with each row: without this, short rows never asked, and after a stop each
-        // further row went on until it asked.
+        // The count restarts with each row: without this call short rows would never call the observer, and
+        // after a stop each further row would run until it did.
         work.watch().ask()?;
         let mut row = Row { catalogue: Catalogue::default(), coverage: limits.coverage(search) };
         let phase = Phase::new(TAU * (f64::from(column) + 0.5) / f64::from(search.phases))?;
@@ -254,7 +253,7 @@ impl ImpactMap {
         Ok(row)
     }
 
-    /// Takes the orbit from one start for the guess of a periodic one, after every impact of it.
+    /// Uses the orbit from one start as the guess of a periodic one, after each of its impacts.
     fn search_start(
         &self,
         search: &OrbitSearch,
@@ -277,7 +276,7 @@ impl ImpactMap {
                 break;
             };
             turns += next.turns;
-            // A guess that closes takes its turns, give or take one.
+            // A closing guess takes the same number of turns, to within one.
             if turns > search.max_platform_periods + 1 {
                 break;
             }
@@ -297,11 +296,11 @@ impl ImpactMap {
     }
 }
 
-/// How far the starts reach.
+/// The range of the starts.
 struct Limits {
     /// Bound on the disk's own speed after an impact.
     launch_speed: f64,
-    /// The bound on the impact speed that follows from it.
+    /// The resulting bound on the impact speed.
     impact_speed: f64,
     longest_platform_periods: u64,
 }
@@ -309,8 +308,8 @@ struct Limits {
 impl Limits {
     fn new(map: &ImpactMap, search: &OrbitSearch) -> Self {
         let p = map.vibration().peak_acceleration();
-        // A disk with u^2 > P^2 + 4 P lands falling, after u + sqrt(u^2 - 4 P) at least: in K periods if u <=
-        // pi K + P/(pi K).
+        // A disk with u^2 > P^2 + 4 P lands falling, after at least u + sqrt(u^2 - 4 P): within K periods
+        // only if u <= pi K + P/(pi K).
         let longest = TAU * search.max_platform_periods as f64;
         let falling = if longest * longest > 4.0 * p { 0.5 * longest + 2.0 * p / longest } else { 0.0 };
         let within_periods = falling.max((p * (p + 4.0)).sqrt());
@@ -319,7 +318,7 @@ impl Limits {
         Self {
             launch_speed,
             impact_speed: (launch_speed * launch_speed + 4.0 * p).sqrt() + p,
-            // Saturates where it is larger than any number of periods.
+            // Saturates if it exceeds every number of periods.
             longest_platform_periods: together.floor() as u64,
         }
     }
@@ -331,7 +330,7 @@ impl Limits {
         (landing + p * phase.cos()).max(0.0)
     }
 
-    /// A coverage of nothing yet.
+    /// The empty coverage.
     fn coverage(&self, search: &OrbitSearch) -> OrbitCoverage {
         OrbitCoverage {
             search: *search,
@@ -353,20 +352,20 @@ impl Limits {
 #[derive(Debug, Clone)]
 struct Entry {
     orbit: PeriodicOrbit,
-    /// Sum of the impact velocities, which does not depend on where the orbit begins.
+    /// Sum of the impact velocities, which does not depend on the first impact.
     sum: f64,
     found: u64,
     by_coarser: bool,
 }
 
-/// Distinct orbits in the order in which they were found first.
+/// Distinct orbits in the order of discovery.
 #[derive(Debug, Clone, Default)]
 pub struct Catalogue {
     entries: Vec<Entry>,
 }
 
 impl Catalogue {
-    /// Adds an orbit that was found so often, unless it is known.
+    /// Adds an orbit that was found `found` times, or counts these if it is known.
     pub fn add(&mut self, orbit: PeriodicOrbit, found: u64, by_coarser: bool) {
         let sum = orbit.states.iter().fold(0.0, |sum, state| sum + state.velocity());
         self.insert(Entry { orbit, sum, found, by_coarser });
@@ -380,7 +379,7 @@ impl Catalogue {
     }
 
     fn insert(&mut self, entry: Entry) {
-        // The sums differ by twice what the comparison of the impacts allows at most.
+        // The sums differ by at most twice the difference that the comparison of the impacts allows.
         let room = 2.0 * (entry.orbit.period() as f64 + entry.sum.abs());
         let known = self.entries.iter_mut().find(|known| {
             let errors = known.orbit.position_error + entry.orbit.position_error;
@@ -395,22 +394,23 @@ impl Catalogue {
         }
     }
 
-    /// How many were found from a coarser grid, too.
+    /// The number of orbits also found from the coarser grid.
     pub(super) fn found_by_coarser(&self) -> u64 {
         self.entries.iter().filter(|entry| entry.by_coarser).count() as u64
     }
 
-    /// How many were found once.
+    /// The number of orbits found once.
     pub(super) fn found_once(&self) -> u64 {
         self.entries.iter().filter(|entry| entry.found == 1).count() as u64
     }
 
-    /// The orbits by impacts, platform periods, falling speed of the first impact, phase of the first impact.
+    /// The orbits by impacts, platform periods, decreasing speed of the first impact, phase of the first
+    /// impact.
     pub(super) fn into_sorted(self) -> Vec<PeriodicOrbit> {
         self.into_sorted_with(Vec::new())
     }
 
-    /// The same together with others, none of which is known.
+    /// The same orbits merged with others that are not in the catalogue.
     pub fn into_sorted_with(self, mut orbits: Vec<PeriodicOrbit>) -> Vec<PeriodicOrbit> {
         orbits.extend(self.entries.into_iter().map(|entry| entry.orbit));
         orbits.sort_by(|a, b| {

@@ -1,9 +1,9 @@
-//! Orbits next to a fold or a doubling: their positions to the last bit, and what rounding leaves undecided
+//! Orbits near a fold or a doubling: their positions to the last bit, and their errors due to rounding
 //! (docs/numerics-dynamics.md, "Orbits on the margin").
 //!
 //! The errors of the position and of the trace T: let a unit in the last place of Gamma and r together move
 //! the orbit by t to first order. Let v be the weak direction, in which any push moves the solution most.
-//! Differences of T along v give its change c(x) over the distance x. Let g and g' be |1 - T + D| less and
+//! Differences of T along v give its change c(x) over the distance x. Let g and g' be |1 - T + D| minus and
 //! plus the rounding of T. If c(2t) < g/2, the condition of Newton and Kantorovich, the error of the position
 //! is 2t. Otherwise it is the first x, doubled from 2^-52, with x (c(x)/3 - g') > t |1 - T + D|. The equation
 //! changes by at least x c(x)/3 for a fold and for a cubic, so no map within rounding has a solution beyond
@@ -21,37 +21,38 @@ use crate::numerics::bordered_cyclic::{Border, CyclicEquations};
 use crate::numerics::double_double::DoubleDouble;
 use crate::orbits::closing::{Closed, Closing, ContinuationParameter};
 
-/// Two orbits whose impacts agree within this much (rad, and relative speed) count as one, unless a
-/// multiplier is next to 1 or -1: then their own uncertainty decides.
+/// The distance (rad, and relative speed) within which two orbits count as one, unless a multiplier is near 1
+/// or -1: then their own uncertainty decides.
 pub const SAME: f64 = 1.0e-6;
 
-/// Relative to the derivative's size, 1 - T + D or 1 + T + D below which a multiplier is next to 1 or -1.
+/// The value of 1 - T + D or 1 + T + D, relative to the derivative's size, below which a multiplier counts as
+/// near 1 or -1.
 const NEXT_TO_MARGIN: f64 = 1.0e-4;
 
-/// The same below which the equations of the uncertainty are set up beside the orbit (by `ASIDE` rad), where
-/// they are not singular.
+/// The value below which the equations of the uncertainty are set up at a distance of `ASIDE` rad from the
+/// orbit, where they are not singular.
 const SINGULAR: f64 = 1.0e-13;
 const ASIDE: f64 = 1.0e-9;
 
-/// Newton steps in double-doubles, the longest of them, and one that is less than the rounding of a double.
+/// Newton steps in double-doubles: their number, the longest, and one below the rounding of a double.
 const MAX_STEPS: usize = 64;
 const LONGEST_STEP: f64 = 0.05;
 const ROUNDING: f64 = 0.25 * f64::EPSILON;
 
-/// How many times the rounding of the parameters a residual may be, for an orbit that exists on one side of a
+/// Largest residual, in units of the rounding of the parameters, for an orbit that exists on one side of a
 /// fold within that rounding.
 const WITHIN_ROUNDING: f64 = 4.0;
 
-/// The step (rad) of the differences that say how the trace changes along the weak direction.
+/// The step (rad) of the differences for the change of the trace along the weak direction.
 const DIFFERENCE: f64 = 1.0e-5;
 
-/// Whether the fixed-point function 1 - T + D and the flip function 1 + T + D are next to zero.
+/// Whether the fixed-point function 1 - T + D and the flip function 1 + T + D are near zero.
 pub fn next_to_margin(monodromy: DMat2, determinant: f64) -> (bool, bool) {
     let (trace, room) = (monodromy.x_axis.x + monodromy.y_axis.y, NEXT_TO_MARGIN * size(monodromy));
     ((1.0 - trace + determinant).abs() < room, (1.0 + trace + determinant).abs() < room)
 }
 
-/// One more than the sum of the entries' magnitudes.
+/// One plus the sum of the entries' magnitudes.
 fn size(matrix: DMat2) -> f64 {
     matrix.to_cols_array().iter().fold(1.0, |sum, entry| sum + entry.abs())
 }
@@ -74,7 +75,7 @@ impl Equations {
 
     fn length(&self, steps: &[DVec2]) -> f64 {
         let speed = self.closing.scale.speed;
-        // Not a number counts as infinite.
+        // NaN counts as infinite.
         steps.iter().fold(0.0, |most: f64, step| {
             let own = step.x.abs().max(step.y.abs() / speed);
             if own.is_finite() { most.max(own) } else { f64::INFINITY }
@@ -93,7 +94,7 @@ impl Equations {
         };
         let forcing = by(&equations.column, f64::EPSILON * at.parameter);
         let restitution = by(&column, f64::EPSILON * r);
-        // The signs with which both add up.
+        // The signs with which both changes add up.
         let together = forcing.iter().zip(&restitution).fold(0.0, |sum, (a, b)| sum + a.dot(*b));
         let sign = if together < 0.0 { -1.0 } else { 1.0 };
         Some(forcing.iter().zip(&restitution).map(|(a, b)| *a + *b * sign).collect())
@@ -153,11 +154,11 @@ fn solved(equations: &CyclicEquations, right: Vec<DVec2>) -> Vec<DVec2> {
     CyclicEquations { right, ..equations.clone() }.solve(border).0
 }
 
-/// The impacts of an orbit next to a fold, or next to the doubling that it is born in, by Newton's method
-/// with residuals in double-doubles; `None` where there is no orbit.
+/// The impacts of an orbit near a fold, or near the doubling of its birth, by Newton's method with residuals
+/// in double-doubles; `None` if there is no orbit.
 ///
-/// With residuals in doubles an error of 1e-16 is divided by the distance of a multiplier from 1. Without a
-/// solution an orbit still counts whose residual is within the rounding of the parameters: it exists for a
+/// Residuals in doubles would leave an error of 1e-16 divided by the distance of a multiplier from 1. Without
+/// a solution an orbit still counts if its residual is within the rounding of the parameters: it exists for a
 /// neighbouring map.
 pub(super) fn polished(map: &ImpactMap, states: &[ImpactState]) -> Option<Vec<ImpactState>> {
     let own = Equations::of(map, states)?;
@@ -172,7 +173,7 @@ pub(super) fn polished(map: &ImpactMap, states: &[ImpactState]) -> Option<Vec<Im
         let steps = solved(&equations, residuals);
         let length = own.length(&steps);
         if !length.is_finite() {
-            // The very place where the equations are singular.
+            // The exact point at which the equations are singular.
             impacts.iter_mut().for_each(|impact| impact[0] = impact[0] + double(ASIDE));
             continue;
         }
@@ -191,8 +192,8 @@ pub(super) fn polished(map: &ImpactMap, states: &[ImpactState]) -> Option<Vec<Im
     nearest.filter(|(share, _)| *share <= WITHIN_ROUNDING).map(|(_, states)| states)
 }
 
-/// How far the rounding of the parameters and of the solution may have moved an orbit (rad, relative speed),
-/// and the trace of its derivative.
+/// The largest changes of an orbit (rad, relative speed) and of its derivative's trace due to rounding of the
+/// parameters and of the solution.
 pub(super) fn errors(map: &ImpactMap, states: &[ImpactState], monodromy: DMat2) -> (f64, f64) {
     let (n, size) = (states.len(), size(monodromy));
     let determinant = map.determinant_after(n);
@@ -206,8 +207,8 @@ pub(super) fn errors(map: &ImpactMap, states: &[ImpactState], monodromy: DMat2) 
     }
 }
 
-/// The errors of an orbit by the rounding of its parameters and, for an `isolated` orbit, which is not
-/// polished, by the residual of its equations. The trace of the sequence is known to `rounding`.
+/// The errors of an orbit due to rounding of its parameters and, for an `isolated` orbit, which is not
+/// polished, due to the residual of its equations. The trace of the sequence is known to `rounding`.
 fn measured_errors(
     map: &ImpactMap,
     states: &[ImpactState],
@@ -227,22 +228,23 @@ fn measured_errors(
     if isolated {
         length += own.length(&solved(&equations, equations.right.clone()));
     }
-    // Under a push in a generic direction the solution moves along the weak direction.
+    // A push in a generic direction moves the solution along the weak direction.
     let moved = solved(&equations, (0..states.len()).map(|i| DVec2::new(1.0 + i as f64, 1.0)).collect());
     let most = own.length(&moved);
     if !(length.is_finite() && most > 0.0 && most.is_finite()) {
         return None;
     }
     let direction = Closed { impacts: moved.iter().map(|part| *part / most).collect(), parameter: 0.0 };
-    // The change by the parameters in the equation of the weak direction, (1 - T + D) t = push.
+    // The effect of the parameters in the equation of the weak direction, (1 - T + D) t = push.
     let push = distance * length;
     let [up, down] = [DIFFERENCE, -DIFFERENCE].map(|by| own.trace(&own.at.moved(&direction, by)));
     let (up, down) = (up?, down?);
     let slope = ((up - down) / (2.0 * DIFFERENCE)).abs();
     let curvature = ((up + down - 2.0 * trace) / (DIFFERENCE * DIFFERENCE)).abs();
     let change = |by: f64| slope * by + 0.5 * curvature * by * by;
-    // Newton and Kantorovich: where the derivative changes by less than half of itself over twice the first
-    // order, that is the error. Otherwise the next orbit may be met: the error reaches beyond it.
+    // Newton and Kantorovich: if the derivative changes by less than half of itself over twice the
+    // first-order displacement, that is the error. Otherwise the next orbit may be reached, and the error
+    // extends beyond it.
     let distance = distance_from_fold(trace);
     let least = (distance - rounding).max(0.0);
     let mut by = 2.0 * push / least;
@@ -262,12 +264,12 @@ fn measured_errors(
 }
 
 impl ImpactMap {
-    /// The determinant of the derivative around an orbit of so many impacts, r^(2n).
+    /// The determinant r^(2n) of the derivative around an orbit of n impacts.
     pub(super) fn determinant_after(&self, impacts: usize) -> f64 {
         (0..impacts).fold(1.0, |product, _| product * (self.restitution() * self.restitution()))
     }
 
-    /// An orbit of an iteration, made exact where it lies next to a margin; `None` where it is not one.
+    /// An orbit from an iteration, made exact if it is near a margin; `None` if it is not an orbit.
     pub(super) fn exact_orbit(&self, orbit: PeriodicOrbit) -> Option<PeriodicOrbit> {
         let (fold, _) = next_to_margin(orbit.monodromy, self.determinant_after(orbit.period()));
         let orbit = if fold {
@@ -296,9 +298,8 @@ mod tests {
         map.periodic_orbits(&search.expect("legal"), &Unobserved).expect("no failure").orbits
     }
 
-    /// At the doubling of the orbit of one impact: which orbits of two impacts lie beside it, and whether
-    /// they and it attract, against the normal form, whose amplitude is that at 1e-6 times the root of the
-    /// distance.
+    /// At the doubling of the one-impact orbit: the two-impact orbits near it, and the stability of all,
+    /// against the normal form, with the amplitude at 1e-6 scaled by the root of the distance.
     #[test]
     fn beside_a_doubling_there_are_the_orbits_of_the_normal_form() {
         for (restitution, impacts) in [(0.3, 2), (0.5, 4), (0.8, 2)] {
@@ -328,7 +329,7 @@ mod tests {
                     [(1, Stability::Unstable), (2, Stability::Stable)],
                     "{restitution} {offset:e}"
                 );
-                // The forcing itself is rounded by 1e-16.
+                // The forcing itself has a rounding error of 1e-16.
                 let expected = amplitude * ((first + offset) - first).sqrt();
                 let room = 1e-4 + 4e-16 / offset;
                 let share = width.expect("doubles") / expected;
@@ -347,8 +348,8 @@ mod tests {
         }
     }
 
-    /// At the fold of the orbits of one impact the search by iteration finds what the closed form says: a
-    /// node and a saddle above it, none below, and one marginal orbit where rounding decides.
+    /// At the fold of the one-impact orbits the search by iteration agrees with the closed form: a node and a
+    /// saddle above it, none below, and one marginal orbit if rounding decides.
     #[test]
     fn beside_a_fold_there_are_two_orbits_or_none() {
         for restitution in [0.1, 0.3, 0.5, 0.8, 0.95, 0.999] {
