@@ -1,9 +1,9 @@
-//! Chaos: Lyapunov exponents, the manifolds of saddles, and the crises in which a chaotic attractor ends.
+//! Chaos: Lyapunov exponents, the manifolds of saddles, and the crises that end chaotic attractors.
 //!
 //! The largest Lyapunov exponent is the mean logarithm of the growth of a tangent vector per impact; both
 //! exponents sum to 2 ln r, because the map contracts areas by r^2. An attractor ends in a boundary crisis
-//! where the stable and the unstable manifold of a saddle touch (Grebogi, Ott and Yorke, Physica D 7, 181,
-//! 1983); beyond it the disk stays for a mean time that falls as a power of the distance.
+//! when the stable and the unstable manifold of a saddle touch (Grebogi, Ott and Yorke, Physica D 7, 181,
+//! 1983). Beyond the crisis the mean survival time falls as a power of the distance from it.
 //!
 //! ```
 //! use bouncing_disk_core::chaos::lyapunov_exponents;
@@ -16,7 +16,7 @@
 //! # Ok::<(), bouncing_disk_core::Error>(())
 //! ```
 //!
-//! Whether an exponent proves chaos is a [verdict](crate::attractors::Verdict). How it is computed:
+//! A [verdict](crate::attractors::Verdict) decides whether an exponent proves chaos. The methods are in
 //! docs/numerics-dynamics.md.
 
 pub(crate) mod crisis;

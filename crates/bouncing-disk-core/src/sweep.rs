@@ -1,8 +1,9 @@
-//! Many orbits at once: orbit diagrams, survival times, or anything that a visitor collects from their
+//! Many orbits at once: orbit diagrams, survival times, or any results that a visitor collects from their
 //! events.
 //!
-//! The events are those of each orbit by itself, to the bit, for any number of threads. The flights are
-//! computed several at a time in lockstep, in the lanes of vector instructions (docs/numerics-impacts.md).
+//! The events have the same bits as if each orbit were followed by itself, for any number of threads. Several
+//! flights are computed at a time in lockstep, in the lanes of vector instructions
+//! (docs/numerics-impacts.md).
 //!
 //! ```
 //! use bouncing_disk_core::sweep::orbit_diagram;
@@ -31,7 +32,8 @@ mod tests;
 
 pub use bouncing_map::{BouncingOrbit, OrbitOutcome};
 pub use events::{SweepEvent, SweepImpact};
-// The number of flights computed at once may change: only the model, benches and tests use these.
+// Hidden because the number of flights computed at once may change: only the model, benches and tests use
+// these.
 #[doc(hidden)]
 pub use lockstep::flights::{Flights, LaneImpacts, LaneLoop, LaneRunner};
 #[doc(hidden)]

@@ -49,18 +49,18 @@ pub struct CrisisSearch {
 }
 
 impl CrisisSearch {
-    /// A search at this restitution in (0, 1) between two values of Gamma, `low` < `high`: below the crisis
-    /// and beyond it. At each forcing 64 orbits are followed, for 2e6 impacts in all.
+    /// A search at this restitution in (0, 1) between two values of Gamma, `low` < `high`: the first below
+    /// the crisis, the second beyond it. At each forcing 64 orbits are followed, for 2e6 impacts in all.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for any of them.
+    /// [`Error::OutOfRange`] for any of these numbers.
     pub fn new(restitution: f64, (low, high): (f64, f64)) -> Result<Self, Error> {
         let search = Self { restitution, low, high, samples: 64, impacts: 2_000_000 };
         search.check().map(|()| search)
     }
 
-    /// The same with `samples` orbits in [16, 1e6], followed for `impacts` in [1e4, 1e12] in all, and each
-    /// of them for at least 200. More impacts make the bracket narrower.
+    /// The same search with `samples` orbits in [16, 1e6], followed for `impacts` in [1e4, 1e12] in all, and
+    /// for at least 200 each. More impacts make the bracket narrower.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for either number.
@@ -97,22 +97,22 @@ impl CrisisSearch {
 pub struct Crisis {
     /// Coefficient of restitution.
     pub restitution: f64,
-    /// Gamma of the tangency, or without one the middle of the bracket.
+    /// Gamma of the tangency; without a tangency, the middle of the bracket.
     pub forcing: f64,
-    /// The error of `forcing`. Without a tangency it is half of the bracket. With one it is the part of the
-    /// bracket below the tangency: the crisis cannot lie above, except by the last change of the forcing
-    /// along the saddle and by rounding.
+    /// The error of `forcing`. Without a tangency it is half the width of the bracket. With one it is the
+    /// part of the bracket below the tangency: the crisis cannot lie above, except by the last change of the
+    /// forcing along the saddle and by rounding.
     pub forcing_error: f64,
     /// The values of Gamma between which following orbits has placed the crisis. It certainly lies below the
     /// second, at which an orbit came to rest. It lies above the first with a confidence of 95 %: otherwise
     /// 95 of 100 searches would have seen an orbit come to rest at a forcing where this one saw none,
     /// provided that mean survival times rise no more steeply towards the crisis than the measured ones.
     pub bracket: (f64, f64),
-    /// An impact on the attractor next to the lower end of the bracket.
+    /// An impact on the attractor near the lower end of the bracket.
     pub attractor: ImpactState,
     /// The motion of the disk after a rest just beyond the crisis.
     pub after_rest: LifeAfterRest,
-    /// The tangency of manifolds that causes the crisis, or why none is known.
+    /// The tangency of manifolds that causes the crisis, or the reason why none is known.
     pub tangency: Result<Tangency, NoTangency>,
 }
 
@@ -130,21 +130,21 @@ pub enum LifeAfterRest {
         impacts: u64,
     },
     /// At every forcing it survives for long, as orbits on the attractor do: for more than 200 impacts and
-    /// more than a hundredth of their mean survival time, or for all the impacts that were followed. Rest has
-    /// become a part of the attractor, or the disk goes to another attractor after it.
+    /// more than a hundredth of their mean survival time, or for all impacts followed. Rest has become a part
+    /// of the attractor, or the disk goes to another attractor after it.
     Long {
-        /// Impacts that were followed without a rest, at least.
+        /// The smallest number of impacts followed without a rest.
         impacts: u64,
     },
     /// Some forcings are of the first kind, the others of the second.
     Varied {
-        /// How many of the 16 forcings are of the first kind.
+        /// The number of forcings, of 16, that are of the first kind.
         short: u32,
     },
 }
 
 /// The tangency of a crisis: the unstable manifold of a saddle on an attractor touches the stable manifold of
-/// a saddle beside it.
+/// a saddle outside it.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Tangency {
@@ -152,23 +152,23 @@ pub struct Tangency {
     pub inside: PeriodicOrbit,
     /// The saddle whose stable manifold is touched, at the crisis.
     pub touched: PeriodicOrbit,
-    /// The orbit of tangency: from next to the first saddle to next to the second.
+    /// The orbit of tangency, from near the first saddle to near the second.
     pub orbit: Vec<ImpactState>,
     /// Share of the first piece of the unstable manifold at which the orbit begins, in [0, 1].
     pub share: f64,
     /// The side of the first impact of the saddle on which this piece begins.
     pub side: Side,
-    /// Second derivative by the share of the distance from the stable manifold, in the units of manifolds
-    /// next to the second saddle, over its rate of change with Gamma: how the escaping share of the first
-    /// piece opens, which is sqrt(8 (Gamma - Gamma_c) / |this|). It is not 0 at a quadratic tangency.
+    /// Second derivative, by the share, of the distance from the stable manifold near the second saddle (in
+    /// the units of manifolds), over the distance's rate of change with Gamma. The escaping share of the
+    /// first piece opens as sqrt(8 (Gamma - Gamma_c) / |curvature|). It is not 0 at a quadratic tangency.
     pub curvature: f64,
 }
 
 impl Crisis {
-    /// The exponent of the mean life beyond the crisis, (Gamma - Gamma_c)^-exponent, after Grebogi, Ott and
-    /// Yorke: 1/2 + ln|a|/|ln|b|| with the multipliers a and b (|a| > 1 > |b|) per impact of the saddle on
-    /// the attractor where the saddles are two, ln|b|/ln (a b)^2 with those of the saddle where it is one.
-    /// `None` without a tangency and where the multipliers do not determine it.
+    /// The exponent of the mean survival time beyond the crisis, (Gamma - Gamma_c)^-exponent, after Grebogi,
+    /// Ott and Yorke. With two saddles it is 1/2 + ln|a|/|ln|b||, a and b (|a| > 1 > |b|) being the
+    /// multipliers per impact of the saddle on the attractor; with a single saddle it is ln|b|/ln (a b)^2.
+    /// `None` without a tangency, and if the multipliers do not determine it.
     #[must_use]
     pub fn life_exponent(&self) -> Option<f64> {
         let tangency = self.tangency.as_ref().ok()?;
@@ -180,24 +180,24 @@ impl Crisis {
     }
 }
 
-/// Why no tangency is known as the cause of a crisis.
+/// The reason why no tangency is known as the cause of a crisis.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum NoTangency {
-    /// The orbits that came to rest passed no saddle of few impacts before.
+    /// The orbits that came to rest had not passed a common saddle of few impacts.
     #[error(
         "the orbits that came to rest just beyond it ({orbits}) passed no common saddle of at most 12 impacts"
     )]
     NoSaddle {
-        /// The orbits examined.
+        /// The number of orbits examined.
         orbits: usize,
     },
-    /// The unstable manifold has no fold next to the stable one: the attractor touches another saddle, or its
+    /// The unstable manifold has no fold near the stable one: the attractor touches another saddle, or its
     /// edge is not a fold.
     #[error("no fold of the unstable manifold lies next to the saddle")]
     NoFold,
-    /// The tangency was not found to the rounding.
+    /// The search for the tangency did not converge to within rounding.
     #[error("the tangency did not converge: Gamma = {forcing} changed by {change:e} last")]
     NotSettled {
         /// The last Gamma.
@@ -214,7 +214,7 @@ pub enum NoTangency {
     },
 }
 
-/// Why no crisis was found, with the observation instead.
+/// The reason why no crisis was found, with the observation.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
@@ -228,10 +228,10 @@ pub enum NoCrisis {
         /// Gamma at which the period-1 orbit is born.
         birth: f64,
     },
-    /// A saddle that was given could not be followed to where it is needed.
+    /// A given saddle could not be followed to the forcing where it is needed.
     #[error("the saddle was continued to Gamma = {reached}, but not to {forcing}")]
     NotFollowed {
-        /// Where it is needed.
+        /// The forcing at which it is needed.
         forcing: f64,
         /// The last Gamma at which it was found.
         reached: f64,
@@ -242,12 +242,12 @@ pub enum NoCrisis {
     NoneRests {
         /// The upper end.
         forcing: f64,
-        /// How many orbits there are.
+        /// The number of orbits.
         samples: u32,
-        /// The impacts of all of them.
+        /// The total number of their impacts.
         impacts: u64,
     },
-    /// Some come to rest where the search begins.
+    /// Some orbits come to rest at the start of the search.
     #[error("an orbit already comes to rest at Gamma = {forcing}, after {life} impacts")]
     RestsBefore {
         /// The lower end.
@@ -260,7 +260,7 @@ pub enum NoCrisis {
         "the attractor that disappears at Gamma = {forcing} is not chaotic: its largest exponent is {exponent:.4} per impact"
     )]
     NotChaotic {
-        /// The last Gamma at which it lives.
+        /// The last Gamma at which it exists.
         forcing: f64,
         /// Its largest Lyapunov exponent.
         exponent: f64,
@@ -270,19 +270,19 @@ pub enum NoCrisis {
         "lifetimes do not shorten beyond Gamma = {forcing}: {near:.3e} impacts next to it, {far:.3e} farther away"
     )]
     LivesDoNotShrink {
-        /// The last Gamma at which orbits live on.
+        /// The last Gamma at which orbits survive.
         forcing: f64,
-        /// Mean life next to it.
+        /// Mean survival time near it.
         near: f64,
-        /// Mean life 64 times as far away.
+        /// Mean survival time 64 times as far away.
         far: f64,
     },
     /// Orbits begin to come to rest, but not because the manifolds of the given saddles touch.
     #[error("orbits begin to come to rest between Gamma = {} and {}; of these saddles {reason}", bracket.0, bracket.1)]
     OtherReason {
-        /// Where the crisis lies (see [`Crisis::bracket`]).
+        /// The bracket of the crisis (see [`Crisis::bracket`]).
         bracket: (f64, f64),
-        /// Why the saddles give no tangency.
+        /// The reason why the saddles give no tangency.
         reason: NoTangency,
     },
 }
@@ -303,17 +303,17 @@ const NEXT_TO: f64 = 1.0 / 16.0;
 impl CrisisSearch {
     /// The crisis in which a chaotic attractor begins to lose orbits to rest.
     ///
-    /// Orbits on the attractor are followed as Gamma rises, in steps that are halved where one of them comes
-    /// to rest, to a bracket. Then follows a search for the saddle passed by the orbits that come to rest
-    /// just beyond it, and for the tangency of its stable manifold with an unstable one. The tangency refines
-    /// the result if it lies within the bracket.
+    /// Orbits on the attractor are followed as Gamma rises, in steps that are halved when one of them comes
+    /// to rest, until there is a bracket. Then follows a search for the saddle passed by the orbits that come
+    /// to rest just beyond it, and for the tangency of its stable manifold with an unstable one. The tangency
+    /// refines the result if it lies within the bracket.
     ///
     /// Without `saddles` the attractor is the one to which the period-1 orbit leads at the lower end of the
-    /// range, or at its birth. With them it is the one to which the unstable manifold of the first leads, a
-    /// saddle on the attractor or at its edge; the stable manifold is that of the second, which may be the
+    /// range, or at its birth. With them it is the one to which the unstable manifold of the first saddle
+    /// leads, on the attractor or at its edge; the stable manifold belongs to the second, which may be the
     /// same. They may be given at any forcings, from which they are followed.
     ///
-    /// The items of the observer are impacts, at most.
+    /// The items of `observer` are impacts; their total is an upper bound.
     ///
     /// ```
     /// # use bouncing_disk_core::chaos::CrisisSearch;
@@ -328,7 +328,7 @@ impl CrisisSearch {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if one of `saddles` is not a saddle; [`Error::Stopped`] if the observer breaks;
-    /// those of [`Vibration::first_impact`].
+    /// errors of [`Vibration::first_impact`].
     pub fn crisis(
         &self,
         saddles: Option<(&PeriodicOrbit, &PeriodicOrbit)>,

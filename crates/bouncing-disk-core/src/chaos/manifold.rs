@@ -13,7 +13,7 @@ pub(crate) mod saddle;
 use grower::Grower;
 use saddle::Saddle;
 
-/// Which of the two manifolds of a saddle.
+/// One of the two kinds of manifold of a saddle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum ManifoldKind {
@@ -23,19 +23,19 @@ pub enum ManifoldKind {
     Unstable,
 }
 
-/// On which side of the saddle a branch of its manifold begins.
+/// The side of the saddle on which a branch of its manifold begins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Side {
-    /// Towards later phases; towards slower impacts where the manifold does not change its phase.
+    /// Towards later phases; towards slower impacts if the manifold does not change its phase.
     Later,
     /// Towards earlier phases, or faster impacts.
     Earlier,
 }
 
-/// How far and how finely manifolds are grown.
+/// The settings for growing a manifold: its length and resolution.
 ///
-/// Lengths are those of the plane of impact phase (rad) and impact velocity in units of 1 + P.
+/// Lengths are measured in the plane of impact phase (rad) and impact velocity in units of 1 + P.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedSettings"))]
@@ -58,47 +58,50 @@ read_checked!(ManifoldSettings as UncheckedSettings {
 });
 
 impl ManifoldSettings {
-    /// The most points of a branch.
+    /// The largest number of points of a branch.
     pub const MAX_POINTS: usize = 10_000_000;
 
-    /// Each branch up to this `arclength` in (0, 1e6] and `max_points` in [16, 1e7]. Neighbours are at most
-    /// 0.05 apart and the polygon turns by at most 0.2 rad; there are at most 200 generations.
+    /// Settings that grow each branch up to this `arclength` in (0, 1e6] and `max_points` in [16, 1e7].
+    /// Neighbouring points are at most 0.05 apart, the polygon turns by at most 0.2 rad, and there are at
+    /// most 200 generations.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for either.
+    /// [`Error::OutOfRange`] for either number.
     pub fn new(arclength: f64, max_points: usize) -> Result<Self, Error> {
         let settings =
             Self { arclength, max_points, chord: 0.05, turn: 0.2, max_generations: 200, launch_speed: None };
         settings.check().map(|()| settings)
     }
 
-    /// The same with neighbours at most `chord` in [1e-6, 1] apart and turns of at most `turn` in [1e-3, 1]
-    /// rad. Turns between parts of a fiftieth of a chord are not resolved.
+    /// The same settings with neighbouring points at most `chord` in [1e-6, 1] apart and turns of at most
+    /// `turn` in [1e-3, 1] rad. Turns between parts of a fiftieth of a chord are not resolved.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for either.
+    /// [`Error::OutOfRange`] for either number.
     pub fn with_resolution(self, chord: f64, turn: f64) -> Result<Self, Error> {
         let settings = Self { chord, turn, ..self };
         settings.check().map(|()| settings)
     }
 
-    /// The same with at most `max_generations` in [1, 10,000]: how often the first piece is mapped.
+    /// The same settings with at most `max_generations` in [1, 10,000], the number of times the first piece
+    /// is mapped.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`].
+    /// [`Error::OutOfRange`] for the number.
     pub fn with_generations(self, max_generations: u32) -> Result<Self, Error> {
         let settings = Self { max_generations, ..self };
         settings.check().map(|()| settings)
     }
 
-    /// The same with the largest own speed |P cos tau - r v| after an impact (units of g/omega) to which a
-    /// stable manifold is followed, finite and >= 0, in place of [`ImpactMap::launch_speed_bound`]; smaller
-    /// values count as that bound.
+    /// The same settings with another limit on the disk's own speed |P cos tau - r v| after an impact (units
+    /// of g/omega) up to which a stable manifold is followed, finite and >= 0. The default is
+    /// [`ImpactMap::launch_speed_bound`]; smaller values count as that bound.
     ///
-    /// No state within it is lost: a disk that was faster than the bound was faster still before.
+    /// No state within the limit is lost: backwards in time, a disk faster than the bound becomes ever
+    /// faster.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`].
+    /// [`Error::OutOfRange`] for the speed.
     pub fn with_launch_speed(self, launch_speed: f64) -> Result<Self, Error> {
         let settings = Self { launch_speed: Some(launch_speed), ..self };
         settings.check().map(|()| settings)
@@ -119,18 +122,19 @@ impl ManifoldSettings {
     }
 }
 
-/// Where a piece of a manifold begins or ends.
+/// The reason why a piece of a manifold begins or ends at a point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub enum PieceEnd {
-    /// At the saddle.
+    /// It is at the saddle.
     Saddle,
-    /// The map jumps: a flight on the way grazes the platform, and beyond it another impact comes first.
+    /// The map jumps: a flight on the way grazes the platform, and beyond this point another impact comes
+    /// first.
     Graze,
-    /// Beyond it the disk is proven to chatter to rest.
+    /// Beyond this point the disk provably chatters to rest.
     Rest,
-    /// Beyond it the disk was faster than the settings allow.
+    /// Beyond this point the disk was faster than the settings allow.
     TooFast,
     /// The branch is cut off here: see its [`ManifoldEnd`].
     Cut,
@@ -140,24 +144,24 @@ pub enum PieceEnd {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ManifoldPiece {
-    /// Its impacts in their order, one at least; between neighbours the phase may pass 2 pi.
+    /// Its impacts in order, at least one; between neighbours the phase may pass 2 pi.
     pub states: Vec<ImpactState>,
-    /// Why it does not begin earlier.
+    /// The reason why it does not begin earlier.
     pub start: PieceEnd,
-    /// Why it ends.
+    /// The reason why it ends.
     pub end: PieceEnd,
 }
 
-/// Why a branch of a manifold is not longer.
+/// The reason why a branch of a manifold is not longer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub enum ManifoldEnd {
     /// It is as long as requested.
     Arclength,
-    /// It has as many points as were allowed, or would need more at once.
+    /// It has the largest allowed number of points, or the next generation would exceed it.
     Points,
-    /// Its first piece was mapped as often as was allowed.
+    /// Its first piece was mapped as often as allowed.
     Generations,
     /// It ends in an attracting orbit: the last generation was too short to resolve, and shrinking.
     Attracted,
@@ -165,7 +169,7 @@ pub enum ManifoldEnd {
     Lost,
 }
 
-/// One of the branches of a manifold, on one side of one impact of the saddle.
+/// A branch of a manifold, on one side of one impact of the saddle.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ManifoldBranch {
@@ -177,9 +181,9 @@ pub struct ManifoldBranch {
     pub pieces: Vec<ManifoldPiece>,
     /// Their total length (see [`ManifoldSettings`]).
     pub arclength: f64,
-    /// How often the first piece was mapped.
+    /// The number of times the first piece was mapped.
     pub generations: u32,
-    /// Why it is not longer.
+    /// The reason why it is not longer.
     pub end: ManifoldEnd,
 }
 
@@ -187,7 +191,7 @@ pub struct ManifoldBranch {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Manifold {
-    /// Which one.
+    /// The kind of the manifold.
     pub kind: ManifoldKind,
     /// The Floquet multiplier that belongs to it.
     pub multiplier: f64,
@@ -203,15 +207,15 @@ impl Manifold {
 }
 
 impl ImpactMap {
-    /// The stable or the unstable manifold of a saddle, `orbit` of this map: an orbit with one real
-    /// multiplier inside of the unit circle and one outside.
+    /// The stable or the unstable manifold of the saddle `orbit` of this map: an orbit with one real
+    /// multiplier inside the unit circle and one outside.
     ///
-    /// Every branch grows from a short straight piece next to the saddle, which is mapped again and again.
-    /// Points are inserted where neighbours part or the polygon turns; the curve is broken where the map
-    /// jumps ([`PieceEnd`]). An inserted point is mapped all the way from the first piece, so that no
-    /// interpolation error grows.
+    /// Every branch grows from a short straight piece near the saddle, which is mapped repeatedly. Points are
+    /// inserted where neighbours separate or the polygon turns; the curve is broken where the map jumps
+    /// ([`PieceEnd`]). An inserted point is mapped all the way from the first piece, so no interpolation
+    /// error grows.
     ///
-    /// The items of `observer` are the points that are allowed, of all branches.
+    /// The items of `observer` are the allowed points of all branches.
     ///
     /// ```
     /// # use bouncing_disk_core::chaos::{ManifoldKind, ManifoldSettings};
@@ -233,7 +237,7 @@ impl ImpactMap {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if the orbit is not a saddle, or for a stable manifold and restitution 0;
-    /// [`Error::NotAnOrbit`] if it is not an orbit of this map; those of
+    /// [`Error::NotAnOrbit`] if it is not an orbit of this map; errors of
     /// [`Vibration::first_impact`](crate::Vibration::first_impact).
     pub fn manifold(
         &self,
@@ -264,13 +268,13 @@ impl ImpactMap {
     }
 }
 
-/// The multipliers of a saddle, the larger one first; an error for another orbit.
+/// The multipliers of a saddle, larger one first; an error for another orbit.
 pub(crate) fn of_saddle(multipliers: Multipliers) -> Result<(f64, f64), Error> {
     let legal = "one real multiplier inside of the unit circle and one outside";
     match multipliers {
         Multipliers::Real(large, small) if large.abs() > 1.0 && small.abs() < 1.0 => Ok((large, small)),
         Multipliers::Real(large, small) => {
-            // The one that is at fault.
+            // The multiplier at fault.
             let value = if large.abs() > 1.0 { small } else { large };
             Err(Error::OutOfRange { field: "multiplier of a saddle", value, legal })
         }

@@ -1,4 +1,4 @@
-//! The impact map of any platform, as the analyses need it.
+//! The trait of impact maps of any platform, as needed by the analyses.
 
 use core::ops::ControlFlow;
 
@@ -13,8 +13,8 @@ use crate::orbits::periodic::{PeriodicOrbit, check_repeats, repeats};
 use crate::run::{Observer, Watch, in_parallel};
 use crate::sweep::SweepEvent;
 
-/// How many times the area of a set of states must have shrunk by e before the behaviour of an orbit counts
-/// as final.
+/// The number of factors e by which the area of a set of states must have shrunk before the behaviour of an
+/// orbit counts as final.
 pub(crate) const DISSIPATION_TIMES: f64 = 10.0;
 
 /// The work of an event on a drive, in flights of the sine.
@@ -23,68 +23,69 @@ const WORK_OF_EVENT: u64 = 16;
 /// The vertical impact map of a disk on a platform: the sine's [`ImpactMap`](crate::ImpactMap), and the
 /// `bouncing_disk_drives::DrivenMap` of other drives and of compliant contacts.
 ///
-/// Verdicts, Lyapunov exponents and orbit diagrams take any of them. Where a map knows more (a closed form, a
-/// certificate of rest, a way to compute many flights at once), its methods replace the general ones.
+/// Verdicts, Lyapunov exponents and orbit diagrams accept any of them. If a map offers more (a closed form, a
+/// certificate of rest, many flights at once), its methods replace the general ones.
 pub trait BouncingMap: Clone + core::fmt::Debug + Send + Sync {
-    /// Its orbits.
+    /// The type of its orbits.
     type Orbit: BouncingOrbit;
 
-    /// How many orbits are followed together where there may be millions.
+    /// The number of orbits that are followed together if there may be millions.
     const TOGETHER: usize = 256;
 
     /// Coefficient of restitution, in [0, 1).
     fn restitution(&self) -> f64;
 
-    /// The speed (units of g/omega) that counts as much as a radian in a distance between two impacts: the largest
-    /// speed of the platform.
+    /// The speed (units of g/omega) that counts as much as a radian in the distance between two impacts: the
+    /// largest speed of the platform.
     fn speed_scale(&self) -> f64;
 
-    /// The impact that follows the one in `state`, without any chattering policy.
+    /// The impact after the one in `state`, without any chattering policy.
     ///
     /// # Errors
-    /// [`Error::NoLiftOff`] if the disk stays on the platform, and those of a flight.
+    /// [`Error::NoLiftOff`] if the disk stays on the platform, and errors of a flight.
     fn step(&self, state: ImpactState) -> Result<Impact, Error>;
 
-    /// [`Self::step`] with the derivative of the next (phase, velocity) by the present (phase, velocity).
+    /// [`Self::step`] with the derivative of the next (phase, velocity) with respect to the present one.
     ///
     /// # Errors
-    /// Those of [`Self::step`]; [`Error::ImpactOnKink`] where the map has no derivative.
+    /// Errors of [`Self::step`]; [`Error::ImpactOnKink`] if the map has no derivative.
     fn step_with_derivative(&self, state: ImpactState) -> Result<(Impact, DMat2), Error>;
 
     /// The orbit that starts with the impact in `state`; the first item is the next event.
     fn orbit(&self, state: ImpactState, policy: ChatterPolicy) -> Self::Orbit;
 
-    /// The periodic orbit next to `guess` (its impacts in order).
+    /// The periodic orbit near `guess` (its impacts in order).
     ///
     /// # Errors
-    /// [`Error::NotSettled`] and the others of [`ImpactMap::refine`](crate::ImpactMap::refine).
+    /// [`Error::NotSettled`] and other errors of [`ImpactMap::refine`](crate::ImpactMap::refine).
     fn refine(&self, guess: &[ImpactState]) -> Result<PeriodicOrbit, Error>;
 
     /// Whether the disk is certain to chatter to rest after the impact in `state`.
     fn chatters_to_rest_after(&self, state: ImpactState) -> bool;
 
-    /// The derivative at the impact `from` whose next impact is `to`, after a flight of `duration` (rad), and how far
-    /// rounding may move that impact (rad and g/omega); not a number and infinite where there is no derivative.
+    /// The derivative at the impact `from` whose next impact is `to`, after a flight of `duration` (rad), and
+    /// a bound on the change of that impact by rounding (rad and g/omega). They are NaN and infinite if there
+    /// is no derivative.
     fn derivative(&self, from: ImpactState, to: ImpactState, duration: f64) -> (DMat2, f64);
 
-    /// How far rounding may move the phase (rad) at which the disk leaves a rest.
+    /// A bound on the rounding error of the phase (rad) at which a resting disk separates.
     fn separation_error(&self) -> f64;
 
-    /// Whether every impact shrinks an area of (phase, velocity) by exactly r^2 v/v', with the velocities v before and
-    /// v' after the flight: then the Lyapunov exponents have a known sum.
+    /// Whether every impact contracts an area of (phase, velocity) by exactly r^2 v/v', with the velocities v
+    /// before and v' after the flight: then the Lyapunov exponents have a known sum.
     fn shrinks_areas_exactly(&self) -> bool;
 
-    /// Impacts after which a transient may be taken as over: each impact shrinks an area of states by
-    /// restitution^2, all of these by e^-10. Of a contact that takes time it is an estimate; a verdict measures there
-    /// how areas shrink.
+    /// Impacts after which a transient counts as over: each impact contracts an area of states by
+    /// restitution^2, all of them by e^-10. For a compliant contact this is an estimate, and a verdict
+    /// measures the contraction of areas.
     fn transient_impacts(&self) -> f64 {
         DISSIPATION_TIMES / (-2.0 * ln(self.restitution()))
     }
 
-    /// The impact a number of steps after the one in `state`, which nobody watches.
+    /// The impact a number of steps after the one in `state`, without an observer.
     ///
     /// # Errors
-    /// That of the first step that fails.
+    /// The error of the first step that fails.
     fn steps(&self, mut state: ImpactState, impacts: u64) -> Result<ImpactState, Error> {
         for _ in 0..impacts {
             state = self.step(state)?.into();
@@ -92,10 +93,10 @@ pub trait BouncingMap: Clone + core::fmt::Debug + Send + Sync {
         Ok(state)
     }
 
-    /// [`Self::steps`] whose impacts are the items of `observer`.
+    /// [`Self::steps`] with an observer, whose items are the impacts.
     ///
     /// # Errors
-    /// That of the first step that fails.
+    /// The error of the first step that fails.
     fn iterate(
         &self,
         mut state: ImpactState,
@@ -113,7 +114,7 @@ pub trait BouncingMap: Clone + core::fmt::Debug + Send + Sync {
         Ok(state)
     }
 
-    /// The attracting periodic orbit that the orbit from `state` settles on, as
+    /// The attracting periodic orbit on which the orbit from `state` settles, like
     /// [`ImpactMap::settled_orbit`](crate::ImpactMap::settled_orbit).
     ///
     /// The items of `observer` are the impacts before the refinement.
@@ -152,7 +153,7 @@ pub trait BouncingMap: Clone + core::fmt::Debug + Send + Sync {
     }
 }
 
-/// The outcome of the orbit with an index.
+/// The index of an orbit and its outcome.
 pub type OrbitOutcome<S> = (usize, Result<S, Error>);
 
 /// An orbit of a [`BouncingMap`].
@@ -160,11 +161,11 @@ pub trait BouncingOrbit: Clone + Send + Sync {
     /// The next event, or `None` after the end of the orbit.
     ///
     /// # Errors
-    /// Those of a flight. An error ends the orbit.
+    /// Errors of a flight. An error ends the orbit.
     fn next_event(&mut self) -> Result<Option<SweepEvent>, Error>;
 
-    /// Follows orbits until `visit` breaks, they end, or the observer of `watch` breaks: the outcomes in the order of
-    /// the orbits, of those that are finished. Each finished orbit is an item of `watch`.
+    /// Follows orbits until `visit` breaks, they end, or the observer of `watch` breaks, and returns the
+    /// outcomes of the finished orbits in order. Each finished orbit is an item of `watch`.
     #[doc(hidden)]
     fn follow<S: Send>(
         orbits: &[Self],
@@ -173,7 +174,7 @@ pub trait BouncingOrbit: Clone + Send + Sync {
         watch: &Watch<'_>,
     ) -> Vec<OrbitOutcome<S>> {
         let one = |index: usize| {
-            // Once the observer has broken, what is under way is dropped: it is not finished.
+            // Once the observer has broken, unfinished orbits are dropped.
             watch.ask().ok()?;
             let (mut orbit, mut value, mut work) = (orbits[index].clone(), start(index), watch.work());
             loop {
@@ -194,7 +195,7 @@ pub trait BouncingOrbit: Clone + Send + Sync {
 impl BouncingMap for ImpactMap {
     type Orbit = Orbit;
 
-    /// So many that the last of them, which leave lanes empty, do not count.
+    /// Enough orbits that the last ones, which leave lanes empty, do not matter.
     const TOGETHER: usize = 1 << 14;
 
     fn restitution(&self) -> f64 {
@@ -231,7 +232,7 @@ impl BouncingMap for ImpactMap {
         (self.derivative(from, to, duration), f64::EPSILON * (1.0 + to.velocity().abs()))
     }
 
-    /// The phase is that of a closed form.
+    /// The phase is known in closed form.
     fn separation_error(&self) -> f64 {
         0.0
     }

@@ -1,5 +1,5 @@
-//! Many orbits of impact maps at once: the events are those of each orbit by itself, the flights are computed
-//! in lockstep.
+//! Many orbits of impact maps at once: the flights are computed in lockstep, with the same events as for each
+//! orbit by itself.
 
 use core::f64::consts::TAU;
 
@@ -25,7 +25,7 @@ pub enum SweepEvent {
 }
 
 impl SweepEvent {
-    /// An event of an orbit that is advanced by itself, which left the platform at `from`.
+    /// The event of a separately advanced orbit that left the platform at `from`.
     #[inline(always)]
     pub fn of(from: Option<Phase>, event: OrbitEvent) -> Self {
         match event {
@@ -37,7 +37,7 @@ impl SweepEvent {
     }
 }
 
-/// An impact of a sweep: an [`Impact`] with less of the flight before it.
+/// An impact of a sweep: an [`Impact`] with fewer data on the flight before it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SweepImpact {
@@ -45,8 +45,8 @@ pub struct SweepImpact {
     pub state: ImpactState,
     /// How often the phase passed 0 (mod 2 pi) during the flight.
     pub turns: u64,
-    /// The duration of the flight in radians, from the two phases: its absolute error is their rounding,
-    /// where [`Impact::remainder`] is accurate relative to itself, however short the flight.
+    /// The duration of the flight in radians, computed from the two phases. Its absolute error is their
+    /// rounding, while [`Impact::remainder`] has relative accuracy, however short the flight.
     pub duration: f64,
 }
 
@@ -57,7 +57,7 @@ impl SweepImpact {
         Self { state, turns, duration: turns as f64 * TAU + ahead }
     }
 
-    /// The landing of an orbit that is advanced by itself.
+    /// The landing of a separately advanced orbit.
     #[inline(always)]
     fn of(from: Option<Phase>, impact: Impact) -> Self {
         // A disk that started in the air has no launch.
@@ -66,8 +66,8 @@ impl SweepImpact {
         })
     }
 
-    /// A duration that decides as the exact one does whether a cut counts the flight as short; `orbit` has
-    /// not landed.
+    /// A duration that gives the same decision as the exact one on whether a cut counts the flight as short;
+    /// `orbit` has not landed.
     #[inline(always)]
     pub(super) fn decisive_duration(&self, orbit: &Orbit) -> f64 {
         if let ChatterPolicy::Cut(cut) = orbit.policy()
@@ -81,7 +81,7 @@ impl SweepImpact {
     }
 }
 
-/// The next event of an orbit that is advanced by itself, as a sweep reports it.
+/// The next event of a separately advanced orbit, in the form of a sweep.
 #[inline]
 pub(super) fn advance(orbit: &mut Orbit) -> Result<Option<SweepEvent>, Error> {
     let from = orbit.launch().map(|launch| launch.phase());

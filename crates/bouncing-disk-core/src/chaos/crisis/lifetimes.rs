@@ -19,14 +19,14 @@ const TRANSIENT: usize = 2_000;
 /// Fewest orbits that came to rest for a mean life to count in the power law.
 const FEWEST_ENDED: u64 = 20;
 
-/// The mean life, beyond a crisis, of orbits that start where the attractor was.
+/// The mean survival time, beyond a crisis, of orbits that start on the former attractor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MeanLife {
-    /// Gamma less that of the crisis, above 0.
+    /// The distance from the crisis in Gamma, above 0.
     pub beyond: f64,
-    /// Impacts of all orbits over the number that came to rest: the mean life of an exponential law, also
-    /// where some orbits were not followed to their end. The largest double if none came to rest.
+    /// Impacts of all orbits over the number that came to rest: the mean of an exponential law, also if some
+    /// orbits were not followed to their end. The largest double if none came to rest.
     pub impacts: f64,
     /// Its standard error, relative to it; the largest double if none came to rest.
     pub relative_error: f64,
@@ -52,29 +52,28 @@ impl MeanLife {
     }
 }
 
-/// The mean lives beyond a crisis and their power law.
+/// The mean survival times beyond a crisis and their power law.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct CrisisLives {
-    /// The mean lives, in the order in which their distances from the crisis were given.
+    /// The mean survival times, in the order of the given distances from the crisis.
     pub lives: Vec<MeanLife>,
-    /// The power law of the mean life over the distance from the crisis, from distances at which 20 orbits
-    /// or more came to rest; or why there is none. Its exponent is negative.
+    /// The power law of the mean survival time over the distance from the crisis, from distances at which 20
+    /// orbits or more came to rest; or the reason why there is none. Its exponent is negative.
     pub scaling: Result<PowerLaw, NoPowerLaw>,
 }
 
 impl Crisis {
-    /// How long orbits live at these distances above 0 beyond the crisis (in Gamma), and the power law of
-    /// their mean life. `orbits` orbits, in [1, 1e6], start from one orbit on the attractor just below the
-    /// crisis, and are followed for at most `impacts` >= 1.
+    /// The mean survival times of orbits at these distances above 0 beyond the crisis (in Gamma), and their
+    /// power law. `orbits` orbits, in [1, 1e6], start from one orbit on the attractor just below the crisis,
+    /// and are followed for at most `impacts` >= 1.
     ///
-    /// The items of `observer` are the orbits at one distance, from 0 on for each.
+    /// The items of `observer` are the orbits at one distance, counted from 0 for each.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a number out of its range; [`Error::NotSettled`] if the disk comes to rest
-    /// below the crisis; those of
-    /// [`Vibration::first_impact`](crate::Vibration::first_impact).
+    /// below the crisis; errors of [`Vibration::first_impact`](crate::Vibration::first_impact).
     pub fn lives(
         &self,
         beyond: &[f64],

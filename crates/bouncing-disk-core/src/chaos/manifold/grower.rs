@@ -1,11 +1,11 @@
-//! How one branch of a manifold grows: generation by generation, each the image of the last one, with points
-//! inserted where it stretches or turns.
+//! The growth of one branch of a manifold: each generation is the image of the last one, with points inserted
+//! where it stretches or turns.
 //!
 //! The rounding of a double is about 1e-10 of the first piece; parts below 2^-28 of it are not divided. The
-//! piece is about (1e-5)^2 off the manifold, which shrinks by the other multiplier while distances along the
-//! curve grow: the curve converges to the manifold, with a slightly wrong parameter.
+//! distance of the piece from the manifold is about (1e-5)^2. It shrinks by the other multiplier while
+//! distances along the curve grow: the curve converges to the manifold, with a slightly wrong parameter.
 //!
-//! Parts that cannot be divided and exceed a fiftieth of a chord are jumps. Next to a graze v goes like the
+//! Parts that cannot be divided and exceed a fiftieth of a chord are jumps. Near a graze v varies like the
 //! square root of the distance on the first piece, so ends of pieces are accurate to about 2^-14 of their
 //! scale.
 
@@ -21,18 +21,18 @@ use crate::orbits::periodic::phase_difference;
 use crate::run::Tick;
 use glam::DVec2;
 
-/// Length of the straight piece next to the saddle, after one generation: its distance from the curve is of
-/// the order of its square, and shrinks from then on.
+/// Length of the straight piece near the saddle, after one generation. Its distance from the curve is of the
+/// order of its square, and shrinks from then on.
 const FIRST_LENGTH: f64 = 1.0e-5;
 
-/// The shortest part of the first piece that is still divided: doubles leave few more digits inside of it.
+/// The shortest part of the first piece that is still divided: inside it doubles have few digits left.
 const SHORTEST_PART: f64 = 1.0 / 268_435_456.0;
 
 /// Turns between parts shorter than this share of a chord are not resolved, and points nearer than that are
 /// omitted.
 const FINEST: f64 = 0.02;
 
-/// The direction of a part that is shorter than this may be rounding.
+/// Length below which the direction of a part may be pure rounding error.
 const ROUNDING: f64 = 1.0e-9;
 
 /// A point of a generation.
@@ -51,21 +51,21 @@ impl Place {
     }
 }
 
-/// A point of a generation, and where on the first piece it comes from, in [0, 1].
+/// A point of a generation, and the share of the first piece from which it comes, in [0, 1].
 #[derive(Debug, Clone, Copy)]
 struct Node {
     from: f64,
     place: Place,
 }
 
-/// The connection of two neighbours of a generation.
+/// The connection of two neighbouring points of a generation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Link {
     /// The curve, over this displacement (in the units of lengths).
     Curve(DVec2),
     /// A jump of the map.
     Jump,
-    /// One of them is lost at least.
+    /// At least one of them is lost.
     Gap,
 }
 
@@ -94,11 +94,11 @@ impl<'m> Grower<'m> {
     ) -> Result<Self, Error> {
         let multiplier = saddle.multiplier(kind);
         if kind == ManifoldKind::Stable {
-            // With restitution 0 whole lines have one image: there is no way back.
+            // With restitution 0 whole lines map to one point: there is no inverse.
             let legal = "(0, 1)";
             within("modulus of a stable multiplier", multiplier.abs(), f64::MIN_POSITIVE, 1.0, legal)?;
         }
-        // A negative multiplier changes the side: two times around the orbit is a generation.
+        // A negative multiplier changes the side: a generation is two rounds of the orbit.
         let rounds = if multiplier < 0.0 { 2 } else { 1 };
         let rate = match kind {
             ManifoldKind::Unstable => multiplier.abs(),
@@ -121,7 +121,7 @@ impl<'m> Grower<'m> {
             launch_speed: settings.launch_speed.map_or(bound, |speed| speed.max(bound)),
             settings: *settings,
         };
-        // The first piece reaches from its beginning to the image of that.
+        // The first piece extends from its beginning to the image of this point.
         let Place::At(beginning) = grower.displaced(0.0)? else {
             return Err(Error::NotSettled { what: "the saddle of a manifold", iterations: 1, residual: 0.0 });
         };
@@ -135,14 +135,14 @@ impl<'m> Grower<'m> {
         Ok(grower)
     }
 
-    /// The state at a share of the first piece, if it is a flying disk's, and how fast it moves with the
-    /// share (phase, velocity).
+    /// The state at a share of the first piece, if the disk flies, and its derivative by the share (phase,
+    /// velocity).
     pub(crate) fn first_piece(&self, share: f64) -> Result<Option<(ImpactState, DVec2)>, Error> {
         let (beginning, end) = self.first;
         Ok(self.displaced(share)?.state().map(|state| (state, end - beginning)))
     }
 
-    /// The displacement (phase, velocity) from one state to another, the shorter way round.
+    /// The displacement (phase, velocity) from one state to another, along the shorter way.
     fn between(&self, from: ImpactState, to: ImpactState) -> DVec2 {
         let phase = phase_difference(to.phase().angle(), from.phase().angle());
         DVec2::new(phase, to.velocity() - from.velocity())
@@ -165,7 +165,7 @@ impl<'m> Grower<'m> {
         Ok(Place::At(ImpactState::new(phase, velocity)?))
     }
 
-    /// One generation further.
+    /// The point one generation later.
     fn mapped(&self, place: Place) -> Result<Place, Error> {
         let Place::At(mut state) = place else { return Ok(place) };
         for _ in 0..self.flights {
@@ -177,7 +177,7 @@ impl<'m> Grower<'m> {
         Ok(Place::At(state))
     }
 
-    /// One impact further.
+    /// The point one impact later.
     fn next(&self, state: ImpactState) -> Result<Place, Error> {
         let next = match self.kind {
             ManifoldKind::Unstable => {
@@ -218,12 +218,12 @@ impl<'m> Grower<'m> {
         Ok(Node { from, place })
     }
 
-    /// The connection of two neighbours.
+    /// The connection of two neighbouring points.
     fn link(&self, from: &Node, to: &Node) -> Link {
         match (from.place, to.place) {
             (Place::At(a), Place::At(b)) => {
                 let by = self.scaled(self.between(a, b));
-                // A share that cannot be divided and is long all the same: neighbours take other flights.
+                // A share that cannot be divided but is long: the neighbours take different flights.
                 if is_undivided(from, to) && by.length() > FINEST * self.settings.chord {
                     Link::Jump
                 } else {
@@ -234,7 +234,7 @@ impl<'m> Grower<'m> {
         }
     }
 
-    /// Which links of a generation are too coarse.
+    /// The links of a generation that are too coarse.
     fn too_coarse(&self, nodes: &[Node], links: &[Link]) -> Vec<bool> {
         let finest = FINEST * self.settings.chord;
         let sharpest = sin(self.settings.turn);
@@ -261,7 +261,7 @@ impl<'m> Grower<'m> {
         coarse
     }
 
-    /// A generation with enough points; the flag says that it would need more than there may be.
+    /// A generation with enough points; the flag tells that it would need more than allowed.
     fn refined(
         &self,
         mut nodes: Vec<Node>,
@@ -327,7 +327,7 @@ impl<'m> Grower<'m> {
         Ok(ManifoldBranch { impact, side, pieces: record.finished(), arclength, generations, end })
     }
 
-    /// Adds a generation to the record, up to where the branch has to end.
+    /// Adds a generation to the record, up to the end of the branch.
     fn append(&self, record: &mut Record, nodes: &[Node], links: &[Link]) -> Option<ManifoldEnd> {
         for (link, ends) in links.iter().zip(nodes.windows(2)) {
             let Place::At(state) = ends[1].place else {
@@ -355,7 +355,7 @@ impl<'m> Grower<'m> {
     }
 }
 
-/// Whether two neighbours lie too near on the first piece for a point between them.
+/// Whether two neighbours are too close on the first piece for a point between them.
 fn is_undivided(from: &Node, to: &Node) -> bool {
     to.from - from.from <= SHORTEST_PART
 }
@@ -363,9 +363,9 @@ fn is_undivided(from: &Node, to: &Node) -> bool {
 /// The pieces found so far.
 pub(super) struct Record {
     pieces: Vec<ManifoldPiece>,
-    /// The piece that grows.
+    /// The growing piece.
     current: Option<ManifoldPiece>,
-    /// Its last point, and how far that is from the last one that was kept.
+    /// Its last point, and the distance from the last point kept.
     last: Option<(ImpactState, f64)>,
     finest: f64,
     pub(super) arclength: f64,
@@ -385,10 +385,10 @@ impl Record {
         self.points += 1;
     }
 
-    /// A point of the piece that grows, so far from the one before.
+    /// Adds a point to the growing piece, with its displacement from the previous point.
     pub(super) fn extend(&mut self, before: ImpactState, state: ImpactState, by: f64) {
         let Some(current) = &mut self.current else {
-            // The generation before ended in a gap.
+            // The previous generation ended in a gap.
             self.begin(before, PieceEnd::Graze);
             return self.extend(before, state, by);
         };

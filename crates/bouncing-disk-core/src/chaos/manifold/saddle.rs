@@ -1,4 +1,4 @@
-//! An impact of a saddle: its multipliers and the directions that belong to them.
+//! An impact of a saddle, with its multipliers and eigendirections.
 
 use glam::{DMat2, DVec2};
 
@@ -50,11 +50,11 @@ impl Saddle {
     }
 
     /// The direction (phase, velocity) of a manifold at the saddle, of length 1 in the units of manifolds,
-    /// towards later phases.
+    /// pointing to later phases.
     pub(crate) fn direction(&self, kind: ManifoldKind) -> DVec2 {
         let DMat2 { x_axis, y_axis } = self.derivative;
         let multiplier = self.multiplier(kind);
-        // Of the two rows of the matrix the one that does not vanish.
+        // The row of the matrix that does not vanish.
         let by_first = DVec2::new(y_axis.x, multiplier - x_axis.x);
         let by_second = DVec2::new(multiplier - y_axis.y, x_axis.y);
         let length = |direction: DVec2| {
@@ -67,8 +67,8 @@ impl Saddle {
         if later { direction } else { -direction }
     }
 
-    /// The coordinates of a displacement (phase, velocity) from the saddle: along the unstable direction and
-    /// along the stable one.
+    /// The coordinates of a displacement (phase, velocity) from the saddle, along the unstable and the stable
+    /// direction.
     pub(crate) fn coordinates(&self, displacement: DVec2) -> DVec2 {
         let columns =
             DMat2::from_cols(self.direction(ManifoldKind::Unstable), self.direction(ManifoldKind::Stable));

@@ -1,5 +1,5 @@
-//! Newton's method for periodic orbits, by multiple shooting: the refinement of a good guess, and attempts
-//! from a rough one, as the search for periodic orbits makes them, which give up early.
+//! Newton's method for periodic orbits by multiple shooting: the refinement of a good guess, and the attempts
+//! from rough guesses in the search for periodic orbits, which give up early.
 
 use core::f64::consts::PI;
 
@@ -23,7 +23,7 @@ const SHOOTING_RESIDUAL: f64 = 1.0e-12;
 /// abandoned.
 pub(super) const MAX_STEPS: usize = 14;
 
-/// The residual from which on the iteration converges quadratically, so that the refinement takes over.
+/// The residual below which the iteration converges quadratically, so that the refinement takes over.
 const NEAR: f64 = 1.0e-5;
 
 /// The longest step of a phase (rad) from a rough guess. A longer one is shortened, with all steps of that
@@ -35,7 +35,7 @@ const LONGEST_STEP: f64 = 0.7;
 pub struct Shooting {
     /// The derivative of the map at each impact.
     pub derivatives: Vec<DMat2>,
-    /// How far the successor of each impact misses the next one: the step has to make up for it.
+    /// The distance by which the successor of each impact misses the next one; the step must cancel it.
     pub right: Vec<DVec2>,
     /// The derivative of the map around the orbit.
     pub monodromy: DMat2,
@@ -46,7 +46,7 @@ pub struct Shooting {
 }
 
 impl Shooting {
-    /// The step from these impacts of a map, given with its derivative; distances of speeds count in units of
+    /// The step from these impacts of a map, which is given with its derivative; speeds count in units of
     /// `scale`.
     pub fn from(
         states: &[ImpactState],
@@ -69,7 +69,7 @@ impl Shooting {
             let target = states[(i + 1) % n];
             let (landed, aimed) = (impact.phase.angle(), target.phase().angle());
             let phase = phase_difference(landed, aimed);
-            // Where the two lie on either side of the seam, the turn between them belongs to neither flight.
+            // If the two lie on either side of the seam, the turn between them belongs to neither flight.
             if landed - aimed > PI {
                 turns += 1;
             } else if aimed - landed > PI {
@@ -89,8 +89,9 @@ const fn not_settled(iterations: u32, residual: f64) -> Error {
     Error::NotSettled { what: "multiple shooting", iterations, residual }
 }
 
-/// The impacts on which Newton's method settles, with their shooting: to `residual`, and until it no longer shrinks. A
-/// step may be shortened, and is `None` where numbers get out of range; the tick counts impacts.
+/// The impacts to which Newton's method converges, with their shooting: to `residual`, and until the residual
+/// no longer shrinks. A step may be shortened, and is `None` if numbers leave their range. The tick counts
+/// impacts.
 pub fn settled(
     guess: &[ImpactState],
     residual: f64,
@@ -101,8 +102,8 @@ pub fn settled(
     let n = guess.len();
     within("period", n as f64, 1.0, MAX_PERIOD as f64, "[1, 4096] impacts")?;
     let (mut states, mut last) = (guess.to_vec(), f64::INFINITY);
-    // The last result below the residual, if a later step is worse: at the birth of an orbit the derivative is
-    // singular.
+    // The last result below the residual, in case a later step is worse: at the birth of an orbit the
+    // derivative is singular.
     let mut found = None;
     for iterations in 1..=MAX_NEWTON_STEPS {
         tick(n as u64)?;
@@ -111,7 +112,7 @@ pub fn settled(
             Err(error) => return found.ok_or(error),
         };
         let worst = shooting.worst;
-        // A step after the residual has stopped shrinking only stirs the rounding.
+        // Once the residual has stopped shrinking, a further step only changes rounding errors.
         if worst <= residual && worst >= 0.5 * last || worst == 0.0 {
             return Ok((states, shooting));
         }
@@ -136,13 +137,13 @@ pub fn speed_scale(states: &[ImpactState]) -> f64 {
     1.0 + states.iter().fold(0.0_f64, |most, state| most.max(-state.velocity()))
 }
 
-/// The impacts after a step of each, or after a share of it; `None` if numbers get out of range.
+/// The impacts, each after its step; `None` if numbers leave their range.
 pub fn moved(states: &[ImpactState], steps: &[DVec2]) -> Option<Vec<ImpactState>> {
     let longest = steps.iter().fold(0.0_f64, |most, step| most.max(step.x.abs()));
     let share = if longest > LONGEST_STEP { LONGEST_STEP / longest } else { 1.0 };
     let moved = states.iter().zip(steps).map(|(state, step)| {
         let velocity = state.velocity() + share * step.y;
-        // A step through speed zero goes half the way there.
+        // A step through speed zero is replaced by half of the way to zero.
         let velocity = if velocity < 0.0 { velocity } else { 0.5 * state.velocity() };
         ImpactState::new(Phase::new(state.phase().angle() + share * step.x)?, velocity)
     });
@@ -151,7 +152,7 @@ pub fn moved(states: &[ImpactState], steps: &[DVec2]) -> Option<Vec<ImpactState>
 
 /// The outcome of an attempt from a rough guess.
 pub(super) enum Attempt {
-    /// A periodic orbit within the limits that repeats no shorter one, its fastest impact first.
+    /// A periodic orbit within the limits that does not repeat a shorter one, its fastest impact first.
     Converged(PeriodicOrbit),
     /// A solution that is not an orbit.
     Refused,
@@ -165,7 +166,7 @@ fn near(a: ImpactState, b: ImpactState, room: f64) -> bool {
         && (a.velocity() - b.velocity()).abs() <= room * (1.0 + a.velocity().abs())
 }
 
-/// Whether two orbits count as one, wherever they begin: their regions of uncertainty meet.
+/// Whether two orbits count as one, whatever their first impacts: their regions of uncertainty overlap.
 pub fn same_orbit(a: &PeriodicOrbit, b: &PeriodicOrbit) -> bool {
     let n = a.period();
     if n != b.period() || a.platform_periods != b.platform_periods {
@@ -175,7 +176,8 @@ pub fn same_orbit(a: &PeriodicOrbit, b: &PeriodicOrbit) -> bool {
     (0..n).any(|shift| (0..n).all(|i| near(a.states[i], b.states[(i + shift) % n], room)))
 }
 
-/// The numbers of impacts, less than all, after which a sequence repeats itself within `room`, rising.
+/// The numbers of impacts, below the length, after which a sequence repeats itself within `room`, in
+/// increasing order.
 pub(crate) fn repetitions(states: &[ImpactState], room: f64) -> impl Iterator<Item = usize> {
     let n = states.len();
     let repeats = move |shift: usize| (0..n).all(|i| near(states[i], states[(i + shift) % n], room));
@@ -187,8 +189,8 @@ pub fn prime_period(states: &[ImpactState], room: f64) -> usize {
     repetitions(states, room).next().unwrap_or(states.len())
 }
 
-/// The periodic orbit near a guess, with its least period: if the guess nearly repeats a shorter orbit, this one, except
-/// next to a doubling, if the guess leads to the doubled orbit.
+/// The periodic orbit near a guess, with its least period. If the guess nearly repeats a shorter orbit, the
+/// result is the shorter one, unless the guess leads to the doubled orbit near a doubling.
 pub(crate) fn prime_orbit(
     guess: &[ImpactState],
     refine: impl Fn(&[ImpactState]) -> Result<PeriodicOrbit, Error>,
@@ -205,13 +207,13 @@ pub(crate) fn prime_orbit(
 }
 
 impl ImpactMap {
-    /// The periodic orbit next to `guess` (its impacts in order), by multiple shooting: every impact is an
-    /// unknown, so that long and unstable orbits converge.
+    /// The periodic orbit near `guess` (its impacts in order), by multiple shooting: every impact is an
+    /// unknown, so long and unstable orbits converge, too.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for an empty guess or one longer than [`MAX_PERIOD`]; [`Error::NotSettled`] if
     /// Newton's iteration does not converge; [`Error::ImpactWithoutSpeed`] and [`Error::NoPlatformPeriods`]
-    /// if it converges to a disk at rest; those of
+    /// if it converges to a disk at rest; errors of
     /// [`Vibration::first_impact`](crate::Vibration::first_impact).
     pub fn refine(&self, guess: &[ImpactState]) -> Result<PeriodicOrbit, Error> {
         self.refine_ticked(guess, &mut |_| Ok(()))
@@ -249,13 +251,13 @@ impl ImpactMap {
         Shooting::from(states, scale, |state| self.step_with_derivative(state))
     }
 
-    /// Whether an impact is proven to be followed by rest.
+    /// Whether the disk provably comes to rest after this impact.
     pub(crate) fn rests_after(&self, state: ImpactState) -> bool {
         let speed = 0.0 - self.restitution() * state.velocity();
         self.vibration().accumulation(state.phase(), speed, self.restitution()).is_some()
     }
 
-    /// [`prime_orbit`] of this map, whose areas shrink by a known ratio.
+    /// [`prime_orbit`] for this map, which contracts areas by a known ratio.
     pub(crate) fn prime_orbit(&self, guess: &[ImpactState]) -> Result<PeriodicOrbit, Error> {
         prime_orbit(guess, |guess| self.refine(guess), |orbit| self.determinant_after(orbit.period()))
     }
@@ -304,8 +306,8 @@ impl ImpactMap {
         None
     }
 
-    /// The same by the smooth equations, which ignore that an earlier impact may end a flight: they do not
-    /// jump where the map does. The refinement shows whether the solution is an orbit of the map.
+    /// The same with the smooth equations, which ignore earlier impacts and so do not jump like the map. The
+    /// refinement shows whether the solution is an orbit of the map.
     fn approached_smoothly(&self, guess: &[ImpactState]) -> Option<Vec<ImpactState>> {
         let (closing, at) = Closing::of(self, ContinuationParameter::Forcing, guess).ok()?;
         let plane = Plane { normal: [0.0, 0.0, 1.0], base: closing.scaled(&at), distance: 0.0 };

@@ -8,9 +8,9 @@ use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::error::Error;
 
-/// By how much, relative to the flight, the first impact may come early, or a speed differ from that of the
-/// closed form, and still count as the same. Its root is simple: an earlier one is at least 2 |w_A|/(1 + P)
-/// away, which is 3e-8 of a flight under the largest P.
+/// Largest difference, relative to the flight, between the first impact or its speed and the closed form at
+/// which they still count as equal. The root is simple: an earlier one is at least 2 |w_A|/(1 + P) away,
+/// which is 3e-8 of a flight for the largest P.
 const SAME_IMPACT: f64 = 1.0e-9;
 
 /// One of the two orbits with one impact every k periods of the platform, in closed form.
@@ -21,9 +21,9 @@ pub struct PeriodOneOrbit {
     pub state: ImpactState,
     /// The periods k >= 1 of the platform from one impact to the next.
     pub platform_periods: u64,
-    /// Trace of the derivative of the map there: 1 + r^2 - (1 + r)^2 P sin tau.
+    /// Trace of the derivative of the map at this impact: 1 + r^2 - (1 + r)^2 P sin tau.
     pub trace: f64,
-    /// Determinant of the derivative of the map there: r^2, in [0, 1].
+    /// Determinant of the derivative of the map at this impact: r^2, in [0, 1].
     pub determinant: f64,
 }
 
@@ -42,11 +42,11 @@ impl PeriodOneOrbit {
         Multipliers::of_invariants(self.trace, self.determinant)
     }
 
-    /// Whether the orbit is one of the map, and not only of another one: no earlier impact ends its flight,
-    /// and the disk does take off.
+    /// Whether the closed form is an orbit of this map: no earlier impact ends its flight, and the disk does
+    /// take off.
     ///
     /// # Errors
-    /// Those of [`ImpactMap::step`] but for [`Error::NoLiftOff`].
+    /// Errors of [`ImpactMap::step`] except [`Error::NoLiftOff`].
     pub fn is_admissible(&self, map: &ImpactMap) -> Result<bool, Error> {
         let flight = TAU * self.platform_periods as f64;
         let room = SAME_IMPACT * flight;
@@ -65,10 +65,10 @@ impl PeriodOneOrbit {
         }
     }
 
-    /// The orbit as a [`PeriodicOrbit`]; `None` where it is not admissible.
+    /// The orbit as a [`PeriodicOrbit`]; `None` if it is not admissible.
     ///
     /// # Errors
-    /// Those of [`Self::is_admissible`].
+    /// Errors of [`Self::is_admissible`].
     pub fn orbit(&self, map: &ImpactMap) -> Result<Option<PeriodicOrbit>, Error> {
         if !self.is_admissible(map)? {
             return Ok(None);
@@ -83,11 +83,11 @@ impl PeriodOneOrbit {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PeriodOnePair {
-    /// The one with its phase in [0, pi/2]: a node or focus that attracts from the fold to its period
+    /// The orbit with its phase in [0, pi/2]: a node or focus that attracts from the fold to its period
     /// doubling.
     pub node: PeriodOneOrbit,
-    /// The one with the opposite phase, in [3 pi/2, 2 pi) (0 at the fold): a saddle, its multipliers
-    /// positive.
+    /// The orbit with the opposite phase, in [3 pi/2, 2 pi) (0 at the fold): a saddle with positive
+    /// multipliers.
     pub saddle: PeriodOneOrbit,
 }
 
@@ -95,8 +95,7 @@ impl ImpactMap {
     /// Both orbits with one impact every `platform_periods` >= 1 periods of the platform; `None` below their
     /// birth at Gamma = k (1 - r)/(1 + r).
     ///
-    /// Whether an earlier impact forestalls one of them is another question:
-    /// [`PeriodOneOrbit::is_admissible`].
+    /// An earlier impact may still prevent one of them: see [`PeriodOneOrbit::is_admissible`].
     ///
     /// ```
     /// # use bouncing_disk_core::{ImpactMap, Vibration};
@@ -112,7 +111,7 @@ impl ImpactMap {
             return None;
         }
         let early = self.period_one(platform_periods)?.phase();
-        // The mirrored angle is rounded, sine and cosine are not.
+        // Mirroring rounds the angle, but not sine and cosine.
         let late = if early.angle() > 0.0 {
             Phase::from_parts(TAU - early.angle(), -early.sin(), early.cos())
         } else {
@@ -178,8 +177,8 @@ mod tests {
         assert_eq!(map(0.9, 0.5).period_one_pair(u64::MAX), None);
     }
 
-    /// By hand: with its phase just before pi/2 the platform is highest, and no higher until the next impact.
-    /// With its phase just after 3 pi/2 it soon outruns the disk.
+    /// By hand: at a phase just before pi/2 the platform is near its highest point, and not higher until the
+    /// next impact. At a phase just after 3 pi/2 it soon outruns the disk.
     #[test]
     fn on_fast_platforms_one_orbit_of_each_pair_is_admissible() {
         for forcing in [1e3, 1e4, 1e6] {
@@ -198,7 +197,7 @@ mod tests {
         }
     }
 
-    /// Where the platform outruns the disk the closed form is no orbit of the map.
+    /// If the platform outruns the disk, the closed form is not an orbit of the map.
     #[test]
     fn an_orbit_that_is_forestalled_says_so() {
         let fast = map(3.0, 0.5);

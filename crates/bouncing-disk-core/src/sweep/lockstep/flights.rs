@@ -13,21 +13,21 @@ use crate::sweep::lockstep::lanes::{
     Batch, Dispatch, FlightScheduler, InstructionSet, LANES, Mask, Purpose, Rebounding, Row, kept, mask,
 };
 
-/// A loop over lanes that [`Flights::run`] compiles for the vector instructions of the processor.
+/// A loop over lanes that [`Flights::run`] runs with the vector instructions of the processor.
 ///
-/// Give the implementation of [`Self::run`], and what it calls, the attribute `#[inline(always)]`: a function
-/// that is called is compiled for the baseline.
+/// Mark the implementation of [`Self::run`], and all functions it calls, with `#[inline(always)]`: a function
+/// that is not inlined is compiled for the baseline.
 pub trait LaneLoop {
     /// The loop.
     fn run(self);
 }
 
-/// Independent flights, computed together: each lane has a platform and a launch of its own. The impacts are
-/// bit for bit those of [`Vibration::first_impact`].
+/// Independent flights, computed together: each lane has its own platform and launch. The impacts have the
+/// same bits as from [`Vibration::first_impact`].
 ///
-/// Lanes come in batches of [`Self::LANES`] and are counted through all of them: lane 70 is lane 6 of the
-/// batch 1. Setting a lane or batch that does not exist does nothing, and reading it gives `None`. The more
-/// batches, the better flights of one kind fill the vectors of the processor.
+/// Lanes come in batches of [`Self::LANES`] and are numbered consecutively: lane 70 is lane 6 of batch 1.
+/// Setting a lane or batch that does not exist does nothing, and reading it gives `None`. The more batches,
+/// the better flights of one kind fill the vectors of the processor.
 ///
 /// ```
 /// use bouncing_disk_core::sweep::{Flights, InstructionSet};
@@ -52,8 +52,8 @@ pub struct Flights {
     placed: Vec<bool>,
 }
 
-/// The impacts of one batch of [`Flights`]; those of lanes that have not flown since their launch was
-/// set mean nothing.
+/// The impacts of one batch of [`Flights`]; they are meaningless in lanes that have not flown since their
+/// launch was set.
 #[derive(Debug, Clone, Copy)]
 pub struct LaneImpacts<'a> {
     /// Phases (rad), in [0, 2 pi).
@@ -76,7 +76,7 @@ impl LaneImpacts<'_> {
     /// Duration of the flight of a lane of the batch (rad): [`Impact::duration`](crate::Impact::duration).
     ///
     /// # Panics
-    /// For a lane that the rows do not have.
+    /// If the rows have no such lane.
     #[must_use]
     #[inline(always)]
     pub fn duration(&self, lane: usize) -> f64 {
@@ -102,11 +102,11 @@ impl Flights {
     /// Largest number of batches.
     pub const MAX_BATCHES: usize = 1 << 16;
 
-    /// At least one batch of lanes on a platform at rest, to be computed with these instructions, or the next
-    /// lower ones that the processor has. The impacts do not depend on them.
+    /// At least one batch of lanes on a platform at rest, computed with these instructions, or with the next
+    /// lower set that the processor supports. The impacts do not depend on the instructions.
     ///
     /// # Errors
-    /// [`Error::TooLarge`] for more than [`Self::MAX_BATCHES`] batches or than there is memory for.
+    /// [`Error::TooLarge`] for more than [`Self::MAX_BATCHES`] batches, or too many for the memory.
     pub fn new(set: InstructionSet, batches: usize) -> Result<Self, Error> {
         let count = batches.max(1);
         let room = (count as u64, Self::MAX_BATCHES as u64);
@@ -123,8 +123,8 @@ impl Flights {
         self.batches.len()
     }
 
-    /// Puts a lane on another platform. The first platform of a batch is that of all its lanes, until they
-    /// get their own.
+    /// Puts a lane on another platform. The first platform of a batch applies to all its lanes until they get
+    /// their own.
     pub fn set_platform(&mut self, lane: usize, vibration: Vibration) {
         let index = lane / LANES;
         let (Some(batch), Some(placed)) = (self.batches.get_mut(index), self.placed.get_mut(index)) else {
@@ -151,18 +151,18 @@ impl Flights {
         Some(Launch::known(batch.launch_phase(lane), batch.launches().speed[lane]))
     }
 
-    /// Sets the next launch of every lane of a batch to the rebound from its impact, with a coefficient of
-    /// restitution of its own in [0, 1); another number counts as zero.
+    /// Sets the next launch of every lane of a batch to the rebound from its impact, with its own coefficient
+    /// of restitution in [0, 1); another number counts as zero.
     ///
-    /// Where the bits of `may_rest` are then zero, the disk keeps bouncing:
-    /// [`crate::ImpactMap::accumulation`] is `None`.
+    /// If the bits of `may_rest` are then zero, the disk keeps bouncing: [`crate::ImpactMap::accumulation`]
+    /// is `None`.
     pub fn rebound(&mut self, batch: usize, restitution: &[f64; LANES], may_rest: &mut [u64; LANES]) {
         let Some(batch) = self.batches.get_mut(batch) else { return };
         self.scheduler.dispatch().run(Rebound { rows: batch.rebounding(), restitution, may_rest });
     }
 
-    /// Computes the impacts of the first `lanes` launches. `failed` gets each lane without one (see
-    /// [`Vibration::first_impact`]), in order; its impact means nothing then.
+    /// Computes the impacts of the first `lanes` launches. `failed` receives each lane without one (see
+    /// [`Vibration::first_impact`]), in order; the impact of such a lane is meaningless.
     pub fn fly(&mut self, lanes: usize, mut failed: impl FnMut(usize, Error)) {
         let lanes = lanes.min(LANES * self.batches.len());
         self.scheduler.fly(&mut self.batches, lanes, &mut failed);
@@ -197,13 +197,13 @@ impl Flights {
     }
 }
 
-/// Runs loops with the vector instructions of the processor without [`Flights`], for one flight that carries
-/// many things along.
+/// A runner of loops with the vector instructions of the processor but without [`Flights`], for one flight
+/// with many companions.
 #[derive(Debug, Clone, Copy)]
 pub struct LaneRunner(Dispatch);
 
 impl LaneRunner {
-    /// With `set`, or the next lower one that this processor has.
+    /// A runner with `set`, or the next lower set that this processor supports.
     #[must_use]
     pub fn new(set: InstructionSet) -> Self {
         Self(Dispatch::new(set))

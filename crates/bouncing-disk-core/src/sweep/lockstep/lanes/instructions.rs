@@ -4,7 +4,7 @@
 use pulp::Simd;
 use pulp::WithSimd;
 
-/// The vector instructions that lanes are computed with. The results are the same bits.
+/// The vector instructions that compute the lanes. The results have the same bits with each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum InstructionSet {
@@ -19,7 +19,7 @@ pub enum InstructionSet {
 }
 
 impl InstructionSet {
-    /// All that this processor has, the best one last.
+    /// All sets that this processor supports, best last.
     #[must_use]
     pub fn available() -> Vec<Self> {
         #[cfg_attr(
@@ -43,7 +43,7 @@ impl InstructionSet {
         sets
     }
 
-    /// The best one that this processor has.
+    /// The best set that this processor supports.
     #[must_use]
     pub fn best() -> Self {
         Self::available().last().copied().unwrap_or(Self::Baseline)
