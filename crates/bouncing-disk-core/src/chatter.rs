@@ -1,9 +1,9 @@
 //! Chattering: an infinite sequence of ever smaller impacts that brings the disk to rest on the platform.
 //!
-//! Flights and speeds shrink by the restitution r from one impact to the next, so that from a launch with the
+//! Flights and speeds shrink by the restitution r from one impact to the next, so after a launch with the
 //! relative speed w the disk rests after about 2 w / (a (1 - r)), where a = 1 - P sin tau is the relative
-//! gravity. [`ChatterPolicy`](crate::ChatterPolicy) says how an orbit treats it: summed to the end, with a
-//! proven error bound, or cut off as in Sec. IV A of the paper (docs/numerics-impacts.md).
+//! gravity. [`ChatterPolicy`](crate::ChatterPolicy) selects how an orbit treats it: the chatter is summed to
+//! the end with a proven error bound, or cut off as in Sec. IV A of the paper (docs/numerics-impacts.md).
 //!
 //! ```
 //! use bouncing_disk_core::{ImpactMap, Launch, Phase, Vibration};
@@ -14,7 +14,7 @@
 //! # Ok::<(), bouncing_disk_core::Error>(())
 //! ```
 //!
-//! After the rest the disk separates where the platform falls away from it, and the orbit continues with
+//! After the rest the disk separates when the platform falls away from it, and the orbit continues with
 //! [`OrbitEvent::Attachment`](crate::OrbitEvent).
 
 pub(crate) mod accumulation;

@@ -1,4 +1,4 @@
-//! What the crate of drives shares with this one, and nobody else needs: it may change.
+//! Items shared with the crate of drives only; they may change.
 
 pub use crate::chatter::policy::Surface;
 pub use crate::numerics::block_cyclic::solve_block_cyclic;

@@ -103,7 +103,7 @@ impl DrivenMap {
     /// The long-term behaviour of the orbit from `state`.
     ///
     /// # Errors
-    /// Those of [`verdicts`].
+    /// Errors of [`verdicts`].
     pub fn verdict(&self, state: ImpactState, settings: VerdictSettings) -> Result<Verdict, Error> {
         let mut verdicts = verdicts(&[(self.clone(), state)], settings, &Unobserved)?;
         verdicts.pop().ok_or(Error::Stopped { done: 0, total: 1 })

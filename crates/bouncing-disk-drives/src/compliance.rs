@@ -354,7 +354,7 @@ impl CompliantPlatform {
     /// The height of a disk that never leaves the platform, but for its indentation under the weight.
     ///
     /// # Errors
-    /// Those of [`Drive::fourier`].
+    /// Errors of [`Drive::fourier`].
     pub fn steady(&self) -> Result<Drive, Error> {
         if self.compliance.is_hysteretic() {
             return Ok(self.drive.clone());
@@ -423,7 +423,7 @@ impl CompliantPlatform {
     /// The next touch of a disk that feels no force, if it comes within `limit` (rad).
     ///
     /// # Errors
-    /// Those of [`Drive::first_impact_within`].
+    /// Errors of [`Drive::first_impact_within`].
     pub fn touch(&self, from: RelativeState, limit: f64) -> Result<Option<Touch>, Error> {
         let at = |duration: f64, gap: f64, velocity: f64| {
             let angle = from.time + duration;

@@ -69,7 +69,7 @@ impl DrivenMap {
     /// ```
     ///
     /// # Errors
-    /// Those of [`Compliance::new`] and [`CompliantPlatform::new`].
+    /// Errors of [`Compliance::new`] and [`CompliantPlatform::new`].
     pub fn with_contact_time(self, contact_time: f64) -> Result<Self, Error> {
         let compliance = Compliance::new(contact_time, self.restitution)?;
         self.with_compliance(compliance)
@@ -131,7 +131,7 @@ impl DrivenMap {
     /// Column-major: `x_axis` is the derivative by the phase.
     ///
     /// # Errors
-    /// Those of [`Self::step`]; [`Error::ImpactOnKink`] where this impact or the next is on a kink.
+    /// Errors of [`Self::step`]; [`Error::ImpactOnKink`] where this impact or the next is on a kink.
     pub fn step_with_derivative(&self, state: ImpactState) -> Result<(DrivenImpact, DMat2), Error> {
         if let Some(platform) = &self.compliant {
             let from = platform.released_at(state.phase().angle(), -self.restitution * state.velocity());
@@ -177,7 +177,7 @@ impl DrivenMap {
     /// relative to it; without a gap it leaves the platform with that velocity >= 0.
     ///
     /// # Errors
-    /// Those of [`Drive::first_impact_from`].
+    /// Errors of [`Drive::first_impact_from`].
     pub fn of_flight(
         &self,
         time: f64,
@@ -268,7 +268,7 @@ impl DrivenOrbit {
     /// The next event, or `None` after the end of the orbit.
     ///
     /// # Errors
-    /// Those of [`Drive::first_impact`] and [`Drive::contact_end`]. An error ends the orbit.
+    /// Errors of [`Drive::first_impact`] and [`Drive::contact_end`]. An error ends the orbit.
     pub fn advance(&mut self) -> Result<Option<OrbitEvent>, Error> {
         let next = core::mem::replace(&mut self.next, Next::End);
         if self.map.compliant.is_some() {

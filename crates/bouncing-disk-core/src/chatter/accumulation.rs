@@ -3,9 +3,9 @@
 //! The summed duration of such a sequence is [`Accumulation`]; the other sums over its impacts (rotary
 //! impulses, losses) are in `impact_series.rs`, and the model's use of both in its `motion/chatter.rs`.
 //!
-//! Next to an impact at phase tau with a = 1 - P sin tau > 0 the disk is pulled back with acceleration a and
-//! the flights form a near-geometric sequence with ratio `restitution`. With b = P cos tau (so that da/dtau =
-//! -b, db/dtau = a - 1) the time to the accumulation point is a power series in the launch speed w whose
+//! Near an impact at phase tau with a = 1 - P sin tau > 0 the disk is pulled back with acceleration a and the
+//! flights form a near-geometric sequence with ratio `restitution`. With b = P cos tau (so that da/dtau = -b,
+//! db/dtau = a - 1) the time to the accumulation point is a power series in the launch speed w whose
 //! coefficients (`expansion.rs`, with the bound on their error) satisfy T(tau, w) = h + T(tau + h,
 //! restitution * u), h the first flight and u its impact speed. The coefficients are derived in
 //! docs/numerics-impacts.md.
@@ -20,21 +20,20 @@ use crate::numerics::elementary::{CREST, sin_cos_bounded};
 use crate::numerics::error::{Error, not_negative, within};
 use crate::numerics::stored::read_checked;
 
-/// Largest error of the accumulation phase (rad) with which the complete policy is content: half the spacing
-/// of doubles in [pi/2, pi].
+/// Largest error of the accumulation phase (rad) that the complete policy accepts: half the spacing of
+/// doubles in [pi/2, pi].
 const COMPLETION_ERROR: f64 = 1.0e-16;
 
-/// Only slower launches than this may end within a rounding of the phase without a series.
+/// Speed below which a chatter may end within a rounding of the phase, without a series.
 const LARGEST_NEGLIGIBLE_SPEED: f64 = 1.0e-30;
 
-/// Largest remaining chatter (rad) that is summed in closed form, so that visible bounces stay visible.
+/// Largest remaining chatter (rad) that is summed in closed form. It keeps visible bounces visible.
 const LONGEST_COMPLETION: f64 = 1.0e-2;
 
-/// Shares of its first value that the pull cannot leave in a chatter that is summed: 2/3 and 4/3, and
-/// rounding.
+/// Bounds on the pull in a summed chatter, as shares of its first value: 2/3 and 4/3, widened for rounding.
 const PULL_SHARES: (f64, f64) = (0.6, 1.4);
 
-/// Relative rounding of the bound in [`window_holds_every_impact`], with room to spare.
+/// Generous bound on the relative rounding of the bound in [`window_holds_every_impact`].
 const WINDOW_ROUNDING: f64 = 1.0e-14;
 
 /// The accumulation point of a chattering sequence.
@@ -44,7 +43,7 @@ const WINDOW_ROUNDING: f64 = 1.0e-14;
 pub struct Accumulation {
     /// Time from the last impact to the accumulation point, in radians.
     pub duration: f64,
-    /// Bound on the error of `duration` that the truncated series leaves, in radians.
+    /// Bound on the error of `duration` due to truncating the series, in radians.
     pub error_bound: f64,
     /// The accumulation phase.
     pub phase: Phase,
@@ -61,7 +60,8 @@ read_checked!(Accumulation as UncheckedAccumulation {
 });
 
 impl Accumulation {
-    /// Checks a value that was deserialised. There is no bound on what a cut leaves out: it is infinite.
+    /// Checks a value that was deserialised. The bound may be infinite: there is none for the bounces omitted
+    /// by a cut.
     fn check(&self) -> Result<(), Error> {
         not_negative("duration", self.duration)?;
         within("error_bound", self.error_bound, 0.0, f64::INFINITY, "[0, inf] (rad)")?;
@@ -83,11 +83,11 @@ pub struct ChatterImpact {
 }
 
 impl Vibration {
-    /// The accumulation point of the chatter that follows a launch at `phase` with `speed` >= 0, or `None`
-    /// unless a bound shows that the disk chatters to rest and the closed form is exact to 1e-16 rad, for the
-    /// pull 1 - P sin tau that P and the carried pair give. Next to weightlessness one rounding of P or of
-    /// the phase is another pull, and the duration another one: that is the conditioning of the problem and
-    /// not counted in the bound.
+    /// The accumulation point of the chatter that follows a launch at `phase` with `speed` >= 0. `None`
+    /// unless a bound shows that the disk chatters to rest and that the closed form is exact to 1e-16 rad,
+    /// for the pull 1 - P sin tau given by P and the carried pair. Near weightlessness one rounding of P or
+    /// of the phase changes the pull and the duration; this conditioning of the problem is not part of the
+    /// bound.
     ///
     /// The accumulation point lies before the next separation. A chatter that ends before it has changed the
     /// phase has the duration 0.
@@ -100,7 +100,7 @@ impl Vibration {
             return None;
         }
         let reach = self.contact_force(phase) * (1.0 - restitution);
-        // Also refuses a pull <= 0 and NaN.
+        // A pull <= 0 and NaN fail here, too.
         let small = speed > 0.0 && speed <= 0.5 * LONGEST_COMPLETION * reach;
         if !small || self.falls_away_at(phase.angle()) {
             return self.at_rest(phase, speed, restitution);
@@ -108,14 +108,13 @@ impl Vibration {
         self.accumulation_of_small(phase, speed, restitution, speed / reach)
     }
 
-    /// Cheap refusal of the ordinary impact: whether a launch is too fast for [`Self::accumulation`] to
-    /// exist.
+    /// Whether a launch is too fast for [`Self::accumulation`] to exist: a cheap test for ordinary impacts.
     #[inline(always)]
     pub(crate) fn bounces_on(&self, phase: Phase, speed: f64, restitution: f64) -> bool {
         bounces_on(self.contact_force(phase), speed, restitution)
     }
 
-    /// [`Self::accumulation`] for an expansion parameter `x` that is worth trying.
+    /// [`Self::accumulation`] for an expansion parameter `x` that is worth a try.
     fn accumulation_of_small(
         &self,
         phase: Phase,
@@ -139,9 +138,9 @@ impl Vibration {
         Some(Accumulation { duration, error_bound, phase: Phase::of_angle(angle), turns })
     }
 
-    /// A chatter whose sum ends at the separation or behind it, as the pull that it was proven with is a
-    /// rounding: the disk rests if its next flight, of 2 w/(1 - P sin tau) <= 2e-16 rad, is too short to
-    /// change the phase; else it bounces on.
+    /// A chatter whose sum ends at the separation or beyond, because the pull used in the proof is a rounding
+    /// error. The disk rests if its next flight, of 2 w/(1 - P sin tau) <= 2e-16 rad, is too short to change
+    /// the phase; otherwise it continues to bounce.
     #[cold]
     fn rests_until_separation(&self, phase: Phase, speed: f64) -> Option<Accumulation> {
         (speed <= COMPLETION_ERROR * self.contact_force(phase)).then_some(Accumulation {
@@ -152,7 +151,7 @@ impl Vibration {
         })
     }
 
-    /// A disk without relative speed is at rest at once, unless the platform falls away; and so is one whose
+    /// A disk without relative speed rests at once, unless the platform falls away; so does a disk whose
     /// chatter ends before the phase has moved by a rounding.
     #[inline]
     fn at_rest(&self, phase: Phase, speed: f64, restitution: f64) -> Option<Accumulation> {
@@ -166,8 +165,8 @@ impl Vibration {
         })
     }
 
-    /// Whether a chatter against a growing pull lasts at most [`COMPLETION_ERROR`]: without this a disk may
-    /// hop for ever where the pull is a rounding and its flights are too short to change the phase
+    /// Whether a chatter against a growing pull lasts at most [`COMPLETION_ERROR`]: without this test a disk
+    /// could hop forever if the pull is a rounding error and its flights are too short to change the phase
     /// (docs/numerics-impacts.md, "No time left").
     #[cold]
     fn ends_within_a_rounding(&self, phase: Phase, speed: f64, restitution: f64) -> bool {
@@ -204,11 +203,11 @@ impl Vibration {
     }
 
     /// The impacts of the chatter after a launch at `phase` with `speed`, for a sequence that
-    /// [`Self::accumulation`] accepts with a duration above 0, until they carry less than 1e-17 of the first
-    /// one's impulse or are launched with less than the smallest normal number.
+    /// [`Self::accumulation`] accepts with a duration above 0. They end when an impact carries less than
+    /// 1e-17 of the first one's impulse, or its launch speed is below the smallest normal number.
     ///
-    /// The iterator computes them one by one, and there are 39/(1 - r) of them: next to r = 1 this may take
-    /// for ever. [`Self::chatter_series`] gives any of them, and their sums, at once.
+    /// The iterator computes them one by one, and there are 39/(1 - r) of them: near r = 1 this may take
+    /// forever. [`Self::chatter_series`] gives any of them, and their sums, at once.
     pub(crate) fn chatter_impacts(
         &self,
         phase: Phase,
@@ -216,14 +215,13 @@ impl Vibration {
         restitution: f64,
     ) -> impl Iterator<Item = ChatterImpact> + use<> {
         let vibration = *self;
-        // Rounding to the nearest multiple of the smallest number keeps a launch that is next to it where it
-        // is.
+        // Rounding to the nearest multiple of the smallest number would never reduce a launch close to it.
         let last_speed = (speed * LAST_SHARE).max(f64::MIN_POSITIVE);
         let mut time = 0.0;
         let mut pair = (phase.sin(), phase.cos());
         let mut launch = speed;
-        // The proof of the window keeps the pull within a third of the first one; next to a separation a
-        // rounded pair may give another one, or none at all.
+        // The proof of the window keeps the pull within a third of the first one; near a separation a rounded
+        // pair may give another pull, or none.
         let first = self.contact_force(phase);
         let (least, most) = (PULL_SHARES.0 * first, PULL_SHARES.1 * first);
         core::iter::from_fn(move || {
@@ -243,7 +241,7 @@ impl Vibration {
     }
 }
 
-/// [`Vibration::bounces_on`] against a pull.
+/// [`Vibration::bounces_on`], given the pull.
 #[inline(always)]
 pub(crate) fn bounces_on(pull: f64, speed: f64, restitution: f64) -> bool {
     (speed > LARGEST_NEGLIGIBLE_SPEED) & (speed > 0.5 * LONGEST_COMPLETION * (pull * (1.0 - restitution)))
@@ -252,15 +250,15 @@ pub(crate) fn bounces_on(pull: f64, speed: f64, restitution: f64) -> bool {
 /// A cheap test that is true only if [`Vibration::accumulation`] is `None` for a launch with `speed` against
 /// `pull`.
 ///
-/// Beyond [`bounces_on`], it also refuses most chatters whose series is still too inaccurate: with x as in
-/// [`Expansion::error_bound`] that bound is at least [`MAJORANT`] (P/pull) x^5, because |P sin| + |P cos| >=
+/// Beyond [`bounces_on`], it also recognises most chatters whose series is still too inaccurate: with x as in
+/// [`Expansion::error_bound`], this bound is at least [`MAJORANT`] (P/pull) x^5, because |P sin| + |P cos| >=
 /// P.
 #[inline(always)]
 pub(crate) fn surely_bounces_on(peak: f64, pull: f64, speed: f64, restitution: f64) -> bool {
     let reach = pull * (1.0 - restitution);
     let (speed2, reach2) = (speed * speed, reach * reach);
     let least = (MAJORANT * peak * speed) * (speed2 * speed2);
-    // More than the bound by far more than the rounding of both.
+    // Above the bound by far more than the rounding of both.
     let inaccurate = least > (1.000_001 * COMPLETION_ERROR) * (pull * reach) * (reach2 * reach2);
     bounces_on(pull, speed, restitution) | (inaccurate & (speed > LARGEST_NEGLIGIBLE_SPEED))
 }
@@ -304,7 +302,7 @@ mod tests {
     use crate::chatter::expansion::LARGEST_COUNTED_RESTITUTION;
     use crate::numerics::testing::spread;
 
-    /// Launches about the longest expansion parameter with which the bound may be small enough.
+    /// Launches near the largest expansion parameter for which the bound may be small enough.
     #[test]
     fn chatters_that_surely_bounce_on_have_no_sum_yet() {
         let (mut summed, mut refused, mut seen) = (0, 0, 0);
@@ -329,8 +327,8 @@ mod tests {
         assert!(summed > 1_000 && 5 * seen > 2 * refused, "{seen} of {refused}, not of {summed}");
     }
 
-    /// One place for each of the three bounds: an ordinary pull, none that grows with the time, and none that
-    /// grows with its square.
+    /// One case for each of the three bounds: an ordinary pull, a zero pull that grows with time, and a zero
+    /// pull that grows with its square.
     #[test]
     fn what_ends_within_a_rounding_is_told_to_the_digit() {
         for restitution in [0.0, 0.5, 1.0 - 1e-6] {
@@ -361,13 +359,13 @@ mod tests {
         }
     }
 
-    /// The pull is a rounding there, and so was the proof that the disk chatters to rest before: it attached
-    /// at or behind the separation, and rested for a period on a platform that fell away.
+    /// The pull is a rounding error here, and so would be a proof that the disk chatters to rest before the
+    /// separation: the disk would attach at or after it, and rest for a period on a platform that falls away.
     #[test]
     fn no_chatter_ends_behind_the_separation() {
         let (mut attached, mut at_once) = (0, 0);
         for k in 0..200_000 {
-            // P from next to 1 on, and distances to the separation at which the pull is some roundings.
+            // P from just above 1, and distances to the separation at which the pull is a few roundings.
             let excess = libm::exp10(9.0 * spread(k, 0.754_877_666) - 9.0);
             let vibration = Vibration::new(1.0 + excess).expect("legal");
             let separation = vibration.separation_phase().expect("separates").angle();
@@ -391,8 +389,8 @@ mod tests {
         assert!(attached > 10_000 && at_once > 10, "{attached} {at_once}");
     }
 
-    /// Nothing pulls where the platform has just stopped to fall away: no flight follows, and the impacts had
-    /// no end.
+    /// Just after the platform has stopped falling away, the pull is zero: no flight follows, and the impacts
+    /// would never end.
     #[test]
     fn impacts_come_to_an_end_where_nothing_pulls() {
         let vibration = Vibration::new(1.0).expect("legal");
@@ -402,8 +400,7 @@ mod tests {
         assert_eq!(vibration.chatter_impacts(phase, 1e-60, 0.5).count(), 0);
     }
 
-    /// Next to restitution 1, and for speeds that have no digits left, the proof that all impacts lie in the
-    /// window.
+    /// The proof that all impacts lie in the window, near restitution 1 and for speeds without digits left.
     fn window_holds_all_exactly(peak: f64, pull: f64, drift: f64, restitution: f64, x: f64) -> bool {
         type High = dashu_float::FBig<dashu_float::round::mode::HalfEven, 2>;
         let high = |x: f64| High::try_from(x).expect("finite").with_precision(500).value();
@@ -431,7 +428,7 @@ mod tests {
             if pull <= 0.0 {
                 continue;
             }
-            // About where the change of the pull over the window is what the restitution takes.
+            // Near the drift at which the pull's change over the window equals the loss by restitution.
             let bound = (1.0 - restitution) * pull / (9.0 * drift.abs());
             let x = bound * libm::exp10(0.1 * spread(k, 0.414_213_562) - 0.05);
             let speed = x * (pull * (1.0 - restitution));
@@ -474,8 +471,8 @@ mod tests {
         assert!(held > 100 && refused > 500, "{held} {refused}");
     }
 
-    /// From the smallest number on, and next to separations, where the pull is a rounding: nothing that is
-    /// summed is said to bounce on, the sum comes before the separation, and the impacts end.
+    /// From the smallest number upwards, and near separations, where the pull is a rounding error: no summed
+    /// chatter is reported to bounce on, the sum ends before the separation, and the impacts end.
     #[test]
     fn the_slowest_chatters_come_to_an_end() {
         let mut summed = 0;
@@ -487,7 +484,7 @@ mod tests {
                 _ => TAU * spread(k, 0.754_877_666),
             };
             let exact = Phase::new(angle).expect("finite");
-            // A carried pair is off by up to a rounding.
+            // A carried pair has an error of up to one rounding.
             let off = |by: f64| 1.1e-16 * (spread(k, by) * 3.0 - 1.5);
             let phase = Phase::from_parts(angle, exact.sin() + off(0.33), exact.cos() + off(0.77));
             let restitution =
@@ -519,7 +516,7 @@ mod tests {
         assert!(summed > 20_000, "{summed}");
     }
 
-    /// The phase decides where the platform falls away, not the force, which rounds there.
+    /// The phase decides whether the platform falls away, not the force, which is a rounding error there.
     #[test]
     fn a_disk_without_speed_rests_where_the_platform_does_not_fall_away() {
         let mut pulled_off = 0;
@@ -541,7 +538,7 @@ mod tests {
         assert!(pulled_off > 100, "{pulled_off}");
     }
 
-    /// A chatter that ends behind phase 0 has passed it once.
+    /// A chatter that ends beyond phase 0 has passed it once.
     #[test]
     fn an_accumulation_point_is_wrapped_into_the_period() {
         let below = f64::from_bits(TAU.to_bits() - 1);
@@ -553,7 +550,7 @@ mod tests {
         assert!((sum.phase.angle() - (sum.duration - 1e-6)).abs() < 1e-15, "{sum:?}");
     }
 
-    /// The impacts go on until a hundred-quadrillionth of the first impulse is left, and no longer.
+    /// The impacts continue until 1e-17 of the first impulse is left, and no longer.
     #[test]
     fn impacts_of_a_chatter_are_followed_to_1e_17_of_the_first() {
         let vibration = Vibration::new(0.5).expect("legal");
@@ -565,8 +562,8 @@ mod tests {
         assert!(*last <= 1e-17 && before.iter().all(|launch| *launch > 1e-17), "{launches:?}");
     }
 
-    /// A still platform makes the series exact at once: only what stays visible, a hundredth of a radian,
-    /// decides there.
+    /// On a still platform the series is exact at once: only the limit for visible bounces, a hundredth of a
+    /// radian, decides.
     #[test]
     fn visible_bounces_of_a_still_platform_are_not_summed() {
         let phase = Phase::new(1.0).expect("finite");

@@ -4,15 +4,15 @@
 /// Largest expansion parameter of the series; its majorant needs it below 1/16.
 const LARGEST_EXPANSION_PARAMETER: f64 = 1.0 / 32.0;
 
-/// Factor of the majorant of what the truncated series leaves.
+/// Factor of the majorant of the series' remainder.
 pub(super) const MAJORANT: f64 = 32.0;
 
 /// Share of the first launch speed at which the impacts of a chatter are no longer counted.
 pub(super) const LAST_SHARE: f64 = 1.0e-17;
 
-/// Largest restitution, and smallest launch speed, of a chatter whose impacts are gone through one by one: at
-/// most 7,600 of them, as the proof of [`window_holds_all`] leaves every launch less than 1 - (2/3)(1 - r) of
-/// the one before.
+/// Largest restitution, and smallest launch speed, of a chatter whose impacts are computed one by one. There
+/// are at most 7,600 impacts, as by the proof of [`window_holds_all`] every launch is slower than 1 - (2/3)(1
+/// - r) times the previous one.
 pub(super) const LARGEST_COUNTED_RESTITUTION: f64 = 1.0 - 1.0 / 128.0;
 pub(super) const SMALLEST_COUNTED_SPEED: f64 = f64::MIN_POSITIVE / LAST_SHARE;
 
@@ -67,7 +67,7 @@ impl Expansion {
         2.0 * x * (1.0 + x * ((2.0 / 3.0) * beta + x * (third + x * fourth)))
     }
 
-    /// Bound on what [`Self::duration`] omits: a majorant of the fifth-order term and what follows it, or
+    /// Bound on the remainder of [`Self::duration`]: a majorant of the terms from the fifth order on, or
     /// `None` if the expansion parameter is too large for the majorant.
     pub(super) fn error_bound(&self, x: f64) -> Option<f64> {
         let beta = (self.drift / self.pull).abs();
@@ -85,8 +85,8 @@ impl Expansion {
 mod tests {
     use super::*;
 
-    /// Arithmetic of 160 bits: what the expansion leaves is far above its rounding, and far below that of
-    /// doubles.
+    /// Arithmetic of 160 bits: the expansion's remainder is far above its rounding, and far below the
+    /// rounding of doubles.
     type High = dashu_float::FBig<dashu_float::round::mode::HalfEven, 2>;
 
     fn high(x: f64) -> High {
@@ -109,7 +109,7 @@ mod tests {
         (versine, deficit)
     }
 
-    /// A chatter followed flight by flight in high precision, from the gap itself: it knows nothing of the
+    /// A chatter followed flight by flight in high precision, from the gap itself: it does not use the
     /// expansion.
     struct Bounces {
         /// P sin and P cos of the phase of the last impact.
@@ -152,13 +152,13 @@ mod tests {
                 time += flight;
                 launch = impact_speed * high(restitution);
             }
-            // What is left, to its first order.
+            // The remaining time, to first order.
             time + high(2.0) * launch / ((high(1.0) - self.sine) * (high(1.0) - high(restitution)))
         }
     }
 
-    /// Pulls about 1 (where the platform is in the middle of its stroke), weak and strong ones, and drifts of
-    /// both signs.
+    /// Pulls about 1 (the platform in the middle of its stroke), weak and strong ones, and drifts of both
+    /// signs.
     fn expansions() -> impl Iterator<Item = Expansion> {
         [
             (1.0, 0.75),
@@ -183,8 +183,8 @@ mod tests {
         1.0 + (drift / pull).abs() + ((pull - 1.0) / pull).abs().sqrt()
     }
 
-    /// What a series to the fourth order leaves is of the fifth: half the speed leaves a thirty-second of it.
-    /// One unit less in one coefficient would leave a sixteenth.
+    /// The remainder of a fourth-order series is of fifth order: at half the speed it is a thirty-second. An
+    /// error of one unit in one coefficient would leave a sixteenth.
     #[test]
     fn the_sum_is_exact_to_the_fourth_order() {
         for expansion in expansions() {
@@ -220,8 +220,7 @@ mod tests {
         }
     }
 
-    /// The majorant holds up to the largest expansion parameter, and is not idle: what is left comes near to
-    /// it.
+    /// The majorant holds up to the largest expansion parameter, and is tight: the remainder comes near it.
     #[test]
     fn the_error_bound_is_above_the_error_and_of_its_size() {
         let mut largest = 0.0_f64;

@@ -39,17 +39,17 @@ use super::expansion::{Expansion, LARGEST_COUNTED_RESTITUTION, LAST_SHARE, SMALL
 /// 1e-17 of it.
 const ORDER: usize = 6;
 
-/// Newton steps towards the scale of y; the first guess is off by a thirtieth.
+/// Newton steps towards the scale of y; the first guess has an error of a thirtieth.
 const SCALE_STEPS: u32 = 6;
 
-/// Steps of a bracketed Newton iteration; bisection alone needs this many down to a share of 1e-16 and 50
-/// bits of it.
+/// Steps of a bracketed Newton iteration; bisection alone needs this many for a share down to 1e-16 with 50
+/// bits.
 const ROOT_STEPS: u32 = 110;
 
-/// Relative size of the last step of that iteration: the index that it gives is checked.
+/// Relative size of the last step of that iteration; the resulting index is checked.
 const LAST_STEP: f64 = 1.0e-15;
 
-/// Impacts by which rounding may put an index off; where more than 2^53 are counted, they differ by less than
+/// Largest error of an index due to rounding, in impacts; beyond 2^53 impacts, neighbours differ by less than
 /// rounding.
 const INDEX_STEPS: u32 = 2;
 
@@ -106,7 +106,7 @@ impl PowerSeries {
         product
     }
 
-    /// A series without constant term, divided by y.
+    /// This series divided by y; it must have no constant term.
     #[must_use]
     pub fn per_share(&self) -> Self {
         Self(core::array::from_fn(|k| self.0.get(k + 1).copied().unwrap_or(0.0)))
@@ -119,7 +119,7 @@ impl PowerSeries {
     }
 }
 
-/// The sums 1 + x + ... + x^(k - 1) = (1 - x^k)/(1 - x) for k from 0 on.
+/// The sums 1 + x + ... + x^(k - 1) = (1 - x^k)/(1 - x) for k = 0, 1, ...
 fn geometric_sums(x: f64) -> [f64; 2 * ORDER + 1] {
     let mut sums = [0.0; 2 * ORDER + 1];
     for k in 1..sums.len() {
@@ -128,7 +128,7 @@ fn geometric_sums(x: f64) -> [f64; 2 * ORDER + 1] {
     sums
 }
 
-/// x^k for k from 0 on.
+/// x^k for k = 0, 1, ...
 fn powers(x: f64) -> [f64; 2 * ORDER + 1] {
     let mut powers = [1.0; 2 * ORDER + 1];
     for k in 1..powers.len() {
@@ -137,7 +137,7 @@ fn powers(x: f64) -> [f64; 2 * ORDER + 1] {
     powers
 }
 
-/// A chattering sequence in closed form: see [`crate::ImpactMap::chatter_series`].
+/// A chattering sequence in closed form, from [`crate::ImpactMap::chatter_series`].
 ///
 /// Its impacts are numbered from 1; number 0 is the launch from which it starts. The flight that ends with
 /// impact n + 1, and the effects of this impact, are power series in r^n. All contain the factor 1 - r. The
@@ -164,8 +164,8 @@ impl Vibration {
     pub(crate) fn chatter_series(&self, phase: Phase, speed: f64, restitution: f64) -> ChatterSeries {
         let (pull, drift) = (self.contact_force(phase), self.velocity(phase));
         let duration = Expansion { pull, drift, restitution }.duration(speed);
-        // Pull and drift at the accumulation point, from those at the start: next to a separation the pull of
-        // a rounded phase would be another one.
+        // Pull and drift at the accumulation point, from those at the start: near a separation the pull of a
+        // rounded phase would differ.
         let (sin, cos) = sin_cos_bounded(duration);
         let sin_half = sin_cos_bounded(0.5 * duration).0;
         let last_pull = pull - (drift * sin - (1.0 - pull) * (2.0 * sin_half * sin_half));
@@ -238,7 +238,7 @@ impl<'a> Shape<'a> {
     }
 
     /// The sum of `forces` times the mean over a flight of R^k, weighted with the share of the flight to one
-    /// end: `near` that end, `far` from the other.
+    /// end, `near` being that end and `far` the other.
     fn mean(&self, far: impl Fn(usize) -> PowerSeries, near: impl Fn(usize) -> PowerSeries) -> PowerSeries {
         let (far, near): ([PowerSeries; ORDER], [PowerSeries; ORDER]) =
             (core::array::from_fn(far), core::array::from_fn(near));
@@ -263,8 +263,8 @@ impl<'a> Shape<'a> {
         self.power(k).weighted(|order| ratios[order])
     }
 
-    /// At an impact: the mean that gives the speed of the launch after it, and by how much the one that gives
-    /// the speed before it is larger, per 1 - r.
+    /// The mean at an impact that gives the launch speed after it, and the excess, per 1 - r, of the mean
+    /// that gives the speed before it.
     fn means_at_impact(&self) -> (PowerSeries, PowerSeries) {
         let after =
             self.mean(|k| self.next_power(k), |k| self.power(k).weighted(|order| self.squares[order]));
@@ -280,7 +280,7 @@ impl<'a> Shape<'a> {
         self.flight().times(&self.mean(|k| self.next_power(k), |k| self.power(k)))
     }
 
-    /// Speed of the launch that the flight starts with, per 1 - r.
+    /// Speed of the launch that begins the flight, per 1 - r.
     fn launch_speed(&self) -> PowerSeries {
         self.flight().times(&self.mean(|k| self.power(k), |k| self.next_power(k)))
     }
@@ -302,7 +302,7 @@ impl ChatterSeries {
         restitution > LARGEST_COUNTED_RESTITUTION || (slow && restitution > 0.0)
     }
 
-    /// Time from the start to the accumulation point (rad), that of [`crate::ImpactMap::accumulation`].
+    /// Time from the start to the accumulation point (rad), as in [`crate::ImpactMap::accumulation`].
     #[must_use]
     pub const fn duration(&self) -> f64 {
         self.duration
@@ -332,19 +332,19 @@ impl ChatterSeries {
         &self.launch_speed
     }
 
-    /// Sine and cosine of the phase of impact n less those at the accumulation point.
+    /// Sine and cosine of the phase of impact n minus their values at the accumulation point.
     #[must_use]
     pub const fn pair_changes(&self) -> (&PowerSeries, &PowerSeries) {
         (&self.sine, &self.cosine)
     }
 
-    /// How much a series without constant term falls over the flight after impact n, per 1 - r.
+    /// The decrease of a series without constant term over the flight after impact n, per 1 - r.
     #[must_use]
     pub fn per_flight(&self, series: &PowerSeries) -> PowerSeries {
         series.weighted(|k| self.sums[k])
     }
 
-    /// The sum over all impacts from n + 1 on of a quantity that is given per 1 - r: undoes
+    /// The sum over all impacts from n + 1 of a quantity given per 1 - r; the inverse of
     /// [`Self::per_flight`].
     #[must_use]
     pub fn summed(&self, series: &PowerSeries) -> PowerSeries {
@@ -369,7 +369,7 @@ impl ChatterSeries {
         impacts.map_or(0.0, |impacts| self.share_after(impacts).0)
     }
 
-    /// The impacts `from` + 1 to `to`, or all from `from` + 1 on.
+    /// The impacts `from` + 1 to `to`, or all from `from` + 1.
     #[must_use]
     pub fn range(&self, from: u64, to: Option<u64>) -> ImpactRange<'_> {
         let (ratio, lost) = to.map_or((0.0, 1.0), |to| self.share_after(to.saturating_sub(from)));
@@ -389,7 +389,7 @@ impl ChatterSeries {
         (ln(last) / self.rate).ceil() as u64
     }
 
-    /// The number of impacts up to `time` (rad) after the start, or `None` if that is not before the
+    /// The number of impacts up to `time` (rad) after the start, or `None` if this time is not before the
     /// accumulation point.
     #[must_use]
     pub fn impacts_by(&self, time: f64) -> Option<u64> {
@@ -398,7 +398,7 @@ impl ChatterSeries {
         }
         let left = self.duration - time;
         let is_by = |impacts: u64| {
-            // From the end that is nearer.
+            // From the nearer end.
             if left < time {
                 self.remaining.at(self.share_after(impacts).0) >= left
             } else {
@@ -424,8 +424,8 @@ impl ChatterSeries {
         Some(impacts)
     }
 
-    /// The first impact n >= `from` at which `start`, less the decrease of `series` from impact `from` to
-    /// impact n, is negative.
+    /// The first impact n >= `from` at which `start` minus the decrease of `series` from impact `from` to
+    /// impact n is negative.
     #[must_use]
     pub fn first_negative(&self, from: u64, start: f64, series: &PowerSeries) -> Option<u64> {
         if start < 0.0 {
@@ -448,7 +448,7 @@ impl ChatterSeries {
                     later -= 1;
                 }
             }
-            // The continuous path may be negative only between two impacts, and positive at both: then the
+            // The continuous path may be negative only between two impacts and positive at both: then the
             // next negative stretch decides.
             (self.share_after(later).1 <= end || is_negative(later)).then(|| from.saturating_add(later))
         })
@@ -457,13 +457,14 @@ impl ChatterSeries {
 
 /// Consecutive impacts of a chatter, and sums over them.
 ///
-/// The terms of a sum are positive where those of its series are: nothing cancels, for few impacts or many.
+/// If the terms of the series are positive, so are the terms of a sum: nothing cancels, for few impacts or
+/// many.
 #[derive(Debug, Clone, Copy)]
 pub struct ImpactRange<'a> {
     series: &'a ChatterSeries,
     /// r^n at the launch before the first of them.
     first: f64,
-    /// The share q of it left after the last one, and 1 - q.
+    /// The share q of `first` left after the last one, and 1 - q.
     ratio: f64,
     lost: f64,
     /// [`geometric_sums`] of q.
@@ -471,13 +472,13 @@ pub struct ImpactRange<'a> {
 }
 
 impl ImpactRange<'_> {
-    /// How much a series falls from before the first to after the last impact.
+    /// The decrease of a series from before the first to after the last impact.
     #[must_use]
     pub fn change(&self, series: &PowerSeries) -> f64 {
         self.lost * series.weighted(|k| self.sums[k]).at(self.first)
     }
 
-    /// The sum of a quantity that is given per 1 - r.
+    /// The sum of a quantity given per 1 - r.
     #[must_use]
     pub fn sum(&self, quantity: &PowerSeries) -> f64 {
         self.change(&self.series.summed(quantity))
@@ -489,8 +490,8 @@ impl ImpactRange<'_> {
         (1.0 - self.series.restitution) * self.sum(&one.times(other))
     }
 
-    /// The sum of a `quantity` (per 1 - r) times the fall of `series` from before the first impact to after
-    /// the one summed.
+    /// The sum of a `quantity` (per 1 - r) times the decrease of `series` from before the first impact to
+    /// after the summed one.
     #[must_use]
     pub fn moment(&self, quantity: &PowerSeries, series: &PowerSeries) -> f64 {
         let (restitution, own) = (self.series.restitution, &self.series.sums);
@@ -516,7 +517,8 @@ impl ImpactRange<'_> {
     }
 }
 
-/// A start less the fall of a series, as a polynomial in the share d in [0, 1] by which r^n has fallen.
+/// A start minus the decrease of a series, as a polynomial in the share d in [0, 1] by which r^n has
+/// decreased.
 struct Path([f64; ORDER + 1]);
 
 impl Path {
@@ -526,7 +528,7 @@ impl Path {
         path[0] = start;
         let scaled = series.0.iter().zip(scales).map(|(coefficient, scale)| coefficient * scale);
         for (k, coefficient) in scaled.enumerate().skip(1) {
-            // 1 - (1 - d)^k, its terms one by one.
+            // 1 - (1 - d)^k, term by term.
             let mut binomial = -1.0;
             for (l, term) in path.iter_mut().enumerate().take(k + 1).skip(1) {
                 binomial *= -((k + 1 - l) as f64) / l as f64;
@@ -548,13 +550,14 @@ impl Path {
         self.0[0] + self.0[1..].iter().map(|term| term.min(0.0)).sum::<f64>() >= 0.0
     }
 
-    /// Where the path goes below zero, and the end of the monotonous stretch on which it does.
+    /// The points at which the path falls below zero, with the ends of the monotonic stretches that contain
+    /// them.
     fn crossings(&self) -> [Option<(f64, f64)>; ORDER] {
         let mut derivatives: [Self; ORDER] = core::array::from_fn(|_| Self(self.0));
         for k in 1..ORDER {
             derivatives[k] = derivatives[k - 1].derivative();
         }
-        // Between the roots of one derivative the one before is monotonous.
+        // Between the roots of one derivative the previous derivative is monotonic.
         let mut ends = [1.0; ORDER + 1];
         ends[0] = 0.0;
         let mut count = 2;
@@ -583,7 +586,7 @@ impl Path {
         crossings
     }
 
-    /// The root between `low` and `high`, where the signs differ and between which the path is monotonous.
+    /// The root between `low` and `high`, at which the signs differ and between which the path is monotonic.
     fn root(&self, derivative: &Self, mut low: f64, mut high: f64) -> f64 {
         let low_is_negative = self.at(low) < 0.0;
         let mut at = low;

@@ -5,32 +5,32 @@ use core::f64::consts::{PI, TAU};
 use crate::numerics::error::Error;
 use crate::numerics::stored::read_checked;
 
-/// Largest error of the end of a chatter on a drive (rad) with which [`ChatterPolicy::Complete`] is content.
+/// Largest error of the end of a chatter on a drive (rad) that [`ChatterPolicy::Complete`] accepts.
 const COMPLETION_ERROR: f64 = 1.0e-14;
 
-/// A disk launched slower than this (g/omega), on a drive that pulls it, is put on it where no bound proves
-/// that its chatter ends.
+/// Launch speed (g/omega) below which a disk on a drive that pulls it attaches even if no bound proves that
+/// its chatter ends.
 const SMALLEST_SPEED: f64 = 1.0e-18;
 
-/// How the infinite sequence of impacts of a chattering disk is treated.
+/// The treatment of the infinite sequence of impacts of a chattering disk.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum ChatterPolicy {
     /// The sequence is summed in closed form and the disk attaches at the accumulation point, provided that a
-    /// bound shows a pull to the platform all the way there.
+    /// bound proves a pull towards the platform up to this point.
     #[default]
     Complete,
-    /// The disk is put on the platform as soon as a rule says so, as in all simulations impact by impact, the
-    /// paper's included (Sec. IV A).
+    /// The disk attaches as soon as a rule applies, as in all simulations impact by impact, including the
+    /// paper's (Sec. IV A).
     Cut(ChatterCut),
 }
 
-/// How long a chatter lasts, from a launch to the rest.
+/// The duration of a chatter, from a launch to the rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ChatterDuration {
-    /// In radians, from the Taylor series of the acceleration at the launch.
+    /// The duration in radians, from the Taylor series of the acceleration at the launch.
     pub duration: f64,
     /// Bound on its error.
     pub error: f64,
@@ -42,16 +42,16 @@ pub trait Surface {
     /// Whether a disk that rests on the platform at `time` stays there.
     fn holds(&self, time: f64) -> bool;
 
-    /// The time from a launch at `time` with relative `speed` to the rest after infinitely many impacts, if that is
-    /// proven.
+    /// The time from a launch at `time` with relative `speed` to the rest after infinitely many impacts, if
+    /// it is proven.
     fn chatter_duration(&self, time: f64, speed: f64, restitution: f64) -> Option<ChatterDuration>;
 }
 
-/// What a disk does after an impact on any platform.
+/// The motion of a disk after an impact on any platform.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum AfterImpact {
-    /// It leaves the platform with this relative speed, in units of g/omega: zero where a cut has taken the
-    /// rebound from a disk that the platform then leaves behind.
+    /// It leaves the platform with this relative speed, in units of g/omega: zero if a cut has removed the
+    /// rebound of a disk that the platform then leaves behind.
     Launch(f64),
     /// It chatters, and rests after this time.
     Chatter(ChatterDuration),
@@ -63,8 +63,8 @@ pub enum AfterImpact {
 }
 
 impl ChatterPolicy {
-    /// What follows an impact on `surface` at `time` with this relative velocity <= 0, at the end of a flight
-    /// of this duration (rad; infinite if it does not count as a flight).
+    /// The motion after an impact on `surface` at `time` with this relative velocity <= 0, at the end of a
+    /// flight of this duration (rad; infinite if it does not count as a flight).
     pub fn after_impact(
         &self,
         (surface, restitution): (&impl Surface, f64),
@@ -93,8 +93,8 @@ impl ChatterPolicy {
     }
 }
 
-/// When a disk that is followed impact by impact is put on the platform: as soon as an impact is slower than
-/// a smallest speed, or after a number of consecutive short flights.
+/// The rule by which a disk that is followed impact by impact attaches: as soon as an impact is slower than a
+/// smallest speed, or after a number of consecutive short flights.
 ///
 /// A cut that never applies leaves a chattering disk bouncing until its speed underflows.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -117,7 +117,7 @@ const fn out_of_range(field: &'static str, value: f64, legal: &'static str) -> R
 }
 
 impl ChatterCut {
-    /// A cut below the normalised impact speed `smallest_speed` = |w_A Gamma/(omega A)| >= 0, or after
+    /// The cut below the normalised impact speed `smallest_speed` = |w_A Gamma/(omega A)| >= 0, or after
     /// `short_flights` >= 1 consecutive flights shorter than `short_flight` >= 0 periods of the platform.
     ///
     /// # Errors
@@ -135,7 +135,7 @@ impl ChatterCut {
         Ok(Self { smallest_speed, short_flight, short_flights })
     }
 
-    /// The normalised impact speed |w_A Gamma/(omega A)| below which the disk is put on the platform.
+    /// The normalised impact speed |w_A Gamma/(omega A)| below which the disk attaches.
     #[must_use]
     pub const fn smallest_speed(&self) -> f64 {
         self.smallest_speed
@@ -147,15 +147,15 @@ impl ChatterCut {
         self.short_flight
     }
 
-    /// How many consecutive short flights put the disk on the platform.
+    /// The number of consecutive short flights after which the disk attaches.
     #[must_use]
     pub const fn short_flights(&self) -> u32 {
         self.short_flights
     }
 
-    /// Whether a flight of this duration (rad), taken from two phases and a count of periods, is so near to a
-    /// short one that its rounding may decide. That rounding is far smaller, so that the flight is nearly
-    /// never computed again.
+    /// Whether a flight of this duration (rad), taken from two phases and a count of periods, is so close to
+    /// the limit for short flights that its rounding may decide. The rounding is so small that a flight is
+    /// almost never recomputed.
     #[inline(always)]
     pub(crate) fn may_hang_on(&self, duration: f64) -> bool {
         let threshold = self.short_flight * TAU;
@@ -163,7 +163,7 @@ impl ChatterCut {
     }
 }
 
-/// The consecutive short flights of an orbit, which a cut needs to remember.
+/// The number of consecutive short flights of an orbit, which a cut must remember.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct ShortFlightCount(u32);
 
@@ -173,7 +173,7 @@ impl ShortFlightCount {
         Self(0)
     }
 
-    /// Whether the cut puts the disk on the platform after an impact with this duration (rad) and speed.
+    /// Whether the disk attaches after an impact with this duration (rad) and speed.
     #[inline]
     pub(crate) fn attaches(&mut self, cut: &ChatterCut, duration: f64, impact_speed: f64) -> bool {
         self.0 = if duration < cut.short_flight * TAU { self.0 + 1 } else { 0 };
@@ -208,7 +208,7 @@ mod tests {
         let below = |x: f64| f64::from_bits(x.to_bits() - 1);
         let mut count = ShortFlightCount::new();
         assert!(!count.attaches(&PAPER_CUT, 1.0, fast) && count.attaches(&PAPER_CUT, 1.0, below(fast)));
-        // The first of each twenty after anything else counts anew.
+        // After any other flight the count of twenty restarts.
         for _ in 0..2 {
             assert!((1..20).all(|_| !count.attaches(&PAPER_CUT, below(short), 1.0)));
             assert!(count.attaches(&PAPER_CUT, below(short), 1.0), "the twentieth");

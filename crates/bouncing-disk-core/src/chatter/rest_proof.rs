@@ -1,12 +1,12 @@
 //! A closed-form proof, long before a disk rests, that it will chatter to rest before the platform falls
 //! away.
 //!
-//! The pull of the platform on a disk next to it is a = 1 - P sin tau. From the crest (tau = pi/2) it grows
+//! The pull of the platform on a disk near it is a = 1 - P sin tau. From the crest (tau = pi/2) it grows
 //! until the lowest point (3 pi/2), then it shrinks, for P > 1 to zero at the separation, for P <= 1 to its
-//! least value at the next crest. Let G be the integral of the pull from the launch to that place: the
-//! impulse that is left to stop the disk. The proof shows for a certain share k of G: if a launch is slower
-//! than k G, so is the next one, with its own, smaller G. All later launches are then too slow to outlast the
-//! pull, and the disk comes to rest (docs/numerics-impacts.md, "The proof of rest").
+//! least value at the next crest. Let G be the integral of the pull from the launch to that point: the
+//! impulse left to stop the disk. The proof shows for a certain share k: if a launch is slower than k G, so
+//! is the next one, with its own, smaller G. All later launches are then too slow to outlast the pull, and
+//! the disk comes to rest (docs/numerics-impacts.md, "The proof of rest").
 
 use core::f64::consts::{PI, TAU};
 
@@ -31,10 +31,10 @@ pub(crate) struct RestProof {
     separation_cosine: f64,
     impulse_rounding: f64,
     restitution: f64,
-    /// 1 - r, made smaller by the slack.
+    /// 1 - r, reduced by the slack.
     loss: f64,
-    /// Whether every disk comes to rest, because a flight returns less speed than it got however the pull
-    /// changes.
+    /// Whether every disk comes to rest, because every flight returns less speed than it received, however
+    /// the pull changes.
     always: bool,
 }
 
@@ -58,8 +58,8 @@ impl RestProof {
         }
     }
 
-    /// Whether a launch with relative `speed` > 0 at a phase with this angle in [0, 2 pi), sine and cosine is
-    /// certain to lead to rest. The code has no branches, because lanes use it, too.
+    /// Whether a launch with relative `speed` > 0 at a phase with this angle in [0, 2 pi), sine and cosine
+    /// certainly leads to rest. The code has no branches, because lanes use it too.
     #[inline(always)]
     pub(crate) fn is_certain(&self, angle: f64, sin: f64, cos: f64, speed: f64) -> bool {
         let (peak, loss) = (self.peak, self.loss);
@@ -71,11 +71,11 @@ impl RestProof {
         let until_separation = if (cos >= 0.0) & (angle < PI) { ahead } else { ahead + TAU };
         let impulse = (until_separation + (self.separation_speed - drift)) - self.impulse_rounding;
 
-        // The pull shrinks: u <= w, and less the faster it shrinks.
+        // The pull shrinks: u <= w, and u is smaller the faster the pull shrinks.
         let least = if cos < self.separation_cosine { cos } else { self.separation_cosine };
         let lost = (1.0 / 12.0) * (1.0 + self.restitution) * least * (1.0 + (1.0 / 3.0) * loss * least);
         let shrinking = (2.0 * speed * (1.0 - lost) <= loss * impulse)
-            // Next to the separation the impulse cancels; the pull lies above its tangent there.
+            // Near the separation the impulse cancels; there the pull lies above its tangent.
             | ((sin >= 0.0) & (peak > 1.0) & (4.0 * speed * drift <= loss * (pull * pull)));
 
         // The pull grows until 3 pi/2: all flights end before, or u <= w sqrt((1 + P)/a).
@@ -90,7 +90,8 @@ impl RestProof {
 
 impl Vibration {
     /// Whether a disk that leaves the platform at `phase` with relative `speed` >= 0 is certain to chatter to
-    /// rest before the platform falls away: proven long before [`Self::accumulation`] can say where.
+    /// rest before the platform falls away. This is proven long before [`Self::accumulation`] can locate the
+    /// accumulation point.
     ///
     /// `restitution` in [0, 1).
     #[must_use]
@@ -113,7 +114,7 @@ mod tests {
     use crate::numerics::roots::bisected_bracket;
     use crate::numerics::testing::spread;
 
-    /// What became of a launch: how long it took to come to rest, if it did before the separation.
+    /// The time from a launch to the rest, if the disk rests before the separation.
     fn duration_of_chatter(map: &ImpactMap, state: ImpactState) -> Option<f64> {
         let vibration = map.vibration();
         let window = if vibration.separation_phase().is_some() {
@@ -150,13 +151,13 @@ mod tests {
             };
             let map = ImpactMap::new(Vibration::new(peak).expect("legal"), restitution).expect("legal");
             let phase = Phase::new(TAU * spread(k, 0.618_034)).expect("finite");
-            // From far below the impulse that is left to a share of it at which some come to rest and some do
-            // not.
+            // From far below the remaining impulse to a share of it at which some disks come to rest and some
+            // do not.
             let scale = 0.5 * (1.0 - restitution) * (1.0 + peak);
             let speed = scale * libm::exp10(-3.0 + 3.5 * spread(k, 0.137));
             let proven = map.vibration().chatters_to_rest(phase, speed, restitution);
             let state = ImpactState::new(phase, -speed / restitution.max(1.0e-3)).expect("legal");
-            // The launch that the orbit makes of it, which rounding may have changed.
+            // The launch in the orbit, which rounding may have changed.
             let exact = (-restitution * state.velocity()).to_bits() == speed.to_bits();
             if restitution < 1.0e-3 || !exact {
                 continue;
@@ -168,11 +169,11 @@ mod tests {
             fast += u32::from(proven && speed > 0.1 * scale);
         }
         assert!(certain > 5_000 && fast > 1_000, "{certain} {fast}");
-        // Not a proof that finds only the obvious.
+        // The proof does not find only obvious cases.
         assert!(4 * certain > 3 * rests, "{certain} of {rests}");
     }
 
-    /// Where the pull grows and the impulse proves nothing, rest comes while it still grows.
+    /// If the pull grows and the impulse proves nothing, the disk rests while the pull still grows.
     #[test]
     fn rest_comes_before_the_strongest_pull_where_only_that_is_proven() {
         let mut certain = 0;
@@ -196,14 +197,14 @@ mod tests {
         assert!(certain > 1_000, "{certain}");
     }
 
-    /// The largest of the speeds in (0, `most`) for which something holds that holds for all smaller ones.
+    /// The largest speed in (0, `most`) up to which a condition holds.
     fn fastest(most: f64, holds: impl Fn(f64) -> bool) -> f64 {
         let Ok((fastest, _)) = bisected_bracket(0.0, most, 40, |speed| Ok::<_, Infallible>(holds(speed)));
         fastest
     }
 
-    /// Whether a disk chatters to rest under a pull 1 - t that shrinks to nothing at t = 1, launched at t =
-    /// 0: the map in closed form, w h - (1 - t) h^2/2 + h^3/6 = 0.
+    /// Whether a disk chatters to rest under a pull 1 - t that vanishes at t = 1, launched at t = 0: the map
+    /// in closed form, w h - (1 - t) h^2/2 + h^3/6 = 0.
     fn rests_under_a_linear_pull(mut speed: f64, restitution: f64) -> bool {
         let mut left = 1.0;
         while speed > 1.0e-30 {
@@ -221,14 +222,14 @@ mod tests {
         true
     }
 
-    /// Where a launch just comes to rest before the separation, against the fastest one that the proof
+    /// The fastest launch that comes to rest before the separation, against the fastest one that the proof
     /// accepts.
     #[test]
     fn the_proof_is_nearly_sharp_where_the_pull_shrinks() {
         let (forcing, restitution) = (0.5, 0.5);
         let map = ImpactMap::new(Vibration::from_axial_forcing(forcing).expect("legal"), restitution)
             .expect("legal");
-        // In units of the impulse left, 1/2. Next to the separation the pull is linear.
+        // In units of the remaining impulse, 1/2. Near the separation the pull is linear.
         let linear = 2.0 * fastest(0.5, |speed| rests_under_a_linear_pull(speed, restitution));
         let share = |cosine: f64| {
             let half = 0.5 * (1.0 - restitution);
@@ -244,8 +245,8 @@ mod tests {
             assert!(proven <= limit, "{angle}: {proven} {limit}");
             proven / limit
         };
-        // Farther away it bends. How much that changes the limit is not derived: measured are a hundredth or
-        // two of it, and next to the separation less than a thousandth.
+        // Farther away it is curved. The effect on the limit is not derived; measurements give one or two
+        // hundredths of it, and near the separation less than a thousandth.
         const BENT: f64 = 0.02;
         let separation = map.vibration().separation_phase().expect("separates");
         for angle in [4.8, 5.2, 5.6, 6.0, 0.1, 0.4, 0.6] {
@@ -256,7 +257,8 @@ mod tests {
         assert!((near - expected).abs() <= 1.0e-3, "{near} {expected}");
     }
 
-    /// A rest next to the separation is proven, too, though the impulse left is smaller than its rounding.
+    /// A rest near the separation is also proven, although the remaining impulse is smaller than its
+    /// rounding.
     #[test]
     fn rest_next_to_the_separation_is_proven() {
         let vibration = Vibration::new(2.0).expect("legal");
@@ -270,8 +272,8 @@ mod tests {
         }
     }
 
-    /// The disk ends on an orbit of one impact a period: at the crest the pull is weakest, and nothing is
-    /// left of its shrinking.
+    /// The disk ends on an orbit of one impact per period: at the crest the pull is weakest and no longer
+    /// shrinks.
     #[test]
     fn nothing_is_proven_at_the_crest_by_the_turn_to_come() {
         let map = ImpactMap::new(Vibration::new(0.98788).expect("legal"), 0.92417).expect("legal");
@@ -289,7 +291,7 @@ mod tests {
         }
     }
 
-    /// Just above P = 1 the separation angle is known to 1e-13 only, and the impulse that is left with it.
+    /// Just above P = 1 the separation angle is known to 1e-13 only, and so is the remaining impulse.
     #[test]
     fn the_rounding_of_the_separation_proves_nothing() {
         let vibration = Vibration::new(1.000_000_007_455_782).expect("legal");

@@ -1,26 +1,26 @@
-//! The mean of a long sequence whose members are correlated, and its standard error.
+//! The mean of a long correlated sequence, and its standard error.
 //!
-//! The batches are sums of neighbours, whose length doubles as the sequence grows; their numbers are 64 to
-//! 128, 32 to 64 and 16 to 32. The drift is the distance of the mean from the mean of the second half, and
+//! The batches are sums of neighbours, whose length doubles as the sequence grows; there are 64 to 128, 32 to
+//! 64 and 16 to 32 of them. The drift is the distance of the mean from the mean of the second half, and
 //! covers the whole bias of a transient that ends within the first half. For growth like n^k, a sum of k ln
 //! n, it is (k/n)(ln n - 2 ln 2) for a mean of (k/n) ln n. Without a drift it is the error from two batches.
 
 use crate::numerics::statistics::standard_deviation;
 
-/// Most batches that are kept; when there are as many, neighbours are joined.
+/// Largest number of batches; when it is reached, neighbours are joined.
 const MOST_BATCHES: usize = 128;
 
-/// Fewest batches that a standard error is taken from: of 16 it is itself uncertain by 18 %.
+/// Smallest number of batches for a standard error, whose own uncertainty with 16 batches is 18 %.
 const FEWEST_BATCHES: usize = 16;
 
-/// Numbers that a standard error needs at least.
+/// Smallest number of values for a standard error.
 pub const FEWEST_NUMBERS: u64 = FEWEST_BATCHES as u64;
 
 /// The mean of a stream of numbers, with a standard error that covers the scatter of correlated numbers
-/// (batch means, if the correlation dies out within a sixteenth of the sequence), a drift (the two
-/// halves of the sequence differ), and rounding.
+/// (batch means, if the correlation dies out within a sixteenth of the sequence), a drift (a difference
+/// between the two halves), and rounding.
 ///
-/// Between 64 and 128 sums of batches are kept, however many numbers come.
+/// It keeps between 64 and 128 sums of batches, however long the stream.
 ///
 /// ```
 /// use bouncing_disk_core::numerics::batch_means::BatchMeans;
@@ -36,9 +36,9 @@ pub const FEWEST_NUMBERS: u64 = FEWEST_BATCHES as u64;
 #[derive(Debug, Clone)]
 pub struct BatchMeans {
     sums: Vec<f64>,
-    /// Numbers of each of these batches.
+    /// Numbers in each of these batches.
     length: u64,
-    /// Sum and count of the batch that is not full.
+    /// Sum and count of the incomplete batch.
     open: (f64, u64),
     resolution: f64,
     /// The largest modulus of a number.
@@ -51,7 +51,7 @@ impl Default for BatchMeans {
     }
 }
 
-/// The mean of numbers with this sum of sums.
+/// The mean of the numbers in batches with these sums.
 fn mean_of(sums: &[f64], length: u64) -> f64 {
     sums.iter().sum::<f64>() / (sums.len() as f64 * length as f64)
 }
@@ -62,13 +62,13 @@ fn joined(sums: &[f64]) -> Vec<f64> {
 }
 
 impl BatchMeans {
-    /// No numbers yet; each may be off by `resolution` >= 0, all to the same side.
+    /// An empty mean of numbers whose errors may be up to `resolution` >= 0, all to the same side.
     #[must_use]
     pub const fn with_resolution(resolution: f64) -> Self {
         Self { sums: Vec::new(), length: 1, open: (0.0, 0), resolution, largest: 0.0 }
     }
 
-    /// Takes the next number.
+    /// Adds the next number.
     #[inline]
     pub fn push(&mut self, value: f64) {
         self.largest = self.largest.max(value.abs());
@@ -88,7 +88,7 @@ impl BatchMeans {
         }
     }
 
-    /// How many numbers there were.
+    /// The number of values.
     #[must_use]
     pub const fn count(&self) -> u64 {
         self.sums.len() as u64 * self.length + self.open.1
@@ -103,14 +103,14 @@ impl BatchMeans {
 
     /// The standard error of the mean; `None` for fewer than [`FEWEST_NUMBERS`].
     ///
-    /// It is the largest of these (docs/numerics-dynamics.md, "The standard error"):
-    /// - the errors by batches of this length, twice and four times this length and so on, down to 16
-    ///   batches: those shorter than the correlation give less;
-    /// - half of the difference of the means of the two halves: the rest of a transient that ends in the
-    ///   first one, and of any drift;
+    /// It is the largest of the following (docs/numerics-dynamics.md, "The standard error"):
+    /// - the errors from batches of this length, twice and four times this length and so on, down to 16
+    ///   batches: batches shorter than the correlation give less;
+    /// - half of the difference of the means of the two halves: the bias from a transient that ends in the
+    ///   first half, and from any drift;
     /// - the resolution of a number, and the rounding of the sums.
     ///
-    /// For uncorrelated numbers it is therefore too large by about a fifth.
+    /// So for uncorrelated numbers it is too large by about a fifth.
     #[must_use]
     pub fn standard_error(&self) -> Option<f64> {
         if self.sums.len() < FEWEST_BATCHES {
@@ -137,7 +137,7 @@ mod tests {
     use super::*;
     use crate::numerics::random::SplitMix64;
 
-    /// A sequence in which each number keeps a share of the last one, about zero.
+    /// A sequence around zero in which each number keeps a share of the last one.
     fn correlated(share: f64, count: usize, random: &mut SplitMix64) -> BatchMeans {
         let (mut means, mut value) = (BatchMeans::default(), 0.0);
         for _ in 0..count {
@@ -147,7 +147,7 @@ mod tests {
         means
     }
 
-    /// The variance of such a mean is known: that of the kicks, 1/12, over n (1 - share)^2.
+    /// The variance of such a mean is known: the variance 1/12 of the kicks over n (1 - share)^2.
     #[test]
     fn the_error_of_correlated_numbers_is_that_of_their_mean() {
         let mut random = SplitMix64::new(7);
@@ -180,7 +180,7 @@ mod tests {
         assert_eq!(means.standard_error(), Some(3.5));
     }
 
-    /// However many numbers come, none is lost, and equal ones have the error of their rounding.
+    /// No number is lost in a sequence of any length, and the error of equal numbers is their rounding.
     #[test]
     fn the_batches_grow_with_the_sequence() {
         let mut means = BatchMeans::default();
@@ -193,8 +193,8 @@ mod tests {
         assert!(means.mean() == Some(0.5) && (1e-16..2e-13).contains(&error), "{error:e}");
     }
 
-    /// The mean of what decays, grows by steps of 1/k, or is a constant with rounding: the limit lies within
-    /// three errors.
+    /// The mean of a sequence that decays, grows in steps of 1/k, or is constant with rounding: the limit
+    /// lies within three errors.
     #[test]
     fn the_error_holds_a_transient_a_drift_and_rounding() {
         type Sequence = fn(f64) -> f64;

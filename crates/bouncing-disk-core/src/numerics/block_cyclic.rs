@@ -4,8 +4,8 @@ use glam::{DMat2, DVec2};
 
 use crate::numerics::elementary::hypot;
 
-/// Columns of a row that is being eliminated: those of its own unknown, of the first and of the following
-/// unknown, and the right side.
+/// Columns of a row during elimination: its own unknown, the first and the following unknown, and the right
+/// side.
 pub(crate) const OWN: usize = 0;
 pub(crate) const FIRST: usize = 2;
 pub(crate) const NEXT: usize = 4;
@@ -13,13 +13,13 @@ const RIGHT: usize = 6;
 
 type Row = [f64; 7];
 
-/// Solves `blocks[i] x[i] - x[i + 1] = right[i]`, the index taken modulo the number n >= 1 of blocks, for x.
+/// Solves `blocks[i] x[i] - x[i + 1] = right[i]`, for x, with the index modulo the number n >= 1 of blocks.
 ///
-/// Rotations of the two rows of blocks that contain an unknown eliminate one after the other, from 1 on,
-/// until only the first is left: a structured QR factorisation (S. J. Wright, SIAM J. Sci. Stat. Comput. 13,
-/// 742 (1992)). With rotations the rounding does not grow, however unstable the sequence is; with the product
-/// of the blocks it would. The solution of a singular system is not finite, or as large as the rounding makes
-/// it.
+/// Rotations of the two rows of blocks that contain an unknown eliminate the unknowns one by one from number
+/// 1, until only the first is left: a structured QR factorisation (S. J. Wright, SIAM J. Sci. Stat. Comput.
+/// 13, 742 (1992)). With rotations rounding errors do not grow, however unstable the sequence; with the
+/// product of the blocks they would. The solution of a singular system is not finite, or as large as rounding
+/// makes it.
 pub fn solve_block_cyclic(blocks: &[DMat2], right: &[DVec2]) -> Vec<DVec2> {
     let n = blocks.len().min(right.len());
     if n == 0 {
@@ -61,10 +61,9 @@ pub fn solve_block_cyclic(blocks: &[DMat2], right: &[DVec2]) -> Vec<DVec2> {
     solution
 }
 
-/// Eliminates the unknown of the first two columns from the two rows that couple it with the first unknown of
-/// the sequence and the two that couple it with the following one (two columns from [`NEXT`] on): the two
-/// rows that hold it now, and the two that are left, in which what was the following unknown is the next
-/// one's own.
+/// Eliminates the unknown of the first two columns from four rows. Two rows couple it with the first unknown
+/// of the sequence, two with the following unknown (two columns from [`NEXT`]). The results are the two rows
+/// that now contain it, and the two remaining rows, in which the following unknown takes its place.
 pub(crate) fn eliminate<const WIDTH: usize>(
     last: [[f64; WIDTH]; 2],
     fresh: [[f64; WIDTH]; 2],
@@ -130,7 +129,7 @@ mod tests {
     use super::*;
     use crate::numerics::random::SplitMix64;
 
-    /// The largest residual, relative to the sum of the magnitudes that make it up.
+    /// The largest residual, relative to the sum of the magnitudes of its terms.
     fn residual(blocks: &[DMat2], right: &[DVec2], x: &[DVec2]) -> f64 {
         let n = blocks.len();
         (0..n).fold(0.0, |worst: f64, i| {
@@ -152,8 +151,8 @@ mod tests {
         (blocks, (0..n).map(|_| DVec2::new(number(), number())).collect())
     }
 
-    /// The equations themselves are the oracle: they share nothing with the elimination. Products of these
-    /// blocks reach from 1e-300 far beyond the largest double.
+    /// The equations themselves are the oracle, independent of the elimination. Products of these blocks
+    /// range from 1e-300 to far beyond the largest double.
     #[test]
     fn the_equations_hold_for_stable_and_unstable_sequences() {
         for n in [1, 2, 3, 7, 100, 4_096] {
@@ -169,7 +168,7 @@ mod tests {
         }
     }
 
-    /// The whole as one dense matrix, by faer's LU factorisation with exchanges of rows.
+    /// The whole system as one dense matrix, by faer's LU factorisation with row exchanges.
     #[test]
     fn a_dense_solve_agrees() {
         for n in [1, 2, 3, 7, 30] {

@@ -1,37 +1,36 @@
-//! The linear system of a closed sequence of equations with one more parameter and condition, in time and
-//! memory proportional to its length, for Newton's method on a branch of periodic orbits.
+//! The linear system of a closed sequence of equations with an additional parameter and condition, solved in
+//! time and memory proportional to its length. Newton's method on a branch of periodic orbits uses it.
 
 use glam::{DMat2, DVec2};
 
 use crate::numerics::block_cyclic::{FIRST, NEXT, OWN, eliminate, rotate};
 
-/// Columns of a row that is being eliminated, behind those of the unknowns: that of the parameter, and the
-/// right side.
+/// Columns of a row during elimination, after the unknowns: the parameter and the right side.
 const PARAMETER: usize = 6;
 const RIGHT: usize = 7;
 
 type Row = [f64; 8];
 
-/// The condition that is added: `first . x[0] + parameter mu = right`.
+/// The additional condition: `first . x[0] + parameter mu = right`.
 #[derive(Debug, Clone, Copy)]
 pub struct Border {
-    /// The part of the first unknown.
+    /// The coefficients of the first unknown.
     pub first: DVec2,
-    /// The part of the parameter.
+    /// The coefficient of the parameter.
     pub parameter: f64,
     /// The right side.
     pub right: f64,
 }
 
-/// The equations of a closed sequence: `own[i] x[i] + next[i] x[i + 1] + column[i] mu = right[i]`, the index
-/// taken modulo their number.
+/// The equations of a closed sequence: `own[i] x[i] + next[i] x[i + 1] + column[i] mu = right[i]`, with the
+/// index modulo their number.
 #[derive(Debug, Clone, Default)]
 pub struct CyclicEquations {
-    /// Of the own unknown of each equation.
+    /// The coefficients of each equation's own unknown.
     pub own: Vec<DMat2>,
-    /// Of the next unknown.
+    /// The coefficients of the next unknown.
     pub next: Vec<DMat2>,
-    /// Of the parameter.
+    /// The coefficients of the parameter.
     pub column: Vec<DVec2>,
     /// The right sides.
     pub right: Vec<DVec2>,
@@ -40,11 +39,11 @@ pub struct CyclicEquations {
 impl CyclicEquations {
     /// The unknowns x and mu.
     ///
-    /// As in [`solve_block_cyclic`](super::block_cyclic::solve_block_cyclic) the unknowns are eliminated by
-    /// rotations from 1 on; the parameter is carried along like the first unknown. As the condition holds
-    /// these two alone, it meets the rest at the end, in three equations: so the whole is as well conditioned
-    /// as the bordered matrix, also where the closed sequence alone is singular, in a fold. The solution of a
-    /// singular system is not finite, or as large as the rounding makes it.
+    /// As in [`solve_block_cyclic`](super::block_cyclic::solve_block_cyclic) rotations eliminate the unknowns
+    /// from number 1, and the parameter is carried along like the first unknown. The condition contains only
+    /// these two, so it joins the others in three final equations. So the whole is as well conditioned as the
+    /// bordered matrix, even at a fold, where the closed sequence alone is singular. The solution of a
+    /// singular system is not finite, or as large as rounding makes it.
     pub fn solve(&self, border: Border) -> (Vec<DVec2>, f64) {
         let n = self.own.len();
         if n == 0 {
@@ -137,8 +136,8 @@ mod tests {
         (system, Border { first, parameter: rest.x, right: rest.y })
     }
 
-    /// The largest residual, relative to the largest sum of magnitudes that makes one up: rotations are
-    /// stable in the norm of the whole, as the first unknown and the parameter reach every equation.
+    /// The largest residual, relative to the largest sum of the magnitudes of an equation's terms: rotations
+    /// are stable in the norm of the whole, as the first unknown and the parameter affect every equation.
     fn residual(system: &CyclicEquations, border: Border, (x, mu): (&[DVec2], f64)) -> f64 {
         let n = x.len();
         let size = |block: DMat2| block.x_axis.length() + block.y_axis.length();
@@ -173,7 +172,7 @@ mod tests {
         }
     }
 
-    /// In a fold the closed sequence alone is singular and the whole is not: x - mu (1, 0) = 0 in the second
+    /// At a fold the closed sequence alone is singular, but not the whole: x - mu (1, 0) = 0 in the second
     /// row only.
     #[test]
     fn a_fold_is_solved() {

@@ -1,6 +1,6 @@
 //! A digest of results that is the same on every machine.
 
-/// The 64-bit FNV-1a hash of bytes and doubles: names the bits of a result in sixteen digits.
+/// The 64-bit FNV-1a hash of bytes and doubles: identifies the bits of a result by sixteen digits.
 ///
 /// ```
 /// use bouncing_disk_core::numerics::digest::Digest;
@@ -19,7 +19,7 @@ impl Default for Digest {
 }
 
 impl Digest {
-    /// The digest of nothing.
+    /// The digest of no bytes.
     #[must_use]
     pub const fn new() -> Self {
         Self(0xcbf2_9ce4_8422_2325)

@@ -1,9 +1,9 @@
-//! Numbers stored as the sum of two doubles: about 31 decimal digits, with the same bits everywhere.
+//! Numbers stored as the sum of two doubles: about 31 decimal digits, with the same bits on every machine.
 //!
-//! The code uses only IEEE `+ - * /` and the square root, and gets the rounding error of a product by
+//! The code uses only IEEE `+ - * /` and the square root, and computes the rounding error of a product by
 //! splitting its factors (Dekker), not by a fused multiply-add. So every processor and compiler gives the
-//! same two doubles. The algorithms are those of T. J. Dekker, Numer. Math. 18, 224 (1971); their error
-//! bounds are from M. Joldes, J.-M. Muller and V. Popescu, ACM Trans. Math. Softw. 44, 15 (2017).
+//! same two doubles. The algorithms are from T. J. Dekker, Numer. Math. 18, 224 (1971); their error bounds
+//! are from M. Joldes, J.-M. Muller and V. Popescu, ACM Trans. Math. Softw. 44, 15 (2017).
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -13,7 +13,7 @@ mod decimal;
 
 /// The unevaluated sum of two doubles, together 106 bits; the first is the sum rounded to a double.
 ///
-/// Products and quotients have a relative error of at most 2^-100 while no part underflows, that is for
+/// Products and quotients have a relative error of at most 2^-100 if no part underflows, that is for
 /// magnitudes from 1e-250 to 1e290. A number that overflows is not finite.
 ///
 /// ```
@@ -33,14 +33,14 @@ pub struct DoubleDouble {
 /// 2^27 + 1, which splits a double into two halves.
 const SPLITTER: f64 = 134_217_729.0;
 
-/// A right angle in three parts.
+/// pi/2 in three parts.
 const HALF_PI: [f64; 3] =
     [core::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17, -1.497_384_904_859_169_8e-33];
 
-/// 2^26: in larger angles the number of right angles has too many bits to be multiplied without error.
+/// 2^26: for larger angles the number of right angles has too many bits for exact multiplication.
 const LARGEST_ANGLE: f64 = 67_108_864.0;
 
-/// 1/k! for k from 2 on.
+/// 1/k! for k = 2, 3, ...
 const INVERSE_FACTORIALS: [(f64, f64); 28] = [
     (0.5, 0.0),
     (0.16666666666666666, 9.25185853854297e-18),
@@ -72,7 +72,7 @@ const INVERSE_FACTORIALS: [(f64, f64); 28] = [
     (1.1309962886447716e-31, 1.0498015412959506e-47),
 ];
 
-/// Sum and error of the sum, of two doubles of any order.
+/// Sum and error of the sum of two doubles in any order.
 #[inline(always)]
 fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
@@ -80,7 +80,7 @@ fn two_sum(a: f64, b: f64) -> (f64, f64) {
     (sum, (a - (sum - other)) + (b - other))
 }
 
-/// Sum and error of the sum, where the first double is the larger one.
+/// Sum and error of the sum of two doubles, the larger one first.
 #[inline(always)]
 fn quick_two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
@@ -117,13 +117,13 @@ impl DoubleDouble {
         self.high
     }
 
-    /// The remainder beyond the nearest double.
+    /// The difference from the nearest double.
     #[must_use]
     pub const fn low(self) -> f64 {
         self.low
     }
 
-    /// Whether it is finite: neither NaN nor infinite.
+    /// Whether the number is finite: neither NaN nor infinite.
     #[must_use]
     pub const fn is_finite(self) -> bool {
         self.high.is_finite() && self.low.is_finite()
@@ -141,7 +141,7 @@ impl DoubleDouble {
         if self.high <= 0.0 {
             return if self.high == 0.0 { Self::ZERO } else { Self { high: f64::NAN, low: f64::NAN } };
         }
-        // One step of Newton's iteration from the root of the nearest double, where the large parts cancel.
+        // One Newton step from the root of the nearest double, in which the large parts cancel.
         let root = self.high.sqrt();
         let (square, error) = two_product(root, root);
         let left = (self - Self { high: square, low: error }).high;
@@ -149,8 +149,8 @@ impl DoubleDouble {
         Self { high, low }
     }
 
-    /// Sine and cosine of an angle below 2^26 rad, to 2e-32 and as much as the angle's own rounding; NaN
-    /// beyond.
+    /// Sine and cosine of an angle below 2^26 rad, to 2e-32 plus the effect of the angle's own rounding; NaN
+    /// for larger angles.
     #[must_use]
     pub fn sin_cos(self) -> (Self, Self) {
         if self.high.abs() >= LARGEST_ANGLE || !self.is_finite() {
@@ -164,7 +164,7 @@ impl DoubleDouble {
             reduced = reduced - Self { high, low };
         }
         let (sin, cos) = reduced.sin_cos_of_reduced();
-        // The remainder is 0 to 3 also below zero.
+        // The remainder is 0 to 3 for negative numbers, too.
         match right_angles.rem_euclid(4.0) as u8 {
             0 => (sin, cos),
             1 => (cos, -sin),
@@ -173,8 +173,8 @@ impl DoubleDouble {
         }
     }
 
-    /// Sine and cosine of an angle of at most little more than pi/4, by their series: the first omitted term
-    /// is below 1e-33.
+    /// Sine and cosine of an angle not much larger than pi/4, by their series: the first omitted term is
+    /// below 1e-33.
     fn sin_cos_of_reduced(self) -> (Self, Self) {
         let square = self * self;
         let term = |k: usize| {

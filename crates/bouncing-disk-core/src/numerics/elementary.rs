@@ -1,8 +1,8 @@
 //! Elementary functions with the same bits on every machine.
 //!
-//! The sine and cosine pair of the impact solver is our own code, because it decides the speed of every
-//! computation; everything else is the `libm` crate. Only IEEE addition, subtraction, multiplication,
-//! division and square root are used, in a fixed order and never fused.
+//! The sine and cosine pair of the impact solver is our own code, because it determines the speed of every
+//! computation; all other functions are from the `libm` crate. Only IEEE addition, subtraction,
+//! multiplication, division and square root are used, in a fixed order and never fused.
 
 #![expect(clippy::excessive_precision, reason = "constants are quoted as their sources print them")]
 
@@ -29,8 +29,8 @@ const TAU_TAIL: f64 = 6.357_301_909_411_279e-8;
 /// Largest argument of [`sin_cos_bounded`], in radians.
 const BOUND: f64 = 100.0;
 
-/// Sine and cosine of `x` radians; absolute error below 1.3e-16 for |x| up to 20 and below 1.5e-16 up to 1e5,
-/// the `libm` crate beyond.
+/// Sine and cosine of `x` radians; absolute error below 1.3e-16 for |x| up to 20 and below 1.5e-16 up to 1e5;
+/// for larger ones the `libm` crate is used.
 #[must_use]
 #[inline]
 pub fn sin_cos(x: f64) -> (f64, f64) {
@@ -53,7 +53,7 @@ pub(crate) fn sin_cos_bounded(x: f64) -> (f64, f64) {
     sin_cos_reduced((x - n * FRAC_PI_2_HEAD) - n * FRAC_PI_2_MIDDLE, quadrant)
 }
 
-/// The nearest whole number of quarter turns, as a double and as bits of which the lowest two count.
+/// The nearest whole number of quarter turns, as a double and as bits, of which the lowest two matter.
 #[inline(always)]
 fn nearest_quarter_turns(x: f64) -> (f64, u64) {
     let shifted = x * core::f64::consts::FRAC_2_PI + ROUND_MAGIC;
@@ -72,26 +72,26 @@ fn sin_cos_reduced(r: f64, quadrant: u64) -> (f64, f64) {
     (s, c)
 }
 
-/// [`sin_cos_bounded`], bit for bit, with integer operations in place of selections: every instruction set
-/// has these for many lanes at once.
+/// [`sin_cos_bounded`], bit for bit, with integer operations instead of selections: every instruction set
+/// offers these for many lanes at once.
 #[inline(always)]
 pub(crate) fn sin_cos_of_lane(x: f64) -> (f64, f64) {
     let (r, quadrant) = reduced_of_lane(x);
     sin_cos_of_reduced(r, quadrant, false)
 }
 
-/// The angle less the nearest number of quarter turns, and that number.
+/// The angle minus the nearest whole number of quarter turns, and that number.
 #[inline(always)]
 pub(crate) fn reduced_of_lane(x: f64) -> (f64, u64) {
     let (n, quadrant) = nearest_quarter_turns(x);
     ((x - n * FRAC_PI_2_HEAD) - n * FRAC_PI_2_MIDDLE, quadrant)
 }
 
-/// The second part of [`sin_cos_of_lane`], the same bits with selections (`blends`) or without.
+/// The second part of [`sin_cos_of_lane`], with the same bits with selections (`blends`) or without.
 #[inline(always)]
 pub(crate) fn sin_cos_of_reduced(r: f64, quadrant: u64, blends: bool) -> (f64, f64) {
     let (sine, cosine) = pair_polynomials(r);
-    // Quadrant q: the pair is swapped if q is odd; the signs are those of the bits 1, and 1 xor 0.
+    // Quadrant q: the pair is swapped if q is odd; the signs are given by the bits 1, and 1 xor 0.
     let (odd, second) = (quadrant << 63, (quadrant << 62) & (1 << 63));
     let (s, c) = if blends {
         // A vector selection depends on the sign alone.
@@ -126,8 +126,8 @@ fn pair_polynomials(r: f64) -> (f64, f64) {
     (sine, cosine)
 }
 
-/// Sine and cosine of `angle + delta` from those of `angle`, for |delta| up to 4e-3 rad (truncation below
-/// 6e-18), without evaluating a new pair.
+/// Sine and cosine of `angle + delta` from sine and cosine of `angle`, for |delta| up to 4e-3 rad (truncation
+/// error below 6e-18).
 #[inline(always)]
 pub(crate) fn rotated(sin: f64, cos: f64, delta: f64) -> (f64, f64) {
     let d2 = delta * delta;
@@ -153,7 +153,7 @@ pub fn versine_ratio(h: f64) -> f64 {
     0.5 - h * h * versine_shortfall(h)
 }
 
-/// h - sin h for h in [0, 2 pi], in relative accuracy, given sin h.
+/// h - sin h for h in [0, 2 pi], with relative accuracy, given sin h.
 #[must_use]
 #[inline(always)]
 pub fn sine_deficit(h: f64, sin_h: f64) -> f64 {
@@ -186,8 +186,8 @@ pub fn sine_deficit_ratio(h: f64) -> f64 {
 /// Splits a non-negative duration in radians, at most 1.6e9, into the nearest whole number of periods and the
 /// rest, in [-pi, pi].
 ///
-/// The remainder has an error of at most 5e-16 + 2e-24 duration (two-part reduction), beside that of the
-/// rounded `duration` itself.
+/// The error of the remainder is at most 5e-16 + 2e-24 duration (two-part reduction), in addition to the
+/// rounding of `duration` itself.
 #[inline(always)]
 pub fn nearest_periods(duration: f64) -> (f64, f64) {
     let periods = (duration * (1.0 / TAU) + ROUND_MAGIC) - ROUND_MAGIC;
@@ -195,8 +195,8 @@ pub fn nearest_periods(duration: f64) -> (f64, f64) {
     (periods, rest)
 }
 
-/// Reduces an angle in [-2 pi, 6 pi] to [0, 2 pi), with the whole turns taken away (negative if added),
-/// without a branch that depends on the turn.
+/// Reduces an angle in [-2 pi, 6 pi] to [0, 2 pi), without a branch that depends on the turn. Also returns
+/// the number of turns removed (negative if added).
 #[inline(always)]
 pub(crate) fn nearby_wrapped(angle: f64) -> (f64, f64) {
     let turns = ((angle * (1.0 / TAU) - 0.5) + ROUND_MAGIC) - ROUND_MAGIC;
@@ -223,11 +223,11 @@ pub(crate) fn nearby_wrapped_of_lane(angle: f64) -> (f64, f64) {
     (wrapped + share(TAU), turns - share(1.0))
 }
 
-/// The phase of an impact, in [0, 2 pi), and how many turns were taken away, from its unwrapped angle in [-2
-/// pi, 6 pi].
+/// The phase of an impact in [0, 2 pi), and the number of turns removed, from its unwrapped angle in [-2 pi,
+/// 6 pi].
 ///
-/// [`nearby_wrapped`], but for the seam: an angle that lies below zero by less than half the spacing of
-/// doubles below 2 pi rounds to 2 pi itself. That is phase 0 of the next turn, and the turn counts.
+/// It differs from [`nearby_wrapped`] only at the seam: an angle below zero by less than half the spacing of
+/// doubles below 2 pi rounds to 2 pi itself. This is phase 0 of the next turn, and the turn counts.
 #[inline(always)]
 pub(crate) fn impact_phase(angle: f64) -> (f64, f64) {
     let (wrapped, turns) = nearby_wrapped(angle);
@@ -359,7 +359,7 @@ mod tests {
         error(value, exact) / exact.to_f64().value().abs()
     }
 
-    /// Well spread numbers in [0, 1).
+    /// Evenly spread numbers in [0, 1).
     fn spread(count: u32) -> impl Iterator<Item = f64> {
         (0..count).map(|k| f64::from(k) * 0.618_033_988_749_894_9 % 1.0)
     }

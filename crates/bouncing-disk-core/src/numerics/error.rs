@@ -2,8 +2,8 @@
 
 /// An error of the core. Every variant carries the numbers needed to see why it occurred.
 ///
-/// The texts print numbers with all their digits, and very small or large ones in scientific notation; whole
-/// ones of a range, such as counts, without a fraction.
+/// The messages print numbers with all their digits, very small or large ones in scientific notation, and
+/// whole numbers of a range, such as counts, without a fraction.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
@@ -14,7 +14,7 @@ pub enum Error {
     OutOfRange {
         /// The name of the argument.
         field: &'static str,
-        /// The value that was given.
+        /// The given value.
         value: f64,
         /// The legal range, in words.
         legal: &'static str,
@@ -46,9 +46,9 @@ pub enum Error {
         "the platform jumps by {jump:?} g/omega^2 where piece {piece} begins: its height must be continuous"
     )]
     HeightJump {
-        /// Which piece, from 0; the first one follows on the last.
+        /// The index of the piece, from 0; the first piece follows the last.
         piece: usize,
-        /// Its height at its start less that of the piece before at its end.
+        /// Its height at its start minus the height of the previous piece at its end.
         jump: f64,
     },
     /// An impact on a kink of the platform's velocity has no derivative, and so no multipliers.
@@ -67,7 +67,7 @@ pub enum Error {
         /// The gap there, in units of g/omega^2.
         gap: f64,
     },
-    /// An iteration (an orbit search, a refinement) did not settle.
+    /// An iteration (an orbit search, a refinement) did not converge.
     #[error("{what} did not converge after {iterations} iterations; last residual {residual:?}")]
     NotSettled {
         /// What was sought.
@@ -84,37 +84,37 @@ pub enum Error {
     NotAttracting {
         /// The larger modulus of its multipliers.
         spectral_radius: f64,
-        /// How far the trace of its derivative may be off.
+        /// The error bound of the trace of its derivative.
         trace_error: f64,
     },
-    /// No region about an attracting orbit is proven to be attracted: an impact or a graze is too near.
+    /// No region around an attracting orbit can be proven to be attracted: an impact is too slow, or a graze
+    /// too near.
     #[error("no neighbourhood of the orbit is proven to be attracted, down to a radius of {region:?} rad")]
     NothingProven {
-        /// The smallest region that was tried (rad).
+        /// The smallest region tried (rad).
         region: f64,
     },
     /// The given orbit is not a periodic orbit of the map.
     #[error("not an orbit of this map: {}", missed(*impact, *distance))]
     NotAnOrbit {
-        /// The impact, from 0 on.
+        /// The index of the impact, from 0.
         impact: usize,
-        /// How far the impact that follows it is from the next one of the orbit (rad, or relative to 1 + the
+        /// The distance of the following impact from the next one of the orbit (rad, or relative to 1 + the
         /// largest impact speed of the orbit); infinite if the disk stays on the platform.
         distance: f64,
     },
-    /// The solution that an iteration settled on has an impact without speed: a disk at rest, not a periodic
-    /// orbit.
+    /// The solution of an iteration has an impact with zero speed: a disk at rest, not a periodic orbit.
     #[error(
         "impact {index} of the solution has no speed (phase {phase:?} rad): a disk at rest is not a periodic orbit"
     )]
     ImpactWithoutSpeed {
-        /// Which impact of the solution.
+        /// The index of the impact.
         index: usize,
         /// Its phase in radians.
         phase: f64,
     },
-    /// The solution that an iteration settled on lasts no period of the platform: its impacts repeat one
-    /// instant within rounding and are not a periodic orbit.
+    /// The solution of an iteration lasts no period of the platform: its impacts repeat one instant within
+    /// rounding and are not a periodic orbit.
     #[error(
         "the solution of {impacts} impacts takes no period of the platform (fastest impact {speed:?} g/omega)"
     )]
@@ -124,21 +124,21 @@ pub enum Error {
         /// The largest of their speeds, in units of g/omega.
         speed: f64,
     },
-    /// In a search for an orbit by its impacts, a flight meets the platform earlier: the orbit ends at a
+    /// In a search for an orbit by its impacts, a flight hits the platform earlier: the orbit ends at a
     /// graze.
     #[error(
         "flight {index} of the orbit sought would take {sought:?} rad, but an impact comes after {found:?} rad"
     )]
     EarlierImpact {
-        /// Which flight of the orbit.
+        /// The index of the flight.
         index: usize,
-        /// Its duration in the wanted orbit, in radians.
+        /// Its duration in the sought orbit, in radians.
         sought: f64,
-        /// When the first impact comes, in radians after the launch.
+        /// The time of the first impact, in radians after the launch.
         found: f64,
     },
-    /// No branch of periodic orbits begins: the map does not have this orbit, or it is not an isolated one,
-    /// as at a fold.
+    /// No branch of periodic orbits begins: the orbit does not exist on this map, or is not isolated, as at a
+    /// fold.
     #[error("no branch begins at {parameter:?}: {what} is not an isolated orbit there")]
     NoBranch {
         /// The orbit.
@@ -149,17 +149,17 @@ pub enum Error {
     /// A branch of periodic orbits ends before it doubles its period.
     #[error("the branch ends before another doubling follows the one, or the start, at {after:?}")]
     NoDoubling {
-        /// The last doubling, or where the branch began.
+        /// The parameter of the last doubling, or of the start of the branch.
         after: f64,
     },
-    /// A number of a list is not of the kind that is needed.
+    /// A number refers to a list item that is not of the required kind.
     #[error("{what} number {index} of {count} is not {expected}")]
     NotOfKind {
         /// The kind of items in the list.
         what: &'static str,
-        /// The number that was given, from 0.
+        /// The given number, from 0.
         index: usize,
-        /// How long the list is.
+        /// The length of the list.
         count: usize,
         /// The expected kind.
         expected: &'static str,
@@ -167,7 +167,7 @@ pub enum Error {
     /// A text is not a decimal number.
     #[error("byte {at} is not part of a decimal number")]
     NoDecimal {
-        /// Where in the text, counted from 0.
+        /// The byte position in the text, counted from 0.
         at: usize,
     },
     /// A law of restitution gives a number outside [0, 1], or NaN.
@@ -180,7 +180,7 @@ pub enum Error {
         /// The impact speed, in units of g/omega.
         impact_speed: f64,
     },
-    /// A chatter has a closed form for a constant restitution only: another law of restitution needs a cut.
+    /// A chatter has a closed form only for a constant restitution: another law needs a cut.
     #[error("a chatter has a closed form for a constant restitution only: end it by `ChatterPolicy::Cut`")]
     NoClosedForm,
     /// The observer of a long call has stopped it.
@@ -191,20 +191,20 @@ pub enum Error {
         /// All items.
         total: u64,
     },
-    /// What was stored is inconsistent, or parts do not fit together.
+    /// Stored data are inconsistent, or parts do not fit together.
     #[error("{what}: {found}; legal is {expected}")]
     Unfitting {
         /// The quantity that does not fit.
         what: &'static str,
-        /// The number that was found.
+        /// The number found.
         found: u64,
         /// The only or the largest number that fits.
         expected: u64,
     },
-    /// More was requested than the limit allows or, where `count` is within it, than memory can hold.
+    /// More was requested than the limit allows or, if `count` is within the limit, than the memory can hold.
     #[error("{count} {what} {}: at most {limit}", if count > limit { "are too many" } else { "do not fit into memory" })]
     TooLarge {
-        /// The requested number.
+        /// The kind of items requested.
         what: &'static str,
         /// The requested number.
         count: u64,
@@ -213,7 +213,7 @@ pub enum Error {
     },
 }
 
-/// A number as it is written: 1 for a whole one, and not 1.0, because counts are numbers here, too.
+/// A number as text: a whole one as 1 and not 1.0, because counts are numbers here, too.
 fn without_fraction(value: f64) -> String {
     let text = format!("{value:?}");
     text.strip_suffix(".0").map_or_else(|| text.clone(), str::to_owned)
@@ -230,7 +230,7 @@ pub fn within(
     if value >= low && value <= high { Ok(value) } else { Err(Error::OutOfRange { field, value, legal }) }
 }
 
-/// What follows an impact that is not followed by the next one of an orbit, the impact numbered from 1 on.
+/// The message for an impact, numbered from 1, that does not lead to the next one of an orbit.
 fn missed(impact: usize, distance: f64) -> String {
     let number = impact.saturating_add(1);
     if distance.is_infinite() {
@@ -265,7 +265,7 @@ pub(crate) fn room_for<T>(what: &'static str, count: u64, limit: u64) -> Result<
 mod tests {
     use super::*;
 
-    /// A speed of 1e-300 was told with 299 zeros, which hid the number and what the text is about.
+    /// A speed of 1e-300 was once printed with 299 zeros, which hid the number and the point of the message.
     #[test]
     fn texts_tell_numbers_of_any_size_in_few_digits() {
         for number in [1.25e-300, 1.25e-121, 1.25e300] {
@@ -298,7 +298,7 @@ mod tests {
         assert_eq!(text(f64::INFINITY), stays);
     }
 
-    /// A count that was too large was told as 1073741825.0.
+    /// A count that was too large was once printed as 1073741825.0.
     #[test]
     fn whole_numbers_outside_of_their_range_have_no_fraction() {
         for (value, told) in [

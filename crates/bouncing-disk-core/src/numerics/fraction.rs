@@ -1,10 +1,10 @@
-//! k of n: a share with the interval that a sample leaves for the true one.
+//! k of n: a share with the confidence interval of the true share.
 
 use crate::numerics::error::{Error, within};
 use crate::numerics::statistics::NORMAL_975;
 use crate::numerics::stored::read_checked;
 
-/// How many members of a sample have a property; by default 0 of 0.
+/// The number of members of a sample with a property, by default 0 of 0.
 ///
 /// ```
 /// use bouncing_disk_core::numerics::fraction::Fraction;
@@ -26,7 +26,7 @@ pub struct Fraction {
 read_checked!(Fraction as UncheckedFraction { count: u64, of: u64 } => Fraction::new);
 
 impl Fraction {
-    /// `count` members of a sample of `of`, which may be 0.
+    /// `count` members with the property in a sample of size `of`, which may be 0.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for more members than the sample has.
@@ -35,7 +35,7 @@ impl Fraction {
         Ok(Self { count, of: of.max(count) })
     }
 
-    /// How many there are.
+    /// The number of members with the property.
     #[must_use]
     pub const fn count(&self) -> u64 {
         self.count
@@ -59,14 +59,14 @@ impl Fraction {
         self.wilson(NORMAL_975)
     }
 
-    /// The shares from which a sample like this one is at most `z` standard errors away (E. B. Wilson, J. Am.
-    /// Stat. Assoc. 22, 209 (1927)), within [0, 1]: with f = k/n,
+    /// The interval of true shares from which this sample is at most `z` standard errors away (E. B. Wilson,
+    /// J. Am. Stat. Assoc. 22, 209 (1927)), within [0, 1]: with f = k/n,
     ///
     /// (f + z^2/2n +- z sqrt(f (1 - f)/n + z^2/4n^2))/(1 + z^2/n).
     ///
-    /// An empty sample gives [0, 1], and so does a `z` that is NaN. The sign of `z` does
-    /// not matter. Points of an even grid or sequence are more even than a random sample, and their interval
-    /// is too wide rather than too narrow.
+    /// An empty sample gives [0, 1], and so does a `z` that is NaN. The sign of `z` does not matter. Points
+    /// of an even grid or sequence are more even than a random sample, so the interval is rather too wide
+    /// than too narrow.
     #[must_use]
     pub fn wilson(&self, z: f64) -> (f64, f64) {
         let (n, f) = (self.of as f64, self.value());
@@ -77,7 +77,7 @@ impl Fraction {
         let middle = f + 0.5 * relative;
         let half = z.abs() * ((f * (1.0 - f) + 0.25 * relative) / n).sqrt();
         let part = 1.0 / (1.0 + relative);
-        // The share itself belongs to it, also where rounding says otherwise.
+        // The share itself belongs to it, even if rounding would exclude it.
         (((middle - half) * part).clamp(0.0, f), ((middle + half) * part).clamp(f, 1.0))
     }
 }
@@ -109,7 +109,7 @@ mod tests {
         }
     }
 
-    /// Of random samples nineteen in twenty, or nearly, have the true share in their interval.
+    /// For nearly nineteen in twenty random samples the interval contains the true share.
     #[test]
     fn intervals_hold_the_true_share_as_often_as_they_say() {
         let mut random = SplitMix64::new(3);

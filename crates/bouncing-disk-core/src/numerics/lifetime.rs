@@ -1,19 +1,18 @@
-//! The mean life of a motion that is left at a constant rate, from orbits that were followed on it.
+//! The mean lifetime of a motion that orbits leave at a constant rate, estimated from orbits followed on it.
 
 use crate::numerics::error::{Error, not_negative};
 use crate::numerics::statistics::NORMAL_975;
 use crate::numerics::stored::read_checked;
 
-/// With 95 % confidence a motion that no orbit has left has a mean life above the impacts of all orbits over
-/// this: ln 20.
+/// With 95 % confidence the mean lifetime of a motion that no orbit has left exceeds the impacts of all
+/// orbits divided by this: ln 20.
 const NONE_LEFT: f64 = 2.995_732_273_553_991;
 
 /// The 2.5 % quantile of chi squared for two degrees of freedom, halved: -ln 0.975.
 const ONE_LEFT: f64 = 0.025_317_807_984_289_876;
 
-/// How long a motion lasts in the mean that orbits leave at a constant rate: the impacts of all orbits that
-/// were followed on it, over the number of those that left. Orbits that had not left when they were no longer
-/// followed count with their impacts.
+/// The mean lifetime of a motion that orbits leave at a constant rate: the impacts of all orbits followed on
+/// it, over the number of orbits that left. The impacts of orbits that have not left count, too.
 ///
 /// ```
 /// use bouncing_disk_core::numerics::lifetime::Lifetime;
@@ -56,16 +55,16 @@ impl Lifetime {
         self.left
     }
 
-    /// The mean life in impacts; `None` if no orbit has left.
+    /// The mean lifetime in impacts; `None` if no orbit has left.
     #[must_use]
     pub fn mean(&self) -> Option<f64> {
         (self.left > 0).then(|| self.impacts / self.left as f64)
     }
 
-    /// The 95 % interval of the mean life (impacts): twice the impacts over the quantiles of chi squared for
-    /// twice the orbits that left, and twice one more for the lower end (B. Epstein, Technometrics 2, 447
-    /// (1960)), by the approximation of E. B. Wilson and M. M. Hilferty but for one orbit. If no orbit has left, the lower end
-    /// is a bound with 95 % confidence and the upper end is infinite.
+    /// The 95 % interval of the mean lifetime (impacts): twice the impacts over the quantiles of chi squared
+    /// for twice the orbits that left, and twice one more for the lower end (B. Epstein, Technometrics 2, 447
+    /// (1960)), by the approximation of E. B. Wilson and M. M. Hilferty except for one orbit. If no orbit has
+    /// left, the lower end is a bound with 95 % confidence and the upper end is infinite.
     #[must_use]
     pub fn interval(&self) -> (f64, f64) {
         if self.left == 0 {
@@ -97,7 +96,7 @@ impl core::fmt::Display for Lifetime {
     }
 }
 
-/// A number of impacts with three digits that count.
+/// A number of impacts with three significant digits.
 fn three_digits(impacts: f64) -> f64 {
     let mut unit = 1.0;
     while impacts / unit >= 1_000.0 && unit < 1.0e300 {
@@ -134,8 +133,8 @@ mod tests {
         }
     }
 
-    /// Of exponential lives, cut off at a time below and above their mean, the intervals hold the mean in 93
-    /// of 100 at least.
+    /// For exponential lifetimes, cut off at a time below or above their mean, at least 93 of 100 intervals
+    /// contain the mean.
     #[test]
     fn intervals_cover_the_mean_of_exponential_lives() {
         let mut random = SplitMix64::new(7);

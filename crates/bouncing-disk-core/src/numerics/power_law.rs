@@ -9,11 +9,11 @@ use crate::numerics::stored::read_checked;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedPoint"))]
 pub struct PowerLawPoint {
-    /// Above 0.
+    /// The abscissa, above 0.
     pub x: f64,
-    /// Above 0.
+    /// The value, above 0.
     pub y: f64,
-    /// Standard error of y over y, above 0.
+    /// Relative standard error of y, above 0.
     pub relative_error: f64,
 }
 
@@ -39,17 +39,17 @@ impl PowerLawPoint {
 pub struct PowerLaw {
     /// The exponent.
     pub exponent: f64,
-    /// Its standard error: that of the errors of the points, or that of their scatter about the law where it
-    /// is larger.
+    /// Its standard error, from the errors of the points or from their scatter about the law, whichever is
+    /// larger.
     pub standard_error: f64,
     /// ln c.
     pub log_factor: f64,
     /// The smallest and the largest x of the fit.
     pub range: (f64, f64),
-    /// How many points there are.
+    /// The number of points.
     pub points: usize,
-    /// Root mean square distance of the points from the law in units of their errors (about 1 if these
-    /// explain it all).
+    /// Root mean square distance of the points from the law in units of their errors (about 1 if the errors
+    /// explain the scatter).
     pub scatter: f64,
 }
 
@@ -79,20 +79,20 @@ impl PowerLaw {
     }
 }
 
-/// Why there is no power law.
+/// The reason why there is no power law.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum NoPowerLaw {
-    /// There are too few points to tell a power law from something else.
+    /// There are too few points to recognise a power law.
     #[error("{found} points, but a power law needs {needed}")]
     TooFewPoints {
-        /// How many there are.
+        /// The number of points.
         found: usize,
-        /// How many are needed.
+        /// The number needed.
         needed: usize,
     },
-    /// The points cover too little.
+    /// The points cover too small a range.
     #[error("the points cover a factor of {factor:e}, but a power law needs {needed}")]
     TooNarrow {
         /// The largest x over the smallest.
@@ -117,7 +117,7 @@ pub enum NoPowerLaw {
     Scatters {
         /// Root mean square distance in units of the errors.
         scatter: f64,
-        /// The same as a factor of y.
+        /// The scatter as a factor of y.
         factor: f64,
     },
 }
@@ -128,15 +128,14 @@ pub const FEWEST_POINTS: usize = 6;
 /// The least ratio of the largest x to the smallest one.
 pub const LEAST_FACTOR: f64 = 10.0;
 
-/// Standard errors that the square of a parabola may be from 0.
+/// Largest distance of a parabola's square coefficient from 0, in standard errors.
 const MOST_SIGMAS: f64 = 3.5;
 
-/// The root mean square scatter that is allowed, in units of the errors, unless it is within [`MOST_FACTOR`].
+/// The largest accepted root mean square scatter in units of the errors, unless it is within [`MOST_FACTOR`].
 const MOST_SCATTER: f64 = 3.0;
 
-/// The root mean square scatter (of ln y) that is allowed whatever the errors, a factor of two: numbers that
-/// oscillate about a law, as survival times beyond a crisis do, have an exponent all the same, with a larger
-/// error.
+/// The root mean square scatter (of ln y) that is always accepted, a factor of two. Numbers that oscillate
+/// about a law, like survival times beyond a crisis, still have an exponent, with a larger error.
 const MOST_FACTOR: f64 = core::f64::consts::LN_2;
 
 /// A straight line through (ln x, ln y).
@@ -162,7 +161,7 @@ fn straight_line(points: &[PowerLawPoint]) -> StraightLine {
         width += weight(point) * (dx * dx);
         product += weight(point) * (dx * dy);
     }
-    // Where all x are the same there is no slope to see.
+    // If all x are equal, there is no slope.
     let slope = if width > 0.0 { product / width } else { 0.0 };
     let squares = points.iter().fold((0.0, 0.0), |(own, all), point| {
         let off = ln(point.y) - y - slope * (ln(point.x) - x);
@@ -171,7 +170,7 @@ fn straight_line(points: &[PowerLawPoint]) -> StraightLine {
     StraightLine { slope, error: (1.0 / width).sqrt(), at_zero: y - slope * x, squares }
 }
 
-/// The power law through points, by least squares in the logarithms, each with its error; or why there is
+/// The power law through points with errors, by least squares in the logarithms; or the reason why there is
 /// none.
 ///
 /// ```
@@ -199,7 +198,7 @@ pub fn fit_power_law(points: &[PowerLawPoint]) -> Result<Result<PowerLaw, NoPowe
         return Ok(Err(NoPowerLaw::TooFewPoints { found: n, needed: FEWEST_POINTS }));
     }
     let range = (points[0].x, points[n - 1].x);
-    // As logarithms, for the quotient may exceed what a double holds.
+    // As logarithms, because the quotient may overflow a double.
     if ln(range.1) - ln(range.0) < ln(LEAST_FACTOR) * (1.0 - 1.0e-12) {
         return Ok(Err(NoPowerLaw::TooNarrow { factor: range.1 / range.0, needed: LEAST_FACTOR }));
     }
@@ -225,9 +224,9 @@ pub fn fit_power_law(points: &[PowerLawPoint]) -> Result<Result<PowerLaw, NoPowe
     }))
 }
 
-/// The coefficient of the square in a parabola through (ln x, ln y), in units of its standard error: that of
-/// the errors of the points, or that of their scatter about the parabola where it is larger. Zero where the
-/// points do not tell.
+/// The coefficient of the square in a parabola through (ln x, ln y), in units of its standard error. The
+/// error comes from the errors of the points or from their scatter about the parabola, whichever is larger.
+/// Zero if the points do not determine the coefficient.
 fn curvature(points: &[PowerLawPoint]) -> f64 {
     let weight = |point: &PowerLawPoint| 1.0 / (point.relative_error * point.relative_error);
     let sum = |of: &dyn Fn(&PowerLawPoint) -> f64| {
@@ -236,7 +235,7 @@ fn curvature(points: &[PowerLawPoint]) -> f64 {
     let total = sum(&|_| 1.0);
     let middle = sum(&|point| ln(point.x)) / total;
     let u = |point: &PowerLawPoint| ln(point.x) - middle;
-    // A square that has nothing of a line in it.
+    // The square term, made orthogonal to the straight line.
     let (second, third) = (sum(&|point| u(point) * u(point)), sum(&|point| u(point) * (u(point) * u(point))));
     let square = |point: &PowerLawPoint| u(point) * u(point) - third / second * u(point) - second / total;
     let (width, product) =

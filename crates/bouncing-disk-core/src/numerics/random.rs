@@ -21,10 +21,10 @@ impl SplitMix64 {
         Self(seed)
     }
 
-    /// The seed of one of many streams that belong together, which are numbered from 0.
+    /// The seed of one of many related streams, numbered from 0.
     ///
-    /// If streams had seeds counted up from `seed`, all but one would be shared with those of `seed + 1`:
-    /// means over both would be nearly the same, and no check of each other.
+    /// If streams had consecutive seeds from `seed`, all but one would also belong to `seed + 1`: means over
+    /// both would be nearly the same, and no check of each other.
     ///
     /// ```
     /// use bouncing_disk_core::numerics::random::SplitMix64;
@@ -47,7 +47,7 @@ impl SplitMix64 {
         z ^ (z >> 31)
     }
 
-    /// The next number, evenly in [0, 1).
+    /// The next number, uniform in [0, 1).
     #[inline]
     pub fn unit(&mut self) -> f64 {
         (self.next_number() >> 11) as f64 * (1.0 / 9_007_199_254_740_992.0)

@@ -24,7 +24,7 @@ pub trait Real:
     /// Half a period of the platform (rad).
     const PI: Self;
 
-    /// The number that a double is.
+    /// The exact value of a double.
     fn of(value: f64) -> Self;
 
     /// The nearest double.

@@ -1,11 +1,10 @@
-//! Roots and minima of functions of one variable inside a bracket. (The root of Eq. 11 is in
-//! `flight/gap.rs`.)
+//! Roots and minima of functions of one variable inside a bracket. The root of Eq. 11 is in `flight/gap.rs`.
 
-/// The place between `low` and `high` where `is_below` changes from true to false, by `steps` halvings: the
-/// middle of the last bracket. `is_below` is not called at the ends, which count as true and false.
+/// The point between `low` and `high` at which `is_below` changes from true to false, by `steps` halvings:
+/// the middle of the last bracket. `is_below` is not called at the ends, which count as true and false.
 ///
 /// # Errors
-/// Those of `is_below`.
+/// Errors of `is_below`.
 pub fn bisection<E>(
     low: f64,
     high: f64,
@@ -16,11 +15,11 @@ pub fn bisection<E>(
     Ok(0.5 * (low + high))
 }
 
-/// As [`bisection`], but gives the last bracket: `is_below` is true at its first end and false at its second,
-/// if it is so at `low` and `high`.
+/// Like [`bisection`], but returns the last bracket: `is_below` is true at its first end and false at its
+/// second, if the same holds at `low` and `high`.
 ///
 /// # Errors
-/// Those of `is_below`.
+/// Errors of `is_below`.
 pub fn bisected_bracket<E>(
     low: f64,
     high: f64,
@@ -36,11 +35,11 @@ pub fn bisected_bracket<E>(
     halved_while(low, high, is_wide, is_below)
 }
 
-/// As [`bisected_bracket`], but halves until the bracket is no wider than `width`, or its ends are
-/// neighbouring doubles. An end that is not a number ends the search at once.
+/// Like [`bisected_bracket`], but halves until the bracket is no wider than `width`, or its ends are
+/// neighbouring doubles. An end that is NaN ends the search at once.
 ///
 /// # Errors
-/// Those of `is_below`.
+/// Errors of `is_below`.
 pub fn bracket_of_width<E>(
     low: f64,
     high: f64,
@@ -54,7 +53,7 @@ pub fn bracket_of_width<E>(
     halved_while(low, high, is_wide, is_below)
 }
 
-/// Halves the bracket as long as `is_wide` says so of it.
+/// Halves the bracket as long as `is_wide` holds for it.
 fn halved_while<E>(
     mut low: f64,
     mut high: f64,
@@ -73,11 +72,11 @@ fn halved_while<E>(
 }
 
 /// The root between `low` and `high` of a function that is positive below it and negative above it, to the
-/// relative `accuracy`: Newton steps, replaced by bisection wherever they leave the bracket or fail to halve
-/// the previous step but one.
+/// relative `accuracy`: Newton steps, replaced by bisection if they leave the bracket or fail to halve the
+/// step before the last.
 ///
-/// `function` gives the value and its derivative; `at_low` are those at `low`, which the caller often knows.
-/// Where the value there is not positive, or the bracket is empty, `low` is the root.
+/// `function` gives the value and its derivative; `at_low` are both at `low`, which the caller often knows.
+/// If the value there is not positive, or the bracket is empty, `low` is the root.
 #[inline(always)]
 pub fn falling_root(
     mut low: f64,
@@ -121,12 +120,12 @@ pub fn falling_root(
     }
 }
 
-/// The minimum of a function that has one between `low` and `high`, by the golden section: each of `steps`
-/// narrows the bracket by the factor 0.618, and its middle is returned. The values of a function determine
-/// the place of a smooth minimum to half of their digits only.
+/// The minimum of a function that has one between `low` and `high`, by golden-section search: each of `steps`
+/// steps narrows the bracket by the factor 0.618, and its middle is returned. The values of a function
+/// determine the location of a smooth minimum to only half of their digits.
 ///
 /// # Errors
-/// Those of `function`.
+/// Errors of `function`.
 pub fn golden_section<E>(
     mut low: f64,
     mut high: f64,
@@ -192,7 +191,7 @@ mod tests {
         assert!(low.is_nan() && high >= 1.0, "{low} {high}");
     }
 
-    /// A simple root, a steep one at the end of a plateau, a threefold one, and one at the upper end.
+    /// A simple root, a steep one at the end of a plateau, a triple one, and one at the upper end.
     #[test]
     fn falling_functions_are_followed_to_their_root() {
         let find = |high: f64, function: fn(f64) -> (f64, f64)| {

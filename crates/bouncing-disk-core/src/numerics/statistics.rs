@@ -1,15 +1,15 @@
 //! Summaries of a sample of numbers.
 
-/// The 97.5 % quantile of the normal distribution: this many standard errors on either side of a mean make
-/// its 95 % interval.
+/// The 97.5 % quantile of the normal distribution: the 95 % interval of a mean extends this many standard
+/// errors to either side.
 pub const NORMAL_975: f64 = 1.959_963_984_540_054;
 
-/// The squares of numbers up to this size, and down to its inverse, can be summed without overflow or
+/// Size up to which, and down to whose inverse, squares of numbers can be summed without overflow or
 /// underflow.
 const ORDINARY: f64 = 1.0e120;
 
-/// The power of two by which numbers are multiplied before they or their squares are added up, so that the
-/// sum neither overflows nor vanishes. One for ordinary numbers, whose results keep their bits.
+/// The power of two by which numbers are multiplied before they or their squares are summed, so that the sum
+/// neither overflows nor vanishes. It is one for ordinary numbers, whose results keep their bits.
 #[must_use]
 pub fn summing_scale(values: &[f64]) -> f64 {
     let largest = values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
@@ -26,7 +26,7 @@ const fn power_of_two(exponent: i64) -> f64 {
     f64::from_bits(((1_023 + exponent) as u64) << 52)
 }
 
-/// The mean of finite numbers, whose sum may exceed what a double holds; NaN without numbers.
+/// The mean of finite numbers, even if their sum would overflow a double; NaN if empty.
 #[must_use]
 pub fn mean(values: &[f64]) -> f64 {
     let scale = summing_scale(values);
@@ -35,7 +35,7 @@ pub fn mean(values: &[f64]) -> f64 {
 }
 
 /// The standard deviation (with n - 1) of finite numbers about their [`mean`]; zero for fewer than two
-/// numbers, infinite where no double holds it.
+/// numbers, infinite if it overflows a double.
 #[must_use]
 pub fn standard_deviation(values: &[f64]) -> f64 {
     let n = values.len() as f64;
@@ -50,14 +50,14 @@ pub fn standard_deviation(values: &[f64]) -> f64 {
     (squares / (n - 1.0)).sqrt() / scale
 }
 
-/// The middle of some numbers, or the upper one of two in the middle; `None` without numbers.
+/// The median, or the upper one of two in the middle; `None` if empty.
 pub fn median(values: impl IntoIterator<Item = f64>) -> Option<f64> {
     let mut values: Vec<f64> = values.into_iter().collect();
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied()
 }
 
-/// The smallest and the largest of some numbers; infinity and minus infinity without numbers.
+/// The smallest and the largest number; infinity and minus infinity if empty.
 pub fn extent(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
     let start = (f64::INFINITY, f64::NEG_INFINITY);
     values.into_iter().fold(start, |(low, high), value| (low.min(value), high.max(value)))

@@ -1,10 +1,10 @@
 //! Deserialisation through the same checks as construction.
 
-/// Reads a type through its checks: a mirror of its fields, each of which must be there (but for an optional
-/// one) and no other, then `check` on the whole, or the constructor that is named after `=>`.
+/// Deserialises a type through its checks. A mirror of its fields requires each of them (except optional ones)
+/// and no other; then `check` runs on the whole, or the constructor named after `=>`.
 ///
-/// `Error` is the one of the module that it stands in. Without the feature `serde` nothing reads the mirror;
-/// it is compiled all the same, so that checks and imports need no condition.
+/// `Error` is resolved in the calling module. Without the feature `serde` nothing reads the mirror; it is
+/// still compiled, so that checks and imports need no condition.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! read_checked {
@@ -76,21 +76,20 @@ macro_rules! read_checked {
 }
 pub(crate) use read_checked;
 
-/// Reads a number that may be infinite. JSON has no such number and holds `null` in its place. Other formats
-/// that people read (RON, TOML) have no `null`: reading back is guaranteed only for JSON and binary formats
-/// such as CBOR.
+/// Reads a number that may be infinite. JSON has no such number and stores `null` instead. Other text formats
+/// (RON, TOML) have no `null`: reading back is guaranteed only for JSON and binary formats such as CBOR.
 ///
 /// # Errors
-/// Those of the format.
+/// Errors of the format.
 #[cfg(feature = "serde")]
 pub fn infinite_if_none<'de, D: serde::Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
     or_else(from, f64::INFINITY)
 }
 
-/// Reads a number that may be NaN (0/0). JSON holds `null` in its place.
+/// Reads a number that may be NaN (0/0). JSON stores `null` instead.
 ///
 /// # Errors
-/// Those of the format.
+/// Errors of the format.
 #[cfg(feature = "serde")]
 pub fn nan_if_none<'de, D: serde::Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
     or_else(from, f64::NAN)
@@ -99,7 +98,7 @@ pub fn nan_if_none<'de, D: serde::Deserializer<'de>>(from: D) -> Result<f64, D::
 #[cfg(feature = "serde")]
 fn or_else<'de, D: serde::Deserializer<'de>>(from: D, missing: f64) -> Result<f64, D::Error> {
     use serde::Deserialize as _;
-    // A binary format holds every number, and has no place for the absence of one.
+    // A binary format stores every number, and cannot store the absence of one.
     if from.is_human_readable() {
         Ok(Option::deserialize(from)?.unwrap_or(missing))
     } else {

@@ -16,7 +16,7 @@ use crate::run::Observer;
 use crate::sweep::bouncing_map::BouncingMap;
 use crate::sweep::{SweepEvent, SweepImpact, sweep_with};
 
-/// The growth of a small perturbation along an orbit of the impact map, one derivative after the other.
+/// The growth of a small perturbation along an orbit of the impact map, derivative by derivative.
 ///
 /// ```
 /// use bouncing_disk_core::chaos::TangentGrowth;
@@ -49,14 +49,14 @@ impl Default for TangentGrowth {
 }
 
 impl TangentGrowth {
-    /// Follows the perturbation through one impact, where the map has this derivative
-    /// ([`BouncingMap::step_with_derivative`]); returns the logarithm of this one growth.
+    /// Follows the perturbation through one impact with this derivative of the map
+    /// ([`BouncingMap::step_with_derivative`]); returns the logarithm of this growth.
     pub fn grow(&mut self, derivative: DMat2) -> f64 {
         let (by_phase, by_velocity) = (derivative.x_axis, derivative.y_axis);
         let x = by_phase.x * self.tangent.0 + by_velocity.x * self.tangent.1;
         let y = by_phase.y * self.tangent.0 + by_velocity.y * self.tangent.1;
         let square = x * x + y * y;
-        // Next to a graze the derivative is large and yet bounded: its squares may overflow, or vanish.
+        // Near a graze the derivative is large but bounded; its squares may overflow or vanish.
         let length = if (1.0e-280..1.0e280).contains(&square) { square.sqrt() } else { hypot(x, y) };
         self.bounded &= length > 0.0 && length.is_finite();
         let growth = ln(length);
@@ -71,7 +71,7 @@ impl TangentGrowth {
         DVec2::new(self.tangent.0, self.tangent.1)
     }
 
-    /// Impacts through which it was followed.
+    /// The number of impacts followed.
     #[must_use]
     pub const fn impacts(&self) -> usize {
         self.impacts
@@ -90,21 +90,21 @@ impl TangentGrowth {
     }
 }
 
-/// How far rounding may move the logarithm of one growth, always to the same side: that of the two phases and
-/// the speeds which its derivative is made of (docs/numerics-dynamics.md, "The standard error").
+/// Bound on the change of the logarithm of one growth by rounding, always to the same side: the rounding of
+/// the two phases and the speeds that form its derivative (docs/numerics-dynamics.md, "The standard error").
 const GROWTH_RESOLUTION: f64 = 16.0 * f64::EPSILON;
 
-/// How many standard errors decide.
+/// The number of standard errors that counts as decisive.
 const DECISIVE_ERRORS: f64 = 3.0;
 
-/// The power of the number of impacts up to which a perturbation may grow where no exponent is positive: 2 in
+/// The power of the number of impacts up to which a perturbation may grow without a positive exponent: 2 in
 /// the passage by a fold, 1 in a shear.
 const NEUTRAL_POWER: f64 = 2.0;
 
-/// -ln(2^-52): the growth along an escape from a periodic orbit on which the start was to the last bit.
+/// -ln(2^-52): the growth along an escape from a periodic orbit that contains the start to the last bit.
 const ESCAPE: f64 = 52.0 * core::f64::consts::LN_2;
 
-/// The largest Lyapunov exponent of one orbit as it was measured.
+/// The measured largest Lyapunov exponent of one orbit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedEstimate"))]
@@ -127,7 +127,7 @@ impl LyapunovEstimate {
         within("impacts of an exponent", self.impacts as f64, 1.0, f64::MAX, "at least 1").map(|_| ())
     }
 
-    /// A mean of the logarithms of growths, to be filled.
+    /// An empty mean for the logarithms of growths.
     #[must_use]
     pub fn growths() -> BatchMeans {
         BatchMeans::with_resolution(GROWTH_RESOLUTION)
@@ -149,13 +149,14 @@ impl LyapunovEstimate {
         (ESCAPE + NEUTRAL_POWER * ln(impacts)) / impacts + DECISIVE_ERRORS * self.standard_error
     }
 
-    /// Whether small perturbations grow for certain: the exponent is above the [threshold](Self::threshold).
+    /// Whether small perturbations certainly grow: the exponent is above the [threshold](Self::threshold).
     #[must_use]
     pub fn grows(&self) -> bool {
         self.exponent > self.threshold()
     }
 
-    /// Whether they shrink for certain: the exponent is below minus the [threshold](Self::threshold).
+    /// Whether small perturbations certainly shrink: the exponent is below minus the
+    /// [threshold](Self::threshold).
     #[must_use]
     pub fn shrinks(&self) -> bool {
         self.exponent < -self.threshold()
@@ -172,14 +173,13 @@ struct Followed {
 }
 
 /// The largest Lyapunov exponent per impact of each orbit of `starts`: the mean logarithmic growth of a small
-/// perturbation over `impacts` impacts after `transient` ones. `None` where the disk comes to rest (the
-/// motion after a rest does not depend on the one before) or grazes the platform (the derivative is unbounded
-/// there).
+/// perturbation over `impacts` impacts after `transient` ones. `None` if the disk comes to rest (the motion
+/// after a rest does not depend on the motion before) or grazes the platform (the derivative is unbounded).
 ///
 /// The items of `observer` are the orbits.
 ///
 /// # Errors
-/// Those of [`sweep`](crate::sweep::sweep()).
+/// Errors of [`sweep`](crate::sweep::sweep()).
 pub fn lyapunov_exponents<M: BouncingMap>(
     starts: &[(M, ImpactState)],
     transient: usize,
@@ -224,7 +224,7 @@ mod tests {
     use super::*;
 
     /// The passage by a fold multiplies a perturbation by n^2, a shear by n, an escape from a periodic orbit
-    /// by 2^52 at most.
+    /// by at most 2^52.
     #[test]
     fn neutral_growth_is_no_chaos() {
         for impacts in [100, 10_000, 1_000_000_u64] {
@@ -238,8 +238,8 @@ mod tests {
         }
     }
 
-    /// The logarithm of a growth of 1e200 or 1e-200 is a number; without bound, or without effect, it is
-    /// none.
+    /// The logarithm of a growth of 1e200 or 1e-200 is finite; there is none for an infinite growth, or for
+    /// zero.
     #[test]
     fn growth_of_any_size_has_an_exponent() {
         for size in [5.0e-324, 1.0e-310, 1.0e-200, 1.0e-140, 1.0, 1.0e139, 1.0e150, 1.0e200, 1.0e300] {

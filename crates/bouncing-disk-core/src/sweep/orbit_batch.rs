@@ -4,8 +4,8 @@ use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::error::Error;
 use crate::sweep::lockstep::lanes::{Batch, FlightScheduler, InstructionSet, LANES, Purpose};
 
-/// Independent orbits of the impact map, each advanced by one impact at a time; the states are bit for bit
-/// those of [`ImpactMap::step`], several times faster than one after the other.
+/// Independent orbits of the impact map, each advanced by one impact at a time; the states have the same bits
+/// as with [`ImpactMap::step`], several times faster than one by one.
 ///
 /// ```
 /// use bouncing_disk_core::sweep::OrbitBatch;
@@ -28,15 +28,15 @@ pub struct OrbitBatch {
 }
 
 impl OrbitBatch {
-    /// Orbits that each start with an impact of a map of their own, with the best instructions of this
+    /// Orbits that each start with an impact of their own map, computed with the best instructions of this
     /// processor.
     pub fn new(starts: impl IntoIterator<Item = (ImpactMap, ImpactState)>) -> Self {
         Self::with_instruction_set(starts, InstructionSet::best())
     }
 
     #[doc(hidden)]
-    /// [`Self::new`] with other instructions; the states do not depend on them. A set that the processor
-    /// lacks is replaced by the next lower one.
+    /// [`Self::new`] with other instructions; the states do not depend on them. The next lower set replaces
+    /// one that the processor lacks.
     pub fn with_instruction_set(
         starts: impl IntoIterator<Item = (ImpactMap, ImpactState)>,
         set: InstructionSet,
@@ -80,11 +80,11 @@ impl OrbitBatch {
         (index < self.len).then(|| batch.impact_state(index % LANES))
     }
 
-    /// Takes every orbit to its next impact.
+    /// Advances every orbit to its next impact.
     ///
     /// # Errors
-    /// The error of the first orbit without a next impact (see [`ImpactMap::step`]); that orbit stays where
-    /// it is, the others advance.
+    /// The error of the first orbit without a next impact (see [`ImpactMap::step`]); this orbit keeps its
+    /// state, the others advance.
     pub fn step(&mut self) -> Result<(), Error> {
         let (mut first, mut failed) = (None, Vec::new());
         self.scheduler.fly(&mut self.batches, self.len, |index, error| {
@@ -111,7 +111,7 @@ mod tests {
         [phase.angle(), phase.sin(), phase.cos(), state.velocity()].map(f64::to_bits)
     }
 
-    /// Flights around the longest one, where all else is ordinary.
+    /// Flights around the longest allowed duration, at otherwise ordinary launches.
     #[test]
     fn the_longest_flights_are_those_of_single_orbits() {
         let map = ImpactMap::new(Vibration::new(2.0).expect("legal"), 0.5).expect("legal");
@@ -121,7 +121,7 @@ mod tests {
                 .map(|lane| {
                     let k = LANES as u64 * block + lane;
                     let phase = Phase::new(TAU * golden_spread(13 * k)).expect("finite");
-                    // A launch with half of that is in flight for twice as long.
+                    // A launch with half of this speed flies for twice as long.
                     let speed = 1.6e9 * if block % 2 == 0 { 0.97 } else { 0.99 + 0.02 * golden_spread(k) };
                     ImpactState::new(phase, -speed).expect("legal")
                 })

@@ -9,19 +9,19 @@ use crate::numerics::error::Error;
 use crate::run::Observer;
 use crate::sweep::bouncing_map::BouncingOrbit;
 
-/// Most events without an impact after which a disk counts as one that bounces no more: at each kink it may be hit for ever.
+/// Most events without an impact until a disk counts as no longer bouncing: kinks may hit it forever.
 const MOST_CONTACT_EVENTS: usize = 10_000;
 
 /// Most impacts that [`orbit_diagram`] records, of all orbits together.
 pub const MAX_RECORDED: u64 = 1 << 31;
 
-/// How many impacts each orbit has before the disk comes to rest, at most `most`: an orbit that never comes
-/// to rest is followed for `most` impacts. The result `most` therefore means that it did not come to rest.
+/// The number of impacts of each orbit before the disk comes to rest, at most `most`. The result `most` means
+/// that the disk did not come to rest.
 ///
 /// The items of `observer` are the orbits.
 ///
 /// # Errors
-/// Those of [`sweep`](super::sweep).
+/// Errors of [`sweep`](super::sweep).
 pub fn survival_times<O: BouncingOrbit>(
     orbits: &[O],
     most: usize,
@@ -45,14 +45,14 @@ pub fn survival_times<O: BouncingOrbit>(
 }
 
 /// The columns of a bifurcation diagram: for each orbit the `recorded` impacts after the first `transient`
-/// ones. A disk that comes to rest continues with its next separation; one that rests for ever has fewer
-/// impacts, and so has one that is only hit by kinks of the platform.
+/// ones. A disk that comes to rest continues with its next separation. A disk that rests forever, or is only
+/// hit by kinks of the platform, has fewer impacts.
 ///
 /// The items of `observer` are the orbits.
 ///
 /// # Errors
-/// [`Error::TooLarge`] for more than [`MAX_RECORDED`] impacts of all orbits together or than there is memory
-/// for; those of [`sweep`](super::sweep).
+/// [`Error::TooLarge`] for more than [`MAX_RECORDED`] impacts of all orbits together, or too many for the
+/// memory; errors of [`sweep`](super::sweep).
 pub fn orbit_diagram<O: BouncingOrbit>(
     orbits: &[O],
     transient: usize,
@@ -79,7 +79,7 @@ pub fn orbit_diagram<O: BouncingOrbit>(
             match event {
                 SweepEvent::Impact(_) if *skipped < transient => *skipped += 1,
                 SweepEvent::Impact(landing) => {
-                    // Not all at once: a disk that rests for ever needs little.
+                    // Not all at once: a disk that rests forever needs little.
                     if states.try_reserve(1).is_err() {
                         *column = None;
                         return ControlFlow::Break(());

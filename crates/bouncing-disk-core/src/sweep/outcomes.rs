@@ -1,4 +1,4 @@
-//! Sweeps over orbits, and the results of those that are finished.
+//! Sweeps over orbits, and the results of finished orbits.
 
 use core::ops::ControlFlow;
 
@@ -9,17 +9,16 @@ use crate::numerics::stored::read_checked;
 use crate::run::{Observer, Watch};
 use crate::sweep::bouncing_map::BouncingOrbit;
 
-/// The results of a list of items, as far as they are finished, in the order of the items.
+/// The results of the finished items of a list, in the order of the items.
 ///
-/// Deserialising checks that the indices rise and belong to existing items.
+/// Deserialising checks that the indices increase and belong to existing items.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedResults<T>"))]
 #[cfg_attr(feature = "serde", serde(bound(deserialize = "T: serde::Deserialize<'de>")))]
 pub struct PartialResults<T> {
     total: usize,
-    /// The finished ones by rising index. A list of pairs, so that a result may be whatever it is, also
-    /// nothing.
+    /// The finished items by increasing index. Pairs allow any type of result, also the unit type.
     finished: Vec<(usize, T)>,
 }
 
@@ -75,15 +74,15 @@ impl<T> PartialResults<T> {
         self.finished.get(place).map(|(_, result)| result)
     }
 
-    /// The finished items with their indices, which rise.
+    /// The finished items with their indices, in increasing order.
     pub fn iter(&self) -> impl Iterator<Item = (usize, &T)> {
         self.finished.iter().map(|(index, result)| (*index, result))
     }
 
-    /// The indices of the items that are not finished, rising.
+    /// The indices of the unfinished items, in increasing order.
     ///
     /// # Errors
-    /// [`Error::Unfitting`] unless there are `items` of them.
+    /// [`Error::Unfitting`] unless the list has `items` items.
     pub fn open(&self, items: usize) -> Result<Vec<usize>, Error> {
         if items != self.total {
             let (found, expected) = (items as u64, self.total as u64);
@@ -97,13 +96,13 @@ impl<T> PartialResults<T> {
     pub fn extend(&mut self, results: impl IntoIterator<Item = (usize, T)>) {
         let (total, last) = (self.total, self.finished.len().saturating_sub(1));
         self.finished.extend(results.into_iter().filter(|(index, _)| *index < total));
-        // A result that comes in its order is added without moving any other.
+        // A result that arrives in order is added without moving any other.
         if !self.finished[last..].is_sorted_by(|(one, _), (next, _)| one < next) {
             self.finished = runner::in_order(total, core::mem::take(&mut self.finished));
         }
     }
 
-    /// [`Error::Stopped`] with the numbers of items.
+    /// [`Error::Stopped`] with the numbers of finished and of all items.
     #[must_use]
     pub const fn stopped(&self) -> Error {
         Error::Stopped { done: self.done(), total: self.total() }
@@ -121,7 +120,7 @@ impl<T> PartialResults<T> {
     }
 }
 
-/// [`sweep`] with visitors of one kind and results of another, made when an orbit is done.
+/// [`sweep`] with visitors of one type and results of another, made when an orbit is finished.
 pub(crate) fn sweep_with<O: BouncingOrbit, W: Send, T>(
     orbits: &[O],
     start: impl Fn(usize) -> W + Sync,
@@ -144,7 +143,7 @@ pub(crate) fn sweep_with<O: BouncingOrbit, W: Send, T>(
         })
         .collect();
     match failure {
-        // After one thread got the order to stop, others may have finished all.
+        // After one thread was told to stop, others may have finished all.
         _ if results.len() == total => {
             watch.end();
             Ok(results)
@@ -157,13 +156,12 @@ pub(crate) fn sweep_with<O: BouncingOrbit, W: Send, T>(
 /// Follows many independent orbits, each until its visitor has seen enough or it ends, and returns the
 /// visitors' results in the order of the orbits.
 ///
-/// `start` makes the value of the orbit of an index; `visit` is shown the events one by one, those of
-/// [`Orbit::advance`](crate::Orbit::advance), and breaks where the orbit need not be followed further. With the feature `parallel`
-/// the orbits are spread over the threads of rayon's pool. Neither their number nor the instructions of the
-/// processor change a bit.
+/// `start` makes the visitor's value for the orbit of an index. `visit` receives the events of
+/// [`Orbit::advance`](crate::Orbit::advance) one by one, and breaks when the orbit need not be followed
+/// further. With the feature `parallel` the orbits are distributed over the threads of rayon's pool. Neither
+/// the number of threads nor the instructions of the processor change a bit.
 ///
-/// An endless orbit that its visitor never breaks off is followed for ever, or until the observer of
-/// [`sweep`] breaks.
+/// An endless orbit whose visitor never breaks is followed forever, or until the observer breaks.
 ///
 /// The items of `observer` are the orbits.
 ///
@@ -192,7 +190,8 @@ pub(crate) fn sweep_with<O: BouncingOrbit, W: Send, T>(
 /// ```
 ///
 /// # Errors
-/// That of the first orbit, in their order, that has no next impact (see [`Orbit::advance`](crate::Orbit::advance)).
+/// The error of the first orbit, in order, that has no next impact (see
+/// [`Orbit::advance`](crate::Orbit::advance)).
 pub fn sweep<O: BouncingOrbit, S: Send>(
     orbits: &[O],
     start: impl Fn(usize) -> S + Sync,

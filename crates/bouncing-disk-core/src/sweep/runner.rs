@@ -23,7 +23,7 @@ impl BouncingOrbit for Orbit {
         advance(self)
     }
 
-    /// In lanes.
+    /// Follows the orbits in lanes.
     fn follow<S: Send>(
         orbits: &[Self],
         start: &(impl Fn(usize) -> S + Sync),
@@ -34,7 +34,8 @@ impl BouncingOrbit for Orbit {
     }
 }
 
-/// Follows the orbits until they are done or the observer breaks; the outcomes in the order of the orbits.
+/// Follows the orbits until they are done or the observer breaks; returns the outcomes in the order of the
+/// orbits.
 pub(super) fn run<S: Send>(
     orbits: &[Orbit],
     start: &(impl Fn(usize) -> S + Sync),
@@ -44,19 +45,19 @@ pub(super) fn run<S: Send>(
 ) -> Vec<OrbitOutcome<S>> {
     let queue = Queue { orbits, next: AtomicUsize::new(0) };
     let threads = threads().min(orbits.len());
-    // As many lanes as give every thread its share.
+    // Enough lanes for every thread's share.
     let share = orbits.len().div_ceil(threads.max(1));
     let lanes = share.next_multiple_of(LANES).clamp(LANES, BATCHES * LANES);
     let work = || {
         let (queue, work) = (&queue, watch.work());
         Worker { queue, start, visit, lanes, runs: Vec::new(), outcomes: Vec::new(), work }.run(set)
     };
-    // It does not matter which of the workers has an orbit.
+    // It does not matter which worker follows an orbit.
     in_order(orbits.len(), in_parallel(threads, |_| work()).into_iter().flatten())
 }
 
-/// Results of items from 0 to `total` in the order of the items, of each the first one. Sorting would be compiled
-/// for every type of result.
+/// Results of the items from 0 to `total` in order, keeping the first of each. A sort would be compiled for
+/// every type of result.
 pub(super) fn in_order<T>(total: usize, results: impl IntoIterator<Item = (usize, T)>) -> Vec<(usize, T)> {
     let mut places: Vec<Option<T>> = (0..total).map(|_| None).collect();
     for (index, result) in results {
@@ -65,7 +66,7 @@ pub(super) fn in_order<T>(total: usize, results: impl IntoIterator<Item = (usize
     places.into_iter().enumerate().filter_map(|(index, result)| Some((index, result?))).collect()
 }
 
-/// The orbits that nobody has begun.
+/// The orbits not yet begun.
 struct Queue<'a> {
     orbits: &'a [Orbit],
     next: AtomicUsize,
@@ -78,14 +79,14 @@ impl Queue<'_> {
     }
 }
 
-/// An orbit under way.
+/// An orbit being followed.
 struct Run<S> {
     index: usize,
     orbit: Orbit,
     value: S,
 }
 
-/// How an orbit was done with; `None` while it flies.
+/// The outcome of an orbit; `None` while it flies.
 type Done = Option<Result<(), Error>>;
 
 struct Worker<'a, S, Start, Visit> {
@@ -106,7 +107,7 @@ where
     Visit: Fn(&mut S, &SweepEvent) -> ControlFlow<()>,
 {
     fn run(mut self, set: InstructionSet) -> Vec<OrbitOutcome<S>> {
-        // Once the observer has broken, what is under way is dropped: it is not finished.
+        // Once the observer has broken, unfinished orbits are dropped.
         let _ = self.follow_all(set);
         self.outcomes
     }
@@ -132,14 +133,14 @@ where
     }
 
     fn finish(&mut self, run: Run<S>, done: Result<(), Error>) {
-        // An orbit that has failed is not finished.
+        // A failed orbit is not finished.
         if done.is_ok() {
             self.work.watch().finish(1);
         }
         self.outcomes.push((run.index, done.map(|()| run.value)));
     }
 
-    /// The next orbit that waits and is not done before its first launch.
+    /// The next waiting orbit that is not done before its first launch.
     fn begun(&mut self) -> Result<Option<Run<S>>, Error> {
         loop {
             self.work.spend(1)?;
@@ -154,8 +155,8 @@ where
 
     /// Advances orbits together while there are enough of them.
     fn in_lanes(&mut self, set: InstructionSet) -> Result<(), Error> {
-        // A launch is set as an impact with its speed and a rebound without loss: an orbit that separates
-        // from rest has no impact that leads to it.
+        // A launch is set as an impact with its speed and a rebound without loss, because an orbit that
+        // separates from rest has no impact before it.
         let Some(map) = self.queue.orbits.first().map(Orbit::map) else { return Ok(()) };
         let mut scheduler = Box::new(FlightScheduler::new(set, Purpose::Launches));
         let mut batches = vec![Batch::new(*map.vibration()); self.lanes / LANES];
@@ -179,9 +180,9 @@ where
                 }
             }
             scheduler.fly(used, self.runs.len(), |lane, error| failures.push((lane, error)));
-            // From the last lane, so that an orbit that is moved into a gap has been advanced.
+            // From the last lane down, so that an orbit moved into a gap has already been advanced.
             for lane in (0..self.runs.len()).rev() {
-                // The scheduler names the lanes in their order.
+                // The scheduler reports the lanes in order.
                 let done = match failures.pop_if(|(failed, _)| *failed == lane) {
                     Some((_, error)) => Some(Err(error)),
                     None => self.runs[lane].landed(&mut batches, lane, self.visit),
@@ -199,7 +200,7 @@ where
 }
 
 impl<S> Run<S> {
-    /// Shows the next event of an orbit that is advanced by itself.
+    /// Shows the visitor the next event of a separately advanced orbit.
     fn event(&mut self, visit: &impl Fn(&mut S, &SweepEvent) -> ControlFlow<()>) -> Done {
         match advance(&mut self.orbit) {
             Ok(Some(event)) if visit(&mut self.value, &event).is_continue() => None,
@@ -208,7 +209,7 @@ impl<S> Run<S> {
         }
     }
 
-    /// Shows the events before the next launch.
+    /// Shows the visitor the events before the next launch.
     fn show_until_launch(&mut self, visit: &impl Fn(&mut S, &SweepEvent) -> ControlFlow<()>) -> Done {
         while self.orbit.launch().is_none() {
             let done = self.event(visit);
@@ -219,7 +220,7 @@ impl<S> Run<S> {
         None
     }
 
-    /// Shows the impact of a lane and what follows it, and sets its next launch.
+    /// Shows the visitor the impact of a lane and the following events, and sets its next launch.
     #[inline]
     fn landed(
         &mut self,

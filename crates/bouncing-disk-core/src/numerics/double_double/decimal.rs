@@ -1,5 +1,4 @@
-//! Decimal digits of a number of two doubles, written exactly and read to the last of its bits or the one
-//! before.
+//! Decimal digits of a double-double number, written exactly and read to within its last two bits.
 
 use core::fmt;
 use core::str::FromStr;
@@ -7,16 +6,16 @@ use core::str::FromStr;
 use super::DoubleDouble;
 use crate::numerics::error::Error;
 
-/// Every double is a decimal fraction of so many places.
+/// Decimal places that represent every double exactly.
 const EXACT_PLACES: usize = 1_074;
 
 /// Significant digits if no precision is requested: more than 106 bits hold.
 const SIGNIFICANT_DIGITS: i32 = 33;
 
-/// The largest and smallest power of ten of a number that is read.
+/// The smallest and the largest power of ten accepted when reading a number.
 const EXPONENTS: core::ops::RangeInclusive<i32> = -250..=280;
 
-/// The digits of |a|, then |b| added or taken away: places before the point, and all digits.
+/// The digits of |a| plus or minus |b|: the number of places before the point, and all digits.
 fn digits_of_sum(a: f64, b: f64) -> (usize, Vec<u8>) {
     let digits = |x: f64| {
         let text = format!("{:.EXACT_PLACES$}", x.abs());
@@ -38,7 +37,7 @@ fn digits_of_sum(a: f64, b: f64) -> (usize, Vec<u8>) {
     (whole, sum)
 }
 
-/// Keeps so many digits, rounded half up; returns the carry out of the first digit.
+/// Keeps `keep` digits, rounded half up; returns the carry out of the first digit.
 fn rounded(digits: &mut Vec<u8>, keep: usize) -> bool {
     let up = digits.get(keep).is_some_and(|&digit| digit >= 5);
     digits.resize(keep, 0);
@@ -55,7 +54,7 @@ fn rounded(digits: &mut Vec<u8>, keep: usize) -> bool {
     true
 }
 
-/// As many places as the precision asks for, or 33 significant digits.
+/// As many places as the given precision, or 33 significant digits.
 impl fmt::Display for DoubleDouble {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         if !self.is_finite() {
@@ -86,8 +85,8 @@ impl FromStr for DoubleDouble {
     /// Reads a decimal number like `-1.25e-3`.
     ///
     /// # Errors
-    /// [`Error::NoDecimal`] for a text that is no decimal number; [`Error::OutOfRange`] for a number outside
-    /// of 1e-250 to 1e280 that is not zero.
+    /// [`Error::NoDecimal`] for a text that is not a decimal number; [`Error::OutOfRange`] for a non-zero
+    /// number outside 1e-250 to 1e280.
     fn from_str(text: &str) -> Result<Self, Error> {
         let bad = |at: usize| Error::NoDecimal { at };
         let bytes = text.as_bytes();
@@ -98,7 +97,7 @@ impl FromStr for DoubleDouble {
         while let Some(&byte) = bytes.get(at) {
             match byte {
                 b'0'..=b'9' => {
-                    // Digits beyond the 40th are smaller than the number can hold.
+                    // Digits beyond the 40th are too small for the number to hold.
                     if value.high < 1.0e40 {
                         value = value * ten + Self::from(f64::from(byte - b'0'));
                         power -= i32::from(point);

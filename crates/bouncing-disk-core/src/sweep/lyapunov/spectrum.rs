@@ -1,5 +1,5 @@
 //! Both Lyapunov exponents of an orbit, by QR, with the standard error of the largest, or the reason why
-//! it has none.
+//! there are none.
 //!
 //! If the image of the first direction has the length l, the second may be as long, with an orthogonal part
 //! det/l. Near a graze l and det grow like 1/v', so det/l stays of the order r^2 |v| with an error 1e-16 l,
@@ -27,38 +27,39 @@ use crate::sweep::{SweepEvent, SweepImpact, sweep_with};
 pub struct LyapunovSpectrum {
     /// The largest exponent: the mean logarithmic growth of a small perturbation per impact.
     pub largest: f64,
-    /// Its standard error over the one orbit that was followed: scatter, drift and rounding ([`BatchMeans`]).
+    /// Its standard error over the one orbit followed: scatter, drift and rounding ([`BatchMeans`]).
     pub standard_error: f64,
-    /// The other exponent; `None` for restitution 0, where the map forgets one of its two dimensions at every
-    /// impact and the exponent is minus infinity, and where a contact that takes time does so.
+    /// The other exponent. `None` for restitution 0, for which the map forgets one of its two dimensions at
+    /// every impact and the exponent is minus infinity, and if a compliant contact does the same.
     pub second: Option<f64>,
-    /// The exact sum of both over these impacts: 2 ln(restitution) + ln(v_0/v_n)/n with the impact
-    /// velocities before the first and after the last of n flights. It tends to 2 ln(restitution).
-    /// `None` for restitution 0, and in contacts that take time.
+    /// The exact sum of both over these impacts: 2 ln(restitution) + ln(v_0/v_n)/n with the impact velocities
+    /// before the first and after the last of n flights. It tends to 2 ln(restitution). `None` for
+    /// restitution 0 and for compliant contacts.
     pub exact_sum: Option<f64>,
     /// Impacts through which the perturbations were followed.
     pub impacts: u64,
 }
 
-/// The exponents of an orbit, or why it has none.
+/// The exponents of an orbit, or the reason why it has none.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub enum LyapunovOutcome {
     /// The orbit lasted for the requested number of impacts.
     Exponents(LyapunovSpectrum),
-    /// The disk came to rest on the platform. The motion after a rest does not depend on the one before, so
-    /// that the orbit of the map has no exponent; [`ImpactMap::verdict`](crate::ImpactMap::verdict) describes the motion of the disk.
+    /// The disk came to rest on the platform. The motion after a rest does not depend on the motion before,
+    /// so the orbit of the map has no exponent; [`ImpactMap::verdict`](crate::ImpactMap::verdict) describes
+    /// the motion of the disk.
     Rested {
-        /// Impacts before the rest, those of the transient among them.
+        /// Impacts before the rest, including the transient.
         impacts: u64,
     },
-    /// An impact has no speed, or one so small that the derivative exceeds what a double holds: the growth
-    /// beyond it is undefined.
+    /// An impact has zero speed, or one so small that the derivative overflows a double: the growth beyond it
+    /// is undefined.
     Grazed {
-        /// Impacts up to this one, those of the transient among them.
+        /// Impacts up to this one, including the transient.
         impacts: u64,
-        /// Its phase.
+        /// The phase of this impact.
         phase: Phase,
     },
 }
@@ -74,8 +75,8 @@ impl LyapunovOutcome {
     }
 }
 
-/// The QR decomposition along an orbit: the first direction as [`TangentGrowth`] has it, the second one at
-/// right angles to it.
+/// The QR decomposition along an orbit: the first direction follows [`TangentGrowth`], the second is
+/// perpendicular to it.
 #[derive(Debug, Clone)]
 struct TangentFrame {
     first: TangentGrowth,
@@ -88,7 +89,7 @@ impl TangentFrame {
         let across = self.first.tangent().perp();
         let length = self.first.grow(derivative);
         self.batches.push(length);
-        // The component of the second direction at right angles to the new first one.
+        // The component of the second direction perpendicular to the new first one.
         self.second_sum += ln(self.first.tangent().perp().dot(derivative * across).abs());
     }
 }
@@ -145,11 +146,11 @@ impl<M: BouncingMap> Followed<'_, M> {
 }
 
 /// Both Lyapunov exponents per impact of each orbit of `starts`, over `impacts` >= 16 impacts after
-/// `transient` ones, with the standard error of the largest; for an orbit without exponents the reason. The
-/// orbits of the sine advance in lockstep.
+/// `transient` ones, with the standard error of the largest; for an orbit without exponents, the reason.
+/// Orbits on a sine advance in lockstep.
 ///
-/// The largest exponent is that of [`lyapunov_exponents`](crate::chaos::lyapunov_exponents), but for the
-/// rounding of its sum.
+/// The largest exponent equals the result of [`lyapunov_exponents`](crate::chaos::lyapunov_exponents) up to
+/// the rounding of its sum.
 ///
 /// The items of `observer` are the orbits.
 ///
@@ -169,7 +170,7 @@ impl<M: BouncingMap> Followed<'_, M> {
 /// ```
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for fewer than 16 impacts; those of [`sweep`](crate::sweep::sweep()).
+/// [`Error::OutOfRange`] for fewer than 16 impacts; errors of [`sweep`](crate::sweep::sweep()).
 pub fn lyapunov_spectra<M: BouncingMap>(
     starts: &[(M, ImpactState)],
     transient: u64,
