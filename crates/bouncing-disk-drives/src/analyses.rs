@@ -1,4 +1,4 @@
-//! What the analyses of the core need of the map of a drive.
+//! The implementation of the core's analysis traits for the map of a drive.
 
 use bouncing_disk_core::attractors::{AttractingMap, Verdict, VerdictSettings, verdicts};
 use bouncing_disk_core::orbits::{OrbitSearch, PeriodicOrbit};
@@ -9,7 +9,8 @@ use glam::DMat2;
 
 use crate::driven_map::{DrivenMap, DrivenOrbit};
 
-/// How far rounding may move the end of a contact on a drive, where the force falls through zero at its slowest (rad).
+/// Bound on the rounding error of the end of a contact on a drive (rad), for a force that falls through zero
+/// at its slowest.
 const SEPARATION_ERROR: f64 = 1.0e-9;
 
 impl BouncingMap for DrivenMap {
@@ -43,10 +44,10 @@ impl BouncingMap for DrivenMap {
         self.chatters_to_rest_after(state)
     }
 
-    /// The flight again: an event does not have its error.
+    /// The flight is computed again, because an event does not contain its error.
     fn derivative(&self, from: ImpactState, to: ImpactState, _duration: f64) -> (DMat2, f64) {
         match self.step_with_derivative(from) {
-            // A compliant contact has no bound of its error.
+            // There is no error bound for a compliant contact.
             Ok((landing, derivative)) if landing.doubt.is_none() && landing.error.is_finite() => {
                 (derivative, landing.error * (1.0 + to.velocity().abs()))
             }
@@ -59,7 +60,7 @@ impl BouncingMap for DrivenMap {
         SEPARATION_ERROR
     }
 
-    /// A compliant contact does not.
+    /// False for a compliant contact.
     fn shrinks_areas_exactly(&self) -> bool {
         self.compliant().is_none()
     }
@@ -86,11 +87,12 @@ impl AttractingMap for DrivenMap {
 }
 
 impl DrivenMap {
-    /// Checks that `orbit` is an orbit of this map, as [`ImpactMap::check_orbit`](bouncing_disk_core::ImpactMap::check_orbit) does. An orbit of the sine
-    /// is one of the sine as a drive.
+    /// Checks that `orbit` is an orbit of this map, like
+    /// [`ImpactMap::check_orbit`](bouncing_disk_core::ImpactMap::check_orbit). An orbit of the sine is also
+    /// an orbit of the sine as a drive.
     ///
     /// # Errors
-    /// As for [`ImpactMap::check_orbit`](bouncing_disk_core::ImpactMap::check_orbit).
+    /// Errors of [`ImpactMap::check_orbit`](bouncing_disk_core::ImpactMap::check_orbit).
     pub fn check_orbit(&self, orbit: &PeriodicOrbit) -> Result<(), Error> {
         let impact = |state| self.step(state).map(|landing| landing.impact);
         check(orbit, impact, |state| {

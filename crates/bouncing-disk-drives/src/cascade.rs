@@ -1,4 +1,4 @@
-//! The period doublings on a drive, from branch to branch.
+//! The period-doubling cascade on a drive, followed from branch to branch.
 
 use core::f64::consts::{PI, TAU};
 
@@ -11,19 +11,19 @@ use bouncing_disk_core::{Error, Observer, Progress};
 use crate::driven_map::DrivenMap;
 use crate::family::DrivenFamily;
 
-/// The forcings at which an orbit to begin with is looked for, in units of the one at which rigid impacts first have one:
-/// from below in equal ratios, as compliant contacts have it there, and from there on at distances that double, as it may
-/// soon lose its stability.
+/// The forcings at which an initial orbit is sought, in units of the forcing at which rigid impacts first
+/// have one. They rise from below in equal ratios, as compliant contacts have orbits there, and beyond 1 at
+/// doubling distances, as the orbit may soon lose its stability.
 const LOWEST: f64 = 0.5;
 const RATIO: f64 = 1.05;
 const NEAREST: f64 = 1.0e-4;
 const DISTANCES: usize = 15;
 
-/// A compliant contact also has orbits of one impact far slower than the rigid ones: those in which the disk hardly leaves
-/// the platform. They count as none below this share of that speed.
+/// Share of the rigid impact speed below which one-impact orbits are ignored: a compliant contact also allows
+/// far slower ones, in which the disk hardly leaves the platform.
 const LEAST_SPEED: f64 = 0.5;
 
-/// Starts along each axis of that search.
+/// Starts along each axis of this search.
 const STARTS: u32 = 16;
 
 /// The first and the largest step of the arclength.
@@ -36,9 +36,9 @@ const MOST: f64 = 20.0;
 /// The unit of the forcing is the first one, and at least this.
 const LEAST_UNIT: f64 = 0.1;
 
-/// The cascade of [`doubling_cascade`](bouncing_disk_core::orbits::doubling_cascade) on any drive and contact. `maps` gives
-/// the map of a forcing. It goes from branch to branch by continuation. The error of a forcing is the error of the trace
-/// over its slope; graze margins are not known (NaN).
+/// The cascade of [`doubling_cascade`](bouncing_disk_core::orbits::doubling_cascade) on any drive and
+/// contact. `maps` gives the map for a forcing. The search follows the branches by continuation. The error of
+/// a forcing is the error of the trace over its slope; graze margins are unknown (NaN).
 ///
 /// ```
 /// use bouncing_disk_core::Unobserved;
@@ -53,7 +53,7 @@ const LEAST_UNIT: f64 = 0.1;
 /// ```
 ///
 /// # Errors
-/// [`Error::NoBranch`] if no attracting orbit of one impact in one period is found; those of
+/// [`Error::NoBranch`] if no attracting orbit of one impact in one period is found; errors of
 /// [`ContinuedMap::doublings`](bouncing_disk_core::orbits::ContinuedMap::doublings).
 pub fn driven_doubling_cascade(
     maps: impl Fn(f64) -> Option<DrivenMap> + Send + Sync + 'static,
@@ -85,8 +85,8 @@ pub fn driven_doubling_cascade(
     Ok(DoublingCascade { doublings: doublings.collect(), ended_by })
 }
 
-/// An attracting orbit of one impact in one period at the lowest forcing at which there is one, and the forcing at which
-/// rigid impacts first have one: as the platform rises fastest.
+/// An attracting orbit of one impact in one period at the lowest forcing that has one, and the forcing at
+/// which rigid impacts first have one, at the phase of fastest rise.
 fn first_orbit(
     maps: impl Fn(f64) -> Option<DrivenMap> + Send + Sync + 'static,
     observer: &dyn Observer,

@@ -1,5 +1,4 @@
-//! A contact that takes time: a linear spring and damper between disk and platform, whose force is never
-//! negative.
+//! Compliant contact: a linear spring and damper between disk and platform, whose force is never negative.
 //!
 //! With the gap y = x - s (negative in contact) the disk moves by
 //!
@@ -7,11 +6,11 @@
 //! x'' = -1 + F,   F = max(0, -k y - c y')  while y <= 0,   F = 0 while y > 0.
 //! ```
 //!
-//! A second law has no damper, but a spring that unloads at less stiffness than it loads, and that holds
-//! still in between: what the two agree on does not depend on the damping.
+//! A second law has no damper, but a spring that unloads at a lower stiffness than it loads, and holds still
+//! in between. Results on which both laws agree do not depend on the damping.
 //!
-//! Between two events all is polynomials and damped sines, and the events are their first roots
-//! (docs/numerics-dynamics.md). The platform is a Fourier sum.
+//! Between two events the motion is a sum of polynomials and damped sines, and the events are first roots of
+//! such sums (docs/numerics-dynamics.md). The platform is a Fourier sum.
 
 use core::f64::consts::{E, FRAC_PI_2, TAU};
 
@@ -27,15 +26,17 @@ use crate::drive::Drive;
 use crate::drive::landing::{DrivenImpact, decided};
 use crate::quasi_polynomial::{DampedSine, QuasiPolynomial};
 
-/// Damping this near to the critical one counts as critical: the restitution differs by less than a rounding.
+/// Distance from critical damping below which damping counts as critical: the restitution differs by less
+/// than a rounding.
 const CRITICAL: f64 = 1.0e-8;
 
-/// A spring that holds still moves when the load is beyond what holds it by this share of the loads: a load
-/// that touches the edge within its rounding does not move it.
+/// Share of the loads by which a load must exceed the limit to move a spring that holds still: a load that
+/// touches the limit within rounding does not move it.
 const EDGE: f64 = 128.0 * f64::EPSILON;
 
-/// Rates that differ by less than this share of themselves: the difference of their exponentials is an
-/// integral over the rates between them, which the rule below gives to rounding while the motion matters.
+/// Relative difference below which two rates count as close: the difference of their exponentials is then an
+/// integral over the rates between them. The rule below evaluates it to rounding as long as the motion
+/// matters.
 const NEAR: f64 = 3.0e-2;
 
 /// Nodes and weights of the Gauss-Legendre rule of four points on [-1, 1]; the weights add up to 1.
@@ -46,14 +47,14 @@ const GAUSS: [(f64, f64); 4] = [
     (0.861_136_311_594_052_6, 0.173_927_422_568_726_93),
 ];
 
-/// A disk that rises faster than this (units of g/omega) may fly through more oscillations of the platform than can be
-/// searched one after the other.
+/// Speed (units of g/omega) above which a rising disk may fly through more oscillations of the platform than
+/// can be searched one by one.
 const FAST: f64 = 1.0e5;
 
-/// A transient that has decayed to this share of the force is rounding.
+/// Share of the force below which a transient is rounding.
 const SETTLED: f64 = 1.0e-18;
 
-/// Stiffness and damping of a contact: in units of m omega^2 and m omega.
+/// Stiffness and damping of a contact, in units of m omega^2 and m omega.
 ///
 /// ```
 /// use bouncing_disk_drives::compliance::Compliance;
@@ -69,32 +70,32 @@ const SETTLED: f64 = 1.0e-18;
 pub struct Compliance {
     stiffness: f64,
     damping: f64,
-    /// The stiffness when it unloads.
+    /// The stiffness while it unloads.
     unloading: f64,
 }
 
-/// What the spring does.
+/// The state of the spring.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum SpringState {
-    /// It loads; with a damper also: it moves.
+    /// It loads; with a damper: it moves.
     Loading,
     /// It unloads at its lower stiffness.
     Unloading,
-    /// Its force is between that of loading and that of unloading: it holds still.
+    /// Its force is between the loading and the unloading force: it holds still.
     Held,
 }
 
 impl Compliance {
-    /// Least and largest restitution of a contact that takes time. At a resonance free and forced oscillation,
+    /// Least and largest restitution of a compliant contact. At a resonance free and forced oscillations,
     /// 1/(1 - e) times as large as the platform's, cancel.
     pub const RESTITUTIONS: [f64; 2] = [0.001, 1.0 - 1.0e-6];
 
     /// Least and largest contact time (rad).
     pub const CONTACT_TIMES: [f64; 2] = [1.0e-6, 1.0e4];
 
-    /// The contact in which an isolated impact without weight lasts for `contact_time` (rad), until the force
-    /// falls to zero, and has this restitution.
+    /// The contact for which an isolated impact without weight lasts for `contact_time` (rad), until the
+    /// force falls to zero, and has this restitution.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a contact time outside [1e-6, 1e4] rad, or a restitution outside
@@ -131,11 +132,11 @@ impl Compliance {
         Self { stiffness, damping, unloading: stiffness }
     }
 
-    /// The contact whose spring unloads at the square of the restitution times its stiffness, without a
-    /// damper.
+    /// The contact without a damper whose spring unloads at its stiffness times the square of the
+    /// restitution.
     ///
     /// # Errors
-    /// As [`Self::new`].
+    /// Errors of [`Self::new`].
     pub fn hysteretic(contact_time: f64, restitution: f64) -> Result<Self, Error> {
         Self::new(contact_time, restitution)?;
         let frequency = FRAC_PI_2 * (1.0 + 1.0 / restitution) / contact_time;
@@ -143,13 +144,13 @@ impl Compliance {
         Ok(Self { stiffness, damping: 0.0, unloading: restitution * restitution * stiffness })
     }
 
-    /// The stiffness k, in units of m omega^2: the indentation under the weight is its inverse.
+    /// The stiffness k, in units of m omega^2; the indentation under the weight is its inverse.
     #[must_use]
     pub const fn stiffness(&self) -> f64 {
         self.stiffness
     }
 
-    /// The stiffness when the spring unloads.
+    /// The stiffness while the spring unloads.
     #[must_use]
     pub const fn unloading_stiffness(&self) -> f64 {
         self.unloading
@@ -161,7 +162,8 @@ impl Compliance {
         self.damping
     }
 
-    /// What an isolated impact without weight keeps of its speed when the force has fallen to zero.
+    /// The share of its speed that an isolated impact without weight leaves when the force has fallen to
+    /// zero.
     #[must_use]
     pub fn restitution(&self) -> f64 {
         if self.is_hysteretic() {
@@ -171,7 +173,7 @@ impl Compliance {
         exp(-0.5 * self.damping * self.contact_time())
     }
 
-    /// How long an isolated impact without weight lasts until the force has fallen to zero (rad).
+    /// The duration of an isolated impact without weight until the force has fallen to zero (rad).
     #[must_use]
     pub fn contact_time(&self) -> f64 {
         let frequency = self.stiffness.sqrt();
@@ -186,8 +188,9 @@ impl Compliance {
         2.0 * share / frequency
     }
 
-    /// The same spring and damper on a platform that recoils, where an impact has this share of the disk's mass. Contact
-    /// time and restitution then describe an isolated impact there.
+    /// The same spring and damper on a recoiling platform, for which the effective mass of an impact is this
+    /// share of the disk's mass. Contact time and restitution then describe an isolated impact on that
+    /// platform.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a share outside (0, 1].
@@ -215,7 +218,7 @@ impl Compliance {
         Complex(k, d).over(Complex(k - number * number, d))
     }
 
-    /// A free oscillation from this value and slope on.
+    /// A free oscillation from this value and slope.
     pub(crate) fn free(&self, value: f64, slope: f64) -> Vec<DampedSine> {
         let frequency = self.stiffness.sqrt();
         let decay = 0.5 * self.damping;
@@ -256,8 +259,8 @@ impl Compliance {
         }
     }
 
-    /// The force of a spring without a damper that starts without value and slope, as a harmonic pulls at it
-    /// that is next to its resonance.
+    /// The force of an undamped spring that starts from zero value and slope, driven by a harmonic near its
+    /// resonance.
     fn resonance(&self, harmonic: &DampedSine) -> Vec<DampedSine> {
         let (own, driven) = (self.stiffness.sqrt(), harmonic.frequency);
         let (half, middle) = (0.5 * (own - driven), 0.5 * (own + driven));
@@ -272,7 +275,7 @@ impl Compliance {
         terms
     }
 
-    /// The slower rate of decay of a free oscillation.
+    /// The slower decay rate of a free oscillation.
     fn slow_decay(&self) -> f64 {
         let decay = 0.5 * self.damping;
         let square = decay * decay - self.stiffness;
@@ -288,7 +291,7 @@ pub struct RelativeState {
     pub time: f64,
     /// Disk minus platform, in units of g/omega^2.
     pub gap: f64,
-    /// Its derivative, in units of g/omega.
+    /// The derivative of the gap, in units of g/omega.
     pub velocity: f64,
 }
 
@@ -296,7 +299,7 @@ pub struct RelativeState {
 #[derive(Debug, Clone, PartialEq)]
 pub struct CompliantPlatform {
     drive: Drive,
-    /// The same motion where it is the sine of the closed forms.
+    /// The same motion, if it is a sine with closed forms.
     sine: Option<Vibration>,
     compliance: Compliance,
 }
@@ -304,24 +307,24 @@ pub struct CompliantPlatform {
 /// The end of a flight towards a compliant platform.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Touch {
-    /// How long the disk has flown (rad).
+    /// The duration of the flight (rad).
     pub duration: f64,
-    /// How often the phase has passed 0.
+    /// The number of times the phase has passed 0.
     pub turns: u64,
-    /// The disk then: with no gap, or in the air with a gap below zero where the force sets in again before
+    /// The state of the disk then: with zero gap, or with a negative gap if the force sets in again before
     /// the spring is free.
     pub state: RelativeState,
 }
 
-/// How a contact ends, or goes on.
+/// The end of a contact, or its next change.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ContactEnd {
     /// The force falls to zero after this time (rad).
     Release(f64),
-    /// It never does: after this time (rad) what is left of the start is rounding, and the disk follows the
-    /// platform by its [steady response](CompliantPlatform::steady).
+    /// The force never falls to zero: after this time (rad) the transient is below rounding, and the disk
+    /// follows the platform with its [steady response](CompliantPlatform::steady).
     Settles(f64),
-    /// The contact goes on, but its spring loads, unloads or holds still from now on (rad).
+    /// The contact continues, but after this time (rad) its spring is in another state.
     Turns(f64, SpringState),
 }
 
@@ -351,7 +354,7 @@ impl CompliantPlatform {
         &self.compliance
     }
 
-    /// The height of a disk that never leaves the platform, but for its indentation under the weight.
+    /// The height of a disk that never leaves the platform, without its indentation under the weight.
     ///
     /// # Errors
     /// Errors of [`Drive::fourier`].
@@ -365,7 +368,7 @@ impl CompliantPlatform {
         })
     }
 
-    /// The disk at `time` with the indentation that carries it there.
+    /// The disk at `time` with the indentation that supports it at this moment.
     #[must_use]
     pub fn resting(&self, time: f64) -> RelativeState {
         let load = (1.0 + self.drive.acceleration(time)).max(0.0);
@@ -373,7 +376,7 @@ impl CompliantPlatform {
         RelativeState { time, gap: -load / (stiffness * unloading).sqrt(), velocity: 0.0 }
     }
 
-    /// The force of a contact in this state, were it not cut off at zero.
+    /// The force of a contact in this state, without the cut-off at zero.
     #[must_use]
     pub fn force(&self, state: RelativeState) -> f64 {
         self.force_on(self.spring_state(state), state)
@@ -387,14 +390,14 @@ impl CompliantPlatform {
         -(stiffness * state.gap + damping * state.velocity)
     }
 
-    /// What the spring gives back from this gap, per mass, in units of (g/omega)^2.
+    /// The energy that the spring returns from this gap, per mass, in units of (g/omega)^2.
     #[must_use]
     pub fn spring_energy(&self, gap: f64) -> f64 {
         let indentation = gap.min(0.0);
         0.5 * self.compliance.unloading * indentation * indentation
     }
 
-    /// What the spring does in this state.
+    /// The state of the spring for this state of the disk.
     #[must_use]
     pub fn spring_state(&self, state: RelativeState) -> SpringState {
         let load = || 1.0 + self.drive.acceleration(state.time);
@@ -410,8 +413,8 @@ impl CompliantPlatform {
         }
     }
 
-    /// By how much the load must be beyond the force of a disk at rest that it moves it: where it lies on the
-    /// platform without a force, by more than what [`Drive::holds`] takes for a rounding.
+    /// The excess of the load over the force that is needed to move a disk at rest. For a disk that lies on
+    /// the platform without a force, this is more than [`Drive::holds`] counts as rounding.
     fn spare(&self, gap: f64) -> f64 {
         let bounds = self.drive.bounds();
         if gap == 0.0 {
@@ -420,7 +423,7 @@ impl CompliantPlatform {
         EDGE * (1.0 + bounds.acceleration + self.compliance.stiffness * gap.abs())
     }
 
-    /// The next touch of a disk that feels no force, if it comes within `limit` (rad).
+    /// The next touch of a disk in free flight, if it comes within `limit` (rad).
     ///
     /// # Errors
     /// Errors of [`Drive::first_impact_within`].
@@ -458,7 +461,7 @@ impl CompliantPlatform {
             }
             return Ok(self.drive.impact_after_separation_within(time, limit)?.map(landed));
         }
-        // The spring is not free yet: it is when the gap closes from below, or presses before.
+        // The spring is not free yet: it will be when the gap closes from below, unless it presses earlier.
         let height = self.free_gap(from);
         let Compliance { stiffness, damping, .. } = self.compliance;
         let slope = -1.0 - self.drive.acceleration(time);
@@ -474,7 +477,7 @@ impl CompliantPlatform {
         let presses =
             |to: f64| decided(&presses, to).map(|found| found.root.map_or(f64::INFINITY, |root| root.at));
         let (freed, pressed) = match self.time_above(from) {
-            // It is free before that time, and only until then can the spring press.
+            // It is free before this time, and only until then can the spring press.
             Some(above) => {
                 let freed = frees(to.min(above))?;
                 let pressed = presses(freed.map_or(to.min(above), |freed| freed.at))?;
@@ -501,26 +504,27 @@ impl CompliantPlatform {
         }))
     }
 
-    /// When a fast disk that feels no force is at the top of its flight, if that is above all of the platform.
+    /// The time at which a fast disk in free flight reaches its highest point, if this is above the whole
+    /// platform.
     fn time_above(&self, from: RelativeState) -> Option<f64> {
         let speed = self.drive.velocity(from.time) + from.velocity;
         let depth = self.drive.bounds().highest - (self.drive.height(from.time) + from.gap);
         (speed > FAST && 0.5 * speed * speed > 2.0 * depth).then_some(speed)
     }
 
-    /// The gap of a disk that feels no force.
+    /// The gap of a disk in free flight.
     fn free_gap(&self, from: RelativeState) -> QuasiPolynomial {
         let bent = self.drive.derivative(0, from.time) * -1.0;
         bent.bent_by(-1.0).starting_with([from.gap, from.velocity], [0.0; 2])
     }
 
-    /// A disk in contact from this state on.
+    /// The motion of a disk in contact, starting from this state.
     #[must_use]
     pub fn press(&self, from: RelativeState) -> Pressed {
         self.press_on(self.spring_state(from), from)
     }
 
-    /// A disk in contact from this state on, whose spring does that.
+    /// The motion of a disk in contact, starting from this state, with the spring in the state `branch`.
     #[must_use]
     pub fn press_on(&self, branch: SpringState, from: RelativeState) -> Pressed {
         let (here, harmonics) = self.drive.at_with_terms(from.time, 2, 1.0);
@@ -545,7 +549,7 @@ impl CompliantPlatform {
         };
         let mut slope = -(stiffness * from.velocity + damping * (force - 1.0 - here.acceleration));
         if from.gap == 0.0 && from.velocity == 0.0 && self.drive.holds(from.time) {
-            // A disk that is put down does not leave by a rounding.
+            // Rounding must not make a disk leave that is placed on the platform.
             slope = slope.max(0.0);
         }
         let (mut value, mut rate, mut steady) = (force - 1.0, slope, 0.0);
@@ -590,17 +594,17 @@ impl CompliantPlatform {
     }
 }
 
-/// The motion of a disk in contact with a compliant platform, from a state on, in closed form.
+/// The motion of a disk in contact with a compliant platform, in closed form from an initial state.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pressed {
     from: RelativeState,
     branch: SpringState,
     platform: CompliantPlatform,
     force: QuasiPolynomial,
-    /// Bound on the oscillation of the force that stays, and on that which decays.
+    /// Bound on the steady oscillation of the force, and on the decaying one.
     steady: f64,
     transient: f64,
-    /// The rate at which the latter decays.
+    /// The rate of this decay.
     fading: f64,
 }
 
@@ -611,13 +615,13 @@ impl Pressed {
         &self.force
     }
 
-    /// The velocity of the disk less that at the start, over the time since then.
+    /// The change of the disk's velocity since the start, over time.
     #[must_use]
     pub fn velocity_change(&self) -> QuasiPolynomial {
         (self.force.clone() + -1.0).integral(0.0)
     }
 
-    /// The height of the disk less that at the start, and less the velocity there times the time since then.
+    /// The change of the disk's height since the start, minus the initial velocity times the time.
     #[must_use]
     pub fn lift(&self) -> QuasiPolynomial {
         self.velocity_change().integral(0.0)
@@ -636,7 +640,7 @@ impl Pressed {
         }
     }
 
-    /// The disk at the [release](ContactEnd::Release): without a force.
+    /// The disk at the [release](ContactEnd::Release), with zero force.
     #[must_use]
     pub fn released(&self, span: f64) -> RelativeState {
         let state = self.after(span);
@@ -658,19 +662,19 @@ impl Pressed {
         self.platform.drive.highest_harmonic().max(stiffness.sqrt()).max(damping)
     }
 
-    /// What the spring does.
+    /// The state of the spring.
     #[must_use]
     pub const fn spring_state(&self) -> SpringState {
         self.branch
     }
 
-    /// Its state at the start.
+    /// The disk's state at the start.
     #[must_use]
     pub const fn from(&self) -> &RelativeState {
         &self.from
     }
 
-    /// Whether the disk lies on the platform, which holds it but for a rounding: time must pass before it
+    /// Whether the disk lies on the platform, which supports it to within rounding: time must pass before it
     /// leaves.
     fn is_put_down(&self) -> bool {
         let RelativeState { time, gap, velocity } = self.from;
@@ -680,7 +684,7 @@ impl Pressed {
     /// The end of the contact, if it comes within `limit` (rad).
     ///
     /// # Errors
-    /// [`Error::NoConvergence`] for a force that stays next to zero over more oscillations than can be searched.
+    /// [`Error::NoConvergence`] for a force that stays near zero over more oscillations than can be searched.
     pub fn end(&self, limit: f64) -> Result<Option<ContactEnd>, Error> {
         finite("start of a contact", self.from.time)?;
         if self.platform.compliance.is_hysteretic() {
@@ -696,7 +700,7 @@ impl Pressed {
             force = force + self.platform.spare(0.0);
         }
         let spare = 1.0 - self.steady;
-        // When the transient is smaller than what the steady force keeps, or than a rounding.
+        // The time at which the transient is smaller than the steady force's margin, or than a rounding.
         let until = |left: f64| ln((self.transient / left).max(1.0)) / self.fading;
         let settled = until(SETTLED * (1.0 + self.steady));
         let search = if spare > 0.0 { until(spare).min(settled) } else { settled + TAU };
@@ -714,7 +718,7 @@ impl Pressed {
         let drive = &self.platform.drive;
         let fall = |function: &QuasiPolynomial, to: f64| -> Result<Option<f64>, Error> {
             let start = function.at(0.0, 0.0);
-            // On the edge of a branch the function that ends it starts at zero.
+            // At the edge of a branch the function that ends it starts at zero.
             let ended = start.value <= 0.0 && (start.slope < 0.0 || start.slope == 0.0 && start.bend < 0.0);
             Ok(if ended { Some(0.0) } else { decided(function, to)?.root.map(|root| root.at) })
         };
@@ -738,7 +742,7 @@ impl Pressed {
             branch => {
                 let jet = self.force.at(0.0, 0.0);
                 let platform = drive.acceleration(self.from.time);
-                // A spring that held still until now sets out with its forces in balance.
+                // A spring that held still until now starts with its forces in balance.
                 let bend = match jet.value - 1.0 - platform {
                     bend if bend.abs() <= 64.0 * f64::EPSILON * (1.0 + jet.value + platform.abs()) => 0.0,
                     bend => bend,
@@ -753,24 +757,24 @@ impl Pressed {
                     SpringState::Unloading => fall(&self.force, turned.unwrap_or(to))?,
                     _ => None,
                 };
-                // What would go back at once has not moved.
+                // A spring that would turn back at once has not moved.
                 let to = |at| if at > 0.0 { self.turned_at(at) } else { SpringState::Held };
                 [turned.map(|at| (at, Some(to(at)))), freed.map(|at| (at, None))]
             }
         };
-        // The second one was searched up to the first.
+        // The second root was searched up to the first.
         Ok(second.or(first).map(|(after, branch)| {
             branch.map_or(ContactEnd::Release(after), |branch| ContactEnd::Turns(after, branch))
         }))
     }
 
-    /// What a spring does whose motion has come to an end.
+    /// The state of a spring whose motion has ended.
     fn turned_at(&self, after: f64) -> SpringState {
         let state = self.after(after);
         self.platform.spring_state(RelativeState { velocity: 0.0, ..state })
     }
 
-    /// The disk where the spring turns: it moves with the platform.
+    /// The disk when the spring turns: it moves with the platform.
     #[must_use]
     pub fn turned(&self, after: f64) -> RelativeState {
         RelativeState { velocity: 0.0, ..self.after(after) }

@@ -19,7 +19,7 @@ mod spline;
 pub use landing::{Doubt, DrivenImpact};
 pub use pieces::MAX_PIECES;
 
-/// Most harmonics of a Fourier drive.
+/// Largest number of harmonics of a Fourier drive.
 pub const MAX_HARMONICS: usize = 32;
 
 /// Four roundoffs.
@@ -27,7 +27,7 @@ const ROUNDING: f64 = 2.0 * f64::EPSILON;
 
 /// The height of a platform (g/omega^2) over time, in radians of the drive's fundamental: one period is 2 pi.
 ///
-/// At a kink, where the velocity jumps, the later piece holds. Clones share their numbers.
+/// At a kink, where the velocity jumps, the later piece applies. Clones share their data.
 ///
 /// ```
 /// use bouncing_disk_core::{Launch, Phase};
@@ -60,7 +60,7 @@ pub struct DriveState {
     pub velocity: f64,
     /// Acceleration, in units of g.
     pub acceleration: f64,
-    /// Its derivative.
+    /// The derivative of the acceleration.
     pub jerk: f64,
 }
 
@@ -68,9 +68,9 @@ pub struct DriveState {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct DriveBounds {
-    /// The platform is nowhere lower.
+    /// The platform is never lower.
     pub lowest: f64,
-    /// The platform is nowhere higher; at most 1e-4 of the amplitudes above its highest point.
+    /// The platform is never higher; the bound is at most 1e-4 of the amplitudes above its highest point.
     pub highest: f64,
     /// Bound on the speed.
     pub speed: f64,
@@ -84,11 +84,11 @@ pub struct DriveBounds {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct TimeAhead {
-    /// How far ahead, in radians.
+    /// The time until then, in radians.
     pub after: f64,
-    /// When, in [0, 2 pi).
+    /// The time of the drive, in [0, 2 pi).
     pub time: f64,
-    /// By how much the velocity of the platform jumps there, in units of g/omega: zero without a kink.
+    /// The jump of the platform's velocity at this time, in units of g/omega: zero without a kink.
     pub velocity_jump: f64,
 }
 
@@ -103,13 +103,13 @@ pub(crate) struct Harmonic {
 #[derive(Debug)]
 pub(crate) struct Fourier {
     harmonics: Vec<Harmonic>,
-    /// Without those of the height: [`Self::bounds`].
+    /// The bounds except for the height: [`Self::bounds`].
     bounds: DriveBounds,
-    /// The bounds of the height, which take many times as long as all else, once somebody needs them.
+    /// The bounds of the height, computed on first use because they take far longer than all else.
     heights: OnceLock<(f64, f64)>,
 }
 
-/// The harmonics decide all else.
+/// The harmonics determine everything else.
 impl PartialEq for Fourier {
     fn eq(&self, other: &Self) -> bool {
         self.harmonics == other.harmonics
@@ -117,11 +117,11 @@ impl PartialEq for Fourier {
 }
 
 impl Drive {
-    /// The sum of a_j sin(j t + phi_j) over j = 1, 2, ... of these (a_j, phi_j), at most [`MAX_HARMONICS`].
+    /// The sum of a_j sin(j t + phi_j) over j = 1, 2, ... for these (a_j, phi_j), at most [`MAX_HARMONICS`].
     ///
     /// # Errors
-    /// [`Error::TooLarge`] for too many harmonics; [`Error::NotOfKind`] names one whose numbers are not
-    /// finite; [`Error::OutOfRange`] for accelerations beyond [`Vibration::MAX_PEAK_ACCELERATION`].
+    /// [`Error::TooLarge`] for too many harmonics; [`Error::NotOfKind`] names a harmonic whose numbers are
+    /// not finite; [`Error::OutOfRange`] for accelerations beyond [`Vibration::MAX_PEAK_ACCELERATION`].
     pub fn fourier(harmonics: &[(f64, f64)]) -> Result<Self, Error> {
         let (count, limit) = (harmonics.len(), MAX_HARMONICS);
         if count > limit {
@@ -151,7 +151,7 @@ impl Drive {
         Ok(Self { shape: Shape::Fourier(Arc::new(fourier)) })
     }
 
-    /// The same motion `phase` (rad) earlier.
+    /// The same motion, advanced by `phase` (rad).
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a phase that is not finite.
@@ -176,8 +176,8 @@ impl Drive {
         }
     }
 
-    /// [`Self::at`], and `factor` times the derivative of this order (at most 2) from there on, as far as it
-    /// is sines.
+    /// [`Self::at`], and `factor` times the derivative of this order (at most 2) from there on, if it is a
+    /// sum of sines.
     pub(crate) fn at_with_terms(&self, time: f64, order: u32, factor: f64) -> (DriveState, Vec<DampedSine>) {
         let time = wrapped_angle(time);
         match &self.shape {
@@ -186,8 +186,8 @@ impl Drive {
         }
     }
 
-    /// The derivative of this order (0 to 2; 0 is the height) from `time` on, as a function of the time since
-    /// then: it holds up to the next joint.
+    /// The derivative of this order (0 to 2; 0 is the height) from `time` on, as a function of the time
+    /// elapsed; it holds up to the next joint.
     #[must_use]
     pub fn derivative(&self, order: u32, time: f64) -> QuasiPolynomial {
         let bounds = self.bounds();
@@ -197,7 +197,7 @@ impl Drive {
         self.derivative_known_to(errors, order, time)
     }
 
-    /// The same with these errors of height, velocity, acceleration and jerk.
+    /// [`Self::derivative`] with these errors of height, velocity, acceleration and jerk.
     fn derivative_known_to(&self, errors: [f64; 4], order: u32, time: f64) -> QuasiPolynomial {
         let order = order.min(2);
         let (at, terms) = self.at_with_terms(time, order, 1.0);
@@ -210,7 +210,7 @@ impl Drive {
         QuasiPolynomial::known([values[k], values[k + 1]], [errors[k], errors[k + 1]], bend, terms)
     }
 
-    /// The velocity from `time` on, as [`Self::derivative`]; of a Fourier sum as the sum of its terms.
+    /// The velocity from `time` on, like [`Self::derivative`]; for a Fourier sum, as the sum of its terms.
     #[must_use]
     pub fn velocity_as_sum(&self, time: f64) -> QuasiPolynomial {
         let velocity = self.derivative(1, time);
@@ -220,12 +220,12 @@ impl Drive {
         }
     }
 
-    /// By how much the velocity changes from `time` on in a `span` >= 0, but for kinks; and the height less
-    /// the first velocity times the span: both accurate relative to themselves in a short span.
+    /// The change of the velocity over a `span` >= 0 from `time`, without kinks; and the change of the height
+    /// minus the initial velocity times the span. Both have relative accuracy over a short span.
     #[must_use]
     pub fn change(&self, time: f64, span: f64) -> (f64, f64) {
         if span >= TAU && self.next_joint(time).is_some() {
-            // Each period changes both by as much again.
+            // Each period adds the same change to both.
             let periods = libm::floor(span / TAU);
             let (velocity, height) = self.change_within(time, TAU);
             let (more, lift) = self.change_within(time, span - periods * TAU);
@@ -257,19 +257,19 @@ impl Drive {
         self.at(time).height
     }
 
-    /// Velocity at this time, in units of g/omega; at a kink that of the later piece.
+    /// Velocity at this time, in units of g/omega; at a kink, the later piece's velocity.
     #[must_use]
     pub fn velocity(&self, time: f64) -> f64 {
         self.at(time).velocity
     }
 
-    /// Velocity just before this time, in units of g/omega: at a kink that of the earlier piece.
+    /// Velocity just before this time, in units of g/omega: at a kink, the earlier piece's velocity.
     #[must_use]
     pub fn velocity_before(&self, time: f64) -> f64 {
         self.velocity(time) - self.velocity_jump(time)
     }
 
-    /// By how much the velocity jumps at this time, in units of g/omega.
+    /// The jump of the velocity at this time, in units of g/omega.
     #[must_use]
     pub fn velocity_jump(&self, time: f64) -> f64 {
         self.as_pieces().map_or(0.0, |pieces| pieces.velocity_jump(wrapped_angle(time)))
@@ -296,7 +296,7 @@ impl Drive {
         }
     }
 
-    /// The highest number of a harmonic; 1 if there is none.
+    /// The number of the highest harmonic; 1 if there is none.
     #[must_use]
     pub fn highest_harmonic(&self) -> f64 {
         match &self.shape {
@@ -305,7 +305,7 @@ impl Drive {
         }
     }
 
-    /// The times in [0, 2 pi) at which the velocity jumps, and by how much.
+    /// The times in [0, 2 pi) at which the velocity jumps, and the jumps.
     pub fn kinks(&self) -> impl Iterator<Item = (f64, f64)> {
         self.as_pieces().map_or(&[][..], Pieces::kinks).iter().copied()
     }
@@ -322,7 +322,7 @@ impl Drive {
         self.as_pieces().map(|pieces| pieces.next_joint(wrapped_angle(time)))
     }
 
-    /// The sine of the closed forms, where this is one.
+    /// The sine for closed forms, if this drive is one.
     #[must_use]
     pub fn as_vibration(&self) -> Option<Vibration> {
         let Shape::Fourier(fourier) = &self.shape else { return None };
@@ -332,7 +332,7 @@ impl Drive {
         }
     }
 
-    /// The Fourier sum in which each harmonic is as much larger, and ahead, as `response` says of its number.
+    /// The Fourier sum in which each harmonic is multiplied and advanced by `response` of its number.
     pub(crate) fn responding(&self, response: impl Fn(f64) -> (f64, f64)) -> Result<Self, Error> {
         let mut sum = [(0.0, 0.0); MAX_HARMONICS];
         if let Shape::Fourier(fourier) = &self.shape {
@@ -359,8 +359,8 @@ impl From<Vibration> for Drive {
     }
 }
 
-/// Sine and cosine of number times time + angle, for a whole number up to 32: the rounding of the product and
-/// of the sum is made good.
+/// Sine and cosine of number times time + angle, for a whole number up to 32, compensated for the rounding of
+/// product and sum.
 fn turned(number: f64, time: f64, angle: f64) -> (f64, f64) {
     // With 47 bits the product is exact.
     let head = f64::from_bits(time.to_bits() & !0x3f);
@@ -384,10 +384,10 @@ impl Harmonic {
         (sin, cos)
     }
 
-    /// Adds `factor` times the derivative of this order, where the harmonic has this sine and cosine.
+    /// Adds `factor` times the derivative of this order, given the harmonic's sine and cosine.
     fn add_terms(&self, (sin, cos): (f64, f64), (order, factor): (u32, f64), terms: &mut Vec<DampedSine>) {
         let &Self { number, amplitude, .. } = self;
-        // Of the derivative, as coefficients of cosine and sine.
+        // The derivative, as coefficients of cosine and sine.
         let (mut own, mut power) = ([sin, cos], factor);
         for _ in 0..order {
             own = [own[1], -own[0]];

@@ -1,5 +1,4 @@
-//! The impact map of a platform that moves in any way, its derivative, and its orbits with contact and
-//! chatter.
+//! The impact map of a platform of arbitrary motion, its derivative, and its orbits with contact and chatter.
 
 use core::f64::consts::TAU;
 
@@ -19,10 +18,10 @@ mod release;
 
 /// The vertical impact map of a disk with a constant restitution r on a [`Drive`].
 ///
-/// With a [contact that takes time](Self::with_contact_time) it is the map from one release to the next, at
-/// which the force falls to zero. A release at the speed v is given as the impact with the velocity -v/r, at
-/// the phase of the release: a rigid impact would rebound like that. Every fall of the force to zero counts,
-/// also where it sets in again before the spring is free.
+/// With a [compliant contact](Self::with_contact_time) it is the map from one release to the next, a release
+/// being the moment when the force falls to zero. A release at the speed v is represented by the impact with
+/// the velocity -v/r at the phase of the release, since a rigid impact would rebound in this way. Every fall
+/// of the force to zero counts, even if it sets in again before the spring is free.
 ///
 /// ```
 /// use bouncing_disk_core::{ChatterPolicy, ImpactState, OrbitEvent};
@@ -51,8 +50,8 @@ impl DrivenMap {
         Ok(Self { drive, restitution, compliant: None })
     }
 
-    /// This map with a contact that takes time: an isolated impact lasts for `contact_time` (rad) and has the
-    /// restitution of the map, both until the force falls to zero.
+    /// This map with a compliant contact: an isolated impact lasts for `contact_time` (rad), until the force
+    /// falls to zero, and then has the map's restitution.
     ///
     /// ```
     /// use bouncing_disk_core::{ImpactState, Phase};
@@ -75,11 +74,11 @@ impl DrivenMap {
         self.with_compliance(compliance)
     }
 
-    /// As [`Self::with_contact_time`], with a spring that [unloads](Compliance::hysteretic) at less stiffness
-    /// in place of the damper.
+    /// Like [`Self::with_contact_time`], but with a spring that [unloads](Compliance::hysteretic) at a lower
+    /// stiffness instead of the damper.
     ///
     /// # Errors
-    /// As for [`Self::with_contact_time`].
+    /// Errors of [`Self::with_contact_time`].
     pub fn with_hysteretic_contact(self, contact_time: f64) -> Result<Self, Error> {
         let compliance = Compliance::hysteretic(contact_time, self.restitution)?;
         self.with_compliance(compliance)
@@ -102,17 +101,17 @@ impl DrivenMap {
         self.restitution
     }
 
-    /// The platform with its contact, if that takes time.
+    /// The platform with its contact, if this is compliant.
     #[must_use]
     pub const fn compliant(&self) -> Option<&CompliantPlatform> {
         self.compliant.as_ref()
     }
 
-    /// The impact that follows the one in `state`, without any chattering policy. With a contact that takes
-    /// time its duration includes the contact, and its error is infinite: no bound is known.
+    /// The impact after the one in `state`, without any chattering policy. With a compliant contact its
+    /// duration includes the contact, and its error is infinite because no bound is known.
     ///
     /// # Errors
-    /// [`Error::NoLiftOff`] if the disk stays on the platform, and those of [`Drive::first_impact`].
+    /// [`Error::NoLiftOff`] if the disk stays on the platform, and errors of [`Drive::first_impact`].
     pub fn step(&self, state: ImpactState) -> Result<DrivenImpact, Error> {
         let (time, speed) = (state.phase().angle(), -self.restitution * state.velocity());
         let Some(platform) = &self.compliant else { return self.drive.first_impact_from(time, 0.0, speed) };
@@ -127,11 +126,11 @@ impl DrivenMap {
         Ok(cycle.impact(self.restitution))
     }
 
-    /// [`Self::step`] with the derivative of the next (phase, velocity) by the present (phase, velocity).
+    /// [`Self::step`] with the derivative of the next (phase, velocity) with respect to the present one.
     /// Column-major: `x_axis` is the derivative by the phase.
     ///
     /// # Errors
-    /// Errors of [`Self::step`]; [`Error::ImpactOnKink`] where this impact or the next is on a kink.
+    /// Errors of [`Self::step`]; [`Error::ImpactOnKink`] if this impact or the next is on a kink.
     pub fn step_with_derivative(&self, state: ImpactState) -> Result<(DrivenImpact, DMat2), Error> {
         if let Some(platform) = &self.compliant {
             let from = platform.released_at(state.phase().angle(), -self.restitution * state.velocity());
@@ -173,8 +172,8 @@ impl DrivenMap {
         orbit
     }
 
-    /// The orbit of a disk that is in the air, `gap` >= 0 above the platform at `time`, with this velocity
-    /// relative to it; without a gap it leaves the platform with that velocity >= 0.
+    /// The orbit of a disk in the air, `gap` >= 0 above the platform at `time`, with this velocity relative
+    /// to it. With zero gap it leaves the platform with this velocity, which must be >= 0.
     ///
     /// # Errors
     /// Errors of [`Drive::first_impact_from`].
@@ -200,8 +199,8 @@ impl DrivenMap {
         Ok(orbit)
     }
 
-    /// The orbit of a disk that rests on the platform at `time`; in a contact that takes time it is as deep
-    /// as its weight and the platform's acceleration press it ([`CompliantPlatform::resting`]).
+    /// The orbit of a disk that rests on the platform at `time`; in a compliant contact its indentation
+    /// balances its weight and the platform's acceleration ([`CompliantPlatform::resting`]).
     #[must_use]
     pub fn of_contact(&self, time: f64, policy: ChatterPolicy) -> DrivenOrbit {
         DrivenOrbit { next: Next::Contact(wrapped_angle(time)), ..self.start(policy) }
@@ -226,8 +225,7 @@ enum Next {
     End,
 }
 
-/// The lazy sequence of [`OrbitEvent`]s of one orbit. It ends if the disk rests for ever, and after an
-/// error.
+/// The lazy sequence of [`OrbitEvent`]s of one orbit. It ends if the disk rests forever, and after an error.
 #[derive(Debug, Clone)]
 pub struct DrivenOrbit {
     map: DrivenMap,
@@ -243,8 +241,8 @@ impl DrivenOrbit {
         &self.map
     }
 
-    /// Time and relative speed at which the disk leaves the platform next: `None` if it is about to attach,
-    /// rests, or has ended.
+    /// Time and relative speed of the next launch: `None` if the disk is about to attach or rests, or the
+    /// orbit has ended.
     #[must_use]
     pub const fn launch(&self) -> Option<(f64, f64)> {
         match self.next {
@@ -253,7 +251,7 @@ impl DrivenOrbit {
         }
     }
 
-    /// Gives the next launch another speed >= 0 (a perturbation of a relaunch); ignored if none is due.
+    /// Sets the speed >= 0 of the next launch (a perturbation of a relaunch); ignored if none is due.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a negative or infinite speed.
@@ -308,7 +306,7 @@ impl DrivenOrbit {
         }
     }
 
-    /// The next event of a contact that takes time.
+    /// The next event of a compliant contact.
     fn advance_compliant(&mut self, next: Next) -> Result<Option<OrbitEvent>, Error> {
         let Some(platform) = &self.map.compliant else { return Ok(None) };
         let (cycle, last_speed) = match next {
@@ -353,7 +351,7 @@ impl DrivenOrbit {
         OrbitEvent::Impact(landing.impact)
     }
 
-    /// Decides what follows an impact with relative `velocity` that ends a flight of this duration.
+    /// Decides the motion after an impact with relative `velocity` that ends a flight of this duration.
     fn after(&mut self, time: f64, velocity: f64, duration: f64) {
         if self.map.compliant.is_some() {
             let speed = -self.map.restitution * velocity;
@@ -376,7 +374,7 @@ impl DrivenOrbit {
     }
 }
 
-/// How often the phase passes 0 in a contact of at most one period.
+/// The number of times the phase passes 0 in a contact of at most one period.
 fn turns(since: f64, end: TimeAhead) -> u64 {
     u64::from(end.time < since || end.time <= since && end.after > 0.5 * TAU)
 }

@@ -1,4 +1,4 @@
-//! The closed sequences of flights on the maps of a drive that differ in one number.
+//! The closed sequences of flights on a family of driven maps that differ in one number.
 
 use core::f64::consts::TAU;
 use core::fmt::{self, Debug, Formatter};
@@ -13,24 +13,25 @@ use glam::{DMat2, DVec2};
 use crate::drive::Drive;
 use crate::driven_map::DrivenMap;
 
-/// The step, in units of the number, of the differences that tell how the equations change with it. Their error slows
-/// Newton's method; it does not move the solution. Next to a place where a force only touches zero, the map is as curved
-/// as a root.
+/// The step, in units of the number, of the differences that give the derivative of the equations by the
+/// number. Their error slows Newton's method but does not move the solution. Near a point at which a force
+/// only touches zero, the map is as curved as a square root.
 const DIFFERENCE: f64 = 1.0e-9;
 
-/// Two changes of which one is so many times as large are not those of one curve.
+/// Ratio of two changes above which they do not belong to one curve.
 const BROKEN: f64 = 10.0;
 
-/// How near to a joint (rad) an impact is as good as on it.
+/// Distance from a joint (rad) below which an impact counts as on it.
 const ON_JOINT: f64 = 1.0e-9;
 
-/// An acceleration that jumps by a smaller share of its bound does not jump.
+/// Share of the bound on the acceleration below which a jump counts as none.
 const JUMP: f64 = 1.0e-9;
 
-/// A derivative of this size is infinite.
+/// Size above which a derivative counts as infinite.
 const TORN: f64 = 1.0e7;
 
-/// The maps of a drive that differ in one number: any of the drive, of the contact, or the forcing.
+/// A family of driven maps that differ in one number: any parameter of the drive or of the contact, or the
+/// forcing.
 ///
 /// ```
 /// use bouncing_disk_core::orbits::{BifurcationKind, Continuation, ContinuationParameter, ContinuedMap as _};
@@ -75,8 +76,9 @@ impl PartialEq for DrivenFamily {
 }
 
 impl DrivenFamily {
-    /// The family of the maps with a number, which is `number` now, and `None` where there is no map; a change of the
-    /// number by `unit` > 0 counts as much as a radian in the arclength of a branch.
+    /// The family of the maps for a number, whose present value is `number`; `maps` returns `None` if there
+    /// is no map. In the arclength of a branch a change of the number by `unit` > 0 counts as much as a
+    /// radian.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if there is no map now, or for a unit that is not positive and finite.
@@ -90,18 +92,18 @@ impl DrivenFamily {
         Ok(Self { map, number, unit, maps: Arc::new(maps) })
     }
 
-    /// The map now.
+    /// The present map.
     #[must_use]
     pub const fn map(&self) -> &DrivenMap {
         &self.map
     }
 
-    /// The same with another unit.
+    /// The same family with another unit.
     pub(crate) fn with_unit(self, unit: f64) -> Self {
         Self { unit, ..self }
     }
 
-    /// Residuals of a flight and of the impact after it, as the smooth equations have them.
+    /// Residuals of a flight and of the impact after it, in the smooth equations.
     fn residual(map: &DrivenMap, from: DVec2, to: DVec2, h: f64) -> DVec2 {
         if map.compliant().is_some() {
             return released(map, from, to, h).map_or(DVec2::NAN, |(residual, _)| residual);
@@ -112,8 +114,8 @@ impl DrivenFamily {
         DVec2::new(from.y - 0.5 * h - slope, law)
     }
 
-    /// The change of the residual with the number, from the maps below, at and above it; where the three do not lie on
-    /// one curve, as beside a graze, from the two that are nearer.
+    /// The change of the residual with the number, from the maps below, at and above it. If the three do not
+    /// lie on one curve, as near a graze, the closer two are used.
     fn by_number(maps: &[(f64, DrivenMap)], from: DVec2, to: DVec2, h: f64) -> DVec2 {
         let mut steps = maps.windows(2).map(|pair| {
             let change = Self::residual(&pair[1].1, from, to, h) - Self::residual(&pair[0].1, from, to, h);
@@ -147,7 +149,8 @@ fn mean_slope(drive: &Drive, from: f64, to: f64, h: f64) -> f64 {
     drive.velocity(from) + drive.change(from, h).1 / h
 }
 
-/// How far the release after the one at `from` misses the one at `to`, and its derivative by the first.
+/// The distance by which the release after the one at `from` misses the one at `to`, and its derivative by
+/// the first.
 fn released(map: &DrivenMap, from: DVec2, to: DVec2, h: f64) -> Option<(DVec2, DMat2)> {
     let state = ImpactState::new(Phase::new(from.x).ok()?, from.y).ok()?;
     let (landing, derivative) = map.step_with_derivative(state).ok()?;
@@ -227,7 +230,7 @@ impl ClosingMap for DrivenFamily {
 
     fn velocities(&self, _by: ContinuationParameter, at: &Closed, durations: &[f64]) -> Vec<(f64, f64)> {
         let n = at.impacts.len();
-        // Where there is no map, there is no impact.
+        // Without a map there is no impact.
         let Some(map) = (self.maps)(at.parameter) else { return vec![(0.0, 0.0); n] };
         let r = map.restitution();
         let one = |i: usize| {
@@ -241,7 +244,7 @@ impl ClosingMap for DrivenFamily {
         (0..n).map(one).collect()
     }
 
-    /// Where the force of a compliant contact only touches zero.
+    /// True if the force of a compliant contact only touches zero.
     fn is_torn_after(&self, state: ImpactState) -> bool {
         let is_infinite = |derivative: DMat2| {
             let most = derivative.x_axis.abs().max_element().max(derivative.y_axis.abs().max_element());
@@ -259,13 +262,13 @@ impl ContinuedMap for DrivenFamily {
         self.map.check_orbit(orbit)
     }
 
-    /// Whether the first impact comes earlier.
+    /// Whether the first impact occurs earlier.
     fn is_grazed(&self, flight: &Flight) -> Result<bool, Error> {
         Ok(self.duration_found(flight)? < flight.duration - ON_JOINT)
     }
 
     fn duration_found(&self, flight: &Flight) -> Result<f64, Error> {
-        // The equations are the map's own.
+        // For these contacts the equations are the map's own.
         if self.map.compliant().is_some() {
             return Ok(flight.duration);
         }

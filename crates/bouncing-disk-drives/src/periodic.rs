@@ -23,26 +23,27 @@ mod one_impact;
 /// A shooting residual (rad, relative speed) at which an orbit counts as found, if it no longer shrinks.
 const SHOOTING_RESIDUAL: f64 = 1.0e-11;
 
-/// The error of one step of the map (rad, relative speed): that of its phase, made generous.
+/// A generous bound on the error of one step of the map (rad, relative speed): the error of its phase.
 const MAP_ROUNDING: f64 = 1.0e-14;
 
-/// How far (rad) an iteration may end from the orbit of one impact that it belongs to: next to a fold by the
-/// root of the residual.
+/// Largest distance (rad) between the end of an iteration and its one-impact orbit: near a fold it is the
+/// square root of the residual.
 const REACH: f64 = 1.0e-3;
 
-/// How closely (rad, and relative speed) an orbit repeats a shorter one next to the doubling that it is born in:
-/// by the root of |1 - T + D|.
+/// Distance (rad, and relative speed) within which an orbit repeats a shorter one near the doubling of its
+/// birth: the square root of |1 - T + D|.
 const DOUBLED: f64 = 0.1;
 
-/// The position error (rad) up to which the end of an iteration is kept beside the exact phase.
+/// The position error (rad) up to which the end of an iteration is kept in spite of the exact phase.
 const EXACT: f64 = 1.0e-12;
 
 impl DrivenMap {
-    /// The periodic orbit next to `guess` (its impacts in order), with its multipliers. Its errors are
-    /// estimates: what a rounding of each impact makes of the orbit, and that of the trace.
+    /// The periodic orbit near `guess` (its impacts in order), with its multipliers. Its errors are
+    /// estimates: the effects of a rounding of each impact on the orbit and on the trace.
     ///
-    /// Next to a fold an iteration may end where there is no orbit. One is returned only if it exists beyond
-    /// rounding, or as [`Marginal`](bouncing_disk_core::orbits::Stability::Marginal) where rounding decides whether it does.
+    /// Near a fold an iteration may end where there is no orbit. An orbit is returned only if it exists
+    /// beyond rounding, or as [`Marginal`](bouncing_disk_core::orbits::Stability::Marginal) if rounding
+    /// decides whether it exists.
     ///
     /// ```
     /// use bouncing_disk_core::{ImpactMap, Vibration};
@@ -71,7 +72,7 @@ impl DrivenMap {
         orbit.check_motion().map(|()| orbit)
     }
 
-    /// The end of an iteration from a guess, which need not be an orbit next to a fold.
+    /// The end of an iteration from a guess; near a fold it need not be an orbit.
     fn iterated(&self, guess: &[ImpactState]) -> Result<PeriodicOrbit, Error> {
         let shoot = |states: &[ImpactState]| self.shoot(states);
         let (states, shooting) = settled(guess, SHOOTING_RESIDUAL, shoot, moved, &mut |_| Ok(()))?;
@@ -80,16 +81,19 @@ impl DrivenMap {
     }
 
     /// The periodic orbits that Newton's method finds from the first impacts of the orbits of a grid of
-    /// starts: all of them only if the grid is fine enough. Orbits with an impact on a kink have no multipliers
-    /// and are left out, and so are those that come to rest. With rigid impacts the orbits of one impact come from
-    /// the phases at which the platform has their velocity, and are complete; of a family, as on a triangle, one
-    /// member is given, with its position error the length of the family.
+    /// starts: all of them only if the grid is fine enough. Orbits with an impact on a kink have no
+    /// multipliers and are omitted, and so are orbits that come to rest. With rigid impacts the one-impact
+    /// orbits follow from the phases at which the platform has the right velocity, and are complete. A
+    /// family, as on a triangle, is represented by one member, whose position error is the length of the
+    /// family.
     ///
-    /// They have the order of [`OrbitsFound`](bouncing_disk_core::orbits::OrbitsFound): by rising number of impacts, then of
-    /// platform periods, then by falling speed of their fastest impact, which is the first of each.
+    /// They are sorted like [`OrbitsFound`](bouncing_disk_core::orbits::OrbitsFound): by number of impacts,
+    /// then of platform periods, then by decreasing speed of their fastest impact, which is the first of
+    /// each.
     ///
-    /// Next to a fold both orbits are given, one [marginal](bouncing_disk_core::orbits::Stability::Marginal) one where rounding decides
-    /// whether they exist, or none.
+    /// Near a fold the result contains both orbits, or none, or one
+    /// [marginal](bouncing_disk_core::orbits::Stability::Marginal) orbit if rounding decides whether they
+    /// exist.
     ///
     /// The items of `observer` are the starts.
     ///
@@ -127,14 +131,14 @@ impl DrivenMap {
         Ok(catalogue.into_sorted_with(of_one))
     }
 
-    /// The orbits of one impact by their phases; `None` for contacts that take time, of which these are not known.
+    /// The one-impact orbits by their phases; `None` for compliant contacts, for which these are unknown.
     fn one_impact(&self, platform_periods: RangeInclusive<u64>) -> Option<OneImpact> {
         self.compliant().is_none().then(|| OneImpact::of(self, platform_periods))
     }
 
     /// No impact of a periodic orbit is faster: from w the disk rises with at most V + r w, falls by the
-    /// height of the platform more than it rises, and meets the platform's V. (That holds for rigid impacts;
-    /// with a contact that takes time it is the range of the starts of a search.)
+    /// height of the platform more than it rises, and hits the platform moving at V. This holds for rigid
+    /// impacts; for a compliant contact it is the range of the starts of a search.
     #[must_use]
     pub fn impact_speed_bound(&self) -> f64 {
         let (r, bounds) = (self.restitution(), self.drive().bounds());
@@ -143,7 +147,7 @@ impl DrivenMap {
         (speed + (speed * speed + 2.0 * fall * lost).sqrt()) / lost
     }
 
-    /// The orbits that the first impacts of one orbit lead to, each with its fastest impact first.
+    /// The orbits to which the first impacts of one orbit lead, each with its fastest impact first.
     fn orbits_from(
         &self,
         start: ImpactState,
@@ -161,21 +165,21 @@ impl DrivenMap {
             let Ok(orbit) = self.prime(self.iterated(&states[..n])) else { continue };
             let within = |orbit: &PeriodicOrbit| orbit.platform_periods <= search.max_platform_periods();
             let existing = self.existing(orbit, one_impact).into_iter();
-            // Beside a doubled orbit lies the one that it doubles, passed twice.
+            // Near a doubled orbit is the orbit that it doubles, passed twice.
             let prime = existing.filter(|orbit| prime_period_of(orbit) == orbit.period() && within(orbit));
             orbits.extend(prime.filter_map(|orbit| self.fastest_first(orbit)));
         }
         orbits
     }
 
-    /// The end of an iteration, or that of the shorter orbit that it repeats.
+    /// The end of an iteration, or of the shorter orbit that it repeats.
     fn prime(&self, end: Result<PeriodicOrbit, Error>) -> Result<PeriodicOrbit, Error> {
         let end = end?;
         let prime = prime_period_of(&end);
         if prime < end.period() { self.iterated(&end.states[..prime]) } else { Ok(end) }
     }
 
-    /// The orbit from its fastest impact on.
+    /// The orbit, starting with its fastest impact.
     fn fastest_first(&self, mut orbit: PeriodicOrbit) -> Option<PeriodicOrbit> {
         let fastest = (1..orbit.period()).fold(0, |fastest, i| {
             if orbit.states[i].velocity() < orbit.states[fastest].velocity() { i } else { fastest }
@@ -187,8 +191,8 @@ impl DrivenMap {
         Some(orbit)
     }
 
-    /// The orbits that do exist at the end of an iteration, the nearest first, and those beside it in a fold.
-    /// Away from folds it is the end itself.
+    /// The orbits that exist at the end of an iteration or near it at a fold, nearest first. Away from folds
+    /// this is the end itself.
     fn existing(&self, end: PeriodicOrbit, one_impact: Option<&OneImpact>) -> Vec<PeriodicOrbit> {
         if let Some(all) = one_impact.filter(|_| end.period() == 1) {
             if let Some(member) = all.member(self, &end) {
@@ -222,7 +226,7 @@ impl DrivenMap {
         }
     }
 
-    /// Whether an orbit nearly repeats its half, and that is next to its doubling.
+    /// Whether an orbit nearly repeats its half, which is near its doubling.
     fn is_beside_its_doubling(&self, end: &PeriodicOrbit) -> bool {
         let half = prime_period(&end.states, DOUBLED);
         2 * half == end.period()
@@ -231,8 +235,8 @@ impl DrivenMap {
                 .is_ok_and(|half| next_to_margin(half.monodromy, half.determinant()).1)
     }
 
-    /// An orbit beside the doubling that it is born in, which is no member of a pair. Its weak direction has opposite
-    /// signs in both halves, which roundings of one sign do not move.
+    /// An orbit near the doubling of its birth, which is not a member of a pair. Its weak direction has
+    /// opposite signs in both halves, so roundings of one sign do not move it.
     fn doubled(&self, end: PeriodicOrbit) -> PeriodicOrbit {
         let Ok(shooting) = self.shoot(&end.states) else { return end };
         let room = (shooting.worst + MAP_ROUNDING) * speed_scale(&end.states);
@@ -251,8 +255,8 @@ impl DrivenMap {
         PeriodicOrbit { position_error, trace_error, ..end }
     }
 
-    /// Whether the condition of Newton and Kantorovich holds: over twice the error of an orbit its trace changes by
-    /// less than half of 1 - T + D. Only where acceleration may jump it can fail away from folds.
+    /// Whether the condition of Newton and Kantorovich holds: over twice the error of an orbit its trace
+    /// changes by less than half of 1 - T + D. Away from folds it can fail only if the acceleration may jump.
     fn keeps_its_derivative(&self, orbit: &PeriodicOrbit) -> bool {
         if self.drive().next_joint(0.0).is_none() {
             return true;
@@ -276,7 +280,7 @@ impl DrivenMap {
         })
     }
 
-    /// The orbit with these impacts, which are known to be one.
+    /// The orbit with these impacts, which are known to form one.
     pub(crate) fn orbit_through(&self, states: Vec<ImpactState>) -> Result<PeriodicOrbit, Error> {
         let shooting = self.shoot(&states)?;
         Ok(self.measured(states, &shooting))
@@ -295,7 +299,7 @@ impl DrivenMap {
         let own = trace(shooting.monodromy);
         let mut trace_error = MAP_ROUNDING * own.abs();
         for step in [DVec2::new(position_error, 0.0), DVec2::new(0.0, position_error)] {
-            // Where the orbit is as near as this to its end, the multipliers mean nothing.
+            // If the orbit is this close to its end, the multipliers are meaningless.
             let there = moved(&states, &vec![step; states.len()]).and_then(|states| self.shoot(&states).ok());
             trace_error =
                 there.map_or(f64::MAX, |there| trace_error.max((trace(there.monodromy) - own).abs()));
@@ -310,17 +314,17 @@ impl DrivenMap {
     }
 }
 
-/// The number of impacts after which an orbit repeats itself.
+/// The number of impacts after which an orbit first repeats itself.
 fn prime_period_of(orbit: &PeriodicOrbit) -> usize {
     prime_period(&orbit.states, 2.0 * orbit.position_error + 1.0e-9)
 }
 
-/// Whether a multiplier is next to 1.
+/// Whether a multiplier is near 1.
 fn next_to_fold(orbit: &PeriodicOrbit) -> bool {
     next_to_margin(orbit.monodromy, orbit.determinant()).0
 }
 
-/// The orbit as one of which rounding decides whether it exists.
+/// The orbit, marked as one whose existence depends on rounding.
 fn undecided(orbit: PeriodicOrbit) -> PeriodicOrbit {
     let inside = 1.0 + orbit.determinant() - orbit.trace().abs();
     PeriodicOrbit { trace_error: orbit.trace_error.max(inside.abs()), ..orbit }

@@ -1,4 +1,4 @@
-//! The first root of a polynomial of degree at most 3 plus damped sines, with no root missed.
+//! The certain first root of a polynomial of degree at most 3 plus damped sines.
 //!
 //! A step from t is certain where the cubic Taylor polynomial less the largest remainder M4 h^4/24 stays
 //! above zero; a root is certain to be the first one where the cubic plus that remainder ends below zero on a
@@ -16,14 +16,15 @@ use bouncing_disk_core::Error;
 use bouncing_disk_core::numerics::elementary::{exp, sin_cos, sine_deficit_ratio, versine_ratio};
 use bouncing_disk_core::parts::{finite, within};
 
-/// Rounding of the terms of an evaluation, in units of these: some 30 roundoffs, of which some 6 are used.
+/// Rounding of the terms of an evaluation, in units of their sizes: about 30 roundoffs, of which about 6 are
+/// used.
 const ROUNDING: f64 = 32.0 * 1.110_223_024_625_156_5e-16;
 
 /// Evaluations after which a search reports [`Error::NoConvergence`].
 const MAX_EVALUATIONS: u32 = 100_000;
 
-/// A root is found when its last correction, by the Taylor cubic, is smaller than this share of the time and
-/// bends the function by no more than this share of its slope.
+/// Largest last correction of a root, by the Taylor cubic, as a share of the time; over it the slope may
+/// change by at most the same share.
 const LAST_STEP: f64 = 1.0e-2;
 
 /// exp(-d t) (c cos w t + s sin w t), or t times it.
@@ -47,7 +48,7 @@ impl DampedSine {
         Self { cosine, sine, frequency, decay: 0.0, with_time: false }
     }
 
-    /// Checks that the term is finite and does not grow by an exponential.
+    /// Checks that the term is finite and does not grow exponentially.
     fn check(&self) -> Result<(), Error> {
         finite("cosine of a damped sine", self.cosine)?;
         finite("sine of a damped sine", self.sine)?;
@@ -80,8 +81,8 @@ impl DampedSine {
         }
     }
 
-    /// Adds the term at t less its value and its slope at zero, with its derivatives and the bound on the
-    /// fourth one from t to the end of the search.
+    /// Adds the term at t minus its value and slope at zero, with its derivatives and the bound on the fourth
+    /// derivative from t to the end of the search.
     fn add(&self, t: f64, to: f64, jet: &mut Jet) {
         let rate = self.decay + self.frequency;
         let z = (-self.decay * t, self.frequency * t);
@@ -139,8 +140,8 @@ fn exponential_integrals(z: (f64, f64), t: f64, end: (f64, f64), weighted: bool)
     [whole, if weighted { over((t * end.0 - whole.0, t * end.1 - whole.1)) } else { (0.0, 0.0) }]
 }
 
-/// exp(z) - 1 - z and exp(z) - 1, accurate relative to themselves, of a number z of at most this `size` with
-/// the exponential `whole`.
+/// exp(z) - 1 - z and exp(z) - 1 with relative accuracy, for a number z of at most this `size` with the
+/// exponential `whole`.
 fn exponential(z: (f64, f64), whole: (f64, f64), size: f64) -> ((f64, f64), (f64, f64)) {
     if size < 0.5 {
         let mut sum = (1.0 / 15.0, 0.0);
@@ -163,8 +164,8 @@ fn times(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
     (a.0 * b.0 - a.1 * b.1, a.0 * b.1 + a.1 * b.0)
 }
 
-/// A function near one time: value and derivatives, the bound on the fourth derivative from there on, and the
-/// error of value and slope.
+/// A function near one time: value and derivatives, a bound on the fourth derivative from there on, and the
+/// errors of value and slope.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Jet {
     /// The value.
@@ -187,8 +188,8 @@ pub struct Jet {
 
 /// A polynomial of degree at most 3 plus damped sines.
 ///
-/// It is kept by value and slope at t = 0, and each term less its own value and slope there, so that a
-/// function that starts at zero keeps its relative accuracy however near to the start.
+/// It is stored by value and slope at t = 0, and the terms without their own value and slope there. So a
+/// function that starts at zero keeps its relative accuracy arbitrarily close to the start.
 ///
 /// ```
 /// use bouncing_disk_core::numerics::elementary::{exp, sin};
@@ -209,29 +210,30 @@ pub struct QuasiPolynomial {
     bend: f64,
     third: f64,
     terms: Vec<DampedSine>,
-    /// Sums of size times rate to the powers 0, 1, 2.
+    /// Sums of size times rate^k for k = 0, 1, 2.
     sizes: [f64; 3],
     /// The fourth derivative of the undamped terms without t.
     steady_fourth: f64,
-    /// Where the function is this constant, and so much times t, plus the terms, it is evaluated so far from
-    /// the start: the polynomial that makes up for value and slope at the start is rounded by more than that.
+    /// Constant and slope of the line, if the function is this line plus the terms. Far from the start it is
+    /// evaluated in this form, because the polynomial with the given value and slope at the start has a
+    /// larger rounding error.
     line: Option<[f64; 2]>,
 }
 
-/// Radians of the fastest term after which a sum is evaluated as one.
+/// Radians of the fastest term after which a function is evaluated as a sum of line and terms.
 const FAR: f64 = 4.0;
 
-/// A root, and how fast the function falls through it.
+/// A root, and the slope with which the function falls through it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Root {
-    /// When.
+    /// The time of the root.
     pub at: f64,
     /// Bound on its error.
     pub error: f64,
-    /// The slope there.
+    /// The slope at the root.
     pub slope: f64,
-    /// Zero; or, where the function may also touch zero within the error, or miss it, the bound on its
-    /// magnitude there.
+    /// Zero; or a bound on the function's magnitude at the root, if within the error it may only touch zero
+    /// or miss it.
     pub doubt: f64,
     /// Evaluations of the function.
     pub evaluations: u32,
@@ -240,23 +242,23 @@ pub struct Root {
 /// The first root after the start of a search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum FirstRoot {
-    /// The function falls through zero here, and was positive before.
+    /// The function falls through zero here and was positive before.
     Root(Root),
-    /// There is none.
+    /// There is no root.
     None {
         /// Evaluations of the function.
         evaluations: u32,
     },
-    /// The function comes as near to zero as its rounding, and leaves again: whether it has a root there
-    /// cannot be decided.
+    /// The function comes as near to zero as its rounding, and leaves again: rounding hides whether there is
+    /// a root.
     Undecided {
-        /// Where it is lowest.
+        /// The time at which it is lowest.
         at: f64,
-        /// Its evaluated value there.
+        /// Its evaluated value at this time.
         value: f64,
-        /// Bound on its magnitude there.
+        /// Bound on its magnitude at this time.
         bound: f64,
-        /// From when on it is positive again: the search can be resumed there.
+        /// The time from which it is positive again: the search can be resumed there.
         until: f64,
         /// Evaluations of the function.
         evaluations: u32,
@@ -284,8 +286,8 @@ impl QuasiPolynomial {
         Ok(Self::known(start, error, [polynomial[2], polynomial[3]], terms))
     }
 
-    /// The function with this value and slope at t = 0, known to these errors: c2 t^2 + c3 t^3 and the terms
-    /// bend it from there on. All numbers are known to be legal.
+    /// The function with this value and slope at t = 0, known to these errors, plus c2 t^2 + c3 t^3 and the
+    /// terms without their own value and slope at t = 0. All numbers are known to be legal.
     pub(crate) fn known(
         start: [f64; 2],
         start_error: [f64; 2],
@@ -295,7 +297,7 @@ impl QuasiPolynomial {
         let (mut sizes, mut steady_fourth) = ([0.0; 3], 0.0);
         for term in &terms {
             let (size, rate) = (term.size(), term.decay + term.frequency);
-            // With a factor t a term counts by its slope.
+            // A term with a factor t counts by its slope.
             if !term.with_time {
                 sizes[0] += size;
                 sizes[1] += size * rate;
@@ -308,14 +310,15 @@ impl QuasiPolynomial {
         Self { start, start_error, bend: 2.0 * c2, third: 6.0 * c3, terms, sizes, steady_fourth, line: None }
     }
 
-    /// The function that bends as this one does, from another value and slope at t = 0, known to these
+    /// The function with the same second derivative, from another value and slope at t = 0, known to these
     /// errors.
     #[must_use]
     pub fn starting_with(self, start: [f64; 2], start_error: [f64; 2]) -> Self {
         Self { start, start_error, line: None, ..self }
     }
 
-    /// The function as a sum of its terms and this constant, which it is but for the rounding of its start.
+    /// The function marked as the sum of its terms and this constant, which it equals up to the rounding of
+    /// its start.
     pub(crate) fn summed_with(self, constant: f64) -> Self {
         Self { line: Some([constant, 0.0]), ..self }
     }
@@ -326,13 +329,13 @@ impl QuasiPolynomial {
         self
     }
 
-    /// The integral from 0, from this value on, of a sum of terms and a constant.
+    /// The integral from 0, plus this initial value, of a sum of terms and a constant.
     pub(crate) fn integral(self, start: f64) -> Self {
         let mut constant = start;
         let mut terms = Vec::with_capacity(self.terms.len());
         for term in &self.terms {
             let size = term.decay * term.decay + term.frequency * term.frequency;
-            // Over i w - d.
+            // Division by i w - d.
             let over = |(re, im): (f64, f64)| {
                 let (re, im) = times((re, im), (-term.decay, -term.frequency));
                 (re / size, im / size)
@@ -363,7 +366,7 @@ impl QuasiPolynomial {
         self
     }
 
-    /// `value` times the function plus `slope` times its derivative, of undamped terms.
+    /// `value` times the function plus `slope` times its derivative, for undamped terms.
     pub(crate) fn with_its_slope(self, value: f64, slope: f64) -> Self {
         let terms = self.terms.iter().map(|term| {
             let turned = slope * term.frequency;
@@ -413,7 +416,7 @@ impl QuasiPolynomial {
             } else {
                 let before = jet.fourth;
                 term.add(t, to, &mut jet);
-                // Beyond the end of the doubles' range the search is hopeless anyway.
+                // Beyond the range of doubles the search is hopeless anyway.
                 debug_assert!(jet.fourth >= before || to.is_infinite());
                 if term.with_time {
                     let rate = term.decay + term.frequency;
@@ -490,9 +493,9 @@ impl QuasiPolynomial {
         found
     }
 
-    /// [`Self::at`] of a sum.
+    /// [`Self::at`], evaluated as a sum of line and terms.
     fn sum_at(&self, [constant, slope]: [f64; 2], t: f64, to: f64) -> Jet {
-        // Each term less its value at the start: slow ones keep their digits beside a fast one.
+        // Each term minus its value at the start: slow terms keep their digits next to a fast one.
         let mut jet = Jet { value: self.start[0] + t * slope, slope, ..Jet::default() };
         let mut sizes = [constant.abs() + t * slope.abs(), slope.abs(), 0.0];
         for term in &self.terms {
@@ -517,7 +520,7 @@ impl QuasiPolynomial {
             let size = term.size() * e;
             let cube = size * rate * rate * rate;
             jet.fourth += cube * (rate * (1.0 - grows) + grows * (4.0 + rate * to));
-            // The angle is rounded, too.
+            // The angle is also rounded.
             let size = size * (1.0 + grows * t) * (1.0 + rate * t * 0.05);
             sizes[0] += size;
             sizes[1] += size * (rate + grows);
@@ -529,7 +532,7 @@ impl QuasiPolynomial {
 
     /// The first root in (`from`, `to`].
     ///
-    /// A function that starts at zero, exactly, must rise from there: the start is not a root.
+    /// A function that starts at exactly zero must rise from there: the start does not count as a root.
     ///
     /// # Errors
     /// [`Error::NoConvergence`] after 100,000 evaluations.
@@ -588,8 +591,8 @@ impl Mul<f64> for QuasiPolynomial {
     }
 }
 
-/// Whether a polynomial is positive on (0, 1] because its Bernstein coefficients are: the first one is exact,
-/// the others have this `rounding`.
+/// Whether a polynomial is certainly positive on (0, 1], from its Bernstein coefficients: the first one is
+/// exact, the others have this `rounding`.
 fn all_positive<const N: usize>(bernstein: [f64; N], rounding: f64) -> bool {
     bernstein[0] > 0.0 && bernstein[1..].iter().all(|&b| b > rounding)
 }
@@ -603,7 +606,7 @@ fn all_negative<const N: usize>(bernstein: [f64; N], rounding: f64) -> bool {
 const SUM_ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 impl Jet {
-    /// Slope, bend, third derivative and bound on the fourth as terms of one size at a distance h, and the
+    /// Slope, bend, third derivative and bound on the fourth as comparable terms at a distance h, and the
     /// rounding of their sums.
     fn terms(&self, h: f64) -> ([f64; 4], f64) {
         let terms = [self.slope, self.bend * h, self.third * (h * h), self.fourth * (h * h * h)];
@@ -611,7 +614,7 @@ impl Jet {
         (terms, SUM_ROUNDING * size)
     }
 
-    /// Whether the function is certain to be positive for the next `h`.
+    /// Whether the function is certainly positive for the next `h`.
     fn clears(&self, h: f64) -> bool {
         let ([v, a, j, m], rounding) = self.terms(h);
         let (g, v) = (self.value - self.error, (v - self.slope_error) * h);
@@ -628,7 +631,7 @@ impl Jet {
         )
     }
 
-    /// [`Self::clears`] for a function that starts at zero: what is left when the start is divided out.
+    /// [`Self::clears`] for a function that starts at zero, with this zero divided out.
     fn clears_from_zero(&self, h: f64) -> bool {
         let ([v, a, j, m], rounding) = self.terms(h);
         let a = a - self.bend_error * h;
@@ -639,12 +642,12 @@ impl Jet {
         } else if a > 0.0 {
             all_positive([a, a + j * (1.0 / 6.0), 0.5 * a + end], rounding)
         } else {
-            // From rest with a bend that is nothing but rounding.
+            // From rest with a bend that is pure rounding.
             self.bend >= 0.0 && j > 0.0 && end > rounding
         }
     }
 
-    /// Whether the function has exactly one root in the next `h`, below zero at its end.
+    /// Whether the function has exactly one root in the next `h`, and is negative at its end.
     fn crosses_once(&self, h: f64) -> bool {
         let ([v, a, j, m], rounding) = self.terms(h);
         let v = v + self.slope_error;
@@ -671,14 +674,14 @@ impl Jet {
         falls && v + 0.5 * a + (j + 0.25 * m) * (1.0 / 6.0) < -rounding
     }
 
-    /// The first positive root of the cubic, as a guess: not a number where there is none.
+    /// The first positive root of the cubic, as a guess; NaN if there is none.
     fn guess(&self, from_zero: bool) -> f64 {
         let (v, a, j) = (self.slope, self.bend, self.third);
         let g = self.value.max(0.0) + 2.0 * self.error;
         let parabola = if from_zero {
             if v > 0.0 { -2.0 * v / a } else { -3.0 * a / j }
         } else {
-            // The stable form of the root of g + v h + a h^2/2 that comes first.
+            // The stable form of the first root of g + v h + a h^2/2.
             let radicand = v * v - 2.0 * a * g;
             let root = radicand.sqrt();
             if v <= 0.0 { 2.0 * g / (root - v) } else { -(v + root) / a }
@@ -686,7 +689,7 @@ impl Jet {
         if parabola > 0.0 { self.refined(parabola, from_zero) } else { f64::NAN }
     }
 
-    /// A guess after one step of Newton's method on the cubic.
+    /// A guess after one Newton step on the cubic.
     fn refined(&self, h: f64, from_zero: bool) -> f64 {
         let (v, a, j) = (self.slope, self.bend, self.third);
         let (value, slope) = if from_zero {
@@ -702,7 +705,7 @@ impl Jet {
         if next > 0.5 * h && next < 2.0 * h { next } else { h }
     }
 
-    /// Whether a function that starts at zero is back after `h` before its bend has changed by a rounding:
+    /// Whether a function that starts at zero returns after `h` before its bend has changed by a rounding:
     /// the products of a search would underflow.
     fn is_brief(&self, h: f64) -> bool {
         let (change, rest) = (self.third.abs() * h, self.fourth * h * h);
@@ -713,8 +716,8 @@ impl Jet {
         }
     }
 
-    /// How far the root next to here may be off, and, where the slope may vanish as near as that, the bound
-    /// on the value there: another root may then be there, or none.
+    /// The error bound of the root near here. If the slope may vanish within this distance, also the bound on
+    /// the value: then there may be another root, or none.
     pub(crate) fn root_error(&self) -> (f64, f64) {
         let Self { error, slope, bend, third, fourth, .. } = *self;
         let steep = 2.0 * error / slope.abs();
@@ -722,14 +725,14 @@ impl Jet {
         if change <= 0.5 * slope.abs() {
             return (steep, 0.0);
         }
-        // The distance at which the bend, or else the third derivative, exceeds the rounding.
+        // The distance at which the effect of the bend, or of the third derivative, exceeds the rounding.
         let parabola = (8.0 * error / bend.abs()).sqrt();
         let cubic = libm::cbrt(48.0 * error / third.abs());
         (2.0 * if cubic < parabola { cubic } else { parabola }, 4.0 * error)
     }
 }
 
-/// The first root in (`from`, `to`] of a function that is known by its [`Jet`]s.
+/// The first root in (`from`, `to`] of a function given by its [`Jet`]s.
 ///
 /// # Errors
 /// [`Error::NoConvergence`] if the search does not end.
@@ -739,7 +742,7 @@ pub fn first_root(at: impl Fn(f64) -> Jet, from: f64, to: f64) -> Result<FirstRo
     let mut jet = search.jet(t);
     let launch = jet.value == 0.0 && jet.error == 0.0;
     let mut trial = f64::INFINITY;
-    // A touch that rounding hides: where, and the value there.
+    // A touch hidden by rounding: its time and the value.
     let mut doubt: Option<(f64, f64, f64)> = None;
     let mut before = t;
     while search.evaluations < MAX_EVALUATIONS {
@@ -751,7 +754,7 @@ pub fn first_root(at: impl Fn(f64) -> Jet, from: f64, to: f64) -> Result<FirstRo
             let certain = h > 0.0 && if from_zero { jet.returns_once(h) } else { jet.crosses_once(h) };
             if certain {
                 if doubt.is_some() {
-                    // First what came before; the search can be resumed here.
+                    // First the earlier doubt; the search can be resumed here.
                     return Ok(doubtful(doubt, t, search.evaluations));
                 }
                 if from_zero && jet.is_brief(guess) {
@@ -773,7 +776,7 @@ pub fn first_root(at: impl Fn(f64) -> Jet, from: f64, to: f64) -> Result<FirstRo
             }
         }
         if !from_zero && jet.value < -jet.error {
-            // A doubt that has gone below zero.
+            // The doubtful function has become negative.
             return search.bracketed((before, t), t).map(FirstRoot::Root);
         }
         if from_zero || jet.value > jet.error {
@@ -784,10 +787,10 @@ pub fn first_root(at: impl Fn(f64) -> Jet, from: f64, to: f64) -> Result<FirstRo
             if left <= 0.0 {
                 break;
             }
-            // The longest step that is certain, of a few tries.
+            // The longest safe step of a few tries.
             let mut h = left.min(trial).min(if guess > 0.0 { 0.98 * guess } else { jet.scale() });
             let mut clear = false;
-            // A share of the least double is the least double.
+            // A share of the smallest double is the smallest double.
             while h > f64::EPSILON * t && h > f64::MIN_POSITIVE {
                 clear = if from_zero { jet.clears_from_zero(h) } else { jet.clears(h) };
                 if clear {
@@ -806,7 +809,7 @@ pub fn first_root(at: impl Fn(f64) -> Jet, from: f64, to: f64) -> Result<FirstRo
                 continue;
             }
         }
-        // The rounding hides the sign: on to the lowest point, and from there out of the doubt.
+        // Rounding hides the sign: the search goes to the lowest point, and from there beyond the doubt.
         if doubt.is_none_or(|(_, value, _)| jet.value < value) {
             doubt = Some((t, jet.value, 2.0 * jet.error));
         }
@@ -840,7 +843,7 @@ fn doubtful(doubt: Option<(f64, f64, f64)>, until: f64, evaluations: u32) -> Fir
 }
 
 impl Jet {
-    /// The time over which the function changes its form.
+    /// The time scale on which the function changes.
     fn scale(&self) -> f64 {
         let ratio = 48.0 * self.value.max(self.bend.abs()) / self.fourth;
         if ratio > 0.0 { ratio.sqrt().max(ratio.sqrt().sqrt()) } else { f64::INFINITY }
@@ -858,15 +861,15 @@ impl<F: Fn(f64) -> Jet> Search<F> {
         (self.at)(t)
     }
 
-    /// The root between two times, of which the first is above zero (or the start of the flight) and the
-    /// second below.
+    /// The root between two times: the function is positive at the first (or it is the start of the flight)
+    /// and negative at the second.
     fn bracketed(&mut self, (mut lo, mut hi): (f64, f64), guess: f64) -> Result<Root, Error> {
         let mut t = guess;
         let mut worst = (0.0, 0.0);
         for _ in 0..200 {
             if !(t > lo && t < hi) {
                 t = 0.5 * (lo + hi);
-                // A root that is tens of decades below its bracket.
+                // The root may be tens of decades below the bracket's end.
                 if lo < 1.0e-3 * hi && lo > 0.0 {
                     t = (lo * hi).sqrt();
                 }
@@ -874,19 +877,19 @@ impl<F: Fn(f64) -> Jet> Search<F> {
             let jet = self.jet(t);
             worst = (t, jet.value);
             let (g, v) = (jet.value, jet.slope);
-            // The root of the Taylor cubic that is next to here: Halley's step, corrected twice.
+            // The root of the Taylor cubic near here: Halley's step, corrected twice.
             let mut step = -2.0 * g * v / (2.0 * v * v - g * jet.bend);
             for _ in 0..2 {
                 let value = g + step * (v + step * (0.5 * jet.bend + step * jet.third * (1.0 / 6.0)));
                 step -= value / (v + step * (jet.bend + 0.5 * step * jet.third));
             }
-            // What the cubic leaves, and the corrections, which converge by the square of this ratio.
+            // The remainder of the cubic, and the corrections, which converge by the square of this ratio.
             let square = step * step;
             let settled = jet.fourth * square * square <= f64::EPSILON * v.abs() * t
                 && (step * jet.bend).abs() <= LAST_STEP * v.abs()
                 && (square * jet.third).abs() <= LAST_STEP * v.abs()
                 && step.abs() <= LAST_STEP * t;
-            // At or before the start, as far as the rounding tells.
+            // At or before the start, within rounding.
             let at_once = t + step <= lo && g.abs() <= jet.error;
             let narrow = hi - lo <= 4.0 * f64::EPSILON * t || at_once;
             if g == 0.0 || narrow || settled && v < 0.0 {

@@ -1,4 +1,4 @@
-//! A disk in contact with a platform that moves in any way: when it leaves, and when a chatter brings it to
+//! A disk in contact with a platform of arbitrary motion: when it leaves, and when a chatter brings it to
 //! rest.
 //!
 //! If the flight from the end of a contact ended at once, the disk would rest at the same time, leave again, and
@@ -19,20 +19,20 @@ use bouncing_disk_core::parts::{Surface, finite};
 use super::{Drive, DriveBounds, ROUNDING, Shape, TimeAhead};
 use crate::quasi_polynomial::{FirstRoot, QuasiPolynomial};
 
-/// A pull that is smaller than this share of its terms may be their rounding.
+/// Share of its terms below which a pull may be their rounding.
 const DOUBTFUL_PULL: f64 = 1.0e-12;
 
 impl Drive {
-    /// The end of a contact that holds at `time`, within `limit` radians; `None` if it lasts for longer. The
-    /// velocity jumps there by zero where the force falls to zero, by less where the platform leaves the disk
-    /// behind, by more where it hits the disk.
+    /// The end of a contact that exists at `time`, within `limit` radians; `None` if the contact lasts
+    /// longer. The velocity jump at the end is zero if the force falls to zero, negative if the platform
+    /// leaves the disk behind, and positive if it hits the disk.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a time that is not finite; [`Error::NoConvergence`].
     pub fn contact_end(&self, time: f64, limit: f64) -> Result<Option<TimeAhead>, Error> {
         finite("time", time)?;
         let time = wrapped_angle(time);
-        // What does not happen within a period never does.
+        // A contact that lasts for a period never ends.
         let limit = limit.min(TAU);
         let end = match &self.shape {
             Shape::Fourier(_) => self.separation(time, limit)?,
@@ -41,21 +41,21 @@ impl Drive {
         Ok(end.map(|end| TimeAhead { time: wrapped_angle(end.time), ..end }))
     }
 
-    /// Whether a disk that rests on the platform at `time` stays there: the force presses it on, or does so but
-    /// for a rounding and does not fall.
+    /// Whether a disk that rests on the platform at `time` stays there: the force presses on it, or is zero
+    /// to within rounding and does not fall.
     #[must_use]
     pub fn holds(&self, time: f64) -> bool {
         self.acceleration(time) >= -1.0 || !self.leaves(time)
     }
 
-    /// Whether the force is below zero by more than a rounding, or will be: the flight from there lasts longer
-    /// than a rounding of the time, so that a contact and a flight cannot follow each other at one time.
+    /// Whether the force is below zero by more than a rounding, or will be. The flight then lasts longer than
+    /// a rounding of the time, so a contact and a flight cannot alternate at one instant.
     fn leaves(&self, time: f64) -> bool {
         let time = wrapped_angle(time);
         match &self.shape {
             Shape::Fourier(fourier) => {
                 let (at, doubt) = (fourier.at(time), fourier.bounds.doubtful_pull(time));
-                // A force that falls as steeply gets as low, whatever its second derivative.
+                // A force that falls this steeply gets this low, whatever its second derivative.
                 let bend = fourier.highest_harmonic() * fourier.bounds.jerk;
                 1.0 + at.acceleration < -doubt || at.jerk < -(2.0 * doubt * bend).sqrt()
             }
@@ -63,7 +63,7 @@ impl Drive {
         }
     }
 
-    /// The end by the force of a contact with a Fourier sum.
+    /// The end, by its force, of a contact with a Fourier sum.
     fn separation(&self, time: f64, limit: f64) -> Result<Option<TimeAhead>, Error> {
         if self.bounds().acceleration <= 1.0 {
             return Ok(None);
@@ -74,7 +74,7 @@ impl Drive {
             _ => Some(0.0),
         };
         let end = match end {
-            // A force that goes through zero by no more than a rounding presses on.
+            // A force that passes through zero by no more than a rounding keeps pressing.
             Some(after) if !self.leaves(time + after) => {
                 first_fall(&(force + 2.0 * self.bounds().doubtful_pull(time)), after, limit)?
             }
@@ -84,12 +84,11 @@ impl Drive {
     }
 
     /// The time from a launch at `time` with relative `speed` to the rest after infinitely many impacts, if a
-    /// bound on the acceleration proves that the platform pulls the disk all the way there, and no kink hits
-    /// it.
+    /// bound on the acceleration proves that the platform pulls the disk until then, and no kink hits it.
     ///
     /// With the pull A = 1 + s'' and its derivative B the sum of the flights is 2 w/(A (1 - r)) [1 - (2/3) B
-    /// w/(A^2 (1 - r))] and more; with any pull between A1 and A2 a flight from w is back after 2 w/A2 to
-    /// 2 w/A1 with a speed from w/q to w q, q = sqrt(A2/A1), which bounds the sum from both sides.
+    /// w/(A^2 (1 - r))] plus higher terms. For any pull between A1 and A2 a flight from w returns after 2
+    /// w/A2 to 2 w/A1 with a speed from w/q to w q, q = sqrt(A2/A1), which bounds the sum from both sides.
     #[must_use]
     pub fn chatter_duration(&self, time: f64, speed: f64, restitution: f64) -> Option<ChatterDuration> {
         let here = self.at(time);
@@ -119,8 +118,7 @@ impl Drive {
         Some(ChatterDuration { duration, error })
     }
 
-    /// The least and the largest pull 1 + s'' from `time` on for a `duration`; `None` if a kink is among
-    /// them.
+    /// The least and the largest pull 1 + s'' from `time` on for a `duration`; `None` if there is a kink.
     fn pull_within(&self, time: f64, duration: f64) -> Option<(f64, f64)> {
         match &self.shape {
             Shape::Fourier(fourier) => {
@@ -145,13 +143,13 @@ impl Surface for Drive {
 }
 
 impl DriveBounds {
-    /// A pull that is smaller may be the rounding of its terms, or of the time.
+    /// The value below which a pull may be the rounding of its terms, or of the time.
     pub(crate) fn doubtful_pull(&self, time: f64) -> f64 {
         DOUBTFUL_PULL * (1.0 + self.acceleration) + ROUNDING * (TAU + time.abs()) * self.jerk
     }
 }
 
-/// The first fall through zero from `from` on, of a function that touches zero elsewhere.
+/// The first fall through zero after `from` of a function that may also touch zero.
 fn first_fall(function: &QuasiPolynomial, mut from: f64, limit: f64) -> Result<Option<f64>, Error> {
     loop {
         match function.first_root(from, limit)? {

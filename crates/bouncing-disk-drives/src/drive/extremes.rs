@@ -1,4 +1,4 @@
-//! Where a drive is lowest, where it rises fastest, and its largest speed.
+//! The phases at which a drive is lowest and rises fastest, and its largest speed.
 
 use core::convert::Infallible;
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -9,17 +9,18 @@ use bouncing_disk_core::numerics::roots::bisection;
 use super::pieces::Pieces;
 use super::{Drive, DriveState, Fourier, Harmonic, Shape};
 
-/// Two values that differ by less, relative to the largest one, differ by rounding.
+/// Difference, relative to the largest value, below which two values differ only by rounding.
 const SAME: f64 = 64.0 * f64::EPSILON;
 
-/// A phase in [0, 2 pi), and the height or the velocity there.
+/// A phase in [0, 2 pi), with the height or the velocity.
 type Candidate = (f64, f64);
 
 impl Drive {
-    /// The phase in [0, 2 pi) at which the platform is lowest: 3 pi/2 for a sine. If it is lowest more than once
-    /// in a period, the first of these phases, which depends on where the period begins: a recording of two equal
-    /// minima that begins between them has the other one. If it stays lowest for a while, the start of that
-    /// interval. Heights that differ by rounding count as equal. 0 for a platform that does not move.
+    /// The phase in [0, 2 pi) at which the platform is lowest: 3 pi/2 for a sine. If it is lowest more than
+    /// once in a period, the result is the first of these phases, which depends on the start of the period: a
+    /// recording of two equal minima that begins between them gives the other one. If the platform stays
+    /// lowest for a while, the result is the start of this interval. Heights that differ by rounding count as
+    /// equal. 0 for a platform that does not move.
     ///
     /// ```
     /// use std::f64::consts::PI;
@@ -41,9 +42,9 @@ impl Drive {
         }
     }
 
-    /// The phase in [0, 2 pi) at which the platform rises fastest: 0 for a sine. If several phases share the largest
-    /// velocity up to rounding, the first one from [`Self::lowest_phase`] on; where the velocity jumps down from
-    /// its largest value, the last double before the kink.
+    /// The phase in [0, 2 pi) at which the platform rises fastest: 0 for a sine. If several phases share the
+    /// largest velocity up to rounding, the result is the first one after [`Self::lowest_phase`]; if the
+    /// velocity jumps down from its largest value, the last double before the kink.
     #[must_use]
     pub fn fastest_rise_phase(&self) -> f64 {
         let candidates = match &self.shape {
@@ -76,7 +77,7 @@ impl Drive {
     }
 }
 
-/// The first of the phases from `start` on at which the value is the least one up to rounding.
+/// The first of the phases from `start` at which the value is smallest up to rounding.
 fn first_least(candidates: Vec<Candidate>, size: f64, start: f64) -> f64 {
     let least = candidates.iter().fold(f64::INFINITY, |least, (_, value)| value.min(least));
     let after = |phase: f64| if phase < start { phase + TAU } else { phase };
@@ -86,8 +87,8 @@ fn first_least(candidates: Vec<Candidate>, size: f64, start: f64) -> f64 {
 }
 
 impl Harmonic {
-    /// The first time in [0, 2 pi) at which its sine has this phase if the amplitude is positive, and the opposite
-    /// one if it is negative.
+    /// The first time in [0, 2 pi) at which the sine has this phase for a positive amplitude, or the opposite
+    /// phase for a negative one.
     fn first_at(&self, phase: f64) -> f64 {
         let phase = if self.amplitude < 0.0 { wrapped_angle(phase + PI) } else { phase };
         wrapped_angle(phase - self.angle) / self.number
@@ -104,7 +105,7 @@ impl Fourier {
         first_least(self.minima(|at| (at.height, at.velocity), self.bounds.acceleration), size, 0.0)
     }
 
-    /// Where the velocity has maxima that may be the largest.
+    /// The maxima of the velocity that may be the largest.
     fn rises(&self) -> Vec<Candidate> {
         if let [harmonic] = &self.harmonics[..] {
             let phase = wrapped_angle(self.lowest_phase() + FRAC_PI_2 / harmonic.number);
@@ -125,8 +126,9 @@ impl Fourier {
         }
     }
 
-    /// Where this value, given with its slope, has minima that may be the least. With a `bend` as the bound on its second
-    /// derivative the value at a minimum is at most bend d^2/8 below that at the nearest of samples d apart.
+    /// The minima of this value, given with its slope, that may be the smallest. If `bend` bounds its second
+    /// derivative, the value at a minimum is at most bend d^2/8 below the value at the nearest of samples d
+    /// apart.
     fn minima(&self, of: impl Fn(&DriveState) -> (f64, f64), bend: f64) -> Vec<Candidate> {
         if self.harmonics.is_empty() {
             return Vec::new();
@@ -165,13 +167,13 @@ impl Pieces {
         }
         let size = self.bounds.highest.abs().max(self.bounds.lowest.abs());
         let first = first_least(candidates, size, 0.0);
-        // A platform that stays where it is at phase 0 has stayed there since an earlier phase.
+        // A platform that does not move at phase 0 has been there since an earlier phase.
         let stays = |piece: &usize| self.coefficients[*piece][1..] == [0.0; 3];
         let stayed = (0..self.count()).rev().take_while(|piece| stays(piece) && first == 0.0).last();
         stayed.map_or(first, |piece| self.starts[piece])
     }
 
-    /// Where the velocity may be the largest.
+    /// The places at which the velocity may be the largest.
     fn rises(&self) -> Vec<Candidate> {
         let mut candidates = Vec::new();
         for piece in 0..self.count() {
@@ -196,7 +198,7 @@ mod tests {
     use super::*;
     use bouncing_disk_core::numerics::random::SplitMix64;
 
-    /// Sums, pieces, splines and kinks, by number.
+    /// Sums, pieces, splines and kinks, selected by number.
     fn drive(k: u64) -> Drive {
         let mut random = SplitMix64::new(k);
         let mut within = |size: f64| size * (2.0 * random.unit() - 1.0);
@@ -214,7 +216,7 @@ mod tests {
         drive.expect("legal")
     }
 
-    /// No phase of many is lower or faster, and each extreme is met.
+    /// Of many phases none is lower or faster, and each extreme is attained.
     #[test]
     fn no_other_phase_is_lower_or_faster() {
         for k in 0..120 {
@@ -232,7 +234,7 @@ mod tests {
                 steepest = at.velocity.abs().max(steepest);
             }
             let rounding = 1e-14 * drive.bounds().speed;
-            // Less than a step from an extreme the value is off by its second derivative, at a kink by the first.
+            // Within a step of an extreme the value differs by its second derivative, at a kink by the first.
             let step = TAU / 20_000.0;
             let off = 0.5 * step * step;
             let kink = if drive.kinks().count() > 0 { step * drive.bounds().speed } else { 0.0 };
@@ -243,7 +245,7 @@ mod tests {
         }
     }
 
-    /// A drive that is shifted is lowest and rises fastest as much earlier.
+    /// A shifted drive is lowest and rises fastest earlier by the same amount.
     #[test]
     fn the_extremes_of_a_shifted_drive_are_shifted() {
         let apart = |one: f64, other: f64| {
@@ -273,7 +275,7 @@ mod tests {
         assert_eq!((falls.lowest_phase(), falls.fastest_rise_phase()), (0.5 * PI, PI));
         let twice = Drive::fourier(&[(0.0, 0.0), (0.7, 0.0)]).expect("legal");
         assert_eq!((twice.lowest_phase(), twice.fastest_rise_phase()), (0.75 * PI, PI));
-        // The first of two that are equal: the other one for a period that begins between them.
+        // The first of two equal ones; the other one for a period that begins between them.
         let later = twice.earlier(0.8 * PI).expect("finite");
         assert!((later.lowest_phase() - (1.75 - 0.8) * PI).abs() < 1e-14, "{}", later.lowest_phase());
         // Straight lines: from the kink on.

@@ -1,8 +1,8 @@
-//! The first impact of a disk on a platform that moves in any way.
+//! The first impact of a disk on a platform of arbitrary motion.
 //!
-//! While the parabola of the disk is above the highest point of the platform nothing is searched: a flight
-//! has two windows, before it has risen above that height and after it has come down to it. In each the gap
-//! is followed from the start of the window, so that a brief flight keeps its relative accuracy
+//! While the disk's parabola is above the highest point of the platform no search is needed. A flight has two
+//! windows, before it rises above that height and after it comes down to it. In each window the gap is
+//! counted from the start of the window, so a brief flight keeps its relative accuracy
 //! (docs/numerics-impacts.md).
 
 use core::f64::consts::TAU;
@@ -15,46 +15,46 @@ use bouncing_disk_core::{Error, Impact, Launch, Phase};
 use super::{Drive, DriveBounds, Fourier, ROUNDING, Shape};
 use crate::quasi_polynomial::{DampedSine, FirstRoot, QuasiPolynomial, Root};
 
-/// A flight whose parabola is back at the highest point of the platform before (rad) is searched as a whole:
-/// without the errors with which a second window starts, and with few steps more.
+/// Time (rad) for the parabola's return to the platform's highest point below which a flight is searched as a
+/// whole: this avoids the initial errors of a second window and costs few more steps.
 const BRIEF: f64 = 2.0;
 
 /// The first impact on a [`Drive`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct DrivenImpact {
-    /// When, and how fast.
+    /// The impact.
     pub impact: Impact,
-    /// Bound on the error of the duration (rad) that rounding leaves.
+    /// Bound on the error of the duration (rad) due to rounding.
     pub error: f64,
-    /// The impact is on a kink of the drive within its error: it has no derivative.
+    /// Whether the impact is on a kink of the drive, within its error: then it has no derivative.
     pub on_kink: bool,
-    /// The flight has touched the platform or missed it before: which, rounding hides.
+    /// An earlier touch or near miss of the platform that rounding cannot decide.
     pub doubt: Option<Doubt>,
 }
 
-/// A graze that rounding does not decide: it counts as the evaluated sign says.
+/// A graze that rounding cannot decide: the evaluated sign counts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Doubt {
-    /// When, in radians after the start.
+    /// The time in radians after the start.
     pub at: f64,
-    /// Bound on the magnitude of the gap there, in units of g/omega^2.
+    /// Bound on the magnitude of the gap at this time, in units of g/omega^2.
     pub bound: f64,
 }
 
-/// A disk at a time, this far above the platform and with this velocity relative to it.
+/// The state of a disk: time, gap above the platform, and velocity relative to it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Start {
     pub(crate) time: f64,
     pub(crate) gap: f64,
     pub(crate) velocity: f64,
-    /// The contact ends here: what the platform still pushes by is rounding.
+    /// Whether the contact ends here: any remaining push by the platform is rounding.
     pub(crate) separates: bool,
 }
 
 impl Start {
-    /// A start by numbers of a user.
+    /// A start from a user's numbers.
     pub(crate) fn new(time: f64, gap: f64, velocity: f64) -> Result<Self, Error> {
         finite("time", time)?;
         within("gap", gap, 0.0, 1.0e17, "[0, 1e17] (units of g/omega^2)")?;
@@ -65,21 +65,21 @@ impl Start {
         Ok(Self { time, gap, velocity, separates: false })
     }
 
-    /// The second derivative of the gap: where a contact ends, a platform that still pushes by no more than a
-    /// rounding does not push.
+    /// The second derivative of the gap: at the end of a contact, a push by no more than a rounding counts as
+    /// none.
     pub(super) fn bend(&self, bend: f64, bounds: &DriveBounds) -> f64 {
         if self.separates && bend < 0.0 && bend >= -bounds.doubtful_pull(self.time) { 0.0 } else { bend }
     }
 }
 
-/// What is found in a window.
+/// The result of a search in a window.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Found {
     pub(crate) root: Option<Root>,
     pub(super) on_kink: bool,
     pub(super) doubt: Option<Doubt>,
     pub(super) evaluations: u32,
-    /// From when to when the piece holds on which it is.
+    /// Start and end of the piece that contains the root.
     pub(super) piece: Option<(f64, f64)>,
 }
 
@@ -87,18 +87,18 @@ impl Drive {
     /// The first impact after `launch`.
     ///
     /// # Errors
-    /// [`Error::NoLiftOff`] for a launch from rest where the platform does not fall away;
-    /// [`Error::FlightTooLong`] beyond [`MAX_FLIGHT_DURATION`];
-    /// [`Error::NoConvergence`] after 100,000 evaluations.
+    /// [`Error::NoLiftOff`] for a launch from rest while the platform does not fall away;
+    /// [`Error::FlightTooLong`] beyond [`MAX_FLIGHT_DURATION`]; [`Error::NoConvergence`] after 100,000
+    /// evaluations.
     pub fn first_impact(&self, launch: Launch) -> Result<DrivenImpact, Error> {
         self.first_impact_from(launch.phase().angle(), 0.0, launch.relative_speed())
     }
 
     /// The first impact of a disk that is `gap` >= 0 above the platform at `time`, with this velocity
-    /// relative to it; on the platform (`gap` = 0) it leaves with that velocity >= 0.
+    /// relative to it; on the platform (`gap` = 0) the disk leaves with this velocity, which must be >= 0.
     ///
     /// # Errors
-    /// As [`Self::first_impact`]; [`Error::OutOfRange`] for numbers outside their range.
+    /// Errors of [`Self::first_impact`]; [`Error::OutOfRange`] for numbers outside their range.
     pub fn first_impact_from(
         &self,
         time: f64,
@@ -112,10 +112,11 @@ impl Drive {
         })
     }
 
-    /// [`Self::first_impact_from`] if it comes within `limit` radians; `None` if the disk flies on.
+    /// [`Self::first_impact_from`] if it comes within `limit` radians; `None` if the disk is still in flight
+    /// then.
     ///
     /// # Errors
-    /// As [`Self::first_impact_from`].
+    /// Errors of [`Self::first_impact_from`].
     pub fn first_impact_within(
         &self,
         time: f64,
@@ -127,10 +128,11 @@ impl Drive {
     }
 
     /// The impact of a disk that leaves a contact at `time` because the force falls to zero there, within
-    /// rounding ([`Self::contact_end`]), if it comes within `limit` radians; `None` if the disk flies on.
+    /// rounding ([`Self::contact_end`]), if it comes within `limit` radians; `None` if the disk is still in
+    /// flight then.
     ///
     /// # Errors
-    /// As [`Self::first_impact_from`].
+    /// Errors of [`Self::first_impact_from`].
     pub fn impact_after_separation_within(
         &self,
         time: f64,
@@ -139,10 +141,10 @@ impl Drive {
         self.land(Start { time: finite("time", time)?, gap: 0.0, velocity: 0.0, separates: true }, limit)
     }
 
-    /// The first impact within `limit`, of a start that is known to be legal.
+    /// The first impact within `limit` after a start that is known to be legal.
     pub(crate) fn land(&self, mut start: Start, limit: f64) -> Result<Option<DrivenImpact>, Error> {
         start.time = wrapped_angle(start.time);
-        // What is no number is no limit.
+        // NaN counts as no limit.
         let limit = limit.min(f64::INFINITY);
         let (here, terms) = self.at_with_terms(start.time, 0, -1.0);
         let bounds = self.bounds();
@@ -154,7 +156,7 @@ impl Drive {
         let depth = bounds.highest - height;
         let radicand = speed * speed - 2.0 * depth;
         let fall = if radicand > 0.0 { radicand.sqrt() } else { 0.0 };
-        // When the disk rises above all heights of the platform, and when it is back.
+        // The times at which the disk rises above all heights of the platform and returns.
         let (mut up, down) = if depth <= 0.0 {
             (0.0, if speed >= 0.0 { speed + fall } else { -2.0 * depth / (fall - speed) })
         } else if speed > 0.0 && radicand > 0.0 {
@@ -170,7 +172,7 @@ impl Drive {
             });
         }
         if start.gap == 0.0 && down < BRIEF {
-            // From the start on it keeps its relative accuracy.
+            // Counted from the start it keeps its relative accuracy.
             up = f64::INFINITY;
         }
         let mut found = Found::default();
@@ -186,7 +188,7 @@ impl Drive {
         let (periods, rest) = if down > TAU { nearest_periods(down) } else { (0.0, down) };
         let time = start.time + rest;
         let (there, terms) = self.at_with_terms(time, 0, -1.0);
-        // Time and speed at which the disk is back are rounded, and so were height and speed before.
+        // Time and speed of the return are rounded, and so were height and speed before.
         let height_error = ROUNDING * (height.abs() + bounds.highest.abs() + bounds.highest - bounds.lowest);
         let radicand_error = ROUNDING * (speed * speed + depth.abs()) + height_error;
         let fall_error = (radicand_error / fall).min((2.0 * radicand_error).sqrt());
@@ -215,7 +217,7 @@ impl Drive {
     }
 
     /// The first root of the gap within `to`; its value and slope at the start have these errors, and `terms`
-    /// are those of the drive there.
+    /// are the drive's terms there.
     fn window(&self, start: Start, error: [f64; 2], terms: Vec<DampedSine>, to: f64) -> Result<Found, Error> {
         match &self.shape {
             Shape::Fourier(fourier) => fourier.window(start, error, terms, to),
@@ -223,7 +225,7 @@ impl Drive {
         }
     }
 
-    /// The impact `root` after whole periods and a rest.
+    /// The impact at `root`, after whole periods and a remainder.
     fn landed(&self, from: f64, (periods, rest): (f64, f64), root: Root, found: &Found) -> DrivenImpact {
         let after = rest + root.at;
         let angle = from + after;
@@ -271,7 +273,7 @@ impl Fourier {
 }
 
 impl Found {
-    /// The impact, with a doubt if it may also be a graze.
+    /// Records the impact, with a doubt if it may also be a graze.
     pub(super) fn take(&mut self, root: Root) {
         if root.doubt > 0.0 {
             self.doubt = self.doubt.or(Some(Doubt { at: root.at, bound: root.doubt }));
@@ -280,7 +282,7 @@ impl Found {
     }
 }
 
-/// The first root of a gap up to `to`; a touch that rounding hides counts as its evaluated sign says.
+/// The first root of a gap up to `to`; if rounding hides a touch, the evaluated sign counts.
 pub(crate) fn decided(gap: &QuasiPolynomial, to: f64) -> Result<Found, Error> {
     let mut found = Found::default();
     let mut from = 0.0;

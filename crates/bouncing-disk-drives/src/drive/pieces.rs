@@ -17,40 +17,40 @@ use super::landing::{Doubt, Found, Start, decided};
 use super::{Drive, DriveBounds, DriveState, ROUNDING, Shape, TimeAhead};
 use crate::quasi_polynomial::{Jet, QuasiPolynomial, Root};
 
-/// Most pieces of a drive.
+/// Largest number of pieces of a drive.
 pub const MAX_PIECES: usize = 1 << 20;
 
-/// A jump of the height or the velocity that is smaller than this share of the largest one is rounding.
+/// Share of the largest height or velocity below which a jump is rounding.
 const JOINT_ROUNDING: f64 = 1.0e-12;
 
-/// No pieces are passed over sooner than this after the start of a search (rad): heights above the platform
-/// are then taken from the height of both, whose rounding a shorter flight would feel.
+/// Time (rad) after the start of a search before which no pieces are skipped: skipping computes the gap from
+/// the heights of disk and platform, whose rounding would affect a shorter flight.
 const FIRST_PASS: f64 = 0.05;
 
 #[derive(Debug, PartialEq)]
 pub(crate) struct Pieces {
-    /// When each piece begins, and 2 pi.
+    /// The start of each piece, and 2 pi.
     pub(super) starts: Vec<f64>,
     pub(super) coefficients: Vec<[f64; 4]>,
-    /// By how much the velocity jumps where a piece begins.
+    /// The jump of the velocity at the start of each piece.
     pub(super) jumps: Vec<f64>,
-    /// When the velocity jumps, and by how much.
+    /// The times and sizes of the jumps of the velocity.
     kinks: Vec<(f64, f64)>,
-    /// The first piece, this one or a later one, in which a contact ends that holds at its start; the number
-    /// of pieces where it never ends.
+    /// For each piece, the first piece (this or a later one) in which a contact that exists at its start
+    /// ends; the number of pieces if it never ends.
     exits: Vec<u32>,
-    /// The jumps of height and velocity that count as rounding, all of one period together: by as much the
-    /// gap that is carried from joint to joint differs from that of the heights.
+    /// The sum over a period of the jumps of height and velocity that count as rounding: the difference
+    /// between the gap carried from joint to joint and the gap computed from the heights.
     pub(super) joint_rounding: [f64; 2],
-    /// The highest point of each piece, of each two, of each four, and so on.
+    /// The highest point of each piece, of each pair, of each four, and so on.
     tops: Vec<Vec<f64>>,
     pub(super) bounds: DriveBounds,
 }
 
 impl Drive {
-    /// Pieces (duration, [c0, c1, c2, c3]), one after the other from time 0 on, each c0 + c1 t + c2 t^2 + c3
-    /// t^3 from its own start: one period, 2 pi long, that begins again. The height must be continuous; where
-    /// the velocity jumps there is a kink.
+    /// Consecutive pieces (duration, [c0, c1, c2, c3]) from time 0, each c0 + c1 t + c2 t^2 + c3 t^3 in the
+    /// time t since its own start. Together they form a period of 2 pi, which repeats. The height must be
+    /// continuous; a jump of the velocity is a kink.
     ///
     /// ```
     /// use std::f64::consts::PI;
@@ -94,7 +94,7 @@ impl Drive {
         Self::joined(starts, pieces.iter().map(|&(_, coefficients)| coefficients).collect())
     }
 
-    /// Pieces that begin at these times, the last of which is 2 pi.
+    /// Pieces that begin at these times; the last time is 2 pi.
     pub(super) fn joined(starts: Vec<f64>, coefficients: Vec<[f64; 4]>) -> Result<Self, Error> {
         let mut pieces = Pieces {
             starts,
@@ -115,10 +115,10 @@ impl Drive {
         Ok(Self { shape: Shape::Pieces(Arc::new(pieces)) })
     }
 
-    /// A triangle that rises from 0 to `amplitude` in the first quarter of the period, as the sine does.
+    /// A triangle that rises from 0 to `amplitude` in the first quarter of the period, like the sine.
     ///
     /// # Errors
-    /// As [`Self::sawtooth`].
+    /// Errors of [`Self::sawtooth`].
     pub fn triangle(amplitude: f64) -> Result<Self, Error> {
         Self::sawtooth(amplitude, 0.5)
     }
@@ -139,8 +139,8 @@ impl Drive {
         )
     }
 
-    /// The quadratic approximation of `amplitude` sin t: (4/pi^2) t (pi - t) on [0, pi], and less that on the
-    /// second half.
+    /// The quadratic approximation of `amplitude` sin t: (4/pi^2) t (pi - t) on [0, pi], and the negative of
+    /// it on the second half.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for an amplitude outside its range.
@@ -199,7 +199,7 @@ impl Pieces {
         self.coefficients.len()
     }
 
-    /// The piece that holds at a time in [0, 2 pi).
+    /// The piece at a time in [0, 2 pi).
     fn index(&self, time: f64) -> usize {
         let after = if self.count() <= 8 {
             self.starts.iter().take_while(|&&start| start <= time).count()
@@ -245,7 +245,7 @@ impl Pieces {
         TimeAhead { after, time: self.starts[next], velocity_jump: self.jumps[next] }
     }
 
-    /// The same period begun at a phase in (0, 2 pi): the piece that holds there is cut in two.
+    /// The same period, begun at a phase in (0, 2 pi): the piece at this phase is cut in two.
     pub(super) fn earlier(&self, phase: f64) -> Result<Drive, Error> {
         let (cut, here) = (self.index(phase), self.at(phase));
         let first = [here.height, here.velocity, 0.5 * here.acceleration, here.jerk / 6.0];
@@ -286,7 +286,7 @@ impl Pieces {
             bounds.acceleration = bounds.acceleration.max(2.0 * c2.abs()).max(end.acceleration.abs());
             bounds.jerk = bounds.jerk.max(6.0 * c3.abs());
         }
-        // Far more than rounding, so that a disk above it is above the platform.
+        // Far above rounding, so that a disk above it is above the platform.
         let slack = 1.0e-9 * (bounds.highest - bounds.lowest) + 1.0e-14 * bounds.highest.abs();
         (bounds.lowest, bounds.highest) = (bounds.lowest - slack, bounds.highest + slack);
         self.tops.push(tops);
@@ -298,7 +298,7 @@ impl Pieces {
         bounds
     }
 
-    /// Compares the ends of neighbours.
+    /// Compares the ends of neighbouring pieces.
     fn join(&mut self) -> Result<(), Error> {
         let count = self.count();
         let ends: Vec<_> = (0..count).map(|piece| at(self.coefficients[piece], self.length(piece))).collect();
@@ -322,13 +322,14 @@ impl Pieces {
         Ok(())
     }
 
-    /// The contact force at the start of a piece, and how it changes.
+    /// The contact force at the start of a piece, and its rate of change.
     fn force(&self, piece: usize) -> (f64, f64) {
         let [_, _, c2, c3] = self.coefficients[piece];
         (1.0 + 2.0 * c2, 6.0 * c3)
     }
 
-    /// Whether the force, now this, is below zero by more than a rounding here or at the end of the piece.
+    /// Whether the force, given its value `here`, is below zero by more than a rounding here or at the end of
+    /// the piece.
     fn falls_below(&self, piece: usize, here: f64) -> bool {
         let (force, change) = self.force(piece);
         here.min(force + change * self.length(piece)) < -self.bounds.doubtful_pull(TAU)
@@ -343,7 +344,7 @@ impl Pieces {
         let count = self.count();
         let leaves = |piece: usize| self.jumps[piece] != 0.0 || self.falls_below(piece, self.force(piece).0);
         let mut exits = vec![count as u32; count];
-        // Twice round, so that each piece sees what follows in the next period.
+        // Two rounds, so that each piece takes the next period into account.
         let mut next = count as u32;
         for piece in (0..count).rev().chain((0..count).rev()) {
             if leaves(piece) {
@@ -375,7 +376,7 @@ impl Pieces {
         let (force, change) = self.force(exit);
         let inner = if self.jumps[exit] != 0.0 || force <= 0.0 { 0.0 } else { force / -change };
         let at = self.starts[exit];
-        // Counted from the joint, so that a brief contact is not rounded.
+        // Counted from the joint, so that rounding does not affect a brief contact.
         let way = if at >= joint.time { at - joint.time } else { at - joint.time + TAU };
         ahead(left + way + inner, at + inner, self.jumps[exit])
     }
@@ -416,7 +417,8 @@ impl Pieces {
         let mut elapsed = 0.0;
         let mut found = Found::default();
         let mut at_joint = x == 0.0;
-        // The highest piece hits the disk at the latest: one period, two with the ends of both.
+        // The disk hits the highest piece at the latest: within one period, two with partial pieces at both
+        // ends.
         let most = 4 * self.count() + 16;
         for entered in 0..most {
             let [_, _, c2, c3] = self.coefficients[piece];
@@ -433,14 +435,14 @@ impl Pieces {
             }
             let next = (piece + 1) % self.count();
             if let Some(root) = this.root {
-                // Also where only the rounding of the phase puts it on the kink.
+                // Also if only the rounding of the phase puts it on the kink.
                 let rounding = f64::EPSILON * (time + elapsed);
                 let near = |distance: f64| distance.abs() <= root.error + rounding;
                 found.on_kink = near(root.at - left) && self.jumps[next] != 0.0
                     || at_joint && near(root.at) && self.jumps[piece] != 0.0;
                 let leaves = root.slope - self.jumps[next];
                 if (root.at - left).abs() <= root.error && leaves > 0.0 {
-                    // A crest or a corner that is hit, or missed.
+                    // A crest or a corner, hit or missed.
                     let bound = root.error * leaves.max(-root.slope);
                     found.doubt = found.doubt.or(Some(Doubt { at: elapsed + root.at, bound }));
                 }
@@ -492,8 +494,8 @@ impl Pieces {
         Err(Error::NoConvergence { evaluations: found.evaluations, time: elapsed, gap })
     }
 
-    /// The piece up to which the disk is certain to be above the platform, and when it begins: a parabola is
-    /// nowhere lower than at the lower of two ends.
+    /// The piece up to which the disk is certainly above the platform, and its start: a parabola is lowest at
+    /// one of its ends.
     fn pass(&self, from: usize, elapsed: f64, height: f64, speed: f64) -> Option<(usize, f64)> {
         let disk = |t: f64| height + t * (speed - 0.5 * t);
         let slack = 1.0e-9 * (self.bounds.highest - self.bounds.lowest);
@@ -547,7 +549,7 @@ impl Stretch {
             return Ok(Found { root: Some(self.root(0.0)), evaluations: 1, ..Found::default() });
         }
         if self.starts_on_platform() {
-            // The start is divided out.
+            // The zero at the start is divided out.
             return Ok(self.quadratic([self.velocity, 0.5 * self.bend, self.third * (1.0 / 6.0)], to, true));
         }
         if self.third == 0.0 {
@@ -583,14 +585,14 @@ impl Stretch {
         Root { at: t, error: error + ROUNDING * t, slope, doubt, evaluations: 1 }
     }
 
-    /// The first root of c + b t + a t^2 in (0, `to`], where it leaves zero or is positive at 0; `divided`:
-    /// it is the gap over t.
+    /// The first root in (0, `to`] of c + b t + a t^2, which leaves zero or is positive at 0; `divided` means
+    /// that it is the gap over t.
     fn quadratic(&self, [c, b, a]: [f64; 3], to: f64, divided: bool) -> Found {
         let mut found = Found { evaluations: 1, ..Found::default() };
         let radicand = b * b - 4.0 * a * c;
         let root = if radicand > 0.0 { radicand.sqrt() } else { 0.0 };
         if a > 0.0 && b < 0.0 {
-            // It falls and rises again: the rounding may decide whether it reaches zero.
+            // It falls and rises again: rounding may decide whether it reaches zero.
             let lowest = -0.5 * b / a;
             let value = (c - 0.25 * b * b / a) * if divided { lowest } else { 1.0 };
             let (_, _, [error, _]) = self.end(lowest);

@@ -10,7 +10,7 @@ use super::pieces::MAX_PIECES;
 
 impl Drive {
     /// The periodic cubic spline through the heights at equal distances over one period, the first one at
-    /// time 0 and, again, 2 pi.
+    /// time 0 and again at 2 pi.
     ///
     /// ```
     /// use std::f64::consts::TAU;
@@ -25,8 +25,8 @@ impl Drive {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for less than 3 samples or too large accelerations; [`Error::NotOfKind`] names
-    /// one that is not finite; [`Error::TooLarge`] beyond [`MAX_PIECES`].
+    /// [`Error::OutOfRange`] for fewer than 3 samples or too large accelerations; [`Error::NotOfKind`] names
+    /// a sample that is not finite; [`Error::TooLarge`] beyond [`MAX_PIECES`].
     pub fn sampled(heights: &[f64]) -> Result<Self, Error> {
         let count = heights.len();
         if count > MAX_PIECES {
@@ -54,14 +54,14 @@ impl Drive {
     }
 }
 
-/// The solution of x_(k-1) + 4 x_k + x_(k+1) = b_k round a circle: its inverse is a sum over powers of the
-/// root -2 + sqrt 3, of which those above the 60th are less than a rounding.
+/// The solution of x_(k-1) + 4 x_k + x_(k+1) = b_k with cyclic indices: the inverse is a sum over powers of
+/// the root -2 + sqrt 3, and powers above the 60th are below rounding.
 fn cyclic(right: &[f64]) -> Vec<f64> {
     let root = 3.0_f64.sqrt() - 2.0;
     let count = right.len();
     let mut forward = vec![0.0; count];
     let mut backward = vec![0.0; count];
-    // Two recursions, each warmed up by the end of the circle.
+    // Two recursions, each warmed up over the end of the cycle.
     let warm = 60;
     let mut sum = 0.0;
     for k in 0..count + warm {

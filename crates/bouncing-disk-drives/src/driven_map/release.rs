@@ -1,4 +1,4 @@
-//! From one release of a contact that takes time to the next, with the derivative
+//! The map from one release of a compliant contact to the next, with its derivative
 //! (docs/numerics-dynamics.md, "The release map").
 
 use core::f64::consts::TAU;
@@ -12,20 +12,20 @@ use crate::compliance::{CompliantPlatform, ContactEnd, Pressed, RelativeState, S
 use crate::drive::landing::DrivenImpact;
 use crate::quasi_polynomial::QuasiPolynomial;
 
-/// Turns of a spring after which a contact counts as one that lasts for ever.
+/// Turns of a spring after which a contact counts as lasting forever.
 const MAX_TURNS: u32 = 4_096;
 
-/// How a flight with the contact that follows ends, or a contact alone.
+/// The end of a flight and the following contact, or of a contact alone.
 pub(crate) struct Cycle {
     duration: f64,
     turns: u64,
     state: RelativeState,
-    /// Bound on the error of the duration after which a disk has settled; `None` where it is released.
+    /// Bound on the error of the duration after which a disk has settled; `None` if it is released.
     settled: Option<f64>,
 }
 
 impl Cycle {
-    /// When the disk settles for ever.
+    /// The accumulation point, if the disk settles forever.
     pub(crate) fn accumulation(&self) -> Option<Accumulation> {
         let &Self { duration, turns, state, settled } = self;
         settled.map(|error_bound| Accumulation {
@@ -62,19 +62,19 @@ impl CompliantPlatform {
         -self.compliance().damping() / self.compliance().stiffness()
     }
 
-    /// The relative acceleration of a disk that this force moves.
+    /// The relative acceleration of a disk under this force.
     fn acceleration(&self, force: f64, time: f64) -> f64 {
         force - 1.0 - self.drive().at(time).acceleration
     }
 
-    /// What a change of phase and of speed at a release makes of gap and velocity at a fixed time.
+    /// The effect of a change of phase and speed at a release on gap and velocity at a fixed time.
     pub(crate) fn change_at_release(&self, state: RelativeState) -> DMat2 {
         let by_phase = DVec2::new(-state.velocity, -self.acceleration(0.0, state.time));
         DMat2::from_cols(by_phase, DVec2::new(self.gap_by_speed(), 1.0))
     }
 
-    /// The flight from this state to the next touch, and the contact that follows; `change` is that of gap and
-    /// velocity at a fixed time, and becomes that of phase and speed at the release.
+    /// The flight from this state to the next touch, and the contact that follows; `change` is the change of
+    /// gap and velocity at a fixed time, and becomes the change of phase and speed at the release.
     pub(crate) fn fly_and_press(
         &self,
         from: RelativeState,
@@ -95,7 +95,7 @@ impl CompliantPlatform {
         Ok(Cycle { duration: duration + contact.duration, turns: turns + contact.turns, ..contact })
     }
 
-    /// A contact from this state on, through all turns of its spring.
+    /// Follows a contact from this state through all turns of its spring.
     pub(crate) fn press_until_released(
         &self,
         from: RelativeState,
@@ -144,7 +144,7 @@ impl CompliantPlatform {
 }
 
 impl Pressed {
-    /// What a change of gap and velocity at the start has become after `span`, both at fixed times.
+    /// The effect of a change of gap and velocity at the start after `span`, both at fixed times.
     fn propagator(&self, span: f64) -> DMat2 {
         if self.spring_state() == SpringState::Held {
             return DMat2::from_diagonal(DVec2::new(1.0, 0.0));
@@ -158,7 +158,8 @@ impl Pressed {
         DMat2::from_cols(free(1.0, 0.0), free(0.0, 1.0))
     }
 
-    /// What a change of gap and velocity at a fixed time makes of phase and speed at the release in `state`.
+    /// The effect of a change of gap and velocity at a fixed time on phase and speed at the release in
+    /// `state`.
     fn change_to_release(&self, state: RelativeState) -> DMat2 {
         let spring = self.platform().compliance().on(self.spring_state());
         let (k, c) = (spring.stiffness(), spring.damping());

@@ -21,28 +21,29 @@ use glam::{DMat2, DVec2};
 use super::MAP_ROUNDING;
 use crate::driven_map::DrivenMap;
 
-/// How the curve is followed to either side: the first step, its growth, and the number of steps, which end at
-/// some 1e-3 rad. Orbits farther apart are found one by one.
+/// The steps along the curve to either side: the first step, its growth, and the number of steps, which end
+/// at about 1e-3 rad. Orbits farther apart are found one by one.
 const FIRST: f64 = 1.0e-8;
 const GROWTH: f64 = 4.0;
 const STEPS: usize = 9;
 
-/// Most steps of Newton's method to a point of the curve, the step of one that is found, and the step from which
-/// on one that shrinks no more is rounding.
+/// Newton's method for a point of the curve: the largest number of steps, the step at which a point counts as
+/// found, and the step below which a lack of shrinking is rounding.
 const MOST_CORRECTIONS: usize = 20;
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 const NEARLY: f64 = 1.0e-8;
 
-/// Most steps to a zero or an extreme of the push.
+/// Largest number of steps to a zero or an extreme of the push.
 const MOST_STEPS: usize = 100;
 
-/// How many times its rounding a push must be for its sign to be certain.
+/// Ratio of a push to its rounding above which its sign is certain.
 const CERTAIN: f64 = 4.0;
 
-/// All sequences of flights that close if the end of the last flight is pushed along the weak direction, the
-/// one that a period of the orbit changes least: a curve.
+/// The curve of all sequences of flights that close if the end of the last flight is pushed along the weak
+/// direction, which a period of the orbit changes least.
 ///
-/// Its equations are regular in a fold too, unlike those of the orbits, which are the zeros of the push.
+/// Its equations are regular at a fold, too, unlike the equations of the orbits, which are the zeros of the
+/// push.
 struct Curve<'m> {
     map: &'m DrivenMap,
     base: ImpactState,
@@ -53,7 +54,7 @@ struct Curve<'m> {
 /// A point of the curve.
 #[derive(Debug, Clone)]
 struct Point {
-    /// Where: the displacement of the first impact along the weak direction.
+    /// The displacement of the first impact along the weak direction.
     at: f64,
     states: Vec<ImpactState>,
     push: f64,
@@ -62,16 +63,16 @@ struct Point {
     shooting: (DMat2, u64),
 }
 
-/// The orbits at and beside an approximate one.
+/// The orbits at and near an approximate one.
 pub(super) enum Beside {
-    /// Those that exist, or about whose existence rounding decides, the nearest first.
+    /// The orbits that exist, or may exist within rounding, nearest first.
     Orbits(Vec<PeriodicOrbit>),
-    /// The push is rounding all along: the orbit is a member of a family.
+    /// The push is rounding everywhere: the orbit is a member of a family.
     Family,
 }
 
 impl DrivenMap {
-    /// The orbits at and beside an approximate one next to a fold; `None` if the curve cannot be followed to both
+    /// The orbits at and near an approximate one at a fold; `None` if the curve cannot be followed to both
     /// sides until the sign of the push is certain.
     pub(super) fn orbits_beside(&self, orbit: &PeriodicOrbit) -> Option<Beside> {
         let curve = Curve::new(self, orbit)?;
@@ -94,7 +95,7 @@ impl DrivenMap {
                 extremes.push(curve.extreme(point, next));
             }
         }
-        // Beyond an end at which the push is not certain there may be more.
+        // Beyond an end with an uncertain push there may be more.
         let (first, last) = (certain.first()?, certain.last()?);
         if !(first.at < 0.0 && 0.0 < last.at) {
             return None;
@@ -124,7 +125,8 @@ impl<'m> Curve<'m> {
     fn new(map: &'m DrivenMap, orbit: &PeriodicOrbit) -> Option<Self> {
         let scale = speed_scale(&orbit.states);
         let DMat2 { x_axis, y_axis } = orbit.monodromy - DMat2::IDENTITY;
-        // The rows of the derivative less 1, velocities in units of the scale; the larger one tells more.
+        // The rows of the derivative minus 1, velocities in units of the scale; the larger row is more
+        // accurate.
         let rows = [DVec2::new(x_axis.x, y_axis.x * scale), DVec2::new(x_axis.y / scale, y_axis.y)];
         let row = if rows[0].dot(rows[0]) > rows[1].dot(rows[1]) { rows[0] } else { rows[1] };
         let length = row.dot(row).sqrt();
@@ -150,7 +152,7 @@ impl<'m> Curve<'m> {
         }
     }
 
-    /// The point at this place, from impacts nearby.
+    /// The point at this displacement, from impacts nearby.
     fn point(&self, at: f64, guess: &[ImpactState]) -> Option<Point> {
         let (mut states, mut push, mut last) = (guess.to_vec(), 0.0, f64::INFINITY);
         for _ in 0..MOST_CORRECTIONS {
@@ -181,8 +183,8 @@ impl<'m> Curve<'m> {
         None
     }
 
-    /// A push of which the sign is certain, and how far the rounding of each flight moves the impacts across the
-    /// weak direction.
+    /// The smallest push with a certain sign, and the displacement of the impacts across the weak direction
+    /// by the rounding of each flight.
     fn rounding(&self, point: &Point) -> Option<(f64, f64)> {
         let equations = self.equations(self.map.shoot(&point.states).ok()?);
         let room = MAP_ROUNDING * self.scale;
@@ -196,7 +198,7 @@ impl<'m> Curve<'m> {
         (push.is_finite() && floor.is_finite()).then_some((CERTAIN * push, floor))
     }
 
-    /// The curve through a point, to both sides as far as it can be followed.
+    /// The curve through a point, followed to both sides as far as possible.
     fn followed(&self, middle: Point) -> Vec<Point> {
         let mut points = vec![middle];
         for side in [-1.0, 1.0] {
@@ -211,7 +213,7 @@ impl<'m> Curve<'m> {
         points
     }
 
-    /// Where the push is extreme between two points with slopes of different signs. The slope may jump there.
+    /// The extreme of the push between two points with slopes of different signs. The slope may jump there.
     fn extreme(&self, low: &Point, high: &Point) -> Point {
         let (mut low, mut high) = (low.clone(), high.clone());
         for _ in 0..MOST_STEPS {
@@ -225,8 +227,8 @@ impl<'m> Curve<'m> {
         if low.push.abs() <= high.push.abs() { low } else { high }
     }
 
-    /// Where the push is zero between two points at which it has different signs: by Newton's steps, and by
-    /// halves where these lead out.
+    /// The zero of the push between two points at which it has different signs, by Newton steps, and by
+    /// bisection if these leave the interval.
     fn zero(&self, low: &Point, high: &Point) -> Point {
         let (mut low, mut high) = (low.clone(), high.clone());
         let nearer =
@@ -245,14 +247,14 @@ impl<'m> Curve<'m> {
         if low.push.abs() <= high.push.abs() { low } else { high }
     }
 
-    /// The orbit at a point, and where it is; it lies between these two sides.
+    /// The orbit at a point, and its displacement; it lies between these two sides.
     fn orbit(&self, point: &Point, sides: [Option<Point>; 2], floor: f64) -> (f64, PeriodicOrbit) {
         let trace = |point: &Point| point.shooting.0.x_axis.x + point.shooting.0.y_axis.y;
         let own = trace(point);
         let (mut position_error, mut trace_error) = (floor, MAP_ROUNDING * own.abs());
         for side in sides {
             let Some(side) = side else {
-                // Where the orbit is as near as this to its end, the multipliers mean nothing.
+                // If the orbit is this close to its end, the multipliers are meaningless.
                 trace_error = f64::MAX;
                 continue;
             };

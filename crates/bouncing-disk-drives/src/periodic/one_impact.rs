@@ -1,5 +1,5 @@
-//! The orbits of one impact on a drive with rigid impacts: the phases at which the velocity of the platform
-//! has one value (docs/numerics-impacts.md, "Periodic orbits").
+//! The one-impact orbits on a drive with rigid impacts: the phases at which the velocity of the platform has
+//! a certain value (docs/numerics-impacts.md, "Periodic orbits").
 
 use core::f64::consts::{PI, TAU};
 use core::ops::RangeInclusive;
@@ -13,56 +13,56 @@ use super::EXACT;
 use crate::drive::Drive;
 use crate::driven_map::DrivenMap;
 
-/// The rounding of a velocity and of the value that it must have, in units of the sizes of both.
+/// The rounding of a velocity and of its required value, in units of the sizes of both.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
-/// By how much, relative to the flight, the first impact may come early and still count as that of the orbit.
+/// Largest advance of the first impact, relative to the flight, at which it still counts as the orbit's.
 const SAME_IMPACT: f64 = 1.0e-9;
 
-/// The shortest cell (rad) that is searched for turning points of the velocity, and the most cells.
+/// The shortest cell (rad) searched for turning points of the velocity, and the largest number of cells.
 const SHORTEST_CELL: f64 = 1.0e-7;
 const MOST_CELLS: u32 = 1 << 18;
 
-/// A stretch on which the velocity of the platform is monotonic and continuous.
+/// A stretch of monotonic and continuous velocity of the platform.
 #[derive(Debug, Clone, Copy)]
 struct Stretch {
     from: End,
     to: End,
     rises: bool,
-    /// Whether the velocity is the same all along.
+    /// Whether the velocity is constant.
     is_flat: bool,
 }
 
 /// An end of a stretch.
 #[derive(Debug, Clone, Copy)]
 struct End {
-    /// Of the later end perhaps beyond the period.
+    /// The time; for the later end perhaps beyond the period.
     time: f64,
     velocity: f64,
-    /// By how much the velocity jumps at a joint that is no kink: a rounding.
+    /// The jump of the velocity at a joint that is not a kink: a rounding.
     jump: f64,
     is_kink: bool,
 }
 
-/// How many members of a family are tried.
+/// The number of members of a family that are tried.
 const MEMBERS: u32 = 16;
 
-/// All orbits of one impact with some numbers of periods.
+/// All one-impact orbits for a range of numbers of periods.
 #[derive(Debug)]
 pub(super) struct OneImpact {
-    /// The lowest of these numbers.
+    /// The smallest of these numbers.
     first: u64,
     found: Vec<Found>,
 }
 
-/// The orbits of one impact with one number of periods.
+/// The one-impact orbits with a given number of periods.
 #[derive(Debug)]
 struct Found {
     orbits: Vec<PeriodicOrbit>,
     families: Vec<Family>,
 }
 
-/// A stretch on which every phase has the velocity.
+/// A stretch on which the velocity has the value at every phase.
 #[derive(Debug)]
 struct Family {
     from: f64,
@@ -82,18 +82,18 @@ struct Stretches {
     speed: f64,
 }
 
-/// The phases at which a platform has a velocity.
+/// The phases at which the platform's velocity has a value.
 #[derive(Debug, Clone, Default)]
 struct Phases {
     single: Vec<f64>,
-    /// Extremes of the velocity that have the value within rounding.
+    /// Extremes of the velocity that equal the value within rounding.
     touching: Vec<f64>,
-    /// Stretches on which every phase has it.
+    /// Stretches on which the velocity equals the value throughout.
     families: Vec<(f64, f64)>,
 }
 
 impl OneImpact {
-    /// Those with these numbers of periods, as far as the platform is fast enough.
+    /// The orbits with these numbers of periods, as far as the platform is fast enough.
     pub(super) fn of(map: &DrivenMap, platform_periods: RangeInclusive<u64>) -> Self {
         let stretches = Stretches::of(map.drive());
         let first = *platform_periods.start();
@@ -103,7 +103,7 @@ impl OneImpact {
             let Phases { single, touching, families } = stretches.phases(map.drive(), value);
             let orbit = |phase, family| map.orbit_of_one_impact(phase, periods, family);
             let member = |&(from, to): &(f64, f64)| {
-                // An earlier impact may forestall those that are far from the end of the stretch.
+                // An earlier impact may prevent the members far from the end of the stretch.
                 let parts = (0..MEMBERS).map(|part| (f64::from(part) + 0.5) / f64::from(MEMBERS));
                 let phases = parts.map(|part| wrapped_angle(to - (to - from) * part));
                 phases.filter_map(|phase| orbit(phase, Some(to - from))).next()
@@ -119,8 +119,8 @@ impl OneImpact {
         Self { first, found: found.collect() }
     }
 
-    /// All orbits of one impact but for those that an earlier impact forestalls or whose impact is on a kink;
-    /// of each family one.
+    /// All one-impact orbits, one for each family, except orbits that an earlier impact prevents and orbits
+    /// with the impact on a kink.
     pub(super) fn orbits(&self) -> impl Iterator<Item = &PeriodicOrbit> {
         self.found.iter().flat_map(|found| &found.orbits)
     }
@@ -129,25 +129,25 @@ impl OneImpact {
         self.found.get(usize::try_from(platform_periods.checked_sub(self.first)?).ok()?)
     }
 
-    /// Those with this number of periods.
+    /// The orbits with this number of periods.
     pub(super) fn orbits_with(&self, platform_periods: u64) -> &[PeriodicOrbit] {
         self.with(platform_periods).map_or(&[], |found| &found.orbits)
     }
 
-    /// The family that an orbit of one impact is a member of.
+    /// The family to which a one-impact orbit belongs.
     fn family(&self, orbit: &PeriodicOrbit) -> Option<&Family> {
         self.with(orbit.platform_periods)?.families.iter().find(|family| family.contains(orbit))
     }
 
-    /// The member at the phase of an orbit of one impact, if that belongs to a family.
+    /// The member at the phase of a one-impact orbit, if the orbit belongs to a family.
     pub(super) fn member(&self, map: &DrivenMap, orbit: &PeriodicOrbit) -> Option<PeriodicOrbit> {
         let family = self.family(orbit)?;
         let phase = orbit.states[0].phase().angle();
         map.orbit_of_one_impact(phase, orbit.platform_periods, Some(family.to - family.from))
     }
 
-    /// All of [`Self::orbits`], however near they are to each other: as they were found from starts where
-    /// these meet them, and members of families of which only starts know one.
+    /// All of [`Self::orbits`], however close to each other, replaced by orbits found from starts that agree
+    /// with them; and members of families that were found only from starts.
     pub(super) fn with_found(&self, found: &[PeriodicOrbit]) -> Vec<PeriodicOrbit> {
         let mut all: Vec<PeriodicOrbit> = Vec::new();
         for own in self.orbits() {
@@ -187,7 +187,7 @@ impl Stretches {
                 None => stretches.push(stretch),
             }
         }
-        // The last one may go on beyond the seam.
+        // The last one may continue beyond the seam.
         if let [first, .., last] = stretches[..]
             && last.goes_on_as(&first)
         {
@@ -197,7 +197,7 @@ impl Stretches {
         Self { all: stretches, speed: drive.bounds().speed }
     }
 
-    /// Where the velocity has this value.
+    /// The phases at which the velocity has this value.
     fn phases(&self, drive: &Drive, value: f64) -> Phases {
         let rounding = ROUNDING * (self.speed + value.abs());
         let undecided = |end: &End| (end.velocity - value).abs() <= rounding + end.jump;
@@ -248,7 +248,7 @@ fn before(time: f64) -> f64 {
     if time > 0.0 { time.next_down() } else { TAU.next_down() }
 }
 
-/// Where a monotonic velocity passes a value.
+/// The time at which a monotonic velocity passes a value.
 fn crossing(drive: &Drive, (mut low, mut high): (f64, f64), rises: bool, value: f64) -> f64 {
     loop {
         let middle = low + 0.5 * (high - low);
@@ -262,7 +262,7 @@ fn crossing(drive: &Drive, (mut low, mut high): (f64, f64), rises: bool, value: 
 }
 
 /// The times in [0, 2 pi) between which the velocity is monotonic: joints and zeros of the acceleration, in
-/// their order.
+/// order.
 fn turning_points(drive: &Drive) -> Vec<f64> {
     let mut times = Vec::new();
     if drive.next_joint(0.0).is_none() {
@@ -285,13 +285,13 @@ fn turning_points(drive: &Drive) -> Vec<f64> {
     times
 }
 
-/// The zeros of the acceleration of a Fourier sum in [0, 2 pi), each found, and perhaps other times.
+/// The zeros of the acceleration of a Fourier sum in [0, 2 pi), all of them, and perhaps other times.
 ///
-/// A cell about m with the half width h has none if |A(m)| > max|A'| h, and one at most, which the signs at
-/// its ends tell, if |A'(m)| > max|A''| h. All other cells are halved.
+/// A cell about m with the half width h contains none if |A(m)| > max|A'| h, and at most one, shown by the
+/// signs at its ends, if |A'(m)| > max|A''| h. All other cells are halved.
 fn zeros_of_acceleration(drive: &Drive, times: &mut Vec<f64>) {
     let (bounds, harmonic) = (drive.bounds(), drive.highest_harmonic());
-    // Of a platform that does not accelerate each acceleration is zero.
+    // Without acceleration every time is a zero.
     if bounds.acceleration == 0.0 {
         return;
     }
@@ -334,15 +334,15 @@ fn zeros_of_acceleration(drive: &Drive, times: &mut Vec<f64>) {
 }
 
 impl DrivenMap {
-    /// The velocity that the platform must have at the impact of an orbit with one impact every k periods.
+    /// The velocity of the platform at the impact of an orbit with one impact every k periods.
     fn velocity_of_one_impact(&self, platform_periods: u64) -> f64 {
         let r = self.restitution();
         PI * platform_periods as f64 * ((1.0 - r) / (1.0 + r))
     }
 
-    /// The orbit of one impact at this phase with its errors; `family` is the length of the stretch if the
-    /// orbit belongs to one. `None` if an earlier impact occurs, the disk does not leave the platform, or the
-    /// impact is on a kink.
+    /// The one-impact orbit at this phase with its errors; `family` is the length of the family's stretch, if
+    /// the orbit belongs to one. `None` if an earlier impact occurs, the disk does not leave the platform, or
+    /// the impact is on a kink.
     fn orbit_of_one_impact(
         &self,
         phase: f64,
