@@ -23,7 +23,7 @@ const DISTANCES: usize = 15;
 /// far slower ones, in which the disk hardly leaves the platform.
 const LEAST_SPEED: f64 = 0.5;
 
-/// Starts along each axis of this search.
+/// Starts along each axis of the search for the initial orbit.
 const STARTS: u32 = 16;
 
 /// The first and the largest step of the arclength.

@@ -64,7 +64,7 @@ fn bits(event: &SweepEvent) -> Vec<u64> {
     }
 }
 
-/// The first events of an orbit, each with the number of events of its visitor.
+/// The first events of an orbit, each with its visitor's count of events.
 fn expected(orbit: &Orbit, most: usize) -> Vec<Vec<u64>> {
     let mut orbit = orbit.clone();
     let mut events = Vec::new();
@@ -78,7 +78,7 @@ fn expected(orbit: &Orbit, most: usize) -> Vec<Vec<u64>> {
 
 #[test]
 fn a_sweep_shows_the_events_of_single_orbits() {
-    // Orbits that are done early, and some that outlive all others.
+    // Orbits that end early, and a few that outlive all others.
     let most = |index: usize| if index.is_multiple_of(97) { 600 } else { 20 + index % 50 };
     for count in [1, 11, 12, 64, 65, 4_000] {
         let orbits = orbits(count);

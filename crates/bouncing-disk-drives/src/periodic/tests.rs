@@ -23,9 +23,9 @@ fn guess(phase: f64, restitution: f64) -> [ImpactState; 1] {
 /// Distances from a fold, relative.
 const OFFSETS: [f64; 5] = [1e-12, 1e-11, 1e-10, 1e-9, 1e-8];
 
-/// By hand: an orbit of one impact needs the velocity c = pi (1 - r)/(1 + r) of the platform. A smooth velocity
-/// with the maximum c (1 + d) and the curvature -q there has it at sqrt(2 c d/q) on both sides, where the
-/// multiplier 1 is passed with the acceleration: a node later, a saddle earlier.
+/// By hand: an orbit of one impact needs the velocity c = pi (1 - r)/(1 + r) of the platform. A smooth
+/// velocity with the maximum c (1 + d) and the curvature -q there reaches it at sqrt(2 c d/q) on both sides.
+/// The multiplier passes 1 with the acceleration: the later orbit is a node, the earlier a saddle.
 #[test]
 fn beside_a_smooth_fold_there_are_two_orbits_or_none() {
     const AHEAD: f64 = 0.7;
@@ -47,7 +47,7 @@ fn beside_a_smooth_fold_there_are_two_orbits_or_none() {
                     let from_middle = phase_difference(orbit.states[0].phase().angle(), (middle + TAU) % TAU);
                     let kind = if from_middle > 0.0 { Stability::Stable } else { Stability::Unstable };
                     assert_eq!(orbit.stability(), kind, "{case}");
-                    // The amplitudes are rounded by some 1e-16.
+                    // The amplitudes are rounded by about 1e-16.
                     let room = 1e-4 + 2e-15 / offset;
                     assert!((from_middle.abs() / apart - 1.0).abs() < room, "{case} {from_middle} {apart}");
                 }
@@ -65,7 +65,7 @@ fn beside_a_smooth_fold_there_are_two_orbits_or_none() {
                 }
                 assert_eq!(found(&at(-offset), 1, 6), [], "{case}");
             }
-            // Without restitution the disk does not leave where the acceleration is about zero.
+            // Without restitution the disk does not leave while the acceleration is about zero.
             assert_eq!(found(&driven(drive(PI / maximum * (1.0 + 1e-10)), 0.0), 1, 6), []);
             let kinds: Vec<_> =
                 found(&driven(drive(fold), restitution), 1, 6).iter().map(PeriodicOrbit::stability).collect();
@@ -77,8 +77,8 @@ fn beside_a_smooth_fold_there_are_two_orbits_or_none() {
     }
 }
 
-/// By hand: the velocity of the parabolas is 8 a/(2 pi) - B |t| about 0, B = 32 a/(2 pi)^2, and their fold has a
-/// corner: beside it c d/B on both sides, with the traces 1 + r^2 -+ (1 + r)^2 B.
+/// By hand: the velocity of the parabolas is 8 a/(2 pi) - B |t| about 0, B = 32 a/(2 pi)^2, and their fold
+/// has a corner: near it the orbits are c d/B away on both sides, with the traces 1 + r^2 -+ (1 + r)^2 B.
 #[test]
 fn beside_the_fold_of_parabolas_there_are_two_orbits_or_none() {
     for restitution in [0.0, 0.5, 0.95] {
@@ -88,7 +88,7 @@ fn beside_the_fold_of_parabolas_there_are_two_orbits_or_none() {
             let at = |offset: f64| driven(Drive::parabolas(fold * (1.0 + offset)), restitution);
             let own = found(&at(offset), 1, 6);
             let case = format!("{restitution} {offset:e}: {own:?}");
-            // Without restitution the disk only leaves where the platform falls away.
+            // Without restitution the disk leaves only if the platform falls away.
             assert_eq!(own.len(), if restitution == 0.0 { 1 } else { 2 }, "{case}");
             let bend = 32.0 * fold * (1.0 + offset) / (TAU * TAU);
             for orbit in &own {
@@ -123,7 +123,7 @@ fn beside_the_fold_of_parabolas_there_are_two_orbits_or_none() {
     }
 }
 
-/// By hand: a triangle has the velocity c all along or nowhere.
+/// By hand: on a triangle the velocity is c throughout or nowhere.
 #[test]
 fn on_a_triangle_there_is_a_family_or_no_orbit() {
     for restitution in [0.5, 0.95] {
@@ -191,7 +191,7 @@ fn members_of_a_family_across_the_seam_are_refined() {
     }
 }
 
-/// Folds of longer orbits of the sine, where its own equations place them, on the sine as a drive.
+/// Folds of longer orbits of the sine as a drive, at the places given by the sine's own equations.
 #[test]
 fn beside_folds_of_longer_orbits_there_are_two_or_none() {
     let sine = |forcing: f64, restitution: f64| {
@@ -217,7 +217,7 @@ fn beside_folds_of_longer_orbits_there_are_two_or_none() {
                     );
                     let map = map.expect("legal");
                     let exact = sine(at * (1.0 + share), restitution);
-                    // A guess on each side of the fold, and in it.
+                    // A guess on each side of the fold, and at it.
                     let mut known: Vec<PeriodicOrbit> = Vec::new();
                     for by in [-1e-3, -1e-5, 0.0, 1e-6, 1e-4] {
                         let moved = moved(states, &vec![DVec2::new(by, 0.0); states.len()]).expect("legal");
@@ -249,14 +249,14 @@ fn beside_folds_of_longer_orbits_there_are_two_or_none() {
     assert!(folds > 3 && two == OFFSETS.len() * folds, "{folds} {two}");
 }
 
-/// The number of orbits only changes in pairs, and one that rounding decides about is marginal.
+/// The number of orbits changes only in pairs, and an orbit that depends on rounding is marginal.
 #[test]
 fn contacts_that_take_time_have_two_orbits_or_none_beside_a_fold() {
     let restitution = 0.5;
     let at = |amplitude: f64| {
         let map = driven(Drive::fourier(&[(amplitude, 0.0)]), restitution).with_contact_time(0.1);
         let mut own = found(&map.expect("legal"), 1, 10);
-        // Beside those that hardly leave the platform.
+        // Without the orbits that hardly leave the platform.
         own.retain(|orbit| orbit.states[0].velocity() < -1.0);
         own
     };
@@ -277,7 +277,7 @@ fn contacts_that_take_time_have_two_orbits_or_none_beside_a_fold() {
             _ => panic!("{middle} {kinds:?}"),
         }
     }
-    // What rounding decides about is no more than that.
+    // Rounding decides nothing beyond this.
     for offset in OFFSETS {
         assert_eq!((at(low - offset).len(), at(high + offset).len()), (0, 2), "{low} {high} {offset:e}");
     }
@@ -314,7 +314,7 @@ fn orbits_have_the_order_that_is_documented() {
     }
 }
 
-/// Beside the first doubling, which has a closed form, the orbit of two impacts that the normal form has.
+/// Near the first doubling, which has a closed form, the two-impact orbit agrees with the normal form.
 #[test]
 fn beside_a_doubling_there_is_the_doubled_orbit_or_none() {
     for restitution in [0.3, 0.8] {

@@ -9,7 +9,7 @@ use crate::numerics::testing::stored;
 use crate::orbits::periodic::catalogue::OrbitSearch;
 use crate::sweep::bouncing_map::BouncingMap as _;
 
-/// A search that is quick.
+/// A quick search.
 fn quick(starts: u32) -> AttractorSearch {
     let search = AttractorSearch::default().with_starts(starts).expect("legal");
     search.with_impacts(1_000, 20_000).expect("legal").with_orbits(None)
@@ -25,7 +25,7 @@ fn periods(found: &Attractors) -> Vec<(usize, u64)> {
 
 #[test]
 fn the_attractors_along_the_paper_s_route() {
-    // Below 1/pi the platform never falls away, and below 1/3 there is nothing but rest.
+    // Below 1/pi the platform never falls away, and below 1/3 rest is the only motion.
     let weak = found(0.2, 0.5, 300);
     assert_eq!(weak.all().len(), 1);
     assert!(matches!(weak.all()[0].kind, AttractorKind::Rest(AfterRest::StaysForEver)));
@@ -46,7 +46,7 @@ fn the_attractors_along_the_paper_s_route() {
     };
     assert!(*exponent > 0.05 && *standard_error < 0.1 * exponent, "{exponent} {standard_error}");
     assert!(recurrence.cells.contains(recurrence.state));
-    // None of the orbits that were followed beside it has left.
+    // None of the orbits followed near it has left.
     assert_eq!((recurrence.impacts, recurrence.orbits), (21_000, 1_024));
     assert!(chaos.starts.count() > 30 && rest.starts.count() > 30);
     let gone = found(0.6, 0.5, 300);
@@ -72,7 +72,7 @@ fn marginal_orbits_are_neither_multiplied_nor_invented() {
     assert_eq!(fold.kind.to_string(), "marginal periodic orbit: impacts 1, platform periods 1");
 }
 
-/// What comes to rest again and again says whether its numbers are those of exact arithmetic.
+/// A cycle of rests states whether its numbers hold in exact arithmetic.
 #[test]
 fn a_cycle_that_rounding_chose_is_not_named() {
     let own = found(0.9, 0.8, 20);
@@ -84,7 +84,7 @@ fn a_cycle_that_rounding_chose_is_not_named() {
     assert_eq!(cycle.is_exact(), exact.all()[0].kind.to_string().contains("platform periods"));
 }
 
-/// A window up to the speed 6 missed this one at 8.9.
+/// A window up to the speed 6 missed this orbit at 8.9.
 #[test]
 fn a_fast_orbit_is_found_with_its_share_of_the_region() {
     let own = found(0.9, 0.8, 1_000);
@@ -99,7 +99,7 @@ fn a_fast_orbit_is_found_with_its_share_of_the_region() {
     assert!(low < eight.starts.value() && eight.starts.value() < high);
 }
 
-/// Candidates need no start, and have none.
+/// Candidates need no starts, and none are counted for them.
 #[test]
 fn without_starts_there_are_the_candidates() {
     let nodes = found(0.9, 0.8, 0);
@@ -127,24 +127,24 @@ fn the_ends_of_the_parameters_have_their_attractors() {
             assert!(matches!(own.all()[0].kind, AttractorKind::Rest(AfterRest::StaysForEver)));
         }
     }
-    // Without restitution one orbit, that of the separation, is all there is beyond rest.
+    // Without restitution there is only one motion apart from rest: the orbit from the separation.
     let plastic = found(1.05, 0.0, 200);
     assert!(plastic.undecided().count() == 0, "{plastic:?}");
-    // A strong forcing: all starts rest, after rounds of hundreds of periods that rounding chooses.
+    // Strong forcing: all starts rest, after rounds of hundreds of periods chosen by rounding.
     let strong = found(20.0, 0.5, 100);
     assert_eq!((strong.all()[0].starts.count(), strong.undecided().count()), (100, 0), "{strong:?}");
-    // Little is lost in an impact: chaos.
+    // Little dissipation: chaos.
     let elastic = found(2.0, 0.9, 50);
     assert!(elastic.all().iter().any(|own| own.kind.recurrence().is_some()), "{elastic:?}");
     assert_eq!(elastic.undecided().count(), 0);
 }
 
-/// All motions without a period of this map.
+/// All aperiodic motions found.
 fn aperiodic(found: &Attractors) -> Vec<&Attractor> {
     found.all().iter().filter(|one| one.kind.recurrence().is_some()).collect()
 }
 
-/// The share of the starts that are at rest after so many impacts, by following each of them.
+/// The share of the starts that are at rest after `impacts` impacts, by following each of them.
 fn at_rest_after(map: &ImpactMap, impacts: u64) -> Fraction {
     let impacts = impacts as usize;
     let orbits: Vec<_> = super::starts::starts(map, 300)
@@ -155,8 +155,8 @@ fn at_rest_after(map: &ImpactMap, impacts: u64) -> Fraction {
     Fraction::new(lives.iter().filter(|life| **life < impacts).count() as u64, 300).expect("a share")
 }
 
-/// Orbits leave these motions after some ten thousand to a hundred thousand impacts. Each was called an
-/// attractor, with a share of up to 0.99, since one orbit had stayed for 100,000.
+/// Orbits leave these motions after about 10,000 to 100,000 impacts. Each was once reported as an attractor,
+/// with a share of up to 0.99, because one orbit had stayed for 100,000.
 #[test]
 fn transients_have_a_mean_life_and_do_not_last() {
     let search = AttractorSearch::default().with_orbits(None).with_starts(300).expect("legal");
@@ -168,21 +168,21 @@ fn transients_have_a_mean_life_and_do_not_last() {
         };
         assert!(*exponent > 1.0 && !transient.kind.lasts() && recurrence.impacts == 102_000);
         assert!(transient.kind.to_string().starts_with("chaotic transient: exponent 1."));
-        // The starts that it has lost agree with the mean life of orbits that began on it: those that are
-        // still there are at most as many as an exponential law leaves of all starts.
+        // The lost starts agree with the mean lifetime of orbits that began on it: at most as many starts
+        // remain as an exponential law leaves.
         let (shortest, longest) = lifetime.interval();
         let stay = |life: f64| crate::numerics::elementary::exp(-102_000.0 / life);
         let (low, high) = transient.starts.interval();
         assert!(low <= stay(longest) && high >= 0.5 * stay(shortest), "{forcing}: {low} {high} {lifetime}");
-        // The share at rest is that of all starts, each followed by itself.
+        // The share at rest agrees with following every start by itself.
         let (low, high) = at_rest_after(found.map(), 102_000).interval();
         let rest = found.all()[0].starts.value();
         assert!(low <= rest && rest <= high, "{forcing} {restitution}: {low} {rest} {high}");
     }
 }
 
-/// Little is lost in an impact: what looks like chaos for most starts ends on orbits of three impacts or at
-/// rest, all of 24 starts within a million impacts.
+/// With little dissipation most starts look chaotic, but end on orbits of three impacts or at rest: all of 24
+/// starts within a million impacts.
 #[test]
 fn a_transient_may_end_on_orbits() {
     let map = map(0.459_018_560_304_461_86, 0.965_275_735_361_566);
@@ -201,8 +201,8 @@ fn a_transient_may_end_on_orbits() {
     assert!(three(3) > 10 && three(24) > 2, "{found:?}");
 }
 
-/// Just below a fold orbits creep past the place of the orbits to come for up to some millions of impacts:
-/// that is no attractor.
+/// Just below a fold, orbits creep past the place of the future orbits for up to a few million impacts: this
+/// is not an attractor.
 #[test]
 fn slow_passages_are_undecided() {
     let search = AttractorSearch::default().with_orbits(None);
@@ -210,13 +210,13 @@ fn slow_passages_are_undecided() {
         let map = map((1.0 - below) / 3.0, 0.5);
         let found = map.attractors(&search, &Unobserved).expect("no failure");
         assert_eq!(found.all().len(), 1, "{below:e}: {found:?}");
-        // A passage takes some 1e5 impacts at 1e-10, ten times as many at 1e-12.
+        // A passage takes about 1e5 impacts at 1e-10, ten times as many at 1e-12.
         assert_eq!(found.undecided().count() > 0, below < 1e-9, "{below:e}: {found:?}");
     }
 }
 
-/// A small budget leaves starts undecided. The starts of a transient are counted after the impacts that it
-/// states, however few the budget allows.
+/// A small budget leaves starts undecided. The starts of a transient are counted after its stated number of
+/// impacts, however few the budget allows.
 #[test]
 fn a_budget_bounds_the_search() {
     let search = AttractorSearch::default().with_orbits(None).with_starts(300).expect("legal");
@@ -244,7 +244,8 @@ fn a_budget_bounds_the_search() {
     }
 }
 
-/// Legal settings at their ends lose no start, and cells too fine to be visited twice claim nothing.
+/// Settings at the ends of their ranges lose no start, and cells too fine to be visited twice lead to no
+/// claim.
 #[test]
 fn extreme_settings_are_honest() {
     let search = AttractorSearch::default().with_orbits(None).with_starts(40).expect("legal");
@@ -263,8 +264,8 @@ fn extreme_settings_are_honest() {
     assert!(aperiodic(&unknown).is_empty() && unknown.undecided().count() == 40, "{unknown:?}");
 }
 
-/// At restitution 0.99 dissipation ends a transient within some 500 impacts. Orbits that stay for 401 impacts prove
-/// nothing; orbits that stay for 2,001 do.
+/// At restitution 0.99 dissipation ends a transient within about 500 impacts. Orbits that stay for 401
+/// impacts prove nothing; orbits that stay for 2,001 do.
 #[test]
 fn a_motion_that_dissipation_has_not_acted_on_is_no_attractor() {
     let search = AttractorSearch::default().with_orbits(None).with_starts(40).expect("legal");
@@ -281,7 +282,7 @@ fn a_motion_that_dissipation_has_not_acted_on_is_no_attractor() {
     }
 }
 
-/// The disk that comes to rest may never do so again.
+/// A disk that comes to rest may never do so again.
 #[test]
 fn a_rest_that_leads_elsewhere_says_where() {
     // The published statement that the disk always rests again fails here (data/literature/README.md).
@@ -294,7 +295,7 @@ fn a_rest_that_leads_elsewhere_says_where() {
     let target = &own.all()[number];
     assert!(!own.all()[0].kind.lasts() && target.kind.lasts());
     assert_eq!(own.lasting().count(), own.all().len() - 1);
-    // The orbit from rest ends there.
+    // The orbit from rest ends on this attractor.
     let vibration = own.map().vibration();
     let leaves = vibration.separation_phase().expect("P > 1");
     let launch = crate::Launch::new(leaves, 0.0).expect("legal");
@@ -345,8 +346,7 @@ fn labels_are_the_same_in_every_window_and_for_one_start() {
     assert_eq!((own.labelled(UNDECIDED), own.labelled(255)), (None, None));
 }
 
-/// The labels of single starts are those of the basins of known orbits, for every policy and count of
-/// impacts.
+/// Labels of single starts agree with the basins of known orbits, for every policy and number of impacts.
 #[test]
 fn labels_of_starts_are_those_of_known_orbits() {
     let own = found(0.486, 0.5, 500);
@@ -371,8 +371,8 @@ fn basin_fractions(forcings: &[f64], observer: &dyn Observer) -> Result<over_for
     over_forcing::basin_fractions_over(0.5, forcings, &quick(200), 0.3, observer)
 }
 
-/// Period 1 from 1/3 on, its doubling to period 2, which goes on, and the orbit of four impacts from 0.4841
-/// to 0.4883 (docs/errata.md).
+/// Period 1 from 1/3 on, its doubling to period 2, under the same number, and the orbit of four impacts from
+/// 0.4841 to 0.4883 (docs/errata.md).
 #[test]
 fn attractors_are_followed_over_the_forcing() {
     let forcings = [0.32, 0.35, 0.40, 0.45, 0.48, 0.486, 0.487, 0.50, 0.52];
@@ -390,13 +390,13 @@ fn attractors_are_followed_over_the_forcing() {
     assert_eq!(periods, [0, 1, 1, 1, 1, 1, 2, 2, 2]);
     assert!(over.at.iter().all(|at| at.moved[0].is_none()));
     assert!(over.at[2].moved[1].is_some_and(|moved| moved > 0.0 && moved < 0.3));
-    // Cut anywhere, stored and gone on with: the very same.
+    // Cut anywhere, stored and continued: the same result.
     for cut in 0..=forcings.len() {
         let begun = stored(&basin_fractions(&forcings[..cut], &Unobserved).expect("no failure"));
         let extended = begun.extended(&forcings[cut..], &quick(200), 0.3, &Unobserved).expect("no failure");
         assert_eq!(extended, over, "cut at {cut}");
     }
-    // Nothing is within no reach, and there is nothing over no forcing.
+    // With zero reach nothing is matched, and without forcings there is no result.
     let apart = over_forcing::basin_fractions_over(0.5, &[0.4, 0.41], &quick(50), 0.0, &Unobserved)
         .expect("no failure");
     assert_eq!(apart.followed.len(), 3);
@@ -410,7 +410,7 @@ fn attractors_are_followed_over_the_forcing() {
     }
 }
 
-/// Of two that lie near an old one the nearer goes on as it, whatever their order, and the other appears.
+/// Of two attractors near an old one, the nearer continues it, whatever their order, and the other appears.
 #[test]
 fn an_attractor_goes_on_as_one() {
     let own = found(0.486, 0.5, 500);
@@ -421,7 +421,7 @@ fn an_attractor_goes_on_as_one() {
     assert_eq!(matches, [None, None, Some((1, 0.0))]);
     let matches = over_forcing::matched(&old, &[None, four, single.clone()], (10.0, 1.5));
     assert_eq!(matches, [None, Some((1, 0.0)), None]);
-    // One that is nobody's takes no other's place.
+    // An unmatched attractor does not take another's place.
     let matches =
         over_forcing::matched(&[None, single.clone(), single.clone()], &[None, single], (10.0, 1.5));
     assert_eq!(matches, [None, Some((1, 0.0))]);

@@ -21,7 +21,7 @@ fn of(map: ImpactMap, start: ImpactState) -> Verdict {
     map.verdict(start, short()).expect("no failure")
 }
 
-/// Random parameters and starts of the whole range that the disk can have.
+/// Random parameters and starts over the whole range possible for a disk.
 fn random_starts(count: usize, seed: u64) -> Vec<(ImpactMap, ImpactState)> {
     let mut random = SplitMix64::new(seed);
     (0..count)
@@ -32,7 +32,7 @@ fn random_starts(count: usize, seed: u64) -> Vec<(ImpactMap, ImpactState)> {
         .collect()
 }
 
-/// Random parameters where the period-1 orbit has been born, and not long ago.
+/// Random parameters not far beyond the birth of the period-1 orbit.
 fn starts_near_orbits(count: usize, seed: u64) -> Vec<(ImpactMap, ImpactState)> {
     let mut random = SplitMix64::new(seed);
     (0..count)
@@ -64,13 +64,13 @@ fn the_verdicts_of_known_attractors() {
     else {
         panic!("{verdict:?}")
     };
-    // From one impact in three periods to as many as there are impacts.
+    // Between 0.3 and 1.5 periods per impact.
     assert!((0.2..0.5).contains(&exponent) && (0.001..0.03).contains(&standard_error), "{verdict:?}");
     assert!((600..3_000).contains(&platform_periods), "{verdict:?}");
 }
 
-/// Orbits of chaos that return to within the tolerance after some 240 impacts: the cycle beside them repels by 1e18,
-/// and the determinant of its monodromy matrix is all rounding.
+/// Chaotic orbits that return to within the tolerance after about 240 impacts: the neighbouring cycle repels
+/// by 1e18, and the determinant of its monodromy matrix is pure rounding error.
 #[test]
 fn a_return_of_a_chaotic_orbit_is_no_periodic_orbit() {
     let start = ImpactState::from_normalised(0.4, 1.4).expect("legal");
@@ -101,7 +101,7 @@ fn a_chattering_cycle_is_that_of_the_orbit_from_the_separation() {
     assert!(cycle.is_exact() && cycle.rounding_error < 1e-12 && cycle.long_flights == 0, "{cycle:?}");
 }
 
-/// What is returned as a periodic orbit moves, attracts, and does not chatter to rest.
+/// A periodic orbit in a verdict moves, attracts, and does not chatter to rest.
 #[test]
 fn periodic_verdicts_are_of_orbits_that_bounce_for_ever() {
     let mut starts = random_starts(1_000, 11);
@@ -118,7 +118,7 @@ fn periodic_verdicts_are_of_orbits_that_bounce_for_ever() {
         assert_ne!(map.basin_label(state, &[], settings), Ok(ATTACHED), "{map:?} {verdict:?}");
         let label = map.basin_label(*start, &[], settings).expect("no failure");
         assert_eq!(label == ATTACHED, rests == 1, "{map:?} {start:?} {verdict:?}");
-        // Around once by single steps, and no sooner.
+        // One round by single steps, and not earlier.
         let mut at = state;
         for step in 1..=impacts {
             at = map.step(at).expect("flies").into();
@@ -129,7 +129,7 @@ fn periodic_verdicts_are_of_orbits_that_bounce_for_ever() {
     assert!(seen > 50, "{seen}");
 }
 
-/// The search of `settled_orbit` shares nothing with the verdict's but Newton's iteration.
+/// The search of `settled_orbit` shares only Newton's iteration with the search of the verdict.
 #[test]
 fn periodic_verdicts_are_those_of_settled_orbits() {
     let starts = starts_near_orbits(400, 5);
@@ -145,7 +145,7 @@ fn periodic_verdicts_are_those_of_settled_orbits() {
             }
             // A transient longer than the impacts allowed.
             (Some(_), _) => missed += 1,
-            // An orbit from a rest on, or one that is approached too slowly for a comparison of states.
+            // An orbit after a rest, or one approached too slowly for a comparison of states.
             (None, Verdict::Periodic { rests, multipliers, .. }) => {
                 assert!(*rests == 1 || multipliers.spectral_radius() > 0.999, "{map} {start} {verdict:?}");
             }
@@ -155,8 +155,8 @@ fn periodic_verdicts_are_those_of_settled_orbits() {
     assert!(periodic > 30 && missed <= periodic / 20, "{periodic} found, {missed} missed");
 }
 
-/// An exact cycle keeps its impacts when its first one is moved by a few roundings, one chosen by rounding
-/// does not.
+/// An exact cycle keeps its impacts when its first one is moved by a few roundings; a cycle chosen by
+/// rounding does not.
 #[test]
 fn exact_cycles_do_not_hang_on_rounding() {
     let starts = random_starts(1_000, 3);
@@ -210,7 +210,7 @@ fn verdicts_in_lockstep_are_those_of_single_orbits() {
     }
 }
 
-/// The verdicts come in their order, whatever is stopped; what was taken before the stop stays.
+/// The verdicts arrive in order wherever the call is stopped; those received before the stop remain.
 #[test]
 fn a_call_of_many_blocks_can_be_stopped_and_keeps_no_verdict() {
     const TOGETHER: usize = <ImpactMap as BouncingMap>::TOGETHER;
@@ -228,7 +228,7 @@ fn a_call_of_many_blocks_can_be_stopped_and_keeps_no_verdict() {
     each_verdict(count, start, short(), &Unobserved, each).expect("no failure");
     assert_eq!((seen, rests), (count, count - count.div_ceil(5)));
     let mut seen = 0;
-    // Two calls of each block at least.
+    // At least two calls in each block.
     let stopped = each_verdict(count, start, short(), &StopAfter::calls(5), |_| seen += 1);
     let Err(Error::Stopped { done, total }) = stopped else { panic!("{stopped:?}") };
     assert!(seen % TOGETHER == 0 && seen <= 2 * TOGETHER && total == count as u64, "{seen} {total}");
@@ -240,8 +240,8 @@ fn long(map: ImpactMap, start: ImpactState) -> Verdict {
     map.verdict(start, VerdictSettings::default()).expect("no failure")
 }
 
-/// The orbit of a fold has the multipliers 1 and r^2, that of a doubling -1 and -r^2: whoever starts there
-/// stays there.
+/// The orbit of a fold has the multipliers 1 and r^2, the orbit of a doubling -1 and -r^2: a start on it
+/// stays on it.
 #[test]
 fn the_orbit_of_a_fold_or_a_doubling_is_neutral() {
     for (forcing, restitution, sign) in [
@@ -320,7 +320,7 @@ fn what_repels_or_may_end_is_no_chaos() {
     assert_eq!(reason(of(map(0.5, 0.99), state(1.2, 1.3))), None);
 }
 
-/// The exponent is the one that is computed without a verdict, of a chaotic orbit that has not come to rest.
+/// The exponent equals the one computed without a verdict, for a chaotic orbit that has not come to rest.
 #[test]
 fn the_exponent_of_chaos_is_that_of_the_spectrum() {
     let start = (map(0.55, 0.5), state(1.2, 1.3));
@@ -333,7 +333,7 @@ fn the_exponent_of_chaos_is_that_of_the_spectrum() {
     );
 }
 
-/// Next to the doubling the orbit is approached too slowly to return within the tolerance.
+/// Near the doubling the orbit is approached too slowly to return within the tolerance.
 #[test]
 fn next_to_a_doubling_the_period_is_the_right_one_or_none() {
     let forcing = ImpactMap::first_doubling_forcing(0.5);
@@ -398,12 +398,12 @@ fn seams_have_verdicts() {
     let verdict = of(map(0.45, 0.5), saddle.expect("legal"));
     let near_saddle = matches!(verdict, Verdict::Periodic { state, .. } if state.phase().angle() > PI);
     assert!(!near_saddle, "{verdict:?}");
-    // Faster than any flight that can be followed.
+    // Faster than any allowed flight.
     let fast = map(0.45, 0.5).verdict(state(1.0, 1e50), short());
     assert!(matches!(fast, Err(Error::FlightTooLong { .. })), "{fast:?}");
 }
 
-/// Without restitution the orbit is a sequence of rests, or one that is decided by the phase alone.
+/// Without restitution the orbit is a sequence of rests, or determined by the phase alone.
 #[test]
 fn without_restitution_every_start_has_a_verdict() {
     let starts: Vec<_> = (0..600).map(|k| (map(0.32 + 0.005 * f64::from(k), 0.0), state(1.2, 1.3))).collect();

@@ -29,7 +29,7 @@ fn displacement(map: &ImpactMap, from: ImpactState, to: ImpactState) -> DVec2 {
     DVec2::new(phase, (to.velocity() - from.velocity()) / (1.0 + map.vibration().peak_acceleration()))
 }
 
-/// How near an orbit comes to a state within so many impacts.
+/// The smallest distance of an orbit from a state.
 fn nearest(map: &ImpactMap, start: ImpactState, target: ImpactState, kind: ManifoldKind) -> f64 {
     let mut nearest = f64::INFINITY;
     let mut state = start;
@@ -47,8 +47,8 @@ fn nearest(map: &ImpactMap, start: ImpactState, target: ImpactState, kind: Manif
     nearest
 }
 
-/// What grows by one map is checked by its inverse: every point of the unstable manifold came from the
-/// saddle, and every point of the stable one goes there.
+/// A manifold grown by one map is checked by the inverse: every point of the unstable manifold comes from the
+/// saddle, and every point of the stable one leads there.
 #[test]
 fn every_point_comes_from_the_saddle_or_goes_there() {
     for (forcing, restitution) in [(0.45, 0.5), (0.40, 0.5), (0.561, 0.5), (0.50, 0.6), (0.25, 0.8)] {
@@ -60,8 +60,8 @@ fn every_point_comes_from_the_saddle_or_goes_there() {
             let (mut points, mut worst) = (0, 0.0_f64);
             for branch in &manifold.branches {
                 assert!(branch.arclength > 0.0, "{map} {kind:?}");
-                // On the way back rounding grows by 1/r^2 in every flight: these saddles repel by more than
-                // 2, so that a dozen flights are all there are, and have no small restitution.
+                // Backwards, rounding errors grow by 1/r^2 in every flight. These saddles repel by more than
+                // 2, so there are at most a dozen flights, and their restitution is not small.
                 for state in branch.pieces.iter().flat_map(|piece| &piece.states) {
                     worst = worst.max(nearest(&map, *state, saddle.states[0], kind));
                     points += 1;
@@ -72,7 +72,7 @@ fn every_point_comes_from_the_saddle_or_goes_there() {
     }
 }
 
-/// Where the period-1 orbit attracts, the stable manifold of its partner separates it from rest.
+/// If the period-1 orbit attracts, the stable manifold of its partner separates it from rest.
 #[test]
 fn the_basin_changes_across_the_stable_manifold() {
     for (forcing, restitution) in [(0.40, 0.5), (0.45, 0.5), (0.47, 0.5)] {
@@ -104,8 +104,8 @@ fn the_basin_changes_across_the_stable_manifold() {
     }
 }
 
-/// Beyond the doubling the period-1 node has turned into a saddle with negative multipliers; what leaves it
-/// ends on the orbit of twice the period.
+/// Beyond the doubling the period-1 node has turned into a saddle with negative multipliers; its unstable
+/// manifold ends on the orbit of twice the period.
 #[test]
 fn a_negative_multiplier_takes_two_rounds() {
     let map = map(0.50, 0.5);
@@ -144,7 +144,7 @@ fn a_finer_polygon_is_the_same_curve() {
     }
 }
 
-/// Between two parts that are long enough to be divided the polygon turns by no more than was asked.
+/// Between two parts that are long enough to be divided the polygon turns by no more than requested.
 #[test]
 fn no_long_part_turns_by_more_than_was_asked() {
     let map = map(0.561, 0.5);
@@ -210,7 +210,7 @@ fn limits_end_a_branch_and_say_so() {
     for branch in grown(settings(0.5)) {
         assert!(branch.end == ManifoldEnd::Arclength && branch.arclength < 0.56);
     }
-    // Faster impacts are left out as they are asked for, and none else.
+    // Faster impacts, and only these, are omitted as requested.
     let bound = map.launch_speed_bound();
     let own = |state: &ImpactState| {
         (map.vibration().velocity(state.phase()) - map.restitution() * state.velocity()).abs()
@@ -249,7 +249,7 @@ fn what_is_no_saddle_has_no_manifold() {
     );
     let empty = PeriodicOrbit { states: Vec::new(), ..node };
     assert!(matches!(refused(&map, &empty, ManifoldKind::Stable), Error::OutOfRange { .. }));
-    // Restitution 0 has no way back, but a way out.
+    // Restitution 0 has no inverse, but an unstable manifold.
     let dead = self::map(1.3, 0.0);
     let orbit = dead.refine(&[dead.period_one(1).expect("exists")]).expect("an orbit");
     assert!(matches!(refused(&dead, &orbit, ManifoldKind::Stable), Error::OutOfRange { .. }));
@@ -262,7 +262,7 @@ fn settings_and_results_are_what_they_say() {
     stored(&legal.with_launch_speed(3.0).expect("legal"));
 }
 
-/// Next to its birth the saddle lies on the seam of the phase.
+/// Near its birth the saddle lies on the seam of the phase.
 #[test]
 fn a_saddle_at_the_seam_is_like_any_other() {
     let map = map(1.0 / 3.0 + 1e-6, 0.5);

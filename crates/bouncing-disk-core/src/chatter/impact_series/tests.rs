@@ -24,7 +24,7 @@ impl PowerSeries {
     }
 }
 
-/// Restitutions from nearly none to the largest that is legal.
+/// Restitutions from nearly zero to the largest legal one.
 const RESTITUTIONS: [f64; 10] = [
     1.0e-18,
     0.5,
@@ -53,7 +53,7 @@ impl Case {
     }
 }
 
-/// Launches with at most the largest speed that is accepted, at phases of every kind.
+/// Launches up to the largest accepted speed, at phases of every kind.
 fn cases(peak: f64, restitution: f64, count: u32) -> impl Iterator<Item = Case> {
     let vibration = Vibration::new(peak).expect("legal");
     (0..count).filter_map(move |k| {
@@ -75,12 +75,12 @@ fn cases(peak: f64, restitution: f64, count: u32) -> impl Iterator<Item = Case> 
     })
 }
 
-/// Every flight of the series, of which there are up to 4e17, ends on the platform, with the impact speed
-/// that the series says, and the next one starts with r times that: the gap itself, in 700 bits.
+/// Every flight of the series, of which there are up to 4e17, ends on the platform with the impact speed of
+/// the series, and the next one starts with r times this speed: checked by the gap itself, in 700 bits.
 #[test]
 fn impacts_of_the_series_lie_on_the_platform() {
     for restitution in RESTITUTIONS {
-        // Next to a separation the pull itself is known to a rounding of 1 only: see the momentum theorem.
+        // Near a separation the pull itself is only known to a rounding of 1: see the momentum theorem.
         for peak in [0.0, 1e-9, 0.5, 1.0] {
             for case in cases(peak, restitution, 24) {
                 let series = case.series();
@@ -99,7 +99,8 @@ fn impacts_of_the_series_lie_on_the_platform() {
                     let gap = &w * &h - &h * &h / high(2.0) + &p * (&h * &cos + sin - &later_sin);
                     let arrival = &h - &w - &p * (cos - later_cos);
                     let launch = &lost * series.launch_speed.at_high(&next);
-                    // The series leaves what the sum of section 4 does, and the pull is rounded.
+                    // The remainder of the series is the same as of the sum in section 4, and the pull is
+                    // rounded.
                     let pull = case.vibration.contact_force(case.phase);
                     let rounding = 1e-14 * (1.0 + peak / pull) + 1e-16 / series.duration;
                     for off in [gap / (&w * &h), arrival / &u - high(1.0), launch / (&r * &u) - high(1.0)] {
@@ -134,7 +135,7 @@ fn sums_obey_the_theorems_of_momentum_and_position() {
                     * t
                     * (0.5 * pull - t * (drift / 6.0 - t * (1.0 - pull) / 24.0 - t * t * drift / 120.0));
                 let sum = all.sum(&impulse);
-                // A truncated series leaves 1e-16 rad of the duration.
+                // Truncating the series changes the duration by 1e-16 rad.
                 let rounding = 1e-14 + 4e-16 / t.max(1e-300);
                 assert!(
                     (sum - (momentum - case.speed)).abs() <= rounding * momentum,
@@ -152,7 +153,7 @@ fn sums_obey_the_theorems_of_momentum_and_position() {
     }
 }
 
-/// The impacts are those that the solver of single flights finds one after the other.
+/// The impacts agree with the solver of single flights.
 #[test]
 fn impacts_of_the_series_are_those_of_single_flights() {
     for restitution in [0.3, 0.9, 0.99] {
@@ -170,7 +171,7 @@ fn impacts_of_the_series_are_those_of_single_flights() {
                     let impact = case.vibration.first_impact(launch).expect("returns");
                     time += impact.remainder;
                     let own = series.range(0, Some(impacts + 1)).change(series.remaining());
-                    // The phase of an impact is rounded, and all that is left of the chatter with it.
+                    // The phase of an impact is rounded, and with it the rest of the chatter.
                     let rounding = 1e-15 * (1.0 + peak) / (1.0 - restitution) + 1e-13 * series.duration();
                     assert!((own - time).abs() <= rounding, "{own} {time} {peak} {restitution}");
                     let u = (1.0 - restitution) * series.impact_speed().at(series.share(Some(impacts)));
@@ -208,8 +209,7 @@ fn the_series_counts_the_impacts_up_to_a_time() {
     }
 }
 
-/// However late the time and however many the impacts: the last impact is not later, the next one not
-/// earlier.
+/// For any time and any number of impacts, the last impact is not later, and the next one not earlier.
 #[test]
 fn the_impact_before_a_time_is_found_next_to_restitution_one() {
     for restitution in [1.0 - 1e-4, 1.0 - 1e-7, 1.0 - 1e-12, 1.0 - f64::EPSILON / 2.0] {
@@ -268,7 +268,7 @@ fn sums_over_few_impacts_do_not_cancel() {
     }
 }
 
-/// A path that turns: the impact that is found is the first below zero.
+/// A path that turns: the impact found is the first below zero.
 #[test]
 fn the_first_negative_impact_is_the_first() {
     let case = cases(0.5, 0.99, 1).next().expect("accepted");

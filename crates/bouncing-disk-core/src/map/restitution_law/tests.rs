@@ -10,7 +10,7 @@ const RESTITUTIONS: [f64; 6] = [5.0e-324, 1.0e-300, 1.0e-3, 0.5, 0.999, 1.0 - f6
 const SPEEDS: [f64; 9] =
     [5.0e-324, f64::MIN_POSITIVE, 1.0e-300, 1.0e-20, 1.0e-3, 1.0, 1.0e3, 1.0e150, f64::MAX];
 
-/// The impact speed at which r + x r^(3/5) = 1 has the solution r: what the law inverts.
+/// The impact speed at which r + x r^(3/5) = 1 has the solution r: the inverse of the law.
 fn speed_at(restitution: Dual64, (reference, speed): (f64, f64)) -> Dual64 {
     let x = |r: Dual64| (-r + 1.0) / r.powf(0.6);
     (x(restitution) / x(Dual64::from_re(reference))).powi(5) * speed
@@ -26,7 +26,7 @@ fn the_restitution_and_its_derivative_invert_the_speed() {
             let speed = speed_at(Dual64::from_re(restitution).derivative(), reference);
             let own = law.restitution(speed.re);
             assert!((own - restitution).abs() <= 1e-14 * restitution, "{own} {restitution}");
-            // Next to r = 1 the oracle's 1 - r is a difference.
+            // Near r = 1 the oracle's 1 - r is a difference.
             let product = law.derivative(speed.re) * speed.eps;
             assert!((product - 1.0).abs() <= 1e-12, "{product} {restitution}");
         }
@@ -51,8 +51,8 @@ fn what_is_lost_at_low_speed_goes_with_its_fifth_root() {
     }
 }
 
-/// A viscoelastic impact, followed through in time: xi'' = -xi^(3/2) - gamma xi^(1/2) xi' from xi = 0, xi' =
-/// 1 until the force is none. Nothing of the law is in it.
+/// A viscoelastic impact integrated in time: xi'' = -xi^(3/2) - gamma xi^(1/2) xi' from xi = 0, xi' = 1 until
+/// the force is zero. It is independent of the law.
 fn integrated_restitution(gamma: f64) -> f64 {
     let force = |x: f64, v: f64| if x > 0.0 { -(x + gamma * v) * x.sqrt() } else { 0.0 };
     let step = 2.0e-5;
@@ -71,7 +71,7 @@ fn integrated_restitution(gamma: f64) -> f64 {
 }
 
 /// x = C1 gamma at speed 1, with C1 = 1.15344 of the exact series (docs/numerics-dynamics.md); the third
-/// order is not that of the law.
+/// order differs from the law.
 #[test]
 fn the_law_has_two_orders_of_a_viscoelastic_impact() {
     for gamma in [0.01, 0.02, 0.05, 0.1, 0.2] {
@@ -117,7 +117,7 @@ fn the_law_is_legal_and_falls_up_to_the_limits_of_a_double() {
     }
 }
 
-/// A speed that is none has no restitution.
+/// NaN as a speed has no restitution.
 #[test]
 fn no_restitution_for_no_speed() {
     let law = KuwabaraKono::new(0.5, 1.0).expect("legal");

@@ -7,13 +7,13 @@ use crate::numerics::random::SplitMix64;
 
 type High = FBig<HalfEven, 2>;
 
-/// Exactly the number, with room for the operations of the oracle.
+/// The exact number, with precision to spare for the operations of the oracle.
 fn exact(x: DoubleDouble) -> High {
     let part = |x: f64| High::try_from(x).unwrap().with_precision(500).value();
     part(x.high) + part(x.low)
 }
 
-/// How far a number is from what it should be, relative to a size.
+/// The error of a number relative to a size.
 fn error(x: DoubleDouble, expected: &High, size: f64) -> f64 {
     ((exact(x) - expected).to_f64().value() / size).abs()
 }
@@ -52,7 +52,7 @@ fn sine_and_cosine_have_thirty_one_digits() {
     let mut random = SplitMix64::new(2);
     for k in 0..400 {
         let mut x = random_number(&mut random, 1.0);
-        // Next to every multiple of an eighth of a turn, where quadrant and series change.
+        // Near every multiple of an eighth of a turn, where quadrant and series change.
         if k % 2 == 0 {
             x = DoubleDouble::PI * DoubleDouble::from(0.25 * f64::from(k / 2 - 100))
                 + x * x * DoubleDouble::from(1e-18);
@@ -78,7 +78,7 @@ fn what_is_outside_the_range_is_no_number() {
     assert!(!(DoubleDouble::ONE / DoubleDouble::ZERO).is_finite());
 }
 
-/// The constants are those of the oracle, to the last bit.
+/// The constants agree with the oracle to the last bit.
 #[test]
 fn constants_are_rounded_from_more_digits() {
     let pi = High::pi(500);

@@ -7,8 +7,7 @@ use crate::numerics::double_double::DoubleDouble;
 use crate::orbits::periodic::Multipliers;
 use crate::run::Unobserved;
 
-/// The impacts that were found are an orbit of the impact map, and its multiplier is that of the map's own
-/// derivative.
+/// The impacts found are an orbit of the impact map, and the multiplier agrees with the map's own derivative.
 #[test]
 fn the_orbit_is_one_of_the_impact_map() {
     for restitution in [0.1, 0.5, 0.8] {
@@ -47,7 +46,7 @@ fn a_cascade_that_ends_at_a_graze_has_the_doublings_before() {
     }
 }
 
-/// One that ends early is done, too.
+/// A cascade that ends early is also reported as done.
 #[test]
 fn the_observer_hears_of_the_end() {
     use core::sync::atomic::{AtomicU64, Ordering};
@@ -62,7 +61,7 @@ fn the_observer_hears_of_the_end() {
     }
 }
 
-/// From next to nothing to next to one: found, or a typed error, never a number that is none.
+/// From nearly zero to nearly one: a result or a typed error, never NaN.
 #[test]
 fn every_restitution_has_an_answer() {
     for restitution in [
@@ -104,7 +103,7 @@ fn number(text: &str) -> DoubleDouble {
     text.parse().expect("a number")
 }
 
-/// Gamma_1 in closed form, as [`ImpactMap::first_doubling_forcing`].
+/// Gamma_1 in closed form, like [`ImpactMap::first_doubling_forcing`].
 fn first_doubling_forcing(r: DoubleDouble) -> DoubleDouble {
     let one = DoubleDouble::ONE;
     let sum = one + r;
@@ -113,7 +112,7 @@ fn first_doubling_forcing(r: DoubleDouble) -> DoubleDouble {
     (threshold * threshold + height * height).sqrt()
 }
 
-/// The search uses the closed form in doubles as its start alone: the digits beyond are its own.
+/// The search uses the closed form in doubles only as its start: the further digits are its own.
 #[test]
 fn the_first_doubling_is_its_closed_form() {
     for text in ["0.001", "0.1", "0.2", "0.3", "0.4", "0.5", "0.6", "0.7", "0.8", "0.9", "0.999"] {
@@ -124,7 +123,7 @@ fn the_first_doubling_is_its_closed_form() {
     }
 }
 
-/// Both constants lie in every interval that is stated, and every interval holds the next value.
+/// Both constants lie in every stated interval, and every interval contains the next value.
 #[test]
 fn the_constants_are_those_of_feigenbaum_and_each_error_is_confirmed() {
     for text in ["0.1", "0.5", "0.8"] {
@@ -145,7 +144,7 @@ fn the_constants_are_those_of_feigenbaum_and_each_error_is_confirmed() {
     }
 }
 
-/// The double-doubles are the oracle of the doubles: the same equations, 16 digits more.
+/// Double-doubles are the oracle of doubles: the same equations with 16 more digits.
 #[test]
 fn doubles_are_as_good_as_they_say() {
     for restitution in [0.05, 0.1, 0.25, 0.5, 0.7, 0.8, 0.9, 0.95, 0.99] {
@@ -163,8 +162,8 @@ fn doubles_are_as_good_as_they_say() {
     }
 }
 
-/// The forcings of a program that shares nothing with this one: mpmath with 50 digits, the impact map by
-/// shooting, and its derivative by differences over 1e-16, which leave 1e-26.
+/// The forcings from an independent program: mpmath with 50 digits, the impact map by shooting, and its
+/// derivative by differences over 1e-16, with an error of 1e-26.
 #[test]
 fn twenty_five_digits_are_those_of_an_independent_program() {
     for (restitution, index, forcing) in [
@@ -178,7 +177,7 @@ fn twenty_five_digits_are_those_of_an_independent_program() {
     }
 }
 
-/// Each doubling is a root, not what the way to it left.
+/// Each doubling is a root, whatever the path to it.
 #[test]
 fn the_multiplier_is_minus_one() {
     let cascade = doubling_cascade(number("0.5"), 13, &Unobserved).expect("found").doublings;

@@ -1,4 +1,4 @@
-//! Sweeps that are stopped or fail, and partial results.
+//! Stopped and failing sweeps, and partial results.
 
 use super::*;
 use crate::chatter::policy::ChatterPolicy;
@@ -60,7 +60,7 @@ fn stored_results_that_do_not_fit_are_refused() {
         let error = serde_json::from_str::<PartialResults<Option<f64>>>(text).expect_err(text).to_string();
         assert!(error.contains(complaint), "{error}");
     }
-    // No memory is asked for what is not there.
+    // No memory is reserved for missing results.
     let text = r#"{"total":18446744073709551615,"finished":[[0,null],[5,1.5]]}"#;
     let results = serde_json::from_str::<PartialResults<Option<f64>>>(text).expect("legal");
     assert_eq!((results.get(0), results.get(5), results.get(1)), (Some(&None), Some(&Some(1.5)), None));

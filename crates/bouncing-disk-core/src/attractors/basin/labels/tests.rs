@@ -1,4 +1,4 @@
-//! Grids that are observed, stopped and made in parts.
+//! Grids that are observed, stopped and computed in parts.
 
 use core::ops::ControlFlow;
 use core::sync::atomic::{AtomicU64, Ordering};
@@ -31,7 +31,7 @@ fn on<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
     rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("starts").install(work)
 }
 
-/// Also where every start is decided at once, and where one row holds all cells.
+/// Includes a grid whose starts are all decided at once, and one with all cells in one row.
 #[test]
 fn observers_hear_of_all_rows_and_often() {
     for (columns, rows, radius) in [(1, 1, 0.01), (3, 50, 0.01), (70, 131, 10.0), (30_000, 2, 10.0)] {
@@ -54,15 +54,15 @@ fn observers_hear_of_all_rows_and_often() {
     }
 }
 
-/// More known impacts than a batch is compared with at once: the first orbit that catches a start has it, and
-/// an observer is asked in between.
+/// More known impacts than a batch is compared with at once: the first orbit that captures a start decides
+/// its label, and the observer is called in between.
 #[test]
 fn many_known_orbits_are_compared_in_parts() {
     let (map, settings) = (map(), BasinSettings { max_impacts: 60, ..BasinSettings::default() });
     let orbit = known()[0].orbit().clone();
     let some = KnownOrbit::new(orbit.clone(), 0.02).expect("legal");
     let more = KnownOrbit::new(orbit.clone(), 0.05).expect("legal");
-    // Many impacts at the same two places that catch nothing.
+    // Many impacts at the same two places that capture nothing.
     let none = PeriodicOrbit { states: orbit.states.repeat(2_000), ..orbit };
     let none = KnownOrbit::new(none, f64::MIN_POSITIVE).expect("legal");
     for many in [1, 5] {
@@ -76,7 +76,7 @@ fn many_known_orbits_are_compared_in_parts() {
         let few = map.basins(grid(20, 10), &known[many..], settings, &Unobserved).expect("no failure");
         let labels = few.labels().iter().map(|&label| if label < FIRST_ORBIT { label } else { label + own });
         assert_eq!(at_once.labels(), labels.collect::<Vec<_>>());
-        // One batch is enough to be asked between the parts: one part is of 4,096 impacts.
+        // One batch is enough for a call between the parts, of 4,096 impacts each.
         let cell = StopAfter::calls(u64::MAX);
         map.basins(grid(1, 1), &known, settings, &cell).expect("no failure");
         assert!(many == 1 || cell.asked() > many as u64, "{}", cell.asked());

@@ -48,7 +48,7 @@ fn orbits_of_another_map_are_refused_by_all_that_take_one() {
         ]
     };
     assert!(refusals(&other).iter().all(|distance| *distance > 0.1));
-    // Nearly the same map; and one of another restitution, on which the disk comes to a rest at once.
+    // Nearly the same map; and a map with another restitution, on which the disk comes to rest at once.
     assert!(refusals(&map(0.2 * (1.0 + 1e-6), 0.8)).iter().all(|distance| *distance < 1e-3));
     assert!(misses(map(0.2, 0.8 + 1e-6).check_orbit(&node)) > 1e-7);
     assert!(misses(map(0.2, 0.0).check_orbit(&node)).is_infinite());
@@ -69,7 +69,7 @@ fn stored_results_with_orbits_of_another_map_are_refused() {
     assert!(error.contains("not an orbit of this map: after impact 1 "), "{error}");
 }
 
-/// Orbits of searches, refinements and branches, stable or not, beside folds and grazes, and read again.
+/// Orbits from searches, refinements and branches, stable or not, near folds and grazes, also after storing.
 #[test]
 fn own_orbits_are_never_refused() {
     let mut random = SplitMix64::new(64);

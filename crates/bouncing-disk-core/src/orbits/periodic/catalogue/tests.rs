@@ -17,8 +17,8 @@ fn found(map: &ImpactMap, impacts: usize, periods: u64, starts: u32) -> OrbitsFo
     map.periodic_orbits(&search, &Unobserved).expect("no failure")
 }
 
-/// Two flights of together 2 pi k, as a function of the first phase and the first duration: nothing of the
-/// map is in it.
+/// Two flights with a total duration of 2 pi k, as a function of the first phase and the first duration,
+/// independent of the map.
 struct TwoFlights {
     p: f64,
     r: f64,
@@ -37,7 +37,7 @@ impl TwoFlights {
         [(phase, h, self.launch(phase, h)), (second, rest, self.launch(second, rest))]
     }
 
-    /// What the law of restitution leaves over at both impacts.
+    /// The residual of the law of restitution at both impacts.
     fn residual(&self, phase: f64, h: f64) -> [f64; 2] {
         let [(t0, h0, u0), (t1, h1, u1)] = self.flights(phase, h);
         let left = |u: f64, before: f64, t: f64| u + self.r * before - (1.0 + self.r) * self.p * cos(t);
@@ -109,8 +109,8 @@ impl TwoFlights {
         None
     }
 
-    /// The solution as an orbit of the map: in which the exact map finds the same flights, that do not repeat
-    /// one another.
+    /// The solution as an orbit of the map, if the exact map finds the same flights and they do not repeat
+    /// each other.
     fn orbit(&self, map: &ImpactMap, (phase, h): (f64, f64)) -> Option<PeriodicOrbit> {
         let [(t0, h0, u0), (t1, h1, u1)] = self.flights(phase, h);
         let state = |t: f64, landing: f64| {
@@ -139,8 +139,8 @@ fn random_map(random: &mut SplitMix64) -> ImpactMap {
     map(0.1 + 2.9 * random.unit(), restitution)
 }
 
-/// Every orbit of two impacts that the search finds is among those of the independent equations, and the
-/// other way round.
+/// Every orbit of two impacts that the search finds is among those of the independent equations, and vice
+/// versa.
 #[test]
 fn orbits_of_two_impacts_are_those_of_the_independent_equations() {
     let mut random = SplitMix64::new(2);
@@ -189,13 +189,13 @@ fn orbits_of_one_impact_are_the_admissible_ones_of_the_closed_form() {
     assert!(compared > 100, "{compared}");
 }
 
-/// Whatever random starts settle on is in the list.
+/// Every orbit on which random starts settle is in the list.
 #[test]
 fn every_attractor_that_random_starts_settle_on_is_found() {
     let mut random = SplitMix64::new(3);
     let mut settled = 0;
     for k in (1..=3).cycle().take(21) {
-        // Around the forcings at which one impact every k periods attracts, and above.
+        // Near the forcings at which one impact every k periods attracts, and above.
         let restitution = 0.3 + 0.6 * random.unit();
         let birth = f64::from(k) * (1.0 - restitution) / (1.0 + restitution);
         let map = map(birth + 0.4 * random.unit(), restitution);
@@ -214,7 +214,7 @@ fn every_attractor_that_random_starts_settle_on_is_found() {
     assert!(settled > 60, "{settled}");
 }
 
-/// Before the fold of one impact there is no orbit, after it two, after one of two impacts four, after the
+/// Before the one-impact fold there is no orbit, after it two, after a two-impact fold four, after the
 /// doubling one more.
 #[test]
 fn orbits_are_born_in_pairs_and_by_doubling() {
@@ -271,7 +271,7 @@ fn seams_have_answers() {
     assert!(found(&map(0.0, 0.5), 3, 3, 8).orbits.is_empty());
     let at_rest = found(&map(0.2, 0.0), 2, 2, 8);
     assert_eq!((at_rest.orbits.len(), at_rest.coverage.resting_starts), (0, 64));
-    // Without restitution every impact is forgotten but for its phase: the closed form is the orbit.
+    // Without restitution every impact is forgotten except for its phase: the closed form is the orbit.
     let plastic = found(&map(1.05, 0.0), 1, 1, 16);
     assert_eq!(plastic.orbits.len(), 1, "{plastic:?}");
     let lossless = found(&map(0.1, 1.0 - f64::EPSILON / 2.0), 1, 2, 8);
@@ -286,8 +286,8 @@ fn the_largest_search_is_stored() {
     assert_eq!(search, stored(&search));
 }
 
-/// Every row that was still to come counted thousands of flights before it asked: a stop of a large search
-/// took half a minute.
+/// Each remaining row once counted thousands of flights before it called the observer: stopping a large
+/// search took half a minute.
 #[test]
 fn no_row_begins_after_a_stop() {
     let (map, search) = (map(0.5, 0.5), OrbitSearch::new(1, 1).expect("legal"));

@@ -46,7 +46,7 @@ fn the_exponents_of_a_periodic_orbit_are_those_of_its_multipliers() {
     let state = map.period_one(1).expect("exists");
     let (_, derivative) = map.step_with_derivative(state).expect("flies");
     let Multipliers::Real(large, small) = Multipliers::of(derivative) else { panic!("real") };
-    // The first impacts turn the directions into those of the multipliers: they are in both sums.
+    // The first impacts turn the directions into the eigendirections: they are in both sums.
     let sums = [1_000, 3_000].map(|impacts| {
         let outcome = lyapunov_spectra(&[(map, state)], 100, impacts, &Unobserved).expect("no failure")[0];
         let spectrum = *outcome.spectrum().expect("bounces on");
@@ -59,9 +59,9 @@ fn the_exponents_of_a_periodic_orbit_are_those_of_its_multipliers() {
     }
 }
 
-/// Of 100 orbits of one attractor 90 at least hold the exponent of far longer ones within 1.96 errors: in the
-/// midst of chaos, next to a crisis, where dissipation is weak, and in the bands of weak chaos. But for the
-/// bands, where neighbouring growths make up for each other, the error is not much more than the spread.
+/// For at least 90 of 100 orbits on one attractor, the exponent of far longer orbits lies within 1.96 errors:
+/// deep in chaos, near a crisis, with weak dissipation, and in the bands of weak chaos. The error is not much
+/// larger than the spread, except in the bands, where neighbouring growths compensate each other.
 #[test]
 fn the_exponent_lies_within_its_errors() {
     for (forcing, restitution) in
@@ -123,7 +123,7 @@ fn what_has_no_exponent_says_why() {
     assert_eq!(never, LyapunovOutcome::Rested { impacts: 0 });
 }
 
-/// Without restitution the disk lands and leaves again at once where the platform falls away: one exponent is
+/// Without restitution the disk lands and leaves again at once if the platform falls away: one exponent is
 /// left.
 #[test]
 fn without_restitution_there_is_one_exponent() {
