@@ -1,5 +1,5 @@
 //! W3: the basin at Gamma = 0.5, restitution 0.5, impact phase over the full cycle, normalised speed in [0,
-//! 2], each cell to rest, to the known period-2 orbit, or 500 impacts. The time is that of one cell.
+//! 2], each cell until rest, the known period-2 orbit, or 500 impacts. The time is per cell.
 
 use std::hint::black_box;
 
@@ -7,11 +7,11 @@ use bouncing_disk_core::attractors::{Axis, BasinSettings, Grid, KnownOrbit};
 use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, Unobserved, Vibration};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
-/// Cells a side.
+/// Cells per side.
 const CELLS: usize = 300;
-/// Cells a side of a panel of Fig. 7 in paper quality.
+/// Cells per side of a panel of Fig. 7 in paper quality.
 const PANEL: usize = 1_000;
-/// Cells a side of the grids that show how the time grows with the cells.
+/// Cells per side of the grids for the growth of the time with the number of cells.
 const SIDES: [usize; 4] = [30, 100, 300, 1_000];
 
 const SETTINGS: BasinSettings = BasinSettings { max_impacts: 500, policy: ChatterPolicy::Complete };

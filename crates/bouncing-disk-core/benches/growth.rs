@@ -1,4 +1,4 @@
-//! How the time of one impact grows: with the length of an orbit, with the forcing, and with the length of a
+//! The growth of the time per impact with the length of an orbit, with the forcing, and with the length of a
 //! flight.
 
 use std::f64::consts::PI;
@@ -28,9 +28,8 @@ fn impacts(c: &mut Criterion) {
     group.finish();
 }
 
-/// Flights one after the other: each starts at the phase where the last one ended, at the next of the given
-/// speeds. The speeds are given, so that the mixture of flights is the same whatever the platform does to an
-/// orbit.
+/// A chain of flights: each starts at the phase at which the last one ended, with the next of the given
+/// speeds. With given speeds the mixture of flights does not depend on the platform.
 fn chain(vibration: &Vibration, speeds: &[f64]) -> Phase {
     let mut phase = Phase::new(0.8).expect("finite");
     for &speed in black_box(speeds) {
@@ -40,7 +39,7 @@ fn chain(vibration: &Vibration, speeds: &[f64]) -> Phase {
     phase
 }
 
-/// `LAUNCHES` speeds from `low` to `high`, well spread.
+/// `LAUNCHES` speeds, evenly spread from `low` to `high`.
 fn speeds(low: f64, high: f64) -> Vec<f64> {
     (0..LAUNCHES).map(|k| low + (high - low) * ((k as f64 * 0.754_877_666_246_692_7) % 1.0)).collect()
 }
@@ -58,7 +57,7 @@ fn forcing(c: &mut Criterion) {
     group.finish();
 }
 
-/// Periods that a flight lasts, at the forcing of W1. A launch at speed w lasts for some 2 w.
+/// Periods that a flight lasts, at the forcing of W1. A flight after a launch at speed w lasts about 2 w.
 fn flight(c: &mut Criterion) {
     let vibration = Vibration::from_axial_forcing(W1_FORCING).expect("legal forcing");
     let mut group = c.benchmark_group("growth/flight_periods");

@@ -1,4 +1,4 @@
-//! One impact: W1 (one after the other and in lockstep) and single flights by regime.
+//! One impact: W1 (sequentially and in lockstep) and single flights by regime.
 
 use std::f64::consts::TAU;
 use std::hint::black_box;
@@ -13,12 +13,12 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 const IMPACTS: u64 = 1_000;
 /// Orbits in lockstep.
 const ORBITS: usize = 1_024;
-/// Launches of one regime: enough that the processor does not learn their branches by heart.
+/// Launches of one regime: enough that the branch predictor cannot learn them.
 const LAUNCHES: usize = 1_000;
-/// Launches next to a graze, on either side of it.
+/// Launches near a graze, on either side of it.
 const CASES: &str = include_str!("../../../data/cases/first_impact.json");
 
-/// W1: one chaotic orbit at Gamma = 0.55, restitution 0.5; the time is that of one impact.
+/// W1: one chaotic orbit at Gamma = 0.55, restitution 0.5; the time is per impact.
 fn w1(c: &mut Criterion) {
     let vibration = Vibration::from_axial_forcing(0.55).expect("legal forcing");
     let map = ImpactMap::new(vibration, 0.5).expect("legal restitution");
@@ -32,7 +32,7 @@ fn w1(c: &mut Criterion) {
             state
         });
     });
-    // Through memory from one step to the next, where the compiler does not make the steps a part of this
+    // The state passes through memory between steps, because the compiler does not inline them into this
     // loop.
     group.bench_function("scalar_by_step", |bencher| {
         let mut state = start;
@@ -43,7 +43,7 @@ fn w1(c: &mut Criterion) {
             black_box(state)
         });
     });
-    // With the question after every impact whether the disk chatters to rest.
+    // With the test after every impact whether the disk chatters to rest.
     group.bench_function("scalar_with_policy", |bencher| {
         let mut orbit = map.orbit(start, ChatterPolicy::Complete);
         bencher.iter(|| {
@@ -56,7 +56,7 @@ fn w1(c: &mut Criterion) {
             black_box(last)
         });
     });
-    // The same orbit from many of its own states; the time is that of one impact of one orbit.
+    // The same orbit from many of its own states; the time is per impact of one orbit.
     let mut state = start;
     let states: Vec<_> = (0..ORBITS)
         .map(|_| {
@@ -74,7 +74,7 @@ fn w1(c: &mut Criterion) {
     group.finish();
 }
 
-/// Well spread numbers in [0, 1).
+/// Evenly spread numbers in [0, 1).
 fn spread(k: usize, factor: f64) -> f64 {
     (k as f64 * factor) % 1.0
 }
@@ -91,7 +91,7 @@ fn launches(peak: f64, low: f64, high: f64) -> Vec<(Vibration, Launch)> {
         .collect()
 }
 
-/// The stored launches next to a graze.
+/// The stored launches near a graze.
 fn grazes() -> Vec<(Vibration, Launch)> {
     let cases: serde_json::Value = serde_json::from_str(CASES).expect("JSON");
     let cases = cases["cases"].as_array().expect("a list");
@@ -106,7 +106,7 @@ fn grazes() -> Vec<(Vibration, Launch)> {
         .collect()
 }
 
-/// A flight of each regime; independent launches, so that the processor may begin one before the last is
+/// A flight of each regime; the launches are independent, so the processor may begin one before the last is
 /// done.
 fn regimes(c: &mut Criterion) {
     // P at Gamma = 0.55.
@@ -114,7 +114,7 @@ fn regimes(c: &mut Criterion) {
     let from_rest = Vibration::new(peak).expect("legal");
     let lift_off = Launch::new(from_rest.separation_phase().expect("lifts off"), 0.0).expect("legal");
     let regimes = [
-        // Fast launches: the gap from the crests' height down is monotone.
+        // Fast launches: the gap below the crests' height is monotonic.
         ("monotone", launches(peak, 1.0, 4.0)),
         // The first crest is in doubt, so that the window must be found first.
         ("guarded", launches(peak, 0.2, 1.0)),
@@ -131,7 +131,7 @@ fn regimes(c: &mut Criterion) {
         group.bench_function(name, |bencher| {
             bencher.iter(|| {
                 for (vibration, launch) in black_box(&launches) {
-                    // A launch from rest may have no impact; its refusal is timed as well.
+                    // A launch from rest may have no impact; its error is timed as well.
                     let _ = black_box(vibration.first_impact(*launch));
                 }
             });

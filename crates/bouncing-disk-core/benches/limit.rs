@@ -1,5 +1,5 @@
-//! The limit: the sine-cosine pair alone. An impact returns the pair of its phase, so it cannot be had for
-//! less than one.
+//! The limit: the sine-cosine pair alone. An impact returns the pair of its phase, so it cannot be faster
+//! than one pair.
 
 use std::f64::consts::FRAC_2_PI;
 use std::hint::black_box;
@@ -15,7 +15,7 @@ const PAIRS: usize = 1_024;
 /// 1.5 * 2^52: adding it rounds to a whole number.
 const ROUND_MAGIC: f64 = 6_755_399_441_055_744.0;
 
-/// The lanes' pair, which is no public item: the same operations in the same order. `lanes` checks the bits.
+/// The lanes' pair, which is not public: the same operations in the same order. `lanes` checks the bits.
 #[inline(always)]
 fn pair(x: f64) -> (f64, f64) {
     let shifted = x * FRAC_2_PI + ROUND_MAGIC;
@@ -85,7 +85,7 @@ fn run(set: InstructionSet, rows: &mut Rows) {
 fn scalar(c: &mut Criterion) {
     let mut group = c.benchmark_group("limit/pair");
     group.throughput(Throughput::Elements(PAIRS as u64));
-    // The argument of each pair waits for the last one, as an impact waits for the one before.
+    // The argument of each pair depends on the last one, as each impact depends on the previous one.
     group.bench_function("chained", |bencher| {
         bencher.iter(|| {
             (0..PAIRS).fold(black_box(0.8), |angle, _| {

@@ -1,5 +1,5 @@
-//! Sweeps over many orbits against the same orbits one by one: columns of a bifurcation diagram, and lives
-//! near a crisis.
+//! Sweeps over many orbits against the same orbits one by one: columns of a bifurcation diagram, and survival
+//! times near a crisis.
 
 use std::hint::black_box;
 
@@ -7,7 +7,7 @@ use bouncing_disk_core::sweep::{orbit_diagram, survival_times};
 use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, Orbit, OrbitEvent, Unobserved, Vibration};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
-/// Impacts of a column, and how many of them are recorded.
+/// Impacts of a column, and the number recorded.
 const IMPACTS: usize = 1_000;
 const RECORDED: usize = 100;
 
@@ -21,7 +21,7 @@ fn orbits(forcings: (f64, f64), count: u32, policy: ChatterPolicy) -> Vec<Orbit>
     (0..count).map(orbit).collect()
 }
 
-/// The columns, one orbit after the other.
+/// The columns, orbit by orbit.
 fn one_by_one(orbits: &[Orbit]) -> Vec<Vec<ImpactState>> {
     let column = |orbit: &Orbit| {
         let impacts = orbit.clone().filter_map(|event| match event {

@@ -1,4 +1,4 @@
-//! Attractors that are found without being told, against those that are known and against brute force.
+//! Attractors found without prior knowledge, against known ones and against brute force.
 //!
 //! On 200 random maps (r 0.1 to 0.9, Gamma 0.1 to 3) the search finds 288 lasting attractors. Of 1,000 random
 //! starts on each map, followed for up to 500,000 impacts, one ends elsewhere, on an attractor that none of
@@ -24,7 +24,7 @@ fn map(axial_forcing: f64, restitution: f64) -> ImpactMap {
     ImpactMap::new(vibration, restitution).expect("legal restitution")
 }
 
-/// The known orbits of a panel of Fig. 7 as they are given there, and what its other starts are on.
+/// The known orbits of a panel of Fig. 7, and the attractor of its other starts.
 struct Panel {
     known: Vec<KnownOrbit>,
     chaotic: bool,
@@ -36,7 +36,8 @@ fn grid(cells: usize) -> Grid {
     Grid::new(axis(1.0), axis(5.0)).expect("legal")
 }
 
-/// The orbit that the route from period 1 has led to, and what undecided cells of a coarse grid settle on.
+/// The orbit reached by the route from period 1, and the orbits on which undecided cells of a coarse grid
+/// settle.
 fn panel(map: &ImpactMap) -> Panel {
     let state = map.period_one(1).expect("exists");
     let orbit = map.refine(&[state]).expect("refines");
@@ -79,7 +80,7 @@ fn panel(map: &ImpactMap) -> Panel {
     Panel { known, chaotic, max_impacts: if chaotic { 400 } else { 20_000 } }
 }
 
-/// The label by the attractors that were found of what a panel labels so.
+/// The label among the found attractors that corresponds to a label of the panel.
 fn label_of(found: &Attractors, panel: &Panel, label: Label) -> Label {
     let number = match label {
         ATTACHED => 0,
@@ -142,8 +143,8 @@ fn random_start(map: &ImpactMap, random: &mut SplitMix64) -> ImpactState {
     }
 }
 
-/// Whether a start, followed by single steps, ends on one of the attractors: it rests, comes to within 1e-4
-/// rad of a periodic one, or is in the cells of another for most of the last 200 impacts.
+/// Whether a start, followed by single steps, ends on one of the attractors: it rests, comes within 1e-4 rad
+/// of a periodic one, or spends most of the last 200 impacts in the cells of another.
 fn ends_on_one(found: &Attractors, start: ImpactState, transient: usize) -> bool {
     let map = found.map();
     let peak = map.vibration().peak_acceleration();
@@ -168,11 +169,11 @@ fn ends_on_one(found: &Attractors, start: ImpactState, transient: usize) -> bool
     hits.into_iter().any(|hits| hits > 100)
 }
 
-/// What is found for random maps: attractors that last, maps with several of them, starts of the searches
-/// that are undecided, and the most random starts of one map that end on none.
+/// Results for random maps: lasting attractors, maps with several of them, undecided starts of the searches,
+/// and the largest number of random starts of one map that end on none.
 ///
-/// A start that is on none of them after `transient` impacts is followed for a hundred times as many: a long
-/// transient is no attractor.
+/// A start on none of them after `transient` impacts is followed for a hundred times as many: a long
+/// transient is not an attractor.
 fn brute_force(maps: u64, starts: u32, transient: usize) -> [u64; 4] {
     let mut random = SplitMix64::new(2_009);
     let mut totals = [0; 4];
@@ -207,7 +208,7 @@ fn no_attractor_of_some_size_is_missed_on_200_maps() {
     assert_eq!(brute_force(200, 1_000, 5_000), [288, 69, 0, 1]);
 }
 
-/// The branch of the attracting orbit of so many impacts at this forcing.
+/// The branch of the attracting orbit with this number of impacts at this forcing.
 fn branch_of(impacts: usize, axial_forcing: f64, rising: bool) -> Branch {
     let map = map(axial_forcing, 0.5);
     let found = map.attractors(&AttractorSearch::default(), &Unobserved).expect("no failure");

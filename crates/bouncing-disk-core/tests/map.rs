@@ -1,4 +1,4 @@
-//! The impact map, its orbits and what is done with them: laws, closed forms and independent derivatives.
+//! The impact map, its orbits and their analyses, against laws, closed forms and independent derivatives.
 
 mod dual_numbers;
 mod paper;
@@ -63,7 +63,7 @@ proptest! {
         let map = map(forcing, restitution);
         let from = state(angle, -speed * PI * forcing);
         let Ok((impact, own)) = map.step_with_derivative(from) else { return Ok(()) };
-        // Next to a graze the derivative is unbounded and the comparison would only test conditioning.
+        // Near a graze the derivative is unbounded and the comparison would only test conditioning.
         prop_assume!(impact.velocity < -0.05 * PI * forcing.min(1.0));
         let other = dual_derivative(map.vibration(), from, impact.duration(), |_| restitution.into());
         let scale = other.x_axis.abs().max_element().max(other.y_axis.abs().max_element()).max(1.0);
@@ -71,8 +71,8 @@ proptest! {
         prop_assert!((own - other).y_axis.abs().max_element() <= 1e-9 * scale, "{own} {other}");
     }
 
-    /// The map contracts areas by restitution^2 times the ratio of the impact speeds, whatever the platform
-    /// does.
+    /// The map contracts areas by restitution^2 times the ratio of the impact speeds, for any motion of the
+    /// platform.
     #[test]
     fn determinant_is_restitution_squared_times_the_speed_ratio(
         forcing in 0.05_f64..20.0, restitution in 0.05_f64..0.95, angle in 0.0..TAU, speed in 0.05_f64..4.0,
@@ -103,7 +103,7 @@ proptest! {
             total += impact.remainder;
             (at, launch) = (impact.phase, -restitution * impact.velocity);
         }
-        // Phases next to P sin tau = 1 round by 2e-16, which the pull 1 - P sin tau carries into every
+        // Phases near P sin tau = 1 are rounded by 2e-16, which the pull 1 - P sin tau passes on to every
         // flight.
         let pull = map.vibration().contact_force(phase);
         let rounding = 4e-15 * (1.0 + forcing / pull) * total / (1.0 - restitution);
@@ -119,7 +119,7 @@ proptest! {
         prop_assert!((last - sum.duration).abs() <= 1e-12 * sum.duration + 2.0 * sum.error_bound + rounding);
     }
 
-    /// A disk let go from a point of a flight meets the platform where the flight does.
+    /// A disk released at a point of a flight lands where the flight ends.
     #[test]
     fn drop_from_the_middle_of_a_flight_ends_at_the_same_impact(
         forcing in 0.0_f64..5.0, angle in 0.0..TAU, speed in 0.01_f64..3.0, share in 0.05_f64..0.95,
@@ -228,7 +228,7 @@ fn period_one_is_a_fixed_point_where_it_exists() {
     assert!(map(0.3333, 0.5).period_one(1).is_none());
 }
 
-/// The speed is that of the orbit where there is one, and there is one to every speed at some forcing.
+/// The speed agrees with the orbit if there is one, and every such speed belongs to an orbit at some forcing.
 #[test]
 fn the_impact_speed_of_period_one_does_not_depend_on_the_forcing() {
     for (restitution, periods) in [(0.0, 1), (0.3, 1), (0.5, 2), (0.9, 3), (0.5, 1_000)] {
@@ -296,8 +296,8 @@ fn basins_are_the_same_for_any_number_of_threads() {
 
 #[test]
 fn policies_agree_where_the_cut_does_not_matter() {
-    // Below the first doubling the chattering orbit settles on one toss a cycle: the impacts before the cut
-    // agree to what the cut throws away.
+    // Below the first doubling the chattering orbit settles on one toss per cycle: the impacts before the cut
+    // agree to within the part omitted by the cut.
     let map = map(0.4, 0.5);
     let separation = map.vibration().separation_phase().expect("lifts off");
     let impacts = |policy| -> Vec<f64> {
@@ -333,7 +333,7 @@ fn restitution_zero_sticks_at_every_impact() {
 }
 
 /// At Gamma = k (1 - r)/(1 + r) an orbit with one impact every k periods is born at phase 0, where the angle
-/// wraps: each of its flights lasts k whole periods, wherever the rounding puts the impact.
+/// wraps. Each of its flights lasts k whole periods, wherever rounding puts the impact.
 #[test]
 fn orbits_at_their_birth_take_whole_periods() {
     let (mut flights, mut refined) = (0, 0);
@@ -348,11 +348,11 @@ fn orbits_at_their_birth_take_whole_periods() {
                 let impact = map.step(state).unwrap();
                 let duration = impact.duration();
                 if impact.velocity > 0.9 * state.velocity() {
-                    // An earlier impact forestalls the orbit.
+                    // An earlier impact prevents the orbit.
                     continue;
                 }
                 flights += 1;
-                // Next to a double root the phase moves with the square root of the rounding.
+                // Near a double root the phase changes with the square root of the rounding.
                 assert!(
                     (duration - k as f64 * TAU).abs() < 1.0e-6,
                     "{k} {restitution} {forcing}: {impact:?}"
@@ -388,8 +388,8 @@ fn a_chattering_disk_has_no_period() {
     }
 }
 
-/// Late in a chatter one impact is like the next one to any tolerance, in phase and in what is left of the
-/// speed. That is the disk's way to rest and no period, however late one looks.
+/// Late in a chatter one impact equals the next to any tolerance, in phase and in the remaining speed. This
+/// is the approach to rest and not a period, however late.
 #[test]
 fn impacts_late_in_a_chatter_are_no_period() {
     let map = map(0.2, 0.5);
@@ -399,8 +399,8 @@ fn impacts_late_in_a_chatter_are_no_period() {
     }
 }
 
-/// A solution of the shooting equations without speed, or one that takes no time, is a disk at rest and
-/// refused by name.
+/// A solution of the shooting equations with zero speed or zero duration is a disk at rest, with its own
+/// error.
 #[test]
 fn a_disk_at_rest_is_no_periodic_orbit() {
     let map = ImpactMap::new(Vibration::from_axial_forcing(0.2).unwrap(), 0.5).unwrap();
@@ -415,16 +415,16 @@ fn a_disk_at_rest_is_no_periodic_orbit() {
             "{speed}: {refused:?}"
         );
     }
-    // From the separation on: a launch without speed that flies.
+    // From the separation: a launch with zero speed that flies.
     let map = ImpactMap::new(Vibration::from_axial_forcing(0.5).unwrap(), 0.5).unwrap();
     let phase = map.vibration().separation_phase().unwrap();
     let refused = map.refine(&[ImpactState::new(phase, 0.0).unwrap()]);
     assert!(refused.is_err(), "{refused:?}");
 }
 
-/// Just before the platform stops to fall away a disk at rest leaves it and is back within a rounding of the
-/// phase, without speed: that solves the shooting equations, and is refused for its speed and not only for
-/// the time that it takes.
+/// Just before the platform stops falling away, a disk at rest leaves it and returns within a rounding of the
+/// phase, with zero speed. This solves the shooting equations; the error is about the speed and not only
+/// about the duration.
 #[test]
 fn a_solution_without_speed_is_refused_by_name() {
     for peak in [1.1, 1.25, 1.5, 1.75] {
@@ -435,9 +435,9 @@ fn a_solution_without_speed_is_refused_by_name() {
     }
 }
 
-/// Where the pull is a rounding and a flight too short to change the phase, a disk hopped for ever with a
-/// speed of 1e-39: at the end of the fall of a platform with P next to 1, at the crest of P = 1, and at the
-/// very end of the fall of any.
+/// If the pull is a rounding error and flights are too short to change the phase, a disk once hopped forever
+/// with a speed of 1e-39: at the end of the fall of a platform with P near 1, at the crest of P = 1, and at
+/// the very end of the fall of any platform.
 #[test]
 fn a_disk_next_to_weightlessness_comes_to_rest() {
     for (peak, restitution, angle, speed) in [
@@ -467,8 +467,8 @@ fn a_disk_next_to_weightlessness_comes_to_rest() {
     }
 }
 
-/// The cut of the paper drops impacts without a bound on what they would have done; a disk without rebound
-/// drops none.
+/// The paper's cut omits impacts without a bound on their effect; for a disk without rebound there are none
+/// to omit.
 #[test]
 fn the_cut_of_the_paper_has_no_error_bound_unless_it_cuts_nothing() {
     for (restitution, bound) in [(0.5, f64::INFINITY), (0.0, 0.0)] {
@@ -482,8 +482,8 @@ fn the_cut_of_the_paper_has_no_error_bound_unless_it_cuts_nothing() {
     }
 }
 
-/// A grid of whole periods away has the labels of the period from 0 to 1; its phases were rounded in periods
-/// times 2 pi.
+/// A grid shifted by whole periods gives the labels of the period from 0 to 1; its phases were once rounded
+/// in periods times 2 pi.
 #[test]
 fn grids_a_trillion_periods_away_have_the_same_phases() {
     let speed = Axis::new(0.0, 2.0, 2).unwrap();
@@ -491,13 +491,14 @@ fn grids_a_trillion_periods_away_have_the_same_phases() {
         let far = Grid::new(Axis::new(whole, whole + 1.0, 8).unwrap(), speed).unwrap();
         let near = Grid::new(Axis::new(0.0, 1.0, 8).unwrap(), speed).unwrap();
         for column in 0..8 {
-            // Exact as long as sixteenths of a period are.
+            // Exact as long as sixteenths of a period are exact.
             assert_eq!(far.impact_angle(column).to_bits(), near.impact_angle(column).to_bits(), "{whole}");
         }
     }
 }
 
-/// Each of 600,000 short flights turns the carried pair a little off its angle: no defect of the clock.
+/// Each of 600,000 short flights rotates the carried pair slightly away from its angle, which is not an error
+/// of the clock.
 #[test]
 fn a_launch_after_a_long_chatter_keeps_time() {
     let map = ImpactMap::new(Vibration::new(2.0).unwrap(), 1.0 - 1.0e-9).unwrap();
@@ -517,8 +518,8 @@ fn what_is_printed_has_its_units() {
     assert_eq!(format!("{:.1}", Multipliers::Complex { real: 0.0, imaginary: 1.0 }), "0.0 +- 1.0 i");
 }
 
-/// Refined at the thresholds of existence and stability and next to them, and next to restitution 0 and 1, an
-/// orbit is one by the map itself and by its clock, or there is an error with a name.
+/// Refinement at and near the thresholds of existence and stability, and near restitution 0 and 1, gives a
+/// true orbit by the map and its clock, or a specific error.
 #[test]
 fn orbits_refined_on_seams_are_orbits() {
     let (mut found, mut refused) = (0, 0);
@@ -543,7 +544,7 @@ fn orbits_refined_on_seams_are_orbits() {
                             let scale = 1.0 + state.velocity().abs();
                             assert!(off <= 1e-11 * scale, "{case:?}: {off:e}");
                             assert!((impact.velocity - state.velocity()).abs() <= 1e-11 * scale, "{case:?}");
-                            // Areas shrink by the square of the restitution at every impact.
+                            // Every impact contracts areas by the square of the restitution.
                             let determinant = orbit.monodromy.determinant();
                             let size = orbit.monodromy.x_axis.length() * orbit.monodromy.y_axis.length();
                             let lost = (determinant - restitution * restitution).abs();
@@ -551,7 +552,7 @@ fn orbits_refined_on_seams_are_orbits() {
                             found += 1;
                         }
                         Err(
-                            // A plastic disk leaves only where the platform falls away.
+                            // A plastic disk leaves only if the platform falls away.
                             Error::NoLiftOff { .. }
                             | Error::NotSettled { .. }
                             | Error::ImpactWithoutSpeed { .. }

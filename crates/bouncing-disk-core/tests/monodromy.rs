@@ -1,5 +1,5 @@
-//! The derivative around periodic orbits against differences in high precision, which know the gap and
-//! nothing of the library's derivative.
+//! The derivative around periodic orbits against differences in high precision, which use the gap and not the
+//! library's derivative.
 //!
 //! Trace and determinant around 1,000 orbits (970 unstable) agree with central differences in 128 bits to
 //! 2.6e-12 of the norm of the derivative.
@@ -12,10 +12,10 @@ use dashu_float::round::mode::HalfEven;
 
 type High = FBig<HalfEven, 2>;
 
-/// Bits: differences over 2^-40 are right to 1e-24.
+/// Bits; differences over 2^-40 are then accurate to 1e-24.
 const PRECISION: usize = 128;
 
-/// Orbits of one map that are compared: some maps have hundreds.
+/// Largest number of orbits of one map that are compared: some maps have hundreds.
 const MOST_OF_A_MAP: usize = 10;
 
 fn high(x: f64) -> High {
@@ -71,7 +71,7 @@ fn difference(map: &ImpactMap, state: ImpactState) -> Matrix {
     [[x0, y0], [x1, y1]]
 }
 
-/// How far trace and determinant are from those of the differences, relative to the norm.
+/// The deviations of trace and determinant from the differences, relative to the norm.
 fn deviations(map: &ImpactMap, orbit: &PeriodicOrbit) -> (f64, f64) {
     let identity = [[high(1.0), high(0.0)], [high(0.0), high(1.0)]];
     let reference = orbit.states.iter().fold(identity, |so_far, &at| product(&difference(map, at), &so_far));
@@ -83,7 +83,8 @@ fn deviations(map: &ImpactMap, orbit: &PeriodicOrbit) -> (f64, f64) {
     (trace.abs() / norm, determinant.abs() / norm)
 }
 
-/// Compares so many orbits at random parameters; the worst deviation, and how many of them do not attract.
+/// Compares `count` orbits at random parameters; returns the worst deviation, and the number of orbits that
+/// do not attract.
 fn compare(count: usize, seed: u64) -> (f64, usize) {
     let mut random = SplitMix64::new(seed);
     let (mut worst, mut unstable, mut compared) = (0.0_f64, 0, 0);

@@ -1,4 +1,4 @@
-//! Calls with numbers outside their ranges, and the name of the number that each error gives.
+//! Calls with numbers outside their ranges: each error names the number.
 
 const INF: f64 = f64::INFINITY;
 const NAN: f64 = f64::NAN;

@@ -1,4 +1,4 @@
-//! Laws of restitution from a user's side: steps, derivatives, orbits and cuts of the impact map under any
+//! Laws of restitution as a user sees them: steps, derivatives, orbits and cuts of the impact map under any
 //! law.
 
 mod dual_numbers;
@@ -18,7 +18,7 @@ use num_dual::{Dual64, DualNum};
 use paper::PAPER_POLICY;
 use proptest::prelude::*;
 
-/// A user's law that is constant, which the library does not know.
+/// A user's law that is constant, unknown to the library.
 #[derive(Debug, Clone, Copy)]
 struct Same(f64);
 
@@ -44,7 +44,7 @@ impl RestitutionLaw for Softening {
     }
 }
 
-/// A law that is a half up to the nth impact and something else there.
+/// A law that is 1/2 up to the nth impact, and then another value.
 #[derive(Debug, Clone)]
 struct Failing {
     left: Cell<u32>,
@@ -77,7 +77,7 @@ fn bits(state: ImpactState) -> [u64; 4] {
     [phase.angle(), phase.sin(), phase.cos(), state.velocity()].map(f64::to_bits)
 }
 
-/// r + x r^(3/5) = 1 by bisection, pulled along by Newton steps.
+/// r + x r^(3/5) = 1 by bisection, differentiated by Newton steps.
 fn dual_kuwabara_kono(reference: f64, reference_speed: f64, speed: Dual64) -> Dual64 {
     let x = (speed / reference_speed).powf(0.2) * (1.0 - reference) / Dual64::from_re(reference).powf(0.6);
     let (mut low, mut high) = (0.0, 1.0);
@@ -156,8 +156,8 @@ proptest! {
         }
     }
 
-    /// A cut of a viscoelastic chatter is in error by no more than it says, and not by much less: against the
-    /// impacts one by one, until what is left is 1 % of the bound.
+    /// The error of a cut of a viscoelastic chatter is within its bound, and not much less: against the
+    /// impacts one by one, until the rest is 1 % of the bound.
     #[test]
     fn the_error_of_a_cut_is_that_of_the_impacts_left_out(
         forcing in 0.0_f64..3.0, reference in 0.1_f64..0.95, reference_speed in 0.01_f64..10.0,
@@ -180,7 +180,7 @@ proptest! {
             left = map.comes_to_rest_within(at).expect("all the more");
         }
         prop_assert!(left <= 0.01 * bound, "{left} of {bound}");
-        // r/(1 - r) <= 1/x costs what is lost in the first impact, and the change of the pull its share.
+        // r/(1 - r) <= 1/x costs the loss in the first impact, and the change of the pull its share.
         let pull = map.vibration().contact_force(Phase::new(angle).expect("finite"));
         let lost = 1.0 - law.restitution(bouncing_disk_core::numerics::elementary::pow(10.0, exponent));
         if bound * map.vibration().peak_acceleration() <= 0.01 * pull {
@@ -216,7 +216,7 @@ fn on_a_still_platform_the_bound_of_the_constant_law_is_the_sum() {
             assert!((bound - sum).abs() <= 1e-11 * sum + 5e-324, "{bound} {sum}");
         }
     }
-    // An infinite sum, or one that is none, is no bound.
+    // An infinite sum or NaN is not a bound.
     #[derive(Debug, Clone)]
     struct Sums(f64);
     impl RestitutionLaw for Sums {
@@ -234,7 +234,7 @@ fn on_a_still_platform_the_bound_of_the_constant_law_is_the_sum() {
         let map = ImpactMap::with_law(vibration(0.3), Sums(sum));
         assert_eq!(map.comes_to_rest_within(state(1.0, -1e-3)), None, "{sum}");
     }
-    // Where the platform falls away, or is about to, nothing is known.
+    // If the platform falls away, or is about to, there is no bound.
     let map = ImpactMap::new(vibration(1.0), 0.5).expect("legal");
     let leaves = map.vibration().separation_phase().expect("leaves").angle();
     assert_eq!(map.comes_to_rest_within(state(leaves + 0.1, -1e-9)), None);
@@ -257,7 +257,7 @@ fn a_cut_tells_its_error() {
         }
     }
     assert!(attachments > 10, "{attachments}");
-    // A law of which nothing is known has no bound; neither has the constant one under a cut.
+    // There is no bound for an unknown law, and none for the constant law under a cut.
     let cut = ChatterPolicy::Cut(ChatterCut::new(1e-3, 0.0, 1).expect("legal"));
     for event in [
         ImpactMap::with_law(vibration(0.2), Same(0.5)).orbit(start, cut).last(),
@@ -282,7 +282,7 @@ fn a_law_without_closed_form_refuses_the_complete_policy() {
         let events: Vec<_> = orbit.take(3).collect();
         assert_eq!(events, [Err(Error::NoClosedForm)]);
     }
-    // The constant law has it, by whatever way it came.
+    // The constant law gives it, however constructed.
     let constant = ImpactMap::with_law(vibration(0.55), Constant::new(0.5).expect("legal"));
     assert_eq!(constant, ImpactMap::new(vibration(0.55), 0.5).expect("legal"));
     assert!(constant.orbit(start, ChatterPolicy::Complete).take(3).all(|event| event.is_ok()));
@@ -314,7 +314,7 @@ fn an_illegal_restitution_ends_the_motion_where_it_happens() {
         let launch = Launch::new(start.phase(), 1.0).expect("legal");
         refused(map(0).orbit_from_launch(launch, PAPER_POLICY).next().map(|event| event.map(drop)));
     }
-    // A derivative that is none is asked for by the derivative of the map alone.
+    // Only the derivative of the map calls a law's derivative that is NaN.
     let map = ImpactMap::with_law(vibration(0.55), Failing { left: Cell::new(100), then: 0.5 });
     assert!(map.step(start).is_ok());
     assert!(
@@ -322,7 +322,7 @@ fn an_illegal_restitution_ends_the_motion_where_it_happens() {
     );
 }
 
-/// Speeds at the ends of the range: at rest, below the normal numbers, beyond any flight that can be counted.
+/// Speeds at the ends of the range: zero, below the normal numbers, and beyond the longest flight.
 #[test]
 fn the_map_has_the_seams_of_the_constant_one() {
     let law = KuwabaraKono::new(0.5, 1.0).expect("legal");
@@ -340,7 +340,7 @@ fn the_map_has_the_seams_of_the_constant_one() {
     assert_eq!((rest.last_speed, rest.accumulation.error_bound), (0.0, 0.0));
 }
 
-/// What an orbit diagram takes: impacts after a transient, which stay where the platform can throw a disk.
+/// The data of an orbit diagram: impacts after a transient, within the range that the platform can reach.
 #[test]
 fn a_chaotic_orbit_under_the_law_is_that_of_its_steps() {
     let law = KuwabaraKono::new(0.5, 4.0).expect("legal");

@@ -1,5 +1,5 @@
-//! Long calls on any number of threads, watched, and stopped at any call of their observer: they say where they were
-//! or give the very same result.
+//! Long calls on any number of threads, watched and stopped at any call of their observer: they report their
+//! progress or give the same result.
 
 use std::fmt::Debug;
 use std::ops::ControlFlow;
@@ -22,10 +22,10 @@ use bouncing_disk_core::{
     Vibration,
 };
 
-/// Breaks when it is asked for the nth time and from then on.
+/// An observer that breaks at its nth call and at every later one.
 struct StopAfter {
     calls: u64,
-    /// How often it was asked, and what it saw last.
+    /// The number of calls, and the last progress.
     seen: Mutex<(u64, Progress)>,
 }
 
@@ -78,7 +78,8 @@ fn check<T: PartialEq + Debug + Send + Sync>(
                 Ok(found) => assert!(found == whole && calls > 1, "{}", at()),
                 Err(Error::Stopped { done, total }) => {
                     assert!(total == items && done <= total, "{}: {done} of {total}", at());
-                    // Nobody is asked again, but for the ends of a part and of its whole that were done all the same.
+                    // There are no further calls, except for the ends of a part and of the whole if they were
+                    // still completed.
                     assert!(threads > 1 || observer.seen().0 <= calls + 2, "{}: {:?}", at(), observer.seen());
                     stops += 1;
                 }
@@ -89,7 +90,7 @@ fn check<T: PartialEq + Debug + Send + Sync>(
     }
 }
 
-/// A call that would go on for a very long time, on one thread that counts every flight.
+/// Checks a call that would take a very long time, on one thread that counts every flight.
 fn check_endless<T: Debug + Send>(
     name: &str,
     done: std::ops::RangeInclusive<u64>,
@@ -132,7 +133,7 @@ fn cut() -> ChatterPolicy {
     ChatterPolicy::Cut(ChatterCut::new(1e-6, 1e-4, 20).expect("legal"))
 }
 
-/// A search that is quick.
+/// A quick search.
 fn quick(starts: u32) -> AttractorSearch {
     let search = AttractorSearch::default().with_starts(starts).expect("legal");
     search.with_impacts(500, 4_000).expect("legal").with_orbits(None)
@@ -156,7 +157,7 @@ fn sweeps() {
     let starts = starts(200);
     check("exponents", 200, |observer| lyapunov_exponents(&starts, 100, 2_000, observer));
     check("spectra", 200, |observer| {
-        // Not a number is no equal of itself.
+        // NaN does not equal itself.
         lyapunov_spectra(&starts, 100, 2_000, observer).map(|all| format!("{all:?}"))
     });
     let settings = VerdictSettings { impacts: 2_000, transient: 500, ..VerdictSettings::default() };
@@ -178,7 +179,7 @@ fn attractors_and_basins() {
         let map = map(forcing, 0.5);
         check("attractors", 200, |observer| map.attractors(&quick(100), observer));
         let found = map.attractors(&quick(100), &Unobserved).expect("no failure");
-        // Those of chaos are compared with its cells a second time.
+        // Chaotic starts are compared with the cells a second time.
         let twice = if forcing > 0.5 { 2 } else { 1 };
         let grid = grid(60, 50);
         check("basins of all", 50 * twice, |observer| found.basins(grid, settings, observer));
@@ -205,7 +206,7 @@ fn orbits_and_branches() {
     let orbit = node(&map);
     let settings = Continuation::new(ContinuationParameter::Forcing, (0.3, 0.52), true).expect("legal");
     let settings = settings.with_steps(1e-4, 1e-4, 20_000).expect("legal");
-    // Also while a doubling is located, and on the branch that begins there.
+    // Includes locating a doubling, and the branch that begins there.
     check("branch", 20_000, |observer| map.continued(&orbit, &settings, observer));
     let branch = map.continued(&orbit, &settings, &Unobserved).expect("continued");
     check("doubled branch", 20_000, |observer| branch.switched(0, &settings, observer));

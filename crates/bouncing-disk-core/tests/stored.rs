@@ -1,4 +1,4 @@
-//! Whatever is written is read with the same bits, and what is read is legal.
+//! Values are read with the same bits as written, and only legal ones are read.
 
 #![cfg(feature = "serde")]
 
@@ -166,7 +166,7 @@ fn basins_and_partial_results() {
     );
 }
 
-/// Of any platform, disk and policy: what is made is never refused.
+/// For any platform, disk and policy, a computed value can always be read.
 #[test]
 fn whatever_happens_can_be_read() {
     fn read<T: Serialize + DeserializeOwned + PartialEq + Debug>(value: &T) {
@@ -193,7 +193,7 @@ fn whatever_happens_can_be_read() {
     assert!(attachments > 100, "{attachments}");
 }
 
-/// JSON holds no such number; a binary format does.
+/// JSON cannot store NaN; a binary format can.
 #[test]
 fn what_is_no_number_is_not_read() {
     let vibration = *map(0.45).vibration();

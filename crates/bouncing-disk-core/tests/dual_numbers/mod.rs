@@ -4,8 +4,8 @@ use bouncing_disk_core::{ImpactState, Vibration};
 use glam::{DMat2, DVec2};
 use num_dual::{Dual64, DualNum};
 
-/// The derivative of the map in dual numbers, for a law given in dual numbers: the impact time is pulled
-/// along by Newton steps on the gap, which knows nothing of the implicit-function formulas of the library.
+/// The derivative of the map in dual numbers, for a law given in dual numbers: the impact time follows by
+/// Newton steps on the gap, independent of the library's implicit-function formulas.
 pub(crate) fn dual_derivative(
     vibration: &Vibration,
     from: ImpactState,

@@ -39,33 +39,32 @@ use crate::paper::PAPER_POLICY;
 use crate::seams;
 use crate::shards::{self, Kind};
 
-/// Relative accuracy of a flight of next to no duration, beside what the rounding of P and the phase does to
-/// it.
+/// Relative accuracy of an extremely short flight, in addition to the effect of rounding of P and the phase.
 const BRIEF_ACCURACY: f64 = 1.0e-14;
 
-/// Where one unit roundoff in P or the phase changes the pull by more than this share, they decide.
+/// Share of the pull above which a change by one unit roundoff in P or the phase makes a launch undecidable.
 const DECIDABLE: f64 = 1.0e-2;
 
-/// Speeds below this cannot be squared by the march of the oracle.
+/// Smallest speed that the march of the oracle can square.
 const SMALLEST_SQUARE: f64 = 1.0e-140;
 
-/// What a run of the attack has seen.
+/// The counts of a run of the attack.
 #[derive(Debug, Default)]
 pub struct Tally {
     pub cases: u64,
     pub confirmed: u64,
-    /// Left open by the march, and neither judged nor undecidable.
+    /// Cases left open by the march, and neither judged nor undecidable.
     pub open: u64,
-    /// Drawn for the oracle, and judged by it.
+    /// Cases sampled for the oracle, and judged by it.
     pub judged: u64,
-    /// The oracle says that the last digits of the data decide.
+    /// Cases for which, by the oracle, the last digits of the data decide.
     pub undecidable: u64,
     pub refused: u64,
     pub failures: Vec<String>,
 }
 
-/// What the oracle judges: every so many-th of the cases that the march confirms, and of those that it leaves
-/// open.
+/// The sampling for the oracle: one in this many of the cases that the march confirms, and of those that it
+/// leaves open.
 #[derive(Debug, Clone, Copy)]
 pub struct Drawn {
     pub confirmed: u64,
@@ -97,7 +96,7 @@ impl Tally {
         );
     }
 
-    /// What the file of a shard says.
+    /// The content of a shard's file.
     fn told(self) -> serde_json::Value {
         serde_json::json!({
             "cases": self.cases,
@@ -110,7 +109,7 @@ impl Tally {
         })
     }
 
-    /// Confirms or judges the impact of a case, of a drop if `gap` is positive.
+    /// Confirms or judges the impact of a case, a drop if `gap` is positive.
     fn impact(&mut self, case: &Case, gap: f64, found: Result<Impact, Error>, drawn: Drawn) {
         self.cases += 1;
         let impact = match found {
@@ -160,7 +159,7 @@ impl Tally {
                 return;
             }
             if case.speed.abs().max(gap.sqrt()) < SMALLEST_SQUARE {
-                // Neither brief nor within reach of the oracle: as good as a launch from rest.
+                // Neither brief nor within reach of the oracle: equivalent to a launch from rest.
                 self.undecidable += 1;
                 return;
             }
@@ -172,7 +171,7 @@ impl Tally {
     }
 }
 
-/// Launches with P up to `largest_peak` and flights of some `longest` rad.
+/// Launches with P up to `largest_peak` and flights of about `longest` rad.
 pub fn launches(seed: u64, count: u64, largest_peak: f64, longest: f64, drawn: Drawn) -> Tally {
     let mut random = SplitMix::new(seed);
     let mut tally = Tally::default();
@@ -196,8 +195,8 @@ pub fn drops(seed: u64, count: u64, largest_peak: f64, drawn: Drawn) -> Tally {
     tally
 }
 
-/// Where the platform has fallen away to within a rounding: the oracle's own limits lost all digits to
-/// cancellation there.
+/// A platform that falls away by no more than a rounding: the oracle's own limits once lost all digits to
+/// cancellation here.
 #[test]
 fn a_pull_of_half_a_rounding_is_judged_by_what_a_rounding_does_to_it() {
     let case = Case {
@@ -213,7 +212,7 @@ fn a_pull_of_half_a_rounding_is_judged_by_what_a_rounding_does_to_it() {
     assert!(exact.judge(&impact).unwrap().undecidable);
     let h = oracle::high(impact.remainder);
     let limits = exact.limits(&h, &exact.at(&h));
-    // Half of u P h^2 sin tau, next to the crest.
+    // Half of u P h^2 sin tau, near the crest.
     let expected = 0.5 * oracle::U * case.peak * impact.remainder * impact.remainder;
     assert!((limits.gap / expected - 1.0).abs() < 0.01, "{limits:?} {expected:e}");
 }
@@ -287,7 +286,7 @@ fn lanes_on_seams() {
     lanes(107, 100, 1.0e8, 1.0e6);
 }
 
-/// The flights that lost a period: they land within rounding below 2 pi.
+/// Flights that once lost a period: they land within rounding below 2 pi.
 #[test]
 fn a_landing_on_the_seam_counts_its_turn() {
     for (peak, angle, speed, duration) in [
@@ -311,9 +310,8 @@ fn a_landing_on_the_seam_counts_its_turn() {
     }
 }
 
-/// A disk that is let go a distance d before the platform stops to fall away comes back after 3 d: the pull
-/// is then proportional to the time. Of 15,996 such launches within four units in the last place 93 found no
-/// impact.
+/// A disk released a time d before the platform stops falling away returns after 3 d, because the pull is
+/// then proportional to time. Of 15,996 such launches within four units in the last place 93 found no impact.
 #[test]
 fn a_launch_from_rest_at_the_end_of_the_fall_lands_after_three_times_the_rest_of_it() {
     let mut random = SplitMix::new(108);
@@ -322,7 +320,7 @@ fn a_launch_from_rest_at_the_end_of_the_fall_lands_after_three_times_the_rest_of
         let peak = seams::peak(&mut random, 1.0e8);
         let vibration = Vibration::new(peak).unwrap();
         let Some(separation) = vibration.separation_phase() else { continue };
-        // As the crate knows the end of the fall: the mirror image of the separation.
+        // The end of the fall as in the crate: the mirror image of the separation.
         let retention = PI - separation.angle();
         let mut angle = retention;
         for _ in 0..6 {
@@ -339,7 +337,7 @@ fn a_launch_from_rest_at_the_end_of_the_fall_lands_after_three_times_the_rest_of
             if left < 1.0e-6 * (retention - separation.angle()) {
                 brief += 1;
                 assert!((rest.remainder / (3.0 * left) - 1.0).abs() < 1.0e-5, "P {peak}: {rest:?} {left:e}");
-                // P cos sigma is what the pull grows by in a radian.
+                // P cos sigma is the growth of the pull per radian.
                 let velocity = -1.5 * ((peak - 1.0) * (peak + 1.0)).sqrt() * left * left;
                 assert!((rest.velocity / velocity - 1.0).abs() < 3.0e-5, "P {peak}: {rest:?} {velocity:e}");
             }
@@ -355,7 +353,7 @@ fn a_launch_from_rest_at_the_end_of_the_fall_lands_after_three_times_the_rest_of
     assert!(brief > 8_000 && 2 * brief > all, "{brief} of {all}");
 }
 
-/// Drops that the cancellation of disk and crest spoiled.
+/// Drops that cancellation between disk and crest once spoiled.
 #[test]
 fn fast_and_low_drops_keep_their_digits() {
     for (peak, angle, gap, velocity, duration) in [
@@ -375,8 +373,8 @@ fn fast_and_low_drops_keep_their_digits() {
     assert!((impact.duration() / parabola - 1.0).abs() < 1.0e-3, "{impact:?}");
 }
 
-/// From a gap below the rounding of P a disk that moves down landed before it started, or was lost until the
-/// next period: it lands after gap/speed, but for the little that the platform's pull changes meanwhile.
+/// From a gap below the rounding of P a disk moving down once landed before it started, or was lost until the
+/// next period. It lands after gap/speed, except for the small change of the platform's pull meanwhile.
 #[test]
 fn a_disk_that_moves_down_lands_at_once_and_not_before() {
     for (peak, angle, gap, speed) in [
@@ -393,7 +391,7 @@ fn a_disk_that_moves_down_lands_at_once_and_not_before() {
     }
 }
 
-/// A map at a threshold, and an impact on a seam of it.
+/// A map at a threshold, and an impact on one of its seams.
 fn map_and_state(random: &mut SplitMix) -> (ImpactMap, ImpactState) {
     let restitution = seams::one_of(random, &seams::RESTITUTIONS);
     let case = seams::launch(random, 1.0e3, 400.0);
@@ -402,7 +400,8 @@ fn map_and_state(random: &mut SplitMix) -> (ImpactMap, ImpactState) {
     (map, ImpactState::new(Phase::new(case.angle).unwrap(), -speed).unwrap())
 }
 
-/// Orbits of maps at their thresholds, alone: every flight tells one time, and a sweep shows the same events.
+/// Single orbits of maps at their thresholds: every flight has one consistent time, and a sweep shows the
+/// same events.
 #[test]
 fn orbits_on_seams_keep_time_and_sweeps_show_them() {
     const EVENTS: usize = 30;
@@ -458,7 +457,7 @@ fn orbits_on_seams_keep_time_and_sweeps_show_them() {
             }
             expected.push(events);
         }
-        // Too long a flight of one orbit is the error of a sweep.
+        // Too long a flight in one orbit is an error of the sweep.
         let (orbits, expected): (Vec<_>, Vec<_>) =
             orbits.into_iter().zip(expected).filter(|(_, events)| !events.is_empty()).unzip();
         let swept = sweep(
@@ -488,7 +487,7 @@ fn orbits_on_seams_keep_time_and_sweeps_show_them() {
     assert!(impacts > 300_000, "{impacts}");
 }
 
-/// Grids whose cells lie on seams: the labels of lanes are those of single starts.
+/// Grids with cells on seams: the labels of lanes agree with single starts.
 #[test]
 fn basins_on_seams_have_the_labels_of_single_starts() {
     let mut random = SplitMix::new(110);
@@ -502,8 +501,8 @@ fn basins_on_seams_have_the_labels_of_single_starts() {
             .and_then(|orbit| KnownOrbit::new(orbit, 0.01).ok())
             .into_iter()
             .collect();
-        // Centres at whole sixteenths of the period, 0 and 1 among them, and speeds at fractions of that of
-        // the orbits.
+        // Centres at whole sixteenths of the period, 0 and 1 among them, and speeds at fractions of the
+        // orbits' speed.
         let phase = Axis::new(-1.0 / 32.0, 33.0 / 32.0, 17).unwrap();
         let fastest = 4.0 / (1.0 + map.restitution());
         let speed = Axis::new(0.0, fastest * (1.0 + 1.0 / 16.0), 17).unwrap();
@@ -552,7 +551,7 @@ fn campaign() {
     ]);
 }
 
-/// Launches that need not lie on seams, all judged by the oracle.
+/// Random launches, not only on seams, all judged by the oracle.
 fn random_launches(seed: u64, count: u64) -> Tally {
     let mut random = SplitMix::new(seed);
     let mut tally = Tally::default();

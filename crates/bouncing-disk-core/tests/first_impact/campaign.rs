@@ -16,7 +16,7 @@ use crate::oracle::{self, Exact, U};
 #[derive(Debug, Default)]
 struct Tally {
     launches: u32,
-    /// The oracle says that a perturbation of the last digits of P, w or the phase decides.
+    /// Cases for which, by the oracle, the last digits of P, w or the phase decide.
     undecidable: u32,
     /// Error over conditioning limit.
     phase: f64,
@@ -30,7 +30,7 @@ struct Tally {
     failures: Vec<String>,
 }
 
-/// What a campaign may show.
+/// The largest results allowed in a campaign.
 struct Bounds {
     undecidable: u32,
     phase: f64,
@@ -96,7 +96,7 @@ impl Tally {
     }
 }
 
-/// Largest error of the impact phase (rad) where the conditioning limit is below two roundoffs of 2 pi.
+/// Largest error of the impact phase (rad) if the conditioning limit is below two roundoffs of 2 pi.
 const WELL_CONDITIONED_PHASE: f64 = 2.0e-15;
 
 fn campaign(seed: u64, launches: u32, next: impl Fn(&mut SplitMix) -> Option<Case>, bounds: &Bounds) {

@@ -1,7 +1,7 @@
 //! The stored cases: hard launches with high-precision answers, in `data/cases/first_impact.json`.
 //!
-//! The answers come from the oracle's conservative advancement alone, so no solver of the crate has a say in
-//! them. Set `UPDATE_CASES=1` to write the file anew.
+//! The answers come from the oracle's conservative advancement alone, independent of all solvers of the
+//! crate. Set `UPDATE_CASES=1` to rewrite the file.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -21,15 +21,15 @@ use crate::oracle::{DIP_FACTOR, two_pi};
 /// Significant digits of the stored answers.
 const DIGITS: usize = 40;
 
-/// The reference solver may be off by this many conditioning limits, on top of [`PHASE_FACTOR`]: its steps
-/// are shorter than the rounding of the gap allows next to a graze.
+/// Allowed error of the reference solver in conditioning limits, in addition to [`PHASE_FACTOR`]: near a
+/// graze its steps are shorter than the rounding of the gap allows.
 const REFERENCE_FACTOR: f64 = 40.0;
 
 fn path() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../data/cases/first_impact.json")
 }
 
-/// The stored launches: decidable ones only, with some distance.
+/// The launches to store: only clearly decidable ones.
 fn launches() -> Vec<Case> {
     let mut random = SplitMix::new(2009);
     let mut cases = launches::TRAPS.to_vec();
@@ -54,12 +54,12 @@ fn decimal(x: &High) -> String {
     format!("{decimal:e}")
 }
 
-/// A double as JSON that reads back as the same double.
+/// A double as JSON text that reads back as the same double.
 fn number(x: f64) -> String {
     format!("{x:?}")
 }
 
-/// The file as it should be; launches without one clear answer are left out.
+/// The expected content of the file; launches without one clear answer are omitted.
 fn text() -> String {
     let mut lines = Vec::new();
     for case in launches() {
@@ -178,7 +178,7 @@ fn the_reference_solver_agrees_with_the_file() {
     for stored in stored() {
         let (vibration, launch) = oracle::launch(&stored.case);
         let impact = first_impact_by_advancement(&vibration, launch).unwrap();
-        // Its time has the rounding of the whole duration.
+        // Its time carries the rounding of the whole duration.
         let rounding = 16.0 * U * low(&stored.duration);
         let limit = PHASE_TOLERANCE + REFERENCE_FACTOR * stored.phase_limit + rounding;
         let error = apart(impact.impact_phase, &stored.phase);

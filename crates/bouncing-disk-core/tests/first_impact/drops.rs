@@ -1,4 +1,4 @@
-//! A disk that is dropped from a point of a flight lands where that flight does.
+//! A disk dropped from a point of a flight lands where that flight ends.
 
 use std::f64::consts::TAU;
 
@@ -7,7 +7,7 @@ use bouncing_disk_core::{Launch, Phase, Vibration};
 
 use crate::launches::SplitMix;
 
-/// Rounding of the point at which the flight is interrupted, in units of its largest terms, made generous.
+/// Rounding of the point at which the flight is interrupted, in units of its largest terms; a generous bound.
 const ROUNDING: f64 = 1.0e-14;
 
 #[test]
@@ -26,7 +26,7 @@ fn an_interrupted_flight_lands_at_the_same_place() {
         let gap = t * (speed + peak * phase.cos() - 0.5 * t) + peak * (phase.sin() - s);
         let velocity = speed + peak * (phase.cos() - c) - t;
         let there = Phase::new(phase.angle() + t).expect("finite");
-        // How far a rounding of that point moves the landing.
+        // The change of the landing by a rounding of this point.
         let scale = 1.0 + peak + t * (speed + peak + t);
         let curvature = 1.0 + peak;
         let shift = 2.0 * ROUNDING * scale
@@ -34,7 +34,7 @@ fn an_interrupted_flight_lands_at_the_same_place() {
                 + (impact.velocity * impact.velocity + ROUNDING * scale * curvature).sqrt())
             + ROUNDING * scale / (1.0 + impact.velocity.abs());
         let near_graze = vibration.graze_margin(launch, &impact) <= 1.0e3 * ROUNDING * scale;
-        // Next to a graze, or on the platform, the rounding decides.
+        // Near a graze, or on the platform, rounding decides.
         if gap <= 1.0e3 * ROUNDING * scale || shift > 1.0e-6 || near_graze {
             continue;
         }

@@ -1,4 +1,4 @@
-//! The elementary functions against the oracle's.
+//! The elementary functions against the oracle.
 
 use std::f64::consts::{PI, TAU};
 
@@ -77,7 +77,7 @@ fn sin_cos_of_tiny_arguments_is_relative() {
     assert_eq!(elementary::sin_cos(0.0), (0.0, 1.0));
 }
 
-/// Whether `value` is within some units in the last place of the high-precision `exact`.
+/// Whether `value` is within a few units in the last place of the high-precision `exact`.
 fn close(value: f64, exact: &High) -> bool {
     low(&(high(value) - exact)).abs() <= 4.0e-16 * low(exact).abs()
 }
@@ -109,7 +109,7 @@ fn angles_are_wrapped() {
         let x = random.sign() * random.decades(-18.0, 6.0);
         let wrapped = elementary::wrapped_angle(x);
         assert!((0.0..TAU).contains(&wrapped), "{x}");
-        // Of the double next to 2 pi, whole multiples of which are not quite whole turns.
+        // Turns of the double nearest to 2 pi, whose multiples are not quite whole turns.
         let turns = ((high(x) - high(wrapped)) / two_pi()).with_precision(PRECISION).value();
         let off = low(&(&turns - high(low(&turns).round()))).abs();
         assert!(off <= 1.0e-15 + 1.0e-16 * x.abs(), "{x}: {off:e}");

@@ -1,4 +1,4 @@
-//! Launches that are hard, or many.
+//! Hard launches, and random ones.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -14,11 +14,11 @@ pub struct Case {
     pub angle: f64,
     /// Relative launch speed.
     pub speed: f64,
-    /// From rest at the phase of separation, asin(1/P) exactly.
+    /// Whether it is a launch from rest at the exact phase of separation, asin(1/P).
     pub separation: bool,
 }
 
-/// Random launches of a seed.
+/// Random launches from a seed.
 pub struct SplitMix(SplitMix64);
 
 impl SplitMix {
@@ -30,7 +30,7 @@ impl SplitMix {
         self.0.next_number()
     }
 
-    /// In [0, 1).
+    /// A number in [0, 1).
     pub fn unit(&mut self) -> f64 {
         (self.next() >> 11) as f64 / (1_u64 << 53) as f64
     }
@@ -39,7 +39,7 @@ impl SplitMix {
         low + (high - low) * self.unit()
     }
 
-    /// Ten to a power that is uniform between two numbers.
+    /// Ten to a power that is uniform in an interval.
     pub fn decades(&mut self, low: f64, high: f64) -> f64 {
         libm::exp10(self.uniform(low, high))
     }
@@ -88,7 +88,7 @@ pub fn random(random: &mut SplitMix) -> Case {
     let speed = match random.below(4) {
         // As a share of the platform's speed.
         0 | 1 => random.decades(-12.0, 0.8) * if peak > 0.0 { peak } else { 1.0 },
-        // Some periods, up to 5e5.
+        // Many periods, up to 5e5.
         2 => PI * random.decades(-9.0, 5.69),
         // Of the order of the platform's speed.
         _ => random.uniform(0.0, 4.0) * peak.max(0.1),
@@ -96,7 +96,7 @@ pub fn random(random: &mut SplitMix) -> Case {
     Case { class, peak, angle, speed: speed.max(1.0e-300), separation: false }
 }
 
-/// A launch from rest where the platform begins to fall away.
+/// A launch from rest when the platform begins to fall away.
 pub fn separation(random: &mut SplitMix) -> Case {
     let peak = match random.below(3) {
         0 => 1.0 + random.decades(-15.0, -2.0),
@@ -130,7 +130,7 @@ pub fn boundary(random: &mut SplitMix) -> Case {
     Case { class: "boundary", peak, angle, speed, separation: false }
 }
 
-/// A slow launch next to the phases where the weight of a resting disk vanishes, P sin tau = 1.
+/// A slow launch near the phases at which the weight of a resting disk vanishes, P sin tau = 1.
 pub fn chattering(random: &mut SplitMix) -> Case {
     let peak = if random.below(4) == 0 {
         1.0 + random.sign() * random.decades(-12.0, -1.0)
@@ -168,7 +168,7 @@ struct Backward {
 }
 
 impl Backward {
-    /// The gap at the time `t` before.
+    /// The gap at a time `t` earlier.
     fn gap_before(&self, t: f64) -> f64 {
         let (s, _) = libm::sincos(t);
         let half = libm::sin(0.5 * t);
@@ -189,8 +189,8 @@ impl Backward {
         (self.velocity + t) + self.peak * (self.cos * versine - self.sin * s)
     }
 
-    /// The time from the launch, and the largest gap since. Starts to look at `from`, where the gap should be
-    /// positive; the disk cannot have been launched above the crests.
+    /// The time from the launch, and the largest gap since. The search starts at `from`, where the gap should
+    /// be positive; the disk cannot have been launched above the crests.
     fn launch(&self, from: f64) -> Option<(f64, f64)> {
         let speed = self.velocity + self.peak * self.cos;
         let height = self.gap + self.peak * (self.sin - 1.0);
@@ -246,7 +246,7 @@ impl Backward {
     }
 }
 
-/// A phase where the gap is convex, often next to the ends of that zone.
+/// A phase at which the gap is convex, often near the ends of that zone.
 fn convex_phase(random: &mut SplitMix, peak: f64) -> f64 {
     let sigma = libm::asin(1.0 / peak);
     let width = PI - 2.0 * sigma;
@@ -263,7 +263,7 @@ pub fn grazing(random: &mut SplitMix) -> Option<Case> {
     grazing_to(random, -15.5)
 }
 
-/// The same, no closer than 10^`closest`.
+/// The same with a relative gap not below 10^`closest`.
 pub fn grazing_to(random: &mut SplitMix, closest: f64) -> Option<Case> {
     let peak = peak_above_one(random);
     let angle = convex_phase(random, peak);
@@ -300,18 +300,18 @@ const fn launch(class: &'static str, peak: f64, angle: f64, speed: f64) -> Case 
     Case { class, peak, angle, speed, separation: false }
 }
 
-/// Launches that a careless solver gets wrong: each of them has been got wrong by one.
+/// Launches that defeat a careless solver: each of them has defeated one.
 pub const TRAPS: [Case; 16] = [
-    // A gap at the inflection that is far below the rounding of heights counted from the crest.
+    // A gap at the inflection far below the rounding of heights counted from the crest.
     launch("trap: low start", 1854.4952716103069, 0.000539226136370109, 2.951889329631943e-6),
     launch("trap: low start", 1.9938048226305751, 0.5251925330349337, 2.6166210311548768e-8),
     launch("trap: low start", 225.57147695817932, 0.0041872603850243665, 5.1164091408261955e-6),
     launch("trap: low start", 912156.5229893959, 6.281969767540147, 0.5063162424541003),
-    // Touches at an inflection: no slope, no curvature.
+    // Touches at an inflection: zero slope and curvature.
     launch("trap: slow inflection", 5.768746002934865, 3.587227185490912, 11.470452053443715),
     launch("trap: slow inflection", 1.7847623421711838, 4.573174754237005, 3.026217426385511),
     launch("trap: slow inflection", 1.0128023061456377, 1.0922096663713985, 0.010807884769195364),
-    // A whole period, and what remains of it.
+    // A whole period, and its remainder.
     launch("trap: whole period", 0.0, 2.0287966029632174, std::f64::consts::PI),
     launch("trap: whole period", 4.384710854596273, 1.636809723859689, 9.714017439457246),
     // The velocity of a short flight.

@@ -1,5 +1,5 @@
-//! A march in doubles that confirms an impact or hands it to the high-precision oracle: it knows the gap and
-//! how strongly it can bend, and nothing of pieces, brackets or forms.
+//! A march in doubles that confirms an impact or hands it to the high-precision oracle: it uses the gap and a
+//! bound on its curvature, but no pieces, brackets or forms.
 
 use std::f64::consts::{PI, TAU};
 
@@ -7,21 +7,21 @@ use bouncing_disk_core::{Impact, Phase};
 
 use crate::oracle::{STEP_SHARE, U};
 
-/// Steps before a flight is left to the oracle.
+/// Largest number of steps before a flight is left to the oracle.
 const MAX_STEPS: u32 = 400;
 
-/// What the march makes of an impact.
+/// The finding of the march about an impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Finding {
-    /// The gap is zero there and positive before, beyond the rounding of doubles.
+    /// The gap is zero at the impact and positive before, beyond the rounding of doubles.
     Confirmed,
-    /// The rounding leaves it open.
+    /// Rounding leaves this open.
     Open,
-    /// What the impact says of itself does not agree: time, phases and velocities.
+    /// The impact's time, phases and velocities do not agree.
     Contradiction(&'static str),
 }
 
-/// A flight from `phase`, at first `gap` above the platform (zero for a launch), with relative `speed`.
+/// A flight from `phase`, starting `gap` above the platform (zero for a launch) with relative `speed`.
 #[derive(Debug, Clone, Copy)]
 pub struct Flight {
     pub peak: f64,
@@ -44,7 +44,7 @@ pub fn check_form(impact: &Impact) -> Result<(), &'static str> {
     Ok(())
 }
 
-/// h - sin h, in relative accuracy.
+/// h - sin h, with relative accuracy.
 fn sine_deficit(h: f64, sine: f64) -> f64 {
     if h > 0.5 {
         return h - sine;
@@ -71,8 +71,8 @@ pub struct Sample {
 }
 
 impl Sample {
-    /// At a time after a start with this gap and relative speed, where the phase has this sine and cosine: in
-    /// relative accuracy.
+    /// The sample at a time after a start with this gap and relative speed, given the phase's sine and
+    /// cosine, with relative accuracy.
     pub fn after(peak: f64, (gap, speed): (f64, f64), (s0, c0): (f64, f64), t: f64) -> Self {
         let (p, w) = (peak, speed);
         let (half_sin, half_cos) = libm::sincos(0.5 * t);
@@ -91,7 +91,7 @@ impl Sample {
         }
     }
 
-    /// Whether the gap falls all the time from here to `ahead`.
+    /// Whether the gap falls throughout from here to `ahead`.
     pub fn falls_for(&self, peak: f64, ahead: f64) -> bool {
         let bend = (self.pull_error - self.pull + (self.third.abs() + 0.5 * peak * ahead) * ahead)
             .min(peak - 1.0 + self.pull_error);
@@ -103,7 +103,7 @@ impl Sample {
     pub fn safe_step(&self, gap: f64, velocity: f64, peak: f64) -> f64 {
         let mut best = safe_time(gap, velocity, 1.0 + peak);
         let mut cap = best;
-        // A disk that starts with next to no speed where nothing pulls at it needs many.
+        // A disk that starts with almost no speed and no pull needs many.
         for _ in 0..400 {
             cap *= 4.0;
             if cap > PI {
@@ -129,19 +129,19 @@ fn safe_time(gap: f64, velocity: f64, bend: f64) -> f64 {
     if velocity >= 0.0 { (velocity + root) / bend } else { 2.0 * gap / (root - velocity) }
 }
 
-/// A march by steps that cannot pass a root, as the gap bends down by no more than a bound.
+/// A march by steps that cannot pass a root, because the gap's downward curvature is bounded.
 pub struct March {
     pub peak: f64,
     pub from: f64,
     pub to: f64,
-    /// The gap falls to a root at the end.
+    /// Whether the gap falls to a root at the end.
     pub to_root: bool,
-    /// From when to when the disk is above the crests, and nothing is to be hit.
+    /// Start and end of the time above the crests, during which no impact is possible.
     pub clear: Option<(f64, f64)>,
 }
 
 impl March {
-    /// The steps that it takes, and the time at which rounding leaves open whether there is a root, if it does.
+    /// The number of steps, and the time, if any, at which rounding leaves open whether there is a root.
     pub fn run(&self, at: impl Fn(f64) -> Sample) -> (u32, Option<f64>) {
         let mut t = self.from;
         for step in 0..MAX_STEPS {
@@ -175,7 +175,7 @@ impl Flight {
         Sample::after(self.peak, (self.gap, self.speed), (self.phase.sin(), self.phase.cos()), t)
     }
 
-    /// What the impact says of itself: phase, turns, periods, remainder and velocities must tell the same
+    /// The consistency of the impact: phase, turns, periods, remainder and velocities must give the same
     /// time.
     pub fn agrees(&self, impact: &Impact) -> Result<(), &'static str> {
         let (angle, h) = (impact.phase.angle(), impact.duration());
@@ -184,7 +184,7 @@ impl Flight {
         if (by_phase - h).abs() > 4.0e-15 + 4.0 * f64::EPSILON * h {
             return Err("phases and turns tell another time");
         }
-        // A disk in free flight loses a unit of speed a radian.
+        // A disk in free flight loses one unit of speed per radian.
         let lost = self.speed + self.peak * (self.phase.cos() - impact.phase.cos()) - impact.velocity;
         let rounding = 1.0e-14 * (1.0 + self.peak + self.speed.abs() + h);
         if impact.velocity < 0.0 && (lost - h).abs() > rounding {
@@ -206,15 +206,16 @@ impl Flight {
             return if near { Finding::Confirmed } else { Finding::Open };
         }
         let end = self.at(h);
-        // Half of what the oracle allows, beside the rounding of this evaluation.
+        // Half of the oracle's tolerance, in addition to the rounding of this evaluation.
         if end.gap.abs() > end.gap_error + 0.5e-14 * TAU * end.velocity.abs() {
             return Finding::Open;
         }
         self.is_first(h)
     }
 
-    /// The duration 2 w/(1 - P sin tau) of a launch that is back before the pull, no small difference, has
-    /// changed by a rounding: the squares of the march would underflow. `None` for other flights.
+    /// The duration 2 w/(1 - P sin tau) of a launch that returns before the pull, which is not a small
+    /// difference, has changed by a rounding: the squares of the march would underflow. `None` for other
+    /// flights.
     fn brief_parabola(&self) -> Option<f64> {
         let sine = self.peak * self.phase.sin();
         let pull = 1.0 - sine;
@@ -223,14 +224,14 @@ impl Flight {
         (plain && h * (1.0 + self.peak) < 1.0e-16 * pull).then_some(h)
     }
 
-    /// Whether the pull at the start may be nothing but the rounding of P and the phase.
+    /// Whether the pull at the start may be pure rounding of P and the phase.
     pub fn is_weightless(&self) -> bool {
         (1.0 - self.peak * self.phase.sin()).abs() <= 1.0e-13 * (1.0 + self.peak)
     }
 
     fn is_first(&self, h: f64) -> Finding {
         let (p, s0, c0) = (self.peak, self.phase.sin(), self.phase.cos());
-        // Above the crests there is nothing to hit.
+        // Above the crests no impact is possible.
         let disk_speed = self.speed + p * c0;
         let depth = p * (1.0 - s0) - self.gap;
         let radicand = disk_speed * disk_speed - 2.0 * depth;

@@ -1,10 +1,10 @@
-//! A high-precision oracle for the first impact: it knows the gap function of the flight and nothing of the
-//! solver.
+//! A high-precision oracle for the first impact: it uses the gap function of the flight and is independent of
+//! the solver.
 //!
 //! The arithmetic is `dashu-float` at [`PRECISION`] bits. Its own sine takes more than 100 us at this
-//! precision (it computes pi anew for every argument), so sine and cosine are a table at multiples of 1/1024,
-//! by angle addition from `dashu`'s values for the first, and a Taylor series for the rest; a test compares
-//! them with `dashu`'s own.
+//! precision (it recomputes pi for every argument), so sine and cosine are a table at multiples of 1/1024, by
+//! angle addition from `dashu`'s values for the first, and a Taylor series for the rest; a test compares them
+//! with `dashu`'s own.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::OnceLock;
@@ -25,24 +25,25 @@ pub const PRECISION: usize = 256;
 /// The unit roundoff of a double.
 pub const U: f64 = 0.5 * f64::EPSILON;
 
-/// The impact phase may be off by this many conditioning limits (see [`Limits`]), or by [`PHASE_TOLERANCE`].
+/// Allowed error of the impact phase in conditioning limits (see [`Limits`]); [`PHASE_TOLERANCE`] is allowed,
+/// too.
 pub const PHASE_FACTOR: f64 = 8.0;
 
-/// The impact phase may be off by this much even where the problem is conditioned better: 1e-14 of a period.
+/// Allowed error of the impact phase even for better conditioning: 1e-14 of a period.
 pub const PHASE_TOLERANCE: f64 = 1.0e-14 * TAU;
 
-/// The impact velocity may be off by this many of its conditioning limits.
+/// Allowed error of the impact velocity in conditioning limits.
 pub const VELOCITY_FACTOR: f64 = 8.0;
 
 /// A dip of the gap is undecidable in double precision if its depth is below this many perturbations of the
 /// gap by one unit roundoff in each of P, w and the launch phase.
 pub const DIP_FACTOR: f64 = 8.0;
 
-/// The carried sine and cosine may differ by this much from those of the angle, which has roundings of its
-/// own: some roundoffs of 2 pi.
+/// Allowed difference between the carried pair and the sine and cosine of the angle, which is rounded itself:
+/// a few roundoffs of 2 pi.
 const PAIR_TOLERANCE: f64 = 6.0 * U * TAU;
 
-/// Steps of conservative advancement in high precision before the oracle gives up (an error).
+/// Steps of conservative advancement in high precision before the oracle gives up with an error.
 const MAX_HIGH_STEPS: u32 = 20_000;
 
 /// Conservative steps are computed in doubles and shortened by this much.
@@ -53,7 +54,7 @@ pub fn high(x: f64) -> High {
     High::try_from(x).unwrap().with_precision(PRECISION).value()
 }
 
-/// The double next to `x`.
+/// The double nearest to `x`.
 pub fn low(x: &High) -> f64 {
     x.to_f64().value()
 }
@@ -105,7 +106,7 @@ pub fn two_pi() -> &'static High {
     &tables().two_pi
 }
 
-/// Sine and cosine of a non-negative number of at most some million radians.
+/// Sine and cosine of a non-negative number of at most a few million radians.
 pub fn sin_cos(x: &High) -> (High, High) {
     let tables = tables();
     let turns = (low(x) / TAU).floor();
@@ -115,7 +116,7 @@ pub fn sin_cos(x: &High) -> (High, High) {
     turned(&tables.pairs[k as usize], &r, TERMS)
 }
 
-/// Sine and cosine of an angle with this `pair`, turned by a small angle.
+/// Sine and cosine of an angle with this `pair`, rotated by a small angle.
 fn turned(pair: &(High, High), by: &High, terms: usize) -> (High, High) {
     let factors = &tables().inverse_factorials;
     let square = by * by;
@@ -152,7 +153,7 @@ fn separation_of(p: &High) -> (High, High, High) {
     let cosine = ((p - high(1.0)) * (p + high(1.0))).sqrt() / p;
     let near = high(libm::asin(low(&sine)));
     let (s, c) = sin_cos(&near);
-    // The sine of what is missing, at most 3e-8, and its arc.
+    // The sine of the remaining angle, at most 3e-8, and its arc.
     let d = &sine * c - &cosine * s;
     let d2 = &d * &d;
     let mut arc = high(0.0);
@@ -164,7 +165,7 @@ fn separation_of(p: &High) -> (High, High, High) {
     (near + &d + d * arc, sine, cosine)
 }
 
-/// What a case is in exact arithmetic.
+/// A case in exact arithmetic.
 pub struct Exact {
     p: High,
     tau: High,
@@ -174,9 +175,9 @@ pub struct Exact {
     disk_speed: High,
     peak: f64,
     speed: f64,
-    /// How high above the platform the disk starts: zero for a launch.
+    /// The initial gap between disk and platform: zero for a launch.
     start_gap: f64,
-    /// What one unit roundoff in the data does to the launch phase.
+    /// The effect of one unit roundoff in the data on the launch phase.
     launch_shift: f64,
     separation: bool,
     half: High,
@@ -190,17 +191,17 @@ pub struct Point {
     cos: High,
 }
 
-/// The conditioning limits of an impact: what one unit roundoff u = 2^-53 in each of P, w and the launch
-/// phase (and of P in the height of the crests, if the disk passes one) does to it.
+/// The conditioning limits of an impact: the effect of one unit roundoff u = 2^-53 in each of P, w and the
+/// launch phase (and of P in the height of the crests, if the disk passes one).
 ///
 /// The gap changes by dg = u (w h + P |h cos tau - sin(tau + h) + sin tau| \[+ P\] + tau |d gap/d tau|), the
 /// impact by 2 dg / (|v| + sqrt(v^2 + 2 dg |curvature|)), and the phase has a roundoff u 2 pi of its own. For
-/// a launch from rest at the phase of separation, u tan sigma takes the place of u tau, and is added to the
-/// phase: sigma = asin(1/P) moves by so much.
+/// a launch from rest at the phase of separation, u tan sigma replaces u tau and is added to the phase,
+/// because sigma = asin(1/P) moves by this amount.
 #[derive(Debug, Clone, Copy)]
 pub struct Limits {
     pub gap: f64,
-    /// Of the impact phase, and of the duration less one roundoff of it.
+    /// The limit of the impact phase, and of the duration without one roundoff of it.
     pub phase: f64,
     pub duration: f64,
     pub velocity: f64,
@@ -209,13 +210,13 @@ pub struct Limits {
 /// A first impact in high precision.
 pub struct Solution {
     pub duration: High,
-    /// In [0, 2 pi).
+    /// The phase in [0, 2 pi).
     pub phase: High,
     pub velocity: High,
     pub limits: Limits,
 }
 
-/// The judgement of one impact that passed.
+/// The judgement of an impact that passed.
 #[derive(Debug, Clone)]
 pub struct Verdict {
     pub undecidable: bool,
@@ -228,9 +229,9 @@ pub struct Verdict {
     pub high_steps: u32,
 }
 
-/// What conservative advancement found out.
+/// The result of conservative advancement.
 enum Advance {
-    /// No root before the one that was given.
+    /// No root before the given one.
     Clear,
     /// A root at this earlier time.
     Earlier(High),
@@ -311,10 +312,9 @@ impl Exact {
         Point { gap, velocity, sin, cos }
     }
 
-    /// The duration of a flight that is so short that the pull at its start is that of all of it, to thirty
-    /// digits: from a `gap` and a velocity of any smallness, which the doubles of the march cannot square.
-    /// `None` for other flights. With it what one unit roundoff in P and the phase does to the pull, relative
-    /// to it.
+    /// The duration of a flight so short that the initial pull holds for all of it, to thirty digits. Gap and
+    /// velocity may be so small that the doubles of the march cannot square them. Also returns the relative
+    /// effect of one unit roundoff in P and the phase on the pull. `None` for other flights.
     pub fn brief_flight(&self) -> Option<(High, f64)> {
         let pull = high(1.0) - &self.p * &self.s0;
         let (gap, speed) = (high(self.start_gap), high(self.speed));
@@ -328,23 +328,24 @@ impl Exact {
         let force = low(&pull).abs().max(low(&(&speed / &h)).abs());
         let share = low(&h) * self.peak / force;
         let shift = U * self.peak * low(&self.s0).abs() + self.launch_shift * self.peak * low(&self.c0).abs();
-        // What the velocity and the pull take from each other counts, too.
+        // Cancellation between velocity and pull counts, too.
         let sizes = &speed * &speed + high(2.0) * &pull * &gap * high(low(&pull).signum());
         let doubt = (shift / force + U) * low(&(sizes / &radicand)).max(1.0);
         (low(&h) < 1.0e-40 && share < 1.0e-25).then_some((h, doubt))
     }
 
-    /// Whether the platform is at its crest between the launch and the time `h`, not in a very short flight.
+    /// Whether the platform is at its crest between the launch and the time `h`; false for a very short
+    /// flight.
     fn passes_crest(&self, h: &High) -> bool {
         let ahead = FRAC_PI_2 - low(&self.tau);
         let ahead = if ahead > 0.0 { ahead } else { ahead + TAU };
         low(h) >= ahead.max(0.25)
     }
 
-    /// One unit roundoff in each of P, w and the launch phase, at the time `h`, as the gap, the impact phase
-    /// and the velocity see it.
+    /// The effect of one unit roundoff in each of P, w and the launch phase on the gap, the impact phase and
+    /// the velocity at the time `h`.
     pub fn limits(&self, h: &High, at: &Point) -> Limits {
-        // What the sine and the cosine of the phase gain, and by how much less than a tangent says.
+        // The gains of the sine and the cosine of the phase, and their differences from the tangents.
         let (sine_gain, cosine_gain, sine_bend, cosine_bend) = if low(h) < 1.0e-2 {
             let (versine, deficit) = versine_and_deficit(h);
             let sine = h - &deficit;
@@ -361,7 +362,7 @@ impl Exact {
         };
         let by_peak = self.peak * low(&sine_bend).abs();
         let by_phase = self.peak * low(&cosine_bend).abs();
-        // Behind a crest heights are counted from the crests, with a rounding of their own.
+        // After a crest, heights are counted from the crests, with their own rounding.
         let crest = if self.passes_crest(h) { self.peak } else { 0.0 };
         let gap =
             U * (self.start_gap + self.speed.abs() * low(h) + by_peak + crest) + self.launch_shift * by_phase;
@@ -382,7 +383,7 @@ impl Exact {
         Limits { gap, phase, duration: time + own + U * low(h), velocity }
     }
 
-    /// Newton's root next to `from`, the gap falling through it: `None` if there is none.
+    /// The root near `from` through which the gap falls, by Newton's method; `None` if there is none.
     fn refine(&self, from: &High) -> Option<(High, Point)> {
         let mut h = from.clone();
         let mut at = self.at(&h);
@@ -394,7 +395,7 @@ impl Exact {
             let step = &at.gap / &at.velocity;
             let size = low(&step).abs();
             if size <= 1.0e-32 * low(&h) {
-                // A sign change, by Taylor's theorem with the largest curvature there is, 1 + P.
+                // A sign change, by Taylor's theorem with the largest possible curvature, 1 + P.
                 let reach = 1.0e-26 * low(&h);
                 let margin = slope.abs() * reach - (1.0 + self.peak) * reach * reach;
                 return (low(&at.gap).abs() < margin).then_some((h, at));
@@ -408,7 +409,7 @@ impl Exact {
         None
     }
 
-    /// What the rounding of the phase of separation does to the angle, which the carried pair does not share.
+    /// The effect of rounding the phase of separation on the angle; the carried pair is not affected.
     fn own_shift(&self) -> f64 {
         if self.separation { self.launch_shift } else { 0.0 }
     }
@@ -435,8 +436,7 @@ impl Exact {
         None
     }
 
-    /// The same where the gap is still concave at `from`: the first time before `end` at which it rises
-    /// again.
+    /// The same if the gap is still concave at `from`: the first time before `end` at which it rises again.
     fn lowest_beyond(&self, from: &High, end: &High) -> Option<(High, Point)> {
         let mut before = from.clone();
         loop {
@@ -457,7 +457,7 @@ impl Exact {
         }
     }
 
-    /// Where the search for a root starts: not at the launch from rest, where the gap has a double or triple
+    /// The start of the search for a root: not at a launch from rest, where the gap has a double or triple
     /// zero but is convex until pi - sigma.
     fn search_start(&self) -> Result<High, String> {
         if self.speed > 0.0 || self.start_gap > 0.0 {
@@ -472,8 +472,7 @@ impl Exact {
         }
     }
 
-    /// The times at which the disk rises above the crests and comes down to their height, and its speed
-    /// there.
+    /// The times at which the disk rises above the crests and comes down to their height, and its speed then.
     fn above_crests(&self) -> Option<(High, High, High)> {
         let depth = &self.p * (high(1.0) - &self.s0) - high(self.start_gap);
         let radicand = &self.disk_speed * &self.disk_speed - high(2.0) * &depth;
@@ -484,8 +483,7 @@ impl Exact {
         let fall = radicand.sqrt();
         let until = &self.disk_speed + &fall;
         if starts_above {
-            // Where this is lost in the rounding of both speeds, the disk is above the crests for no time
-            // worth a leap.
+            // If this is lost in the rounding of both speeds, the time above the crests is too short to skip.
             return (low(&until) > 1.0e-30 * low(&fall)).then(|| (high(0.0), until, fall));
         }
         Some((high(2.0) * depth / &until, until, fall))
@@ -493,7 +491,7 @@ impl Exact {
 
     /// The first impact, by conservative advancement in high precision alone.
     pub fn first_root(&self) -> Result<Solution, String> {
-        // To just before it is at the crests' height again: there the gap may be zero already.
+        // To just before it is at the crests' height again, where the gap may already be zero.
         let above = self.above_crests().map(|(from, until, _)| (from, until * high(STEP_SHARE)));
         let mut h = self.search_start()?;
         for _ in 0..MAX_HIGH_STEPS {
@@ -524,9 +522,9 @@ impl Exact {
         Err(format!("the advancement stopped at {}", low(&h)))
     }
 
-    /// The smallest gap of any dip (or of an inflection with next to no slope) before `end`, over its own
-    /// perturbation by a roundoff of the data; infinity if there is none. Below some, the first impact is a
-    /// matter of rounding.
+    /// The smallest gap of any dip (or of an inflection with almost no slope) before `end`, over its
+    /// perturbation by a roundoff of the data; infinity if there is none. If it is small, rounding decides
+    /// the first impact.
     pub fn smallest_dip_before(&self, end: &High) -> f64 {
         if self.peak <= 1.0 {
             return f64::INFINITY;
@@ -551,7 +549,7 @@ impl Exact {
         smallest
     }
 
-    /// The minimum of the gap in a convex piece, and its ends where they have next to no slope.
+    /// The minimum of the gap in a convex piece, and those of its ends that have almost no slope.
     fn lowest_between(&self, mut from: High, mut to: High) -> Vec<High> {
         let slope = |h: &High| low(&self.at(h).velocity);
         let (start, end) = (slope(&from), slope(&to));
@@ -593,7 +591,7 @@ impl Exact {
         }
     }
 
-    /// Judges an impact that the solver found.
+    /// Judges an impact found by the solver.
     pub fn judge(&self, impact: &Impact) -> Result<Verdict, String> {
         check_form(impact)?;
         check_pair(impact.phase, self.own_shift())?;
@@ -625,7 +623,7 @@ impl Exact {
         };
         let limits = verdict.limits;
         if verdict.undecidable || verdict.phase_error > PHASE_TOLERANCE.max(PHASE_FACTOR * limits.phase) {
-            // No root there: then the gap must be nothing but rounding.
+            // No root there: then the gap must be pure rounding.
             let at = self.at(&claimed);
             let residual = low(&at.gap).abs();
             let limits = self.limits(&claimed, &at);
@@ -664,12 +662,12 @@ impl Exact {
         Ok(verdict)
     }
 
-    /// Looks for a root before the one in the verdict by conservative advancement: the gap bends down by no
-    /// more than a bound, so a step that the bound allows cannot jump over a root. Above the crests of the
-    /// platform nothing can be hit.
+    /// Looks for a root before the one in the verdict by conservative advancement: the gap's downward
+    /// curvature is bounded, so a step within the bound cannot jump over a root. Above the crests of the
+    /// platform no impact is possible.
     fn first(&self, verdict: &mut Verdict) -> Result<Advance, String> {
         let target = if verdict.undecidable {
-            // Up to where the dip is nothing but rounding.
+            // Up to where the dip is pure rounding.
             let at = self.at(&verdict.duration);
             let curvature = low(&(&self.p * &at.sin - high(1.0))).abs();
             let width = 4.0 * (2.0 * DIP_FACTOR * verdict.limits.gap / curvature).sqrt();
@@ -750,7 +748,7 @@ impl Exact {
         verdict.fast_steps += steps;
         let Some(t) = open else { return Ok(Advance::Clear) };
         let mut h = reference + high(t);
-        // The last step may have been a rounding too long: go back a little.
+        // The last step may have been too long by a rounding: go back a little.
         h = &h - &h * high(4.0 * U);
         if low(&h) <= 0.0 {
             return Err("the advancement does not leave the launch".into());

@@ -1,4 +1,4 @@
-//! What every first impact has in common.
+//! Properties common to all first impacts.
 
 use std::f64::consts::TAU;
 
@@ -22,8 +22,8 @@ fn speeds() -> impl Strategy<Value = f64> {
 /// Roundings of a gap relative to the sizes of its terms, or of a time.
 const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 
-/// Relative rounding of a bound that is computed from the difference of two speeds, a thousandth of them or
-/// more.
+/// Relative rounding of a bound computed from the difference of two speeds, if this is at least a thousandth
+/// of them.
 const ROUNDED_BOUND: f64 = 1.0e-9;
 
 /// Whether a launch from a platform at rest returns after twice its speed, with its speed.
@@ -51,7 +51,7 @@ proptest! {
         let impact = impact(peak, angle, speed);
         let duration = impact.duration();
         prop_assert!(duration >= 2.0 * speed / (1.0 + peak) * (1.0 - 1.0e-14));
-        // Never longer than up to the height of the crests, back, and a period.
+        // Never longer than the way up to the crests' height and back, plus one period.
         let climb = speed + peak;
         prop_assert!(duration <= 2.0 * climb + 2.0 * (2.0 * peak).sqrt() + 2.0 * TAU);
         prop_assert!(impact.velocity <= 0.0);
@@ -85,7 +85,7 @@ proptest! {
     fn a_faster_launch_of_a_calm_platform_flies_longer(
         peak in 0.0..1.0, angle in 0.0..TAU, speed in speeds(), more in 1.001..2.0_f64,
     ) {
-        // Without zones of positive curvature nothing can be grazed.
+        // Without zones of positive curvature there are no grazes.
         prop_assert!(impact(peak, angle, speed * more).duration() > impact(peak, angle, speed).duration());
     }
 
@@ -96,8 +96,8 @@ proptest! {
         let (faster, slower) = (impact(peak, angle, speed * more), impact(peak, angle, speed));
         let (late, early) = (faster.duration(), slower.duration());
         // The gap grows with the launch speed at every instant: at the impact of the slower disk the faster
-        // one is this high, less the rounding of both gaps. Its speed there is that impact's or less, and it
-        // gains 1 + P at most. Flights of less than half a radian are accurate relative to their own length.
+        // one is this high, minus the rounding of both gaps. Its speed then is at most the speed of that
+        // impact, and it gains at most 1 + P. Flights of less than half a radian have relative accuracy.
         let scale = if early < 0.5 { early } else { 1.0 + early };
         let above = speed * (more - 1.0) * early - ROUNDINGS * (1.0 + peak) * scale * scale;
         let rounding = ROUNDINGS * scale;

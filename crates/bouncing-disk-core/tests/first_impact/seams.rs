@@ -1,6 +1,6 @@
-//! Launches, drops and parameters that land *on* the seams of the problem: phases where the angle wraps or a
-//! piece ends, numbers that a threshold is made of, exact binary fractions, and the neighbours of all of them
-//! in units of the last place.
+//! Launches, drops and parameters that land *on* the seams of the problem: phases at which the angle wraps or
+//! a piece ends, numbers that form thresholds, exact binary fractions, and the neighbours of all of them in
+//! units of the last place.
 //!
 //! Random numbers never meet such a place: none of 87 million random launches, 29 million of them built to
 //! graze, showed the flights that lose a period at a seam; the first thousand of these did.
@@ -9,7 +9,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use crate::launches::{Case, SplitMix};
 
-/// Coefficients of restitution: both ends, exact fractions, and what the paper uses.
+/// Coefficients of restitution: both ends, exact fractions, and the paper's values.
 pub const RESTITUTIONS: [f64; 14] = [
     0.0,
     f64::MIN_POSITIVE,
@@ -27,12 +27,12 @@ pub const RESTITUTIONS: [f64; 14] = [
     1.0 - 0.5 * f64::EPSILON,
 ];
 
-/// One of some values.
+/// One of these values.
 pub fn one_of<T: Copy>(random: &mut SplitMix, values: &[T]) -> T {
     values[(random.next() % values.len() as u64) as usize]
 }
 
-/// `x` or, as often, one of its nearest neighbours among doubles.
+/// `x` or, equally often, one of its nearest neighbours among doubles.
 pub fn nearby(random: &mut SplitMix, x: f64) -> f64 {
     if random.next() & 1 == 0 {
         return x;
@@ -55,8 +55,8 @@ fn separation(peak: f64) -> f64 {
     if peak > 1.0 { libm::asin(1.0 / peak) } else { FRAC_PI_2 }
 }
 
-/// The forcing at which the orbits with one impact every `k` periods are born, and that of the first doubling
-/// (k = 1).
+/// The forcing at which the orbits with one impact every `k` periods are born, or the forcing of the first
+/// doubling (k = 1).
 pub fn threshold_forcing(random: &mut SplitMix, restitution: f64) -> f64 {
     let r = restitution;
     let k = (1 + random.next() % 4) as f64;
@@ -101,7 +101,7 @@ pub fn angle(random: &mut SplitMix, peak: f64) -> f64 {
         7 => TAU * binary_fraction(random),
         8 => binary_fraction(random),
         9 => {
-            // The phase of an orbit with one impact a period.
+            // The phase of an orbit with one impact per period.
             let r = one_of(random, &RESTITUTIONS);
             let cosine = PI * (1.0 - r) / ((1.0 + r) * peak);
             if cosine <= 1.0 { libm::acos(cosine) } else { 0.0 }
@@ -119,7 +119,7 @@ pub fn angle(random: &mut SplitMix, peak: f64) -> f64 {
     }
 }
 
-/// A speed that is far from all others: from the smallest number on.
+/// An extreme speed, from the smallest number upwards.
 fn extreme_speed(random: &mut SplitMix, longest: f64) -> f64 {
     match random.next() % 4 {
         0 => one_of(random, &[f64::from_bits(1), f64::MIN_POSITIVE, 1.0e-300, 1.0e-155, 1.0e-120, 1.0e-17]),
@@ -129,15 +129,15 @@ fn extreme_speed(random: &mut SplitMix, longest: f64) -> f64 {
     }
 }
 
-/// A launch speed with which the disk lands a time `h` later, whatever comes in between; not positive where
-/// there is none.
+/// A launch speed with which the disk lands a time `h` later, ignoring earlier impacts; not positive if there
+/// is none.
 fn speed_to_land_after(peak: f64, angle: f64, h: f64) -> f64 {
     let (s, c) = libm::sincos(angle);
     let (s1, _) = libm::sincos(angle + h);
     0.5 * h - peak * (c + (s - s1) / h)
 }
 
-/// A launch whose flight is no longer than some `longest` rad or, for the fastest platforms, some of their
+/// A launch whose flight is not much longer than `longest` rad or, for the fastest platforms, than a few
 /// climbs.
 pub fn launch(random: &mut SplitMix, largest_peak: f64, longest: f64) -> Case {
     let peak = peak(random, largest_peak);
@@ -153,12 +153,12 @@ pub fn launch(random: &mut SplitMix, largest_peak: f64, longest: f64) -> Case {
             let h = if h > 0.0 { h } else { h + TAU };
             speed_to_land_after(peak, angle, nearby(random, h))
         }
-        // To land where the solver changes its form, or at the crest.
+        // To land at a phase where the solver changes its form, or at the crest.
         5 => {
             let h = one_of(random, &[0.5, 0.25, 1.0, 1.7, TAU, PI]);
             speed_to_land_after(peak, angle, nearby(random, h))
         }
-        // To reach the height of the crests, and no more.
+        // To just reach the height of the crests.
         6 => (2.0 * peak * (1.0 - s)).sqrt() - peak * c,
         7 => PI * (1 + random.next() % 8) as f64 * one_of(random, &[0.5, 1.0, 1.0, 2.0 / 3.0, 4.0 / 3.0]),
         8 => binary_fraction(random) * one_of(random, &[1.0, 4.0, peak]),
@@ -193,7 +193,7 @@ pub fn drop(random: &mut SplitMix, largest_peak: f64) -> (Case, f64) {
         3 => random.sign() * random.decades(-20.0, 0.0),
         4 => -random.decades(0.0, 9.0),
         5 => -peak * c,
-        // To fall past the platform without touching it, or nearly.
+        // To fall past the platform with or almost without touching it.
         6 => {
             -(2.0 * gap * (peak * s - 1.0).abs()).sqrt() * (1.0 + random.sign() * random.decades(-12.0, -1.0))
         }

@@ -1,5 +1,5 @@
-//! Campaigns of hours. Two variables say which part of one is run: `CAMPAIGN_SIZE`, how many of its cases or shards,
-//! and `CAMPAIGN_SEED`, for other ones: each seed is added to a thousand million of it.
+//! Campaigns that take hours. Two variables select a part: `CAMPAIGN_SIZE` is the number of cases or shards,
+//! and `CAMPAIGN_SEED` selects others: 1e9 times this is added to each seed.
 
 use bouncing_disk_core::run::in_parallel;
 use serde_json::{Map, Value};
@@ -20,7 +20,7 @@ pub fn seed(usual: u64) -> u64 {
 pub struct Kind {
     pub name: &'static str,
     pub shards: u64,
-    /// What the shard with this seed says of itself, an object with a list of `failures`.
+    /// The report of the shard with this seed, an object with a list of `failures`.
     pub run: fn(u64) -> Value,
 }
 

@@ -1,8 +1,8 @@
-//! Digests of results, recorded before the work on speed: a faster solver may not change a bit of them.
+//! Digests of results, recorded before the work on speed: a faster solver must not change any bit.
 //!
-//! A digest that differs means that the arithmetic of a flight, or a decision in it, is another one. Such a
-//! change needs a reason of its own (docs/numerics-impacts.md, "Same bits everywhere"); record the digests
-//! again only together with it.
+//! A different digest means that the arithmetic of a flight, or a decision in it, has changed. Such a change
+//! needs its own reason (docs/numerics-impacts.md, "Same bits everywhere"); record new digests only together
+//! with it.
 //!
 //! `crates/bouncing-disk/tests/same_bits.rs` compares them on other processors, too.
 
@@ -23,7 +23,7 @@ use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, OrbitEvent, Phas
 
 use bouncing_disk_core::numerics::digest::Digest;
 
-/// Half: dividing a launch speed by it, to get the impact before, loses nothing.
+/// Half: dividing a launch speed by it, to get the previous impact, is exact.
 pub(crate) const RESTITUTION: f64 = 0.5;
 const LAUNCHES: u64 = 100_000;
 const ORBIT_IMPACTS: usize = 100_000;
@@ -37,7 +37,7 @@ pub(crate) fn add_state(digest: &mut Digest, state: ImpactState) {
     }
 }
 
-/// Well spread numbers in [0, 1).
+/// Evenly spread numbers in [0, 1).
 fn spread(k: u64, factor: f64) -> f64 {
     (k as f64 * factor) % 1.0
 }
@@ -56,7 +56,7 @@ fn third(k: u64) -> f64 {
 
 /// Peak acceleration, launch phase and launch speed.
 type Start = (f64, f64, f64);
-/// The launches of one kind, counted through.
+/// The launches of one kind, by number.
 type Regime = fn(u64) -> Start;
 
 fn monotone(k: u64) -> Start {
@@ -78,7 +78,7 @@ fn chatter(k: u64) -> Start {
     (peak, TAU * first(k), libm::exp10(-8.0 * second(k)))
 }
 
-/// From rest, anywhere where the platform falls away.
+/// From rest, at any phase at which the platform falls away.
 fn rest(k: u64) -> Start {
     let peak = 1.0 + 1.0e-6 + 20.0 * third(k);
     let separation = elementary::asin(1.0 / peak) + 1.0e-9;
@@ -87,7 +87,7 @@ fn rest(k: u64) -> Start {
 }
 
 /// A flight that touches the platform as it falls away, or passes it closely: traced back from the touch,
-/// with the speed off by up to 1e-3 and down to rounding.
+/// with the speed changed by between 1e-3 and a rounding.
 fn grazing(k: u64) -> Start {
     let peak = 1.2 + 8.0 * third(k);
     let separation = elementary::asin(1.0 / peak);
@@ -141,7 +141,7 @@ fn prepared(regime: Regime) -> Vec<(ImpactMap, ImpactState)> {
 }
 
 /// Digests of the flights of these launches (durations) and of the impacts that end them. A launch without
-/// impact leaves its state as it is, as in an [`OrbitBatch`].
+/// impact keeps its state, as in an [`OrbitBatch`].
 fn one_by_one(launches: &[(ImpactMap, ImpactState)]) -> [u64; 2] {
     let (mut flights, mut impacts) = (Digest::new(), Digest::new());
     for &(map, state) in launches {
@@ -161,14 +161,14 @@ fn one_by_one(launches: &[(ImpactMap, ImpactState)]) -> [u64; 2] {
 /// The digest of the same impacts, computed in lockstep.
 fn together(launches: &[(ImpactMap, ImpactState)], set: InstructionSet) -> u64 {
     let mut ensemble = OrbitBatch::with_instruction_set(launches.iter().copied(), set);
-    // A launch from rest where the platform does not fall away has no impact; it stays where it is.
+    // A launch from rest while the platform does not fall away has no impact and keeps its state.
     let _ = ensemble.step();
     let mut impacts = Digest::new();
     (0..ensemble.len()).for_each(|k| add_state(&mut impacts, ensemble.state(k).expect("exists")));
     impacts.value()
 }
 
-/// What differs from the recorded digests, a line each.
+/// The differences from the recorded digests, one per line.
 fn differences(name: &str, launches: &[(ImpactMap, ImpactState)], recorded: [u64; 2]) -> Vec<String> {
     let digests = one_by_one(launches);
     let mut lines = Vec::new();
@@ -184,12 +184,12 @@ fn differences(name: &str, launches: &[(ImpactMap, ImpactState)], recorded: [u64
     lines
 }
 
-/// What differs from one recorded digest.
+/// The difference from one recorded digest.
 pub(crate) fn one(name: &str, digest: Digest, recorded: u64) -> Vec<String> {
     if digest.value() == recorded { Vec::new() } else { vec![format!("{name}: {:#018x}", digest.value())] }
 }
 
-/// What differs in launches of every kind.
+/// The differences in launches of every kind.
 pub(crate) fn launches_of_every_regime() -> Vec<String> {
     let regimes: [(&str, Regime, [u64; 2]); 9] = [
         ("monotone", monotone, [0xdfe2_a0cc_9a1b_00d4, 0x5d08_2394_1611_8a1f]),
@@ -208,7 +208,7 @@ pub(crate) fn launches_of_every_regime() -> Vec<String> {
         .collect()
 }
 
-/// W1 of data/performance/README.md. Every state of the orbit is a launch of its own for the lanes.
+/// W1 of data/performance/README.md. For the lanes, every state of the orbit is a separate launch.
 pub(crate) fn chaotic_orbit() -> Vec<String> {
     let vibration = Vibration::from_axial_forcing(0.55).expect("legal");
     let map = ImpactMap::new(vibration, RESTITUTION).expect("legal");
@@ -224,7 +224,7 @@ pub(crate) fn chaotic_orbit() -> Vec<String> {
     differences("chaotic orbit", &launches, recorded)
 }
 
-/// The orbits of the two policies, with the places where they stick.
+/// The orbits of the two policies, with their attachments.
 pub(crate) fn orbits_with_chatter(paper_policy: ChatterPolicy) -> Vec<String> {
     let mut digest = Digest::new();
     for policy in [ChatterPolicy::Complete, paper_policy] {
@@ -292,7 +292,7 @@ pub(crate) fn add_branch<M: ContinuedMap>(digest: &mut Digest, branch: &Branch<M
     }
 }
 
-/// Branches over both parameters and both ways, and those that double from them.
+/// Branches over both parameters and in both directions, and the branches that begin at their doublings.
 pub(crate) fn branches() -> Vec<String> {
     let vibration = Vibration::from_axial_forcing(0.45).expect("legal");
     let map = ImpactMap::new(vibration, RESTITUTION).expect("legal");
@@ -317,7 +317,7 @@ pub(crate) fn branches() -> Vec<String> {
     lines
 }
 
-/// In doubles and in twice their digits.
+/// The cascade in doubles and double-doubles.
 pub(crate) fn cascade() -> Vec<String> {
     let mut digest = Digest::new();
     for restitution in [0.2, RESTITUTION] {
@@ -336,7 +336,7 @@ pub(crate) fn cascade() -> Vec<String> {
     self::one("doubling cascade", digest, 0x3ad0_c4ed_3b23_0506)
 }
 
-/// At rest, with three attractors, in chaos, and beyond it.
+/// Attractors: only rest, three attractors, chaos, and beyond it.
 pub(crate) fn attractors() -> Vec<String> {
     let search = AttractorSearch::default().with_starts(64).expect("legal");
     let search = search.with_impacts(500, 4_000).expect("legal").with_cells(64).expect("legal");

@@ -1,4 +1,4 @@
-//! Writing a value, reading it, and reading what it may not be.
+//! Writing a value, reading it back, and reading illegal values.
 
 use std::fmt::Debug;
 
@@ -6,8 +6,8 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
 
-/// Writes and reads a value; then reads it with a key too many or one too few in each object, and with each
-/// of the `illegal` values at its place (a JSON pointer), where the error must contain the text.
+/// Writes and reads a value; then reads it with one key too many or too few in each object, and with each of
+/// the `illegal` values at its place (a JSON pointer); then the error must contain the text.
 pub(crate) fn check<T: Serialize + DeserializeOwned + PartialEq + Debug>(
     value: &T,
     illegal: &[(&str, Value, &str)],
@@ -34,7 +34,7 @@ pub(crate) fn check<T: Serialize + DeserializeOwned + PartialEq + Debug>(
         more.insert("unheard_of".to_owned(), json!(1));
         *changed.pointer_mut(&place).expect("is there") = Value::Object(more);
         refusal(&changed);
-        // Most keys of a data sheet may be left out; its own tests know which.
+        // Most keys of a data sheet are optional; its own tests check which.
         let needed = |key: &&String| !OPTIONAL.contains(&key.as_str()) && !place.ends_with("/motor");
         for key in own.keys().filter(needed) {
             let mut less = own.clone();
@@ -51,7 +51,7 @@ pub(crate) fn check<T: Serialize + DeserializeOwned + PartialEq + Debug>(
     }
 }
 
-/// What may be absent: a number that there may not be, or that has a value without being there.
+/// Optional keys: numbers that may not exist, or that have a default.
 const OPTIONAL: [&str; 13] = [
     "eventless",
     "estimate",
@@ -89,7 +89,7 @@ fn objects(value: &Value) -> Vec<String> {
     }
 }
 
-/// Refuses to read back what JSON cannot hold and a binary format can.
+/// Checks that a value that JSON cannot store, but a binary format can, is not read back.
 pub(crate) fn refused<T: Serialize + DeserializeOwned + Debug>(value: &T, complaint: &str) {
     let mut binary = Vec::new();
     ciborium::into_writer(value, &mut binary).expect("writes");
