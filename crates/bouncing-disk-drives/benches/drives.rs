@@ -11,10 +11,10 @@ use bouncing_disk_core::{Launch, Phase, Vibration};
 use bouncing_disk_drives::Drive;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
-/// Launches of one regime: enough that the processor does not learn their branches by heart.
+/// Launches of one regime: enough that the branch predictor cannot learn them.
 const LAUNCHES: usize = 1_000;
 
-/// Well spread numbers in [0, 1).
+/// Evenly spread numbers in [0, 1).
 fn spread(k: usize, factor: f64) -> f64 {
     (k as f64 * factor) % 1.0
 }

@@ -1,6 +1,6 @@
-//! Verdicts, exponents and diagrams on drives, against two programs that share nothing with the solver: on pieces of constant
-//! acceleration each flight is a root of quadratics, and each chatter a geometric series; on any other shape a march looks
-//! for the next impact.
+//! Verdicts, exponents and diagrams on drives, against two programs that are independent of the solver. On
+//! pieces of constant acceleration each flight is a root of quadratics, and each chatter a geometric series;
+//! on any other shape a march finds the next impact.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use std::f64::consts::{PI, TAU};
@@ -19,7 +19,8 @@ use bouncing_disk_core::{
 };
 use bouncing_disk_drives::{Drive, DrivenMap};
 
-/// Pieces of constant acceleration: where each begins, with its height, velocity, and half its acceleration there.
+/// Pieces of constant acceleration: the start of each, with its height, velocity and half its acceleration at
+/// this point.
 #[derive(Debug, Clone)]
 struct Parabolas(Vec<(f64, [f64; 3])>);
 
@@ -28,7 +29,7 @@ struct Parabolas(Vec<(f64, [f64; 3])>);
 enum Motion {
     /// The disk leaves the platform at this phase with this speed.
     Launch(f64, f64),
-    /// It rests from this phase on.
+    /// The disk rests from this phase.
     Rest(f64),
 }
 
@@ -37,12 +38,12 @@ enum Motion {
 struct Followed {
     /// Phases and velocities of the impacts, and the periods before each.
     impacts: Vec<(f64, f64, u64)>,
-    /// Of each separation, its phase, with the impacts, the long flights and the periods before it.
+    /// The phase of each separation, and the numbers of impacts, long flights and periods before it.
     separations: Vec<(f64, usize, usize, u64)>,
     rests_for_ever: bool,
 }
 
-/// Where an orbit ends.
+/// The end of an orbit.
 #[derive(Debug, PartialEq)]
 enum End {
     Rest,
@@ -80,16 +81,17 @@ impl Parabolas {
 
 /// A platform whose motion is followed without the solver.
 trait Followable {
-    /// The next impact: its phase, velocity, and how often the phase passed 0.
+    /// The next impact: its phase, its velocity, and how often the phase passed 0.
     fn fly(&self, phase: f64, speed: f64) -> (f64, f64, u64);
 
-    /// What follows an impact.
+    /// The motion after an impact.
     fn after(&self, phase: f64, speed: f64, r: f64) -> Motion;
 
-    /// Where a rest ends, how often the phase passes 0 before, and what follows; `None` if it lasts.
+    /// The phase at which a rest ends, how often the phase passes 0 before, and the next motion; `None` if
+    /// the rest lasts.
     fn leave(&self, phase: f64, r: f64) -> Option<(f64, u64, Motion)>;
 
-    /// The orbit from an impact, for so many impacts or until it leaves a rest for the fifth time.
+    /// The orbit from an impact, for `impacts` impacts or until it leaves a rest for the fifth time.
     fn follow(&self, (phase, velocity): (f64, f64), r: f64, impacts: usize) -> Followed {
         let mut followed = Followed::default();
         let mut motion = self.after(phase, -r * velocity, r);
@@ -139,8 +141,8 @@ trait Followable {
         Some(grown)
     }
 
-    /// The mean exponent over 20 parts of so many impacts, and its error; or the end of an orbit that rests or settles
-    /// before.
+    /// The mean exponent over 20 parts of `impacts` impacts, and its error; or the end of an orbit that rests
+    /// or settles earlier.
     fn exponent(&self, mut at: (f64, f64), r: f64, impacts: u64) -> Result<(f64, f64), End> {
         let (mut ahead, mut parts) = ((1.0, 0.0), [0.0; 20]);
         for part in &mut parts {
@@ -156,8 +158,8 @@ trait Followable {
         Ok((mean, (squares / (19.0 * 20.0)).sqrt()))
     }
 
-    /// At which impact an orbit is after so many, or that it rests for ever; `None` where rounding may have moved it by more
-    /// than 1e-4.
+    /// The state of an orbit after `impacts` impacts, or that it rests forever; `None` if rounding may have
+    /// moved it by more than 1e-4.
     fn known(&self, mut at: (f64, f64), r: f64, impacts: u64) -> Option<End> {
         let (mut ahead, mut error) = ((1.0, 0.0), 0.0);
         for _ in 0..impacts {
@@ -186,10 +188,10 @@ trait Followable {
 impl Followable for Parabolas {
     fn fly(&self, phase: f64, speed: f64) -> (f64, f64, u64) {
         let (mut piece, mut from, mut turns) = (self.piece(phase), phase, 0);
-        // Heights do not enter: gaps may be below their rounding.
+        // The heights are not used: gaps may be below their rounding.
         let (mut gap, mut b) = (0.0_f64, speed);
         loop {
-            // gap + b s - c s^2 = 0, where the disk comes down.
+            // gap + b s - c s^2 = 0, when the disk comes down.
             let c = 0.5 + self.0[piece].1[2];
             let discriminant = (b * b + 4.0 * c * gap).sqrt();
             let s = if b > 0.0 { 0.5 * (b + discriminant) / c } else { 2.0 * gap / (discriminant - b) };
@@ -243,7 +245,7 @@ impl Followable for Parabolas {
     }
 }
 
-/// A shape that is marched over: the largest acceleration, and height, velocity and acceleration at a phase.
+/// A shape for the march: the largest acceleration, and height, velocity and acceleration at a phase.
 struct Marched {
     most: f64,
     top: f64,
@@ -275,7 +277,8 @@ impl Marched {
         Self { most, top, at: Box::new(at) }
     }
 
-    /// In each quarter (3 y - y^3)/2 of the way y from a zero to an extreme: no slope there, no bend at the zero.
+    /// In each quarter (3 y - y^3)/2, y being the share of the way from a zero to an extreme: zero slope at
+    /// the extreme, zero curvature at the zero.
     fn cubics(a: f64) -> Self {
         let at = move |t: f64| {
             let quarter = (t.rem_euclid(TAU) / (0.5 * PI)).min(3.999_999_999_999);
@@ -299,7 +302,7 @@ impl Followable for Marched {
         let slope = |t: f64| v + speed - t - (self.at)(phase + t)[1];
         // It rises for at least this long.
         let mut low = if speed > 0.0 { (speed / (1.0 + self.most)).min(TAU / STEPS) } else { 1e-4 };
-        // Above all of the platform nothing is hit.
+        // Above the whole platform no impact is possible.
         let up = v + speed;
         let above = (up * up + 2.0 * (z - self.top)).sqrt();
         let root = loop {
@@ -334,7 +337,7 @@ impl Followable for Marched {
 
     fn leave(&self, phase: f64, _r: f64) -> Option<(f64, u64, Motion)> {
         let pull = |t: f64| 1.0 + (self.at)(phase + t)[2];
-        // The platform may leave the disk behind for a moment only.
+        // The platform may leave the disk behind for only a moment.
         let step = TAU / (128.0 * STEPS);
         let before =
             (0..).map(|k| f64::from(k) * step).take_while(|t| *t < TAU).find(|t| pull(t + step) < 0.0)?;
@@ -381,10 +384,11 @@ fn map_of(kind: u32, a: f64, r: f64, shape: [f64; 4]) -> (Box<dyn Followable>, D
     (exact, DrivenMap::new(drive.unwrap(), r).unwrap())
 }
 
-/// How many verdicts of each kind there are.
+/// The number of verdicts of each kind.
 #[derive(Debug, Default)]
 struct Seen {
-    /// Exponents, and how many lie within one and two stated errors of the exponent of a much longer orbit.
+    /// The number of exponents, and of those within one and two stated errors of the exponent of a much
+    /// longer orbit.
     exponents: u32,
     within: [u32; 2],
     after_rests: u32,
@@ -399,8 +403,9 @@ struct Seen {
 }
 
 impl Seen {
-    /// Compares an exponent with the exponent of the next 20 times as many impacts, which are on the same attractor. A motion
-    /// that rests or settles then has none. Returns the difference in units of both errors together.
+    /// Compares an exponent with the exponent over the next 20 times as many impacts, on the same attractor.
+    /// A motion that rests or settles during these has none. Returns the difference in units of both errors
+    /// together.
     fn exponent(
         &mut self,
         exact: &dyn Followable,
@@ -438,7 +443,7 @@ impl Seen {
     }
 }
 
-/// The verdict of one start, against what a followed orbit does.
+/// The verdict on one start, against the followed orbit.
 fn check_verdict(exact: &dyn Followable, map: &DrivenMap, start: (f64, f64), context: &str, seen: &mut Seen) {
     let (settings, r) =
         (VerdictSettings { transient: 500, impacts: 4_000, ..VerdictSettings::default() }, map.restitution());
@@ -454,7 +459,8 @@ fn check_verdict(exact: &dyn Followable, map: &DrivenMap, start: (f64, f64), con
             let (last, before) = (followed[19_999], followed[19_999 - impacts as usize]);
             assert!((last.1 - before.1).abs() < 1e-6, "{context}: {last:?} {before:?}");
             assert_eq!(last.2 - before.2, platform_periods, "{context}");
-            // Also the start ends there, unless the way is so irregular that it loses its start in any program.
+            // The start also ends there, unless the path is so irregular that any program loses the memory of
+            // its start.
             match exact.known(start, r, after + 500) {
                 Some(End::Cycle(phase, velocity)) => {
                     seen.from_start += 1;
@@ -531,7 +537,7 @@ fn verdicts_on_smooth_shapes_are_those_of_a_march() {
 /// Half of them sums, half cubics.
 const SMOOTH_MAPS: u32 = 24;
 
-/// The amplitude at which irregular motion begins, from above: within a share of 2^-4 to 2^-9 of it.
+/// The amplitude at which irregular motion begins, approached from above to within a share of 2^-4 to 2^-9.
 fn beginning(
     kind: u32,
     r: f64,
@@ -552,7 +558,7 @@ fn beginning(
     Some(high)
 }
 
-/// Exponents of `maps` irregular motions of a kind, each other where irregular motion begins.
+/// Exponents of `maps` irregular motions of a kind, every other one at the onset of irregular motion.
 fn exponents_of(kind: u32, maps: u32, impacts: u64) -> Seen {
     let (mut seen, mut random) = (Seen::default(), SplitMix64::new(76 + u64::from(kind)));
     let settings = VerdictSettings { impacts, ..VerdictSettings::default() };
@@ -568,8 +574,8 @@ fn exponents_of(kind: u32, maps: u32, impacts: u64) -> Seen {
     seen
 }
 
-/// Of the exponents of each kind, how many lie within one and two stated errors and how many were measured after a rest; and
-/// how many motions were left out, for they rest or settle later.
+/// For each kind, the number of exponents, of those within one and two stated errors, and of those measured
+/// after a rest; and the number of motions omitted because they rest or settle later.
 fn stated_errors(maps: u32, impacts: u64) -> [[u32; 5]; 5] {
     [0, 1, 2, 3, 4].map(|kind| {
         let Seen { within: [one, two], after_rests, rest, settle, .. } = exponents_of(kind, maps, impacts);
@@ -577,7 +583,8 @@ fn stated_errors(maps: u32, impacts: u64) -> [[u32; 5]; 5] {
     })
 }
 
-/// A stated error is a standard error: two of it hold the exponent in at least 90 of 100 irregular motions.
+/// A stated error is a standard error: two of them contain the exponent for at least 90 of 100 irregular
+/// motions.
 #[test]
 fn stated_errors_hold_the_exponents() {
     let found = stated_errors(6, 400);
@@ -585,9 +592,10 @@ fn stated_errors_hold_the_exponents() {
     assert!(two >= 27, "{found:?}");
 }
 
-/// Triangles, sawteeth, parabolas, sums and cubics. Two errors hold 284 of 300 exponents over 400 impacts and 239 of
-/// 250 over 4,000; for the worst kind 56 of 60 and 47 of 50. The others are mostly intermittent, with laminar parts longer
-/// than the measurement. Further motions, 266 and 264, rest or settle later and are left out.
+/// Triangles, sawteeth, parabolas, sums and cubics. Two errors contain 284 of 300 exponents over 400 impacts
+/// and 239 of 250 over 4,000; for the worst kind 56 of 60 and 47 of 50. The others are mostly intermittent,
+/// with laminar parts longer than the measurement. Further motions, 266 and 264, rest or settle later and are
+/// omitted.
 #[test]
 #[ignore = "minutes: 550 exponents"]
 fn stated_errors_hold_the_exponents_of_many_maps() {
@@ -611,7 +619,8 @@ fn stated_errors_hold_the_exponents_of_many_maps() {
     assert_eq!(found, recorded);
 }
 
-/// Restitutions from 0 to the last number below 1, amplitudes and starts from the smallest number on, and kinks that are hit.
+/// Restitutions from 0 to the last number below 1, amplitudes and starts from the smallest number upwards,
+/// and impacts on kinks.
 fn check_margins(cases: u32, seed: u64) -> Seen {
     let (mut seen, mut random) = (Seen::default(), SplitMix64::new(seed));
     let mut pick = |list: &[f64]| list[(random.unit() * list.len() as f64) as usize];
@@ -627,7 +636,7 @@ fn check_margins(cases: u32, seed: u64) -> Seen {
         if case % 5 < 3 || a > 1e-3 {
             check_verdict(&*exact, &map, (phase, velocity), &context, &mut seen);
         } else {
-            // A march does not see such heights. They throw the disk where it loses even less.
+            // A march does not resolve such heights. They throw the disk if it loses even less.
             let settings = VerdictSettings { transient: 100, impacts: 400, ..VerdictSettings::default() };
             let verdict = map.verdict(state(phase, velocity), settings).unwrap();
             let rests = matches!(verdict, Verdict::AtRest { .. } | Verdict::Undecided { .. });
@@ -649,7 +658,7 @@ fn verdicts_at_many_margins_are_those_of_the_others() {
     check_margins(10_000, 78);
 }
 
-/// An orbit that wanders comes nearer to periodic ones by chance, and ends on none of these.
+/// A wandering orbit comes near periodic ones by chance, but ends on none of them.
 #[test]
 fn orbits_that_wander_are_on_their_way_to_none() {
     for (a, r, phase, velocity) in [
@@ -663,8 +672,9 @@ fn orbits_that_wander_are_on_their_way_to_none() {
     }
 }
 
-/// A shape by its amplitude: at which phase it rises with a speed and slows down; at which amplitude it first has this
-/// speed, and at which it has this deceleration there.
+/// A shape as a function of its amplitude: the phase at which it rises with a given speed and slows down; the
+/// amplitude at which it first reaches this speed, and the amplitude at which it has a given deceleration
+/// there.
 struct Family {
     drive: fn(f64) -> Drive,
     phase: fn(f64, f64) -> f64,
@@ -697,8 +707,9 @@ const FAMILIES: [Family; 3] = [
     },
 ];
 
-/// An orbit of one impact in each period needs the speed pi (1 - r)/(1 + r), where the platform slows down, and doubles at
-/// the deceleration 2 (1 + r^2)/(1 + r)^2: at 1e-6 of either the verdict is right, nearer to it there may be none.
+/// An orbit of one impact per period needs the speed pi (1 - r)/(1 + r) while the platform slows down, and
+/// doubles at the deceleration 2 (1 + r^2)/(1 + r)^2. At 1e-6 from either the verdict is right; nearer there
+/// may be none.
 #[test]
 fn verdicts_beside_births_and_doublings() {
     let settings = VerdictSettings { transient: 500, impacts: 1_000, ..VerdictSettings::default() };
@@ -722,7 +733,7 @@ fn verdicts_beside_births_and_doublings() {
     }
 }
 
-/// The general code on the sine as a sum, against the sine's own.
+/// The general code on the sine as a sum, against the sine's own code.
 #[test]
 fn analyses_of_a_sine_as_a_sum_are_those_of_the_sine() {
     let mut random = SplitMix64::new(71);
@@ -807,7 +818,7 @@ fn analyses_of_a_sine_as_a_sum_are_those_of_the_sine() {
         let lasting = own.or(*general).filter(|_| own.is_none() || general.is_none());
         assert!(lasting.is_none_or(|exponent| exponent > 0.0), "{own:?} {general:?}");
         if let (Some(own), Some(general), LyapunovOutcome::Exponents(spectrum)) = (own, general, outcome) {
-            // Chaotic orbits part by rounding; their means do not.
+            // Rounding separates chaotic orbits, but not their means.
             let room = if *own > 0.0 { 5.0 * spectrum.standard_error + 0.05 } else { 1e-6 };
             assert!((own - general).abs() < room, "{own} {general}");
             if let (Some(second), Some(sum)) = (spectrum.second, spectrum.exact_sum) {
@@ -820,13 +831,13 @@ fn analyses_of_a_sine_as_a_sum_are_those_of_the_sine() {
     let lives = survival_times(&orbits, 400, &Unobserved).unwrap();
     let own: Vec<_> = sines.iter().map(|(map, start)| map.orbit(*start, ChatterPolicy::Complete)).collect();
     for (own, general) in survival_times(&own, 400, &Unobserved).unwrap().into_iter().zip(lives) {
-        // How many impacts of a chatter are summed is another matter on each.
+        // The number of summed impacts of a chatter differs.
         assert!(own >= 20 || general < 100, "{own} {general}: too soon for rounding");
     }
     assert_eq!(orbit_diagram(&orbits, 10, 5, &Unobserved).unwrap().len(), 40);
 }
 
-/// Without restitution a disk on a triangle leaves each crest, and is hit by each trough, where it sticks.
+/// Without restitution a disk on a triangle leaves at each crest, and sticks at each trough, which hits it.
 #[test]
 fn a_kick_is_a_part_of_a_cycle() {
     let map = DrivenMap::new(Drive::triangle(1.0).unwrap(), 0.0).unwrap();
@@ -836,7 +847,7 @@ fn a_kick_is_a_part_of_a_cycle() {
     assert!(cycle.is_exact());
 }
 
-/// A contact that lasts for long keeps the disk for ever on a gentle platform.
+/// A long contact keeps the disk forever on a gentle platform.
 #[test]
 fn a_disk_in_a_soft_contact_comes_to_rest_for_ever() {
     let gentle = DrivenMap::new(Drive::fourier(&[(0.5, 0.0)]).unwrap(), 0.5).unwrap();
@@ -845,9 +856,9 @@ fn a_disk_in_a_soft_contact_comes_to_rest_for_ever() {
     assert!(matches!(verdict, Verdict::AtRest { .. }), "{verdict:?}");
 }
 
-/// arXiv 2004.10633 claims that the diagram depends on the order of the polynomial. At restitution 0.5 parabolas have
-/// period 1 from pi/12 on, up to 5 pi/36 = 0.436, and chaotic bands at once after it. One cubic for the whole period has
-/// period 1 next to its birth alone.
+/// arXiv 2004.10633 claims that the diagram depends on the order of the polynomial. At restitution 0.5
+/// parabolas have period 1 from pi/12 to 5 pi/36 = 0.436, and chaotic bands immediately beyond. One cubic for
+/// the whole period has period 1 only near its birth.
 #[test]
 fn parabolas_go_from_period_one_to_bands_and_one_cubic_has_it_next_to_its_birth() {
     let search = AttractorSearch::default().with_starts(256).unwrap();
@@ -868,7 +879,7 @@ fn parabolas_go_from_period_one_to_bands_and_one_cubic_has_it_next_to_its_birth(
         assert!(found.contains(&"chaotic".to_owned()), "{forcing}: {found:?}");
         assert!(!found.iter().any(|own| ["1", "2", "4"].contains(&own.as_str())), "{forcing}: {found:?}");
     }
-    // t (t - pi) (t - 2 pi), whose largest height is 2 pi^3/(3 sqrt 3).
+    // t (t - pi) (t - 2 pi), with the largest height 2 pi^3/(3 sqrt 3).
     let cubic = |forcing: f64| {
         let scale = 3.0 * 3.0_f64.sqrt() / (2.0 * PI * PI * PI) * PI * forcing;
         Drive::pieces(&[(TAU, [0.0, 2.0 * PI * PI * scale, -3.0 * PI * scale, scale])]).unwrap()
@@ -878,8 +889,9 @@ fn parabolas_go_from_period_one_to_bands_and_one_cubic_has_it_next_to_its_birth(
     assert!(![0.2, 0.26, 0.3, 0.35, 0.4].into_iter().any(has_one));
 }
 
-/// Next to its doubling, by hand at (pi/4) (1 + r^2)/(1 + r)^2, the orbit of one impact is never told to attract where it
-/// repels, nor left out where it attracts; next to its birth at the corner, pi (1 - r)/(4 (1 + r)), nothing fails.
+/// Near its doubling, by hand at (pi/4) (1 + r^2)/(1 + r)^2, the one-impact orbit is never reported to
+/// attract if it repels, nor omitted if it attracts. Near its birth at the corner, pi (1 - r)/(4 (1 + r)),
+/// nothing fails.
 #[test]
 fn attractors_beside_the_doubling_and_the_corner_of_parabolas() {
     let search = AttractorSearch::default().with_starts(16).unwrap().with_impacts(300, 2_000).unwrap();
@@ -904,8 +916,8 @@ fn attractors_beside_the_doubling_and_the_corner_of_parabolas() {
     assert_eq!(one_impact(birth * (1.0 + 1e-6), r), Some("periodic"));
 }
 
-/// A very short contact keeps the orbits without chatter, and a chatter is one of finitely many impacts; one
-/// that lasts leaves nothing but rest on a gentle platform.
+/// A very short contact keeps the orbits without chatter, and a chatter has finitely many impacts; a long
+/// contact leaves only rest on a gentle platform.
 #[test]
 fn soft_contacts_have_the_attractors_of_rigid_ones_where_they_are_short() {
     let search = AttractorSearch::default().with_starts(64).unwrap().with_impacts(300, 2_000).unwrap();
@@ -956,7 +968,7 @@ impl Parabolas {
         if (1..257).any(near) { End::Cycle(last.0, last.1) } else { End::Other }
     }
 
-    /// The first separation of the cycle of rests on which a start that rests ends, and its periods.
+    /// The first separation, and the periods, of the cycle of rests on which a resting start ends.
     fn rests(&self, start: (f64, f64), r: f64) -> Option<(f64, u64)> {
         let followed = self.follow(start, r, 100_000);
         let last = followed.separations.get(4)?;
@@ -966,7 +978,7 @@ impl Parabolas {
         Some((phase, last.3 - cycle[0].3))
     }
 
-    /// Lines between so many random points.
+    /// Lines between `points` random points.
     fn zigzag(points: usize, height: f64, random: &mut SplitMix64) -> Self {
         let share = TAU / points as f64;
         let phases: Vec<f64> = (0..points)
@@ -1000,7 +1012,7 @@ fn through(found: &Attractors<DrivenMap>, (phase, velocity): (f64, f64)) -> bool
     })
 }
 
-/// Every start ends on an attractor that was found, and every attractor that was found lasts.
+/// Every start ends on a found attractor, and every found attractor lasts.
 #[test]
 fn attractors_on_parabolas_are_those_of_quadratics() {
     let search = AttractorSearch::default().with_starts(256).unwrap().with_impacts(1_000, 20_000).unwrap();
@@ -1050,7 +1062,7 @@ fn attractors_on_parabolas_are_those_of_quadratics() {
     assert!(kinds[1] > 5 && kinds[3] + kinds[4] > 2, "{kinds:?}");
 }
 
-/// Where the platform has several crests, rests end at several phases, and may be parts of different cycles.
+/// If the platform has several crests, rests end at several phases and may belong to different cycles.
 #[test]
 fn rests_on_a_zigzag_are_one_cycle_or_several() {
     let search = AttractorSearch::default().with_starts(256).unwrap().with_impacts(500, 4_000).unwrap();
@@ -1089,12 +1101,12 @@ fn rests_on_a_zigzag_are_one_cycle_or_several() {
     assert!(several > 2 && 2 * two > several && one > 10, "{several} {two} {one}");
 }
 
-/// Whatever starts within the radius of the orbit derived by hand ends on it.
+/// Every start within the radius of the orbit derived by hand ends on it.
 #[test]
 fn starts_within_the_radius_end_on_the_orbit_of_the_parabolas() {
     let (a, r) = (1.3, 0.5);
     let (map, exact) = (DrivenMap::new(Drive::parabolas(a).unwrap(), r).unwrap(), Parabolas::arcs(a));
-    // The platform rises with pi (1 - r)/(1 + r) there.
+    // The platform rises at pi (1 - r)/(1 + r) there.
     let phase = (4.0 * a / PI - PI * (1.0 - r) / (1.0 + r)) / (8.0 * a / (PI * PI));
     let orbit = map.refine(&[state(phase, -TAU / (1.0 + r))]).unwrap();
     let radius = orbit.trapping_radius(&map, 64, &Unobserved).unwrap();
@@ -1108,7 +1120,7 @@ fn starts_within_the_radius_end_on_the_orbit_of_the_parabolas() {
     }
 }
 
-/// Rows that a grid does not have are refused on every map.
+/// Rows outside a grid are an error on every map.
 #[test]
 fn rows_outside_of_a_grid_are_refused() {
     let sine = ImpactMap::new(Vibration::from_axial_forcing(0.45).unwrap(), 0.5).unwrap();
@@ -1130,7 +1142,7 @@ fn driven(drive: Drive, restitution: f64) -> DrivenMap {
     DrivenMap::new(drive, restitution).unwrap()
 }
 
-/// The sine is its own, all else is another map.
+/// Only the sine itself is the same map.
 #[test]
 fn orbits_of_another_map_are_refused() {
     let own = ImpactMap::new(Vibration::from_axial_forcing(0.2).unwrap(), 0.8).unwrap();
@@ -1156,7 +1168,7 @@ fn orbits_of_another_map_are_refused() {
     }
 }
 
-/// Orbits of searches, stable or not, and stored and read again.
+/// Orbits from searches, stable or not, also after storing and reading.
 #[test]
 fn own_orbits_are_never_refused() {
     let search = OrbitSearch::new(3, 4).unwrap().with_starts(10, 10).unwrap();

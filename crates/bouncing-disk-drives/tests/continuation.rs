@@ -1,4 +1,4 @@
-//! Branches on drives and compliant contacts, against closed forms and against programs that share nothing with the
+//! Branches on drives and compliant contacts, against closed forms and programs that are independent of the
 //! equations of a branch.
 //!
 //! On 24 sums of three harmonics 84 folds and 38 doublings of one impact satisfy s' = k pi (1 - r)/(1 + r)
@@ -24,7 +24,7 @@ fn continuation(low: f64, high: f64, rising: bool) -> Continuation {
     Continuation::new(NUMBER, (low, high), rising).unwrap()
 }
 
-/// The branch through the first stable orbit of so many impacts, and the periods that they take.
+/// The branch through the first stable orbit with these numbers of impacts and periods.
 fn branch(
     family: &DrivenFamily,
     impacts: usize,
@@ -51,14 +51,14 @@ fn check_points(branch: &Branch<DrivenFamily>) {
             let (impact, next) = (map.map().step(*state).unwrap().impact, states[(i + 1) % states.len()]);
             let apart = (impact.phase.angle() - next.phase().angle()).abs();
             let velocity = (impact.velocity - next.velocity()).abs();
-            // Where a force only touches zero, the release is as uncertain as the root of the rounding.
+            // If a force only touches zero, the release is uncertain by the square root of the rounding.
             let room = if point.orbit.trace_error < f64::MAX { 1e-7 } else { 1e-6 };
             assert!(apart.min(TAU - apart) < room && velocity < room, "{apart:e} {velocity:e} {i} {point:?}");
         }
     }
 }
 
-/// A sum of three harmonics, for an amplitude of the whole.
+/// A sum of three harmonics, scaled by an amplitude.
 fn sum(
     shape: [(f64, f64); 3],
     restitution: f64,
@@ -102,8 +102,9 @@ fn the_sine_as_a_sum_has_the_branches_of_the_sine() {
     }
 }
 
-/// By hand for one impact in k periods: the platform's velocity is k pi (1 - r)/(1 + r), and its acceleration is 0 in a
-/// fold and -2 (1 + r^2)/(1 + r)^2 in a doubling. How far a place is from that: the first Newton step in the number.
+/// By hand for one impact in k periods: the platform's velocity is k pi (1 - r)/(1 + r), and its acceleration
+/// is 0 at a fold and -2 (1 + r^2)/(1 + r)^2 at a doubling. The distance of a point from this is measured by
+/// the first Newton step in the number.
 fn off_by_hand(family: &DrivenFamily, kind: BifurcationKind, (phase, number): (f64, f64)) -> f64 {
     let residual = |phase: f64, number: f64| {
         let family = family.with_parameter(NUMBER, number).unwrap();
@@ -130,7 +131,7 @@ fn folds_and_doublings_of_one_impact_on_sums_are_those_by_hand() {
         let shape =
             [(1.0, 0.0), (uniform(-0.3, 0.3), uniform(0.0, TAU)), (uniform(-0.15, 0.15), uniform(0.0, TAU))];
         let whole = sum(shape, r);
-        // A forcing between the birth of the fastest place of the unit shape and the doubling.
+        // A forcing between the birth at the unit shape's fastest phase and the doubling.
         let unit = whole(1.0 / PI).unwrap();
         let birth = (1.0 - r) / (1.0 + r) / unit.drive().peak_speed();
         let start = birth * (1.0 + 0.05);
@@ -192,11 +193,12 @@ fn folds_and_doublings_of_one_impact_on_sums_are_those_by_hand() {
     assert!(folds > 40 && doublings > 30 && births > 30, "{folds} {doublings} {births}");
 }
 
-/// A branch that begins next to a fold, a doubling or a corner finds it.
+/// A branch that begins near a fold, a doubling or a corner finds it.
 #[test]
 fn branches_begin_beside_folds_doublings_and_corners() {
     for r in [0.2, 0.5, 0.8] {
-        // A second harmonic that is a tenth of the first, in phase: 1.2 in units of its velocity at 0, where it folds.
+        // A second harmonic of a tenth of the first, in phase: the velocity is 1.2 units at phase 0, the
+        // phase of the fold.
         let smooth = sum([(1.0, 0.0), (0.1, 0.0), (0.0, 0.0)], r);
         let fold = (1.0 - r) / (1.0 + r) / 1.2;
         let family = DrivenFamily::new(1.1 * fold, fold, smooth).unwrap();
@@ -224,7 +226,7 @@ fn branches_begin_beside_folds_doublings_and_corners() {
                     off.min_by(f64::total_cmp)
                 });
                 let off: Vec<f64> = off.collect();
-                // On the way up from a doubling the other orbit of one impact has none.
+                // Upwards from a doubling, the other one-impact orbit has none.
                 assert_eq!(off.len(), if rising { 1 } else { 2 }, "{r} {beside:e} {which}");
                 assert!(off.iter().all(|off| *off < 1e-14), "{r} {beside:e} {which} {off:?}");
             }
@@ -232,7 +234,7 @@ fn branches_begin_beside_folds_doublings_and_corners() {
     }
 }
 
-/// 40 restitutions, some of them round.
+/// 40 restitutions, some of them round numbers.
 fn restitutions(seed: u64) -> impl Iterator<Item = f64> {
     let mut random = SplitMix64::new(seed);
     [0.1, 0.3, 0.5, 0.8, 0.95].into_iter().chain((0..35).map(move |_| 0.1 + 0.85 * random.unit()))
@@ -272,13 +274,13 @@ fn parabolas_have_a_corner_and_a_doubling_by_hand() {
         check_points(&up);
         let [doubling] = places(&up, BifurcationKind::Doubling)[..] else { panic!("{:?}", up.bifurcations) };
         assert!((doubling - double).abs() < 1e-13, "{r}: {doubling} {double}");
-        // All orbits of two impacts exist at that one forcing: rounding alone turns it back and forth.
+        // All two-impact orbits exist at this one forcing: only rounding turns it back and forth.
         let index = up.bifurcations.iter().position(|found| found.kind == BifurcationKind::Doubling).unwrap();
         let two = up.switched(index, &continuation(0.5 * corner, 1.3 * double, true), &Unobserved).unwrap();
         assert_eq!(places(&two, BifurcationKind::Fold), [0.0; 0], "{r}");
         let near = |point: &&BranchPoint| (point.parameter - double).abs() < 1e-13;
         assert!(two.points.iter().filter(near).count() > 3, "{r} {:?}", two.bifurcations);
-        // The node turns at the corner and comes back as a saddle.
+        // The node turns back at the corner as a saddle.
         let down = branch(&family, 1, 1, &continuation(0.5 * corner, start, false));
         check_points(&down);
         let [border] = places(&down, BifurcationKind::BorderCollision { impact: 0 })[..] else {
@@ -291,7 +293,8 @@ fn parabolas_have_a_corner_and_a_doubling_by_hand() {
     }
 }
 
-/// From the elastic limit to where the orbit doubles next to its birth: the first doubling by hand, within its error.
+/// From the elastic limit to restitutions at which the orbit doubles near its birth: the first doubling by
+/// hand, within its error.
 #[test]
 fn cascades_on_drives_begin_with_the_doubling_by_hand() {
     for r in [0.02, 0.05, 0.5, 0.9, 0.99] {
@@ -316,7 +319,7 @@ fn cascades_on_drives_begin_with_the_doubling_by_hand() {
     assert!(matches!(refused, Err(Error::NoBranch { .. })), "{refused:?}");
 }
 
-/// One arc, with a kink at the start of each period: an orbit that reaches it ends there.
+/// One arc, with a kink at the start of each period: an orbit that reaches the kink ends there.
 #[test]
 fn a_branch_ends_on_a_kink() {
     let r = 0.5;
@@ -355,8 +358,8 @@ fn trace_by_differences(map: &DrivenMap, orbit: &PeriodicOrbit) -> f64 {
     by([1.0, 0.0], 0) + by([0.0, 1.0], 1)
 }
 
-/// Whether the map itself has the orbit this much beyond the end of its branch, from the point that is nearest in the
-/// parameter.
+/// Whether the orbit exists on the map this far beyond the end of its branch, starting from the point nearest
+/// in the parameter.
 fn exists_beside_end(branch: &Branch<DrivenFamily>, by: f64) -> bool {
     let [before, end] = [2, 1].map(|back| &branch.points[branch.points.len() - back]);
     let number = end.parameter + by * (end.parameter - before.parameter).signum();
@@ -410,7 +413,7 @@ fn branches_of_compliant_contacts_have_the_multipliers_of_their_map() {
                         }
                     }
                 }
-                // Next to the end of a branch the differences may reach beyond it.
+                // Near the end of a branch the differences may reach beyond it.
                 let before = branch.points.last().unwrap().arclength - 0.01;
                 let is_smooth = |point: &&BranchPoint| point.arclength < before;
                 for point in branch.points.iter().filter(is_smooth).step_by(7) {
@@ -424,7 +427,7 @@ fn branches_of_compliant_contacts_have_the_multipliers_of_their_map() {
     assert!(doublings > 3 && folds > 2 && lost > 6, "{doublings} {folds} {lost}");
 }
 
-/// On a triangle no force of the platform changes with the phase: its orbits come in families.
+/// On a triangle the platform's velocity does not change along a slope: its orbits come in families.
 #[test]
 fn a_member_of_a_family_of_orbits_begins_no_branch() {
     let with = |a: f64| DrivenMap::new(Drive::triangle(a).ok()?, 0.5).ok();
@@ -444,7 +447,7 @@ fn what_a_family_has_not_is_refused() {
     assert!(matches!(DrivenFamily::new(f64::NAN, 1.0, with), Err(Error::OutOfRange { .. })));
     let family = DrivenFamily::new(1.1, 1.0, with).unwrap();
     let up = branch(&family, 1, 1, &continuation(0.5, 5.0, true));
-    // The last point lies at the end of the maps.
+    // The last point lies at the end of the family.
     let last = up.points.last().unwrap().parameter;
     assert!(
         matches!(up.end, BranchEnd::StepTooSmall(_)) && (2.0 - 1e-9..2.0).contains(&last),
@@ -460,7 +463,7 @@ fn what_a_family_has_not_is_refused() {
     assert!(matches!(refused, Err(Error::NotOfKind { index: 2, .. })), "{refused:?}");
 }
 
-/// Of the sine and of the sine as a sum, against the cascade in double-doubles.
+/// The errors for the sine and for the sine as a sum, against the cascade in double-doubles.
 #[test]
 fn the_errors_of_doublings_hold() {
     let (mut count, mut covered) = (0, 0);

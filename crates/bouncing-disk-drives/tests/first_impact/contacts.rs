@@ -31,10 +31,10 @@ use crate::shards;
 /// Terms of a series over half of its radius: the rest is below 1e-30.
 const TERMS: usize = 24;
 
-/// Roundings by which a function may be off, in units of u times its terms.
+/// Allowed rounding error of a function, in units of u times its terms.
 const ROUNDING: f64 = 128.0 * U;
 
-/// Pieces after which a motion is not judged any further.
+/// Pieces after which a motion is no longer judged.
 const PIECES: f64 = 400.0;
 
 /// A polynomial in the time since the start of its piece.
@@ -83,7 +83,7 @@ impl Law {
     }
 }
 
-/// The motion from a state on, as pieces of equal length.
+/// The motion from a state, as pieces of equal length.
 struct Motion {
     step: f64,
     rate: f64,
@@ -91,7 +91,7 @@ struct Motion {
     pieces: Vec<[[Dd; TERMS]; 2]>,
 }
 
-/// Gap, its velocity, the load and a constant, each times this.
+/// The coefficients of gap, velocity, load and a constant.
 type Form = [Dd; 4];
 
 fn form(gap: f64, velocity: f64) -> Form {
@@ -174,8 +174,8 @@ impl Motion {
     }
 }
 
-/// A function of the motion that must stay positive up to an event, and by how much rounding may move it:
-/// r0 + r1 t + r2 t^2, at most `cap` (1 + rate t), in units of [`ROUNDING`].
+/// A function of the motion that must stay positive up to an event, and the bound on its rounding: r0 + r1 t
+/// + r2 t^2, at most `cap` (1 + rate t), in units of [`ROUNDING`].
 struct Fall {
     form: Form,
     raise: [f64; 3],
@@ -194,8 +194,8 @@ impl Fall {
         self.raised(rate, t, t)[0]
     }
 
-    /// Whether the function is positive, but for twice its rounding, up to `end`; and, where it is said to
-    /// fall there, that it does. True if the rounding was needed.
+    /// Checks that the function is positive up to `end`, to within twice its rounding; and, if `falls`, that
+    /// it falls to zero there. True if the rounding was needed.
     fn judge(&self, motion: &Motion, (start, end): (f64, f64), falls: bool) -> Result<bool, String> {
         let rounding = self.tolerance(motion.rate, end);
         let (mut doubt, mut last) = (false, end);
@@ -219,7 +219,7 @@ impl Fall {
             let (from, to) = ((start - at).max(0.0), (end - at).min(motion.step));
             let mut polynomial = motion.polynomial(piece, &self.form);
             let sure = (last - at).min(to);
-            // A start that is zero but for its rounding is no root.
+            // A start that is zero within rounding is not a root.
             let starts = from > 0.0 || piece == 0 && polynomial.0[0].high() <= 2.0 * ROUNDING * self.raise[0];
             let open = first_fall(&polynomial.0, dd(from), dd(sure)).is_some();
             if !open && sure >= to {
@@ -237,7 +237,7 @@ impl Fall {
     }
 }
 
-/// A platform, and what the oracle needs to know of it.
+/// A platform, with the data that the oracle needs.
 struct Contact {
     law: Law,
     platform: CompliantPlatform,
@@ -278,7 +278,7 @@ impl Contact {
         Fall { form: form(0.0, sign), raise: [from.velocity.abs(), bend, third], cap: f64::INFINITY }
     }
 
-    /// The force, in contact with the spring on this branch.
+    /// The force in contact, with the spring on this branch.
     fn force(&self, (k, c): (f64, f64), from: RelativeState, most: f64, sign: f64) -> Fall {
         let force = k * from.gap.abs() + c * from.velocity.abs();
         let bend = self.law.load() + force;
@@ -288,20 +288,20 @@ impl Contact {
         Fall { form: form(-sign * k, -sign * c), raise, cap: most + self.law.load() + gain }
     }
 
-    /// The time that is judged.
+    /// The time span that is judged.
     fn horizon(&self, (k, c): (f64, f64)) -> f64 {
         0.25 * PIECES / (k.sqrt() + c).max(self.law.harmonics.len() as f64).max(1.0)
     }
 
-    /// So small a pull counts as none where a disk lies on the platform without a force: twice what
-    /// docs/numerics-impacts.md states.
+    /// The pull that counts as zero for a disk that lies on the platform without a force: twice the value
+    /// stated in docs/numerics-impacts.md.
     fn pull(&self, from: RelativeState) -> f64 {
         let lies = from.gap == 0.0 && from.velocity == 0.0;
         if lies { 2e-12 * self.law.load() + 16.0 * U * TAU * self.law.size(3) } else { 0.0 }
     }
 
-    /// How far the forced oscillation of the force can get: next to a resonance far, and the free one against
-    /// it.
+    /// The largest gain of the forced oscillation of the force: large near a resonance, as is the free
+    /// oscillation against it.
     fn gain(&self, (k, c): (f64, f64)) -> f64 {
         let gain = |(j, &(a, _)): (i32, &(f64, f64))| {
             let j = f64::from(j);
@@ -322,7 +322,7 @@ impl Contact {
         if legal { Ok(()) } else { Err(format!("time {to:e} {span:e} after {from:e}")) }
     }
 
-    /// A flight to the next touch: true if it is in doubt.
+    /// Judges a flight to the next touch: true if it is in doubt.
     fn judge_touch(
         &self,
         from: RelativeState,
@@ -364,7 +364,7 @@ impl Contact {
             let free = self.gap(from, -1.0).judge(&motion, (0.0, end), false)?;
             return Ok(pulled.judge(&motion, (0.0, end), true)? || free);
         }
-        // It rises until the spring presses: as long as it can become free.
+        // It rises until the spring presses, as long as it can become free.
         let top = motion.first(&form(0.0, 1.0), |(velocity, _)| velocity.high() < 0.0);
         let top = top.unwrap_or(end).min(end);
         let free = |t: f64| motion.at(&form(1.0, 0.0), t).0.high() > 0.0;
@@ -382,7 +382,7 @@ impl Contact {
         Ok(self.gap(from, 1.0).judge(&motion, (freed, end), touch.is_some())? || doubt)
     }
 
-    /// A contact to its next event.
+    /// Judges a contact to its next event.
     fn judge_end(
         &self,
         pressed: &Pressed,
@@ -401,7 +401,7 @@ impl Contact {
             _ => self.spring,
         };
         let settles = matches!(end, Some(ContactEnd::Settles(_)));
-        // A disk that has settled is followed for a period, if that can be judged.
+        // A settled disk is followed for a period, if this can be judged.
         let on = if settles { TAU.min(self.horizon(spring)) } else { 0.0 };
         let motion = self.motion(spring, from, span + on, wide);
         let load = [0.0, 0.0, 1.0, 0.0].map(dd);
@@ -561,7 +561,7 @@ fn contact(random: &mut SplitMix) -> Contact {
         1 => 1e3,
         2 => random.decades(-5.0, 3.0),
         3 => {
-            // At a resonance, or next to it: of a spring, as it loads or unloads.
+            // At or near a resonance of a spring that loads or unloads.
             let share = if law == 0 { 1.0 } else { 0.5 * (1.0 + [e, 1.0 / e][random.below(2)]) };
             PI * share / (1 + random.below(4)) as f64 * (1.0 + random.decades(-17.0, -1.0))
         }
@@ -584,7 +584,7 @@ fn phase(random: &mut SplitMix, contact: &Contact) -> f64 {
     nudged(random, seam).min(TAU.next_down())
 }
 
-/// What the disk does next.
+/// The next motion of the disk.
 #[derive(Debug)]
 enum Next {
     Flies(RelativeState),
@@ -620,7 +620,7 @@ fn start(random: &mut SplitMix, contact: &Contact) -> Next {
             return Next::Flies(if aimed.gap > 0.0 { aimed } else { from });
         }
         3 => {
-            // Behind a release.
+            // After a release.
             let velocity = slow(random);
             let from = RelativeState { time, gap: -c / k * velocity, velocity };
             if random.below(2) == 0 {
@@ -640,7 +640,7 @@ fn start(random: &mut SplitMix, contact: &Contact) -> Next {
             RelativeState { time, gap, velocity: 0.0 }
         }
         7 if contact.hysteretic => {
-            // Held, and the load comes as near to an edge as that.
+            // Held, with the load this close to an edge.
             let most = (0..400).map(|i| platform.drive().acceleration(TAU * f64::from(i) / 400.0));
             let (low, high) = most.fold((0.0_f64, 0.0_f64), |(low, high), a| (low.min(a), high.max(a)));
             let gap = if random.below(2) == 0 {
@@ -760,7 +760,7 @@ fn attack(seed: u64, events: u64) -> Tally {
     tally
 }
 
-/// In 16 parts.
+/// Runs the campaign in 16 parts.
 #[allow(clippy::print_stdout, reason = "asked for, to update the documented numbers")]
 fn campaign(seed: u64, events: u64) {
     let tallies = in_parallel(16, |part| attack(seed + part as u64, events / 16));
@@ -782,8 +782,8 @@ fn contact_campaign() {
     campaign(shards::seed(300), shards::size(1_000_000));
 }
 
-/// Without weight, on a platform at rest, from its own first root of the force: how long a contact lasts, and
-/// what it keeps of the speed.
+/// Contact time and restitution without weight on a platform at rest, from an independent first root of the
+/// force.
 #[test]
 fn isolated_impacts_last_and_rebound_as_they_say() {
     let critical = libm::exp(-2.0);
@@ -823,7 +823,7 @@ fn isolated_impacts_last_and_rebound_as_they_say() {
     assert!(worst.0 < 1e-15 && worst.1 < 4e-15, "{worst:?}");
 }
 
-/// The disk behind a contact that begins so.
+/// The disk after a contact with this start.
 fn rebound(platform: &CompliantPlatform, mut from: RelativeState) -> RelativeState {
     let mut branch = platform.spring_state(from);
     loop {
@@ -841,7 +841,7 @@ type Make = fn(f64, f64) -> Result<Compliance, Error>;
 /// Both laws of a contact, by contact time and restitution.
 const LAWS: [Make; 2] = [Compliance::new, Compliance::hysteretic];
 
-/// How fast a difference falls from contact time to contact time, each a tenth of the last.
+/// The exponents with which a difference falls from each contact time to the next, a tenth of it.
 pub fn exponents(differences: &[f64]) -> Vec<f64> {
     differences.windows(2).map(|pair| libm::log10(pair[0] / pair[1])).collect()
 }

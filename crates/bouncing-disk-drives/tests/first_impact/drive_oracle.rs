@@ -1,9 +1,10 @@
 //! Flights above drives in double-doubles or 256 bits: the true first root, by the signs of the gap and its
 //! derivatives.
 //!
-//! A drive is what it holds: amplitudes, angles, joints and coefficients are doubles, c3 is a sixth of the
-//! third derivative. In the first period of a flight the gap goes on over a joint, whatever the rounding of
-//! its heights; later it is the difference of two heights, and the period is 2 pi. No tolerance is added.
+//! A drive is taken exactly as stored: amplitudes, angles, joints and coefficients are doubles, c3 is a sixth
+//! of the third derivative. In the first period of a flight the gap is continuous at joints, whatever the
+//! rounding of the heights. Later it is the difference of two heights, and the period is 2 pi. No tolerance
+//! is added.
 
 use std::cell::OnceCell;
 use std::f64::consts::TAU;
@@ -57,7 +58,7 @@ impl<'a, N: Number> Heights<'a, N> {
         })
     }
 
-    /// What no height is above.
+    /// A bound on all heights.
     fn highest(&self) -> f64 {
         if self.of.joints.is_empty() {
             return (1.0 + 1e-9) * self.of.harmonics.iter().map(|(a, _)| a.abs()).sum::<f64>();
@@ -78,13 +79,13 @@ impl<'a, N: Number> Flight<'a, N> {
         Self { above, time, speed }
     }
 
-    /// Calls with the start and the length of each stretch and its gap, until something is found.
+    /// Calls `visit` with the start and the length of each stretch and its gap, until it finds something.
     fn walk(&self, visit: &mut impl FnMut(&N, &N, &[N]) -> Option<N>) -> N {
         let (above, cuts, has_joints) = (self.above, &self.above.cuts, !self.above.of.joints.is_empty());
         let count = above.pieces.len();
         let mut piece = cuts.partition_point(|&cut| cut <= self.time).min(count) - 1;
         let (mut from, mut c) = (N::of(self.time), above.piece(piece).0.clone());
-        // Begun anew at the launch.
+        // Restarted at the launch.
         let behind = from.clone() - N::of(cuts[piece]);
         for k in 0..c.len() {
             for n in (k..c.len() - 1).rev() {
@@ -93,7 +94,7 @@ impl<'a, N: Number> Flight<'a, N> {
         }
         let (height, disk) = (c[0].clone(), c[1].clone() + N::of(self.speed));
         let highest = above.highest();
-        // When the disk is above all of the platform.
+        // The time during which the disk is above the whole platform.
         let (up, depth) = (disk.rounded(), highest - height.rounded());
         let until = if up > 0.0 { up + (up * up - 2.0 * depth).sqrt() } else { f64::NAN };
         let (mut begin, mut gap, mut speed, mut turns) = (N::of(0.0), N::of(0.0), N::of(self.speed), 0.0);
@@ -104,7 +105,7 @@ impl<'a, N: Number> Flight<'a, N> {
             let mut own: Vec<_> = c.iter().map(|c| -c.clone()).collect();
             (own[0], own[1]) = (gap, speed);
             own[2] = own[2].clone() - N::of(0.5);
-            // A parabola is nowhere lower than at the lower of two ends.
+            // A parabola is lowest at one of its ends.
             let (t, after) = (begin.rounded(), (begin.clone() + length.clone()).rounded());
             let least = height.rounded() + (t * (up - 0.5 * t)).min(after * (up - 0.5 * after));
             let clear = t > TAU && least > above.piece(piece).1 + 1e-9 * (t * t + highest.abs());
@@ -123,7 +124,7 @@ impl<'a, N: Number> Flight<'a, N> {
             if let Some((there, before)) = carried {
                 [gap, speed, _] = there;
                 let kink = c[1].clone() - before;
-                // As the drive defines it.
+                // As defined by the drive.
                 if kink.rounded().abs() > 1e-12 * above.of.drive.bounds().speed {
                     speed = speed - kink;
                 }
@@ -136,7 +137,7 @@ impl<'a, N: Number> Flight<'a, N> {
         }
     }
 
-    /// When the gap, raised by this much, is zero for the first time.
+    /// The first time at which the gap, raised by this amount, is zero.
     fn first(&self, raised: f64) -> N {
         self.walk(&mut |begin, length, gap| {
             let mut gap = gap.to_vec();
@@ -158,8 +159,9 @@ impl<'a, N: Number> Flight<'a, N> {
         gap.rounded()
     }
 
-    /// Whether the disk truly hits where it is doubted, and whether the impact is another than the solver's:
-    /// then it must be the doubt that rounding decides. If not, the impact is the first one within its error.
+    /// Whether the disk truly hits at the doubt, and whether the impact differs from the solver's, which is
+    /// allowed only for a doubt that rounding decides. Otherwise the impact is the first one within its
+    /// error.
     pub fn judge(&self, landing: &DrivenImpact) -> Result<(bool, bool), String> {
         let DrivenImpact { impact, error, doubt, .. } = landing;
         let end = N::two_pi() * N::of(impact.periods as f64) + N::of(impact.remainder);
@@ -173,7 +175,7 @@ impl<'a, N: Number> Flight<'a, N> {
             return Err(format!("doubt of {value:e}, truly"));
         }
         let landed = (end.rounded() - doubt.at).abs() <= *error;
-        // No deeper dip, or a gap that is nothing but rounding.
+        // No deeper dip, or a gap that is pure rounding.
         let genuine = if off < 0.0 {
             (self.first(doubt.bound) - end).rounded() >= -error
         } else {

@@ -14,7 +14,7 @@ use bouncing_disk_drives::{Drive, DrivenMap};
 use crate::drives::KINDS;
 use crate::launches::SplitMix;
 
-/// A platform that stands still, as a sum and as pieces: the parabola, however brief or long.
+/// A platform at rest, as a sum and as pieces: a parabola, however brief or long.
 #[test]
 fn a_drive_that_stands_still_is_a_floor() {
     for drive in
@@ -51,7 +51,7 @@ fn a_sine_as_a_fourier_sum_gives_the_events_of_the_sine() {
                 OrbitEvent::Impact(impact) => state = impact.into(),
                 OrbitEvent::Attachment(attachment) => {
                     attachments += 1;
-                    // The chatter as a whole, from the impact after which the sine's was summed.
+                    // The chatter as a whole, from the impact after which the sine's chatter was summed.
                     let mut orbit = map.orbit(state, ChatterPolicy::Complete);
                     let end = orbit.find_map(|event| match event.unwrap() {
                         OrbitEvent::Attachment(Attachment { accumulation, .. }) => Some(accumulation),
@@ -85,7 +85,7 @@ fn a_sine_as_a_fourier_sum_gives_the_events_of_the_sine() {
     }
 }
 
-/// Central differences of the map, where neither end lands on a kink.
+/// Central differences of the map, if neither end lands on a kink.
 #[test]
 fn the_derivative_is_that_of_differences() {
     let mut random = SplitMix::new(81);
@@ -108,7 +108,7 @@ fn the_derivative_is_that_of_differences() {
                 && (ahead.duration() - behind.duration()).abs() < 1e-3;
             (same, time, (ahead.velocity - behind.velocity) / (2.0 * step))
         });
-        // Next to a graze, to the rounding of a difference the derivative is too large.
+        // Near a graze the derivative is too large for the rounding of a difference.
         let steep = derivative.to_cols_array().iter().fold(0.0_f64, |most, entry| most.max(entry.abs()));
         let curved = map.drive().bounds().acceleration / landing.impact.velocity.abs();
         if !ends.iter().all(|(same, ..)| *same) || steep > 1e3 || curved > 30.0 {
@@ -129,10 +129,10 @@ fn the_derivative_is_that_of_differences() {
     }
 }
 
-/// By hand: on a triangle the impacts of one period may be anywhere on a slope u = 2 a/pi that they meet with
-/// w = -2 pi/(1 + r): the flight lasts 2 pi for any phase. That is a neutral family, multipliers 1 and r^2,
-/// but for the slope: u = pi (1 - r)/(1 + r). Only phases nearer to the crest than the flight above a slope
-/// lasts, 2 r 2 pi/(1 + r), belong to it.
+/// By hand: on a triangle the impacts of period 1 may be anywhere on a slope u = 2 a/pi that they hit with w
+/// = -2 pi/(1 + r), because the flight lasts 2 pi for any phase. This is a neutral family with the
+/// multipliers 1 and r^2, if u = pi (1 - r)/(1 + r). Only phases nearer to the crest than the duration of the
+/// flight above a slope, 2 r 2 pi/(1 + r), belong to it.
 #[test]
 fn the_triangle_has_a_neutral_family_of_period_one() {
     for restitution in [0.2, 0.5, 0.8] {
@@ -156,8 +156,8 @@ fn the_triangle_has_a_neutral_family_of_period_one() {
     }
 }
 
-/// On a slope u, k periods on, the disk meets the platform 2 pi k (sqrt(u/u_k) - 1) later with the speed of the
-/// impact before, where u_k = pi k (1 - r)/(1 + r), with the multipliers 1 and r^2.
+/// On a slope u the disk hits the platform k periods and 2 pi k (sqrt(u/u_k) - 1) later with the speed of the
+/// previous impact, u_k being pi k (1 - r)/(1 + r); the multipliers are 1 and r^2.
 #[test]
 fn impacts_of_one_speed_drift_along_a_slope() {
     let r = 0.6;
@@ -180,8 +180,8 @@ fn impacts_of_one_speed_drift_along_a_slope() {
 }
 
 /// By hand, as for the sine: one impact per period needs the platform's velocity pi (1 - r)/(1 + r). On the
-/// quadratic approximation that is one phase of each slope; the derivative has the trace of the sine's with
-/// the acceleration there, and the determinant r^2.
+/// quadratic approximation this is one phase on each slope. The derivative has the same trace as for a sine
+/// with the acceleration at this phase, and the determinant r^2.
 #[test]
 fn the_parabolas_have_the_period_one_orbit_derived_by_hand() {
     let (r, amplitude) = (0.5, 1.3);
@@ -245,8 +245,8 @@ fn basins_and_diagrams_of_a_sum_are_those_of_the_sine() {
     assert_eq!(columns[0].len(), 4);
 }
 
-/// A disk that rests on a triangle is left behind at each crest, with the drop of the velocity, and would be
-/// hit at each trough.
+/// A disk that rests on a triangle is left behind at each crest, where the velocity drops, and would be hit
+/// at each trough.
 #[test]
 fn a_triangle_leaves_the_disk_behind_and_hits_it() {
     let drive = Drive::triangle(1.0).unwrap();
@@ -273,7 +273,7 @@ fn a_triangle_leaves_the_disk_behind_and_hits_it() {
     assert!(matches!(bouncing.step_with_derivative(on_kink), Err(Error::ImpactOnKink { .. })));
 }
 
-/// A chatter that is completed ends where one that is followed to its last digit does.
+/// A completed chatter ends at the same point as one followed to its last digit.
 #[test]
 fn the_sum_of_a_chatter_is_where_it_ends() {
     let mut random = SplitMix::new(91);
@@ -294,7 +294,7 @@ fn the_sum_of_a_chatter_is_where_it_ends() {
                 _ => break,
             }
         }
-        // The phase at which each flight begins is rounded, and there the pull.
+        // The phase at which each flight begins is rounded, and so is the pull at this phase.
         let rounding = 1e-13 * sum.duration * (1.0 + map.drive().bounds().jerk);
         assert!(
             (elapsed - sum.duration).abs() <= sum.error + rounding,
@@ -327,8 +327,8 @@ fn a_disk_that_separates_flies() {
     }
 }
 
-/// Drives whose force nearly touches zero: a contact that ends there is followed by a flight to
-/// another time, so that the two cannot alternate for ever.
+/// Drives whose force nearly touches zero: a contact that ends there is followed by a flight to another time,
+/// so the two cannot alternate forever.
 #[test]
 fn a_contact_and_a_flight_do_not_alternate_at_one_time() {
     let mut random = SplitMix::new(96);
@@ -347,7 +347,7 @@ fn a_contact_and_a_flight_do_not_alternate_at_one_time() {
         };
         let unit = make(1.0);
         let force = |time: f64| unit.acceleration(time);
-        // The lowest of samples, which joints are among, and from there on by halves.
+        // The lowest of samples that include the joints, refined by bisection.
         let (mut touch, mut step) = (0.0, TAU / 480.0);
         for sample in 0..480 {
             let time = f64::from(sample) / 480.0 * TAU;

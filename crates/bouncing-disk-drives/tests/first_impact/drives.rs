@@ -39,12 +39,12 @@ use crate::numbers::Dd;
 use crate::oracle::High;
 use crate::shards;
 
-/// A drive, and what an oracle needs to know of it.
+/// A drive, with the data that an oracle needs.
 pub struct Exact {
     pub drive: Drive,
-    /// The harmonics (amplitude, angle) of a Fourier drive, or else none.
+    /// The harmonics (amplitude, angle) of a Fourier drive, otherwise empty.
     pub harmonics: Vec<(f64, f64)>,
-    /// When the pieces begin, and 2 pi.
+    /// The starts of the pieces, and 2 pi.
     pub joints: Vec<f64>,
 }
 
@@ -69,7 +69,7 @@ impl Exact {
         let (impact, h) = (&landing.impact, landing.impact.duration());
         let pull = 1.0 + self.drive.acceleration(time);
         if h < 1e-140 && pull > 1e-6 {
-            // The squares of the oracle would underflow: the parabola to all digits.
+            // The squares of the oracle would underflow: the parabola is exact to all digits.
             let near = (h * pull - 2.0 * w).abs() <= 1e-9 * w && (impact.velocity + w).abs() <= 1e-14 * w;
             return if near { Ok(()) } else { Err("not the parabola".to_owned()) };
         }
@@ -149,7 +149,7 @@ fn polygon(a: f64, random: &mut SplitMix) -> Exact {
     Exact::pieces(Drive::pieces(&pieces).unwrap())
 }
 
-/// A time in [0, 2 pi), most often on a seam or next to one.
+/// A time in [0, 2 pi), most often on or near a seam.
 fn seam(of: &Exact, random: &mut SplitMix) -> f64 {
     let time = match random.below(4) {
         0 => random.angle(),
@@ -180,7 +180,7 @@ fn graze(of: &Exact, random: &mut SplitMix) -> Option<(f64, f64)> {
     let height = at.height + random.sign() * random.decades(-16.0, -2.0);
     let disk = |t: f64| height + t * (slope - 0.5 * t);
     let gap = |t: f64| disk(t) - of.drive.height(touch + t);
-    // Back to where it was on the platform.
+    // Back to the time when it was on the platform.
     let mut t = -random.decades(-3.0, 0.0);
     let mut step = 0.05;
     if gap(t) <= 0.0 {
@@ -229,10 +229,10 @@ struct Tally {
     doubts: u64,
     kinks: u64,
     evaluations: u32,
-    /// The launch that needed the most.
+    /// The launch that needed the most evaluations.
     longest: String,
-    /// Launches that went to the high-precision oracle, doubts among them, and of these true hits, and those
-    /// that go truly another way.
+    /// Launches judged by the high-precision oracle, the doubts among them, the true hits among the doubts,
+    /// and the doubts that the solver decides wrongly.
     judged: u64,
     judged_doubts: u64,
     hits: u64,
@@ -240,7 +240,7 @@ struct Tally {
     failures: Vec<String>,
 }
 
-/// A share of the launches, of the doubts and of the impacts on kinks goes to the high-precision oracle.
+/// Sends a share of the launches, of the doubts and of the impacts on kinks to the high-precision oracle.
 fn attack(kind: Kind, seed: u64, launches: u64) -> Tally {
     let (every, most) = ((launches / 500).max(100), (launches / 200).min(500));
     let mut random = SplitMix::new(seed);
@@ -316,7 +316,7 @@ fn launches_on_seams_of_smooth_pieces() {
     check(Kind::Spline, 78, 5_000);
 }
 
-/// 400,000 launches of each kind.
+/// A campaign of 400,000 launches of each kind.
 #[test]
 #[ignore = "a campaign of some minutes"]
 fn drive_campaign() {
@@ -327,7 +327,7 @@ fn drive_campaign() {
     assert!(tallies.iter().all(|tally| tally.failures.is_empty()));
 }
 
-/// From the same state before each event the sum gives the events of the sine's own solver.
+/// From the same state before each event the sum gives the same events as the sine's own solver.
 #[test]
 fn a_sine_as_a_fourier_sum_lands_where_the_sine_does() {
     let mut random = SplitMix::new(51);
@@ -352,7 +352,7 @@ fn a_sine_as_a_fourier_sum_lands_where_the_sine_does() {
         let legal = 1e-12 * sine.duration() + 4.0 * sum.error;
         assert!(apart <= legal, "{peak} {phase:?} {speed:e}: {sine:?} {sum:?}");
         assert_eq!(sum.impact.turns, sine.turns);
-        // A slow impact is as uncertain as the heights over its speed.
+        // A slow impact is uncertain by the rounding of the heights over its speed.
         if sine.velocity < -1e-3 * (1.0 + peak) {
             worst = worst.max(apart / sine.duration());
         }
@@ -360,7 +360,7 @@ fn a_sine_as_a_fourier_sum_lands_where_the_sine_does() {
     assert!(worst < 1e-12, "{worst:e}");
 }
 
-/// A flight that is interrupted at a random time goes on to the same impact, also as a disk in the air.
+/// A flight interrupted at a random time continues to the same impact as a disk in the air.
 #[test]
 fn an_interrupted_flight_lands_at_the_same_place() {
     let mut random = SplitMix::new(97);
@@ -376,7 +376,7 @@ fn an_interrupted_flight_lands_at_the_same_place() {
             let (u, there) = (from.velocity + speed, drive.at(time + t));
             let gap = from.height - there.height + t * (u - 0.5 * t);
             let bounds = drive.bounds();
-            // How far the rounding of this point moves the impact.
+            // The change of the impact by the rounding of this point.
             let size = bounds.highest - bounds.lowest + (1.0 + t) * (bounds.speed + u.abs() + t);
             let shift = 1e-14 * size / -landing.impact.velocity;
             let grazes = landing.doubt.is_some() || landing.on_kink || shift > 1e-9;
@@ -398,7 +398,7 @@ fn an_interrupted_flight_lands_at_the_same_place() {
 }
 
 impl Exact {
-    /// The lowest gap of a flight where it has a minimum, of samples: near a graze this is small.
+    /// The smallest sampled minimum of the gap in a flight: near a graze it is small.
     fn closest(&self, time: f64, w: f64, duration: f64) -> f64 {
         let from = self.drive.at(time);
         let gap = |t: f64| from.height - self.drive.height(time + t) + t * (from.velocity + w - 0.5 * t);
@@ -411,7 +411,7 @@ impl Exact {
     }
 }
 
-/// A flight that is not followed to its impact has none up to there.
+/// A flight that is not followed to its impact has no impact up to the limit.
 #[test]
 fn flights_are_followed_to_a_limit() {
     let mut random = SplitMix::new(98);
@@ -445,7 +445,7 @@ fn draws(random: &mut SplitMix) -> impl Iterator<Item = Drive> {
     KINDS.into_iter().cycle().map(|kind| kind.draw(random).drive)
 }
 
-/// By the derivatives, as far as the next joint, and by the drive.
+/// The derivatives up to the next joint, against the drive.
 #[test]
 fn derivatives_are_those_of_the_motion() {
     let mut random = SplitMix::new(92);
@@ -514,7 +514,7 @@ fn sawtooths_of_any_rise_join_and_may_be_shifted() {
     }
 }
 
-/// Over whole periods the changes repeat, but for the ramp of a velocity that kinks take back.
+/// Over whole periods the changes repeat, except for the ramp of a velocity that kinks reverse.
 #[test]
 fn changes_over_many_periods_are_those_of_one() {
     let drive = Drive::pieces(&[(2.0, [0.0, 1.0, -0.5, 0.0]), (TAU - 2.0, [0.0; 4])]).unwrap();

@@ -1,4 +1,4 @@
-//! The numbers of the oracles: double-doubles for all cases, 256 bits for a share.
+//! The numbers of the oracles: double-doubles for all cases, 256 bits for a share of them.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -21,16 +21,16 @@ pub trait Number:
     + Mul<Output = Self>
     + Div<Output = Self>
 {
-    /// What is smaller relative to a time does not change it.
+    /// Relative size below which a change of a time has no effect.
     const ROUNDING: f64;
-    /// Orders of the Taylor series of sines over half a radian: the rest is below the rounding.
+    /// Orders of the Taylor series of sines over half a radian: the remainder is below the rounding.
     const ORDERS: usize;
     fn of(value: f64) -> Self;
     fn two_pi() -> Self;
     /// Sine and cosine.
     fn turn(&self) -> (Self, Self);
     fn dd(&self) -> Dd;
-    /// The double next to it.
+    /// The double nearest to it.
     fn rounded(&self) -> f64;
 
     fn abs(&self) -> Self {

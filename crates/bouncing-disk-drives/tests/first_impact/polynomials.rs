@@ -1,9 +1,9 @@
-//! The sums of sines of a platform as Taylor series, and where polynomials fall to zero: by the signs of their
-//! derivatives, so that no root is missed.
+//! The sums of sines of a platform as Taylor series, and the first roots of polynomials from the signs of
+//! their derivatives, so that no root is missed.
 
 use crate::numbers::Number;
 
-/// Steps of a refinement, which halves its bracket down to the briefest flights; more are needed only where
+/// Steps of a refinement, which halves its bracket down to the briefest flights; more are needed only if
 /// rounding hides the root.
 const MAX_STEPS: u32 = 1_500;
 
@@ -18,7 +18,7 @@ pub fn jet<N: Number>(c: &[N], t: &N) -> [N; 3] {
     [value, slope, half_bend * N::of(2.0)]
 }
 
-/// Where the polynomial (its slope for `order` 1) changes its sign between two times.
+/// The time between two others at which the polynomial (its slope for `order` 1) changes its sign.
 fn zero<N: Number>(c: &[N], order: usize, mut lo: N, mut hi: N) -> N {
     let zero = N::of(0.0);
     let (mut x, above) = (hi.clone(), jet(c, &hi)[order] > zero);
@@ -42,8 +42,8 @@ pub fn first_root<N: Number>(c: &[N], to: &N) -> Option<N> {
     first_fall(c, N::of(0.0), to.clone()).map(|(from, to)| zero(c, 0, from, to))
 }
 
-/// Between which two times a polynomial that is positive at the first one, or leaves zero upwards, is zero for
-/// the first time.
+/// The two times that enclose the first zero of a polynomial that is positive at the start, or leaves zero
+/// upwards.
 pub fn first_fall<N: Number>(c: &[N], from: N, to: N) -> Option<(N, N)> {
     let third = (3..c.len())
         .rev()
@@ -56,7 +56,7 @@ pub fn first_fall<N: Number>(c: &[N], from: N, to: N) -> Option<(N, N)> {
         }
         let (m, r) = ((a.clone() + b.clone()) * half(), (b.clone() - a.clone()) * half());
         let [gap, slope, bend] = jet(c, &m);
-        // By how much slope and bend change at most.
+        // Bounds on the changes of slope and bend.
         let change = third.clone() * r.clone();
         let turn = r.clone() * (bend.abs() + change.clone() * half());
         if gap > r.clone() * (slope.abs() + turn.clone() * half()) || slope > turn {
@@ -65,7 +65,7 @@ pub fn first_fall<N: Number>(c: &[N], from: N, to: N) -> Option<(N, N)> {
         let lowest = if -slope > turn || -bend.clone() > change {
             b
         } else if r <= m.clone() * N::of(N::ROUNDING) {
-            // Nothing but rounding.
+            // Pure rounding.
             return Some((a, b));
         } else if bend <= change {
             open.extend([(m.clone(), b), (a, m)]);
@@ -84,7 +84,7 @@ pub fn first_fall<N: Number>(c: &[N], from: N, to: N) -> Option<(N, N)> {
     None
 }
 
-/// The derivatives of a sum of harmonics (amplitude, angle) at one time, from the sum itself on.
+/// The derivatives of a sum of harmonics (amplitude, angle) at one time, starting with the sum itself.
 pub fn derivatives<N: Number>(harmonics: &[(f64, f64)], time: &N, count: usize) -> Vec<N> {
     let mut sums = vec![N::of(0.0); count];
     for (j, &(a, angle)) in (1_u32..).zip(harmonics) {

@@ -41,7 +41,7 @@ fn integrated(map: &DrivenMap, peak: f64, [phase, speed]: [f64; 2]) -> [f64; 2] 
     };
     let longest = 1.0 / (300.0 * (1.0 + k.sqrt() + c));
     let (mut t, mut x, mut pressed) = (phase, [-c / k * speed, speed], false);
-    // The force at the start is zero but for a rounding.
+    // The force at the start is zero to within rounding.
     let slack = 1e-13 * (1.0 + c * speed);
     loop {
         let ended = |x: [f64; 2]| if pressed { force(x) < 0.0 } else { x[0] <= 0.0 && force(x) > slack };
@@ -83,8 +83,8 @@ fn differences(step: impl Fn([f64; 2]) -> [f64; 2], at: [f64; 2], by: f64) -> [f
     [a[0], a[1], b[0], b[1]]
 }
 
-/// Contact times from a hundredth of a period to two periods, restitutions of 0.02 and 0.98, damping next to
-/// the critical one. Of 300 releases of each orbit: the steepest derivative, the slowest release, the slowest
+/// Contact times from a hundredth of a period to two periods, restitutions of 0.02 and 0.98, damping near the
+/// critical one. Among 300 releases of each orbit: the steepest derivative, the slowest release, the slowest
 /// touch and the first one.
 #[test]
 fn releases_and_their_derivatives_are_those_of_an_integration() {
@@ -113,7 +113,7 @@ fn releases_and_their_derivatives_are_those_of_an_integration() {
                 let from =
                     RelativeState { time: at.phase().angle(), gap: gap_by_speed * speed, velocity: speed };
                 let touch = platform.touch(from, f64::INFINITY).unwrap().unwrap().state;
-                // Next to an edge of the map no difference is small enough.
+                // Near an edge of the map no difference is small enough.
                 if speed > 1e-5 && size < 300.0 && touch.velocity.abs() > 1e-3 {
                     starts.push((at, size, speed, touch.velocity.abs()));
                 }
@@ -179,8 +179,8 @@ fn a_brief_contact_releases_as_a_rigid_impact_rebounds() {
     }
 }
 
-/// The orbit of period 1 at this forcing, its multipliers and where it doubles become the rigid ones with the
-/// contact time.
+/// The orbit of period 1 at this forcing, its multipliers and its doubling tend to the rigid ones with
+/// decreasing contact time.
 #[test]
 fn period_one_and_its_doubling_become_the_rigid_ones() {
     let forced = |forcing: f64| Vibration::from_axial_forcing(forcing).unwrap();
@@ -200,7 +200,7 @@ fn period_one_and_its_doubling_become_the_rigid_ones() {
             let (at, _, determinant) = period_one(0.45, rigid);
             let phase = (at.phase().angle() - rigid.phase().angle()).abs();
             orbits.push(phase + (at.velocity() - rigid.velocity()).abs() + (determinant - 0.25).abs());
-            // 1 + trace + determinant is zero where a multiplier is -1.
+            // 1 + trace + determinant is zero if a multiplier is -1.
             let (mut low, mut high, mut guess) = (0.45, 0.52, at);
             for _ in 0..40 {
                 let middle = 0.5 * (low + high);
@@ -245,12 +245,12 @@ fn orbits_are_chains_of_steps_and_end_where_the_disk_settles() {
     assert_eq!(accumulation.turns, phase as u64, "{accumulation:?}");
     let stays = calm.step(state(0.0, 0.0));
     assert!(matches!(stays, Err(Error::NoLiftOff { .. })), "{stays:?}");
-    // A spring that loads and unloads for ever, without a release.
+    // A spring that loads and unloads forever, without a release.
     let turns = sine(0.3, 0.9).with_hysteretic_contact(1.0).unwrap();
     let event = turns.of_contact(0.0, ChatterPolicy::Complete).advance().unwrap();
     let Some(OrbitEvent::Attachment(Attachment { accumulation, .. })) = event else { panic!("{event:?}") };
     assert!(accumulation.error_bound.is_infinite());
-    // A disk that is deeper than its weight presses it is thrown off.
+    // A disk deeper than its equilibrium indentation is thrown off.
     let thrown = sine(3.0, 0.5).with_contact_time(1.0).unwrap();
     let event = thrown.of_contact(-1.2, ChatterPolicy::Complete).advance().unwrap();
     assert!(matches!(event, Some(OrbitEvent::Separation(change)) if change.velocity > 0.0), "{event:?}");
@@ -260,8 +260,8 @@ fn orbits_are_chains_of_steps_and_end_where_the_disk_settles() {
     }
 }
 
-/// Flights through up to a million oscillations, from a spring that is not free at the release: the touch is where the
-/// gap of the flight closes first.
+/// Flights through up to a million oscillations, from a spring that is not free at the release: the touch is
+/// the first closing of the gap.
 #[test]
 fn long_flights_are_skipped() {
     for (peak, periods) in

@@ -9,7 +9,7 @@ use bouncing_disk_drives::quasi_polynomial::{DampedSine, FirstRoot, QuasiPolynom
 use crate::launches::SplitMix;
 use crate::numbers::{Dd, dd};
 
-/// Whether the function, raised by `doubt`, is positive in (`from`, `to`]; if not, where it is not.
+/// Whether the function, raised by `doubt`, is positive in (`from`, `to`]; if not, the place where it is not.
 fn positive(gap: &Sum, from: f64, to: f64, doubt: f64) -> Result<(), String> {
     let mut stack = vec![(from, to)];
     let mut steps = 0;
@@ -180,7 +180,7 @@ fn first_roots_of_damped_sums() {
     assert!(doubts <= 2, "{doubts} doubts in random sums");
 }
 
-/// Lowered until it touches zero, and then by a little more or less.
+/// Sums lowered until they touch zero, and then by a little more or less.
 #[test]
 fn grazes_of_damped_sums() {
     let mut random = SplitMix::new(62);
@@ -216,7 +216,7 @@ fn grazes_of_damped_sums() {
         }
     }
     assert!(failures.is_empty(), "{}: {}", failures.len(), failures[..failures.len().min(4)].join("\n"));
-    // Depths of 1e-16 to 1e-3: a rounding of some 1e-14 leaves two decades of thirteen in doubt.
+    // Depths of 1e-16 to 1e-3: a rounding of about 1e-14 leaves two decades of thirteen in doubt.
     assert!(doubts > 0 && doubts < grazes / 3, "{doubts} of {grazes}");
 }
 

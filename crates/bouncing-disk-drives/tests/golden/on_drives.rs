@@ -1,4 +1,4 @@
-//! Digests of results on drives and with compliant contacts: see the ones of the core.
+//! Digests of results on drives and with compliant contacts: see the digests of the core.
 
 use std::f64::consts::{PI, TAU};
 
@@ -39,7 +39,7 @@ fn add_orbits(digest: &mut Digest, map: &DrivenMap) {
     }
 }
 
-/// Orbits on platforms that move in other ways than a sine, with their contacts.
+/// Orbits on platforms other than a sine, with their contacts.
 pub(crate) fn orbits_on_drives() -> Vec<String> {
     let samples: Vec<f64> = (0..64).map(|k| 2.0 * first(k) * second(k)).collect();
     let drives = [
@@ -57,7 +57,7 @@ pub(crate) fn orbits_on_drives() -> Vec<String> {
     one("orbits on drives", digest, 0x461c_4c22_578d_7a1f)
 }
 
-/// Orbits with contacts that take time, of both laws, on a sine and on another drive.
+/// Orbits with compliant contacts of both laws, on a sine and on another drive.
 pub(crate) fn orbits_with_compliance() -> Vec<String> {
     let mut digest = Digest::new();
     for harmonics in [&[(20.0, 0.0)][..], &[(1.4, 0.0), (0.2, 1.0)]] {
@@ -70,8 +70,8 @@ pub(crate) fn orbits_with_compliance() -> Vec<String> {
     one("orbits with compliance", digest, 0xafa7_04ee_08bb_0b1f)
 }
 
-/// Periodic orbits of up to this many impacts in as many periods, and basins on a grid of so many cells a side,
-/// of drives and a compliant contact. The recorded digests are of both.
+/// Periodic orbits of up to `most` impacts in as many periods, and basins on a grid of `cells` cells per
+/// side, for drives and a compliant contact. The recorded digests cover both.
 pub(crate) fn periodic_orbits_on_drives(most: u8, cells: u8, recorded: [u64; 2]) -> Vec<String> {
     let search = OrbitSearch::new(most.into(), most.into()).expect("legal");
     let drives = [
@@ -98,7 +98,8 @@ pub(crate) fn periodic_orbits_on_drives(most: u8, cells: u8, recorded: [u64; 2])
     lines
 }
 
-/// Branches over the forcing, a harmonic and the contact time, and the ones that begin at their doublings.
+/// Branches over the forcing, a harmonic and the contact time, and the branches that begin at their
+/// doublings.
 pub(crate) fn branches_on_drives() -> Vec<String> {
     let map = |drive: Result<Drive, _>| DrivenMap::new(drive.ok()?, RESTITUTION).ok();
     let parabolas = move |forcing: f64| map(Drive::parabolas(PI * forcing));
