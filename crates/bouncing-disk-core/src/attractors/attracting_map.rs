@@ -120,7 +120,7 @@ pub trait AttractingMap: BouncingMap {
         observer: &dyn Observer,
     ) -> Result<Vec<PeriodicOrbit>, Error>;
 
-    /// The periodic orbit next to `guess`, with its least period.
+    /// The periodic orbit near `guess`, with its least period.
     ///
     /// # Errors
     /// Errors of [`BouncingMap::refine`].

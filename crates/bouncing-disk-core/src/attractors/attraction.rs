@@ -102,8 +102,8 @@ fn largest_eigenvalue(form: DMat2) -> f64 {
 }
 
 impl Flight {
-    /// A bound on the difference (Frobenius norm) between the derivative of a flight and that of the orbit's
-    /// flight, if both impacts lie within `reach` of the orbit's.
+    /// A bound on the change of the derivative (Frobenius norm) from the orbit's flight to another whose
+    /// impacts lie within `reach` of the orbit's.
     fn change_of_derivative(&self, map: &ImpactMap, reach: f64) -> f64 {
         let (p, r) = (map.vibration().peak_acceleration(), map.restitution());
         let wave = |at: ImpactState| (Ball(at.phase().sin(), reach), Ball(at.phase().cos(), reach));

@@ -435,8 +435,8 @@ impl<M: AttractingMap> Attractors<M> {
     /// followed for as many impacts as the [search](AttractorSearch::with_impacts) allows, and so are 1,024
     /// orbits that begin near its impacts. If none of these leaves, all starts that return to the visited
     /// cells are on the same attractor. If one leaves, the motion is a [transient](AttractorKind::Transient),
-    /// and all starts are followed for as many impacts, or for as many as the budget allows. Periodic orbits
-    /// are the same as in [`ImpactMap::periodic_orbits`], except for their first impact.
+    /// and all starts are followed for the same number of impacts, or less if the budget is too small.
+    /// Periodic orbits are the same as in [`ImpactMap::periodic_orbits`], except for their first impact.
     ///
     /// Attracting one-impact orbits, known in closed form, and attracting orbits found by
     /// [`AttractorSearch::orbits`] are always included, however small their basins.

@@ -46,8 +46,8 @@
 use crate::flight::gap::{CrestForm, SHORT_FLIGHT};
 use crate::flight::platform::vibration::CLEAR;
 
-/// T^2/6, rounded down, and T^3/24, rounded up by more than what the former may lack, for the half radian T
-/// of [`SHORT_FLIGHT`]: the shares of the drift P cos and of P in the gap over its time.
+/// T^2/6, rounded down, and T^3/24, rounded up by more than the former rounding, for the half radian T of
+/// [`SHORT_FLIGHT`]: the factors of the drift P cos and of P in the gap over its time.
 const DRIFT_SHARE: f64 = 0.0416;
 const BEND_SHARE: f64 = 0.0053;
 

@@ -84,7 +84,7 @@ read_checked!(Impact as UncheckedImpact {
 });
 
 impl Impact {
-    /// Checks what is read; rounding may take the remainder to 2 pi.
+    /// Checks a value that was deserialised; rounding may take the remainder to 2 pi.
     fn check(&self) -> Result<(), Error> {
         within("remainder", self.remainder, 0.0, TAU, "[0, 2 pi] (rad)")?;
         within("velocity", self.velocity, f64::MIN, 0.0, "(-inf, 0] (units of g/omega)")?;

@@ -207,7 +207,7 @@ impl<L: RestitutionLaw> ImpactMap<L> {
     /// a chatter.
     ///
     /// # Errors
-    /// [`Error::NoLiftOff`] if the disk stays on the platform (restitution or speed zero), those of
+    /// [`Error::NoLiftOff`] if the disk stays on the platform (restitution or speed zero), errors of
     /// [`Vibration::first_impact`], and [`Error::IllegalRestitution`].
     #[inline]
     pub fn step(&self, state: ImpactState) -> Result<Impact, Error> {

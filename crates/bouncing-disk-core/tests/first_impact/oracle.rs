@@ -549,7 +549,7 @@ impl Exact {
         smallest
     }
 
-    /// The minimum of the gap in a convex piece, and those of its ends that have almost no slope.
+    /// The minimum of the gap in a convex piece, and its ends if they have almost no slope.
     fn lowest_between(&self, mut from: High, mut to: High) -> Vec<High> {
         let slope = |h: &High| low(&self.at(h).velocity);
         let (start, end) = (slope(&from), slope(&to));

@@ -166,7 +166,8 @@ fn no_long_part_turns_by_more_than_was_asked() {
     assert!(corners > 100, "{corners}");
 }
 
-/// A saddle of two impacts has four branches, and those of its second impact are the images of the first's.
+/// A saddle of two impacts has four branches, and the branches at its second impact are the images of those
+/// at the first.
 #[test]
 fn each_impact_of_a_saddle_has_its_branches() {
     let map = map(0.561, 0.5);

@@ -46,8 +46,8 @@ const SAME_FLIGHT: f64 = 1.0e-6;
 /// The first amplitude (rad) tried on the orbit of period 2.
 const FIRST_AMPLITUDE: f64 = 0.1;
 
-/// The ratio of the squared amplitude first tried at a doubling to that of the previous doubling: one over a
-/// little more than the square of 2.5029.
+/// The squared amplitude first tried at a doubling, relative to the previous doubling: one over a little more
+/// than the square of 2.5029.
 const SHARE_OF_LAST: f64 = 1.0 / 6.5;
 
 /// An orbit at the forcing where it doubles its period.

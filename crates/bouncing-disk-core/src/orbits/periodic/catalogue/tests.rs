@@ -139,7 +139,7 @@ fn random_map(random: &mut SplitMix64) -> ImpactMap {
     map(0.1 + 2.9 * random.unit(), restitution)
 }
 
-/// Every orbit of two impacts that the search finds is among those of the independent equations, and vice
+/// Every orbit of two impacts that the search finds is a solution of the independent equations, and vice
 /// versa.
 #[test]
 fn orbits_of_two_impacts_are_those_of_the_independent_equations() {
