@@ -220,11 +220,11 @@ fn branch_of(impacts: usize, axial_forcing: f64, rising: bool) -> Branch {
 /// Beyond the crisis orbits of 11, 12, 13 impacts in five periods are born in folds; a graze ends each, and
 /// there the next one loses an impact that vanishes (docs/numerics-dynamics.md).
 ///
-/// The orbit of 11 impacts is unstable between the doublings at 0.601831742727 and 0.602013084399, where one of
-/// 22 impacts in ten periods attracts in part of the range. It turns in two more folds, at 0.602082480505 and
-/// 0.602094130581, and doubles again at 0.602180517938. The third attractor of Fig. 7(b), unstable, continues as
-/// the orbit of two impacts to a graze at 0.602962773255 on the branch of its saddle, as the orbit of four to one
-/// at 0.684362527611.
+/// The orbit of 11 impacts is unstable between the doublings at 0.601831742727 and 0.602013084399, where one
+/// of 22 impacts in ten periods attracts in part of the range. It turns in two more folds, at 0.602082480505
+/// and 0.602094130581, and doubles again at 0.602180517938. The third attractor of Fig. 7(b), unstable,
+/// continues as the orbit of two impacts to a graze at 0.602962773255 on the branch of its saddle, as the
+/// orbit of four to one at 0.684362527611.
 #[test]
 fn orbits_beyond_the_crisis_are_born_in_folds_and_handed_on_in_grazes() {
     let first = |branch: &Branch, is_one: fn(&BifurcationKind) -> bool| {

@@ -230,7 +230,8 @@ fn manifolds_and_crises() {
     }
 }
 
-/// The second call of an observer comes after [`FLIGHTS_BETWEEN_CALLS`] flights, the third after as many again.
+/// The second call of an observer comes after [`FLIGHTS_BETWEEN_CALLS`] flights, the third after as many
+/// again.
 #[test]
 fn calls_that_never_end_can_be_stopped() {
     const TWICE: u64 = 2 * FLIGHTS_BETWEEN_CALLS;

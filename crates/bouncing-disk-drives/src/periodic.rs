@@ -59,9 +59,10 @@ impl DrivenMap {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for an empty guess or one longer than [`MAX_PERIOD`](bouncing_disk_core::orbits::MAX_PERIOD); [`Error::NotSettled`];
-    /// [`Error::ImpactOnKink`] for an orbit without multipliers; [`Error::ImpactWithoutSpeed`] and
-    /// [`Error::NoPlatformPeriods`] for a disk at rest; errors of [`Self::step`].
+    /// [`Error::OutOfRange`] for an empty guess or one longer than
+    /// [`MAX_PERIOD`](bouncing_disk_core::orbits::MAX_PERIOD); [`Error::NotSettled`]; [`Error::ImpactOnKink`]
+    /// for an orbit without multipliers; [`Error::ImpactWithoutSpeed`] and [`Error::NoPlatformPeriods`] for a
+    /// disk at rest; errors of [`Self::step`].
     pub fn refine(&self, guess: &[ImpactState]) -> Result<PeriodicOrbit, Error> {
         let orbit = self.iterated(guess)?;
         let (residual, iterations) = (orbit.position_error, MAX_NEWTON_STEPS);

@@ -365,7 +365,8 @@ fn random_map(case: usize, random: &mut SplitMix64) -> (Parabolas, DrivenMap, [f
     (exact, DrivenMap::new(drive.unwrap(), r).unwrap(), [a, r])
 }
 
-/// The map of a shape, and the program that follows its orbits: triangles, sawteeth, parabolas, sums of three harmonics, cubics.
+/// The map of a shape, and the program that follows its orbits: triangles, sawteeth, parabolas, sums of three
+/// harmonics, cubics.
 fn map_of(kind: u32, a: f64, r: f64, shape: [f64; 4]) -> (Box<dyn Followable>, DrivenMap) {
     let (exact, drive): (Box<dyn Followable>, _) = match kind {
         0 => (Box::new(Parabolas::triangle(a, 0.5)), Drive::triangle(a)),

@@ -240,8 +240,8 @@ fn restitutions(seed: u64) -> impl Iterator<Item = f64> {
     [0.1, 0.3, 0.5, 0.8, 0.95].into_iter().chain((0..35).map(move |_| 0.1 + 0.85 * random.unit()))
 }
 
-/// A cubic that rises through 0 has the velocity 3 a (1 - y^2)/pi and the acceleration -12 a y/pi^2 at the phase pi y/2: its
-/// fold lies on the joint of two pieces.
+/// A cubic that rises through 0 has the velocity 3 a (1 - y^2)/pi and the acceleration -12 a y/pi^2 at the
+/// phase pi y/2: its fold lies on the joint of two pieces.
 #[test]
 fn cubics_have_a_fold_and_a_doubling_by_hand() {
     for r in restitutions(9) {

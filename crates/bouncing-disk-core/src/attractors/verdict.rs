@@ -48,8 +48,8 @@ pub enum Verdict {
     },
     /// Small perturbations grow by more than neutral motion, the escape from a periodic orbit and the error
     /// of the exponent can explain ([`LyapunovEstimate::grows`]), over enough impacts for dissipation to act
-    /// ([`BouncingMap::transient_impacts`]). A finite number of impacts cannot distinguish an attractor from a
-    /// longer transient.
+    /// ([`BouncingMap::transient_impacts`]). A finite number of impacts cannot distinguish an attractor from
+    /// a longer transient.
     Chaotic {
         /// The largest exponent per impact.
         exponent: f64,

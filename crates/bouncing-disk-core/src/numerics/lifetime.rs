@@ -113,8 +113,8 @@ mod tests {
     use crate::numerics::testing::stored;
 
     /// Quantiles of chi squared from tables: 0.05064 and 11.143 for 2 and 4 degrees of freedom, 0.4844 and
-    /// 14.449 for 4 and 6 (approximated from below), 9.591 and 36.781 for 20 and 22, 162.73 and 243.26 for 200
-    /// and 202.
+    /// 14.449 for 4 and 6 (approximated from below), 9.591 and 36.781 for 20 and 22, 162.73 and 243.26 for
+    /// 200 and 202.
     #[test]
     fn intervals_follow_from_chi_squared() {
         assert!((ln(20.0) - NONE_LEFT).abs() < 1e-15);

@@ -315,7 +315,8 @@ pub(crate) fn check_repeats(longest: usize, tolerance: f64) -> Result<(), Error>
     within("tolerance", tolerance, 0.0, f64::MAX, "[0, inf)").map(|_| ())
 }
 
-/// The smallest period up to `longest` with which the first of 2 `longest` + 1 impacts repeat, twice in a row.
+/// The smallest period up to `longest` with which the first of 2 `longest` + 1 impacts repeat, twice in a
+/// row.
 pub(crate) fn repeats(states: &[ImpactState], longest: usize, tolerance: f64) -> Option<usize> {
     let near = |a: &ImpactState, b: &ImpactState| {
         phase_difference(a.phase().angle(), b.phase().angle()).abs() <= tolerance

@@ -123,8 +123,8 @@ impl Drive {
         Self::sawtooth(amplitude, 0.5)
     }
 
-    /// A sawtooth that rises for this share of the period, in [1e-9, 1 - 1e-9], and falls for the rest: from 0 at time
-    /// 0 to `amplitude`, to -`amplitude`, and back.
+    /// A sawtooth that rises for this share of the period, in [1e-9, 1 - 1e-9], and falls for the rest: from
+    /// 0 at time 0 to `amplitude`, to -`amplitude`, and back.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for numbers outside their range.

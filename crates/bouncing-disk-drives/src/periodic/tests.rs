@@ -140,8 +140,8 @@ fn on_a_triangle_there_is_a_family_or_no_orbit() {
     }
 }
 
-/// Pieces (duration, height and its derivatives) in units of the period, for which a slope of 1 is the velocity of
-/// an orbit with one impact every period under the restitution 0.5.
+/// Pieces (duration, height and its derivatives) in units of the period, for which a slope of 1 is the
+/// velocity of an orbit with one impact every period under the restitution 0.5.
 fn in_periods(pieces: &[(f64, [f64; 3])]) -> DrivenMap {
     let own = pieces.iter().map(|&(duration, [c0, c1, c2])| {
         let height = 2.0 * PI * PI / 3.0;

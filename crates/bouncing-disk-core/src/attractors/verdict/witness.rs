@@ -69,7 +69,8 @@ impl Round {
         self.long_flights += u64::from(impact.duration > LONG_FLIGHT);
     }
 
-    /// Takes the logarithm of the growth by a flight, and the error of its impact; the first flight has no growth.
+    /// Takes the logarithm of the growth by a flight, and the error of its impact; the first flight has no
+    /// growth.
     fn grow(&mut self, growth: f64, error: f64) {
         self.growth.push(growth);
         self.round(exp(growth), error);

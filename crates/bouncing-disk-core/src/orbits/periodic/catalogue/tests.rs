@@ -48,10 +48,10 @@ impl TwoFlights {
     /// steps.
     ///
     /// Two flights of h and 2 pi k - h from the phase tau must satisfy the law at both impacts, with u_i =
-    /// h_i/2 + P (sin tau_(i+1) - sin tau_i)/h_i: two equations in (tau, h). The mean slope of the sine over a
-    /// flight has derivatives of at most 1 (phase) and 1/2 (duration). So each equation changes by at most
-    /// 2 (1 + r) P per radian of tau, and 1/2 + 3P/2 + r (1 + 3P)/2 + (1 + r) P per radian of h. A cell contains
-    /// no solution if an equation at its middle exceeds these rates times half its size.
+    /// h_i/2 + P (sin tau_(i+1) - sin tau_i)/h_i: two equations in (tau, h). The mean slope of the sine over
+    /// a flight has derivatives of at most 1 (phase) and 1/2 (duration). So each equation changes by at most
+    /// 2 (1 + r) P per radian of tau, and 1/2 + 3P/2 + r (1 + 3P)/2 + (1 + r) P per radian of h. A cell
+    /// contains no solution if an equation at its middle exceeds these rates times half its size.
     fn solutions(&self) -> Vec<(f64, f64)> {
         let (p, r) = (self.p, self.r);
         let by_phase = 2.0 * (1.0 + r) * p;
