@@ -11,8 +11,8 @@ pub(super) const MAJORANT: f64 = 32.0;
 pub(super) const LAST_SHARE: f64 = 1.0e-17;
 
 /// Largest restitution, and smallest launch speed, of a chatter whose impacts are computed one by one. There
-/// are at most 7,600 impacts, as by the proof of [`window_holds_all`] every launch is slower than 1 - (2/3)(1
-/// - r) times the previous one.
+/// are at most 7,600 impacts, as by the proof of [`window_holds_all`] every launch is slower than the
+/// previous one times 1 - (2/3)(1 - r).
 pub(super) const LARGEST_COUNTED_RESTITUTION: f64 = 1.0 - 1.0 / 128.0;
 pub(super) const SMALLEST_COUNTED_SPEED: f64 = f64::MIN_POSITIVE / LAST_SHARE;
 

@@ -174,8 +174,8 @@ impl Motion {
     }
 }
 
-/// A function of the motion that must stay positive up to an event, and the bound on its rounding: r0 + r1 t
-/// + r2 t^2, at most `cap` (1 + rate t), in units of [`ROUNDING`].
+/// A function of the motion that must stay positive up to an event, and the bound on its rounding:
+/// r0 + r1 t + r2 t^2, at most `cap` (1 + rate t), in units of [`ROUNDING`].
 struct Fall {
     form: Form,
     raise: [f64; 3],

@@ -129,8 +129,8 @@ fn the_derivative_is_that_of_differences() {
     }
 }
 
-/// By hand: on a triangle the impacts of period 1 may be anywhere on a slope u = 2 a/pi that they hit with w
-/// = -2 pi/(1 + r), because the flight lasts 2 pi for any phase. This is a neutral family with the
+/// By hand: on a triangle the impacts of period 1 may be anywhere on a slope u = 2 a/pi that they hit with
+/// w = -2 pi/(1 + r), because the flight lasts 2 pi for any phase. This is a neutral family with the
 /// multipliers 1 and r^2, if u = pi (1 - r)/(1 + r). Only phases nearer to the crest than the duration of the
 /// flight above a slope, 2 r 2 pi/(1 + r), belong to it.
 #[test]
