@@ -180,8 +180,14 @@ fn settings(a: &Arguments<'_>) -> PyResult<OperatingSettings> {
 /// Speed, power and efficiency of a motor against its load.
 #[pyfunction]
 pub(crate) fn torque_speed_curve(a: Arguments<'_>) -> Made<'_> {
-    let (motor, settings, loads) = (a.motor()?, settings(&a)?, a.row("load_torques")?);
+    let (motor, settings) = (a.motor()?, settings(&a)?);
     let motor = a.moved(&motor)?;
+    let loads = match a.given("load_torques")? {
+        Some(loads) => row(&loads, "load_torques")?,
+        // As the command line: a law of the load has a torque already.
+        None if motor.load().is_some() => vec![0.0],
+        None => (0..=10).map(|tenths| 0.1 * f64::from(tenths) * motor.largest_torque()).collect(),
+    };
     let rows = a.run(|observer| motor.torque_speed_curve(&loads, &settings, observer))?;
     made(a.py(), "TorqueSpeedCurve", columns(a.py(), &rows, None)?)
 }

@@ -16,7 +16,7 @@ fn main() -> Result<(), Error> {
     let radius = orbit.trapping_radius(&map, 64, &Unobserved).expect("the orbit attracts");
     let known = [KnownOrbit::new(orbit, radius)?];
 
-    // Impact phases of one period, and the speeds that Fig. 7 shows.
+    // Impact phases of one period, and normalised speeds up to 5.
     let grid = Grid::new(Axis::new(0.0, 1.0, 64)?, Axis::new(0.0, 5.0, 20)?)?;
     let basins = map.basins(grid, &known, BasinSettings::default(), &Unobserved)?;
     for row in (0..grid.speed().cells()).rev() {

@@ -376,7 +376,7 @@ class TorqueSpeedCurve(OperatingPoints):
 def torque_speed_curve(
     motor: Motor,
     *,
-    load_torques: ArrayLike,
+    load_torques: ArrayLike | None = None,
     drive: Drive | None = None,
     contact_time: Float | None = None,
     progress: Progress = None,
@@ -385,9 +385,9 @@ def torque_speed_curve(
     """Speed, power and efficiency of a motor against its load.
 
     Args:
-        load_torques: load torques (N m) in place of that of the data sheet, and on top of its ``load``, shape (n,).
-        drive: how the stator moves, in place of the drive of the data sheet; the sine is the only one of a stator that
-            yields.
+        load_torques: load torques (N m) instead of the data sheet's, added to its ``load``, shape (n,); by default eleven
+            from 0 to the largest torque, or 0 alone with a ``load``.
+        drive: motion of the stator instead of the data sheet's; a compliant stator accepts the sine only.
         contact_time: how long an impact lasts (s), positive; ``None`` for rigid impacts.
         settings: those of :class:`OperatingSettings`, as keywords.
     """
