@@ -1,9 +1,12 @@
-//! Rotors on a sine with a compliant contact, from release to release: one vertical motion carries them all,
-//! in closed form.
+//! Rotors on a sine with a compliant contact, from release to release: one vertical motion carries them all, in
+//! closed form.
 //!
-//! In a contact the slip of a rotor falls and rises with the platform's angular speed alone, except next to
-//! the extremes of that speed: it reverses once whenever the platform passes the rotor's speed. If friction
-//! could hold a rotor, or change the number of its reversals, the general engine decides.
+//! The slip q - beta' changes by the platform's beta' = Q cos(t + theta), up to the effect of friction and load in the
+//! contact, d = mu (integral of F) + |l| t. With n = (mu max F + |l|)/Q, beta'' exceeds friction and load if
+//! |sin(t + theta)| > n: there the slip is monotone, and friction cannot hold the rotor. Elsewhere beta' is within Q n^2
+//! of an extreme. So if ||q| - Q| > d + Q n^2, the slip reverses once at each crossing of q and beta', and nowhere else.
+//! The closed form with q fixed gives the order of the reversals. If friction may hold the rotor, or change the number
+//! of its reversals, the general engine decides.
 
 use std::f64::consts::TAU;
 
