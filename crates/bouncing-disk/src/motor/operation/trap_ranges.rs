@@ -1,6 +1,11 @@
 //! Ranges of the preload that trap a motor, and the nearest one.
 //!
-//! The speeds inside a trap are computed at operating points near both edges and in the middle.
+//! A scan judges preloads spaced evenly in the logarithm by half of the least width, and bisects to the edges of each
+//! trap. It finds every trap of at least that width, unless the trap has a hole at such a preload. The speeds inside a
+//! trap come from operating points near both edges and in the middle.
+//!
+//! From 4 to 6 N the motor of 40 kHz and 0.5 um has 17 traps of at least [`LEAST_TRAP_WIDTH`], each 0.11 to 0.16 % wide,
+//! with 8.35 rad/s inside and about 7.5 outside.
 
 use std::f64::consts::PI;
 
