@@ -1,4 +1,16 @@
 //! A flight over a compliant stator, in closed form, and its end.
+//!
+//! No search is needed while the parabola of the disk is above |u| + sum of R, the highest the tip can rise, with
+//! the steady motion u and R = (r^2 + r'^2/f^2)^(1/2) of each ringing mode, which never grows. Nor is one needed
+//! until the gap g, g' = w, closes with the acceleration b = 1 + a, a = |u| + sum of R (f^2 + d f): a time of (w +
+//! (w^2 + 2 b g)^(1/2))/b. After that time both bounds are computed again from the remaining ringing, until they
+//! skip less than a step, whose polynomial is then searched.
+//!
+//! On a stator slowed down by the disk steady motion and ringing nearly cancel. Tapes of operating points therefore
+//! also use the sum C = S + sum of h R of the complex amplitudes, of the tip u = Re S e^(i tau) and of the modes r
+//! = Re R e^(z tau), z = -d/2 + i (f^2 - d^2/4)^(1/2). Turned back by e^(i tau), R changes over a time t by at most
+//! |R| |z - i| t. So the tip stays below |C| + t sum of |h R (z - i)| for a time t, here the time of a fall to the
+//! mean height. The acceleration is bounded likewise, with -S and z^2 R for S and R.
 
 use bouncing_disk_core::flight::MAX_FLIGHT_DURATION;
 use bouncing_disk_core::numerics::elementary::{exp, exp_m1, hypot, ln_1p, sin_cos};

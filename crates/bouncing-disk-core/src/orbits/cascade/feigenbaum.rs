@@ -12,6 +12,10 @@
 //! | 0.8 | 4.669 201 6 | 9e-7 | 2.502 907 8 | 6e-7 |
 //!
 //! Near r = 1 the first doublings resemble doublings of area-preserving maps (ratios up to 7.9 at r = 0.95).
+//!
+//! A Richardson extrapolation with the ratio's own value removes the first part of a ratio of distances; the
+//! remainder shrinks by -0.12 each time. Ratios of widths need two extrapolations. The stated error is twice the
+//! larger of the last two changes, plus four times the effect of rounding on a ratio.
 
 use super::CascadeDoubling;
 use super::branch::width_rounding;

@@ -1,11 +1,16 @@
 //! Emulators of all measured points over the parameter ranges, and the values that the measurements exclude.
 //!
-//! Along each parameter the deviance is minimised over all others by damped Gauss-Newton steps in the box, at
-//! 21 evenly spaced points and more densely about the minima. Accepted ranges closer than a twentieth of half
-//! the range are merged. The first points form a lattice from the powers of the generalised golden ratio.
-//! Further points are profile points within 1.5 times the threshold at which v exceeds a quarter of the sum
-//! of the known and the rough variance. They are chosen one after the other, each as if the previous one were
-//! known (kriging believer). With few points the rough variance is omitted, because steepness may look rough.
+//! Along each parameter the deviance is minimised over all others by damped Gauss-Newton steps in the box, at 21 even
+//! places and more closely about the minima. Accepted ranges nearer than a twentieth of half the range are one. The
+//! first places are a lattice of the powers of the generalised golden ratio. Further places are profile points within
+//! 1.5 times the threshold at which v exceeds a quarter of the known variance and the rough one, chosen one after the
+//! other as if the one before were known (kriging believer). With few places the rough variance is left out, because
+//! steepness may look rough.
+//!
+//! Roughness q: each computed sample is left out in turn, and its differences from the prediction of the others are
+//! treated as measured. The part of their squares that the parameters imitate is how far such a motor would move
+//! the fit. q is the value that one sample of twenty exceeds. It is taken over samples within half of half the
+//! ranges of the best if at least 12 lie there, and otherwise over all.
 
 use bouncing_disk_core::numerics::elementary::ln;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};

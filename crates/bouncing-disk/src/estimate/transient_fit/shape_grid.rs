@@ -1,4 +1,9 @@
-//! Least-squares fits of many curves from their moments with shapes that are computed once.
+//! Least-squares fits of many curves by their moments with shapes that are computed once.
+//!
+//! With f the shape at the times of the curve y for a constant t_c, the best t_c maximises G = (f.y)^2/(f.f). The
+//! products f.y are linear in y and computed once on a grid of ln t_c with h = 0.02. The parabola through three
+//! values of G has the error h^2 G'''/(6 G''), at most 1e-4 of t_c, and 5e-3 for a ramp, which has kinks; intervals
+//! are at least ten times wider.
 
 use bouncing_disk_core::numerics::elementary::{exp, exp_m1, ln};
 use bouncing_disk_core::run::WorkCount;

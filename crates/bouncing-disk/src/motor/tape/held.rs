@@ -1,9 +1,23 @@
 //! Held amplitudes: motions of a stator with a compliant height at which a run may start.
 //!
-//! Let the stator move as a sine of amplitude A, whatever the disk does. The first harmonic of the contact
-//! force then determines the drive that would maintain this sine. Amplitudes for which it equals the
-//! available drive are nearly the steady ones, including unstable ones and those that no run from rest
-//! reaches (docs/numerics-dynamics.md, "The tape of the force").
+//! Let the stator move as a sine of an amplitude A, whatever the disk does. The first harmonic of the contact force says
+//! which drive would keep it. Those amplitudes that ask for the drive that there is are nearly the steady ones, unstable
+//! ones and those that no run from rest comes to included (docs/numerics-dynamics.md, "The tape of the force").
+//!
+//! The contact force under s = A sin sigma has the first harmonic N1 = <2 N sin sigma> + i <2 N cos sigma>. Let f
+//! be the resonance of the mode, and psi the stator's phase ahead of the drive. The drive that keeps this motion is
+//! (D A + N1) exp(i psi), D = M (f^2 - 1 + i f/Q). At a held amplitude its size |D A + N1| equals the available
+//! drive, and the phase of the equation gives psi. An amplitude is stable if a larger one needs a larger drive.
+//!
+//! - N is never negative and has the mean 1, so |N1| <= 2, and A is within 2/|D| of the free amplitude. N supplies
+//!   no power to the stator, so A <= |drive|/Im D.
+//! - A disk that never leaves the stator follows it linearly: N1 = -kappa A, with kappa = 1 in a rigid contact and
+//!   kappa = (k + i c)/(k + i c - 1) in a compliant one, while |kappa| A <= 1. This state is exact.
+//! - Otherwise the disk is followed from amplitude to amplitude, upwards and downwards, and regula falsi narrows a
+//!   change of sign (`held/branch.rs`). A jump across the drive has no root.
+//!
+//! Held amplitudes neglect the recoil of the stator: at M = 3 the amplitude of a tapped motion is off by 0.1 %, of
+//! a chaotic one by up to a third.
 
 mod branch;
 
