@@ -1,5 +1,11 @@
 //! The attractors of a map, found without known orbits, and their basins (docs/numerics-dynamics.md,
 //! "Attractors").
+//!
+//! One open start is followed for n = 102,000 impacts, then 1,024 orbits from next to its impacts for n impacts,
+//! too. If all stay, the motion is chaotic: a start belongs to it if, of 512 impacts after the transient, half of
+//! the share usual on the motion lie in its cells. If one leaves, it is a transient: all open starts are followed
+//! for n impacts (fewer if there are thousands), and its share is the starts still on it. If the usual share is
+//! below 0.1, cells tell nothing, and the motion is undecided.
 
 mod basins;
 pub(crate) mod cells;

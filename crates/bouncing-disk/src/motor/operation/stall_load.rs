@@ -1,6 +1,10 @@
 //! The load that stops a motor, bracketed, and its torque at rest.
 //!
 //! For slow rotors both agree.
+//!
+//! The bracket reaches from the last load at which the motor turns forwards by more than three standard errors to
+//! the first at which it is driven back by as much. Loads within 1/64 of mu m g a_e are not tried, because friction
+//! there settles a speed too slowly; a motor that still turns stalls between the last load and mu m g a_e.
 
 use bouncing_disk_core::Observer;
 use bouncing_disk_core::numerics::elementary::hypot;
