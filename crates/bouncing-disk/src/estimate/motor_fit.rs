@@ -1,9 +1,15 @@
 //! Fits of unknown motor parameters to measured run-ups, braking tails and the few points in a maker's
 //! catalogue (rated torque and speed, no-load speed, stall torque), each under its own conditions.
 //!
-//! A smooth emulator of the motor is computed from a few hundred points of the parameter ranges. Values that
-//! the measurements exclude, given the emulator's own errors, are excluded. docs/numerics-dynamics.md,
-//! "Parameters from measurements".
+//! A smooth stand-in for the motor is computed at some hundred places of the ranges; what the measurements exclude by it, and
+//! by its own errors, is excluded. docs/numerics-dynamics.md, "Parameters from measurements".
+//!
+//! With C the covariance of the W means over M members and n measured runs, Sigma = C/n (M - 1)/(M - W - 2) at the
+//! parameters nearest to the measurement; the factor makes the inverse of an estimated covariance unbiased. In the
+//! basis of the root of Sigma the means of a run are independent with variance one. It is turned so that the
+//! differences that no smooth response explains are independent too: a motion that locks is faster or slower in all
+//! windows and must count once. No mean counts as known better than 1e-3 of the largest. Elsewhere variances come
+//! from the members there.
 
 mod display;
 mod emulator;

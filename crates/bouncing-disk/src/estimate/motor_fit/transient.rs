@@ -9,13 +9,6 @@
 //! instant is that of the least integral of the distance from the level. Computed members are sampled at the measured
 //! instants, shifted by a random part of half a step, with the measured errors. The error of a point, if not given,
 //! comes from deviations from the line between its neighbours. A braking tail is compared in the same windows.
-//!
-//! With C the covariance of the W means over M members and n measured runs, Sigma = C/n (M - 1)/(M - W - 2) at the
-//! parameters nearest to the measurement; the factor makes the inverse of an estimated covariance unbiased. In the
-//! basis of the root of Sigma the means of a run are independent with variance one. It is turned so that the
-//! differences that no smooth response explains are independent too: a motion that locks is faster or slower in all
-//! windows and must count once. No mean counts as known better than 1e-3 of the largest. Elsewhere variances come
-//! from the members there.
 
 use std::f64::consts::TAU;
 
