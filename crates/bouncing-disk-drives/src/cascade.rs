@@ -112,5 +112,5 @@ fn first_orbit(
             return Ok((family.with_unit(forcing.max(LEAST_UNIT)), orbit, birth));
         }
     }
-    Err(Error::NoBranch { what: "the orbit of one impact in one period", parameter: birth })
+    Err(Error::NoBranch { what: "an attracting orbit of one impact per period", parameter: birth })
 }

@@ -104,7 +104,7 @@ impl Compliance {
         let ([least, most], legal) = (Self::CONTACT_TIMES, "[1e-6, 1e4] (rad of the drive)");
         within("contact time", contact_time, least, most, legal)?;
         let ([least, most], legal) = (Self::RESTITUTIONS, "[0.001, 1 - 1e-6]");
-        within("restitution of a contact that takes time", restitution, least, most, legal)?;
+        within("restitution of a compliant contact", restitution, least, most, legal)?;
         // Damping ratio cos u, or cosh u beyond the critical one: the restitution is exp(-2 u cot u), or
         // exp(-2 u coth u).
         let lost = -0.5 * ln(restitution);
@@ -335,7 +335,7 @@ impl CompliantPlatform {
     /// [`Error::NotOfKind`] for a drive that is not a periodic Fourier sum.
     pub fn new(drive: Drive, compliance: Compliance) -> Result<Self, Error> {
         if drive.next_joint(0.0).is_some() {
-            let expected = "the sine or a Fourier sum, the only drives of a contact that takes time";
+            let expected = "a sine or a sum of harmonics (fourier), which a compliant contact needs";
             return Err(Error::NotOfKind { what: "drive", index: 0, count: 1, expected });
         }
         let sine = drive.as_vibration();

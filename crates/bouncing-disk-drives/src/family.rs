@@ -136,7 +136,11 @@ impl DrivenFamily {
 
 fn member(maps: &dyn Fn(f64) -> Option<DrivenMap>, number: f64) -> Result<DrivenMap, Error> {
     finite("number of a family", number)?;
-    let none = Error::OutOfRange { field: "number of a family", value: number, legal: "one with a map" };
+    let none = Error::OutOfRange {
+        field: "number of a family",
+        value: number,
+        legal: "a value for which the family has a map",
+    };
     maps(number).ok_or(none)
 }
 

@@ -53,7 +53,7 @@ impl DampedSine {
         finite("cosine of a damped sine", self.cosine)?;
         finite("sine of a damped sine", self.sine)?;
         within("frequency of a damped sine", self.frequency, 0.0, 1.0e8, "[0, 1e8]")?;
-        within("decay of a damped sine", self.decay, 0.0, 1.0e8, "[0, 1e8]: a growing term is refused")?;
+        within("decay of a damped sine", self.decay, 0.0, 1.0e8, "[0, 1e8] (terms must not grow)")?;
         Ok(())
     }
 

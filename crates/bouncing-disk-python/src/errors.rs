@@ -221,7 +221,10 @@ fn in_unit(interval: &str, one: f64, unit: &str) -> Option<String> {
 
 /// The exception of a number outside its range, in the words of the library.
 pub(crate) fn out_of_range(py: Python<'_>, field: &str, value: f64, legal: &str) -> PyErr {
-    let words = Error::OutOfRange { field: "", value, legal: "" }.to_string();
+    // The library words an interval otherwise than a condition.
+    let bracket = if legal.starts_with(['[', '(']) { "[" } else { "" };
+    let words = Error::OutOfRange { field: "", value, legal: bracket }.to_string();
+    let words = words.strip_suffix(bracket).unwrap_or(&words);
     raise(py, "OutOfRangeError", (format!("{field}{words}{legal}"), field, value, legal))
 }
 

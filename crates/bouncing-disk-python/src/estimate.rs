@@ -146,7 +146,8 @@ fn rated_point(numbers: &Bound<'_, PyAny>, place: &Place<'_>) -> PyResult<RatedP
     }
     for (field, error) in errors {
         let own = point.conditions.iter_mut().find(|own| own.field == field);
-        let missing = || PyValueError::new_err(format!("points: the error of {field} is without a value"));
+        let missing =
+            || PyValueError::new_err(format!("points: the error of {field} needs a value of {field}"));
         own.ok_or_else(missing)?.error = error;
     }
     Ok(point)

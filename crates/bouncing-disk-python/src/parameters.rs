@@ -203,7 +203,7 @@ impl Map {
         let refused = platform.height().sine().err();
         let argument = if refused.is_some() { "drive" } else { "contact_periods" };
         let message = format!(
-            "this holds for rigid impacts on the sine only, and the map has {argument}=: use a map without it"
+            "this holds only for rigid impacts on the sine, but the map has {argument}=; use a map without it"
         );
         Err(errors::of_kind(py, message, &refused.unwrap_or(Error::SoftContact)))
     }

@@ -373,7 +373,7 @@ def test_a_trajectory_without_events_says_that_it_has_no_samples() -> None:
 def test_a_cascade_that_ends_has_the_doublings_before() -> None:
     found = bd.doubling_cascade(restitution=0.01, count=8)
     assert found.axial_forcing == pytest.approx([1.162039896, 1.243863813], abs=1e-9)
-    assert found.ended_by is not None and "an impact comes after" in found.ended_by
+    assert found.ended_by is not None and "the disk hits the platform after" in found.ended_by
     assert bd.doubling_cascade(restitution=0.01, count=2).ended_by is None
     with pytest.raises(bd.OutOfRangeError, match="count"):
         bd.doubling_cascade(restitution=0.5, count=0)

@@ -111,11 +111,19 @@ fn forcings(request: &DiagramRequest) -> Result<Vec<f64>, Refusal> {
         return Err(Refusal::out_of_range("count", count as f64, "[2, 1000000]"));
     }
     if from > to || to > count {
-        return Err(Refusal::out_of_range("columns", to as f64, "from the first to the count"));
+        return Err(Refusal::out_of_range(
+            "columns",
+            to as f64,
+            "at least the first column and at most the count",
+        ));
     }
     let impacts = (to - from).saturating_mul(request.recorded);
     if impacts > MOST_IMPACTS {
-        return Err(Refusal::out_of_range("recorded", request.recorded as f64, "2^22 in all columns"));
+        return Err(Refusal::out_of_range(
+            "recorded",
+            request.recorded as f64,
+            "at most 2^22 in all columns together",
+        ));
     }
     Ok((from..to).map(|column| low + (high - low) * (column as f64 / (count - 1) as f64)).collect())
 }

@@ -39,7 +39,7 @@ pub(crate) fn answer(
         return Err(Refusal::out_of_range("periods", periods as f64, "[1, 100000]"));
     }
     if samples_per_period == 0 || samples > MAX_SAMPLES as u64 {
-        return Err(Refusal::out_of_range("samples", samples as f64, "at most 2^24 together"));
+        return Err(Refusal::out_of_range("samples", samples as f64, "at most 2^24 in all periods together"));
     }
     let scales = system.scales();
     let follow = if system.soft_contact().is_some() { soft } else { rigid };

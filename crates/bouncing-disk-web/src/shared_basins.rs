@@ -56,7 +56,11 @@ impl SharedAttractors {
         let grid = Grid::new(Axis::new(low, high, request.phases)?, Axis::new(slow, fast, request.speeds)?)?;
         let [from, to] = request.rows;
         if from > to || to > request.speeds {
-            return Err(Refusal::out_of_range("rows", to as f64, "from the first to the number of speeds"));
+            return Err(Refusal::out_of_range(
+                "rows",
+                to as f64,
+                "at least the first row and at most the number of speeds",
+            ));
         }
         let found = self.of(map)?;
         let basins = found.basins_of_rows(grid, from..to, BasinSettings::default(), &Unobserved)?;

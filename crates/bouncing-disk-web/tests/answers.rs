@@ -498,7 +498,9 @@ fn a_motor_is_that_of_its_sheet() {
         let text = motor.stator_report().map(|text| text.to_string());
         assert_eq!(text.is_some(), motor.stator().is_some());
         assert!(text.is_none_or(|text| report["text"] == text), "{report}");
-        assert!(report["contact"][0][1] == "0.7 (contacts take it)" || own["sheet"]["contact"].is_null());
+        assert!(
+            report["contact"][0][1] == "0.7 (contacts are compliant)" || own["sheet"]["contact"].is_null()
+        );
     }
 }
 
@@ -567,5 +569,8 @@ fn contacts_that_take_time_are_those_of_the_library() {
     let (row, _) = events.find(|(_, kind)| Some(usize::from(**kind)) == separation).expect("leaves");
     assert_eq!(bits(&[row[1], row[4]]), bits(&[known.separation_phase, known.airborne_speed]));
     assert!(reply.numbers[..9 * 121].chunks(9).any(|row| row[1] < row[5] - 1e-3), "the hand yields");
-    assert_eq!(answered("check", json!({ "system": hands })).0["contact"][0][1], "0.0716 (contacts take it)");
+    assert_eq!(
+        answered("check", json!({ "system": hands })).0["contact"][0][1],
+        "0.0716 (contacts are compliant)"
+    );
 }

@@ -28,7 +28,7 @@ pub enum Error {
         peak_acceleration: f64,
     },
     /// A segment of sliding lasts so long that its end cannot be resolved.
-    #[error("the disk slides for {duration:?} rad, more than the largest duration {limit:?} rad")]
+    #[error("the disk slides for {duration:?} rad, more than the limit of {limit:?} rad")]
     SlipTooLong {
         /// Estimated duration in radians.
         duration: f64,
@@ -36,7 +36,7 @@ pub enum Error {
         limit: f64,
     },
     /// Rotors that are to share one vertical motion differ in a quantity that affects it.
-    #[error("rotors that share one vertical motion differ in {field}: {one:?} and {other:?}")]
+    #[error("rotors that share one vertical motion must have the same {field}, not {one:?} and {other:?}")]
     NotShared {
         /// The quantity that must be equal.
         field: &'static str,
@@ -66,13 +66,14 @@ pub enum Error {
         standard_error: f64,
     },
     /// The load accelerates a motor for ever at every searched point.
-    #[error("the load of {load:?} m g a_e exceeds what friction can give on average")]
+    #[error("the load torque of {load:?} m g a_e exceeds the largest mean friction torque")]
     Overpowered {
         /// Load torque in units of m g a_e.
         load: f64,
     },
     /// No point of the searched ranges satisfies the bounds.
-    #[error("nowhere in the ranges is {quantity} surely {} {bound:?}: the nearest is {nearest:?}", if *is_least { ">=" } else { "<=" })]
+    #[error("no place in the ranges keeps the bound {quantity} {} {bound:?} with certainty: the nearest value is \
+             {nearest:?}", if *is_least { ">=" } else { "<=" })]
     NotKept {
         /// The quantity that violates its bound most at the point that comes closest to satisfying all
         /// bounds.
@@ -85,7 +86,7 @@ pub enum Error {
         nearest: f64,
     },
     /// A quantity to be maximised is positive nowhere, as far as it is known.
-    #[error("{quantity} is nowhere surely positive in the ranges: its best value is {value:?}")]
+    #[error("{quantity} is not certain to be positive anywhere in the ranges: its best value is {value:?}")]
     NotPositive {
         /// The quantity.
         quantity: &'static str,
@@ -102,7 +103,10 @@ pub enum Error {
         distance: f64,
     },
     /// So many motors of a range are in low-period traps that too few are left to fit a straight line.
-    #[error("{traps} motors of the range are in low-period traps; {left} are left, but {needed} are needed")]
+    #[error(
+        "a straight line needs {needed} motors outside low-period traps, but {left} are left ({traps} are in \
+         traps)"
+    )]
     TooFewMotors {
         /// Motors that are left.
         left: usize,
@@ -159,7 +163,8 @@ pub enum Error {
     },
     /// A load switches the drive, but the motion is prescribed.
     #[error(
-        "load.on and load.off switch the drive, which needs a table [stator]: a motion that is prescribed would stop with a jump"
+        "load.on and load.off switch the drive, which needs a table [stator]: a prescribed motion would stop with \
+         a jump"
     )]
     SwitchedMotion,
     /// An axis of a sweep has no values.
@@ -194,45 +199,46 @@ pub enum Error {
     },
     /// A file with another drive, for an analysis that needs the sine.
     #[error(
-        "this analysis holds for the sine of Eq. (1) only, and the table [drive] gives another motion: remove the table, or use \
-         one of the analyses that accept any drive: tosses, orbit diagrams, periodic orbits, doublings, verdicts, basins, motor transients, \
-         torque-speed curves, stall, best values and sweeps"
+        "this analysis holds only for the sine of Eq. (1), but the table [drive] gives another motion; remove the \
+         table, or use an analysis that accepts any drive: tosses, orbit diagrams, periodic orbits, doublings, \
+         verdicts, basins, motor transients, torque-speed curves, stall, best values and sweeps"
     )]
     DriveNotSine,
     /// A compliant contact, for an analysis that needs rigid impacts.
     #[error(
-        "this analysis holds for rigid impacts only, and the table [contact] has a time: remove the time, or use one of \
-         the analyses that accept it: single tosses, motor transients, torque-speed curves, stall, best values, \
+        "this analysis holds only for rigid impacts, but the table [contact] has a time; remove the time, or use \
+         an analysis that accepts it: single tosses, motor transients, torque-speed curves, stall, best values, \
          sweeps and fits of parameters"
     )]
     SoftContact,
     /// A compliant stator, for an analysis that needs a prescribed motion.
     #[error(
-        "this analysis holds for a stator whose motion is prescribed only, and the table [stator] makes it yield: remove the \
-         table, or use one of the analyses that accept it: motor transients, torque-speed curves, stall, best values \
-         and sweeps"
+        "this analysis holds only for a prescribed motion, but the table [stator] makes the stator compliant; \
+         remove the table, or use an analysis that accepts it: motor transients, torque-speed curves, stall, best \
+         values and sweeps"
     )]
     YieldingStator,
     /// A varying load, for an analysis that needs a constant torque.
     #[error(
-        "this analysis holds for a constant load only: replace the table [load] by load_torque, or use one of the analyses \
-         that accept it: motor transients, torque-speed curves, stall, best values, sweeps and fits of rated points"
+        "this analysis holds only for a constant load; replace the table [load] by load_torque, or use an analysis \
+         that accepts it: motor transients, torque-speed curves, stall, best values, sweeps and fits of rated \
+         points"
     )]
     LoadLaw,
     /// A time-dependent load, for an analysis of steady operation.
     #[error(
-        "a steady operation knows no time, and the table [load] has times, on or off: leave them out, or compute a run-up \
-         (`motor transient`)"
+        "a steady operation has no time axis, but the table [load] has times, on or off; leave them out, or \
+         compute a run-up (`motor transient`)"
     )]
     LoadInTime,
     /// A map has no parameter of this name.
     #[error(
-        "the platform has no number of this name: possible are axial_forcing, restitution, contact_periods where a contact \
-         time is given, and the numbers of the shape by their places from 0, as sawtooth or fourier[1][0]"
+        "the platform has no number of this name; it may be axial_forcing, restitution, contact_periods (if a \
+         contact time is given), or a number of the shape such as sawtooth or fourier[1][0], counted from 0"
     )]
     NoSuchNumber,
     /// A start phase of a toss, for an analysis without tosses.
-    #[error("start_phase is where a toss starts, and nothing is tossed here: leave it out")]
+    #[error("start_phase is the start of a toss, and this analysis has none; leave it out")]
     StartPhase,
     /// An error of the math core.
     #[error(transparent)]

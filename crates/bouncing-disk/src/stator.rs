@@ -199,7 +199,7 @@ impl StatorSystem {
             check(mode.angle.abs() <= 1.0e6, "angle of a mode", mode.angle, "[-1e6, 1e6]")?;
             let is_one = |value: f64| (value - 1.0).abs() <= 0.0;
             let pure = mode.height == 0.0 && is_one(mode.angle);
-            check(is_one(mode.height) || pure, "height of a mode", mode.height, "1, or 0 with the angle 1")?;
+            check(is_one(mode.height) || pure, "height of a mode", mode.height, "1, or 0 if the angle is 1")?;
         }
         if let [one, other] = modes {
             let twice =
@@ -283,7 +283,7 @@ impl StatorSystem {
         let mut reached = f64::NEG_INFINITY;
         for line in lines {
             let follows = line.from.total_cmp(&reached).is_eq() && line.to > line.from;
-            check(follows, "start of a line of the load", line.from, "the end of the one before")?;
+            check(follows, "start of a line of the load", line.from, "the end of the line before it")?;
             let slope = line.slope;
             check((-1.0..=1.0e3).contains(&slope), "slope of the load", slope, "[-1, 1e3] (dimensionless)")?;
             finite("torque of the load", line.torque)?;
@@ -302,7 +302,7 @@ impl StatorSystem {
                 (here - there).abs() <= 1.0e-9 * size,
                 "jump of the load",
                 there - here,
-                "none: lines must meet",
+                "0, because adjacent lines must meet",
             )?;
         }
         check(reached == f64::INFINITY, "end of the load", reached, "infinity")?;
@@ -451,7 +451,7 @@ impl StatorSystem {
             friction <= NEAREST_JAM * own,
             "friction",
             self.base.friction(),
-            "below what jams a disk that slides on this stator",
+            "below the friction that jams a disk sliding on this stator",
         )?;
         Ok(())
     }

@@ -264,9 +264,7 @@ fn legend(known: &Known) -> Vec<(Label, String)> {
         let words = match &attractor.kind {
             AttractorKind::Rest(AfterRest::StaysForEver) => "at rest for ever".to_owned(),
             AttractorKind::Rest(AfterRest::RestsAgain(cycle)) if cycle.is_exact() => cycle.to_string(),
-            AttractorKind::Rest(AfterRest::RestsAgain(_)) => {
-                "rest, in a cycle that rounding chooses".to_owned()
-            }
+            AttractorKind::Rest(AfterRest::RestsAgain(_)) => "rest, in a cycle set by rounding".to_owned(),
             AttractorKind::Rest(AfterRest::LeadsTo(number)) => {
                 let to = known.labelled().nth(*number).map_or(ATTACHED, |(label, _)| label);
                 format!("at rest, then to {to}")

@@ -17,25 +17,34 @@ use crate::parameters::{Described as _, Setting, setting};
 
 /// Fits measured run-ups: steady speed and time constant, or parameters of a motor
 #[derive(Debug, Args)]
-#[command(after_help = "\
-The file has the columns time_s, speed_rad_s and, for repeated runs, member, or times and speeds in units that it names, \
-such as \"t (ms)\" and \"n (rpm)\"; commas, semicolons or tabs separate them. Without --parameter alpha_ss - b exp(-t/t_c) is \
-fitted to their mean, with 95 % intervals: time zero, a dead time and the speed at the start need not be known. \
---from-rest fits alpha_ss (1 - exp(-t/t_c)) to times that count from the start of the rise, with narrower intervals. With --parameter FIELD=LOW:HIGH parameters of a motor are fitted: friction, restitution, phase_lag (rad), \
-amplitude (m), twist_amplitude (rad), contact.time (s), stator.mass (kg), stator.quality, stator.twist_per_height (rad/m), each within its \
-range; all else is that of the motor, which --motor or --preset names. Runs whose speeds rise are run-ups; those whose speeds fall are braking \
-tails with the drive off. The time of the switch and the speed at the first row need not be known.
+#[command(
+    after_help = "The file has the columns time_s, speed_rad_s and, for repeated runs, member, or times and \
+                  speeds in units that it names, such as \"t (ms)\" and \"n (rpm)\"; commas, semicolons or tabs \
+                  separate them. Without --parameter alpha_ss - b exp(-t/t_c) is fitted to their mean, with 95 % \
+                  intervals: time zero, a dead time and the speed at the start need not be known. --from-rest \
+                  fits alpha_ss (1 - exp(-t/t_c)) to times that count from the start of the rise, with narrower \
+                  intervals. With --parameter FIELD=LOW:HIGH parameters of a motor are fitted: friction, \
+                  restitution, phase_lag (rad), amplitude (m), twist_amplitude (rad), contact.time (s), \
+                  stator.mass (kg), stator.quality, stator.twist_per_height (rad/m), each within its range; all \
+                  else is that of the motor, which --motor or --preset names. Runs whose speeds rise are \
+                  run-ups; those whose speeds fall are braking tails with the drive off. The time of the switch \
+                  and the speed at the first row need not be known.
 
-A table of points that a maker prints has no times: columns speed_rad_s (or \"speed (rpm)\"), speed_error, and fields of the data sheet \
-such as load_torque (0 without load), stator.volts or preload_force, each perhaps with its error (load_torque_error); a line each, the speed 0 \
-at the stall torque. See \
-docs/designing-a-motor.md.
+A table of points that a maker prints has \
+                  no times: columns speed_rad_s (or \"speed (rpm)\"), speed_error, and fields of the data sheet \
+                  such as load_torque (0 without load), stator.volts or preload_force, each optionally with its \
+                  error (load_torque_error); a line each, the speed 0 at the stall torque. See \
+                  docs/designing-a-motor.md.
 
 Examples:
   bouncing-disk fit run-up.csv --out fit.png
-  bouncing-disk fit scope.txt --time-column CH1 --speed-column CH2 --time-unit ms --speed-unit rpm
+  \
+                  bouncing-disk fit scope.txt --time-column CH1 --speed-column CH2 --time-unit ms --speed-unit \
+                  rpm
   bouncing-disk fit run-up.csv --motor motor.toml --parameter friction=0.05:0.4
-  bouncing-disk fit points.csv --motor motor.toml --parameter stator.mass=0.005:0.1")]
+  \
+                  bouncing-disk fit points.csv --motor motor.toml --parameter stator.mass=0.005:0.1"
+)]
 pub(crate) struct FitArgs {
     /// Measured speeds: time_s, speed_rad_s and, of several runs, member
     file: PathBuf,

@@ -80,7 +80,7 @@ fn drives() {
         file("then", "then = 'rest'");
         file("start", "height = 'triangle'\nstart_phase = 1.0");
         file("infinite", "start_phase = inf");
-        let sine_only = "this analysis holds for the sine of Eq. (1) only";
+        let sine_only = "this analysis holds only for the sine of Eq. (1)";
         let lines =
             if command == "toss" { &["toss --template"][..] } else { &["motor report", "motor traps", ""] };
         let (template, sine) = lines.split_last().unwrap();
@@ -94,7 +94,7 @@ fn drives() {
                 let line = format!("{command} triangle.toml --start period-1");
                 folder.all_refused(2, &[(&line, "give rest, rise or")]);
             }
-            folder.all_refused(2, &[("orbits start.toml", "start_phase is where a toss starts")]);
+            folder.all_refused(2, &[("orbits start.toml", "start_phase is the start of a toss")]);
         }
         for (name, told) in [
             ("key", "\"hight\" is unknown; did you mean \"height\"?"),
@@ -130,15 +130,12 @@ fn contacts() {
         let time = format!("time = {soft}");
         file("soft", &time);
         for line in takes_none {
-            let told = "holds for rigid impacts only, and the table [contact] has a time";
+            let told = "holds only for rigid impacts, but the table [contact] has a time";
             folder.all_refused(2, &[(&format!("{line} soft.toml"), told)]);
         }
         let restitution = if command == "toss" { "disk.restitution=0" } else { "restitution=0" };
         let line = format!("{command} soft.toml --set {restitution}");
-        folder.all_refused(
-            2,
-            &[(&line, "soft.toml with --set: restitution of a contact that takes time = 0 is")],
-        );
+        folder.all_refused(2, &[(&line, "soft.toml with --set: restitution of a compliant contact = 0 is")]);
         for (name, contact, told) in [
             ("zero", "time = 0", "zero.toml: contact.time = 0 is outside"),
             ("negative", "time = -1e-5", "negative.toml: contact.time = -1e-5 is outside"),
@@ -157,7 +154,7 @@ fn contacts() {
         let line = if command == "toss" { "toss triangle.toml" } else { "motor curve triangle.toml" };
         folder.all_refused(
             2,
-            &[(line, "drive number 0 of 1 is not the sine or a Fourier sum, the only drives of a contact that takes time")],
+            &[(line, "a sine or a sum of harmonics (fourier), which a compliant contact needs")],
         );
     }
     let lines = [
@@ -200,7 +197,7 @@ fn stators() {
         file("light", "mass = -1\nquality = 300");
         for line in lines.iter().chain(computed) {
             for (name, told) in [
-                ("yielding", "the table [stator] makes it yield"),
+                ("yielding", "the table [stator] makes the stator compliant"),
                 ("driven", "both amplitude and stator.force are given"),
                 ("light", "stator.mass = -1 is outside"),
             ] {
@@ -235,7 +232,7 @@ fn stators() {
         let text = crate::common::errors(&folder.command(line).output().unwrap());
         assert!(text.contains(told), "{line}: {text}");
     };
-    warned(&loose("curve"), "nobody knows how long they last");
+    warned(&loose("curve"), "their duration is unknown");
     warned(&loose("curve"), "the stator does not lift a rotor at rest: the preload is 0.322");
     let report = folder.done(&stator.replace("report", "report --set amplitude=1e-7"));
     assert!(report.contains("lift off preload = 0.6448") && !report.contains("does not lift"), "{report}");
@@ -248,13 +245,13 @@ fn stators() {
     let lines = [
         (
             "motor report twist.toml --set friction=30",
-            "friction = 30 is outside its legal range below what jams",
+            "friction = 30 is not legal: it must be below the friction that jams",
         ),
         (
             "motor curve twist.toml --set friction=30",
-            "friction = 30 is outside its legal range below what jams",
+            "friction = 30 is not legal: it must be below the friction that jams",
         ),
-        ("motor best twist.toml --over phase_lag", "both a stator of the kind axial_twist and a phase lag"),
+        ("motor best twist.toml --over phase_lag", "both a stator of kind axial_twist and a phase lag"),
         ("motor transient drive.toml", "both drive and stator are given"),
         ("motor report --set stator.mass=0.01 --set stator.quality=0.4", "stator.quality = 0.4 is outside"),
         ("motor curve --set stator.mass=0.01", "stator.quality is not given"),
@@ -264,11 +261,11 @@ fn stators() {
         ),
         (
             "motor best times.toml --over phase_lag",
-            "a steady operation knows no time, and the table [load] has times",
+            "a steady operation has no time axis, but the table [load] has times",
         ),
-        ("motor curve times.toml", "a steady operation knows no time"),
-        ("motor stall times.toml", "a steady operation knows no time"),
-        ("motor sweep times.toml --over friction=0.1:0.2:2", "a steady operation knows no time"),
+        ("motor curve times.toml", "a steady operation has no time axis"),
+        ("motor stall times.toml", "a steady operation has no time axis"),
+        ("motor sweep times.toml --over friction=0.1:0.2:2", "a steady operation has no time axis"),
         (
             "motor sweep --over friction=0.1:0.2:2 --up-and-down",
             "the table stator of a continued sweep is not given",
@@ -276,7 +273,7 @@ fn stators() {
         ("motor curve load.toml --template", "--template writes no table [load]"),
     ];
     folder.all_refused(2, &lines);
-    let none = [("motor best --set friction=0 --over phase_lag", "speed is nowhere surely positive")];
+    let none = [("motor best --set friction=0 --over phase_lag", "speed is not certain to be positive")];
     folder.all_refused(1, &none);
 }
 

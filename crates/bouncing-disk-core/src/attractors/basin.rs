@@ -58,7 +58,7 @@ impl Axis {
             return Err(Error::OutOfRange {
                 field: "axis high end",
                 value: high,
-                legal: "finite and above the low end, less than 1.8e308 above it",
+                legal: "above the low end, and less than 1.8e308 above it",
             });
         }
         within("axis cells", cells as f64, 1.0, 100_000.0, "[1, 100000]")?;

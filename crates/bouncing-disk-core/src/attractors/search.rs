@@ -253,7 +253,7 @@ impl core::fmt::Display for AttractorKind {
                 )
             }
             Self::Rest(AfterRest::RestsAgain(_)) => {
-                formatter.write_str("comes to rest again and again, in a cycle that rounding chooses")
+                formatter.write_str("comes to rest again and again, in a cycle set by rounding")
             }
             Self::Rest(AfterRest::LeadsTo(other)) => {
                 write!(formatter, "comes to rest, then attractor {}", other + 1)
@@ -262,7 +262,7 @@ impl core::fmt::Display for AttractorKind {
                 formatter.write_str("comes to rest, then one of several motions")
             }
             Self::Rest(AfterRest::Undecided) => {
-                formatter.write_str("comes to rest, then a motion that is not decided")
+                formatter.write_str("comes to rest, then an undecided motion")
             }
             Self::Periodic(known) => {
                 let (impacts, periods) = (known.orbit().period(), known.orbit().platform_periods);

@@ -256,7 +256,13 @@ impl Verdict {
                 check_exponent(exponent, standard_error)?;
                 at_least_one("impacts", impacts)?;
                 let least = LyapunovEstimate { exponent, standard_error, impacts }.threshold();
-                within("exponent of chaos", exponent, least, f64::MAX, "above that of neutral motion")?;
+                within(
+                    "exponent of chaos",
+                    exponent,
+                    least,
+                    f64::MAX,
+                    "above the exponent of neutral motion",
+                )?;
                 check_rests(rests)
             }
             Self::Undecided { rests, .. } => check_rests(rests),

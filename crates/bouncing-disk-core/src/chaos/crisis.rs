@@ -187,7 +187,7 @@ impl Crisis {
 pub enum NoTangency {
     /// The orbits that came to rest had not passed a common saddle of few impacts.
     #[error(
-        "the orbits that came to rest just beyond it ({orbits}) passed no common saddle of at most 12 impacts"
+        "the {orbits} orbits that came to rest just above the crisis passed no common saddle of at most 12 impacts"
     )]
     NoSaddle {
         /// The number of orbits examined.
@@ -198,7 +198,7 @@ pub enum NoTangency {
     #[error("no fold of the unstable manifold lies next to the saddle")]
     NoFold,
     /// The search for the tangency did not converge to within rounding.
-    #[error("the tangency did not converge: Gamma = {forcing} changed by {change:e} last")]
+    #[error("the tangency did not converge: the last step changed Gamma = {forcing} by {change:e}")]
     NotSettled {
         /// The last Gamma.
         forcing: f64,
@@ -207,7 +207,7 @@ pub enum NoTangency {
     },
     /// The manifolds touch inside the attractor, or at a later forcing than those of another saddle: the
     /// attractor survives there, or is already gone, or no orbit near the tangency is lost.
-    #[error("the manifolds touch at Gamma = {forcing} instead")]
+    #[error("the manifolds touch elsewhere, at Gamma = {forcing}")]
     Elsewhere {
         /// Gamma of their tangency.
         forcing: f64,
@@ -221,7 +221,9 @@ pub enum NoTangency {
 #[non_exhaustive]
 pub enum NoCrisis {
     /// The periodic orbit that would lead to the attractor is not yet born.
-    #[error("there is no orbit of one impact per period up to Gamma = {forcing}: it appears at {birth}")]
+    #[error(
+        "no orbit of one impact per period exists up to Gamma = {forcing}: it appears at Gamma = {birth}"
+    )]
     NotBorn {
         /// The upper end.
         forcing: f64,
@@ -229,7 +231,7 @@ pub enum NoCrisis {
         birth: f64,
     },
     /// A given saddle could not be followed to the forcing where it is needed.
-    #[error("the saddle was continued to Gamma = {reached}, but not to {forcing}")]
+    #[error("the saddle could be continued only to Gamma = {reached}, not to {forcing}")]
     NotFollowed {
         /// The forcing at which it is needed.
         forcing: f64,
@@ -238,7 +240,7 @@ pub enum NoCrisis {
     },
     /// No orbit comes to rest at the upper end of the range: the attractor is still there, perhaps larger
     /// (after an interior crisis), or has been lost to one that does not come to rest.
-    #[error("none of {samples} orbits comes to rest at Gamma = {forcing} within {impacts} impacts in all")]
+    #[error("none of {samples} orbits comes to rest at Gamma = {forcing} within {impacts} impacts in total")]
     NoneRests {
         /// The upper end.
         forcing: f64,
@@ -278,7 +280,8 @@ pub enum NoCrisis {
         far: f64,
     },
     /// Orbits begin to come to rest, but not because the manifolds of the given saddles touch.
-    #[error("orbits begin to come to rest between Gamma = {} and {}; of these saddles {reason}", bracket.0, bracket.1)]
+    #[error("orbits begin to come to rest between Gamma = {} and {}, but the given saddles do not explain it: \
+             {reason}", bracket.0, bracket.1)]
     OtherReason {
         /// The bracket of the crisis (see [`Crisis::bracket`]).
         bracket: (f64, f64),

@@ -270,7 +270,7 @@ impl ImpactMap {
 
 /// The multipliers of a saddle, larger one first; an error for another orbit.
 pub(crate) fn of_saddle(multipliers: Multipliers) -> Result<(f64, f64), Error> {
-    let legal = "one real multiplier inside of the unit circle and one outside";
+    let legal = "one of two real multipliers, one inside the unit circle and one outside";
     match multipliers {
         Multipliers::Real(large, small) if large.abs() > 1.0 && small.abs() < 1.0 => Ok((large, small)),
         Multipliers::Real(large, small) => {

@@ -167,7 +167,7 @@ pub(crate) fn launch_slope<L: RestitutionLaw>(law: &L, impact_speed: f64) -> Res
         Err(Error::OutOfRange {
             field: "derivative of the launch speed by the impact speed",
             value: slope,
-            legal: "finite, for a law of restitution has a derivative above speed 0",
+            legal: "finite, because a law of restitution needs a derivative at every speed above 0",
         })
     }
 }

@@ -10,7 +10,7 @@
 #[non_exhaustive]
 pub enum Error {
     /// An argument lies outside its legal range.
-    #[error("{field} = {} is outside its legal range {legal}", without_fraction(*value))]
+    #[error("{field} = {} {}", without_fraction(*value), illegal(legal))]
     OutOfRange {
         /// The name of the argument.
         field: &'static str,
@@ -31,7 +31,8 @@ pub enum Error {
     },
     /// The flight would last longer than the period counter can hold exactly.
     #[error(
-        "a launch at relative speed {relative_speed:?} flies for {duration:?} rad, more than the largest duration {limit:?} rad"
+        "a flight that begins at relative speed {relative_speed:?} lasts {duration:?} rad, more than the limit of \
+         {limit:?} rad"
     )]
     FlightTooLong {
         /// Launch speed relative to the platform, in units of g/omega.
@@ -52,13 +53,18 @@ pub enum Error {
         jump: f64,
     },
     /// An impact on a kink of the platform's velocity has no derivative, and so no multipliers.
-    #[error("the impact at phase {phase:?} rad is on a kink of the drive: it has no derivative")]
+    #[error(
+        "the impact at phase {phase:?} rad is on a kink of the drive, so the map has no derivative there"
+    )]
     ImpactOnKink {
         /// The phase of the impact in radians.
         phase: f64,
     },
     /// The root finder used up its evaluations. This is a defect of the solver; please report the numbers.
-    #[error("no convergence after {evaluations} evaluations: gap {gap:?} after {time:?} rad")]
+    #[error(
+        "the search for an impact did not converge after {evaluations} evaluations: gap {gap:?} after {time:?} \
+         rad"
+    )]
     NoConvergence {
         /// Evaluations of the gap.
         evaluations: u32,
@@ -79,7 +85,8 @@ pub enum Error {
     },
     /// A periodic orbit is not proven to attract: it does not, or rounding leaves this undecided.
     #[error(
-        "the orbit does not attract: largest multiplier {spectral_radius:?}, its trace known to {trace_error:?}"
+        "the orbit is not proven to attract: its largest multiplier is {spectral_radius:?}, the error of the trace \
+         {trace_error:?}"
     )]
     NotAttracting {
         /// The larger modulus of its multipliers.
@@ -89,7 +96,9 @@ pub enum Error {
     },
     /// No region around an attracting orbit can be proven to be attracted: an impact is too slow, or a graze
     /// too near.
-    #[error("no neighbourhood of the orbit is proven to be attracted, down to a radius of {region:?} rad")]
+    #[error(
+        "no neighbourhood of the orbit is proven to lie in its basin, down to a radius of {region:?} rad"
+    )]
     NothingProven {
         /// The smallest region tried (rad).
         region: f64,
@@ -116,7 +125,8 @@ pub enum Error {
     /// The solution of an iteration lasts no period of the platform: its impacts repeat one instant within
     /// rounding and are not a periodic orbit.
     #[error(
-        "the solution of {impacts} impacts takes no period of the platform (fastest impact {speed:?} g/omega)"
+        "the solution of {impacts} impacts lasts no period of the platform, so it is not an orbit (fastest impact \
+         {speed:?} g/omega)"
     )]
     NoPlatformPeriods {
         /// Impacts of the solution.
@@ -127,7 +137,7 @@ pub enum Error {
     /// In a search for an orbit by its impacts, a flight hits the platform earlier: the orbit ends at a
     /// graze.
     #[error(
-        "flight {index} of the orbit sought would take {sought:?} rad, but an impact comes after {found:?} rad"
+        "flight {index} of the orbit should last {sought:?} rad, but the disk hits the platform after {found:?} rad"
     )]
     EarlierImpact {
         /// The index of the flight.
@@ -139,7 +149,9 @@ pub enum Error {
     },
     /// No branch of periodic orbits begins: the orbit does not exist on this map, or is not isolated, as at a
     /// fold.
-    #[error("no branch begins at {parameter:?}: {what} is not an isolated orbit there")]
+    #[error(
+        "no branch begins at {parameter:?}: {what} was not found there, or is not isolated (as at a fold)"
+    )]
     NoBranch {
         /// The orbit.
         what: &'static str,
@@ -147,13 +159,15 @@ pub enum Error {
         parameter: f64,
     },
     /// A branch of periodic orbits ends before it doubles its period.
-    #[error("the branch ends before another doubling follows the one, or the start, at {after:?}")]
+    #[error(
+        "the branch ends without another period doubling after {after:?} (the last doubling, or the start)"
+    )]
     NoDoubling {
         /// The parameter of the last doubling, or of the start of the branch.
         after: f64,
     },
     /// A number refers to a list item that is not of the required kind.
-    #[error("{what} number {index} of {count} is not {expected}")]
+    #[error("the {} is not {expected}", item(what, *index, *count))]
     NotOfKind {
         /// The kind of items in the list.
         what: &'static str,
@@ -165,14 +179,14 @@ pub enum Error {
         expected: &'static str,
     },
     /// A text is not a decimal number.
-    #[error("byte {at} is not part of a decimal number")]
+    #[error("the text is not a decimal number: byte {at} (counted from 0) is unexpected")]
     NoDecimal {
         /// The byte position in the text, counted from 0.
         at: usize,
     },
     /// A law of restitution gives a number outside [0, 1], or NaN.
     #[error(
-        "the law of restitution gives {restitution:?} at the impact speed {impact_speed:?} g/omega, outside of [0, 1]"
+        "the law of restitution gives {restitution:?} at the impact speed {impact_speed:?} g/omega, outside [0, 1]"
     )]
     IllegalRestitution {
         /// The value of the law.
@@ -181,7 +195,9 @@ pub enum Error {
         impact_speed: f64,
     },
     /// A chatter has a closed form only for a constant restitution: another law needs a cut.
-    #[error("a chatter has a closed form for a constant restitution only: end it by `ChatterPolicy::Cut`")]
+    #[error(
+        "chattering has a closed form for constant restitution only: use `ChatterPolicy::Cut` with any other law"
+    )]
     NoClosedForm,
     /// The observer of a long call has stopped it.
     #[error("stopped after {done} of {total} items")]
@@ -192,7 +208,7 @@ pub enum Error {
         total: u64,
     },
     /// Stored data are inconsistent, or parts do not fit together.
-    #[error("{what}: {found}; legal is {expected}")]
+    #[error("{what}: found {found}, expected {expected}")]
     Unfitting {
         /// The quantity that does not fit.
         what: &'static str,
@@ -217,6 +233,20 @@ pub enum Error {
 fn without_fraction(value: f64) -> String {
     let text = format!("{value:?}");
     text.strip_suffix(".0").map_or_else(|| text.clone(), str::to_owned)
+}
+
+/// The end of a sentence about an illegal value: its range is an interval, or other words.
+fn illegal(legal: &str) -> String {
+    if legal.starts_with(['[', '(']) {
+        format!("is outside its legal range {legal}")
+    } else {
+        format!("is not legal: it must be {legal}")
+    }
+}
+
+/// An item of a list, or the only one.
+fn item(what: &str, index: usize, count: usize) -> String {
+    if count == 1 { what.to_owned() } else { format!("{what} {index} of {count} (counted from 0)") }
 }
 
 /// Checks that `value` lies in [`low`, `high`]; NaN does not.
@@ -314,6 +344,21 @@ mod tests {
             let error = Error::OutOfRange { field: "count", value, legal: "[1, 10]" };
             assert_eq!(error.to_string(), format!("count = {told} is outside its legal range [1, 10]"));
         }
+    }
+
+    #[test]
+    fn ranges_in_words_complete_the_sentence() {
+        let told = |value, legal| Error::OutOfRange { field: "count", value, legal }.to_string();
+        assert_eq!(told(0.0, "at least 1"), "count = 0 is not legal: it must be at least 1");
+        assert_eq!(told(0.0, "(0, inf)"), "count = 0 is outside its legal range (0, inf)");
+    }
+
+    #[test]
+    fn the_only_item_has_no_number() {
+        let told =
+            |index, count| Error::NotOfKind { what: "sample", index, count, expected: "finite" }.to_string();
+        assert_eq!(told(0, 1), "the sample is not finite");
+        assert_eq!(told(2, 5), "the sample 2 of 5 (counted from 0) is not finite");
     }
 
     #[test]

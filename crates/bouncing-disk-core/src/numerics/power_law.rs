@@ -85,7 +85,7 @@ impl PowerLaw {
 #[non_exhaustive]
 pub enum NoPowerLaw {
     /// There are too few points to recognise a power law.
-    #[error("{found} points, but a power law needs {needed}")]
+    #[error("a power-law fit needs {needed} points, but there are {found}")]
     TooFewPoints {
         /// The number of points.
         found: usize,
@@ -93,7 +93,7 @@ pub enum NoPowerLaw {
         needed: usize,
     },
     /// The points cover too small a range.
-    #[error("the points cover a factor of {factor:e}, but a power law needs {needed}")]
+    #[error("the points span a factor of {factor:e}, but a power-law fit needs {needed}")]
     TooNarrow {
         /// The largest x over the smallest.
         factor: f64,
@@ -102,7 +102,8 @@ pub enum NoPowerLaw {
     },
     /// The points lie on a curve: a parabola in the logarithms has a significant square term.
     #[error(
-        "exponent {lower:.3} in the lower half and {upper:.3} in the upper: a bend of {sigmas:.1} standard errors"
+        "no power law: the exponent is {lower:.3} in the lower half and {upper:.3} in the upper half, {sigmas:.1} \
+         standard errors apart"
     )]
     Bends {
         /// Exponent of the lower half.
@@ -113,7 +114,9 @@ pub enum NoPowerLaw {
         sigmas: f64,
     },
     /// The points scatter about every line by far more than their errors.
-    #[error("the points scatter by {scatter:.1} of their errors, or by a factor of {factor:.2}")]
+    #[error(
+        "no power law: the points scatter by {scatter:.1} times their errors, or by a factor of {factor:.2}"
+    )]
     Scatters {
         /// Root mean square distance in units of the errors.
         scatter: f64,

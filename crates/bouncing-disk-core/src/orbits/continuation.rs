@@ -92,13 +92,19 @@ impl Continuation {
     /// Checks a value that was deserialised.
     pub(super) fn check(&self) -> Result<(), Error> {
         let (least, most) = self.parameter.legal();
-        within("low end of a continuation", self.low, least, most, "the range of its parameter")?;
+        within(
+            "low end of a continuation",
+            self.low,
+            least,
+            most,
+            "within the legal range of the parameter",
+        )?;
         within(
             "high end of a continuation",
             self.high,
             self.low.next_up(),
             most,
-            "(low end, that of its parameter]",
+            "(low end, largest legal value of the parameter]",
         )?;
         within("largest step", self.largest_step, 1.0e-9, 1.0, "[1e-9, 1]")?;
         within("first step", self.first_step, 1.0e-9, self.largest_step, "[1e-9, largest step]")?;
@@ -110,7 +116,7 @@ impl Continuation {
     pub(super) fn check_map<M: ContinuedMap>(&self, map: &M) -> Result<(), Error> {
         within("restitution of a continuation", map.restitution(), f64::MIN_POSITIVE, 1.0, "(0, 1)")?;
         let (what, index, count) = ("parameter of a continuation", self.parameter as usize, 3);
-        let expected = "a number of this map";
+        let expected = "a parameter of this map";
         let Some(parameter) = map.parameter(self.parameter) else {
             return Err(Error::NotOfKind { what, index, count, expected });
         };

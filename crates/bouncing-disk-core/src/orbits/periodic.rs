@@ -65,7 +65,7 @@ impl Multipliers {
             Self::Real(large, small) => {
                 finite("multiplier", large)?;
                 let most = large.abs() * (1.0 + MULTIPLIER_ROUNDING);
-                within("second multiplier", small, -most, most, "not larger than the first")?;
+                within("second multiplier", small, -most, most, "not larger in modulus than the first")?;
             }
             Self::Complex { real, imaginary } => {
                 finite("real part of a multiplier", real)?;

@@ -76,7 +76,7 @@ impl Drive {
         let mut time = 0.0;
         for (index, (duration, coefficients)) in pieces.iter().enumerate() {
             if !(duration.is_finite() && *duration > 0.0 && coefficients.iter().all(|c| c.is_finite())) {
-                let expected = "of a positive duration and finite";
+                let expected = "finite with a positive duration";
                 return Err(Error::NotOfKind { what: "piece", index, count, expected });
             }
             starts.push(time);

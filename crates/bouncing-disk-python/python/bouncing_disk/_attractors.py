@@ -335,7 +335,7 @@ def boundary_scaling(
 
     Args:
         basins: as of :func:`basins` and :meth:`Attractors.basins`.
-        distances: distances in cells, rising from 1 at least, the last less than half the shorter side of the
+        distances: distances in cells, rising, at least 1, the last less than half the shorter side of the
             grid.
 
     The basin of the period-1 orbit just beyond its birth has a smooth boundary:

@@ -369,7 +369,7 @@ def manifold(
     acceleration P.
 
     Args:
-        orbit: A saddle of this map: one real multiplier inside of the unit circle and one outside.
+        orbit: A saddle of this map, with one real multiplier inside the unit circle and one outside.
         kind: which one: the states that come from the saddle, or those that tend to it.
         arclength: length of each branch, in (0, 1e6].
         max_points: the most points of a branch, in [16, 1e7].

@@ -32,7 +32,7 @@ const FIELDS = {
   load_acceleration: { ...ANY, "1e8": TAKEN, "1e300": /1e100\]/, "-1e300": /1e100\]/ },
   mass: { ...POSITIVE, "1e-310": /legal range/, "1e-300": TAKEN, "1e300": TAKEN },
   impact_phase: { ...ANY, "1e300": TAKEN, "-1e300": TAKEN },
-  normalised_speed: { ...ATLEAST0, "1e8": TAKEN, "1e300": /more than the largest duration/ },
+  normalised_speed: { ...ATLEAST0, "1e8": TAKEN, "1e300": /more than the limit/ },
   angular_speed: { ...ANY, "1e8": TAKEN, "1e300": /1e100/, "-1e300": /1e100/ },
 }; // prettier-ignore
 for (const t of ["", "inf", "1,5,1", "1 5", "0x1p3", "0.5 mm"]) FIELDS.restitution[t] = FIELDS.phase_lag[t] = NO_NUMBER;

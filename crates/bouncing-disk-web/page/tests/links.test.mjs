@@ -78,7 +78,7 @@ const LINKS = [
     { scan_points: "41", scan_result: "toss_speed", scan_family: "phase_lag", friction: "0.3" },
     ["1.5", "weight", "scan_family", "up to 5 numbers"],
   ],
-  ["restitution=0&contact_time=0.03&friction=0.3", { restitution: "0.5", friction: "0.3" }, ["restitution of a contact"]],
+  ["restitution=0&contact_time=0.03&friction=0.3", { restitution: "0.5", friction: "0.3" }, ["restitution of a compliant contact"]],
   // No double holds the first, and the second would silently be 0.
   ["friction=1e400&restitution=1e-400", { friction: "0.6", restitution: "0.5" }, ["1e400", "1e-400"]],
   // Links of before: the forcing sets the amplitude, unless there is one.

@@ -166,7 +166,7 @@ test("a trap is told with digits enough to find it", () => {
 });
 
 onMotor("a contact time is stated, and what it rules out is said", "&contact_time=1e-6", async (page) => {
-  await isFact(page, "Contact time over the period", /^0\.07 \(contacts take it\)$/);
+  await isFact(page, "Contact time over the period", /^0\.07 \(contacts are compliant\)$/);
   await isFact(page, "Regime", /^of rigid impacts: /);
   await isFact(page, "Stall load", /^\([\d.]+ ± [\d.]+\) .?N m$/);
   await page.click("#tab-basins");

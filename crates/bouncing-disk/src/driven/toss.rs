@@ -56,7 +56,7 @@ pub fn single_toss(
         !engine.launches(),
         "phase of the start",
         phase.angle(),
-        "(a phase at which the hand does not fall away)",
+        "a phase at which the hand does not fall away from the disk",
     )?;
     for record in engine.take(MOST_CONTACT_EVENTS) {
         let record = record?;
@@ -82,7 +82,7 @@ pub fn multi_toss(
     observer: &dyn Observer,
 ) -> Result<TossOrbit, Error> {
     if let Some(compliant) = &system.compliance {
-        let legal = "(none: tosses are classified by rigid impacts)";
+        let legal = "left out, because tosses are classified with rigid impacts";
         check(false, "contact time", compliant.compliance().contact_time(), legal)?;
     }
     let map = DrivenMap::new(system.height().clone(), system.restitution)?;

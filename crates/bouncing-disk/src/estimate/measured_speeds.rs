@@ -69,7 +69,7 @@ impl MeasuredSpeeds {
         for (k, run) in runs.iter().enumerate() {
             check_rows(&run.times, &run.speeds)?;
             let again = k > 0 && runs[k - 1].member >= run.member;
-            check(!again, "member", f64::from(run.member), "rising from run to run")?;
+            check(!again, "member", f64::from(run.member), "greater than the number of the run before")?;
         }
         let speeds = runs.iter().map(|run| run.speeds.len()).sum();
         within_limit("speeds of all runs", speeds, MAX_SPEEDS)?;

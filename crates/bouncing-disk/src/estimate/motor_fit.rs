@@ -324,7 +324,7 @@ impl<'a> Model<'a> {
                 repeats == 0,
                 "points under the same conditions",
                 (repeats + 1) as f64,
-                "1: take their mean",
+                "1 (replace points under the same conditions by their mean)",
             )?;
             let errors = point.conditions.iter().enumerate().filter(|(_, condition)| condition.error > 0.0);
             uncertain.extend(errors.map(|(condition, _)| (index, condition)));

@@ -84,7 +84,7 @@ pub enum FitRefusal {
     },
     /// The curve ends before its speed has settled.
     #[error(
-        "its duration {duration:?} s is less than {least:?} times the time constant, which is or may be {} s: take a \
+        "its duration of {duration:?} s is less than {least:?} times the time constant, which may be {} s: take a \
          longer one",
         rough(*time_constant)
     )]
@@ -112,8 +112,8 @@ pub enum FitRefusal {
     /// The members make too few flights within the time constant: an apparent plateau is a flight, during
     /// which no speed changes.
     #[error(
-        "{flights:?} flights within the time constant {time_constant:?} s are too few, {least:?} are needed: what \
-         looks like a plateau is a flight, so take a longer duration"
+        "it has {flights:?} flights within the time constant {time_constant:?} s, but {least:?} are needed: the \
+         apparent plateau is a flight, so take a longer duration"
     )]
     TooFewFlights {
         /// Mean number of flights of a member within the time constant.
@@ -138,9 +138,9 @@ pub enum FitRefusal {
     },
     /// The residuals are correlated over so many points that too few are independent.
     #[error(
-        "its residuals are correlated over {correlated_points:?} of its {points} points, too many to estimate the error: \
-         another form, such as that of a motor whose drive or load changes, or slow noise; leave out the rows in which the \
-         form is another, or repeat a curve whose noise is slow"
+        "its residuals are correlated over {correlated_points:?} of its {points} points, too many to estimate the \
+         error. Either the drive or the load changes, so that the curve has another form: leave out those rows. Or \
+         the noise is slow: repeat the measurement"
     )]
     Correlated {
         /// Integrated correlation time of the residuals, in points.
@@ -150,8 +150,8 @@ pub enum FitRefusal {
     },
     /// Many of the resampled curves have no time constant near the curve's own.
     #[error(
-        "{astray} of {resamples} resampled curves have a time constant five times as long or as short: take more \
-         members or a longer duration"
+        "{astray} of {resamples} resampled curves have a time constant at least five times longer or shorter: take \
+         more members or a longer duration"
     )]
     Undetermined {
         /// Number of resampled curves whose time constant is out of range.
@@ -161,7 +161,7 @@ pub enum FitRefusal {
     },
     /// A braking tail does not slow down.
     #[cfg(feature = "fit")]
-    #[error("its speed goes from {first:?} to {last:?} rad/s: a braking tail slows down")]
+    #[error("its speed goes from {first:?} to {last:?} rad/s, but a braking tail must slow down")]
     NotBraking {
         /// Mean speed of its first tenth (rad/s).
         first: f64,
@@ -171,8 +171,8 @@ pub enum FitRefusal {
     /// The speeds of a transient have an offset.
     #[cfg(feature = "fit")]
     #[error(
-        "{offset:?} rad/s seem to be added to the speeds of transient {transient} (counted from 0), where the standard error is \
-         {standard_error:?} rad/s: subtract what the instrument shows at rest"
+        "the speeds of transient {transient} (counted from 0) seem to be offset by {offset:?} rad/s (standard \
+         error {standard_error:?} rad/s): subtract the reading of the instrument at rest"
     )]
     Offset {
         /// Index of the transient.
@@ -185,8 +185,8 @@ pub enum FitRefusal {
     /// The speeds of a transient drift.
     #[cfg(feature = "fit")]
     #[error(
-        "the speeds of transient {transient} (counted from 0) seem to drift by {drift:?} rad/s in a second, where the standard \
-         error is {standard_error:?}: the motor or the instrument warms up, the load changes, or the instrument adds something"
+        "the speeds of transient {transient} (counted from 0) seem to drift by {drift:?} rad/s^2 (standard error \
+         {standard_error:?}): the motor warms up, the load changes, or the instrument drifts"
     )]
     Drift {
         /// Index of the transient.
@@ -199,8 +199,9 @@ pub enum FitRefusal {
     /// No parameters in their ranges describe the measurements.
     #[cfg(feature = "fit")]
     #[error(
-        "the sum of weighted squares is {misfit:?} for {degrees_of_freedom} degrees of freedom, more than the largest \
-         accepted {largest:?}: the model does not describe what was measured, or its errors are larger than stated"
+        "the sum of weighted squares is {misfit:?} for {degrees_of_freedom} degrees of freedom, more than the \
+         largest accepted {largest:?}: the model does not describe the measurements, or their errors are larger \
+         than stated"
     )]
     Misfit {
         /// Sum of the weighted squares.

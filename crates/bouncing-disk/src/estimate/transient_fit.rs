@@ -253,9 +253,9 @@ impl TransientFit {
         let times = members.first().map_or(&[] as &[f64], |curve| &curve.times);
         for curve in members {
             let (own, first) = (&curve.times, times);
-            check(own.len() == first.len(), "number of times", own.len() as f64, "that of the first member")?;
+            check(own.len() == first.len(), "number of times", own.len() as f64, "equal for all members")?;
             for (&own, first) in own.iter().zip(first) {
-                check(own.total_cmp(first).is_eq(), "time of a member (s)", own, "that of the first member")?;
+                check(own.total_cmp(first).is_eq(), "time of a member (s)", own, "equal for all members")?;
             }
             check_curve(own, &curve.speeds)?;
         }

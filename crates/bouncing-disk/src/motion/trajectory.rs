@@ -44,7 +44,7 @@ impl Trajectory {
         let eventless = self.eventless.iter().map(|(segment, end)| [segment.start, *end]);
         for time in recorded.chain(eventless).flatten() {
             let later = time.order(&last) != Ordering::Less;
-            check(later, "time of an event (periods)", time.cycles(), "not before the event before")?;
+            check(later, "time of an event (periods)", time.cycles(), "not before the previous event")?;
             last = time;
         }
         Ok(())

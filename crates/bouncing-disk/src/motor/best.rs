@@ -127,7 +127,9 @@ impl FromStr for QuantityBound {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let form = || {
-            format!("a bound is QUANTITY >= NUMBER or QUANTITY <= NUMBER, such as speed >= 5, not {text:?}")
+            format!(
+                "{text:?} is not a bound; write QUANTITY >= NUMBER or QUANTITY <= NUMBER, such as speed >= 5"
+            )
         };
         let signs = [(">=", true), ("<=", false)];
         let parts = signs.iter().find_map(|(sign, is_least)| Some((text.split_once(sign)?, *is_least)));
@@ -298,8 +300,8 @@ impl BestSearch {
         }
         let twists = motor.stator().is_some_and(|stator| stator.modes()[0].angle != 0.0);
         if twists && self.ranges.iter().any(|range| range.field == MotorField::PhaseLag) {
-            let one = "a stator of the kind axial_twist";
-            return Err(Error::BothGiven { one, other: "a phase lag to be found" });
+            let one = "a stator of kind axial_twist";
+            return Err(Error::BothGiven { one, other: "a search for phase_lag" });
         }
         for corner in [0.0, 1.0] {
             self.motor_at(motor, &vec![corner; self.ranges.len()])?;

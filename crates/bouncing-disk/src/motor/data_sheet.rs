@@ -226,7 +226,7 @@ impl MotorParameters {
             Alternative::Other(acceleration) => acceleration,
         };
         let force = mass * preload_acceleration;
-        check(force.is_normal(), "preload_force = mass*preload_acceleration", force, "normal (N)")?;
+        check(force.is_normal(), "preload_force = mass*preload_acceleration", force, "a normal number (N)")?;
         let rotor = DiskParameters {
             contact_radius: self.contact_radius,
             gyration_radius,

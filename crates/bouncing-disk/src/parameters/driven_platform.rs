@@ -478,8 +478,9 @@ impl TryFrom<GivenDrive> for DriveParameters {
             return Ok(Self { height, angle, start_phase });
         };
         Err(format!(
-            "drive.{key} is not a key: a drive is one motion that repeats. Give a start-up or a burst as a table of samples, \
-             {{ sampled = [...] }}, or in Rust go on from one `DrivenEngine` to the next by `DrivenEngine::of_state`"
+            "drive.{key} is not a key: a drive is one motion that repeats. Give a start-up or a burst as a table \
+             of samples, {{ sampled = [...] }}, or, in Rust, continue one `DrivenEngine` with the next by \
+             `DrivenEngine::of_state`"
         ))
     }
 }
@@ -518,15 +519,15 @@ impl DriveParameters {
         both.into_iter().filter_map(|(of, shape)| {
             if shape.repeats_its_first_sample() {
                 return Some(format!(
-                    "the {of}: the last sample seems to repeat the first, which begins the next period; leave it out, \
-                     so that the others keep their distances"
+                    "the {of}: the last sample seems to repeat the first, which already begins the next period; \
+                     leave it out, so that the samples keep their spacing"
                 ));
             }
             let change = shape.acceleration_change().filter(|change| *change > LARGEST_CHANGE)?;
             let percent = rough(100.0 * change);
             Some(format!(
                 "the {of}: without every second sample its acceleration changes by {percent} % of the peak; smooth \
-                 the samples if they have noise, take more if they are few, and write corners as pieces"
+                 noisy samples, take more if they are few, and write corners as pieces"
             ))
         })
     }

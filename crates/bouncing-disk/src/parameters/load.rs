@@ -25,7 +25,12 @@ impl Nodes {
         let mut last = f64::NEG_INFINITY;
         for (node, (&place, &value)) in nodes.iter_mut().zip(places.iter().zip(values)) {
             finite(names[1], value)?;
-            check(place > last && place.is_finite(), names[0], place, "finite, and above the one before")?;
+            check(
+                place > last && place.is_finite(),
+                names[0],
+                place,
+                "finite and greater than the value before it",
+            )?;
             (*node, last) = ((place, value), place);
         }
         Ok(Self { nodes, count })

@@ -382,7 +382,7 @@ impl StatorParameters {
         let motion = PlatformParameters { amplitude, twist_amplitude, angular_frequency, phase_lag };
         if self.kind == StatorKind::AxialTwist {
             let legal = phase_lag == 0.0 || phase_lag.abs().to_bits() == PI.to_bits();
-            check(legal, "phase_lag", phase_lag, "0, pi or -pi (rad) where stator.kind is axial_twist")?;
+            check(legal, "phase_lag", phase_lag, "0, pi or -pi (rad) if stator.kind is axial_twist")?;
             axial.angle = match self.twist_per_height {
                 Some(kappa) => kappa,
                 None if amplitude == 0.0 => return Err(Error::NotGiven { field: "stator.twist_per_height" }),
@@ -398,7 +398,12 @@ impl StatorParameters {
         for (mode, moved) in stator.modes().iter().zip([amplitude, twist_amplitude]) {
             finite("angular frequency of the stator (rad/s)", mode.angular_frequency)?;
             let legal = mode.force.is_normal() && moved.is_normal() || mode.force == 0.0 && moved == 0.0;
-            check(legal, "force of the stator (N, or N m)", mode.force, "normal, or zero without a motion")?;
+            check(
+                legal,
+                "force of the stator (N, or N m)",
+                mode.force,
+                "a normal number, or 0 if there is no motion",
+            )?;
         }
         Ok(stator)
     }

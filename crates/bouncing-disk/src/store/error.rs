@@ -96,9 +96,7 @@ pub enum StorageError {
         expected: String,
     },
     /// A line was changed after it was written.
-    #[error(
-        "line {line} of {path:?} was changed after it was written; without this line the others can be read"
-    )]
+    #[error("line {line} of {path:?} was changed after it was written; delete it to read the others")]
     Damaged {
         /// The file.
         path: PathBuf,
@@ -124,7 +122,7 @@ pub enum StorageError {
         source: serde_json::Error,
     },
     /// The computation has no item of this index.
-    #[error("item {index} does not exist: there are {items} items")]
+    #[error("item {index} does not exist: there are only {items} items")]
     NoSuchItem {
         /// The index of the item.
         index: usize,

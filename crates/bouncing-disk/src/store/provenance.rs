@@ -113,7 +113,7 @@ impl Provenance {
         // JSON would contain null instead, so different parameters would look alike.
         let tree = Tree::serialized(parameter).map_err(|error| failed(serde::ser::Error::custom(error)))?;
         if let Some(number) = first_not_finite(&tree) {
-            return Err(failed(serde::ser::Error::custom(format!("{number} is no number that JSON has"))));
+            return Err(failed(serde::ser::Error::custom(format!("JSON cannot store the number {number}"))));
         }
         self.parameters.insert(name.to_owned(), serde_json::to_value(parameter).map_err(failed)?);
         Ok(self)

@@ -354,9 +354,12 @@ impl OrbitClass {
         let Self::Undecided { lyapunov_exponent, .. } = self else { return None };
         Some(match lyapunov_exponent {
             Some(exponent) if exponent.grows() => "perturbations grow, but the transient may not be over",
-            Some(_) => "no certain growth and no period: a long period, a slow approach or neutral motion",
+            Some(_) => {
+                "neither certain growth nor a period was found: a long period, a slow approach or neutral motion"
+            }
             None => {
-                "no period and no exponent: a rest, a graze, an impact on a kink, or fewer than 17 impacts"
+                "neither a period nor an exponent was found: a rest, a graze, an impact on a kink, or fewer than \
+                 17 impacts"
             }
         })
     }

@@ -109,7 +109,8 @@ impl Basins {
         let mut least = 1;
         let most = (self.columns().min(self.rows()) - 1) / 2;
         for distance in distances {
-            let legal = "rising from 1, less than half the shorter side of the grid";
+            let legal = "at least 1, greater than the distance before it, and less than half the shorter side of \
+                         the grid";
             within("distance of cells", *distance as f64, least as f64, most as f64, legal)?;
             least = distance + 1;
         }

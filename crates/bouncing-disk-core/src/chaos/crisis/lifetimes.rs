@@ -82,7 +82,7 @@ impl Crisis {
         observer: &dyn Observer,
     ) -> Result<CrisisLives, Error> {
         within("orbits beyond a crisis", orbits as f64, 1.0, 1.0e6, "[1, 1000000]")?;
-        within("impacts beyond a crisis", impacts as f64, 1.0, f64::MAX, "1 at least")?;
+        within("impacts beyond a crisis", impacts as f64, 1.0, f64::MAX, "at least 1")?;
         let map = |forcing| ImpactMap::new(Vibration::from_axial_forcing(forcing)?, self.restitution);
         let starts = self.starts(&map(self.bracket.0)?, orbits, observer)?;
         let mut lives = Vec::with_capacity(beyond.len());

@@ -69,7 +69,7 @@ impl Phase {
     /// [`Error::OutOfRange`] if the angle is not finite.
     pub fn new(angle: f64) -> Result<Self, Error> {
         if !angle.is_finite() {
-            return Err(Error::OutOfRange { field: "phase", value: angle, legal: "finite, in radians" });
+            return Err(Error::OutOfRange { field: "phase", value: angle, legal: "finite (rad)" });
         }
         Ok(Self::of_angle(wrapped_angle(angle)))
     }

@@ -36,7 +36,13 @@ impl ClosingMap for ImpactMap {
             }
             ContinuationParameter::Restitution => Self::new(*self.vibration(), value),
             ContinuationParameter::Number => {
-                within("number of a family", value, f64::NAN, f64::NAN, "a number of a `DrivenFamily`")?;
+                within(
+                    "number of a family",
+                    value,
+                    f64::NAN,
+                    f64::NAN,
+                    "the number of a `DrivenFamily`, which this map is not",
+                )?;
                 Ok(*self)
             }
         }

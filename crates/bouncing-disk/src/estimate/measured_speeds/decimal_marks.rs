@@ -49,7 +49,7 @@ impl DecimalMarks {
             }
         }
         if self.point.is_some() && self.comma.is_some() {
-            let fault = CsvFault::DecimalMarks("it has points and commas in its numbers");
+            let fault = CsvFault::DecimalMarks("its numbers contain both points and commas");
             return Err(Located(Some(line), Some(place + 1), fault));
         }
         Ok(())

@@ -50,15 +50,15 @@ pub enum CsvFault {
     #[error("byte {0} is not text in UTF-8; save the file as UTF-8")]
     NotText(usize),
     /// A line is longer than this number of bytes.
-    #[error("it is longer than {0} bytes; end each line of numbers by a line end")]
+    #[error("the line is longer than {0} bytes; end each row of numbers with a line break")]
     LongLine(usize),
     /// The file contains only comments.
-    #[error("it is empty; a line must name the columns: {HEADER}")]
+    #[error("the file is empty; its first line must name the columns: {HEADER}")]
     Empty,
     /// A column has no known unit, or not the one stated by the caller or the row below the header.
     #[error(
-        "the unit of the {name} is {unit:?} here; legal are {legal}. State it in the name of the column, in the row below \
-         it, or when you read the file, and everywhere the same"
+        "the unit of the {name} is {unit:?} here; legal units are {legal}. State the same unit in the name of the \
+         column, in the row below it, or when you read the file"
     )]
     Unit {
         /// `time` or `speed`.
@@ -70,7 +70,7 @@ pub enum CsvFault {
     },
     /// The decimal mark of the file is ambiguous, for this reason.
     #[error(
-        "the decimal mark of the file is ambiguous: {0}; write one decimal mark and no separators of thousands"
+        "the decimal mark of the file is ambiguous: {0}; write one decimal mark and no thousands separators"
     )]
     DecimalMarks(&'static str),
     /// A quotation mark that begins a field is not closed on the line.
@@ -84,15 +84,16 @@ pub enum CsvFault {
     NoHeader,
     /// The header has an unknown name.
     #[error(
-        "the column {0:?} is unknown; legal are {HEADER}. Remove the column, put a # before a line of remarks, or name the \
-         columns of times and speeds when you read the file"
+        "the column {0:?} is unknown; legal columns are {HEADER}. Remove the column, begin a remark with #, or \
+         name the columns of times and speeds when you read the file"
     )]
     UnknownColumn(String),
     /// The header of a table of points has an unknown name or lacks the speed, or a field below it is not a
     /// number.
     #[error(
-        "{0}; a table of points has the columns speed_rad_s (or speed (rpm), ...), speed_error, and fields of the data sheet in its \
-         units, such as load_torque, stator.volts or preload_force, each perhaps with its error, such as load_torque_error"
+        "{0}; a table of points has the columns speed_rad_s (or speed (rpm), ...), speed_error, and fields of the \
+         data sheet in its units, such as load_torque, stator.volts or preload_force, each optionally with its \
+         error, such as load_torque_error"
     )]
     Points(String),
     /// The header has a name twice.
@@ -103,8 +104,8 @@ pub enum CsvFault {
     MissingColumn(String),
     /// A line has more or fewer fields than the header.
     #[error(
-        "it has {fields} fields, but the header has {columns}; write numbers with a decimal point, or separate the \
-         columns by semicolons"
+        "the line has {fields} fields, but the header has {columns}; write numbers with a decimal point, or \
+         separate the columns by semicolons"
     )]
     Fields {
         /// Number of fields in the line.
@@ -121,7 +122,7 @@ pub enum CsvFault {
         value: String,
     },
     /// A field is not a number, or its number is not legal in this column.
-    #[error("{value:?} is not legal in the column {name}; legal is {legal}")]
+    #[error("{value:?} is not legal in the column {name}; it must be {legal}")]
     NotLegal {
         /// The name of the column.
         name: &'static str,

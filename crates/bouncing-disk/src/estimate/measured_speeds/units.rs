@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 /// A text is not the name of a unit.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{unit:?} is not a known unit; legal are {legal}")]
+#[error("{unit:?} is not a known unit; known units are {legal}")]
 pub struct UnknownUnit {
     /// The text.
     pub unit: String,

@@ -34,9 +34,9 @@ impl Display for UndeterminedDirection {
         write!(f, "a change of {}", steps.join(" and "))?;
         if self.standard_error.is_finite() {
             let error = n(self.standard_error);
-            write!(f, " hardly changes what was measured: the standard error is {error} such changes")
+            write!(f, " hardly affects the measured speeds: its standard error is {error} such changes")
         } else {
-            f.write_str(" does not change what was measured at all")
+            f.write_str(" does not affect the measured speeds at all")
         }
     }
 }
@@ -79,7 +79,7 @@ impl Display for MotorFit {
             )?;
         }
         if !self.settled {
-            f.write_str("\nmore evaluations, or more impacts of each, would narrow these ranges")?;
+            f.write_str("\nmore evaluations, or more impacts in each, would narrow these ranges")?;
         }
         Ok(())
     }
@@ -100,8 +100,8 @@ mod tests {
         };
         assert_eq!(
             format!("{direction:.3}"),
-            "a change of ln(friction) by -0.0521 and ln(amplitude) by 0 and phase_lag by 1 rad hardly changes what was \
-             measured: the standard error is 2.13 such changes"
+            "a change of ln(friction) by -0.0521 and ln(amplitude) by 0 and phase_lag by 1 rad hardly affects the \
+             measured speeds: its standard error is 2.13 such changes"
         );
         let blind = UndeterminedDirection {
             direction: vec![(FitParameter::Restitution, 1.0)],
@@ -109,7 +109,7 @@ mod tests {
         };
         assert_eq!(
             blind.to_string(),
-            "a change of restitution by 1 does not change what was measured at all"
+            "a change of restitution by 1 does not affect the measured speeds at all"
         );
     }
 

@@ -174,7 +174,7 @@ impl FitRange {
             parameter == FitParameter::ContactTime || nominal >= low && nominal <= high,
             parameter.name(),
             nominal,
-            "within the range that is searched",
+            "within the range of the search",
         )?;
         Ok(())
     }

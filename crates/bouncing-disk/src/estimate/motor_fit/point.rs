@@ -163,9 +163,9 @@ fn table(bytes: &[u8], said: Option<SpeedUnit>) -> Result<Option<Vec<RatedPoint>
     };
     for (place, (column, name)) in columns.iter().zip(&names).enumerate() {
         let what = match column {
-            None => "is unknown, or has another unit".to_owned(),
+            None => "is unknown, or its unit is".to_owned(),
             Some(Err((unit, own))) => format!("has the unit {unit:?}, and must be in {own}"),
-            Some(Ok(_)) if columns[..place].contains(column) => "is there twice".to_owned(),
+            Some(Ok(_)) if columns[..place].contains(column) => "occurs twice".to_owned(),
             Some(Ok(_)) => continue,
         };
         return Err(fault(header.0, place, format!("the column {:?} {what}", shortened(name))));
@@ -201,8 +201,10 @@ fn table(bytes: &[u8], said: Option<SpeedUnit>) -> Result<Option<Vec<RatedPoint>
         }
         for (place, field, error) in errors {
             let own = point.conditions.iter_mut().find(|own| own.field == field);
-            own.ok_or_else(|| fault(line.0, place, format!("the error of {field} is without a value")))?
-                .error = error;
+            own.ok_or_else(|| {
+                fault(line.0, place, format!("the error of {field} needs a value of {field}"))
+            })?
+            .error = error;
         }
         points.push(point);
     }

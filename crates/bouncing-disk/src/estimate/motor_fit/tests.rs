@@ -298,13 +298,13 @@ fn a_table_of_points_is_read_or_its_fault_placed() {
             "speed_rad_s,load_torq,load_torque\n1,2,3\n",
             "line 1, field 2: the column \"load_torq\" is unknown",
         ),
-        ("speed,load_torque\n1,2\n", "field 1: the column \"speed\" is unknown, or has another unit"),
+        ("speed,load_torque\n1,2\n", "field 1: the column \"speed\" is unknown, or its unit is"),
         (
             "speed_rad_s,load_torque (uN m)\n1,2\n",
             "line 1, field 2: the column \"load_torque (uN m)\" has the unit \"uN m\", and must be in N m",
         ),
         ("load_torque\n1\n", "the column of the speed, or its unit, is missing"),
-        ("speed_rad_s,load_torque,load_torque\n1,2,3\n", "is there twice"),
+        ("speed_rad_s,load_torque,load_torque\n1,2,3\n", "occurs twice"),
         ("speed_rad_s,load_torque\n1,2,3\n", "line 2: it has 3 fields"),
         ("speed_rad_s,load_torque\n1,x\n", "line 2, field 2: \"x\" is not a number"),
         (
@@ -313,7 +313,10 @@ fn a_table_of_points_is_read_or_its_fault_placed() {
         ),
         ("speed_rad_s;load_torque\n1,234;2\n", "line 2, field 1: the decimal mark of the file is ambiguous"),
         ("speed_rad_s;load_torque\n1,2,3;2\n", "line 2, field 1: \"1,2,3\" is not a number"),
-        ("speed_rad_s,load_torque,load_torque_error\n1,,3\n", "the error of load_torque is without a value"),
+        (
+            "speed_rad_s,load_torque,load_torque_error\n1,,3\n",
+            "the error of load_torque needs a value of load_torque",
+        ),
     ] {
         let error = read(text).expect_err("a fault").to_string();
         assert!(error.contains(words), "{error}");

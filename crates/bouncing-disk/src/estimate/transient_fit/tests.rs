@@ -541,7 +541,7 @@ fn a_refusal_says_why_with_its_numbers() {
     let error = FitError::Refused(FitRefusal::TooShort { duration: 0.01, time_constant: 0.0155, least: 3.0 });
     assert_eq!(
         error.to_string(),
-        "the curve is not fitted: its duration 0.01 s is less than 3.0 times the time constant, which is or may be \
+        "the curve is not fitted: its duration of 0.01 s is less than 3.0 times the time constant, which may be \
          0.0155 s: take a longer one"
     );
 }

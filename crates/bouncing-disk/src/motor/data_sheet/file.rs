@@ -198,7 +198,7 @@ impl<'de> Visitor<'de> for Entries {
                 Key::Table(_) => ("stator", given.stator.replace(map.next_value()?).is_some()),
             };
             if twice {
-                return Err(A::Error::custom(format_args!("the key \"{name}\" is there twice")));
+                return Err(A::Error::custom(format_args!("the key \"{name}\" occurs twice")));
             }
         }
         Ok(given)

@@ -101,7 +101,7 @@ impl Display for MotorRegime {
             Self::LowPeriodChattering(cycle) => write!(f, "low-period chattering: {cycle}"),
             Self::LongChattering { platform_periods, rests } => {
                 let periods = rough(*platform_periods);
-                write!(f, "long chattering: {periods} periods from rest to rest in the mean of {rests}")
+                write!(f, "long chattering: {periods} periods from rest to rest on average, over {rests}")
             }
             Self::Chaotic { lyapunov_exponent } => {
                 write!(f, "chaotic: Lyapunov exponent {} per impact", rough(*lyapunov_exponent))

@@ -174,7 +174,7 @@ impl Display for MotorReport {
         write_forcing(f, self.axial_forcing, self.angular_forcing, self.peak_acceleration)?;
         write!(f, "\nregime: {}", self.regime)?;
         if let Some(periods) = self.periods_per_flight {
-            write!(f, "\na flight lasts {} periods in the mean", rough(periods))?;
+            write!(f, "\na flight lasts {} periods on average", rough(periods))?;
         }
         for (name, value) in ContactStatement::rows(self.contact.as_ref()) {
             write!(f, "\n{}: {value}", name.replace('_', " "))?;

@@ -659,10 +659,10 @@ fn a_load_is_read_as_it_is_written() {
             "speeds = [1]\ntorques = [1]\ntimes = [0, 1]\nfactors = [1]",
             "load.times has 2 entries and load.factors 1: they need the same length",
         ),
-        ("speeds = [1, 0]\ntorques = [1, 0]", "load.speeds = 0 is outside its legal range finite, and above"),
+        ("speeds = [1, 0]\ntorques = [1, 0]", "load.speeds = 0 is not legal: it must be finite and greater"),
         (
             "speeds = [0]\ntorques = [0]\noff = nan",
-            "load.off = NaN is outside its legal range after load.on (s)",
+            "load.off = NaN is not legal: it must be after load.on (s)",
         ),
         ("speeds = [0]\ntorques = [0]\non = nan", "load.on = NaN is outside its legal range [-inf, inf) (s)"),
         ("speds = [0]", "\"speds\" is unknown; did you mean \"speeds\"?"),

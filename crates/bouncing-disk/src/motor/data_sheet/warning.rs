@@ -100,14 +100,15 @@ impl Display for MotorWarning {
         match *self {
             Self::OtherUnit { field, value, unit, usual: (low, high), meant } => write!(
                 f,
-                "{field} = {} {unit} is outside of what such motors have, {} to {} {unit}: is it {meant}?",
+                "{field} = {} {unit} is outside the usual range of such motors, {} to {} {unit}: is it {meant}?",
                 n(value),
                 n(low),
                 n(high)
             ),
             Self::FarOutside { field, value, unit, usual: (low, high) } => write!(
                 f,
-                "{field} = {} {unit} is more than a factor 1000 outside of what such motors have, {} to {} {unit}",
+                "{field} = {} {unit} is more than a factor of 1000 outside the usual range of such motors, {} to \
+                 {} {unit}",
                 n(value),
                 n(low),
                 n(high)
@@ -123,37 +124,37 @@ impl Display for MotorWarning {
             ),
             Self::PreloadChanges { bound } => write!(
                 f,
-                "the preload may change by {} % while the rotor flies (a bound); the model keeps it constant",
+                "the preload may change by {} % in a flight (a bound); the model keeps it constant",
                 rough(100.0 * bound)
             ),
             Self::Contact(warning) => warning.fmt(f),
             Self::RigidOnModes { periods } => {
                 let long = periods.map_or_else(
-                    || "nobody knows how long they last".to_owned(),
+                    || "their duration is unknown".to_owned(),
                     |periods| format!("they may last {} periods", rough(periods)),
                 );
                 write!(
                     f,
-                    "impacts on the stator's modes are rigid, and {long}: above a period that is no model of them; give \
-                     contact.time"
+                    "impacts on the stator's modes are rigid, and {long}: the model fails if they last longer than \
+                     a period; give contact.time"
                 )
             }
             Self::NotLifted { preload_force, lift_off_preload } => write!(
                 f,
-                "the stator does not lift a rotor at rest: the preload is {} N, and would have to be below {} N",
+                "the stator does not lift a rotor at rest: the preload is {} N, but must be below {} N",
                 n(preload_force),
                 n(lift_off_preload)
             ),
             Self::RigidRegime => f.write_str(
-                "regime, flights and impact speed are those of rigid impacts: transients and curves have contacts that \
-                 take contact.time",
+                "regime, flights and impact speed are computed with rigid impacts; transients and curves use \
+                 contact.time",
             ),
             Self::OtherScale { measured, drive, unit } => {
                 let quantity = if unit == "s" { "rise time" } else { "speed" };
                 write!(
                     f,
-                    "a measured {quantity} of {} {unit} is a factor 100 from what the drive gives, {} {unit}: is it in \
-                     another unit?",
+                    "a measured {quantity} of {} {unit} differs by a factor of 100 from the value of the drive, {} \
+                     {unit}: is it in another unit?",
                     n(measured),
                     n(drive)
                 )

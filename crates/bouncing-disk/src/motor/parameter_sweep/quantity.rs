@@ -165,7 +165,7 @@ impl FromStr for SweepQuantity {
         let all = || std::iter::once(Self::Torque).chain(Self::WITH_STATOR);
         all().find(|own| own.name() == plain).ok_or_else(|| {
             let names: Vec<&str> = all().map(Self::name).collect();
-            format!("there is no quantity {:?}; there are {}", name.trim(), names.join(", "))
+            format!("there is no quantity {:?}; known are {}", name.trim(), names.join(", "))
         })
     }
 }

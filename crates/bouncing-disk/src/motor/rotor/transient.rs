@@ -161,7 +161,7 @@ pub(crate) fn check_curve(times: &[f64], speeds: &[f64]) -> Result<(), Error> {
         first >= 0.0 || first.is_nan(),
         "times of the speed curve",
         first,
-        "finite, not negative, rising (s)",
+        "finite, not negative and rising (s)",
     )?;
     check_rows(times, speeds)
 }
@@ -170,10 +170,10 @@ pub(crate) fn check_curve(times: &[f64], speeds: &[f64]) -> Result<(), Error> {
 pub(crate) fn check_rows(times: &[f64], speeds: &[f64]) -> Result<(), Error> {
     let n = times.len();
     check(n >= 3, "number of points of the speed curve", n as f64, "[3, inf)")?;
-    check(speeds.len() == n, "number of speeds", speeds.len() as f64, "the number of times")?;
+    check(speeds.len() == n, "number of speeds", speeds.len() as f64, "equal to the number of times")?;
     for (k, &time) in times.iter().enumerate() {
         let rises = time.is_finite() && (k == 0 || time > times[k - 1]);
-        check(rises, "times of the speed curve", time, "finite, rising (s)")?;
+        check(rises, "times of the speed curve", time, "finite and rising (s)")?;
     }
     for &speed in speeds {
         check(speed.is_finite(), "speed", speed, "finite (rad/s)")?;

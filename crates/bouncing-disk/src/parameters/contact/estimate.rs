@@ -85,7 +85,9 @@ impl Display for ContactWarning {
                 let never = if *certain { "never leaves" } else { "may never leave" };
                 write!(f, "a disk at rest {never} the platform in a contact this soft")
             }
-            Self::Stiff => f.write_str("impacts are rigid: contact.time is below 1e-6 rad of the vibration"),
+            Self::Stiff => f.write_str(
+                "contact.time is below 1e-6 rad of the vibration, so impacts are computed as rigid",
+            ),
         }
     }
 }
@@ -104,11 +106,11 @@ impl ContactStatement {
         let time = statement.map_or_else(unknown, |own| {
             let time = own.time_over_period.map_or_else(|| "there are no impacts".to_owned(), range);
             let model = match own.takes_time {
-                Some(true) => "contacts take it",
+                Some(true) => "contacts are compliant",
                 Some(false) => {
-                    "impacts are rigid: contact.time in place of materials makes contacts take time"
+                    "impacts are rigid; to make contacts compliant, give contact.time instead of materials"
                 }
-                None => "too short: impacts are rigid",
+                None => "too short, so impacts are rigid",
             };
             format!("{time} ({model})")
         });

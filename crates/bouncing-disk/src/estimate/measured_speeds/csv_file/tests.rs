@@ -74,8 +74,9 @@ fn values_are_read_as_instruments_write_them() {
     assert!((run.speeds[2] - std::f64::consts::TAU).abs() < 1e-15);
     let units = CsvColumns { time_unit: ms, speed_unit: rpm, ..CsvColumns::default() };
     assert_eq!(of(&PLAIN.replace("_s,", ","), &units).expect_err("rad_s is not rpm").to_string(), {
-        "\"demo.csv\", line 1, field 2: the unit of the speed is \"rad_s\" here; legal are rad/s, rpm, rev/s, deg/s. State it in \
-         the name of the column, in the row below it, or when you read the file, and everywhere the same"
+        "\"demo.csv\", line 1, field 2: the unit of the speed is \"rad_s\" here; legal units are rad/s, rpm, \
+         rev/s, deg/s. State the same unit in the name of the column, in the row below it, or when you read the \
+         file"
     });
     assert!(fault("t,n\n0,0\n1,1\n2,2\n").contains("the unit of the time is \"\" here"));
     assert!(fault("t (h),n (rpm)\n0,0\n1,1\n2,2\n").contains("the unit of the time is \"h\" here"));
@@ -96,14 +97,17 @@ fn values_are_read_as_instruments_write_them() {
 #[test]
 fn a_wrong_header_is_named() {
     let legal = HEADER;
-    assert_eq!(fault(""), format!("\"demo.csv\": it is empty; a line must name the columns: {legal}"));
+    assert_eq!(
+        fault(""),
+        format!("\"demo.csv\": the file is empty; its first line must name the columns: {legal}")
+    );
     assert_eq!(fault("\u{feff}"), fault(""));
     assert_eq!(fault("\n# nothing\r\n\r\n"), fault(""));
     assert_eq!(
         fault("time_s,speeed\n0,0\n"),
         format!(
-            "\"demo.csv\", line 1, field 2: the column \"speeed\" is unknown; legal are {legal}. Remove the column, put \
-             a # before a line of remarks, or name the columns of times and speeds when you read the file"
+            "\"demo.csv\", line 1, field 2: the column \"speeed\" is unknown; legal columns are {legal}. Remove \
+             the column, begin a remark with #, or name the columns of times and speeds when you read the file"
         )
     );
     assert_eq!(
@@ -130,7 +134,7 @@ fn a_wrong_header_is_named() {
 fn a_wrong_line_is_named_with_what_to_do() {
     assert_eq!(
         fault_of("0.1,fast"),
-        "\"demo.csv\", line 3, field 2: \"fast\" is not legal in the column speed_rad_s; legal is a finite number"
+        "\"demo.csv\", line 3, field 2: \"fast\" is not legal in the column speed_rad_s; it must be a finite number"
     );
     for text in ["", "NaN", "inf", "-infinity", "1e999", "1e-400", "0x10", "1 2", "1.2.3", "−1"] {
         assert!(fault_of(&format!("0.1,{text}")).contains("line 3, field 2: "), "{text}");
@@ -142,10 +146,10 @@ fn a_wrong_line_is_named_with_what_to_do() {
     );
     assert_eq!(
         fault_of("0,5,1,25"),
-        "\"demo.csv\", line 3: it has 4 fields, but the header has 2; write numbers with a decimal point, or separate the columns by \
-         semicolons"
+        "\"demo.csv\", line 3: the line has 4 fields, but the header has 2; write numbers with a decimal point, or \
+         separate the columns by semicolons"
     );
-    assert!(fault_of("0.5").contains("it has 1 fields, but the header has 2"));
+    assert!(fault_of("0.5").contains("the line has 1 fields, but the header has 2"));
     assert!(fault_of("0,5;1,25").contains("it has 3 fields"));
     assert!(fault_of("0.5,\"1").contains("line 3, field 2: a quotation mark is not closed"));
     assert!(fault_of("0.5,\"1\n2\"").contains("line 3, field 2: a quotation mark is not closed"));
@@ -195,7 +199,7 @@ fn a_million_lines_are_read_and_a_huge_line_is_not() {
     assert_eq!((run.times.len(), run.times[999_999], run.speeds[500_000]), (1_000_000, 0.999_999, 12.5));
     for sign in [",", "0", "\""] {
         let text = format!("time_s,speed_rad_s\n{}\n", sign.repeat(1 << 22));
-        assert!(fault(text).contains("line 2: it is longer than 65536 bytes"), "{sign}");
+        assert!(fault(text).contains("line 2: the line is longer than 65536 bytes"), "{sign}");
     }
     let endless = MeasuredSpeeds::from_csv_reader("endless", io::repeat(b'0'), &CsvColumns::default())
         .expect_err("never ends");
