@@ -49,7 +49,7 @@ pub(crate) struct CommandLine {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     Toss(toss::TossArgs),
-    /// A motor from its data sheet: what it does, run-up, torque-speed curve, stall, traps, sweeps
+    /// A motor from its data sheet: report, run-up, torque-speed curve, stall, best values, traps, sweeps
     #[command(subcommand)]
     Motor(motor::MotorCommand),
     Orbits(orbits::OrbitsArgs),

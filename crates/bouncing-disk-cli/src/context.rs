@@ -17,10 +17,10 @@ use crate::lines::complain;
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "General")]
 pub(crate) struct Context {
-    /// No progress, no warnings, nothing but the result and errors
+    /// Prints only the result and errors: no progress, no warnings
     #[arg(long, short, global = true)]
     pub(crate) quiet: bool,
-    /// Threads to compute with; all of the processor's unless given
+    /// Threads to compute with; by default all of the processor's
     #[arg(long, allow_negative_numbers = true, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub(crate) threads: Option<u16>,
 }
@@ -28,12 +28,12 @@ pub(crate) struct Context {
 impl Context {
     /// Watches a computation of this name; silent if quiet.
     pub(crate) fn watch(self, what: &str) -> Watcher {
-        // Nothing is drawn where there is no terminal.
+        // Without a terminal no bar is drawn.
         let target = if self.quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
         let bar = ProgressBar::with_draw_target(Some(STEPS), target)
             .with_finish(ProgressFinish::AndClear)
             .with_message(what.to_owned());
-        // A template that is wrong is found by the first test that draws it.
+        // The first test that draws the bar finds an error in the template.
         if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:30}] {percent} % {elapsed}, {eta} left")
         {
             bar.set_style(style.progress_chars("=> "));
@@ -43,7 +43,7 @@ impl Context {
         Watcher { bar, began: Instant::now(), next_line }
     }
 
-    /// Prints a note beside the result, unless notes are unwanted.
+    /// Prints a note next to the result, unless notes are suppressed.
     pub(crate) fn note(self, text: &str) {
         if !self.quiet {
             complain(text);
@@ -51,18 +51,18 @@ impl Context {
     }
 }
 
-/// Time to the first line where there is no terminal, and between two: a log of an hour has some hundred of them.
+/// Interval between progress lines without a terminal: about a hundred of them in an hour.
 const FIRST_LINE: Duration = Duration::from_secs(5);
 const BETWEEN_LINES: Duration = Duration::from_secs(30);
 
 const STEPS: u64 = 1_000;
 
-/// Watches a computation: shows how far it is, and stops it when a signal has come.
+/// Shows the progress of a computation, and stops it after a signal.
 #[derive(Debug)]
 pub(crate) struct Watcher {
     bar: ProgressBar,
     began: Instant,
-    /// When the next line is due; `None` where none is to be.
+    /// When the next line is due; `None` for no lines.
     next_line: Option<Mutex<Instant>>,
 }
 
@@ -87,9 +87,9 @@ impl Watcher {
         {
             *next = Instant::now() + BETWEEN_LINES;
             let done = format!("{}: {:.0} %", self.bar.message(), 100.0 * share);
-            // Less than a hundredth tells nothing.
+            // Before a hundredth is done the estimate means nothing.
             let left = self.began.elapsed().as_secs_f64() * (1.0 / share - 1.0);
-            let left = if share >= 0.01 { format!(", some {left:.0} s left") } else { String::new() };
+            let left = if share >= 0.01 { format!(", about {left:.0} s left") } else { String::new() };
             complain(&format!("{done}{left}"));
         }
         ControlFlow::Continue(())

@@ -14,23 +14,23 @@ use crate::lines::complain;
 
 pub(crate) type Result<T, E = Failure> = std::result::Result<T, E>;
 
-/// Why a command gives no result.
+/// Why a command has no result.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// The command line or a file that it names is not legal: status 2, as clap has it.
+    /// The command line or a file that it names is not legal: status 2, as in clap.
     Usage(String),
-    /// The computation failed, or the system refused: status 1.
+    /// The computation failed, or the system returned an error: status 1.
     Failed(String),
     /// A signal stopped it: status 128 and the number of the signal, 130 for Ctrl-C. The text says which
     /// rows are kept, and how to resume.
     Interrupted(String),
-    /// Whoever read the output has gone, as `head` does: nobody is left to read a message, and that is no
+    /// The reader of the output has closed it, as `head` does. Nobody is left to read a message, and this is not an
     /// error.
     NobodyReads,
 }
 
 impl Failure {
-    /// Says it on standard error, and gives the exit status.
+    /// Prints the message on standard error, and returns the exit status.
     pub(crate) fn tell(self) -> ExitCode {
         let (text, status) = match self {
             Self::NobodyReads => return ExitCode::SUCCESS,
@@ -43,12 +43,12 @@ impl Failure {
     }
 }
 
-/// A file that cannot be read: the one form of all commands.
+/// The failure of a file that cannot be read, in the same form for all commands.
 pub(crate) fn unreadable(path: &Path, why: impl Display) -> Failure {
     Failure::Usage(format!("{} cannot be read: {why}", path.display()))
 }
 
-/// A file of measured speeds, or of points, that gives none.
+/// The failure of a file of measured speeds or points that has none.
 pub(crate) fn unmeasured(path: &Path, error: MeasuredSpeedsError) -> Failure {
     match error {
         MeasuredSpeedsError::Unreadable { source, .. } => unreadable(path, source),
@@ -56,7 +56,7 @@ pub(crate) fn unmeasured(path: &Path, error: MeasuredSpeedsError) -> Failure {
     }
 }
 
-/// A text with all that caused it.
+/// The text of an error with its causes.
 pub(crate) fn with_causes(error: impl std::error::Error + Send + Sync + 'static) -> String {
     format!("{:#}", anyhow::Error::new(error))
 }
@@ -68,10 +68,10 @@ impl From<bouncing_disk::core::Error> for Failure {
             Error::OutOfRange { .. } | Error::TooLarge { .. } | Error::NotOfKind { .. } => {
                 Self::Usage(error.to_string())
             }
-            // Some calls count in work that has no name for a user.
+            // Some calls count units of work that mean nothing to a user.
             Error::Stopped { done, total } => {
                 let share = if total == 0 { 0.0 } else { 100.0 * done as f64 / total as f64 };
-                Self::Interrupted(format!("interrupted: {share:.0} % were done, and nothing is written"))
+                Self::Interrupted(format!("interrupted at {share:.0} %; nothing is written"))
             }
             _ => Self::Failed(error.to_string()),
         }

@@ -1,8 +1,8 @@
-//! Computations of many rows: in one go, in parts on several machines that are put together again, or with a
-//! journal from which they resume.
+//! Computations of many rows: in one go, in parts on several machines, or with a journal from which they
+//! resume.
 //!
-//! A row is computed the same, to the last bit, whatever others are computed with it. So the result does not
-//! depend on how the rows were divided.
+//! A row is the same to the last bit, whatever other rows are computed with it, so the result does not
+//! depend on how the rows are divided.
 
 use std::fs::{self, File};
 use std::io::{self, BufRead as _, BufReader, Read as _};
@@ -23,10 +23,10 @@ use crate::interrupt;
 use crate::output::files::{Kind, check_place};
 use crate::output::{OutputArgs, PROGRAM, Report, VERSION};
 
-/// Most rows that are computed together. Their number doubles as long as they are fast, and slow ones may follow.
+/// Most rows that are computed together. Their number doubles as long as rows are fast; later ones may be slow.
 const MOST_TOGETHER: usize = 4096;
 
-/// How long rows are computed together: as much is lost by an interruption.
+/// How long a group of rows is computed: an interruption loses at most this much.
 const SHORT: Duration = Duration::from_millis(300);
 const LONG: Duration = Duration::from_millis(1_200);
 
@@ -34,11 +34,11 @@ const LONG: Duration = Duration::from_millis(1_200);
 #[derive(Debug, Clone, Default, Args)]
 #[command(next_help_heading = "Long computations")]
 pub(crate) struct GridArgs {
-    /// Computes the I-th of N parts of the rows and writes it to --out FILE.json; `bouncing-disk merge` puts
-    /// all parts together
+    /// Computes the I-th of N parts of the rows and writes it to --out FILE.json; `bouncing-disk merge`
+    /// joins the parts
     #[arg(long, value_name = "I/N", allow_hyphen_values = true, value_parser = chunk)]
     chunk: Option<(usize, usize)>,
-    /// Keeps finished rows in a file: the same command resumes where it was stopped or killed
+    /// Keeps finished rows in a file, from which the same command resumes after an interruption
     #[arg(long, value_name = "FILE")]
     journal: Option<PathBuf>,
 }
@@ -48,21 +48,21 @@ fn chunk(text: &str) -> Result<(usize, usize), String> {
     let whole = |text: &str| text.trim().parse::<usize>().ok();
     let parts = text.split_once('/').and_then(|(index, count)| Some((whole(index)?, whole(count)?)));
     let legal = parts.filter(|(index, count)| (1..=*count).contains(index));
-    legal.ok_or_else(|| "a chunk is I/N, from 1/N to N/N".to_owned())
+    legal.ok_or_else(|| "a chunk is I/N, from 1/N to N/N, such as 2/10".to_owned())
 }
 
-/// The rows of such a part of so many.
+/// The rows of this part, of so many in total.
 fn rows_of((index, count): (usize, usize), rows: usize) -> Rows {
     let upto = |parts: usize| (rows as u128 * parts as u128 / count as u128) as usize;
     upto(index - 1)..upto(index)
 }
 
-/// Some rows that follow each other.
+/// Consecutive rows.
 pub(crate) type Rows = std::ops::Range<usize>;
 
-/// A computation of many rows. Stored, it has all that its rows depend on.
+/// A computation of many rows. Its stored form contains everything that the rows depend on.
 pub(crate) trait GridJob: Serialize + DeserializeOwned {
-    /// The command, as it is written on the line.
+    /// The command, as on the command line.
     const COMMAND: &'static str;
 
     type Row: Clone + Serialize + DeserializeOwned;
@@ -72,7 +72,7 @@ pub(crate) trait GridJob: Serialize + DeserializeOwned {
 
     fn rows(&self) -> usize;
 
-    /// Checks the job, and computes what all rows need.
+    /// Checks the job, and computes the data that all rows share.
     fn prepare(&self, observer: &dyn Observer) -> Result<Self::Prepared>;
 
     fn compute(&self, from: &Self::Prepared, rows: Rows, observer: &dyn Observer) -> Result<Vec<Self::Row>>;
@@ -86,13 +86,13 @@ impl GridArgs {
         self.journal.as_deref()
     }
 
-    /// Whether the journal, or the part, can be written.
+    /// Checks that the journal or the part can be written.
     pub(crate) fn check(&self, output: &OutputArgs) -> Result<()> {
         if let Some(path) = self.journal() {
             check_place(path).map_err(|why| Failure::Usage(format!("--journal: {why}")))?;
         }
         if self.chunk.is_some() && !matches!(&output.out[..], [target] if target.kind == Kind::Json) {
-            return Err(Failure::Usage("--chunk needs one --out FILE.json for its part".to_owned()));
+            return Err(Failure::Usage("--chunk needs exactly one --out FILE.json for its part".to_owned()));
         }
         Ok(())
     }
@@ -119,14 +119,14 @@ pub(crate) fn run<J: GridJob>(job: J, grid: &GridArgs, output: &OutputArgs, cont
     })
 }
 
-/// What a journal, and a part, is of: all that the rows depend on.
+/// The key of a journal or a part: everything that the rows depend on.
 fn key<J: GridJob>(job: &J) -> Result<Provenance> {
     let key = Provenance::new(JOURNAL).written_by(PROGRAM, VERSION).with("command", J::COMMAND)?;
     Ok(key.with("job", job)?)
 }
 
-/// Whether there is room for `count` <= `limit` things of so many bytes each, in which all rows end: better
-/// refused now than after a day of computing.
+/// Checks that `count` <= `limit` items of this many bytes each fit into memory: an error now is
+/// better than after a day of computing.
 pub(crate) fn check_room(what: &'static str, count: u64, limit: u64, bytes: u64) -> Result<()> {
     let fits = |bytes: u64| {
         usize::try_from(bytes).is_ok_and(|bytes| Vec::<u8>::new().try_reserve_exact(bytes).is_ok())
@@ -137,7 +137,7 @@ pub(crate) fn check_room(what: &'static str, count: u64, limit: u64, bytes: u64)
     Err(bouncing_disk::core::Error::TooLarge { what, count, limit }.into())
 }
 
-/// Computes the rows of a range that the journal, if there is one, does not have.
+/// Computes the rows of a range that are not yet in the journal, if there is one.
 fn compute_all<J: GridJob>(
     job: &J,
     prepared: &J::Prepared,
@@ -158,7 +158,7 @@ fn compute_all<J: GridJob>(
     let mut left = &open[..];
     let mut together = 1;
     while let Some(first) = left.first() {
-        // Rows that follow each other, as far as they are open.
+        // Consecutive open rows.
         let run = left.iter().zip(*first..).take_while(|(index, next)| *index == next).count();
         let count = run.min(together);
         let began = Instant::now();
@@ -176,7 +176,7 @@ fn compute_all<J: GridJob>(
             journal.record(&finished)?;
         }
         left = &left[count..];
-        // No row depends on what is computed with it.
+        // No row depends on the others computed with it.
         match began.elapsed() {
             fast if fast < SHORT => together = (2 * together).min(MOST_TOGETHER),
             slow if slow > LONG => together = (together / 2).max(1),
@@ -193,8 +193,8 @@ fn interrupted(journal: Option<&Path>, done: usize, items: usize) -> Failure {
             path.display()
         ),
         None => format!(
-            "interrupted after {done} of {items} rows; nothing is kept. With --journal FILE the same command resumes \
-             where it was"
+            "interrupted after {done} of {items} rows; nothing is kept. With --journal FILE the same command would \
+             resume there"
         ),
     })
 }
@@ -202,7 +202,7 @@ fn interrupted(journal: Option<&Path>, done: usize, items: usize) -> Failure {
 /// Most bytes of the first line of a part.
 const LONGEST: u64 = 1 << 26;
 
-/// The command and the job of which a file has a part.
+/// The command and the job of the part in a file.
 pub(crate) fn computation_of(path: &Path) -> Result<(String, Value)> {
     let refuse = |why: &str| Failure::Usage(format!("{}: {why}", path.display()));
     let refuse_file = |error: io::Error| unreadable(path, error);
@@ -214,13 +214,13 @@ pub(crate) fn computation_of(path: &Path) -> Result<(String, Value)> {
         .read_line(&mut line)
         .map_err(refuse_file)?;
     let stored: Value = serde_json::from_str(&line)
-        .map_err(|_| refuse("it is not a part of a computation, as --chunk of this version writes it"))?;
+        .map_err(|_| refuse("it is not a part of a computation written by --chunk of this version"))?;
     let provenance = Provenance::read(JOURNAL, &stored["provenance"], path)?;
     let of = |name: &str| provenance.parameters().get(name).cloned().unwrap_or_default();
     Ok((of("command").as_str().unwrap_or_default().to_owned(), of("job")))
 }
 
-/// Delivers the result of all rows, which are in these files, of this job.
+/// Delivers the result of this job, whose rows are in these files.
 pub(crate) fn merge<J: GridJob>(
     job: &Value,
     parts: &[PathBuf],

@@ -1,4 +1,4 @@
-//! Signals: the first one asks the computation to stop, the second one ends the process at once.
+//! Signals: the first asks the computation to stop, the second ends the process at once.
 
 use std::io;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -7,10 +7,10 @@ use std::sync::{Arc, LazyLock};
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
-/// The number of the signal that came, 0 as long as none has.
+/// The number of the signal received, or 0.
 static SIGNAL: LazyLock<Arc<AtomicUsize>> = LazyLock::new(Arc::default);
 
-/// Of the usual signals: what a shell reports where a process dies of one.
+/// The status that a shell reports for a process ended by a signal.
 const BASE: usize = 128;
 
 /// From now on Ctrl-C and the signal that schedulers send before they kill are noted. A computation that does
@@ -34,7 +34,7 @@ pub(crate) fn came() -> bool {
     SIGNAL.load(Ordering::Relaxed) != 0
 }
 
-/// The exit status of what was interrupted: 130 for Ctrl-C, 143 for the signal to terminate.
+/// The exit status after an interruption: 130 for Ctrl-C, 143 for the signal to terminate.
 pub(crate) fn exit_status() -> u8 {
     u8::try_from(BASE + SIGNAL.load(Ordering::Relaxed)).unwrap_or(u8::MAX)
 }

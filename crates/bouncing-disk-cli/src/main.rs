@@ -28,7 +28,7 @@ use failure::{Failure, Result};
 fn main() -> ExitCode {
     let line = match CommandLine::try_parse() {
         Ok(line) => line,
-        // Help and version are no errors. Neither is a reader of the help that has gone.
+        // Help and version are not errors, nor is a reader that has closed the help.
         Err(error) => {
             let _ = error.print();
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));

@@ -1,4 +1,4 @@
-//! The result of a command, in every form that it may be asked for: lines on a terminal, tables, files.
+//! The result of a command in every form: lines on a terminal, tables, files.
 
 pub(crate) mod files;
 pub(crate) mod json;
@@ -17,24 +17,24 @@ use files::{Kind, NO_PICTURE, NO_RESULT, Target};
 use json::Data;
 pub(crate) use table::{Columns, Quantities, WriteTable};
 
-/// The name of the program in what it writes, and its version.
+/// Name and version of the program in its files.
 pub(crate) const PROGRAM: &str = env!("CARGO_PKG_NAME");
 pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 pub(crate) struct Report<'a> {
-    /// Of what, and from what.
+    /// The program and its inputs.
     pub(crate) provenance: Provenance,
     pub(crate) text: String,
-    /// Writes what goes into a comma-separated file.
+    /// Writes the comma-separated file.
     pub(crate) table: WriteTable<'a>,
     /// The fields of the JSON file after the provenance, in their order.
     pub(crate) data: Vec<(&'static str, Data<'a>)>,
-    /// The picture, drawn when it is asked for; `None` of what has none.
+    /// Draws the picture; `None` for results without one.
     pub(crate) figure: Option<Box<dyn Fn() -> Figure + 'a>>,
 }
 
 impl Report<'_> {
-    /// Prints the result, or writes it to the files that are asked for.
+    /// Prints the result, or writes it to the requested files.
     pub(crate) fn deliver(&self, output: &OutputArgs, context: Context) -> Result<()> {
         if output.out.is_empty() {
             return Ok(say(&self.text)?);
@@ -72,12 +72,12 @@ impl Report<'_> {
     }
 }
 
-/// A value as JSON. One that cannot be stored is a defect, and reported as a failure.
+/// A value as JSON. A value that cannot be stored is a defect, reported as a failure.
 pub(crate) fn value(of: &(impl Serialize + ?Sized)) -> Result<Value> {
     serde_json::to_value(of).map_err(|error| Failure::Failed(format!("a result cannot be stored: {error}")))
 }
 
-/// A value as a field of a file of JSON.
+/// A value as a field of a JSON file.
 pub(crate) fn stored(of: &(impl Serialize + ?Sized)) -> Result<Data<'static>> {
     Ok(json::whole(value(of)?))
 }

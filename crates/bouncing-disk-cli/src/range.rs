@@ -6,7 +6,7 @@ use std::str::FromStr;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use serde::{Deserialize, Serialize};
 
-/// Most values of a range: a longer one is a slip of the keyboard.
+/// Most values of a range: a longer one is a typing error.
 const MOST: usize = 1_000_000;
 
 /// Numbers at equal distances, both ends included: `0.1:1.5:500` on the command line, or a single number.
@@ -35,27 +35,31 @@ impl TryFrom<Unchecked> for Range {
 }
 
 impl Range {
-    /// From `first` to `last`, which is not below it; a single value has both ends alike.
+    /// From `first` to `last` >= `first`; a single value has equal ends.
     pub(crate) fn new(first: f64, last: f64, count: usize) -> Result<Self, String> {
         let range = Self { first, last, count };
         if let Some(end) = [first, last].into_iter().find(|end| !end.is_finite()) {
             return Err(format!("{end} is not finite"));
         }
         match count {
-            0 => Err("it has no values; give the number of points as the third part, at least 1".to_owned()),
-            1 if first < last => Err(format!("one point cannot be both {first:?} and {last:?}")),
-            _ if count > MOST => Err(format!("{count} points are more than {MOST}")),
+            0 => Err("it has no values; the third part, the number of points, must be at least 1".to_owned()),
+            1 if first < last => {
+                Err(format!("one point cannot be both {first:?} and {last:?}; give at least 2 points"))
+            }
+            _ if count > MOST => Err(format!("{count} points are more than {MOST}, the largest number")),
             1 => Ok(range),
-            _ if last < first => Err(format!("it is reversed: {last:?} is below {first:?}")),
+            _ if last < first => Err(format!("it is reversed, as {last:?} is below {first:?}")),
             _ if !(last - first).is_finite() => {
-                Err(format!("from {first:?} to {last:?} is farther than a number can be"))
+                Err(format!("the distance from {first:?} to {last:?} is too large for a double"))
             }
             _ if range.rises() => Ok(range),
-            _ => Err(format!("{count} points from {first:?} to {last:?} are nearer than numbers can be")),
+            _ => Err(format!(
+                "{count} points from {first:?} to {last:?} are not distinct numbers; widen the range or take fewer points"
+            )),
         }
     }
 
-    /// Whether every value is above the one before: a step that is finer than the numbers gives some twice.
+    /// Whether every value is above its predecessor: a step finer than the spacing of doubles repeats values.
     fn rises(&self) -> bool {
         (1..self.count).all(|index| self.value(index - 1) < self.value(index))
     }
@@ -89,10 +93,10 @@ impl Range {
         (self.count == 1).then_some(self.first)
     }
 
-    /// The outer ends of equal cells with the values in their middles; `width` is that of a single one.
+    /// The outer ends of equal cells with the values in their middles; `width` is the width of a single cell.
     pub(crate) fn cell_ends(&self, width: f64) -> (f64, f64) {
         let step = match self.count {
-            // Of a huge number `width` is nothing.
+            // A huge number absorbs `width`.
             1 => width.max(0.01 * self.first.abs()),
             count => (self.last - self.first) / (count - 1) as f64,
         };
@@ -105,9 +109,9 @@ pub(crate) fn assignment<'t>(text: &'t str, form: &str) -> Result<(&'t str, &'t 
     text.split_once('=').map(|(name, value)| (name.trim(), value)).ok_or_else(|| form.to_owned())
 }
 
-/// A number as a person writes it.
+/// A number as people write it.
 pub(crate) fn number(text: &str) -> Result<f64, String> {
-    let value: f64 = text.trim().parse().map_err(|_| format!("{text:?} is no number"))?;
+    let value: f64 = text.trim().parse().map_err(|_| format!("{text:?} is not a number"))?;
     if value.is_finite() { Ok(value) } else { Err(format!("{text:?} is not finite")) }
 }
 
@@ -119,7 +123,7 @@ impl FromStr for Range {
             [value] => Ok(Self::single(number(value)?)),
             [first, last, count] => {
                 let whole = count.trim().parse();
-                let count = whole.map_err(|_| format!("{count:?} is no number of points"))?;
+                let count = whole.map_err(|_| format!("{count:?} is not a number of points"))?;
                 Self::new(number(first)?, number(last)?, count)
             }
             _ => Err("a range is FIRST:LAST:POINTS, both ends included, such as 0.1:1.5:500".to_owned()),
@@ -143,10 +147,10 @@ pub(crate) fn interval(text: &str) -> Result<[f64; 2], String> {
         [low, high] => [number(low)?, number(high)?],
         _ => return Err("an interval is LOW:HIGH, such as 0.5:0.7".to_owned()),
     };
-    if high < low { Err(format!("it is reversed: {high} is below {low}")) } else { Ok([low, high]) }
+    if high < low { Err(format!("it is reversed, as {high} is below {low}")) } else { Ok([low, high]) }
 }
 
-/// Words, their help and their meaning. An old word is accepted; it has no help, and no list shows it.
+/// Words, their help and their meaning. An old word is accepted, but has no help and is not listed.
 pub(crate) type Words<T> = &'static [(&'static str, &'static str, T)];
 
 pub(crate) fn one_of<T: Copy + Send + Sync + 'static>(words: Words<T>) -> impl TypedValueParser<Value = T> {
@@ -190,8 +194,8 @@ mod tests {
     #[test]
     fn a_wrong_range_is_refused_with_the_reason() {
         for (text, told) in [
-            ("", "no number"),
-            ("a", "\"a\" is no number"),
+            ("", "not a number"),
+            ("a", "\"a\" is not a number"),
             ("nan", "not finite"),
             ("inf", "not finite"),
             ("0:1", "FIRST:LAST:POINTS"),
@@ -199,14 +203,14 @@ mod tests {
             ("0:1:0", "no values"),
             ("0:1:1", "one point"),
             ("1:0:5", "reversed"),
-            ("0:0:2", "2 points from 0.0 to 0.0 are nearer than numbers can be"),
-            ("0.3:0.30000000000000004:3", "3 points from 0.3 to 0.30000000000000004 are nearer"),
-            ("1:1.0000000000000004:1000", "nearer than numbers can be"),
-            ("0:1e-322:100", "nearer than numbers can be"),
+            ("0:0:2", "2 points from 0.0 to 0.0 are not distinct numbers"),
+            ("0.3:0.30000000000000004:3", "3 points from 0.3 to 0.30000000000000004 are not distinct"),
+            ("1:1.0000000000000004:1000", "not distinct numbers"),
+            ("0:1e-322:100", "not distinct numbers"),
             ("0:1:-1", "number of points"),
             ("0:1:1.5", "number of points"),
             ("0:1:1000001", "more than 1000000"),
-            ("-1e308:1e308:3", "from -1e308 to 1e308 is farther"),
+            ("-1e308:1e308:3", "from -1e308 to 1e308 is too large"),
         ] {
             let error = read(text).unwrap_err();
             assert!(error.contains(told), "{text}: {error}");

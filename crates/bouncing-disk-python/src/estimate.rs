@@ -166,7 +166,7 @@ pub(crate) fn fit_rated_points(a: Arguments<'_>) -> Made<'_> {
         let parameter = FitParameter::ALL.into_iter().find(|parameter| parameter.name() == name);
         let all = FitParameter::ALL.map(FitParameter::name).join(", ");
         let unknown =
-            || PyValueError::new_err(format!("ranges: {name:?} cannot be fitted; possible are {all}"));
+            || PyValueError::new_err(format!("ranges: {name:?} cannot be fitted; choose from {all}"));
         ranges.push(FitRange { parameter: parameter.ok_or_else(unknown)?, low, high });
     }
     let defaults = MotorFitSettings::default();

@@ -1,4 +1,4 @@
-//! `bouncing-disk basins`: which impacts lead where.
+//! `bouncing-disk basins`: attractors and their basins.
 
 use bouncing_disk::core::attractors::{
     ATTACHED, AfterRest, Attractor, AttractorKind, AttractorSearch, Attractors, Axis, BasinSettings, Grid,
@@ -13,24 +13,25 @@ use serde::{Deserialize, Serialize};
 use super::map::{ContactArgs, MapArgs, VERTICAL, and_shape, driven_map, is_rigid_sine, is_sine, map};
 use super::prelude::*;
 
-/// The forcing of the paper's Fig. 7(b), which has two attractors beside the rest.
+/// The forcing of the paper's Fig. 7(b), which has two attractors besides rest.
 const FORCING: f64 = 0.486;
 
 /// Attractors and their basins, in the plane of impact phase and speed
 #[derive(Debug, Args)]
 #[command(after_help = "\
-The search for the attractors comes first, and needs no hints. Then each cell of the window says where an impact in its middle leads, \
-as in Fig. 7 of the paper: phases in periods (tau_imp/2pi), speeds normalised, |w_A Gamma/(omega A)|. Labels in files: \
-0 undecided, 1 rest, 2 and more the other attractors in the order of the table; in .json two hexadecimal digits a cell. A \
-[drive] that is not a sine and --contact-periods take longer. See docs/studying-the-dynamics.md.
+First the attractors are found, without hints. Then each cell of the window shows the attractor that an impact at its \
+centre reaches, as in Fig. 7 of the paper: phases in periods (tau_imp/2pi), speeds normalised, |w_A Gamma/(omega A)|. \
+Labels in files: 0 undecided, 1 rest, 2 and more the other attractors in the order of the table; in .json two \
+hexadecimal digits a cell. A [drive] that is not a sine and --contact-periods take longer. See \
+docs/studying-the-dynamics.md.
 
 Examples:
   bouncing-disk basins --out basins.png
   bouncing-disk basins --axial-forcing 0.34 --cells 1000 --speed-range 0:5 --out basins.json
   bouncing-disk basins --cells 10000 --chunk 3/50 --out part-3.json")]
 pub(crate) struct BasinsArgs {
-    /// Axial forcing parameter Gamma = A omega^2/(pi g), a number. That of FILE, --preset or --set unless
-    /// given; without these 0.486, that of the paper's Fig. 7(b)
+    /// Axial forcing parameter Gamma = A omega^2/(pi g), a number. Taken from FILE, --preset or --set unless
+    /// given; without these 0.486, as in the paper's Fig. 7(b)
     #[arg(help_heading = VERTICAL, long, short = 'G', value_name = "GAMMA", allow_hyphen_values = true)]
     axial_forcing: Option<Range>,
     #[command(flatten)]
@@ -51,7 +52,7 @@ pub(crate) struct BasinsArgs {
     /// Impacts after which a start is left undecided
     #[arg(help_heading = OWN, long, alias = "impacts", allow_negative_numbers = true, value_name = "N", default_value_t = BasinSettings::default().max_impacts)]
     max_impacts: u32,
-    /// Starts from which attractors are looked for
+    /// Starts of the search for attractors
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = AttractorSearch::default().starts())]
     starts: u32,
     #[command(flatten)]
@@ -96,7 +97,7 @@ pub(crate) struct BasinsJob {
     contact_periods: Option<f64>,
 }
 
-/// What impacts lead to.
+/// The attractors of the impacts.
 pub(crate) enum Known {
     Sine(Attractors),
     /// On another drive, or with a compliant contact.
@@ -121,13 +122,13 @@ impl BasinsJob {
     fn window(&self) -> Result<Grid> {
         let axis = |option: &str, [low, high]: [f64; 2]| {
             let axis = Axis::new(low, high, self.cells)?;
-            // Cells that are finer than the numbers would have one middle.
+            // Cells finer than the spacing of doubles would share one centre.
             if (1..self.cells).all(|cell| axis.centre(cell - 1) < axis.centre(cell)) {
                 return Ok(axis);
             }
             let cells = self.cells;
             Err(Failure::Usage(format!(
-                "{option}: {cells} cells from {low:?} to {high:?} are nearer than numbers can be"
+                "{option}: {cells} cells from {low:?} to {high:?} have no distinct middles; widen the range or take fewer cells"
             )))
         };
         Ok(Grid::new(
@@ -140,7 +141,7 @@ impl BasinsJob {
 impl GridJob for BasinsJob {
     const COMMAND: &'static str = "basins";
 
-    /// The labels of a row by phase, two hexadecimal digits each: a list of numbers takes many times the
+    /// The labels of a row by phase, two hexadecimal digits each, because a list of numbers takes many times the
     /// memory.
     type Row = String;
 
@@ -152,7 +153,7 @@ impl GridJob for BasinsJob {
 
     fn prepare(&self, observer: &dyn Observer) -> Result<Known> {
         self.window()?;
-        // The search is a small part of the work, and has no part of the bar.
+        // The search is a small part of the work, and not part of the bar.
         let silent = |progress: Progress| observer.observe(Progress { done: 0, ..progress });
         if is_rigid_sine(&self.drive, self.contact_periods) {
             let map = map(self.axial_forcing, self.restitution)?;
@@ -182,7 +183,9 @@ impl GridJob for BasinsJob {
         let count = labels().count();
         if count != self.cells * self.cells {
             let cells = self.cells;
-            return Err(Failure::Usage(format!("{count} labels are there, of {cells} by {cells} cells")));
+            return Err(Failure::Usage(format!(
+                "the file has {count} labels, not one for each of {cells} by {cells} cells"
+            )));
         }
         let mut counts = [0_u64; 256];
         labels().for_each(|label| counts[usize::from(label)] += 1);
@@ -251,13 +254,13 @@ fn hexadecimal(labels: &[Label]) -> String {
     labels.iter().map(|label| format!("{label:02x}")).collect()
 }
 
-/// The labels of a row, without pairs of letters that are none: their number shows a fault.
+/// The labels of a row. Invalid pairs of digits are skipped; the number of labels then shows the fault.
 fn of_hexadecimal(row: &str) -> impl Iterator<Item = Label> + '_ {
     let pairs = row.as_bytes().chunks(2);
     pairs.filter_map(|pair| Label::from_str_radix(std::str::from_utf8(pair).ok()?, 16).ok())
 }
 
-/// The labels and what they stand for, in their order.
+/// The labels and their meanings, in order.
 fn legend(known: &Known) -> Vec<(Label, String)> {
     let mut legend = vec![(UNDECIDED, "undecided".to_owned())];
     for (label, attractor) in known.labelled() {

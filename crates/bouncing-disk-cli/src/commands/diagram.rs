@@ -1,4 +1,4 @@
-//! `bouncing-disk diagram`: where the disk lands, as the platform shakes harder.
+//! `bouncing-disk diagram`: orbit diagrams over the forcing.
 
 use bouncing_disk::Observer;
 use bouncing_disk::core::numerics::statistics::extent;
@@ -25,9 +25,9 @@ const FORCINGS: &str = "0.30:0.62:641";
 /// An orbit diagram: the impacts after the transient, over the axial forcing
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Each forcing gives a row: the impacts of an orbit after its transient, as in Figs. 6(a) and 6(b) of the paper. Phases are in \
-periods of the platform (tau_imp/2pi), speeds normalised, |w_A Gamma/(omega A)|. The table on the terminal counts the \
-phases that differ by a millionth of a period. See docs/studying-the-dynamics.md.
+Each forcing gives one row, the impacts of an orbit after its transient, as in Figs. 6(a) and 6(b) of the paper. \
+Phases are in periods of the platform (tau_imp/2pi), speeds normalised, |w_A Gamma/(omega A)|. The table on the \
+terminal counts phases that differ by more than a millionth of a period. See docs/studying-the-dynamics.md.
 
 Examples:
   bouncing-disk diagram --out diagram.png
@@ -36,7 +36,7 @@ Examples:
   bouncing-disk diagram --chunk 1/10 --out part-1.json")]
 pub(crate) struct DiagramArgs {
     /// Axial forcing parameter Gamma = A omega^2/(pi g): a number, or a range FIRST:LAST:POINTS, both ends
-    /// included. That of FILE, --preset or --set unless given; without these 0.30:0.62:641, those of the
+    /// included. Taken from FILE, --preset or --set unless given; without these 0.30:0.62:641, as in the
     /// paper's Fig. 6
     #[arg(help_heading = VERTICAL, long, short = 'G', value_name = "GAMMA", allow_hyphen_values = true)]
     axial_forcing: Option<Range>,
@@ -121,7 +121,7 @@ impl Impacts {
     }
 }
 
-/// The impacts of each start of one forcing; none where it has no such start.
+/// The impacts of each start at one forcing; empty if the start does not exist there.
 type Column = Vec<Option<Impacts>>;
 
 #[derive(Clone, Copy)]
@@ -131,7 +131,7 @@ struct Diagram<'a> {
 }
 
 impl<'a> Diagram<'a> {
-    /// Forcing, place of the start and impacts of all orbits that there are.
+    /// Forcing, index of the start and impacts of all orbits.
     fn orbits(self) -> impl Iterator<Item = (f64, usize, &'a Impacts)> {
         self.job.axial_forcings.values().zip(self.rows).flat_map(|(forcing, row)| {
             let there = row.iter().enumerate();
@@ -139,7 +139,7 @@ impl<'a> Diagram<'a> {
         })
     }
 
-    /// Forcing, place of the start, phase and speed of all impacts.
+    /// Forcing, index of the start, phase and speed of all impacts.
     fn impacts(self) -> impl Iterator<Item = (f64, usize, f64, f64)> + 'a {
         self.orbits().flat_map(|(forcing, start, impacts)| {
             let both = impacts.impact_phase_periods.iter().zip(&impacts.normalised_impact_speed);
@@ -147,7 +147,7 @@ impl<'a> Diagram<'a> {
         })
     }
 
-    /// Each orbit a row.
+    /// One row per orbit.
     fn text(self) -> String {
         type Row<'r> = (f64, Start, &'r [f64], &'r [f64]);
         let columns = Columns::<Row<'_>>::new()
@@ -190,7 +190,7 @@ impl GridJob for DiagramJob {
         self.axial_forcings.count()
     }
 
-    /// Sees that all is legal before hours are spent.
+    /// Checks everything before hours are spent.
     fn prepare(&self, _: &dyn Observer) -> Result<()> {
         let (low, high) = self.axial_forcings.ends();
         for forcing in [low, high] {

@@ -13,9 +13,12 @@ use super::prelude::*;
 /// The period-doubling cascade, forcing by forcing, with Feigenbaum's constants
 #[derive(Debug, Args)]
 #[command(after_help = "\
-The cascade starts from the orbit with one impact in each period of the platform, at the paper's Gamma_1, Gamma_2, ... From \
-the seventh doubling on there are estimates of Feigenbaum's constants. The error is what rounding may have moved a \
-forcing by. If the cascade ends early, the doublings found so far are printed with the reason. The command finds the forcings, so that there is no --axial-forcing; of a system it takes the restitution and the shape of the drive. With another drive or --contact-periods it begins with the attracting orbit of one impact per period at the lowest forcing, and the error is that of the trace. See docs/numerics-dynamics.md.
+The cascade starts from the orbit with one impact in each period of the platform, at the paper's Gamma_1, Gamma_2, \
+... From the seventh doubling on the table includes estimates of Feigenbaum's constants. The error is a bound on the \
+effect of rounding on a forcing. If the cascade ends early, the doublings found so far are printed with the reason. \
+The command finds the forcings, so there is no --axial-forcing; from a system it takes the restitution and the shape \
+of the drive. With another drive or --contact-periods it begins with the attracting orbit of one impact per period at \
+the lowest forcing, and the error is that of the trace. See docs/numerics-dynamics.md.
 
 Examples:
   bouncing-disk doublings
@@ -25,7 +28,7 @@ pub(crate) struct DoublingsArgs {
     map: MapArgs,
     #[command(flatten)]
     contact: ContactArgs,
-    /// Doublings that are looked for, in [1, 13]
+    /// Number of doublings to find, in [1, 13]
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, short = 'n', value_name = "N", default_value_t = 8)]
     count: usize,
     #[command(flatten)]
@@ -40,7 +43,7 @@ pub(super) fn run(args: &DoublingsArgs, context: Context) -> Result<()> {
     let cascade = if is_rigid_sine(&drive, contact_periods) {
         doubling_cascade(restitution, args.count, &watch)?
     } else {
-        // What is wrong with the map, before the search asks for many.
+        // Finds a fault of the map before the search builds many.
         driven_map(&drive, contact_periods, 1.0, restitution)?;
         let shape = drive.clone();
         let maps = move |forcing| driven_map(&shape, contact_periods, forcing, restitution).ok();
@@ -64,7 +67,7 @@ pub(super) fn run(args: &DoublingsArgs, context: Context) -> Result<()> {
         figure: Some(Box::new(move || pictures::doublings(restitution, &forcings))),
     };
     report.deliver(&args.output, context)?;
-    // The text says it; files of a table or a picture have no place for it.
+    // The text contains the reason; a table or a picture has no place for it.
     if let Some(error) = ended_by.filter(|_| !args.output.out.is_empty()) {
         context.note(&format!("warning: no doubling {}: {error}", found.len() + 1));
     }

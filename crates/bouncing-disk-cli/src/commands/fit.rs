@@ -17,69 +17,61 @@ use crate::parameters::{Described as _, Setting, setting};
 
 /// Fits measured run-ups: steady speed and time constant, or parameters of a motor
 #[derive(Debug, Args)]
-#[command(
-    after_help = "The file has the columns time_s, speed_rad_s and, for repeated runs, member, or times and \
-                  speeds in units that it names, such as \"t (ms)\" and \"n (rpm)\"; commas, semicolons or tabs \
-                  separate them. Without --parameter alpha_ss - b exp(-t/t_c) is fitted to their mean, with 95 % \
-                  intervals: time zero, a dead time and the speed at the start need not be known. --from-rest \
-                  fits alpha_ss (1 - exp(-t/t_c)) to times that count from the start of the rise, with narrower \
-                  intervals. With --parameter FIELD=LOW:HIGH parameters of a motor are fitted: friction, \
-                  restitution, phase_lag (rad), amplitude (m), twist_amplitude (rad), contact.time (s), \
-                  stator.mass (kg), stator.quality, stator.twist_per_height (rad/m), each within its range; all \
-                  else is that of the motor, which --motor or --preset names. Runs whose speeds rise are \
-                  run-ups; those whose speeds fall are braking tails with the drive off. The time of the switch \
-                  and the speed at the first row need not be known.
+#[command(after_help = "\
+The file has the columns time_s, speed_rad_s and, for repeated runs, member, or times and speeds in units that it \
+names, such as \"t (ms)\" and \"n (rpm)\"; commas, semicolons or tabs separate them. Without --parameter, alpha_ss - \
+b exp(-t/t_c) is fitted to their mean, with 95 % intervals; time zero, dead time and initial speed need not be known. \
+--from-rest fits alpha_ss (1 - exp(-t/t_c)) to times that count from the start of the rise, with narrower intervals. \
+With --parameter FIELD=LOW:HIGH, parameters of a motor are fitted: friction, restitution, phase_lag (rad), amplitude \
+(m), twist_amplitude (rad), contact.time (s), stator.mass (kg), stator.quality, stator.twist_per_height (rad/m), each \
+within its range; all others are taken from the motor of --motor or --preset. Runs whose speeds rise are run-ups; \
+those whose speeds fall are braking tails with the drive off. The switching time and the speed in the first row need \
+not be known.
 
-A table of points that a maker prints has \
-                  no times: columns speed_rad_s (or \"speed (rpm)\"), speed_error, and fields of the data sheet \
-                  such as load_torque (0 without load), stator.volts or preload_force, each optionally with its \
-                  error (load_torque_error); a line each, the speed 0 at the stall torque. See \
-                  docs/designing-a-motor.md.
+A table of a maker's rated points has no times: columns speed_rad_s (or \"speed (rpm)\"), speed_error, and fields of \
+the data sheet such as load_torque (0 without load), stator.volts or preload_force, each optionally with its error \
+(load_torque_error); one line per point, with speed 0 at the stall torque. See docs/designing-a-motor.md.
 
 Examples:
   bouncing-disk fit run-up.csv --out fit.png
-  \
-                  bouncing-disk fit scope.txt --time-column CH1 --speed-column CH2 --time-unit ms --speed-unit \
-                  rpm
+  bouncing-disk fit scope.txt --time-column CH1 --speed-column CH2 --time-unit ms --speed-unit rpm
   bouncing-disk fit run-up.csv --motor motor.toml --parameter friction=0.05:0.4
-  \
-                  bouncing-disk fit points.csv --motor motor.toml --parameter stator.mass=0.005:0.1"
-)]
+  bouncing-disk fit points.csv --motor motor.toml --parameter stator.mass=0.005:0.1")]
 pub(crate) struct FitArgs {
-    /// Measured speeds: time_s, speed_rad_s and, of several runs, member
+    /// Measured speeds: time_s, speed_rad_s and, for several runs, member
     file: PathBuf,
     /// The motor rises from rest at time zero, without a dead time
     #[arg(help_heading = OWN, long, conflicts_with = "parameter")]
     from_rest: bool,
-    /// The column of the times; columns of other names are passed over
+    /// Name of the time column; other columns are ignored
     #[arg(help_heading = OWN, long, value_name = "NAME")]
     time_column: Option<String>,
-    /// The column of the speeds; columns of other names are passed over
+    /// Name of the speed column; other columns are ignored
     #[arg(help_heading = OWN, long, value_name = "NAME")]
     speed_column: Option<String>,
-    /// The unit of the times, if the file does not say it: s, ms, us, min
+    /// Unit of the times, if the file does not state it: s, ms, us, min
     #[arg(help_heading = OWN, long, value_name = "UNIT")]
     time_unit: Option<TimeUnit>,
-    /// The unit of the speeds, if the file does not say it: rad/s, rpm, rev/s, deg/s
+    /// Unit of the speeds, if the file does not state it: rad/s, rpm, rev/s, deg/s
     #[arg(help_heading = OWN, long, value_name = "UNIT")]
     speed_unit: Option<SpeedUnit>,
-    /// A parameter of the motor that is fitted, and its range; may be repeated
+    /// A parameter of the motor to fit, and its range; may be repeated
     #[arg(help_heading = OWN, long, value_name = "FIELD=LOW:HIGH", value_parser = fitted)]
     parameter: Vec<FitRange>,
-    /// With --parameter: the data sheet of the motor, from whose values the search begins
+    /// With --parameter: the data sheet of the motor, where the search begins
     #[arg(help_heading = OWN, long, value_name = "FILE", requires = "parameter")]
     motor: Option<PathBuf>,
-    /// With --parameter: a motor of the paper in place of a data sheet
+    /// With --parameter: a motor of the paper instead of a data sheet
     #[arg(help_heading = OWN, long, value_name = "NAME", requires = "parameter", conflicts_with = "motor", value_parser = one_of(Motor::PRESETS))]
     preset: Option<fn() -> Motor>,
-    /// With --parameter: gives a field of the data sheet another value
+    /// With --parameter: sets a field of the data sheet
     #[arg(help_heading = OWN, long, value_name = "KEY=VALUE", requires = "parameter", value_parser = setting)]
     set: Vec<Setting>,
-    /// With --parameter: most places of the ranges at which the motor is computed, 8 to 400
+    /// With --parameter: largest number of points in the ranges at which the motor is computed, 8 to 400
     #[arg(help_heading = OWN, long, alias = "evaluations", allow_negative_numbers = true, value_name = "N", requires = "parameter",
           default_value_t = MotorFitSettings::default().most_evaluations)]
     most_evaluations: usize,
-    /// Of points: most impacts of all members of a computed speed, from 1 on
+    /// For rated points: most impacts for one computed speed, all members together, at least 1
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", requires = "parameter",
           default_value_t = MotorFitSettings::default().operating.most_impacts)]
     most_impacts: u64,
@@ -98,7 +90,7 @@ fn fitted(text: &str) -> Result<FitRange, String> {
     let parameter =
         FitParameter::ALL.into_iter().find(|parameter| parameter.name() == name).ok_or_else(|| {
             format!(
-                "{name:?} cannot be fitted; possible are {}",
+                "{name:?} cannot be fitted; choose from {}",
                 FitParameter::ALL.map(FitParameter::name).join(", ")
             )
         })?;
@@ -109,11 +101,11 @@ fn fitted(text: &str) -> Result<FitRange, String> {
 pub(super) fn run(args: &FitArgs, context: Context) -> Result<()> {
     let inputs: Vec<&Path> =
         [Some(&args.file), args.motor.as_ref()].into_iter().flatten().map(PathBuf::as_path).collect();
-    // A fit of parameters is one of a certain motor. Data of another fit the paper's badly, and nobody sees
-    // why.
+    // A parameter fit needs its own motor: data of another fit the paper's motor badly, without a visible
+    // reason.
     if !args.parameter.is_empty() && args.motor.is_none() && args.preset.is_none() {
-        let message = "--parameter needs the motor whose parameters are sought: its data sheet (--motor FILE) or one of \
-                       the paper (--preset NAME)";
+        let message = "--parameter needs a motor: give its data sheet (--motor FILE) or one of the \
+                       paper (--preset NAME)";
         return Err(Failure::Usage(message.to_owned()));
     }
     args.output.check(args.parameter.is_empty(), &inputs, None)?;
@@ -171,7 +163,7 @@ fn rise(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Result<Repo
 }
 
 pub(super) fn estimates(fit: &TransientFit, list: &mut Quantities) {
-    // That of the form that fits: the other one may go on rising beyond every speed of the run.
+    // From the form that fits: the other may rise beyond every speed of the run.
     list.push_interval("steady_speed", fit.better().steady_speed, "rad/s");
     list.push_interval("time_constant", fit.time_constant(), "s");
     list.push_interval("stall_acceleration", fit.stall_acceleration(), "rad/s^2");
@@ -179,13 +171,13 @@ pub(super) fn estimates(fit: &TransientFit, list: &mut Quantities) {
     list.push("better_form", format!("{:?}", fit.form).to_lowercase(), "1");
 }
 
-/// A fit as it is drawn, up to a time (s).
+/// A fit as drawn, up to a time (s).
 pub(super) fn fitted_curve(fit: &TransientFit, end: f64) -> pictures::FittedCurve {
     let numbers = (fit.better().steady_speed.value, fit.time_constant().value);
     pictures::FittedCurve::new(numbers, (fit.start_time, end), |time| fit.better_speed(time))
 }
 
-/// Measured runs and their fit; of runs with times of their own the first one.
+/// Measured runs and their fit; if the runs have different times, only the first.
 fn draw(speeds: &MeasuredSpeeds, fit: &TransientFit) -> Figure {
     let times = &speeds.runs()[0].times;
     let runs: Vec<&[f64]> =
@@ -194,7 +186,7 @@ fn draw(speeds: &MeasuredSpeeds, fit: &TransientFit) -> Figure {
     pictures::RunUp { times, runs: &runs, name: "measured", fit: Some((fit, "fit of the mean")) }.draw()
 }
 
-/// The words of a fit that is refused; another error is a failure.
+/// The reason for a rejected fit; any other error is a failure.
 pub(super) fn refusal(error: &FitError) -> Result<String> {
     match error {
         FitError::Refused(_) => Ok(error.to_string()),
@@ -221,7 +213,7 @@ fn parameters(
     let transients: Vec<MeasuredTransient> = runs.into_iter().map(transient).collect();
     for transient in &transients {
         if transient.kind == TransientKind::Braking {
-            context.note("the speed falls: read as a braking tail, with the drive off");
+            context.note("the speed falls, so the run is read as a braking tail with the drive off");
         }
     }
     let mut settings = MotorFitSettings::default();

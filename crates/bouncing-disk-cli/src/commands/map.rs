@@ -1,4 +1,4 @@
-//! The vertical motion, which has no units: its forcing, its restitution and the impact it starts with.
+//! The dimensionless vertical motion: its forcing, its restitution and its initial impact.
 
 use std::f64::consts::TAU;
 use std::fmt::{self, Display, Formatter};
@@ -14,15 +14,15 @@ use serde_json::Value;
 use super::prelude::*;
 use crate::range::number;
 
-/// The heading of forcing and restitution in the help.
+/// Heading of forcing and restitution in the help.
 pub(super) const VERTICAL: &str = "Vertical motion (no units)";
 
-/// The restitution, and the system that both it and the forcing are taken from unless they are given. The
-/// forcing is an option of each command, whose help says what it takes without any system.
+/// The restitution, and the system from which it and the forcing are taken unless given. The forcing is an
+/// option of each command, whose help states its default.
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = VERTICAL)]
 pub(super) struct MapArgs {
-    /// Coefficient of restitution, in [0, 1); with `verdicts` a range, too. That of FILE, --preset or --set
+    /// Coefficient of restitution, in [0, 1); with `verdicts` a range, too. Taken from FILE, --preset or --set
     /// unless given, else 0.5
     #[arg(long, short, value_name = "EPSILON", allow_hyphen_values = true)]
     restitution: Option<Range>,
@@ -31,8 +31,8 @@ pub(super) struct MapArgs {
 }
 
 impl MapArgs {
-    /// The system, whose impacts are rigid, and the shape of its height, which alone decides their motion; `None` if
-    /// the template was asked for.
+    /// The system, whose impacts are rigid, and the shape of its height, which alone determines the motion; `None` if
+    /// the template was requested.
     pub(super) fn begin(
         &self,
         output: &OutputArgs,
@@ -46,35 +46,34 @@ impl MapArgs {
         Ok(Some((system, DrivenPlatform::of_drive(*system.platform(), &drive)?.height().clone())))
     }
 
-    /// Forcings and restitutions: those that are given, else those of the system if any was given, else
-    /// `otherwise` and the restitution of the toss.
+    /// Forcings and restitutions: as given, else from the system if one was given, else `otherwise` and the
+    /// restitution of the toss.
     pub(super) fn values(&self, system: &System, given: Option<Range>, otherwise: Range) -> (Range, Range) {
         let own = if self.system.is_given() { Range::single(system.axial_forcing()) } else { otherwise };
         let restitution = Range::single(system.disk().restitution());
         (given.unwrap_or(own), self.restitution.unwrap_or(restitution))
     }
 
-    /// The same where each is a single number.
+    /// The same if each is a single number.
     pub(super) fn pair(&self, system: &System, given: Option<Range>, otherwise: f64) -> Result<(f64, f64)> {
         let (forcings, restitutions) = self.values(system, given, Range::single(otherwise));
         Ok((single(forcings, "--axial-forcing")?, single(restitutions, "--restitution")?))
     }
 }
 
-/// A contact that takes time, for the commands that follow it.
+/// A compliant contact, for the commands that support it.
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = VERTICAL)]
 pub(super) struct ContactArgs {
-    /// How long an isolated impact lasts until its force falls to zero, in periods of the platform, in [1e-6,
-    /// 1000]: a spring and damper with the restitution above in place of rigid impacts. Where it releases the
-    /// disk at the speed v the results show the impact that would rebound so: that phase, and the speed
-    /// v/EPSILON
+    /// Duration of an isolated impact in periods of the platform, in [1e-6, 1000]: a spring and damper with
+    /// the restitution above replace rigid impacts. A release at speed v is shown as the equivalent rigid
+    /// impact: the same phase, and the speed v/EPSILON
     #[arg(long, value_name = "PERIODS", allow_negative_numbers = true)]
     pub(super) contact_periods: Option<f64>,
 }
 
 pub(super) fn single(range: Range, option: &str) -> Result<f64> {
-    let several = || Failure::Usage(format!("{option} {range}: this command takes a single number"));
+    let several = || Failure::Usage(format!("{option} {range}: this command needs a single number"));
     range.only().ok_or_else(several)
 }
 
@@ -82,7 +81,7 @@ pub(super) fn map(axial_forcing: f64, restitution: f64) -> Result<ImpactMap, Err
     ImpactMap::new(Vibration::from_axial_forcing(axial_forcing)?, restitution)
 }
 
-/// The map of a platform whose height has another shape than the sine, or where contacts take time (periods).
+/// The map of a platform whose height is not a sine, or with a contact time (periods).
 pub(super) fn driven_map(
     shape: &Waveform,
     contact_periods: Option<f64>,
@@ -92,7 +91,7 @@ pub(super) fn driven_map(
     Ok(shape.map(&map(axial_forcing, restitution)?, contact_periods)?)
 }
 
-/// A field of a job that a sine leaves out.
+/// A field of a job that is omitted for a sine.
 pub(super) fn is_sine(shape: &Waveform) -> bool {
     *shape == Waveform::Sine
 }
@@ -102,13 +101,13 @@ pub(super) fn is_rigid_sine(shape: &Waveform, contact_periods: Option<f64>) -> b
     is_sine(shape) && contact_periods.is_none()
 }
 
-/// What is added to a line on the vertical motion of another shape or contact.
+/// The end of a line on the vertical motion with another shape or contact.
 pub(super) fn and_shape(shape: &Waveform, contact_periods: Option<f64>) -> String {
     let shape = if is_sine(shape) { String::new() } else { format!(", {shape}") };
     shape + &contact_periods.map_or_else(String::new, |periods| format!(", contact time {periods} periods"))
 }
 
-/// The parameters of a job, with shape and contact where they are not the paper's.
+/// The parameters of a job, with shape and contact if they are not the paper's.
 pub(super) fn with_shape(mut job: Value, shape: &Waveform, contact_periods: Option<f64>) -> Value {
     if !is_sine(shape) {
         job["drive"] = json!(shape);
@@ -120,37 +119,38 @@ pub(super) fn with_shape(mut job: Value, shape: &Waveform, contact_periods: Opti
 }
 
 pub(super) const NO_PERIOD_ONE: &str =
-    "--start period-1: its closed form is that of rigid impacts on the sine; give rest, rise or PHASE,SPEED";
+    "--start period-1 exists only for rigid impacts on the sine; give rest, rise or PHASE,SPEED";
 
-/// How far beside the period-1 orbit a start lies, relative to its speed: where the orbit is unstable, the
+/// Distance of a start from the period-1 orbit, relative to its speed: if the orbit is unstable, the
 /// disk leaves it at once.
 const BESIDE: f64 = 1.01;
 
-/// A start, of which every map makes its own.
+/// A start, which every map converts to its own impact.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub(crate) enum Start {
-    /// At rest on the platform as it rises fastest.
+    /// At rest on the platform when it rises fastest.
     Rest,
-    /// An impact as the platform rises fastest, with the speed of the period-1 orbit.
+    /// An impact when the platform rises fastest, with the speed of the period-1 orbit.
     Rise,
-    /// One per cent faster than the impact of the period-1 orbit; there is none below its birth.
+    /// One per cent faster than the impact of the period-1 orbit; it does not exist below the birth of the orbit.
     PeriodOne,
     /// Impact phase in periods, and normalised impact speed.
     At(f64, f64),
 }
 
 /// The possible starts, for the help.
-pub(crate) const STARTS: &str = "`rest` on the platform and `rise`, an impact with the speed of the period-1 orbit, both as the platform rises \
-    fastest; `period-1`, 1 % faster than the impact of the period-1 orbit, where there is one; or PHASE,SPEED, the impact phase \
-    in periods (tau/2pi) and the normalised impact speed |w_A Gamma/(omega A)|";
+pub(crate) const STARTS: &str = "`rest` on the platform or `rise`, an impact with the speed of the period-1 \
+                                 orbit, both when the platform rises fastest; `period-1`, 1 % faster than the \
+                                 impact of the period-1 orbit, if that exists; or PHASE,SPEED, the impact phase \
+                                 in periods (tau/2pi) and the normalised impact speed |w_A Gamma/(omega A)|";
 
 impl Start {
-    /// The impact in a map, on a platform that rises fastest at the phase `rise` (0 for the sine); `None` where the
+    /// The impact in a map, on a platform that rises fastest at the phase `rise` (0 for the sine); `None` if the
     /// map has no such start.
     pub(crate) fn of(self, map: &ImpactMap, rise: f64) -> Result<Option<ImpactState>, Error> {
         match self {
-            // A platform that falls away there at once, as at a joint of parabolas, launches the disk.
+            // A platform that falls away at once, as at a joint of parabolas, launches the disk.
             Self::Rest => ImpactState::new(Phase::new(rise)?, 0.0).map(Some),
             Self::Rise => ImpactState::new(Phase::new(rise)?, -map.period_one_impact_speed(1)).map(Some),
             Self::PeriodOne => map
@@ -161,7 +161,7 @@ impl Start {
         }
     }
 
-    /// From where an orbit starts, as a legend says it.
+    /// The start of an orbit, for a legend.
     pub(crate) fn in_words(&self) -> String {
         match self {
             Self::Rest => "from rest".to_owned(),
@@ -180,7 +180,7 @@ impl FromStr for Start {
         if let Some(named) = named {
             return Ok(named);
         }
-        let form = || format!("{text:?} is no start; possible are rest, rise, period-1 and PHASE,SPEED");
+        let form = || format!("{text:?} is not a start; give rest, rise, period-1 or PHASE,SPEED");
         let (phase, speed) = text.split_once(',').ok_or_else(form)?;
         let (phase, speed) = (number(phase)?, number(speed)?);
         ImpactState::from_normalised(TAU * phase, speed).map_err(|error| error.to_string())?;

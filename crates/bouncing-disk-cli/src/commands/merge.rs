@@ -10,12 +10,12 @@ use super::prelude::*;
 use super::verdicts::VerdictsJob;
 use crate::grid::computation_of;
 
-/// Puts the chunks of a computation together
+/// Joins the chunks of a computation
 #[derive(Debug, Args)]
 #[command(after_help = "\
-The result has the very bytes that the command without --chunk gives. A part is a journal with some of the rows, so that \
-journals can be merged, too. Rows that are missing, and files that are damaged or of another computation or version of the \
-program, are refused by name. See docs/command-line.md, \"On a cluster\".
+The result equals that of the command without --chunk byte for byte. A part is a journal of some rows, so journals \
+can be merged, too. Missing rows, and files that are damaged or belong to another computation or version of the \
+program, are rejected by name. See docs/command-line.md, \"On a cluster\".
 
 Example:
   bouncing-disk merge part-*.json --out diagram.png")]
@@ -37,7 +37,7 @@ pub(crate) fn run(args: &MergeArgs, context: Context) -> Result<()> {
         BasinsJob::COMMAND => grid::merge::<BasinsJob>,
         SweepJob::COMMAND => grid::merge::<SweepJob>,
         TransientJob::COMMAND => grid::merge::<TransientJob>,
-        other => return Err(Failure::Usage(format!("chunks of the command {other:?} are not known"))),
+        other => return Err(Failure::Usage(format!("chunks of the command {other:?} cannot be merged"))),
     };
     merge(&job, &args.files, &args.output, context)
 }

@@ -42,8 +42,9 @@ pub(super) fn run(command: MotorCommand, context: Context) -> Result<()> {
 /// Forcing, regime, largest torque and warnings that follow from the data sheet
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Forcing parameters, the regime of the vertical motion, the largest torque, and what in the data sheet is unlikely to be \
-meant; of a [stator] that yields its circuit, and the preload that it no longer lifts. Nothing in it but the warning of an overload depends on the load. See docs/designing-a-motor.md.
+Forcing parameters, the regime of the vertical motion, the largest torque, and warnings of unlikely values; for a \
+compliant [stator] also its circuit and the preload that it no longer lifts. The load affects only the warning of an \
+overload. See docs/designing-a-motor.md.
 
 Examples:
   bouncing-disk motor report --template > motor.toml
@@ -65,7 +66,7 @@ fn report(args: &ReportArgs, context: Context) -> Result<()> {
     let mut list = Quantities::default();
     list.push("axial_forcing", report.axial_forcing, "1");
     list.push("angular_forcing", report.angular_forcing, "1");
-    // In units of the preload acceleration, which the paper calls g: P has no unit.
+    // In units of the preload acceleration, which the paper calls g, so P has no unit.
     list.push("peak_acceleration_over_preload", report.peak_acceleration, "1");
     list.push("regime", report.regime.to_string(), "1");
     list.push("periods_per_flight", report.periods_per_flight, "periods");
@@ -82,7 +83,7 @@ fn report(args: &ReportArgs, context: Context) -> Result<()> {
     written(&motor, report.to_string(), list)?.deliver(&args.output, context)
 }
 
-/// The report of a motor whose stator yields.
+/// The report of a motor with a compliant stator.
 fn of_stator<'a>(motor: &Motor, report: &StatorReport) -> Result<Report<'a>> {
     let mut list = Quantities::default();
     report.rows().for_each(|(name, value, unit)| list.push(name, value, unit));
@@ -95,7 +96,7 @@ fn of_stator<'a>(motor: &Motor, report: &StatorReport) -> Result<Report<'a>> {
 
 fn written<'a>(motor: &Motor, mut text: String, list: Quantities) -> Result<Report<'a>> {
     if motor.load().is_some() {
-        text += "\nthe table [load] changes none of this but the warning of an overload";
+        text += "\nthe table [load] affects only the warning of an overload";
     }
     Ok(Report {
         provenance: provenance("bouncing-disk motor report", &json!({ "motor": motor }))?,

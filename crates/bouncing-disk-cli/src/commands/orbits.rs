@@ -6,23 +6,24 @@ use bouncing_disk_plot::Figure;
 use super::map::{ContactArgs, MapArgs, VERTICAL, and_shape, driven_map, is_rigid_sine, map, with_shape};
 use super::prelude::*;
 
-/// Past the second period doubling.
+/// Above the second period doubling.
 const FORCING: f64 = 0.535;
 
-/// All periodic orbits of few impacts, stable and unstable
+/// All periodic orbits with few impacts, stable and unstable
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Orbits of one impact come from their closed form, all others from Newton's method on the impacts of a grid of starts: the \
-result says whether half the resolution finds the same. An orbit attracts if its largest multiplier is below 1 in \
-modulus by more than rounding may change it, and is marginal if rounding decides, as in a fold. Phases are in periods (tau_imp/2pi), speeds normalised, |w_A Gamma/(omega A)|. In .csv each impact is a row. See \
-docs/studying-the-dynamics.md, \"All periodic orbits\".
+Orbits of one impact have a closed form; all others come from Newton's method on a grid of starts, and the result \
+states whether half the resolution finds the same. An orbit attracts if its largest multiplier is below 1 in modulus \
+by more than rounding errors, and is marginal within them, as in a fold. Phases are in periods (tau_imp/2pi), speeds \
+normalised, |w_A Gamma/(omega A)|. In .csv each impact is a row. See docs/studying-the-dynamics.md, \"All periodic \
+orbits\".
 
 Examples:
   bouncing-disk orbits --axial-forcing 0.535
   bouncing-disk orbits --axial-forcing 0.535 --max-impacts 2 --out orbits.json")]
 pub(crate) struct OrbitsArgs {
-    /// Axial forcing parameter Gamma = A omega^2/(pi g), a number. That of FILE, --preset or --set unless
-    /// given; without these 0.535, past the second period doubling
+    /// Axial forcing parameter Gamma = A omega^2/(pi g), a number. Taken from FILE, --preset or --set unless
+    /// given; without these 0.535, above the second period doubling
     #[arg(help_heading = VERTICAL, long, short = 'G', value_name = "GAMMA", allow_hyphen_values = true)]
     axial_forcing: Option<Range>,
     #[command(flatten)]
@@ -32,7 +33,7 @@ pub(crate) struct OrbitsArgs {
     /// Most impacts of an orbit, in [1, 64]
     #[arg(help_heading = OWN, long, alias = "impacts", allow_negative_numbers = true, value_name = "N", default_value_t = 4)]
     max_impacts: usize,
-    /// Most periods of the platform that an orbit takes, in [1, 10000]
+    /// Most periods of the platform in an orbit, in [1, 10000]
     #[arg(help_heading = OWN, long, alias = "platform-periods", allow_negative_numbers = true, value_name = "N", default_value_t = 4)]
     max_platform_periods: u64,
     /// Starts along each axis, in [2, 4096]
@@ -85,7 +86,7 @@ fn text(orbits: &[PeriodicOrbit], coverage: Option<&OrbitCoverage>) -> String {
         .column("stability", "1", |orbit| orbit.stability().to_string());
     let Some(coverage) = coverage else { return columns.to_text(orbits) };
     format!(
-        "{}{} starts up to an impact speed of {:.3} g/omega; {} of {} orbits are found from half the resolution, too\n",
+        "{}{} starts up to an impact speed of {:.3} g/omega; {} of {} orbits are also found from half the resolution\n",
         columns.to_text(orbits),
         coverage.starts,
         coverage.impact_speed_bound,

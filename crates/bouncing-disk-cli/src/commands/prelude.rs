@@ -14,5 +14,5 @@ pub(super) use crate::parameters::motor::MotorArgs;
 pub(super) use crate::parameters::system::{DrivenDisk, SystemArgs};
 pub(super) use crate::range::{Range, Words, assignment, interval, one_of};
 
-/// The heading of what is a command's own.
+/// Heading of a command's own options.
 pub(super) const OWN: &str = "Computation";

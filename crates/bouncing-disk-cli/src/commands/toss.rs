@@ -1,4 +1,4 @@
-//! `bouncing-disk toss`: a single toss, or many on end.
+//! `bouncing-disk toss`: one toss, or many in succession.
 
 use std::f64::consts::TAU;
 
@@ -27,8 +27,8 @@ pub(super) const SPINS: Words<InitialSpin> = &[
 
 pub(super) const MOST_INSTANTS: i64 = 1_000_000;
 
-/// Instants of a motion over so many periods of the platform, unless they are given: fewer would show another
-/// motion of the platform than it has.
+/// Default instants of a motion over this many periods of the platform: fewer would distort the motion of the
+/// platform.
 pub(super) fn instants(given: Option<u32>, periods: u64) -> u32 {
     const LEAST: u64 = 400;
     const A_PERIOD: u64 = 40;
@@ -39,10 +39,12 @@ pub(super) fn instants(given: Option<u32>, periods: u64) -> u32 {
 /// One toss of a disk from its platform, or many
 #[derive(Debug, Args)]
 #[command(after_help = "\
-The first toss from rest is that of Sec. III of the paper. A contact.time, of soft hands, makes contacts take time in a single toss. With --many the disk is followed through all tosses that come \
-after it (Sec. IV). A [drive] that gives the height alone leaves the angle a sine, and the reverse; its start_phase (rad) is where the disk starts. .csv and pictures show the motion, .json has both the motion and the numbers; with --many a picture of more \
-than 20 periods of the platform shows the last 20 of them. Units are SI; energies \
-are per unit mass (J/kg). See docs/model.md and docs/tutorial.md.
+The first toss from rest is the toss of Sec. III of the paper. A contact.time (soft hands) makes the contacts of a \
+single toss compliant. With --many the disk is followed through all later tosses (Sec. IV). A [drive] that gives only \
+the height leaves the angle a sine, and vice versa; its start_phase (rad) is the phase at the start. .csv and \
+pictures show the motion, .json contains the motion and the numbers; with --many a picture of more than 20 periods of \
+the platform shows the last 20. Units are SI; energies are per unit mass (J/kg). See docs/model.md and \
+docs/tutorial.md.
 
 Examples:
   bouncing-disk toss
@@ -52,23 +54,23 @@ Examples:
 pub(crate) struct TossArgs {
     #[command(flatten)]
     system: SystemArgs,
-    /// How the disk turns at the start, at the lowest point of the platform unless its drive has a start_phase
+    /// Rotation of the disk at the start, at the lowest point of the platform unless the drive has a start_phase
     #[arg(help_heading = OWN, long, alias = "spin", value_name = "SPIN", default_value = "absolute-rest", value_parser = one_of(SPINS))]
     initial_spin: InitialSpin,
-    /// Follows the disk through many tosses, and says what it settles on
+    /// Follows the disk through many tosses to its long-term motion
     #[arg(help_heading = OWN, long)]
     many: bool,
     /// With --many: impacts to discard before the motion is judged
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = 4_000, requires = "many")]
     transient: usize,
-    /// With --many: impacts that the motion is judged by
+    /// With --many: impacts over which the motion is judged
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = 1_024, requires = "many")]
     examined: usize,
     /// With --many: periods of the platform in the file of the motion, from the start, at most 2^30
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = 10, requires = "many")]
     periods: u64,
-    /// Instants of the motion in a file, at most a million; 40 in each period of the platform unless given,
-    /// and 400 at least
+    /// Instants of the motion in a file, at most a million; by default 40 in each period of the platform,
+    /// and at least 400
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=MOST_INSTANTS))]
     samples: Option<u32>,
     #[command(flatten)]
@@ -103,7 +105,7 @@ fn single(system: &System, args: &TossArgs, context: Context) -> Result<()> {
     deliver((system, None), args, context, &samples, told, ("performance", stored(&toss)?))
 }
 
-/// The numbers of a toss, in the order in which the paper speaks of them.
+/// The numbers of a toss, in the paper's order.
 pub(super) fn quantities(system: &System, toss: &TossPerformance) -> Quantities {
     let mut list = Quantities::default();
     list.push("axial_forcing", system.axial_forcing(), "1");
@@ -124,7 +126,7 @@ pub(super) fn quantities(system: &System, toss: &TossPerformance) -> Quantities 
 fn many(system: &System, args: &TossArgs, context: Context) -> Result<()> {
     let settings = args.settings();
     let start = start(system, args.initial_spin)?;
-    // Before the long part, so that an illegal number of periods is refused at once.
+    // Before the long part, so that an illegal number of periods is an error at once.
     let mut engine = Engine::new(system, start, ChatterPolicy::Complete)?;
     let span = PhaseSpan { periods: args.periods, remainder: 0.0 };
     let instants = instants(args.samples, args.periods) as usize;

@@ -26,10 +26,10 @@ const PLAIN: u64 = 4;
 /// Verdicts on the long-term motion of the disk, over forcing and restitution
 #[derive(Debug, Args)]
 #[command(after_help = "\
-A verdict names the long-term motion of the orbit from the start, with its evidence: rest, a cycle with rest, a period that is \
-proved by Newton's method, chaos by growth over --impacts impacts that neither neutral motion nor the error explains, or undecided. A range of restitutions \
-makes a map of regimes, a row for each. On the terminal a map is a count of its verdicts. See \
-docs/studying-the-dynamics.md.
+A verdict names the long-term motion from the start, with its evidence: rest, a cycle with rest, a period proved by \
+Newton's method, chaos by growth over --impacts impacts beyond neutral motion and the error, or undecided. A range of \
+restitutions makes a map of regimes, with one row for each. The terminal shows the number of each verdict in a map. \
+See docs/studying-the-dynamics.md.
 
 Examples:
   bouncing-disk verdicts --axial-forcing 0.3:0.6:7
@@ -38,7 +38,7 @@ Examples:
   bouncing-disk verdicts -G 0:3:4000 -r 0:0.95:4000 --chunk 17/500 --out part-17.json")]
 pub(crate) struct VerdictsArgs {
     /// Axial forcing parameter Gamma = A omega^2/(pi g): a number, or a range FIRST:LAST:POINTS, both ends
-    /// included. That of FILE, --preset or --set unless given; without these 0.30:0.62:33
+    /// included. Taken from FILE, --preset or --set unless given; without these 0.30:0.62:33
     #[arg(help_heading = VERTICAL, long, short = 'G', value_name = "GAMMA", allow_hyphen_values = true)]
     axial_forcing: Option<Range>,
     #[command(flatten)]
@@ -50,16 +50,16 @@ pub(crate) struct VerdictsArgs {
     /// Impacts before the exponent is measured
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = VerdictSettings::default().transient)]
     transient: u64,
-    /// Impacts that the exponent is measured over, at least 64
+    /// Impacts over which the exponent is measured, at least 64
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = VerdictSettings::default().impacts)]
     impacts: u64,
-    /// The longest period that is looked for, in impacts, at most 4096
+    /// The longest period to find, in impacts, at most 4096
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = VerdictSettings::default().longest_period)]
     longest_period: usize,
-    /// How near an impact must come to an earlier one for a period to be tried, in (0, 0.01]
+    /// Distance of an impact from an earlier one below which a period is tried, in (0, 0.01]
     #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "T", default_value_t = VerdictSettings::default().tolerance)]
     tolerance: f64,
-    /// Keeps the evidence of each cell of a map in the file, which makes it a hundred times larger; without a
+    /// Keeps the evidence of each cell of a map, which makes the file a hundred times larger; without a
     /// range of restitutions it is always kept
     #[arg(help_heading = OWN, long)]
     details: bool,
@@ -102,7 +102,7 @@ pub(crate) struct VerdictsJob {
     restitutions: Range,
     start: Start,
     settings: VerdictSettings,
-    /// Whether the evidence is kept, or the kinds alone.
+    /// Whether the evidence is kept, or only the kinds.
     details: bool,
     /// The shape of the height.
     #[serde(default, skip_serializing_if = "is_sine")]
@@ -115,7 +115,7 @@ pub(crate) struct VerdictsJob {
 impl GridJob for VerdictsJob {
     const COMMAND: &'static str = "verdicts";
 
-    /// Of a map a restitution over all forcings, else a forcing.
+    /// In a map one restitution over all forcings, else one forcing.
     type Row = Row;
 
     type Prepared = ();
@@ -177,7 +177,7 @@ impl GridJob for VerdictsJob {
     fn report<'a>(&'a self, (): &'a (), rows: &'a [Row]) -> Result<Report<'a>> {
         let columns = self.columns();
         if let Some(row) = rows.iter().position(|row| !row.is_whole(columns, self.details)) {
-            return Err(Failure::Usage(format!("row {} does not have its {columns} verdicts", row + 1)));
+            return Err(Failure::Usage(format!("row {} does not have {columns} verdicts", row + 1)));
         }
         let found = Found { job: self, rows };
         let mut data = vec![("kinds", stored(&KINDS)?)];
@@ -212,18 +212,18 @@ impl GridJob for VerdictsJob {
     }
 }
 
-/// A row as it is kept and stored. A map without details takes a byte a cell; with them some hundred.
+/// A row as kept and stored: one byte per cell in a map without details, about a hundred with them.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(untagged)]
 pub(crate) enum Row {
     /// The digits of the kinds, by their places in [`KINDS`].
     Kinds(String),
-    /// `None` where there is no such start.
+    /// `None` if there is no such start.
     Verdicts(Vec<Option<Verdict>>),
 }
 
 impl Row {
-    /// Whether it has so many cells, with their evidence or without.
+    /// Whether it has this many cells, with or without their evidence.
     fn is_whole(&self, columns: usize, details: bool) -> bool {
         match self {
             Self::Kinds(kinds) => {
@@ -233,7 +233,7 @@ impl Row {
         }
     }
 
-    /// The kind of a cell, and the evidence where it is kept.
+    /// The kind of a cell, and its evidence if kept.
     fn cell(&self, column: usize) -> (u8, Option<Verdict>) {
         match self {
             Self::Kinds(kinds) => (kinds.as_bytes()[column] - b'0', None),
@@ -260,7 +260,7 @@ impl VerdictsJob {
     }
 }
 
-/// Forcing and restitution of a cell, what the disk does there, and the evidence where it is kept.
+/// Forcing and restitution of a cell, its verdict, and the evidence if kept.
 type Cell = (f64, f64, u8, Option<Verdict>);
 
 /// The verdicts, cell by cell in the order of the rows.
@@ -285,7 +285,7 @@ impl<'a> Found<'a> {
         self.cells().map(|cell| cell.2)
     }
 
-    /// The text: of a map how many cells there are of each kind that there is, else each verdict in words.
+    /// The text: for a map the number of cells of each kind, else each verdict in words.
     fn text(self) -> String {
         if !self.job.is_map() {
             let columns = Columns::<Cell>::new().column("axial_forcing", "1", |row| row.0);
@@ -305,7 +305,7 @@ impl<'a> Found<'a> {
         columns.to_text(there)
     }
 
-    /// The columns of a file: each cell is a row, with the details where there are any.
+    /// The columns of a file: each cell is a row, with its details if any.
     fn columns(self) -> Columns<Cell> {
         let plain = Columns::<Cell>::new()
             .column("axial_forcing", "1", |row| row.0)
@@ -338,7 +338,7 @@ impl<'a> Found<'a> {
     }
 }
 
-/// The kinds of motion that the disk settles on, without the evidence; their places are those of the
+/// The kinds of motion that the disk settles on, without the evidence; their places match the
 /// picture's [`REGIMES`](pictures::REGIMES).
 const KINDS: [&str; 10] = [
     "at rest",

@@ -1,4 +1,4 @@
-//! Files of results: their kinds, where they may go, and how they appear as a whole or not at all.
+//! Files of results: their kinds, their places, and how they appear as a whole or not at all.
 
 use std::ffi::OsString;
 use std::fmt::{self, Display, Formatter};
@@ -17,31 +17,31 @@ use crate::lines::{complain, say};
 #[derive(Debug, Clone, Default, Args)]
 #[command(next_help_heading = "Result")]
 pub(crate) struct OutputArgs {
-    /// Writes the result to a file in place of the terminal; its ending says how: .csv, .json, .png or .svg
+    /// Writes the result to a file instead of the terminal, in the form of its ending: .csv, .json, .png or .svg
     /// (.toml with --template). May be repeated
-    // Names of files need not be texts.
+    // File names need not be valid text.
     #[arg(long, short, value_name = "FILE", value_parser = OsStringValueParser::new().try_map(Target::new))]
     pub(crate) out: Vec<Target>,
-    /// Replaces files that are there already
+    /// Replaces existing files
     #[arg(long)]
     pub(crate) force: bool,
 }
 
 impl OutputArgs {
-    /// Whether the files can be written, as far as that is seen before anything is computed. None of them may
-    /// be an input, or the journal.
+    /// Checks before the computation, as far as possible, that the files can be written. None of them may
+    /// be an input or the journal.
     pub(crate) fn check(&self, has_picture: bool, inputs: &[&Path], journal: Option<&Path>) -> Result<()> {
         let others = inputs.iter().map(|path| (*path, "an input"));
         let others = others.chain(journal.map(|path| (path, "the journal")));
         let mut taken: Vec<(PathBuf, String)> = others
-            .map(|(path, what)| (opened_place(path), format!("it cannot be {what} and the result")))
+            .map(|(path, what)| (opened_place(path), format!("it cannot be both {what} and the result")))
             .collect();
         for target in &self.out {
             let place = place(&target.path);
             if let Some((_, why)) = taken.iter().find(|(other, _)| *other == place) {
                 return Err(Failure::Usage(format!("{target}: {why}")));
             }
-            taken.push((place, format!("it is asked for twice, as {target} before")));
+            taken.push((place, format!("it is requested twice, first as {target}")));
             match target.kind {
                 Kind::Toml | Kind::Fmu => return Err(Failure::Usage(format!("{target}: {NO_RESULT}"))),
                 Kind::Png | Kind::Svg if !has_picture => {
@@ -53,7 +53,7 @@ impl OutputArgs {
         Ok(())
     }
 
-    /// Writes a file of parameters, to the terminal or where --out says.
+    /// Writes a file of parameters to the terminal or to --out.
     pub(crate) fn write_template(&self, text: &str, quiet: bool) -> Result<()> {
         match &self.out[..] {
             [] => Ok(say(text)?),
@@ -62,7 +62,7 @@ impl OutputArgs {
                 target.write(self.force, quiet, |to| to.write_all(text.as_bytes()))
             }
             _ => Err(Failure::Usage(
-                "--template writes TOML, to the terminal or with one --out FILE.toml into a file".to_owned(),
+                "--template writes TOML: give one --out FILE.toml, or none for the terminal".to_owned(),
             )),
         }
     }
@@ -74,9 +74,9 @@ pub(crate) enum Kind {
     Json,
     Png,
     Svg,
-    /// Parameters, which --template writes.
+    /// Parameters, written by --template.
     Toml,
-    /// A functional mock-up unit, which `motor fmu` writes.
+    /// A functional mock-up unit, written by `motor fmu`.
     Fmu,
 }
 
@@ -92,7 +92,7 @@ impl Display for Target {
     }
 }
 
-/// Bytes that are gathered before they are written.
+/// Bytes collected before each write.
 const GATHERED: usize = 1 << 16;
 
 impl Target {
@@ -101,26 +101,26 @@ impl Target {
         let ending = path.extension().unwrap_or_default().to_string_lossy();
         match Kind::from_str(&ending, true) {
             Ok(kind) => Ok(Self { path, kind }),
-            Err(_) => {
-                Err("the ending says what is written: .csv, .json, .png or .svg; .toml with --template, .fmu by motor fmu"
-                    .to_owned())
-            }
+            Err(_) => Err(
+                "the file must end in .csv, .json, .png or .svg (.toml with --template, .fmu with motor fmu)"
+                    .to_owned(),
+            ),
         }
     }
 
-    /// Whether it can be written, as far as that is seen without writing: better now than after an hour of
+    /// Checks, as far as possible without writing, that it can be written: better now than after an hour of
     /// computing.
     pub(crate) fn check(&self, replace: bool) -> Result<()> {
         check_place(&self.path).map_err(Failure::Usage)?;
         if !replace && fs::symlink_metadata(&self.path).is_ok() {
-            return Err(Failure::Usage(format!("{self}: it is there already; --force replaces it")));
+            return Err(Failure::Usage(format!("{self}: it exists already; --force replaces it")));
         }
-        // Also finds a folder in which nothing can be written.
+        // Also finds a folder that cannot be written to.
         begin(&self.path).map(drop).map_err(|error| self.unwritable(&error))
     }
 
-    /// Writes the file as a whole or not at all, and says so unless `quiet`; `content` gives it to a writer
-    /// that gathers small parts.
+    /// Writes the file as a whole or not at all, and reports it unless `quiet`; `content` writes
+    /// to a buffered writer.
     pub(crate) fn write(
         &self,
         replace: bool,
@@ -134,7 +134,7 @@ impl Target {
         })
     }
 
-    /// The same for content that is written into the file itself, which has its name only afterwards.
+    /// The same for content that is written into the file itself, which gets its name afterwards.
     pub(crate) fn fill(
         &self,
         replace: bool,
@@ -160,13 +160,13 @@ impl Target {
     }
 }
 
-/// Why no result goes into a file of parameters, and why there is no picture.
+/// Why a result cannot be a file of parameters, and why there is no picture.
 pub(super) const NO_RESULT: &str =
-    "a result is .csv, .json, .png or .svg; .toml is the file of --template, .fmu that of motor fmu";
-pub(super) const NO_PICTURE: &str = "this command has no picture; .csv and .json are possible";
+    "a result ends in .csv, .json, .png or .svg; .toml needs --template, .fmu needs motor fmu";
+pub(super) const NO_PICTURE: &str = "this command has no picture; use .csv or .json";
 
-/// A new file in the folder of the target, because a file gets another name only within a file system. It is
-/// removed unless it gets that name.
+/// A new file in the folder of the target, because a file can be renamed only within a file system. It
+/// is removed unless it is renamed.
 fn begin(path: &Path) -> io::Result<NamedTempFile> {
     let mut hidden = OsString::from(".");
     hidden.push(path.file_name().unwrap_or_default());
@@ -175,14 +175,14 @@ fn begin(path: &Path) -> io::Result<NamedTempFile> {
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt as _;
-        // Those of a new file, of which the system takes away what the user's mask says.
+        // Permissions of a new file, reduced by the user's mask.
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
     // The error of `tempfile` names the partial file.
     builder.tempfile_in(folder_of(path)).map_err(|error| io::Error::from(error.kind()))
 }
 
-/// Whether there can be a file at a path: it names one, in a folder that is there, and is no folder.
+/// Checks that a path can be a file: it names one in an existing folder, and is not a folder itself.
 pub(crate) fn check_place(path: &Path) -> Result<(), String> {
     let refused = |why: &str| Err(format!("{}: {why}", path.display()));
     let folder = folder_of(path);
@@ -190,16 +190,16 @@ pub(crate) fn check_place(path: &Path) -> Result<(), String> {
     let bytes = path.as_os_str().as_encoded_bytes();
     match path.file_name() {
         Some(name) if bytes.ends_with(name.as_encoded_bytes()) => {}
-        _ => return refused("this is the name of a folder, not of a file"),
+        _ => return refused("this names a folder, not a file"),
     }
     if !folder.is_dir() {
-        return refused(&format!("there is no folder {}; make it first", folder.display()));
+        return refused(&format!("the folder {} does not exist; create it first", folder.display()));
     }
     if path.is_dir() { refused("it is a folder") } else { Ok(()) }
 }
 
-/// A path whose folder has neither links nor detours, so that all spellings of one path are alike. A new file
-/// takes the place of a link and not of what it leads to, so the last part is left as it is.
+/// A path whose folder has no links or detours, so that all spellings of one path agree. A new file replaces
+/// a link, not its target, so the last part stays as it is.
 fn place(path: &Path) -> PathBuf {
     match (fs::canonicalize(folder_of(path)), path.file_name()) {
         (Ok(folder), Some(name)) => folder.join(name),

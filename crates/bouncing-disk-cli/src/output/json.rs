@@ -1,5 +1,5 @@
-//! Results as JSON: the fields of a result one below the other, the elements of a list one a line, so that a
-//! file can be read by people and compared line by line, and is not much longer for it.
+//! Results as JSON: one field or list element per line, so that people can read a file and compare it line by
+//! line.
 
 use std::io::{self, Write};
 
@@ -23,8 +23,8 @@ pub(crate) fn whole<'a>(value: Value) -> Data<'a> {
     })
 }
 
-/// A list whose elements are tables or lists, each made when it is written: all of them together may take more
-/// memory than what they are made from.
+/// A list whose elements are tables or lists, each made when it is written, because all together may take
+/// more memory than their sources.
 pub(crate) fn list<'a, T: Serialize, I: Iterator<Item = T>>(elements: impl Fn() -> I + 'a) -> Data<'a> {
     let line = |element: T| Ok(serde_json::to_value(element)?.to_string());
     Box::new(move |to| below(to, ["[", "]"], elements().map(line)))
@@ -44,7 +44,7 @@ pub(crate) fn write<'a>(
     to.write_all(b"\n}\n")
 }
 
-/// Writes parts one below the other, between brackets.
+/// Writes parts one per line, between brackets.
 fn below(
     to: &mut dyn Write,
     [open, close]: [&str; 2],
@@ -86,7 +86,7 @@ mod tests {
         assert_eq!(read, expected);
         assert!(text.starts_with("{\n  \"b \\\"\": {\n    \"x\": 0.1,\n"), "{text}");
         assert!(text.contains("    [1.5,null],\n    [2,3]\n  ]"), "{text}");
-        // A map whose keys are no texts is none of JSON.
+        // JSON has no maps with keys other than text.
         let fails = list(|| std::iter::once(BTreeMap::from([([1], 2)])));
         assert!(write(&mut Vec::new(), [("a", &fails)]).is_err());
     }

@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 /// Significant digits of a number in a table.
 const DIGITS: usize = 6;
 
-/// A cell for people; a missing one, or one that is no number, is a dash.
+/// A cell for people; a missing one, or one that is not a number, is a dash.
 fn shown_cell(cell: &Value) -> String {
     match cell.as_f64() {
         Some(number) if cell.is_f64() => rounded(number, DIGITS),
@@ -19,7 +19,7 @@ fn shown_cell(cell: &Value) -> String {
     }
 }
 
-/// A cell with all bits, as a program reads it; a missing one is empty.
+/// A cell for programs, with all bits; a missing one is empty.
 fn exact_cell(cell: &Value) -> String {
     match cell {
         Value::Null => String::new(),
@@ -32,7 +32,7 @@ fn exact_cell(cell: &Value) -> String {
 /// Writes comma-separated text.
 pub(crate) type WriteTable<'a> = Box<dyn Fn(&mut dyn Write) -> io::Result<()> + 'a>;
 
-/// A column: its name, its unit (`1` where it has none), and the cell of a row.
+/// A column: its name, its unit (`1` for none), and the cell of a row.
 struct Column<R> {
     name: String,
     unit: &'static str,
@@ -45,7 +45,7 @@ impl<R> Column<R> {
         if self.unit == "1" { name } else { format!("{name} ({})", self.unit) }
     }
 
-    /// As the library names columns: `load_torque_n_m`, `speed_rad_s`.
+    /// The name in the library's style: `load_torque_n_m`, `speed_rad_s`.
     fn field(&self) -> String {
         let unit = match self.unit {
             "1" => return self.name.clone(),
@@ -74,7 +74,7 @@ impl<R> Columns<R> {
         self
     }
 
-    /// Comma-separated, with a line of names. It is written row by row: a large table never is in memory as a
+    /// Comma-separated, with a line of names, written row by row so that a large table is never in memory as a
     /// whole.
     pub(crate) fn write_csv(
         &self,
@@ -89,7 +89,7 @@ impl<R> Columns<R> {
         csv.flush()
     }
 
-    /// The same of rows that are kept.
+    /// The same for stored rows.
     pub(crate) fn csv_of<'a>(self, rows: Vec<R>) -> WriteTable<'a>
     where
         R: 'a,
@@ -120,13 +120,13 @@ impl<R> Columns<R> {
     }
 }
 
-/// A quantity with its unit, `1` where it has none.
+/// A quantity with its unit, `1` for none.
 #[derive(Debug)]
 struct Quantity {
     name: String,
     value: Value,
     unit: &'static str,
-    /// Whether it is an end of the interval of the quantity before.
+    /// Whether it is an end of the previous quantity's interval.
     is_end: bool,
 }
 

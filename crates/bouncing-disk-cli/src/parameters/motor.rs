@@ -1,4 +1,4 @@
-//! A motor's data sheet, which the library reads.
+//! A motor's data sheet, read by the library.
 
 use bouncing_disk::Motor;
 use bouncing_disk::motor::MotorField;
@@ -51,18 +51,19 @@ impl Described for Motor {
                 text += &format!("{field} = {value:?} # {}\n", described(field));
             }
         }
-        text += "\n# What else there may be; of fields that say the same, only one.\n";
+        text += "\n# Other fields; of fields that state the same quantity, give only one.\n";
         let outside = |field: &MotorField| !field.in_table() && field.value(sheet).is_none();
         for field in MotorField::ALL.into_iter().filter(outside) {
             let excluded: Vec<&str> = field.excluded().iter().map(|other| other.name()).collect();
             let instead = if excluded.is_empty() {
                 String::new()
             } else {
-                format!("; in place of {}", excluded.join(", "))
+                format!("; instead of {}", excluded.join(", "))
             };
             text += &format!("# {field} = ... # {}{instead}\n", described(field));
         }
-        text += "\n# A stator that yields; what drives it is the amplitude above, or, without that, volts or a force.\n";
+        text +=
+            "\n# A compliant stator, driven by the amplitude above or, without it, by volts or a force.\n";
         // Numbers and words are the same text in JSON and in TOML.
         match serde_json::to_value(sheet.stator) {
             Ok(serde_json::Value::Object(table)) => {
@@ -85,7 +86,7 @@ const STATOR: &str = "\
 # capacitance = 1.2e-9 # F
 ";
 
-/// The unit of a field and what it is.
+/// The unit and meaning of a field.
 fn described(field: MotorField) -> String {
     let meaning = match field {
         MotorField::DriveFrequency => "drive frequency omega/(2 pi)",
@@ -99,14 +100,14 @@ fn described(field: MotorField) -> String {
         MotorField::RotorThickness => "thickness of the rotor, a solid disc",
         MotorField::ContactRadius => "effective contact radius a_e",
         MotorField::GyrationRadius => "radius of gyration a_g",
-        MotorField::PreloadForce => "all of the force F that presses the rotor onto the stator",
+        MotorField::PreloadForce => "total force F that presses the rotor onto the stator",
         MotorField::PreloadAcceleration => "preload acceleration g = F/m",
-        MotorField::SpringConstant => "constant k of the spring that makes the preload",
+        MotorField::SpringConstant => "constant k of the preload spring",
         MotorField::Friction => "coefficient of friction mu",
         MotorField::Restitution => "coefficient of restitution, in [0, 1)",
         MotorField::LoadTorque => "load torque; a positive one decelerates a positive rotation",
         MotorField::ContactTime => "how long an impact lasts",
-        MotorField::StatorMass => "effective mass M of the stator that yields",
+        MotorField::StatorMass => "effective mass M of the compliant stator",
         MotorField::StatorQuality => "its quality factor Q",
         MotorField::StatorResonance => "its resonance",
         MotorField::StatorTwistPerHeight => "twist over height of its mode, kappa",

@@ -1,4 +1,4 @@
-//! A disk on a platform: what a file and `--set` have for the commands of tosses and orbits.
+//! A disk on a platform: the parameters of the commands for tosses and orbits.
 
 use bouncing_disk::System;
 use bouncing_disk::parameters::{Contact, DriveParameters, StatorParameters};
@@ -37,12 +37,12 @@ const FIELDS: [(&str, &str, &str); 11] = [
     ("disk.gyration_radius", "m", "radius of gyration a_g"),
     ("disk.friction", "1", "coefficient of friction mu"),
     ("disk.restitution", "1", "coefficient of restitution, in [0, 1)"),
-    ("disk.preload_acceleration", "m/s^2", "preload acceleration g; gravity, where nothing else presses"),
+    ("disk.preload_acceleration", "m/s^2", "preload acceleration g; gravity if nothing else presses"),
     ("disk.load_acceleration", "rad/s^2", "angular deceleration by a load, T/(m a_g^2)"),
     ("contact.time", "s", "how long an impact lasts"),
 ];
 
-/// A file, which may lack parameters that --set gives.
+/// A file, in which parameters given by --set may be missing.
 #[derive(Serialize, Deserialize, Default)]
 #[serde(deny_unknown_fields, default, expecting = "the tables platform, disk, drive, contact and stator")]
 struct File {
@@ -87,7 +87,7 @@ fn build(mut tables: Table, settings: &[Setting]) -> Result<System, String> {
     for (key, value) in settings {
         let known = paths.iter().find(|path| *path == key).and_then(|path| path.split_once('.'));
         let Some((table, name)) = known else { return Err(sheet_text::unknown_key(key, &paths)) };
-        // A time takes the place of materials.
+        // A time replaces materials.
         if table == "contact" {
             let law = tables.get(table).and_then(|contact| contact.get("law").cloned());
             tables.insert(

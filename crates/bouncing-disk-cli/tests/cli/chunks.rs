@@ -109,7 +109,7 @@ fn a_part_that_is_damaged_is_refused() {
         (whole.replace("\"index\":1", "\"index\":0"), "line 3"),
         (
             whole[..whole.len() / 8].to_owned(),
-            "it is not a part of a computation, as --chunk of this version writes it",
+            "it is not a part of a computation written by --chunk of this version",
         ),
         (whole[..whole.len() - 9].to_owned(), "1 of 4 rows are missing, first 2 to 2"),
         ("{}".to_owned(), "its format is \"\""),

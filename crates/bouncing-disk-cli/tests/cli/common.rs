@@ -75,7 +75,7 @@ impl Folder {
 
 /// What is said of a file of another kind in the place of a part.
 pub(crate) fn no_part(name: &str) -> String {
-    format!("{name}: it is not a part of a computation, as --chunk of this version writes it")
+    format!("{name}: it is not a part of a computation written by --chunk of this version")
 }
 
 pub(crate) fn errors(output: &Output) -> String {

@@ -25,9 +25,9 @@ fn printed(folder: &Folder, command: &str) -> Vec<String> {
     text.lines().map(|line| line.trim_end().to_owned()).filter(|line| !is_progress(line)).collect()
 }
 
-/// Whether a line says how long a call will take, as after five seconds on a slow machine: "motor stall: 40 %, some 9 s left".
+/// Whether a line says how long a call will take, as after five seconds on a slow machine: "motor stall: 40 %, about 9 s left".
 fn is_progress(line: &str) -> bool {
-    line.split_once(": ").is_some_and(|(_, rest)| rest.ends_with(" %") || rest.contains(" %, some "))
+    line.split_once(": ").is_some_and(|(_, rest)| rest.ends_with(" %") || rest.contains(" %, about "))
 }
 
 /// The text with what its commands print now.
@@ -89,7 +89,7 @@ fn the_page_of_the_crate_prints_what_it_says() {
 fn a_wrong_output_is_seen() {
     let text = "```console\n$ echo one; echo two >&2\none\n```\n```sh\n$ exit 1\n```\n";
     assert_eq!(renewed(text), "```console\n$ echo one; echo two >&2\none\ntwo\n```\n```sh\n$ exit 1\n```\n");
-    let slow = "```console\n$ echo 'motor best: 2 %, some 9 s left'; echo 'motor best: 0 %'; echo speed: 2\nspeed: 2\n```\n";
+    let slow = "```console\n$ echo 'motor best: 2 %, about 9 s left'; echo 'motor best: 0 %'; echo speed: 2\nspeed: 2\n```\n";
     assert_eq!(renewed(slow), slow);
 }
 
@@ -116,7 +116,7 @@ fn every_command_has_an_example_in_its_help() {
             }
             let text = folder.refused(&line, 2);
             assert!(
-                text.contains("there is no folder no/such") || text.contains("cannot be read"),
+                text.contains("the folder no/such does not exist") || text.contains("cannot be read"),
                 "{line}: {text}"
             );
         }
@@ -139,7 +139,7 @@ fn the_help_of_each_command_says_its_own_forcing() {
         let words: Vec<&str> = own.split_whitespace().collect();
         let text = words.join(" ");
         assert!(text.contains(&format!("without these {forcing}")), "{line}: {text}");
-        assert!(text.contains("That of FILE, --preset or --set unless given"), "{line}: {text}");
+        assert!(text.contains("Taken from FILE, --preset or --set unless given"), "{line}: {text}");
         folder.done(&format!("{line} --out a.json --force"));
         let without = folder.read("a.json");
         folder.done(&format!("{line} -G {forcing} --out a.json --force"));

@@ -71,8 +71,8 @@ fn places_that_cannot_be_written_are_refused_before_anything_is_computed() {
     // It would take hours.
     let long = "verdicts -G 0:3:20000 -r 0:0.9:20000 --out";
     let lines: [(&str, &str); _] = [
-        (&format!("{long} a.csv"), "a.csv: it is there already; --force replaces it"),
-        (&format!("{long} no/such/a.csv"), "there is no folder no/such"),
+        (&format!("{long} a.csv"), "a.csv: it exists already; --force replaces it"),
+        (&format!("{long} no/such/a.csv"), "the folder no/such does not exist"),
         (&format!("{long} taken.csv"), "it is a folder"),
     ];
     folder.all_refused(2, &lines);
@@ -235,7 +235,7 @@ fn a_template_goes_into_a_file_by_the_rules_of_results() {
         assert_eq!(folder.done(&format!("{line} --out {name}")), "");
         assert_eq!(folder.text(name), text, "{line}");
         let refused = folder.refused(&format!("{line} --out {name}"), 2);
-        assert!(refused.contains("it is there already; --force replaces it"), "{refused}");
+        assert!(refused.contains("it exists already; --force replaces it"), "{refused}");
         folder.done(&format!("{line} --out {name} --force"));
     }
 }
@@ -308,9 +308,9 @@ fn one_file_by_two_names_is_seen_before_anything_is_computed() {
     // It would take hours.
     let long = "verdicts -G 0:3:20000 -r 0:0.9:20000 --force --out";
     for (options, told) in [
-        ("inner/a.json --out other/a.json", "it is asked for twice, as inner/a.json before"),
-        ("inner/a.json --out inner/../inner/a.json", "it is asked for twice"),
-        ("inner/a.json --out ./inner//a.json", "it is asked for twice"),
+        ("inner/a.json --out other/a.json", "it is requested twice, first as inner/a.json"),
+        ("inner/a.json --out inner/../inner/a.json", "it is requested twice"),
+        ("inner/a.json --out ./inner//a.json", "it is requested twice"),
         // The journal would be opened through the links, however many.
         ("other/a.json --journal link", "it cannot be the journal and the result"),
         ("inner/a.json --journal far", "it cannot be the journal and the result"),
@@ -399,7 +399,7 @@ fn a_unit_is_packed_whole_or_not_at_all() {
             ("motor fmu --out c.fmu --library none.so", "cannot be read"),
             ("motor fmu drive.toml --out c.fmu", "[drive]"),
             ("motor fmu timed.toml --out c.fmu", "which needs a table [stator]"),
-            ("toss --out a.fmu", "that of motor fmu"),
+            ("toss --out a.fmu", ".fmu needs motor fmu"),
         ],
     );
     assert!(!folder.names().contains(&"c.fmu".to_owned()));

@@ -13,12 +13,13 @@ use crate::commands::prelude::*;
 /// The torque-speed curve, with power and efficiency
 #[derive(Debug, Args)]
 #[command(after_help = "\
-All loads ride on one vertical motion: a curve costs little more than a point, unless loads settle slowly. Errors are standard errors at exactly these \
-inputs; the spread is over motors whose preload and amplitude lie within the tolerance, and the relaunch perturbation within \
-a decade: of 39 draws or more, at least 95 of 100 further ones lie between its ends. A load beyond \
-the largest torque mu m g a_e overpowers the motor, which then has no mean speed. A picture marks the stall where the \
-speed changes its sign, on a straight line between two loads; `motor stall` computes it. With a [drive] that is not a sine each \
-load has its own vertical motion, as on a [stator] that yields; with one of these, or with a contact.time, there is no spread. See docs/designing-a-motor.md.
+All loads share one vertical motion, so a curve costs little more than a point, unless loads settle slowly. Errors \
+are standard errors at exactly these inputs; the spread is over motors whose preload and amplitude lie within the \
+tolerance, and the relaunch perturbation within a decade: of 39 samples or more, at least 95 of 100 further ones lie \
+between its ends. A load beyond the largest torque mu m g a_e overpowers the motor, which then has no mean speed. A \
+picture marks the stall by linear interpolation of the speed between two loads; `motor stall` computes it. With a \
+[drive] that is not a sine, or a compliant [stator], each load has its own vertical motion; with either, or with a \
+contact.time, no spread is computed. See docs/designing-a-motor.md.
 
 Examples:
   bouncing-disk motor curve
@@ -27,8 +28,8 @@ Examples:
 pub(crate) struct CurveArgs {
     #[command(flatten)]
     motor: MotorArgs,
-    /// Load torques (N m), FIRST:LAST:POINTS, on top of a table [load]; eleven from none to the largest torque unless given,
-    /// none with such a table
+    /// Load torques (N m), FIRST:LAST:POINTS, in addition to a table [load]; by default eleven from zero to
+    /// the largest torque, or none with such a table
     #[arg(help_heading = OWN, long, alias = "loads", value_name = "LOADS", allow_hyphen_values = true)]
     load_torques: Option<Range>,
     #[command(flatten)]
@@ -41,7 +42,7 @@ pub(crate) struct CurveArgs {
 
 pub(super) fn run(args: &CurveArgs, context: Context) -> Result<()> {
     let Some(motor) = begin(&args.motor, &args.output, true, None, context)? else { return Ok(()) };
-    // A law of the load has a torque already.
+    // A load law already has a torque.
     let has_law = motor.load().is_some();
     let load_torques = match args.load_torques {
         Some(loads) => loads,
@@ -78,10 +79,10 @@ pub(super) fn run(args: &CurveArgs, context: Context) -> Result<()> {
     let of_these = if has_law { "of these added torques" } else { "of these loads" };
     let note = match starts.reduce(f64::max) {
         Some(most) => format!(
-            "\nstarts from rest under {} N m, the largest {of_these} under which it surely does\n",
+            "\nstarts from rest under {} N m, the largest {of_these} for which this is certain\n",
             rounded(most, 6)
         ),
-        None => "\nunder none of these loads it surely starts from rest\n".to_owned(),
+        None => "\na start from rest is not certain under any of these loads\n".to_owned(),
     } + &lock_note(&motor)?;
     let report = Report {
         provenance: provenance("bouncing-disk motor curve", &job)?,
@@ -118,8 +119,8 @@ fn draw(largest_torque: f64, found: &[OperatingRow], spreads: &[Option<InputSpre
     pictures::torque_speed(largest_torque, &first, &others)
 }
 
-/// A load, the spread over motors within the tolerance, if requested, the number of the branch: 1 for the one that most
-/// rotors reach from rest, and the load torque (N m) that was asked for.
+/// A load, the spread over motors within the tolerance, if requested, the number of the branch (1 for the branch that
+/// most rotors reach from rest), and the requested load torque (N m).
 type Row = (Operation, Option<InputSpread>, usize, f64);
 
 fn value(row: &Row, quantity: SweepQuantity) -> Option<f64> {

@@ -11,9 +11,9 @@ use crate::output::files::Kind;
 /// The motor as a functional mock-up unit (FMI 3.0, co-simulation) for this machine
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Inputs are the torque of the load, the drive (its amplitude, volts or force, as the data sheet has it), its frequency, and \
-drive_on; outputs are angle, speed, shaft_torque, vibration_amplitude, power, impacts, and current where a capacitance is \
-given. The numbers of the data sheet are parameters. See docs/designing-a-motor.md.
+Inputs are the load torque, the drive (amplitude, volts or force, as in the data sheet), its frequency, and drive_on; \
+outputs are angle, speed, shaft_torque, vibration_amplitude, power, impacts, and, if a capacitance is given, current. \
+The data sheet's numbers are parameters. See docs/designing-a-motor.md.
 
 Examples:
   bouncing-disk motor fmu motor.toml --out motor.fmu
@@ -21,7 +21,7 @@ Examples:
 pub(crate) struct FmuArgs {
     #[command(flatten)]
     motor: MotorArgs,
-    /// The shared library that the unit holds; by default it is looked for beside this program
+    /// The shared library to include; by default it is searched for next to this program
     #[arg(help_heading = OWN, long, value_name = "FILE")]
     library: Option<PathBuf>,
     #[command(flatten)]
@@ -31,10 +31,10 @@ pub(crate) struct FmuArgs {
 pub(super) fn run(args: &FmuArgs, context: Context) -> Result<()> {
     let Some(motor) = args.motor.unless_template(&args.output, context)? else { return Ok(()) };
     let [target] = &args.output.out[..] else {
-        return Err(Failure::Usage("motor fmu writes one file: give --out FILE.fmu".to_owned()));
+        return Err(Failure::Usage("motor fmu writes one file; give --out FILE.fmu".to_owned()));
     };
     if target.kind != Kind::Fmu {
-        return Err(Failure::Usage(format!("{target}: motor fmu writes a file that ends in .fmu")));
+        return Err(Failure::Usage(format!("{target}: the file of motor fmu must end in .fmu")));
     }
     target.check(args.output.force)?;
     let library = match &args.library {
@@ -51,7 +51,8 @@ pub(super) fn run(args: &FmuArgs, context: Context) -> Result<()> {
     target.write(args.output.force, context.quiet, |to| to.write_all(&unit))
 }
 
-/// In the folder `deps` where cargo has just built it, beside the program, or in the folder `lib` of an installation.
+/// In the folder `deps` where cargo has just built it, next to the program, or in the folder `lib` of an
+/// installation.
 fn beside_this_program() -> Result<PathBuf> {
     let name = library_name();
     let program = std::env::current_exe().unwrap_or_default();
@@ -59,8 +60,8 @@ fn beside_this_program() -> Result<PathBuf> {
     let places = [folder.join("deps").join(&name), folder.join(&name), folder.join("../lib").join(&name)];
     places.into_iter().find(|place| place.is_file()).ok_or_else(|| {
         Failure::Usage(format!(
-            "{name} is not beside this program: put it there from the archive that the program comes in, or run \
-             `cargo xtask fmu` in a copy of the repository, which builds it"
+            "{name} is not next to this program: copy it from the program's archive, or build \
+             it by `cargo xtask fmu` in a copy of the repository"
         ))
     })
 }

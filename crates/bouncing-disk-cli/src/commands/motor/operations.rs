@@ -1,5 +1,5 @@
-//! `bouncing-disk motor stall`, `motor best` and `motor traps`: the load that stops the motor, the best of a quantity, and the
-//! preloads at which the motor is locked on a short cycle.
+//! `bouncing-disk motor stall`, `motor best` and `motor traps`: the load that stops the motor, the best of a
+//! quantity, and the preloads at which the motor is locked on a short cycle.
 
 use bouncing_disk::Motor;
 use bouncing_disk::core::Unobserved;
@@ -12,7 +12,7 @@ use serde_json::Value;
 use super::settings::{SettingsArgs, SpreadArgs, begin, lock_note, motion, named, needs_friction, state};
 use crate::commands::prelude::*;
 
-/// The arguments of a command that looks for one operation of a motor.
+/// The arguments of a command that finds one operation of a motor.
 #[derive(Debug, Clone, Args)]
 pub(super) struct OperationArgs {
     #[command(flatten)]
@@ -24,12 +24,12 @@ pub(super) struct OperationArgs {
 }
 
 impl OperationArgs {
-    /// The motor, if the result can be written; `None` where the template was asked for, and has been written.
+    /// The motor, if the result can be written; `None` if the template was requested, and is now written.
     fn begin(&self, context: Context) -> Result<Option<Motor>> {
         begin(&self.motor, &self.output, false, None, context)
     }
 
-    /// What the answer depends on.
+    /// The inputs of the answer.
     fn job(motor: &Motor, settings: &OperatingSettings) -> Value {
         json!({ "motor": motor, "settings": settings })
     }
@@ -39,9 +39,9 @@ impl OperationArgs {
 #[derive(Debug, Args)]
 #[command(after_help = "\
 The true stall: the load torque at which the mean speed of the free rotor vanishes, not the paper's estimate from the \
-run-up without load (`bouncing-disk fit` has that one). The blocked torque is the mean torque on a rotor that is held at \
-rest; a free rotor swings about its mean speed and stops under another load. Without a drive friction holds the rotor against \
-the holding torque mu m g a_e. Errors are standard errors at exactly these inputs; the spread is over motors whose \
+run-up without load (see `bouncing-disk fit`). The blocked torque is the mean torque on a rotor held at rest; a free \
+rotor oscillates about its mean speed and stops under another load. With the drive off, friction holds the rotor up \
+to the holding torque mu m g a_e. Errors are standard errors at exactly these inputs; the spread is over motors whose \
 preload and amplitude lie within the tolerance, and the relaunch perturbation within a decade. See \
 docs/designing-a-motor.md.
 
@@ -94,7 +94,7 @@ pub(super) fn stall(args: &StallArgs, context: Context) -> Result<()> {
     report.deliver(&args.operation.output, context)
 }
 
-/// The motion of a rotor, the load that stops it in this motion, and its torque at rest.
+/// The motion of a rotor, the load that stops it in this motion, and its blocked torque.
 fn push_stall(list: &mut Quantities, prefix: &str, stall: &StallLoad) {
     list.push(&format!("{prefix}motion"), named(stall.motion), "1");
     list.push(&format!("{prefix}stall_torque"), stall.torque.value, "N m");
@@ -108,11 +108,10 @@ fn push_stall(list: &mut Quantities, prefix: &str, stall: &StallLoad) {
 /// The best speed, torque, power or efficiency over one or two fields of the data sheet
 #[derive(Debug, Args)]
 #[command(after_help = "\
-All other fields are those of the data sheet, the load among them: for the largest torque at a speed, let load_torque vary and \
-bound the speed. Where motions coexist, quantities are those of the motion that most rotors reach from rest. The value is \
-measured at the optimum; its error holds what a better place nearby may bring. The range within 1 % is one in which the \
-curve itself is within 1 % of its best, and is left out where the curve is too rough to tell. \
-See docs/designing-a-motor.md.
+All other fields, including the load, are taken from the data sheet: for the largest torque at a speed, vary \
+load_torque and bound the speed. If motions coexist, quantities refer to the motion that most rotors reach from rest. \
+The value is measured at the optimum; its error includes a possible gain nearby. In the range within 1 % the curve \
+itself is within 1 % of its best; the range is omitted if the curve is too rough. See docs/designing-a-motor.md.
 
 Examples:
   bouncing-disk motor best motor.toml --of speed --over preload_force=2:10 --over phase_lag
@@ -120,19 +119,20 @@ Examples:
 pub(crate) struct BestArgs {
     #[command(flatten)]
     operation: OperationArgs,
-    /// The quantity whose largest value is sought: speed, torque, power, efficiency, or another of `motor sweep`
+    /// The quantity to maximise: speed, torque, power, efficiency, or another of `motor sweep`
     #[arg(help_heading = OWN, long, value_name = "NAME", default_value = "speed")]
     of: SweepQuantity,
-    /// A field of the data sheet and its range, FIELD=LOW:HIGH, one or two of them; a phase_lag alone is a whole turn
+    /// A field of the data sheet and its range, FIELD=LOW:HIGH, at most two; phase_lag without a range is a
+    /// whole turn
     #[arg(help_heading = OWN, long, value_name = "FIELD=RANGE", required_unless_present = "template", value_parser = search_range)]
     over: Vec<SearchRange>,
-    /// A bound, QUANTITY >= NUMBER or QUANTITY <= NUMBER, at most two of them
+    /// A bound, QUANTITY >= NUMBER or QUANTITY <= NUMBER; at most two
     #[arg(help_heading = OWN, long = "where", value_name = "NAME>=NUMBER")]
     bounds: Vec<QuantityBound>,
 }
 
 fn search_range(text: &str) -> Result<SearchRange, String> {
-    let form = || format!("a range is FIELD=LOW:HIGH, such as preload_force=2:10, not {text:?}");
+    let form = || format!("{text:?} is not a range; write FIELD=LOW:HIGH, such as preload_force=2:10");
     let (name, ends) = text.split_once('=').map_or((text, None), |(name, ends)| (name, Some(ends)));
     let field = name.trim().parse::<MotorField>().map_err(|unknown| unknown.to_string())?;
     let [low, high] = match ends {
@@ -173,20 +173,22 @@ pub(super) fn best(args: &BestArgs, context: Context) -> Result<()> {
     for own in &best.values {
         let name = own.field.name();
         if own.is_at_end {
-            note += &format!("the best {name} is at an end of its range: a wider one may have a better\n");
+            note += &format!(
+                "the best {name} is at an end of its range; a wider range may contain a better one\n"
+            );
         }
         if own.good_from_to.is_none() {
-            note += &format!("along {name} the curve is too rough for a range within 1 %\n");
+            note += &format!("the curve over {name} is too rough for a range within 1 %\n");
         }
     }
     if let Some(share) = trap_beside(&motor, &best)? {
         note += &format!(
-            "a preload or amplitude {:.2} % away locks the motor on a short cycle: `motor traps` lists these\n",
+            "a preload or amplitude {:.2} % away locks the motor on a short cycle; `motor traps` lists these\n",
             100.0 * share
         );
     }
     if best.row.branches.len() > 1 {
-        note += "other motions coexist there: `motor curve` lists them\n";
+        note += "other motions coexist there; `motor curve` lists them\n";
     }
     let mut job = OperationArgs::job(&motor, &settings);
     job["sought"] = json!(sought);
@@ -200,11 +202,11 @@ pub(super) fn best(args: &BestArgs, context: Context) -> Result<()> {
     report.deliver(&args.operation.output, context)
 }
 
-/// How well preload and amplitude of a motor are usually known.
+/// The usual tolerance of a motor's preload and amplitude.
 const USUALLY_KNOWN: f64 = 0.01;
 
-/// How far the nearest trap is from an optimum, if inputs that are usually known may reach it; not known but for rigid impacts
-/// on a sine.
+/// The distance of the nearest trap from an optimum, if it is within the usual tolerance; known only for
+/// rigid impacts on a sine.
 fn trap_beside(motor: &Motor, best: &Best) -> Result<Option<f64>> {
     let best =
         motor.with(|sheet| best.values.iter().for_each(|own| own.field.set(sheet, own.value.value)))?;
@@ -217,20 +219,20 @@ fn trap_beside(motor: &Motor, best: &Best) -> Result<Option<f64>> {
 /// Ranges of the preload that trap the motor, with the speed inside
 #[derive(Debug, Args)]
 #[command(after_help = "\
-A motor in a trap repeats a short cycle of flights and rest, whose speed may be far from that beside the trap, or near it. A \
-motor whose preload is known to 1 % on either side lies in a given trap of relative width w with a probability of up to 50 w: \
-2.5 % for a width of 0.0005, the least unless given. Speeds are those near both edges and in the middle of the range, under the \
-load of the data sheet. See docs/designing-a-motor.md.
+A motor in a trap repeats a short cycle of flights and rest, at a speed that may differ much from the speed outside \
+the trap. A motor whose preload is known to 1 % lies in a given trap of relative width w with a probability of up to \
+50 w: 2.5 % for a width of 0.0005, the default least width. Speeds are given near both edges and in the middle of the \
+range, under the load of the data sheet. See docs/designing-a-motor.md.
 
 Example:
   bouncing-disk motor traps motor.toml --from 4 --to 6")]
 pub(crate) struct TrapsArgs {
     #[command(flatten)]
     operation: OperationArgs,
-    /// Least preload (N); 0.9 times that of the motor unless given
+    /// Least preload (N); by default 0.9 times that of the motor
     #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "FORCE")]
     from: Option<f64>,
-    /// Largest preload (N); 1.1 times that of the motor unless given
+    /// Largest preload (N); by default 1.1 times that of the motor
     #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "FORCE")]
     to: Option<f64>,
     /// Least width of a range, relative to the preload

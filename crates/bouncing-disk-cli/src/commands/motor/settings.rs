@@ -1,4 +1,4 @@
-//! How a steady operation is computed, and of which motor.
+//! Settings and motor of a steady operation.
 
 use crate::commands::prelude::*;
 use bouncing_disk::Motor;
@@ -14,13 +14,13 @@ use bouncing_disk_plot::rounded;
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Accuracy")]
 pub(super) struct SettingsArgs {
-    /// Standard error of the mean speed that is asked for, relative to the larger of the speed without load and itself
+    /// Requested standard error of the mean speed, relative to the larger of the no-load speed and itself
     #[arg(long, allow_hyphen_values = true, value_name = "SHARE", default_value_t = OperatingSettings::default().relative_error)]
     relative_error: f64,
-    /// Vertical motions that are averaged over
+    /// Number of vertical motions to average over
     #[arg(long, allow_negative_numbers = true, value_name = "N", default_value_t = OperatingSettings::default().members)]
     members: usize,
-    /// Most impacts that all members together may take
+    /// Most impacts of all members together
     #[arg(long, allow_negative_numbers = true, value_name = "N", default_value_t = OperatingSettings::default().most_impacts)]
     most_impacts: u64,
     /// Size of the relaunch perturbation, in units of g/omega
@@ -43,29 +43,27 @@ impl SettingsArgs {
     }
 }
 
-/// How well the inputs are known, over which the spread is stated.
+/// The tolerance of the inputs, for the spread.
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Spread")]
 pub(super) struct SpreadArgs {
-    /// Relative tolerance of preload and amplitude, over which the spread is stated beside the errors
+    /// Relative tolerance of preload and amplitude for the spread
     #[arg(long, allow_hyphen_values = true, value_name = "SHARE", default_value_t = InputTolerance::default().preload)]
     tolerance: f64,
-    /// Motors that are drawn within it
+    /// Motors sampled within the tolerance
     #[arg(long, allow_negative_numbers = true, value_name = "N", default_value_t = InputTolerance::default().draws)]
     draws: usize,
-    /// Leaves the spread out, which costs up to ten times the rest
+    /// Omits the spread, which costs up to ten times the rest
     #[arg(long)]
     no_spread: bool,
 }
 
 impl SpreadArgs {
-    /// The tolerance over which a spread is computed: that of the sine's rigid impacts only, as is the regime.
+    /// The tolerance of the spread, which, like the regime, exists only for rigid impacts on the sine.
     pub(super) fn of(&self, motor: &Motor, context: Context) -> Option<InputTolerance> {
         let tolerance = self.tolerance();
         if motor.rigid_sine().is_err() && tolerance.is_some() {
-            context.note(
-                "no spread over the tolerances: it is computed for a prescribed sine with rigid impacts only",
-            );
+            context.note("no spread over the tolerances: it needs a prescribed sine and rigid impacts");
         }
         tolerance.filter(|_| motor.rigid_sine().is_ok())
     }
@@ -78,7 +76,7 @@ impl SpreadArgs {
     }
 }
 
-/// The motor, with warnings of values in its data sheet that are legal and yet unlikely to be meant.
+/// The motor, with warnings of legal but unlikely values in its data sheet.
 pub(super) fn begin(
     motor: &MotorArgs,
     output: &OutputArgs,
@@ -98,7 +96,7 @@ pub(super) fn needs_friction(motor: &Motor, sought: &str) -> Result<()> {
     (motor.largest_torque() != 0.0).then_some(()).ok_or_else(|| Failure::Usage(told()))
 }
 
-/// A line on a motor that is locked: its errors are tiny, and hold at exactly its inputs.
+/// A line on a locked motor, whose errors are tiny and hold at exactly its inputs.
 pub(super) fn lock_note(motor: &Motor) -> Result<String> {
     if motor.rigid_sine().is_err() {
         return Ok(String::new());
@@ -119,12 +117,12 @@ pub(super) const fn state(operation: &Operation) -> &'static str {
     }
 }
 
-/// How the rotor of a motor moves up and down.
+/// The vertical motion of a rotor.
 pub(super) fn motion(operation: &Operation) -> Option<String> {
     operation.point().map(|point| named(point.motion))
 }
 
-/// The name of a motion up and down.
+/// The name of a vertical motion.
 pub(super) fn named(motion: AxialMotion) -> String {
     match motion {
         AxialMotion::Periodic { periods, impacts } => format!("{impacts} in {periods}"),
@@ -133,7 +131,7 @@ pub(super) fn named(motion: AxialMotion) -> String {
     }
 }
 
-/// How long an irregular motion lasts, for people: its mean life, or more than it was watched for.
+/// The life of an irregular motion as text: its mean life, or a lower bound.
 pub(super) fn shown_life(operation: &Operation) -> Option<String> {
     match operation.point()?.motion {
         AxialMotion::Irregular { life: Life::Mean(life) } => Some(rounded(life.value, 3)),
@@ -142,7 +140,7 @@ pub(super) fn shown_life(operation: &Operation) -> Option<String> {
     }
 }
 
-/// The mean life (s) of an irregular motion, if some were seen to end.
+/// The mean life (s) of an irregular motion, if some ended.
 pub(super) fn life(operation: &Operation) -> Option<f64> {
     match operation.point()?.motion {
         AxialMotion::Irregular { life: Life::Mean(life) } => Some(life.value),
@@ -150,8 +148,8 @@ pub(super) fn life(operation: &Operation) -> Option<f64> {
     }
 }
 
-/// Columns with deviation, range and time constant of the speed, the blocked torque, and the amplitude and powers of a stator
-/// that yields, if one of the operations has them.
+/// Columns with deviation, range and time constant of the speed, the blocked torque, and the amplitude and
+/// powers of a compliant stator, if one of the operations has them.
 pub(super) fn with_details<R: 'static>(
     columns: Columns<R>,
     rows: &[OperatingRow],
@@ -179,7 +177,7 @@ pub(super) fn with_details<R: 'static>(
     })
 }
 
-/// The unit in which people read a quantity, and its factor: efficiencies in percent.
+/// The displayed unit of a quantity, and its factor: efficiencies in percent.
 pub(super) fn shown_unit(quantity: SweepQuantity) -> (&'static str, f64) {
     match quantity.unit() {
         "1" => ("%", 100.0),

@@ -16,12 +16,13 @@ use crate::commands::prelude::*;
 /// A motor over one or two fields of its data sheet
 #[derive(Debug, Args)]
 #[command(after_help = "\
-One --over makes a curve, two make a map, the first being that of the rows. Cells of one vertical motion (they differ in \
-load, friction, phase lag, twist, radii or mass only) are computed on one orbit, as a row of the computation: --chunk and \
---journal divide and keep these. Fields are those of the data sheet, in its units; \
-contact.time makes contacts take time, cell by cell. A cell has a line for each motion that coexists there. A map shows the first, \
-which most rotors reach from rest, and marks cells with several motions, with a periodic one, and cells that are not settled. With --up-and-down \
-all fields but that of --over are held, and the first line of the output names the drive, the preload and the phase lag. See docs/designing-a-motor.md.
+One --over makes a curve, two make a map whose rows are the first. Cells that share a vertical motion (they differ \
+only in load, friction, phase lag, twist, radii or mass) are computed on one orbit, as one row for --chunk and \
+--journal. Fields are named as in the data sheet, in its units; contact.time makes contacts compliant, cell by cell. \
+A cell has one line for each coexisting motion. A map shows the first, which most rotors reach from rest, and marks \
+cells with several motions, with a periodic one, and unsettled cells. With --up-and-down all fields except that of \
+--over are held, and the first line of the output names the drive, the preload and the phase lag. See \
+docs/designing-a-motor.md.
 
 Examples:
   bouncing-disk motor sweep --over load_torque=0:30e-6:7 --out curve.csv
@@ -30,17 +31,18 @@ Examples:
 pub(crate) struct SweepArgs {
     #[command(flatten)]
     motor: MotorArgs,
-    /// A field of the data sheet and its values, FIELD=FIRST:LAST:POINTS; one or two of them
+    /// A field of the data sheet and its values, FIELD=FIRST:LAST:POINTS; at most two
     #[arg(help_heading = OWN, long, value_name = "FIELD=RANGE", required_unless_present = "template", value_parser = over)]
     over: Vec<Over>,
-    /// The values go up and down again, each cell from where the one before was left: for a [stator] that yields, over
-    /// one field
+    /// The values go up and down again, each cell from the final state of its predecessor: for a compliant
+    /// [stator], over one field
     #[arg(help_heading = OWN, long)]
     up_and_down: bool,
     /// The quantity of a picture
     #[arg(help_heading = OWN, long, value_name = "QUANTITY", default_value = "speed", value_parser = one_of(PICTURES))]
     picture: SweepQuantity,
-    /// A bound that the picture of a map draws, as of `motor best`: a line between the cells that keep it and the others
+    /// A bound as in `motor best`, drawn in a map as a line between the cells that keep it and the
+    /// others
     #[arg(help_heading = OWN, long = "where", value_name = "NAME>=NUMBER")]
     bound: Option<QuantityBound>,
     #[command(flatten)]
@@ -65,8 +67,8 @@ fn over(text: &str) -> Result<Over, String> {
     Ok(Over { field, values: values.parse()? })
 }
 
-/// What a continued sweep names, where the sheet gives it: of the drive the one amplitude that is held (the others follow from
-/// it at each frequency), the frequency, the twist, the preload and the phase lag.
+/// The held inputs that a continued sweep names, if the sheet gives them: the one amplitude of the drive (the
+/// others follow from it at each frequency), the frequency, the twist, the preload and the phase lag.
 const HELD: [MotorField; 9] = [
     MotorField::DriveFrequency,
     MotorField::Amplitude,
@@ -82,13 +84,13 @@ const HELD: [MotorField; 9] = [
 const PICTURES: Words<SweepQuantity> = &[
     ("speed", "Mean angular speed", SweepQuantity::Speed),
     ("mechanical-power", "Load torque times mean speed", SweepQuantity::MechanicalPower),
-    ("input-power", "Power that the stator puts in", SweepQuantity::InputPower),
-    ("efficiency", "Mechanical power over the power put in", SweepQuantity::Efficiency),
+    ("input-power", "Power supplied by the stator", SweepQuantity::InputPower),
+    ("efficiency", "Mechanical power over supplied power", SweepQuantity::Efficiency),
     ("speed-deviation", "Standard deviation of the speed over time", SweepQuantity::SpeedDeviation),
-    ("blocked-torque", "Mean torque on a rotor that is held at rest", SweepQuantity::BlockedTorque),
-    ("stator-amplitude", "Amplitude under load of a stator that yields", SweepQuantity::StatorAmplitude),
-    ("drive-power", "Power that the drive puts into such a stator", SweepQuantity::DrivePower),
-    ("electrical-efficiency", "Mechanical power over that of the drive", SweepQuantity::ElectricalEfficiency),
+    ("blocked-torque", "Mean torque on a rotor held at rest", SweepQuantity::BlockedTorque),
+    ("stator-amplitude", "Amplitude of a compliant stator under load", SweepQuantity::StatorAmplitude),
+    ("drive-power", "Power supplied by the drive to a compliant stator", SweepQuantity::DrivePower),
+    ("electrical-efficiency", "Mechanical power over drive power", SweepQuantity::ElectricalEfficiency),
 ];
 
 pub(super) fn run(args: &SweepArgs, context: Context) -> Result<()> {
@@ -105,7 +107,7 @@ pub(super) fn run(args: &SweepArgs, context: Context) -> Result<()> {
     };
     let sweep = job.sweep()?;
     let replaced = sweep.replaced();
-    replaced.iter().for_each(|field| context.note(&format!("the {field} of the data sheet is left out")));
+    replaced.iter().for_each(|field| context.note(&format!("the {field} of the data sheet is ignored")));
     let job = SweepJob { groups: sweep.groups().len(), ..job };
     grid::run(job, &args.grid, &args.output, context)
 }
@@ -126,8 +128,8 @@ pub(crate) struct SweepJob {
 }
 
 impl SweepJob {
-    /// The line that says from where the cells of a continued sweep start, and which inputs it holds: those that are given, but
-    /// for the one that is swept and those that it replaces.
+    /// The line on a continued sweep: where its cells start, and which inputs it holds. These are the given
+    /// ones, except the swept one and those that it replaces.
     fn held(&self, replaced: &[MotorField]) -> String {
         if !self.up_and_down {
             return String::new();
@@ -143,7 +145,7 @@ impl SweepJob {
         };
         let held: Vec<String> = HELD.iter().filter(|field| !swept(field)).filter_map(shown).collect();
         format!(
-            "continued: each cell starts from where the one before was left, the first from rest; held: {}, and all else in \
+            "continued: each cell starts from the final state of its predecessor, the first from rest; held: {}, and everything else in \
              the sheet\n",
             held.join(", ")
         )
@@ -238,7 +240,7 @@ impl GridJob for SweepJob {
     }
 }
 
-/// Maps of more vertical motions do not mark locked cells.
+/// Maps with more vertical motions do not mark locked cells.
 const MOST_REGIMES: usize = 2_000;
 
 /// Whether the motor of each cell locks on a short cycle. The cells of a group share their vertical motion.
@@ -256,7 +258,7 @@ fn locked(sweep: &MotorSweep) -> Result<Vec<bool>> {
     Ok(locked)
 }
 
-/// What the picture says of an operation beside its value.
+/// Marks of an operation in the picture, besides its value.
 fn marks(operation: &Operation, coexisting: bool, bound: Option<QuantityBound>) -> pictures::CellMarks {
     let repeats = |point: &OperatingPoint| matches!(point.motion, AxialMotion::Periodic { .. });
     pictures::CellMarks {

@@ -14,9 +14,9 @@ use crate::commands::prelude::*;
 /// The run-up from rest, of one motor or many, with its fit
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Each member is a run from rest with another starting phase and seed, as in Fig. 10 of the paper; with five members or more \
-their mean is fitted by alpha_ss (1 - exp(-t/t_c)) with 95 % intervals. In .csv a row is an instant and a member, with the \
-columns that `bouncing-disk fit` reads. See docs/designing-a-motor.md.
+Each member is a run from rest with another starting phase and seed, as in Fig. 10 of the paper; with five or more \
+members alpha_ss (1 - exp(-t/t_c)) is fitted to their mean, with 95 % intervals. In .csv each row is one instant of \
+one member, in the columns that `bouncing-disk fit` reads. See docs/designing-a-motor.md.
 
 Examples:
   bouncing-disk motor transient --duration 2 --members 5
@@ -103,7 +103,7 @@ impl GridJob for TransientJob {
             Some(Err(error)) => Some(refusal(error)?),
             None => Some(format!("no intervals: they need {LEAST_MEMBERS} members")),
         };
-        // A fit that was refused gives no numbers; of members too few to judge it, each has one of its own.
+        // A rejected fit has no numbers; with too few members to judge it, each has its own.
         if fit.is_none() {
             list.push("steady_speed", ensemble.steady_speed.mean, "rad/s");
             list.push("time_constant", ensemble.time_constant.mean, "s");
@@ -137,8 +137,8 @@ impl GridJob for TransientJob {
     }
 }
 
-/// Runs with their fit; of runs too few for a fit that can be judged, with that of the first. A fit that was
-/// judged and refused is not drawn.
+/// Runs with their fit, or with the fit of the first if they are too few to judge one. A rejected fit is not
+/// drawn.
 fn draw(ensemble: &TransientEnsemble, fit: Option<&TransientFit>, judged: bool) -> Figure {
     let times = &ensemble.curves[0].times;
     let end = times.last().copied().unwrap_or(1.0);

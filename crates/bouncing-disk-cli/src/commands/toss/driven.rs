@@ -1,4 +1,4 @@
-//! Tosses on a drive that is not a sine, or with contacts that take time.
+//! Tosses on a drive that is not a sine, or with compliant contacts.
 
 use std::f64::consts::TAU;
 
@@ -11,12 +11,12 @@ use bouncing_disk::{Event, System};
 use super::{Sample, TossArgs, deliver, described, instants, quantities};
 use crate::commands::prelude::*;
 
-/// Most events in which a disk is expected to come down.
+/// Most events before a disk is expected to come down.
 const MOST_EVENTS: usize = 10_000;
 
 pub(super) fn run(system: &System, drive: &DriveParameters, args: &TossArgs, context: Context) -> Result<()> {
     if args.many {
-        // Cycles and exponents are those of rigid impacts.
+        // Cycles and exponents exist only for rigid impacts.
         DimensionlessSystem::try_from(system)?;
     }
     let own = (system, Some(drive));
@@ -92,18 +92,16 @@ fn landing(mut motion: Timed) -> Result<(f64, f64)> {
             return Ok((motion.time(), axial_impact_velocity.abs() * motion.scales.velocity));
         }
     }
-    Err(Failure::Failed(format!(
-        "the disk does not leave its platform and come down in {MOST_EVENTS} events"
-    )))
+    Err(Failure::Failed(format!("the disk does not leave the platform and land within {MOST_EVENTS} events")))
 }
 
-/// The motion up to a time (s) at so many instants of equal distances.
+/// The motion up to a time (s) at this many equidistant instants.
 fn sampled(mut now: Timed, end: f64, count: usize) -> Result<Vec<Sample>> {
     let mut samples = Vec::with_capacity(count);
     let mut next = now.clone();
     let mut goes_on = next.advance()?.is_some();
     for instant in 0..count {
-        // The last one is the end itself, not a rounding before.
+        // The last instant is the end itself, without rounding.
         let time = if instant + 1 < count { end * instant as f64 / (count - 1) as f64 } else { end };
         while goes_on && next.time() <= time {
             now.clone_from(&next);
