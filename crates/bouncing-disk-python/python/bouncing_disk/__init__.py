@@ -2,8 +2,9 @@
 
 Pizza dough on a hand and the rotor of a standing-wave ultrasonic motor obey the same equations (Liu, Friend
 and Yeo, Phys. Rev. E 80, 046201 (2009)). Everything is computed by the Rust library ``bouncing-disk``, with
-the same bits on every machine and for any number of threads. Arguments are keywords in SI units. The ``progress`` of a
-long call is called as ``progress(done, total)`` by the calling thread; an exception of it ends the call.
+the same bits on every machine and for any number of threads. Arguments are keywords in SI units. A long call
+calls its ``progress`` as ``progress(done, total)`` on the calling thread; an exception raised there ends the
+call.
 
 >>> import bouncing_disk as bd
 >>> bd.System.pizza_toss().friction

@@ -35,11 +35,11 @@ __all__ = [
     "boundary_scaling",
 ]
 
-#: Label of a start that was neither at rest nor near a known orbit after the impacts that were allowed.
+#: Label of a start that was neither at rest nor near a known orbit after the allowed impacts.
 UNDECIDED: int = native.UNDECIDED
 #: Label of a start that comes to rest.
 ATTACHED: int = native.ATTACHED
-#: Label of the first known orbit; the next ones count up from here.
+#: Label of the first known orbit; the others follow it.
 FIRST_ORBIT: int = native.FIRST_ORBIT
 
 
@@ -49,22 +49,22 @@ class Attractor(Result):
 
     Attributes:
         kind: ``"rest"``, ``"periodic"``, ``"marginal"``, ``"chaotic"`` or ``"transient"``.
-        label: its label in :attr:`Basins.labels`; words count attractors by these, from one.
+        label: its label in :attr:`Basins.labels`; the words of `meaning` use these labels.
         orbit: the orbit of a periodic or marginal one.
         radius: the radius (rad) within which a start counts as caught by that orbit, else NaN.
         exponent, standard_error: the largest Lyapunov exponent per impact of a chaotic motion or transient
             and its standard error, else NaN.
-        survived: impacts for which orbits on a chaotic motion were followed without one leaving it, or, of a
-            transient, after which `share` counts the starts that are still on it; None for other kinds.
+        survived: impacts for which orbits on a chaotic motion were followed without leaving it; for a
+            transient, impacts after which `share` counts the starts still on it; None for other kinds.
         mean_life, mean_life_interval: the mean life of a transient in impacts and its 95 % interval, else
-            NaN. If no orbit was seen to leave, the mean is NaN and the interval ends at infinity.
-        share: the share of the starts that ended on it.
+            NaN. If no orbit left it, the mean is NaN and the interval ends at infinity.
+        share: share of the starts that ended on it.
         interval: its 95 % interval.
-        lasts: whether the motion lasts, a chaotic one for the impacts in `survived`; false for a rest that may
-            never come again, a marginal orbit, and a transient.
+        lasts: whether the motion lasts (if chaotic, for the impacts in `survived`); false for a rest that
+            may not recur, a marginal orbit and a transient.
         leads_to: the index in :attr:`Attractors.all` of the attractor to which a rest leads, one below its label.
-        meaning: what it is, in words.
-        is_exact: false for a disk that comes to rest again and again in a cycle chosen by rounding.
+        meaning: description in words.
+        is_exact: false for a disk that comes to rest again and again in a cycle set by rounding.
     """
 
     kind: str
@@ -120,13 +120,13 @@ class Basins(Result):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Attractors(Stored):
-    """The attractors of an impact map: the disk at rest, and all others that were found.
+    """The attractors of an impact map: the disk at rest, and all others found.
 
-    Made by :func:`attractors`. Those of a map with a drive or a contact time cannot be stored.
+    Made by :func:`attractors`. Attractors of a map with a drive or a contact time cannot be stored.
 
     Attributes:
         impact_map: the map.
-        all: the disk at rest, which has the index 0, and all other attractors: a tuple of :class:`Attractor`.
+        all: the disk at rest (index 0) and all other attractors, a tuple of :class:`Attractor`.
         undecided: the share of the starts that ended on none of them.
     """
 
@@ -148,12 +148,12 @@ class Attractors(Stored):
         """Their basins on a grid of impacts.
 
         Args:
-            phases, phase_range, speeds, speed_range, max_impacts, chatter: as of :func:`basins`.
+            phases, phase_range, speeds, speed_range, max_impacts, chatter: as for :func:`basins`.
         """
         return native.basins_of(locals())
 
     def __len__(self) -> int:
-        """Number of attractors, the disk at rest among them."""
+        """Number of attractors, including the disk at rest."""
         return len(self.all)
 
 
@@ -187,7 +187,13 @@ def attractors(
     """The attractors of a map, found without known orbits.
 
     Args:
-        settings: those of :class:`AttractorSearch`, as keywords.
+        starts: starts, spread evenly over all impacts that an attractor can have, in [0, 2^18].
+        transient: impacts that are skipped, at least 1.
+        impacts: impacts over which orbits of each aperiodic motion are followed, at least 64.
+        longest_period: the longest period, in impacts, in [1, 4096].
+        cells: cells along each axis of the grid that distinguishes aperiodic motions, in [8, 4096].
+        budget: approximate limit on the impacts of the whole search, in [256 a start, 2^50]; starts still
+            running when it is used up are undecided. On a drive an impact counts as 32.
 
     >>> import bouncing_disk as bd
     >>> found = bd.attractors(bd.ImpactMap(axial_forcing=0.486, restitution=0.5))
@@ -214,7 +220,7 @@ def basins(
 ) -> Basins:
     """Which starts come to rest and which end on known periodic orbits, on a grid of impacts.
 
-    :func:`attractors` finds the orbits by itself; its ``basins`` are of all attractors.
+    :func:`attractors` finds the orbits itself; its ``basins`` cover all attractors.
 
     Args:
         phases: cells along the impact phase, up to 100000.
@@ -249,10 +255,10 @@ class BasinEntropy(Result):
 
     Attributes:
         box_side: cells along each side of a box.
-        boxes: boxes that fit into the grid whole.
+        boxes: whole boxes that fit into the grid.
         boundary_boxes: boxes with more than one label.
-        undecided_cells: cells of the boxes that are undecided, which counts as a label of its own.
-        labels: labels that occur in the boxes.
+        undecided_cells: undecided cells in the boxes; undecided counts as a separate label.
+        labels: number of labels in the boxes.
         entropy: the mean over the boxes of -sum p ln p, p being the shares of the labels in a box: at most
             the logarithm of the number of labels.
         boundary_entropy: the same mean over the boxes with more than one label; None if there is no such box.
@@ -271,13 +277,11 @@ def basin_entropy(basins: Basins, *, box_side: Int = 5) -> BasinEntropy:
     """The entropy of basins: how uncertain the fate of a start known only up to a box of cells is.
 
     A. Daza and others, Sci. Rep. 6, 31416 (2016). A boundary entropy above ln 2 shows that the boundary is
-    not smooth, if boxes are small beside the basins; a smaller one shows nothing.
+    not smooth, if boxes are small compared with the basins; a smaller one proves nothing.
 
     Args:
-        basins: as of :func:`basins` and :meth:`Attractors.basins`; undecided cells count as a basin of their
-            own.
-        box_side: cells along each side of a box, at least 2 and at most those of the shorter side of the
-            grid.
+        basins: as for :func:`basins` and :meth:`Attractors.basins`; undecided cells count as a separate basin.
+        box_side: cells along each side of a box, from 2 to the length of the shorter side of the grid.
 
     >>> import bouncing_disk as bd
     >>> found = bd.attractors(bd.ImpactMap(axial_forcing=0.34, restitution=0.5))
@@ -296,15 +300,15 @@ class BoundaryScaling(Result):
         distance: the distances, in cells, shape (n,).
         uncertain: cells with another label than their own in the square up to this distance along both axes,
             shape (n,).
-        cells: cells that were examined, the same at each distance.
-        fit: ``"power-law"``; ``"no-power-law"``, where the slopes from one distance to the next differ by
-            more than 0.05 and a fifth of their mean, as on a grid that is too coarse; or ``"too-few"``, where
+        cells: examined cells, the same at each distance.
+        fit: ``"power-law"``; ``"no-power-law"``, if the slopes between neighbouring distances differ
+            by more than 0.05 and a fifth of their mean, as on too coarse a grid; or ``"too-few"``, if
             cells are uncertain at fewer than three distances.
         exponent, exponent_error: the share grows as ``distance**exponent``, and the standard error; NaN
             without a power law.
-        dimension: the boundary's dimension, 2 less the exponent: 1 of a smooth curve, up to 2; NaN without a
-            power law.
-        slopes: the smallest and the largest slope from one distance to the next, in the logarithms; NaN
+        dimension: dimension of the boundary, 2 minus the exponent: 1 for a smooth curve, at most 2; NaN
+            without a power law.
+        slopes: smallest and largest logarithmic slope between neighbouring distances; NaN
             with too few.
     """
 
@@ -329,16 +333,16 @@ def boundary_scaling(
 ) -> BoundaryScaling:
     """How the share of uncertain cells grows with their distance: the dimension of a boundary of basins.
 
-    S. W. McDonald and others, Physica D 17, 125 (1985). A cell is uncertain if there is another label than
-    its own in the square up to a distance along both axes. The cells that count are those farther from the
-    edges of the grid than the largest distance; undecided cells count as a basin of their own.
+    S. W. McDonald and others, Physica D 17, 125 (1985). A cell is uncertain if the square up to a
+    distance along both axes contains another label. Only cells farther from the edges of the
+    grid than the largest distance count; undecided cells count as a separate basin.
 
     Args:
-        basins: as of :func:`basins` and :meth:`Attractors.basins`.
+        basins: as for :func:`basins` and :meth:`Attractors.basins`.
         distances: distances in cells, rising, at least 1, the last less than half the shorter side of the
             grid.
 
-    The basin of the period-1 orbit just beyond its birth has a smooth boundary:
+    The basin of the period-1 orbit just above its birth has a smooth boundary:
 
     >>> import bouncing_disk as bd
     >>> found = bd.attractors(bd.ImpactMap(axial_forcing=0.34, restitution=0.5))
@@ -370,9 +374,9 @@ class BasinFractions(Result):
             absent. The starts are spread over all impacts that an attractor can have at this forcing.
         share_low: low end of its 95 % interval, shape (m, n).
         share_high: high end of its 95 % interval, shape (m, n).
-        moved: how far each attractor is from where it was at the forcing before (rad; a radian counts as much
-            as the peak velocity of the platform), shape (m, n); NaN where it appears or is absent, and for
-            the disk at rest.
+        moved: distance of each attractor from its position at the previous forcing (rad; a radian counts as
+            much as the peak velocity of the platform), shape (m, n); NaN where it appears or is absent, and
+            for the disk at rest.
     """
 
     restitution: float
@@ -399,20 +403,20 @@ def basin_fractions_over(
     progress: Progress = None,
     **settings: Unpack[AttractorSearch],
 ) -> BasinFractions:
-    """The attractors at each of some forcings, matched from one to the next, and the shares of their basins.
+    """The attractors at each forcing, matched from one to the next, and the shares of their basins.
 
-    Each attractor is the one of the forcing before that is nearest to it, if it is within `reach`; one
-    without such a neighbour appears, and one that none continues vanishes. An orbit that doubles its period
-    continues as the doubled one.
+    Each attractor continues the nearest one at the previous forcing, if that is within `reach`;
+    otherwise it is new. An attractor without a continuation vanishes. An orbit that doubles its period
+    continues as the doubled orbit.
 
     Args:
         restitution: coefficient of restitution, in [0, 1).
-        axial_forcing: axial forcing parameter Gamma, in the order in which attractors are to be followed; at
+        axial_forcing: axial forcing parameter Gamma, in the order in which attractors are followed; at
             most 65536, shape (n,).
-        reach: how far an attractor may be from where it was at the forcing before (rad), in [0, 100].
-        settings: those of :class:`AttractorSearch`, as keywords.
+        reach: largest distance of an attractor from its position at the previous forcing (rad), in [0, 100].
+        starts, transient, impacts, longest_period, cells, budget: as for :func:`attractors`.
 
-    The period-1 orbit appears at Gamma = 1/3, beside the disk at rest:
+    The period-1 orbit appears at Gamma = 1/3, next to the disk at rest:
 
     >>> import bouncing_disk as bd
     >>> found = bd.basin_fractions_over(restitution=0.5, axial_forcing=[0.32, 0.36, 0.4], starts=200)

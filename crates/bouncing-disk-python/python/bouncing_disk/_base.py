@@ -56,7 +56,7 @@ Kept = TypeVar("Kept", bound="Stored")
 
 
 class Parameters:
-    """An immutable object made of keywords, which are checked as it is made."""
+    """An immutable object made from keywords, which are checked on construction."""
 
     _given: dict[str, Any]
     _native: Any
@@ -64,7 +64,7 @@ class Parameters:
     if not TYPE_CHECKING:
 
         def __getattr__(self, name: str) -> Any:
-            # The numbers are made on first use; calls of the library do not need them.
+            # The numbers are computed on first use; calls of the library do not need them.
             if name == "_native" or "_given" in self.__dict__:
                 raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
             self.__dict__.update(self._native.numbers())
@@ -92,7 +92,7 @@ class Parameters:
 
     @classmethod
     def _holding(cls: type[Own], held: Any) -> Own:
-        """The object that holds this one of the library."""
+        """The object of the library that this one holds."""
         made = cls.__new__(cls)
         made.__dict__["_native"] = held
         return made
@@ -102,7 +102,7 @@ class Parameters:
         return _of(type(self), {**self._given, **changes})
 
     def to_dict(self) -> dict[str, Any]:
-        """The arguments of the constructor that were given, the drive of a map as a dictionary."""
+        """The given arguments of the constructor; the drive of a map is a dictionary."""
         given = deepcopy(self._given)
         return {name: own.to_dict() if isinstance(own, Parameters) else own for name, own in given.items()}
 
@@ -148,24 +148,24 @@ def readable(text: str) -> str:
 
 
 def hashable(value: Any) -> object:
-    """A number or a text, and tables and lists of such as tuples."""
+    """A number or a text; tables and lists of them become tuples."""
     if isinstance(value, dict):
         return tuple((name, hashable(own)) for name, own in value.items())
     return tuple(map(hashable, value)) if isinstance(value, list) else value
 
 
 def _of(cls: Any, arguments: dict[str, Any]) -> Any:
-    """The object of these keywords: what a pickle calls."""
+    """The object of these keywords, called by pickle."""
     return cls(**arguments)
 
 
 def _restored(cls: Any, json: str) -> Any:
-    """The result of a class that is stored as JSON: what a pickle calls."""
+    """The result of a class that is stored as JSON, called by pickle."""
     return cls.from_json(json)
 
 
 def _same(one: Any, other: Any) -> bool:
-    """Whether two values are equal, where NaN is equal to itself."""
+    """Whether two values are equal, with NaN equal to itself."""
     if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
         if one.dtype != other.dtype or one.shape != other.shape:
             return False
@@ -182,7 +182,7 @@ def _same(one: Any, other: Any) -> bool:
 
 
 def _as_json(value: Any) -> Any:
-    """A value of a result as JSON has it, which knows neither complex numbers nor such that are not finite."""
+    """A value of a result as JSON, which has no complex and no non-finite numbers."""
     if isinstance(value, np.ndarray):
         if np.iscomplexobj(value):
             value = np.stack([value.real, value.imag], axis=-1)
@@ -203,7 +203,7 @@ def _as_json(value: Any) -> Any:
 
 
 def _shown(value: Any) -> str:
-    """A value in a line of text: long arrays by their type and shape, and many results by their number."""
+    """A value as one line of text: type and shape for long arrays, the number for many results."""
     if isinstance(value, tuple) and any(isinstance(item, (Result, np.ndarray)) for item in value):
         return f"<{len(value)} {type(value[0]).__name__}>"
     if not isinstance(value, np.ndarray):
@@ -212,16 +212,16 @@ def _shown(value: Any) -> str:
 
 
 def _is_undefined(value: Any) -> bool:
-    """Whether an array is NaN throughout, such as those of a stator where none yields."""
+    """Whether an array is NaN throughout, such as stator quantities of a prescribed motion."""
     return isinstance(value, np.ndarray) and value.dtype.kind == "f" and value.size > 0 and bool(np.isnan(value).all())
 
 
 def threads() -> int:
-    """How many threads a call computes with.
+    """The number of threads of a call.
 
     Returns:
-        The number that :func:`set_threads` has set, else that of the environment variable
-        ``RAYON_NUM_THREADS``, else that of the processor's threads. No bit of a result depends on it.
+        The number set by :func:`set_threads`, else by the environment variable
+        ``RAYON_NUM_THREADS``, else the number of the processor's threads. No bit of a result depends on it.
 
     >>> import bouncing_disk as bd
     >>> bd.threads() >= 1
@@ -231,10 +231,10 @@ def threads() -> int:
 
 
 def set_threads(*, count: Int | None = None) -> None:
-    """Set how many threads each later call computes with.
+    """Set the number of threads of each later call.
 
     Args:
-        count: in [1, 1024]; ``None`` for as many as the processor has. No bit of a result depends on it.
+        count: in [1, 1024]; ``None`` for all of the processor's. No bit of a result depends on it.
 
     >>> import bouncing_disk as bd
     >>> bd.set_threads(count=1)
@@ -246,7 +246,7 @@ def set_threads(*, count: Int | None = None) -> None:
 
 
 class Result:
-    """The base of all results: fields that compare by their values, arrays among them."""
+    """The base of all results, whose fields, including arrays, compare by value."""
 
     __dataclass_fields__: ClassVar[dict[str, Any]]
     __hash__: ClassVar[None]  # type: ignore[assignment]
@@ -258,19 +258,20 @@ class Result:
         return all(_same(getattr(self, field.name), getattr(other, field.name)) for field in fields(self))
 
     def to_json(self) -> str:
-        """The fields as a JSON object: arrays as lists, complex numbers as pairs, and null for what is not finite. Words
-        that numbers stand for, such as the ``KINDS`` of verdicts, are lists of their own (``kinds``)."""
+        """The fields as a JSON object: arrays as lists, complex numbers as pairs, and null for numbers that
+        are not finite. The words for numbers, such as the ``KINDS`` of verdicts, are separate lists
+        (``kinds``)."""
         return json_module.dumps(_as_json(self), allow_nan=False)
 
     def __repr__(self) -> str:
-        """The fields, long arrays by their shape; not those that are NaN throughout."""
+        """The fields except those that are NaN throughout; long arrays by their shape."""
         values = ((field.name, getattr(self, field.name)) for field in fields(self))
         parts = (f"{name}={_shown(value)}" for name, value in values if not _is_undefined(value))
         return f"{type(self).__name__}({', '.join(parts)})"
 
 
 class Stored(Result):
-    """A result from which later calls continue: the library holds it, stores it as JSON, and compares it."""
+    """A result from which later calls continue: the library holds, stores and compares it."""
 
     _native: Any
 

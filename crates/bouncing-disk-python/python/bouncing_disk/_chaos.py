@@ -1,4 +1,4 @@
-"""The long-term behaviour of orbits: diagrams, lives, exponents, verdicts, manifolds and crises."""
+"""The long-term behaviour of orbits: diagrams, lifetimes, exponents, verdicts, manifolds and crises."""
 
 # mypy: disable-error-code="no-any-return"
 from __future__ import annotations
@@ -52,12 +52,12 @@ class _Impacts:
 class OrbitDiagram(_Impacts, Result):
     """The impacts of many orbits, one after the other.
 
-    Those of orbit ``k`` are the items from ``offsets[k]`` to ``offsets[k + 1]``.
+    The impacts of orbit ``k`` are the items from ``offsets[k]`` to ``offsets[k + 1]``.
 
     Attributes:
         axial_forcing: axial forcing parameter Gamma of each orbit, shape (n,).
         restitution: coefficient of restitution of each orbit, shape (n,).
-        offsets: where the impacts of each orbit begin; the last number is that of all impacts, m, shape (n +
+        offsets: index of the first impact of each orbit; the last entry is the number of impacts, m, shape (n +
             1,).
         impact_phase: phase of each impact (rad), in [0, 2 pi), shape (m,).
         axial_impact_velocity: velocity of the disk relative to the platform just before, not positive, in
@@ -98,17 +98,17 @@ def orbit_diagram(
 ) -> OrbitDiagram:
     """The impacts of many orbits after their transients: an orbit (bifurcation) diagram.
 
-    The four arguments of the starts are numbers or 1-d arrays of the same length.
+    The first four arguments are numbers or 1-d arrays of the same length.
 
     Args:
         axial_forcing: axial forcing parameter Gamma of each orbit, shape (n,).
         restitution: coefficient of restitution, in [0, 1), shape (n,).
         impact_phase: phase of the first impact (rad), shape (n,).
         normalised_speed: normalised speed of the first impact, not negative, shape (n,).
-        transient: impacts of each orbit that are not recorded.
-        recorded: impacts of each orbit that are; fewer if the disk rests for ever.
-        drive: how the platform moves; ``None`` for the sine.
-        contact_periods: how long an isolated impact lasts, as of :class:`ImpactMap`; ``None`` for rigid ones.
+        transient: impacts of each orbit to discard first.
+        recorded: impacts of each orbit to record; fewer if the disk rests for ever.
+        drive: motion of the platform; ``None`` for the sine.
+        contact_periods: duration of an isolated impact, as for :class:`ImpactMap`; ``None`` for rigid impacts.
         chatter: how a chatter ends; ``None`` sums it.
 
     >>> import bouncing_disk as bd
@@ -136,13 +136,14 @@ def lyapunov_exponents(
     """The largest Lyapunov exponent per impact of each orbit.
 
     Args:
-        axial_forcing, restitution, impact_phase, normalised_speed: as of :func:`orbit_diagram`, shape (n,).
-        drive, contact_periods: the platform and the contact, as of :func:`orbit_diagram`.
+        axial_forcing, restitution, impact_phase, normalised_speed: as for :func:`orbit_diagram`, shape (n,).
+        drive, contact_periods: the platform and the contact, as for :func:`orbit_diagram`.
         transient: impacts before the exponent is measured.
         impacts: impacts over which it is measured.
 
     Returns:
-        Mean logarithmic growth per impact; NaN where the disk comes to rest, grazes the platform or hits a kink of it.
+        Mean logarithmic growth per impact; NaN where the disk comes to rest, grazes the platform or hits a
+        kink of its motion.
 
     >>> import bouncing_disk as bd
     >>> exponents = bd.lyapunov_exponents(axial_forcing=[0.44, 0.56], restitution=0.5, impact_phase=1.2,
@@ -159,12 +160,12 @@ class LyapunovSpectra(Result):
 
     Attributes:
         axial_forcing, restitution: the parameters of each orbit, shape (n,).
-        outcome: A place in :attr:`OUTCOMES`, shape (n,).
+        outcome: An index into :attr:`OUTCOMES`, shape (n,).
         largest, standard_error: the largest exponent, and its standard error by batch means, shape (n,).
         second: the other exponent; minus infinity for restitution 0, shape (n,).
-        exact_sum: the exact sum of both over these impacts; minus infinity for restitution 0, NaN in a
-            contact that takes time, shape (n,).
-        impacts: measured impacts; those up to a rest or a graze, with the transient, if there is one,
+        exact_sum: exact sum of both over these impacts; minus infinity for restitution 0, NaN for
+            a compliant contact, shape (n,).
+        impacts: measured impacts; after a rest or a graze, all impacts before it, including the transient,
             shape (n,).
         phase: phase (rad) of the impact that grazes the platform, shape (n,).
     """
@@ -182,7 +183,7 @@ class LyapunovSpectra(Result):
     phase: FloatArray
 
     def names(self) -> list[str]:
-        """The outcome of each orbit in words, those of :attr:`OUTCOMES`."""
+        """The outcome of each orbit in the words of :attr:`OUTCOMES`."""
         return [self.OUTCOMES[outcome] for outcome in self.outcome]
 
 
@@ -201,8 +202,8 @@ def lyapunov_spectra(
     """Both Lyapunov exponents per impact of each orbit, with the standard error of the largest.
 
     Args:
-        axial_forcing, restitution, impact_phase, normalised_speed: as of :func:`orbit_diagram`, shape (n,).
-        drive, contact_periods: the platform and the contact, as of :func:`orbit_diagram`.
+        axial_forcing, restitution, impact_phase, normalised_speed: as for :func:`orbit_diagram`, shape (n,).
+        drive, contact_periods: the platform and the contact, as for :func:`orbit_diagram`.
         transient: impacts before the exponents are measured.
         impacts: impacts over which they are measured, at least 16.
 
@@ -218,22 +219,22 @@ def lyapunov_spectra(
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Verdicts(Result):
-    """The long-term motion of many orbits, and the evidence; numbers missing from a verdict are 0 or NaN.
+    """The long-term motion of many orbits, with the evidence; numbers that a verdict lacks are 0 or NaN.
 
     Attributes:
         axial_forcing, restitution: the parameters of each orbit, shape (n,).
-        kind: the verdict: a place in :attr:`KINDS`, shape (n,).
-        reason: why an orbit is undecided: a place in :attr:`REASONS`, shape (n,).
+        kind: the verdict, an index into :attr:`KINDS`, shape (n,).
+        reason: why an orbit is undecided, an index into :attr:`REASONS`, shape (n,).
         period: impacts of one period of a periodic orbit or of one cycle of a chattering one, shape (n,).
-        platform_periods: periods of the platform that this takes, shape (n,).
-        after: impacts after which the verdict was known, shape (n,).
-        rests: 1 where the disk came to rest on the way, shape (n,).
-        exponent, standard_error: the largest Lyapunov exponent per impact and its standard error, where it
-            was measured, shape (n,).
-        rounding_error: how far rounding may have carried the impacts of a chattering cycle (rad and g/omega),
+        platform_periods: periods of the platform in it, shape (n,).
+        after: impacts before the verdict, shape (n,).
+        rests: 1 if the disk came to rest before, shape (n,).
+        exponent, standard_error: the largest Lyapunov exponent per impact and its standard error, if
+            measured, shape (n,).
+        rounding_error: bound on the rounding error of the impacts of a chattering cycle (rad and g/omega),
             shape (n,).
-        multipliers: Floquet multipliers of a periodic orbit, also of a neutral or repelling one on
-            which the orbit stays, shape (n, 2).
+        multipliers: Floquet multipliers of a periodic orbit, also of a neutral or repelling one
+            that the orbit follows, shape (n, 2).
     """
 
     KINDS: ClassVar[tuple[str, ...]] = ("periodic", "chaotic", "chattering", "at-rest", "undecided")
@@ -261,11 +262,11 @@ class Verdicts(Result):
     multipliers: ComplexArray
 
     def names(self) -> list[str]:
-        """The verdicts in words, those of :attr:`KINDS`."""
+        """The verdicts in the words of :attr:`KINDS`."""
         return [self.KINDS[kind] for kind in self.kind]
 
     def reasons(self) -> list[str]:
-        """Why there is no verdict, those of :attr:`REASONS`: an empty text where there is one."""
+        """Why orbits are undecided, in the words of :attr:`REASONS`; empty for all others."""
         return [self.REASONS[reason] for reason in self.reason]
 
 
@@ -287,12 +288,12 @@ def verdicts(
     evidence.
 
     Args:
-        axial_forcing, restitution, impact_phase, normalised_speed: as of :func:`orbit_diagram`, shape (n,).
-        drive, contact_periods: the platform and the contact, as of :func:`orbit_diagram`.
+        axial_forcing, restitution, impact_phase, normalised_speed: as for :func:`orbit_diagram`, shape (n,).
+        drive, contact_periods: the platform and the contact, as for :func:`orbit_diagram`.
         transient: impacts before the exponent is measured.
         impacts: impacts over which the exponent is measured, at least 64.
         longest_period: the longest period searched for, in impacts, in [1, 4096].
-        tolerance: how near an impact must come to an earlier one for a period to be tried, in (0, 0.01].
+        tolerance: distance of an impact from an earlier one below which a period is tried, in (0, 0.01].
 
     >>> import bouncing_disk as bd
     >>> verdicts = bd.verdicts(axial_forcing=[0.2, 0.44, 0.56], restitution=0.5, impact_phase=1.2, normalised_speed=1.3,
@@ -305,26 +306,26 @@ def verdicts(
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Manifold(_Impacts, Result):
-    """A manifold of a saddle: pieces without a jump, p in all, of m impacts, on b branches.
+    """A manifold of a saddle: p continuous pieces with m impacts on b branches.
 
     The impacts of piece ``k`` are the items from ``offsets[k]`` to ``offsets[k + 1]``. Each impact of the saddle
     has two branches, on its later and its earlier side.
 
     Attributes:
         kind: ``"stable"`` or ``"unstable"``.
-        multiplier: the Floquet multiplier that belongs to it.
-        offsets: where the impacts of each piece begin; the last number is m, shape (p + 1,).
+        multiplier: its Floquet multiplier.
+        offsets: index of the first impact of each piece; the last entry is m, shape (p + 1,).
         impact_phase: phase of each impact (rad), in [0, 2 pi): between neighbours it may pass 2 pi, shape
             (m,).
         axial_impact_velocity: its relative velocity, not positive, in units of g/omega, shape (m,).
         piece_branch: the branch of each piece, shape (p,).
-        piece_start, piece_end: why it does not begin earlier, and why it ends: places in :attr:`PIECE_ENDS`,
+        piece_start, piece_end: why it begins and ends there, indices into :attr:`PIECE_ENDS`,
             shape (p,).
-        branch_impact: at which impact of the saddle each branch begins, shape (b,).
-        branch_side: on which side: a place in :attr:`SIDES`, shape (b,).
+        branch_impact: impact of the saddle at which each branch begins, shape (b,).
+        branch_side: side of that impact, an index into :attr:`SIDES`, shape (b,).
         branch_arclength: its length (rad, and speeds in units of 1 + P), shape (b,).
-        branch_generations: how often its first piece was mapped, shape (b,).
-        branch_end: why it is not longer: a place in :attr:`BRANCH_ENDS`, shape (b,).
+        branch_generations: number of times its first piece was mapped, shape (b,).
+        branch_end: why it is not longer, an index into :attr:`BRANCH_ENDS`, shape (b,).
     """
 
     PIECE_ENDS: ClassVar[tuple[str, ...]] = ("saddle", "graze", "rest", "too-fast", "cut")
@@ -346,7 +347,7 @@ class Manifold(_Impacts, Result):
     branch_end: ByteArray
 
     def branch_end_names(self) -> list[str]:
-        """Why each branch is not longer, in words, those of :attr:`BRANCH_ENDS`."""
+        """Why each branch is not longer, in the words of :attr:`BRANCH_ENDS`."""
         return [self.BRANCH_ENDS[end] for end in self.branch_end]
 
 
@@ -365,18 +366,19 @@ def manifold(
 ) -> Manifold:
     """The stable or the unstable manifold of a saddle, grown from it piece by piece. For rigid impacts on the sine only.
 
-    Lengths are those of the plane of impact phase (rad) and impact velocity in units of 1 + P, with the peak
+    Lengths are measured in the plane of impact phase (rad) and impact velocity in units of 1 + P, with the peak
     acceleration P.
 
     Args:
         orbit: A saddle of this map, with one real multiplier inside the unit circle and one outside.
-        kind: which one: the states that come from the saddle, or those that tend to it.
+        kind: ``"unstable"`` for the states that come from the saddle, ``"stable"`` for the states that tend
+            to it.
         arclength: length of each branch, in (0, 1e6].
         max_points: the most points of a branch, in [16, 1e7].
         chord: the largest distance between neighbours, in [1e-6, 1].
         turn: the largest turn of the polygon (rad), in [0.001, 1].
-        max_generations: how often the first piece is mapped at most, in [1, 10000].
-        launch_speed: the largest own speed after an impact (units of g/omega) to which a stable
+        max_generations: largest number of times the first piece is mapped, in [1, 10000].
+        launch_speed: largest absolute speed after an impact (units of g/omega) to which a stable
             manifold is followed.
 
     >>> import bouncing_disk as bd
@@ -392,14 +394,14 @@ def manifold(
 
 @dataclass(frozen=True, eq=False, repr=False)
 class CrisisLives(Result):
-    """How long orbits live beyond a crisis, at n distances from it.
+    """Lifetimes of orbits beyond a crisis, at n distances from it.
 
     Attributes:
-        beyond: Gamma less that of the crisis, shape (n,).
-        impacts: mean life in impacts; infinity where no orbit ended, shape (n,).
-        relative_error: its standard error relative to it; infinity where no orbit ended, shape (n,).
-        ended, orbits: orbits that came to rest, and all of them, shape (n,).
-        exponent, exponent_error: the mean life varies as ``beyond**exponent``; NaN without a power law.
+        beyond: Gamma minus its value at the crisis, shape (n,).
+        impacts: mean lifetime in impacts; infinity if no orbit ended, shape (n,).
+        relative_error: relative standard error of it; infinity if no orbit ended, shape (n,).
+        ended, orbits: orbits that came to rest, and all orbits, shape (n,).
+        exponent, exponent_error: the mean lifetime varies as ``beyond**exponent``; NaN without a power law.
         no_power_law: the reason if there is no power law.
     """
 
@@ -421,24 +423,25 @@ class Crisis(Stored):
 
     Attributes:
         restitution: coefficient of restitution.
-        axial_forcing: axial forcing parameter Gamma of the tangency; without one the middle of the bracket.
-        forcing_error: the error of that: half of the bracket, or its part below the tangency.
-        bracket: the values of Gamma between which the lives of orbits place the crisis; the first holds in 95
+        axial_forcing: axial forcing parameter Gamma of the tangency, or without one the middle of the bracket.
+        forcing_error: its error: half of the bracket, or the part below the tangency.
+        bracket: the values of Gamma between which lifetimes place the crisis; the lower bound holds in 95
             of 100 searches.
-        is_boundary_crisis: whether the disk soon rests again after a rest, and so for ever: the attractor
-            is lost. Otherwise it lives on after a rest, which has become part of the attractor. None if
+        is_boundary_crisis: whether the attractor is lost: a disk that came to rest soon rests for ever.
+            Otherwise it bounces on after a rest, which is now part of the attractor. None if
             this depends on the forcing.
         no_tangency: why no tangency is known as the cause; None if one is.
-        inside: the saddle on the attractor, at the crisis; None without a tangency, as all below.
+        inside: the saddle on the attractor, at the crisis; None without a tangency, like all below.
         touched: the saddle whose stable manifold is touched, at the crisis.
         impact_phase: phases of the impacts of the orbit of tangency (rad), shape (n,).
         axial_impact_velocity: their relative velocities, not positive, in units of g/omega, shape (n,).
         side: the side of the saddle on which the manifold begins: ``"later"`` or ``"earlier"``.
         share: share of the first piece of the unstable manifold at which the orbit of tangency begins, in [0,
             1].
-        curvature: how the escaping share of the first piece opens: sqrt(8 (Gamma - Gamma_c)/abs(curvature)).
-        life_exponent: the exponent of the mean life beyond the crisis, (Gamma - Gamma_c)^-exponent, by the
-            multipliers of the saddles; None where they do not determine it.
+        curvature: curvature that sets the escaping share of the first piece: sqrt(8 (Gamma -
+            Gamma_c)/abs(curvature)).
+        life_exponent: exponent of the mean lifetime beyond the crisis, (Gamma - Gamma_c)^-exponent, from
+            the multipliers of the saddles; None if they do not determine it.
     """
 
     restitution: float
@@ -459,12 +462,12 @@ class Crisis(Stored):
     def lives(
         self, *, beyond: ArrayLike, orbits: Int = 1000, impacts: Int = 100_000, progress: Progress = None
     ) -> CrisisLives:
-        """How long orbits live beyond the crisis, and the power law of their mean life.
+        """Lifetimes of orbits beyond the crisis, and the power law of their mean.
 
         Args:
             beyond: distances from the crisis in Gamma, positive, shape (n,).
             orbits: orbits at each distance, in [1, 1e6].
-            impacts: impacts over which an orbit is followed at most, at least 1.
+            impacts: most impacts over which an orbit is followed, at least 1.
         """
         return native.lives(locals())
 
@@ -479,7 +482,7 @@ def crisis(
     impacts: Int = 2_000_000,
     progress: Progress = None,
 ) -> Crisis:
-    """Where a chaotic attractor begins to lose orbits to rest as the forcing rises.
+    """The forcing at which a chaotic attractor begins to lose orbits to rest.
 
     Orbits on the attractor are followed to a bracket; a tangency of manifolds within it refines the result.
 
@@ -489,9 +492,9 @@ def crisis(
         touched: the saddle whose stable manifold is touched; by default the same.
         restitution: coefficient of restitution, in (0, 1).
         axial_forcing: Gamma below the crisis and beyond it.
-        samples: orbits that are followed at each forcing, in [16, 1e6].
-        impacts: impacts of all of them together, in [1e4, 1e12]; at least 200 each. More make the bracket
-            narrower.
+        samples: orbits followed at each forcing, in [16, 1e6].
+        impacts: impacts of all orbits together, in [1e4, 1e12]; at least 200 each. More impacts narrow the
+            bracket.
 
     Raises:
         ComputationError: There is no crisis, with the reason as its kind: ``"not-born"``, ``"not-followed"``,

@@ -37,7 +37,7 @@ class OutOfRangeError(BouncingDiskError, ValueError):
 
     Attributes:
         field: the name of the argument, or a path into it, such as ``disk.restitution`` in a dictionary.
-        value: the value that was given; the length of a list that is too short or too long.
+        value: the given value, or the length of a list that is too short or too long.
         range: the legal range, in words and in the unit of the value.
 
     >>> import bouncing_disk as bd
@@ -72,9 +72,9 @@ class InvalidError(BouncingDiskError, ValueError):
 
     Attributes:
         kind: the kind of fault, such as ``"not-given"``, ``"both-given"``, ``"text"``, or
-            ``"out-of-range-together"`` for what follows from several arguments, each of them legal by itself.
-        details: its names and numbers: for a text its ``line`` and ``column``, for what follows from
-            several arguments the ``quantity``, its ``value`` and ``range``, and the ``arguments``.
+            ``"out-of-range-together"`` for an illegal quantity that follows from several legal arguments.
+        details: its names and numbers: for a text its ``line`` and ``column``, for a quantity that follows
+            from several arguments the ``quantity``, its ``value`` and ``range``, and the ``arguments``.
 
     >>> import bouncing_disk as bd
     >>> try:
@@ -117,7 +117,7 @@ class MissingDependencyError(BouncingDiskError, ImportError):
 
     @classmethod
     def checked(cls, module: str, purpose: str, extra: str) -> Any:
-        """A module of an optional package; the error says what needs it, and which extra brings it."""
+        """A module of an optional package; the error names its purpose, and the extra that installs it."""
         try:
             return import_module(module)
         except ImportError as error:

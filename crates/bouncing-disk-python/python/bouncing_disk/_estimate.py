@@ -45,10 +45,10 @@ class TransientEnsemble(Result):
     Attributes:
         times: middle of each interval (s), shape (n, m).
         speeds: mean angular speed over it (rad/s), shape (n, m).
-        impacts, separations: how many impacts, and separations from rest, there were, shape (m,).
+        impacts, separations: number of impacts, and of separations from rest, shape (m,).
         steady_speeds, time_constants, residuals: fitted steady speed (rad/s), time constant (s) and residual
             (rad/s) of each member, shape (m,).
-        steady_speed, time_constant, stall_acceleration: over the members (rad/s, s, rad/s^2).
+        steady_speed, time_constant, stall_acceleration: statistics over the members (rad/s, s, rad/s^2).
     """
 
     times: FloatArray
@@ -76,17 +76,17 @@ def ensemble(
     chatter: ChatterCut | None = None,
     progress: Progress = None,
 ) -> TransientEnsemble:
-    """The transients of one motor from phases that are spread evenly, each with its exponential fit.
+    """The transients of one motor from evenly spread phases, each with its exponential fit.
 
     Args:
-        system: a system, or a motor, which a stator that yields needs: it has the mass.
+        system: a system, or a motor, which states the mass that a compliant stator needs.
         members: number of transients, in [1, 1000000].
         duration: duration (s), positive.
         intervals: intervals of equal length over which speeds are averaged, in [3, 1000000].
         relaunch_perturbation: size of the relaunch perturbation in units of g/omega, in [0, 1e100].
         seed: seed of the perturbations.
-        drive: how the stator moves, in place of the drive of the data sheet.
-        contact_time: how long an impact lasts (s), positive; ``None`` for rigid impacts.
+        drive: motion of the stator, instead of the drive of the data sheet.
+        contact_time: duration of an impact (s), positive; ``None`` for rigid impacts.
         chatter: how a chatter ends; ``None`` sums it.
 
     >>> import bouncing_disk as bd
@@ -107,12 +107,12 @@ class IntervalEstimate(NamedTuple):
 
 @dataclass(frozen=True)
 class RiseEstimate:
-    """A form of rise that was fitted to runs.
+    """A form of rise fitted to runs.
 
     Attributes:
         steady_speed: steady speed (rad/s).
         constant: time constant of an exponential, rise time of a ramp (s).
-        stall_acceleration: the first by the second (rad/s^2).
+        stall_acceleration: steady speed over that constant (rad/s^2).
         start_speed: speed at the start time of the fit (rad/s); None for a start from rest.
         residual: root mean square of the residuals (rad/s).
     """
@@ -130,13 +130,13 @@ class TransientFit:
 
     Attributes:
         exponential: the exponential rise.
-        ramp: the ramp, where one fits.
-        form: ``"exponential"`` or ``"ramp"``: which fits better.
-        start_time: first fitted time (s); rows before it have one speed. 0 for a start from rest.
+        ramp: the ramp, if one fits.
+        form: the better fit, ``"exponential"`` or ``"ramp"``.
+        start_time: first fitted time (s); the speed is constant before it. 0 for a start from rest.
         zero_time: time at which the fitted exponential is at rest (s): the switch-on and its dead time, if
             the motor rises from rest.
         duration: last time (s).
-        points, members: points of a run, and runs.
+        points, members: points of a run, and number of runs.
     """
 
     exponential: RiseEstimate
@@ -160,18 +160,18 @@ def fit_transients(
     from_rest: bool = False,
     progress: Progress = None,
 ) -> TransientFit:
-    """Steady speed, time constant and stall acceleration of a motor, with 95 % intervals, from runs of it.
+    """Steady speed, time constant and stall acceleration of a motor, with 95 % intervals, from its runs.
 
     Args:
-        times: times (s), rising; below zero, too, unless the motor starts from rest, shape (n,).
-        speeds: speeds (rad/s) of one measured run, or of m runs (5 at least), time by member, shape (n,) or
+        times: times (s), rising; not negative if the motor starts from rest, shape (n,).
+        speeds: speeds (rad/s) of one measured run, or of m runs (at least 5), time by member, shape (n,) or
             (n, m).
-        resamples: resampled fits.
+        resamples: number of resampled fits.
         seed: seed of the resampling.
-        least_duration: time constants that a curve must last.
+        least_duration: least duration of a curve, in time constants.
         largest_residual: the largest residual, relative to the steady speed.
-        from_rest: whether the motor rises from rest at time zero. Without it time zero, a dead time and the
-            speed at the start are found from the record, and the intervals are wider.
+        from_rest: whether the motor rises from rest at time zero. Otherwise time zero, a dead time and the
+            initial speed are found from the record, and the intervals are wider.
 
     >>> import bouncing_disk as bd
     >>> import numpy as np
@@ -187,17 +187,17 @@ def fit_transients(
 
 @dataclass(frozen=True, eq=False, repr=False)
 class RatedFit(Result):
-    """What rated points leave of the ranges of parameters.
+    """Parameters of a motor estimated from rated points.
 
     Attributes:
-        accepted: of each parameter the ranges that are not excluded with 95 % confidence, as (low, high) with None where one
-            reaches the end of what was searched.
-        fitted, standard_errors: the speed of the best motor at each point, and the standard error of its difference from
-            the printed one (rad/s).
+        accepted: for each parameter the ranges not excluded with 95 % confidence, as (low, high), with None
+            for an end that reaches the end of the search.
+        fitted, standard_errors: the speed of the best motor at each point, and the standard error of its
+            difference from the rated speed (rad/s).
         misfit, degrees_of_freedom: the remaining sum of weighted squares, and its expectation.
-        evaluations: places of the ranges at which all points were computed.
-        settled: whether they were enough; otherwise more, or more impacts, would narrow the ranges.
-        text: all of it in words, with the directions that are not determined.
+        evaluations: number of parameter sets at which all points were computed.
+        settled: whether these were enough; otherwise more evaluations or impacts would narrow the ranges.
+        text: everything in words, with the undetermined directions.
     """
 
     accepted: dict[str, list[tuple[float | None, float | None]]]
@@ -220,17 +220,17 @@ def fit_rated_points(
     seed: Int = 1,
     progress: Progress = None,
 ) -> RatedFit:
-    """What nobody knows of a motor, from the few steady speeds that its maker prints.
+    """Estimates unknown parameters of a motor from the few steady speeds in its catalogue.
 
     Args:
-        motor: the data sheet, which has all else.
-        points: of each the ``speed`` (rad/s; 0 at the stall torque), perhaps its ``speed_error``, and what differs from the
-            data sheet by its name there, such as ``load_torque`` or ``stator.volts``, perhaps with its standard error
-            (``load_torque_error``).
-        ranges: of each fitted parameter its range: friction, restitution, phase_lag, amplitude, twist_amplitude,
+        motor: the data sheet, with all other values.
+        points: for each the ``speed`` (rad/s; 0 at the stall torque), optionally its ``speed_error``, and the
+            fields that differ from the data sheet, such as ``load_torque`` or ``stator.volts``, optionally
+            with their standard errors (``load_torque_error``).
+        ranges: range of each fitted parameter: friction, restitution, phase_lag, amplitude, twist_amplitude,
             contact.time, stator.mass, stator.quality, stator.twist_per_height.
-        most_evaluations: most places of the ranges at which all points are computed, in [8, 400].
-        most_impacts: most impacts of all members of a computed speed.
+        most_evaluations: most parameter sets at which all points are computed, in [8, 400].
+        most_impacts: most impacts for a computed speed, all members together.
         seed: seed of the perturbations.
 
     >>> import bouncing_disk as bd
@@ -254,12 +254,13 @@ def read_speeds(
 ) -> list[tuple[FloatArray, FloatArray]]:
     """Measured speeds from a file of separated values, as instruments write them.
 
-    The first line that names the columns is the header; units are in the names, in the row below, or given here. Remarks,
-    semicolons, tabs and decimal commas are legal; anything ambiguous is refused with its line and field.
+    The first line that names the columns is the header; units are in the names, in the row below, or given
+    here. Remarks, semicolons, tabs and decimal commas are legal; anything ambiguous is an error with its line
+    and field.
 
     Args:
-        path: the file: times, speeds and, for repeated runs, a number of the run (``member``).
-        time_column, speed_column: the names of the columns, if they are not known ones; other columns are
+        path: the file: times, speeds and, for repeated runs, the number of the run (``member``).
+        time_column, speed_column: names of the columns, if they are not standard; other columns are
             then ignored.
         time_unit: the unit of the times.
         speed_unit: the unit of the speeds.

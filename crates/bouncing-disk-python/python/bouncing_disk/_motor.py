@@ -48,17 +48,17 @@ class MotorReport(Result):
         peak_acceleration: the stator's largest acceleration in units of the preload acceleration.
         regime: ``"no-lift-off"``, ``"periodic"``, ``"low-period-chattering"``, ``"long-chattering"``,
             ``"chaotic"`` or ``"undecided"``.
-        regime_impacts: impacts of a cycle, or those examined.
-        regime_platform_periods: periods of the stator in a cycle, or between two rests on average; NaN where
+        regime_impacts: impacts of a cycle, or impacts examined.
+        regime_platform_periods: periods of the stator in a cycle, or between two rests on average; NaN if
             nothing repeats.
-        regime_rests: rests that were seen in long chattering.
+        regime_rests: number of rests seen in long chattering.
         lyapunov_exponent: growth per impact of a chaotic motion, else NaN.
         periods_per_flight: mean number of the stator's periods in a flight longer than half a period.
         largest_torque: the largest mean torque of friction (N m).
-        static_deflection: static deflection of the preload's spring (m).
+        static_deflection: static deflection of the preload spring (m).
         preload_change_bound: bound on the relative change of the preload in a flight.
         warnings: values that are unlikely to be intended.
-        text: all of it as printed text.
+        text: the printed report.
     """
 
     axial_forcing: float
@@ -84,12 +84,13 @@ class MotorReport(Result):
 class Motor(Parameters):
     """A motor by its data sheet, in SI units.
 
-    Of each pair of alternatives exactly one is given: ``peak_angular_speed`` or ``twist_amplitude``, ``mass``
+    Give exactly one of each pair of alternatives: ``peak_angular_speed`` or ``twist_amplitude``, ``mass``
     or ``density``, ``preload_force`` or ``preload_acceleration``.
 
     Args:
         drive_frequency: drive frequency omega/(2 pi) (Hz), positive.
-        amplitude: axial amplitude A of the stator (m), not negative; without a rotor where the stator yields.
+        amplitude: axial amplitude A of the stator (m), not negative; without a rotor if the stator is
+            compliant.
         peak_angular_speed: largest angular speed omega Phi of the stator (rad/s), not negative.
         twist_amplitude: twist amplitude Phi of the stator (rad), not negative.
         phase_lag: phase lag theta of the twist (rad).
@@ -98,28 +99,28 @@ class Motor(Parameters):
             solid disc.
         rotor_radius, rotor_thickness: outer radius and thickness of the rotor (m), positive.
         contact_radius: effective contact radius a_e (m), positive.
-        gyration_radius: radius of gyration a_g (m), positive; that of a solid disc where a rotor radius is
+        gyration_radius: radius of gyration a_g (m), positive; by default of a solid disc if a rotor radius is
             given.
         preload_force: the total force that presses the rotor onto the stator (N), positive.
-        preload_acceleration: that force over the mass (m/s^2), positive.
-        spring_constant: constant of the spring that makes the preload (N/m), positive.
+        preload_acceleration: this force over the mass (m/s^2), positive.
+        spring_constant: constant of the preload spring (N/m), positive.
         friction: coefficient of friction mu, not negative.
         restitution: coefficient of restitution, in [0, 1).
         load_torque: load torque T_L (N m); a positive one decelerates a positive rotation.
-        contact: the table ``[contact]`` of a file: ``time`` (s) and ``law`` of contacts that take time, or the ``materials``
-            (two names), the ``geometry`` and its sizes, from which a report estimates it.
-        stator: the table ``[stator]`` of a file, by the names of its fields (SI), of a stator that yields: ``mass`` and
-            ``quality``, and, in place of ``amplitude``, ``force``, or ``volts`` with ``force_per_volt`` or with
-            ``anti_resonance`` and ``capacitance``; docs/designing-a-motor.md has them all.
-        load: the table ``[load]`` of a file, of a load that varies: ``torques`` (N m) at ``speeds`` (rad/s), lists, and
-            ``inertia`` (kg m^2).
-        drive: how the stator moves in place of the sine: a :class:`Drive`, or the table ``[drive]`` of a file. Not with
-            ``stator`` or ``load``.
+        contact: the table ``[contact]`` of a file: ``time`` (s) and ``law`` of compliant contacts, or the
+            ``materials`` (two names), the ``geometry`` and its sizes, from which a report estimates the time.
+        stator: the table ``[stator]`` of a file for a compliant stator, by field names (SI): ``mass`` and
+            ``quality``, and, instead of ``amplitude``, ``force``, or ``volts`` with ``force_per_volt`` or
+            with ``anti_resonance`` and ``capacitance``; docs/designing-a-motor.md lists all fields.
+        load: the table ``[load]`` of a file for a varying load: the lists ``torques`` (N m) and ``speeds``
+            (rad/s), and ``inertia`` (kg m^2).
+        drive: motion of the stator other than the sine: a :class:`Drive`, or the table ``[drive]`` of a file.
+            Not with ``stator`` or ``load``.
 
     Attributes:
         inertia: moment of inertia m a_g^2 of the rotor (kg m^2).
-        largest_torque: mu m g a_e (N m), which no motor exceeds in the mean.
-        static_deflection: static deflection of the preload's spring (m); None without one.
+        largest_torque: mu m g a_e (N m), the largest possible mean torque.
+        static_deflection: static deflection of the preload spring (m); None without one.
         system: the system without the mass.
 
     >>> import bouncing_disk as bd
@@ -180,9 +181,9 @@ class Motor(Parameters):
         """The same motor with other values in its data sheet.
 
         Args:
-            **changes: arguments of :class:`Motor`; None removes a value. A number replaces its
-                alternative, so that a motor with a ``preload_acceleration`` gets a ``preload_force`` by
-                naming the force alone.
+            **changes: arguments of :class:`Motor`; None removes a value. A number replaces
+                its alternative: on a motor with a ``preload_acceleration``, setting
+                ``preload_force`` is enough.
 
         >>> import bouncing_disk as bd
         >>> pressed = bd.Motor.paper_70_khz().replace(preload_force=0.02)
@@ -191,24 +192,25 @@ class Motor(Parameters):
         """
         kept = dict(self._given)
         for name, value in changes.items():
-            # Who names both alternatives gets the error of both.
+            # Naming both alternatives is an error.
             for other in native.excluded_by(name) if value is not None else ():
                 kept.pop(other, None)
         return Motor.from_dict({**kept, **changes})
 
     def report(self, *, progress: Progress = None) -> MotorReport:
-        """The consequences of the data sheet, before any run: forcing, regime, largest torque. Nothing in it but
-        the warning of an overload depends on the load.
+        """The consequences of the data sheet, before any run: forcing, regime, largest torque. The load affects
+        only the warning of an overload.
         """
         return native.report(locals())
 
     def stator_report(self) -> dict[str, float] | None:
-        """What follows from a stator that yields, before any run; None without one.
+        """Derived quantities of a compliant stator, before any run; None without one.
 
         Returns:
             By name: ``mass_ratio``, the stator's effective mass over that of the rotor; ``amplitude_without_rotor`` (m);
-            ``force``, the amplitude of the drive's force (N); of a circuit ``volts`` (V), ``current_without_rotor`` (A)
-            and ``power_without_rotor`` (W); ``lift_off_preload`` (N), from which on a rotor at rest is no longer lifted.
+            ``force``, the amplitude of the drive's force (N); with a circuit ``volts`` (V),
+            ``current_without_rotor`` (A) and ``power_without_rotor`` (W); ``lift_off_preload`` (N), the
+            preload above which a rotor at rest is not lifted.
 
         >>> import bouncing_disk as bd
         >>> motor = bd.Motor.paper_70_khz().replace(amplitude=1e-7, stator={"mass": 0.05, "quality": 300.0})
@@ -221,18 +223,18 @@ class Motor(Parameters):
     def paper_70_khz() -> Motor:
         """The motor of the paper's Table III, driven at 70 kHz.
 
-        The paper does not print its mass: it is that of a solid steel ball of the printed 20 mm.
+        The paper does not print its mass, which is taken for a solid steel ball of the printed 20 mm.
         """
         return Motor._holding(native.known_motor("70", ""))
 
     @staticmethod
     def paper_184_khz() -> Motor:
-        """The same motor as the paper drives it at 184 kHz."""
+        """The same motor, driven at 184 kHz as in the paper."""
         return Motor._holding(native.known_motor("184", ""))
 
     @staticmethod
     def from_toml(toml: str) -> Motor:
-        """The motor of a data sheet in TOML, such as the command line's ``--template`` writes.
+        """The motor of a data sheet in TOML, as written by the command line's ``--template``.
 
         Args:
             toml: the text of the file.
@@ -245,7 +247,7 @@ class Motor(Parameters):
         return Motor._holding(native.known_motor("toml", readable(toml)))
 
     def to_json(self) -> str:
-        """The data sheet as the JSON that the Rust library and its command line read."""
+        """The data sheet as JSON for the Rust library and its command line."""
         return self._native.to_json()
 
     @classmethod
@@ -255,15 +257,16 @@ class Motor(Parameters):
 
 
 class OperatingSettings(TypedDict, total=False):
-    """How a steady operation is computed: keywords of all functions that run a motor.
+    """Settings of a steady operation: keywords of all functions that run a motor.
 
     Args:
-        relative_error: requested standard error of the mean speed, relative to the larger of the speed without load and itself,
-            in [1e-6, 0.5]; 0.01 unless given.
-        members: vertical motions to average over, in [4, 4096]; 16 unless given.
-        most_impacts: most impacts of all members together, in [1, 1e15]; 20 million unless given.
-        relaunch_perturbation: size of the relaunch perturbation in units of g/omega, in (0, 1]; 0.001 unless given.
-        seed: seed of the perturbations; 1 unless given.
+        relative_error: requested standard error of the mean speed, relative to the larger of the no-load
+            speed and itself, in [1e-6, 0.5]; by default 0.01.
+        members: vertical motions to average over, in [4, 4096]; by default 16.
+        most_impacts: most impacts of all members together, in [1, 1e15]; by default 20 million.
+        relaunch_perturbation: size of the relaunch perturbation in units of g/omega, in (0, 1]; by default
+            0.001.
+        seed: seed of the perturbations; by default 1.
     """
 
     relative_error: Float
@@ -275,44 +278,44 @@ class OperatingSettings(TypedDict, total=False):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class OperatingPoints(Result):
-    """How motors run under their loads: arrays of one shape.
+    """Steady operation of motors under their loads: arrays of one shape.
 
-    ``..._error`` are standard errors, and undefined numbers are NaN.
+    Fields ``..._error`` are standard errors; undefined numbers are NaN.
 
     Attributes:
-        load_torque: load torque (N m); under a ``load`` the mean of the torque that it took.
+        load_torque: load torque (N m); with a ``load``, its mean torque.
         speed, speed_error: mean angular speed (rad/s).
         mechanical_power, mechanical_power_error: load torque times mean speed (W).
-        input_power, input_power_error: power that the stator puts in (W).
+        input_power, input_power_error: power supplied by the stator (W).
         restitution_loss, restitution_loss_error, friction_loss, friction_loss_error: power lost in impacts
             and in friction (W).
-        efficiency, efficiency_error: mechanical power over the power put in.
-        speed_deviation, speed_deviation_error: standard deviation of the speed over time (rad/s); NaN for a rotor that
-            acts back on its stator, as the next ones up to the torque.
-        speed_low, speed_low_error, speed_high, speed_high_error: between which speeds (rad/s) the rotor is in 95 % of the
-            time, and always where its motion repeats itself.
-        time_constant, time_constant_error: time constant of the speed (s), from its change to the nearest other load that
-            is asked for; NaN of a locked motor and of a load alone.
-        unstable_speed, unstable_speed_error: under a load that falls with the speed, where the rotor keeps one of two speeds,
-            that between them (rad/s) beyond which it goes to the other; else NaN.
-        blocked_torque, blocked_torque_error: mean torque (N m) of friction on a rotor that is held at rest.
-        stator_amplitude, stator_amplitude_error: amplitude under load of a stator that yields (m), else NaN, as the
-            next three: 2^(1/2) times the root mean square of the speed of its axial mode over the angular frequency
-            of the drive. A static sag is not in it.
-        drive_power, drive_power_error: power that the drive puts into such a stator (W).
+        efficiency, efficiency_error: mechanical power over supplied power.
+        speed_deviation, speed_deviation_error: standard deviation of the speed over time (rad/s); NaN for a
+            rotor that acts back on its stator, like all below up to the blocked torque.
+        speed_low, speed_low_error, speed_high, speed_high_error: range of speeds (rad/s) that holds the rotor
+            for 95 % of the time, or always if its motion repeats itself.
+        time_constant, time_constant_error: time constant of the speed (s), from its change to the nearest
+            other requested load; NaN for a locked motor and for a single load.
+        unstable_speed, unstable_speed_error: under a load that falls with the speed and allows two steady
+            speeds, the speed between them (rad/s) that separates their ranges of attraction; else NaN.
+        blocked_torque, blocked_torque_error: mean torque (N m) of friction on a rotor held at rest.
+        stator_amplitude, stator_amplitude_error: amplitude of a compliant stator under load (m), else NaN,
+            like the next three: 2^(1/2) times the root mean square of the speed of its axial mode over the
+            angular frequency of the drive, without any static sag.
+        drive_power, drive_power_error: power supplied by the drive to a compliant stator (W).
         damping_loss, damping_loss_error: power lost in the damping of its modes (W).
-        electrical_efficiency, electrical_efficiency_error: mechanical power over the power of the drive.
-        load_torque_error: standard error of the load torque; 0 of a constant one.
-        perturbation_power: power that the perturbations of the relaunches put in (W).
+        electrical_efficiency, electrical_efficiency_error: mechanical power over drive power.
+        load_torque_error: standard error of the load torque; 0 if it is constant.
+        perturbation_power: power supplied by the relaunch perturbations (W).
         energy_residual: relative residual of the energy balance.
-        averaged_time, start_up: averaged time, of all members together, and omitted time, of each (s).
-        acceleration: acceleration (rad/s^2) to which a motor tends if its load overpowers it, else NaN.
+        averaged_time, start_up: averaged time of all members together, and omitted time of each (s).
+        acceleration: limiting acceleration (rad/s^2) of a motor that its load overpowers, else NaN.
         impacts: impacts of all members.
-        status: a place in :attr:`STATUSES`.
-        motion: how the rotor moves up and down, a place in :attr:`MOTIONS`.
-        life: mean life (s) of an irregular motion that was seen to end, else NaN.
-        others: the same of motions that coexist with these, the most frequent from rest first: NaN and the status
-            ``none`` where there are fewer.
+        status: an index into :attr:`STATUSES`.
+        motion: vertical motion of the rotor, an index into :attr:`MOTIONS`.
+        life: mean lifetime (s) of an irregular motion that ended, else NaN.
+        others: the same for coexisting motions, most frequent from rest first; NaN and the status
+            ``none`` if there are fewer.
     """
 
     STATUSES: ClassVar[tuple[str, ...]] = ("steady", "unsettled", "runaway", "depends-on-start", "none")
@@ -366,10 +369,10 @@ class OperatingPoints(Result):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class TorqueSpeedCurve(OperatingPoints):
-    """How a motor runs under n loads; all arrays have the shape (n,)."""
+    """Steady operation of a motor under n loads; all arrays have the shape (n,)."""
 
     def names(self) -> list[str]:
-        """The status of each point in words, those of :attr:`STATUSES`."""
+        """The status of each point in the words of :attr:`STATUSES`."""
         return [self.STATUSES[status] for status in self.status]
 
 
@@ -382,14 +385,15 @@ def torque_speed_curve(
     progress: Progress = None,
     **settings: Unpack[OperatingSettings],
 ) -> TorqueSpeedCurve:
-    """Speed, power and efficiency of a motor against its load.
+    """Speed, power and efficiency of a motor over its load.
 
     Args:
-        load_torques: load torques (N m) instead of the data sheet's, added to its ``load``, shape (n,); by default eleven
-            from 0 to the largest torque, or 0 alone with a ``load``.
-        drive: motion of the stator instead of the data sheet's; a compliant stator accepts the sine only.
-        contact_time: how long an impact lasts (s), positive; ``None`` for rigid impacts.
-        settings: those of :class:`OperatingSettings`, as keywords.
+        load_torques: load torques (N m), which replace that of the data sheet, and add to its ``load``, shape
+            (n,).
+        drive: motion of the stator, instead of the drive of the data sheet; a compliant stator allows only the
+            sine.
+        contact_time: duration of an impact (s), positive; ``None`` for rigid impacts.
+        settings: the fields of :class:`OperatingSettings`, as keywords.
     """
     return native.torque_speed_curve(locals())
 
@@ -401,13 +405,13 @@ class StallLoad:
     Attributes:
         torque, torque_error: the torque and its standard error (N m).
         share: the torque as a share of the largest mean torque of friction.
-        bracket: loads (N m) under which it surely turns on, and is surely driven back.
+        bracket: loads (N m) under which it certainly keeps turning, and is certainly driven back.
         no_load_speed, no_load_speed_error: mean speed without load and its standard error (rad/s).
-        blocked_torque, blocked_torque_error: mean torque (N m) on a rotor that is held at rest, and its standard error;
+        blocked_torque, blocked_torque_error: mean torque (N m) on a rotor held at rest, and its standard error;
             NaN for a rotor that acts back on its stator.
-        motion: how the rotor moves up and down, a word of :attr:`OperatingPoints.MOTIONS`.
-        life: mean life (s) of an irregular motion that was seen to end, else NaN.
-        others: the same for motions that coexist with this one.
+        motion: vertical motion of the rotor, a word of :attr:`OperatingPoints.MOTIONS`.
+        life: mean lifetime (s) of an irregular motion that ended, else NaN.
+        others: the same for coexisting motions.
     """
 
     torque: float
@@ -433,8 +437,8 @@ def stall_load(
     """The load at which a motor stops.
 
     Args:
-        contact_time: as of :func:`torque_speed_curve`.
-        settings: those of :class:`OperatingSettings`, as keywords.
+        contact_time: as for :func:`torque_speed_curve`.
+        settings: the fields of :class:`OperatingSettings`, as keywords.
     """
     return native.stall_load(locals())
 
@@ -444,14 +448,14 @@ class InputSpread:
     """The spread of a speed (rad/s) or a stall load (N m) over the tolerances of a motor's inputs.
 
     Attributes:
-        mean, mean_error: the mean over the draws and its standard error.
-        standard_deviation, standard_deviation_error: the standard deviation over the draws, without
+        mean, mean_error: the mean over the samples and its standard error.
+        standard_deviation, standard_deviation_error: the standard deviation over the samples, without
             their statistical errors, and its standard error.
-        from_to: the least and the largest draw: a further one lies between them with the chance (n - 1)/(n +
-            1) of n draws.
-        draws, without: draws with the number, and without it.
-        unsettled: draws in which the rest of the start-up exceeds the standard deviation.
-        trapped: draws that are in a low-period trap.
+        from_to: the least and the largest sample: with n samples, a further one lies between them with
+            probability (n - 1)/(n + 1).
+        draws, without: samples with the number, and without it.
+        unsettled: samples in which the remaining start-up exceeds the standard deviation.
+        trapped: samples in a low-period trap.
     """
 
     mean: float
@@ -477,36 +481,37 @@ def input_spreads(
 ) -> list[InputSpread | None]:
     """The spread of the speeds or the stall load of a motor over the tolerances of its inputs.
 
-    The errors of the other calls hold at exactly the given inputs. The response of a motor to preload and amplitude is rough:
-    a designer can rely on this spread.
+    The errors of the other calls hold at exactly the given inputs. A motor responds irregularly to preload
+    and amplitude, so a designer should rely on this spread.
 
     Args:
-        load_torques: load torques (N m) of the speeds; by default the spread is that of the stall load, shape (n,).
+        load_torques: load torques (N m) of the speeds, shape (n,); by default the spread is computed for the
+            stall load.
         tolerance: relative tolerance of preload and amplitude, in [0, 0.5].
-        perturbation_decades: decades over which the size of the relaunch perturbation is drawn, in [0, 6].
-        draws: motors that are drawn, in [8, 10000].
-        settings: those of :class:`OperatingSettings`, as keywords.
+        perturbation_decades: decades over which the size of the relaunch perturbation is sampled, in [0, 6].
+        draws: motors to sample, in [8, 10000].
+        settings: the fields of :class:`OperatingSettings`, as keywords.
 
     Returns:
-        One for each load, or that of the stall load alone; None where fewer than four draws have a speed.
+        One for each load, or only the spread of the stall load; None if fewer than four samples have a speed.
     """
     return native.input_spreads(locals())
 
 
 @dataclass(frozen=True)
 class Best:
-    """The best of a quantity over one or two fields of a data sheet.
+    """The best value of a quantity over one or two fields of a data sheet.
 
     Attributes:
         of: the quantity.
-        value, error: the quantity, measured at this place, and its standard error, which also holds what a better place
-            nearby may bring.
+        value, error: the quantity measured at the optimum, and its standard error, which includes a possible
+            gain nearby.
         values, value_errors: the fields there, by name, and their standard errors.
-        good_from_to: for each field the range around it with at least 99 % of the value, in which the bounds are kept; None where
-            the curve is too rough to tell.
-        at_end: the fields whose best value is at an end of their range.
+        good_from_to: for each field the range around the optimum with at least 99 % of the value, within the
+            bounds; None if the curve is too rough.
+        at_end: fields whose best value is at an end of their range.
         bounds: the quantities of ``where``, each with its standard error.
-        branches: how many motions coexist there; all numbers are those of the first.
+        branches: number of coexisting motions; all numbers refer to the first.
     """
 
     of: str
@@ -531,15 +536,15 @@ def best(
 ) -> Best:
     """The best speed, torque, power or efficiency over one or two fields of the data sheet.
 
-    All other fields are those of the motor, its load among them. For the largest torque at a speed, let ``load_torque``
-    vary and bound the speed.
+    All other fields, including the load, are taken from the motor. For the largest torque at a speed, vary
+    ``load_torque`` and bound the speed.
 
     Args:
-        of: the quantity whose largest value is sought: ``speed``, ``torque``, ``power``, ``efficiency``, ...
+        of: the quantity to maximise: ``speed``, ``torque``, ``power``, ``efficiency``, ...
         over: one or two arguments of :class:`Motor`, each with its least and its largest value (SI). A ``phase_lag`` over a
             whole turn has no ends.
         where: bounds on quantities of the same operation, at most two: ``"speed >= 5"``.
-        settings: those of :class:`OperatingSettings`, as keywords.
+        settings: the fields of :class:`OperatingSettings`, as keywords.
 
     >>> import bouncing_disk as bd
     >>> found = bd.best(bd.Motor.paper_70_khz(), "speed", over={"phase_lag": (-1.0, 1.0)}, relative_error=0.05)
@@ -564,7 +569,7 @@ class MotorMap(OperatingPoints):
     axes: dict[str, FloatArray]
 
     def names(self) -> list[list[str]]:
-        """The status of each cell in words, those of :attr:`STATUSES`, row by row."""
+        """The status of each cell in the words of :attr:`STATUSES`, row by row."""
         rows = self.status.reshape(len(self.status), -1)
         return [[self.STATUSES[status] for status in row] for row in rows]
 
@@ -579,20 +584,20 @@ def motor_map(
 ) -> MotorMap:
     """Speed, power and efficiency of a motor over one or two parameters of its data sheet.
 
-    The numbers of a cell are those of the motion that most rotors reach from rest; `motion` and `status` say whether it is
-    periodic and whether it is settled, and `others` has the motions that coexist with it.
-    Cells that share a vertical motion are computed on one orbit. A parameter replaces its alternative: a sweep
-    over ``preload_force`` of a motor with a ``preload_acceleration`` has the force alone.
+    The numbers of a cell refer to the motion that most rotors reach from rest; `motion` and `status` state
+    whether it is periodic and whether it is settled, and `others` lists coexisting motions. Cells that share
+    a vertical motion are computed on one orbit. A parameter replaces its alternative: a sweep over
+    ``preload_force`` of a motor with a ``preload_acceleration`` uses only the force.
 
     Args:
-        over: one or two arguments of :class:`Motor` with their values (SI); the first axis is that of the
-            rows, shape (n,).
-        continued: whether each cell of one axis starts from where the one before was left, in place of from rest: of a
-            ``stator`` that yields, whose state may depend on what was before. Height and modes go on; the speed of
-            the rotor begins anew. All other fields of the sheet are held: over ``drive_frequency`` its volts, its force or
-            its amplitude without a rotor, the preload and the phase lag. Where members are in several states, their mean
-            is that of none.
-        settings: those of :class:`OperatingSettings`, as keywords.
+        axes: one or two arguments of :class:`Motor` with their values (SI), shape (n,); the first
+            gives the rows.
+        continued: whether each cell of one axis starts from the final state of its predecessor instead of
+            from rest: for a compliant ``stator``, whose state may depend on its history. Height and modes
+            continue; the speed of the rotor restarts. All other fields of the sheet are held: over
+            ``drive_frequency`` its volts, its force or its amplitude without a rotor, the preload and the
+            phase lag. If members are in several states, their mean describes none of them.
+        settings: the fields of :class:`OperatingSettings`, as keywords.
 
     >>> import bouncing_disk as bd
     >>> motor = bd.Motor(drive_frequency=70e3, amplitude=1e-8, peak_angular_speed=30.0, mass=1e-3,
@@ -611,11 +616,12 @@ class LowPeriodTraps(Result):
 
     Attributes:
         preload_acceleration: preload as an acceleration (m/s^2), shape (n,).
-        axial_forcing: axial forcing parameter Gamma, which with the restitution alone decides, shape (n,).
+        axial_forcing: axial forcing parameter Gamma, which with the restitution determines the result, shape
+            (n,).
         is_trap: whether the perturbed motor repeats the short cycle, shape (n,).
-        impacts, platform_periods, long_flights: those of the unperturbed cycle from one separation to the
+        impacts, platform_periods, long_flights: numbers of the unperturbed cycle from one separation to the
             next, if it has at most eight long flights; 0 without such a cycle, shape (n,).
-        relaunches, returns: perturbed relaunches that were tried, and how many of them led through such a
+        relaunches, returns: number of perturbed relaunches, and of those that led through such a
             cycle, shape (n,).
         mean_platform_periods: mean number of the stator's periods from one perturbed relaunch to the next;
             NaN without a cycle, shape (n,).
@@ -635,15 +641,15 @@ class LowPeriodTraps(Result):
 def low_period_traps(
     motor: Motor, *, preload_accelerations: ArrayLike, progress: Progress = None
 ) -> LowPeriodTraps:
-    """Which preloads trap a motor in a short cycle of flights and rest, with a speed of its own.
+    """Which preloads trap a motor in a short cycle of flights and rest, with its own speed.
 
-    It is judged from the vertical motion, which alone decides.
+    Only the vertical motion matters.
 
     Args:
-        preload_accelerations: preloads as accelerations (m/s^2), positive; they replace that of the data
+        preload_accelerations: preloads as accelerations (m/s^2), positive, which replace that of the data
             sheet, shape (n,).
 
-    A flight of twelve and a half periods lands softly, which is where Gamma is 12.51:
+    A flight of twelve and a half periods, at Gamma = 12.51, lands softly:
 
     >>> import numpy as np
     >>> import bouncing_disk as bd
@@ -657,16 +663,16 @@ def low_period_traps(
 
 @dataclass(frozen=True, eq=False)
 class NearestTrap(Result):
-    """The low-period trap that is nearest to a motor.
+    """The low-period trap nearest to a motor.
 
     Attributes:
-        relative_distance: the relative change of amplitude or preload, the smaller of the two, that reaches
-            its near edge; 0 for a motor in the trap.
-        preload_acceleration, amplitude, drive_frequency: each of these (m/s^2, m, Hz) at the near edge, if
-            the others are kept.
+        relative_distance: the smaller of the relative changes of amplitude and preload that reach its
+            near edge; 0 for a motor in the trap.
+        preload_acceleration, amplitude, drive_frequency: each of these (m/s^2, m, Hz) at the near edge,
+            with the others kept.
         forcing_from_to: the range of Gamma of the trap, as far as it was scanned.
-        forcing_step: step of the scan in Gamma: traps that are narrower may have been missed.
-        impacts, platform_periods, long_flights: those of the cycle in the middle of the trap.
+        forcing_step: step of the scan in Gamma; narrower traps may have been missed.
+        impacts, platform_periods, long_flights: numbers of the cycle in the middle of the trap.
         return_share: the share of perturbed relaunches there that return to the cycle, in [0, 1].
     """
 
@@ -685,10 +691,10 @@ class NearestTrap(Result):
 def nearest_trap(
     motor: Motor, *, relative_range: Float = 0.1, progress: Progress = None
 ) -> NearestTrap | None:
-    """The low-period trap that is nearest to a motor.
+    """The low-period trap nearest to a motor.
 
-    Only Gamma and the restitution decide, so that a change of preload, of amplitude or of frequency
-    reaches the same trap: its near edge is given for each of them, with the others kept.
+    Only Gamma and the restitution matter, so a change of preload, amplitude or frequency
+    reaches the same trap; its near edge is given for each, with the others kept.
 
     Args:
         relative_range: the largest relative change of preload or amplitude to search, in (0, 1].
@@ -706,12 +712,12 @@ def nearest_trap(
 
 @dataclass(frozen=True, eq=False, repr=False)
 class LocalSensitivities(Result):
-    """How a quantity of a motor depends on n of its parameters, next to its data sheet.
+    """Sensitivity of a quantity of a motor to n of its parameters, near its data sheet.
 
     Attributes:
         parameters: the parameters.
-        derivative, standard_error: d ln(quantity)/d ln(parameter); for the phase lag d ln(quantity)/d
-            theta (1/rad), for the load torque d ln(quantity) over its change in units of mu m g a_e, shape
+        derivative, standard_error: d ln(quantity)/d ln(parameter); for the phase lag d ln(quantity)/d theta
+            (1/rad), for the load torque d ln(quantity) over the change of load in units of mu m g a_e, shape
             (n,).
         method: ``"shared-motion"``, by a difference of rotors on the same vertical motions, or
             ``"regression"``, by a line through motors with different ones.
@@ -737,17 +743,17 @@ def local_sensitivities(
     progress: Progress = None,
     **settings: Unpack[OperatingSettings],
 ) -> LocalSensitivities:
-    """How the steady speed or the stall torque of a motor depends on its parameters next to its data sheet.
+    """Sensitivity of the steady speed or the stall torque of a motor to its parameters, near its data sheet.
 
     Args:
-        parameters: which ones, of ``friction``, ``peak_angular_speed``, ``phase_lag``, ``contact_radius``,
+        parameters: any of ``friction``, ``peak_angular_speed``, ``phase_lag``, ``contact_radius``,
             ``gyration_radius``, ``load_torque``, ``amplitude``, ``preload``, ``restitution`` and
             ``drive_frequency``; by default the first six, which share one vertical motion.
         quantity: the quantity whose sensitivity is computed.
         half_range: half the range, in the logarithm of a parameter of the vertical motion, over which motors
-            are drawn, in (0, 2].
-        points: motors that are drawn over it, in [5, 10000].
-        settings: those of :class:`OperatingSettings`, as keywords.
+            are sampled, in (0, 2].
+        points: motors sampled over it, in [5, 10000].
+        settings: the fields of :class:`OperatingSettings`, as keywords.
 
     >>> import bouncing_disk as bd
     >>> motor = bd.Motor(drive_frequency=70e3, amplitude=1e-8, peak_angular_speed=30.0, mass=1e-3,

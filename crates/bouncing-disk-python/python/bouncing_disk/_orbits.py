@@ -32,21 +32,22 @@ class ImpactMap(Parameters):
 
     An impact is its phase (rad) and the velocity of the disk relative to the platform just before
     (``axial_impact_velocity``, not positive, in units of g/omega); the paper's normalised impact speed is
-    that over -pi. With a contact time an impact is a release: one at the speed v counts as the impact that would
-    rebound with v.
+    this velocity over -pi. With a contact time an impact is a release, represented by the rigid impact with
+    the same rebound speed.
 
-    Functions use the drive and the contact time of the map. Those for rigid impacts on the sine only
-    (:meth:`period_one`, :func:`manifold`) raise :class:`InvalidError` on other maps, of the kind ``"drive-not-sine"``
-    or ``"soft-contact"``.
+    Functions use the drive and the contact time of the map. Functions for rigid impacts on the sine only
+    (:meth:`period_one`, :func:`manifold`) raise :class:`InvalidError` on other maps, of the kind
+    ``"drive-not-sine"`` or ``"soft-contact"``.
 
     Args:
-        axial_forcing: axial forcing parameter Gamma = A omega^2/(pi g). This one or the next is needed.
-        peak_acceleration: peak acceleration A omega^2/g of the platform (with a drive, of the sine with its amplitude).
+        axial_forcing: axial forcing parameter Gamma = A omega^2/(pi g). Give this or the next.
+        peak_acceleration: peak acceleration A omega^2/g of the platform (with a drive, of the sine of the
+            same amplitude).
         restitution: coefficient of restitution, in [0, 1).
-        drive: how the platform moves, a :class:`Drive` or its dictionary; ``None`` for the sine. Only the height
-            counts: a drive with the sine's height is not kept unless there is a contact time.
-        contact_periods: how long an isolated impact lasts, in periods of the platform, in [1e-6, 1000]; ``None`` for
-            rigid impacts. Only on the sine and on Fourier sums.
+        drive: motion of the platform, a :class:`Drive` or its dictionary; ``None`` for the sine. Only the
+            height matters: a drive with the sine's height is dropped unless there is a contact time.
+        contact_periods: duration of an isolated impact, in periods of the platform, in [1e-6, 1000]; ``None``
+            for rigid impacts. Only for the sine and Fourier sums.
 
     Attributes:
         normalised_speed_bound: the largest normalised impact speed of every attractor and periodic orbit; NaN with a
@@ -85,7 +86,7 @@ class ImpactMap(Parameters):
             self.__dict__["_native"] = impact_map(axial_forcing, peak_acceleration, restitution, drive, contact_periods)
 
     def _key(self) -> object:
-        # Two maps are equal that compute the same, whichever forcing was given.
+        # Maps that compute the same are equal, whichever forcing was given.
         height = "sine" if self.drive is None else hashable(self.drive.height)
         return self.peak_acceleration, self.restitution, height, self.contact_periods
 
@@ -101,7 +102,7 @@ class ImpactMap(Parameters):
     def step(self, *, impact_phase: Float, axial_impact_velocity: Float) -> tuple[float, float]:
         """The next impact.
 
-        No rule ends a chatter: a chattering disk is followed through ever smaller impacts.
+        Chattering is not cut off: the disk is followed through ever smaller impacts.
 
         Args:
             impact_phase: phase of this impact (rad).
@@ -110,7 +111,7 @@ class ImpactMap(Parameters):
         Returns:
             Phase and velocity of the next impact.
         """
-        # The next call is that of the compiled method itself, here and below, so that loops pay for one call alone.
+        # Here and below the compiled method is called directly, so that loops pay for one call only.
         self.__dict__["step"] = self._native.step
         return self._native.step(impact_phase=impact_phase, axial_impact_velocity=axial_impact_velocity)
 
@@ -120,7 +121,7 @@ class ImpactMap(Parameters):
         """The impact a number of steps later.
 
         Args:
-            impact_phase, axial_impact_velocity: as of :meth:`step`.
+            impact_phase, axial_impact_velocity: as for :meth:`step`.
             impacts: number of steps.
 
         Returns:
@@ -129,13 +130,14 @@ class ImpactMap(Parameters):
         return native.iterate(locals())
 
     def derivative(self, *, impact_phase: Float, axial_impact_velocity: Float) -> FloatArray:
-        """The derivative of the next impact by this one.
+        """The derivative of the next impact with respect to this one.
 
         Args:
-            impact_phase, axial_impact_velocity: as of :meth:`step`.
+            impact_phase, axial_impact_velocity: as for :meth:`step`.
 
         Returns:
-            Rows: next phase and velocity; columns: by this phase and velocity (rad, units of g/omega), shape (2, 2).
+            Rows: next phase and velocity; columns: this phase and velocity (rad, units of g/omega),
+            shape (2, 2).
 
         Raises:
             ComputationError: ``"impact-on-kink"`` if either impact is on a kink of the platform.
@@ -151,7 +153,7 @@ class ImpactMap(Parameters):
             platform_periods: at least 1.
 
         Returns:
-            Phase and velocity of its impact; None below the forcing at which it is born.
+            Phase and velocity of its impact; None below the forcing of its birth.
         """
         self.__dict__["period_one"] = self._native.period_one
         return self._native.period_one(platform_periods=platform_periods)
@@ -180,14 +182,14 @@ class ImpactMap(Parameters):
         tolerance: Float = 1e-07,
         progress: Progress = None,
     ) -> PeriodicOrbit | None:
-        """The attracting periodic orbit on which the orbit from an impact settles.
+        """The attracting periodic orbit that an impact leads to.
 
         Args:
             impact_phase: phase of the impact (rad).
             normalised_speed: its normalised speed, not negative.
             transient: impacts before the search for a period.
             longest_period: the longest period, in impacts, up to 4096.
-            tolerance: how near an orbit must come to itself to count as periodic (rad, and relative speed).
+            tolerance: largest distance at which an orbit counts as closed (rad, and relative speed).
 
         Returns:
             None if the disk comes to rest or shows no period.
@@ -207,12 +209,12 @@ class PeriodicOrbit(Stored):
             (period,).
         normalised_speed: normalised speed of each impact, shape (period,).
         period: number of impacts in one period of the orbit.
-        platform_periods: periods of the platform that one period of the orbit takes.
+        platform_periods: periods of the platform in one period of the orbit.
         monodromy: the derivative of the map around the orbit, from its first impact, shape (2, 2).
         multipliers: the two Floquet multipliers, complex, the one of larger modulus first, shape (2,).
-        is_stable: whether the orbit attracts: both multipliers lie inside of the unit circle by more than
+        is_stable: whether the orbit attracts: both multipliers lie inside the unit circle by more than
             their uncertainty.
-        stability: ``"attracts"``, ``"unstable"``, or ``"marginal"`` where a multiplier is 1 or -1 within
+        stability: ``"attracts"``, ``"unstable"``, or ``"marginal"`` if a multiplier is 1 or -1 within
             rounding.
     """
 
@@ -233,12 +235,12 @@ class PeriodicOrbit(Stored):
         samples: Int = 64,
         progress: Progress = None,
     ) -> float:
-        """The radius within which a start counts as caught by this orbit: the proven one, or a larger one that samples
-        support.
+        """The radius within which a start counts as caught by this orbit: the proven radius, or a larger one
+        supported by samples.
 
         Args:
-            impact_map: the map that it is an orbit of.
-            samples: starts on each circle that is tried.
+            impact_map: the map of this orbit.
+            samples: starts on each tested circle.
 
         Returns:
             In radians (a radian counts as much as the peak velocity of the platform).
@@ -246,7 +248,7 @@ class PeriodicOrbit(Stored):
         Raises:
             InvalidError: ``"not-an-orbit"`` for an orbit of another map.
             ComputationError: ``"not-attracting"`` unless the orbit attracts; ``"nothing-proven"`` next to a
-                graze, where samples find no radius either.
+                graze, if samples find no radius either.
         """
         return native.trapping_radius(locals())
 
@@ -262,18 +264,18 @@ def periodic_orbits(
 ) -> list[PeriodicOrbit]:
     """The periodic orbits of few impacts, stable and unstable.
 
-    Those of one impact come from a closed form and are complete, except with a contact time. All others are
-    found from a grid of starts, which cannot prove that the list is complete. On a drive, orbits with an impact on a
-    kink are left out: they have no multipliers.
+    Orbits of one impact come from a closed form and are complete, except with a contact time. All others are
+    found from a grid of starts, which does not prove that the list is complete. On a drive, orbits with an
+    impact on a kink are omitted, as they have no multipliers.
 
     Args:
         max_impacts: the most impacts of an orbit, in [1, 64].
-        max_platform_periods: the most periods of the platform that it takes, in [1, 10000].
+        max_platform_periods: the most periods of the platform in an orbit, in [1, 10000].
         phases, speeds: starts along each axis, in [2, 4096].
 
     Returns:
-        By rising number of impacts, then of platform periods, then by falling speed of the fastest impact,
-            which is the first of each.
+        Sorted by number of impacts, then of platform periods, then by falling speed of the fastest impact,
+        which comes first in each orbit.
 
     >>> import bouncing_disk as bd
     >>> bouncing = bd.ImpactMap(axial_forcing=0.5, restitution=0.5)
@@ -306,7 +308,7 @@ class Bifurcation(Result):
             passes a joint or reaches a kink of the platform) or ``"birth"``.
         parameter: the value of the parameter.
         arclength: arclength from the start of the branch.
-        impact: which impact grazes, vanishes or collides.
+        impact: index of the impact that grazes, vanishes or collides.
         orbit: the orbit there.
     """
 
@@ -324,7 +326,7 @@ class Branch(Stored):
     Made by :func:`continued` and :meth:`Branch.switched`. Arrays have one row for each orbit, n in all.
 
     Attributes:
-        parameter: the parameter that is varied, as it was given.
+        parameter: the varied parameter, as given.
         values: the parameter of each orbit, shape (n,).
         arclength: arclength from the start of the branch, shape (n,).
         impact_phase: phases of the impacts of each orbit (rad), shape (n, period).
@@ -334,7 +336,7 @@ class Branch(Stored):
         multipliers: Floquet multipliers of each orbit, complex, shape (n, 2).
         is_stable: whether each orbit attracts, bool, shape (n,).
         end: why the branch ends, in words.
-        bifurcations: the bifurcations on the way: a tuple of :class:`Bifurcation`.
+        bifurcations: the bifurcations along the branch, a tuple of :class:`Bifurcation`.
     """
 
     parameter: str
@@ -352,7 +354,7 @@ class Branch(Stored):
         """One orbit of the branch.
 
         Args:
-            index: which one, from 0.
+            index: its index, from 0.
         """
         return native.branch_orbit(locals())
 
@@ -367,9 +369,9 @@ class Branch(Stored):
         """The branch of twice the period that begins at a doubling.
 
         Args:
-            index: which of :attr:`bifurcations`.
+            index: index into :attr:`bifurcations`.
             parameter_range: lowest and highest value of the parameter.
-            settings: those of :class:`Continuation`, as keywords.
+            first_step, largest_step, max_points, progress: as for :func:`continued`.
         """
         return native.switched(locals())
 
@@ -390,16 +392,17 @@ def continued(
 ) -> Branch:
     """The branch of periodic orbits through one of them, through folds and along unstable parts.
 
-    With a contact time the end of a branch is known to 1e-6.
+    With a contact time the end of a branch is accurate to 1e-6.
 
     Args:
         orbit: an orbit of this map.
-        parameter: the parameter to vary: ``"axial_forcing"`` or ``"restitution"``; on a map with a drive or a contact
-            time also ``"contact_periods"`` and each number of the drive's height by its place, as ``"fourier[1][0]"``
-            for the amplitude of the second harmonic or ``"sawtooth"``.
+        parameter: the parameter to vary: ``"axial_forcing"`` or ``"restitution"``; on a map with a drive or a
+            contact time also ``"contact_periods"`` and each number of the drive's height by its index, such
+            as ``"fourier[1][0]"`` for the amplitude of the second harmonic, or ``"sawtooth"``.
         parameter_range: its lowest and highest value.
-        rising: whether it goes towards higher values at first.
-        settings: those of :class:`Continuation`, as keywords.
+        rising: whether it begins towards higher values.
+        first_step, largest_step: arclength of the first and of the largest step, in [1e-9, 1].
+        max_points: the most orbits, in [2, 1000000].
 
     Raises:
         InvalidError: ``"not-an-orbit"`` for an orbit of another map; ``"no-such-number"`` for a parameter that the
@@ -417,19 +420,19 @@ def continued(
 
 @dataclass(frozen=True, eq=False, repr=False)
 class DoublingCascade(Result):
-    """A period-doubling cascade; n doublings, and Feigenbaum's numbers from some of them.
+    """A period-doubling cascade: n doublings, and Feigenbaum's numbers from m of them.
 
     Attributes:
         period: impacts of the orbit that loses its stability, shape (n,).
-        axial_forcing, forcing_error: the forcing Gamma_n, and how far rounding may have moved it, shape (n,).
-        multiplier: the multiplier that the search reached, -1 but for rounding, shape (n,).
+        axial_forcing, forcing_error: the forcing Gamma_n, and the bound on its rounding error, shape (n,).
+        multiplier: the multiplier reached by the search, -1 within rounding, shape (n,).
         width: the largest distance (rad) of an impact from the one half a period later, shape (n,).
-        graze_margin: how near a flight comes to an earlier impact, in units of g/omega^2; infinite if none
-            comes near, not a number on another drive, shape (n,).
-        feigenbaum_number: the last doubling that was used for each estimate, from 1, shape (m,).
-        delta, delta_error, alpha, alpha_error: Feigenbaum's numbers, extrapolated, and how far they may be
-            off, shape (m,).
-        ended_by: why there are not as many doublings as were asked for; ``None`` if there are.
+        graze_margin: smallest gap by which a flight misses an earlier impact, in units of g/omega^2; infinite
+            if none comes near, NaN on another drive, shape (n,).
+        feigenbaum_number: the last doubling used for each estimate, from 1, shape (m,).
+        delta, delta_error, alpha, alpha_error: Feigenbaum's numbers, extrapolated, and their errors,
+            shape (m,).
+        ended_by: why there are fewer doublings than requested; ``None`` if there are not.
     """
 
     period: IntArray
@@ -459,11 +462,11 @@ def doubling_cascade(
 
     Args:
         restitution: coefficient of restitution, in (0, 1).
-        count: number of doublings, in [1, 13]; fewer are found where the cascade ends, as for the restitution 0.01
-            after two.
-        drive: how the platform moves; ``None`` for the sine. The cascade begins with the attracting orbit of one
-            impact per period at the lowest forcing.
-        contact_periods: as of :func:`orbit_diagram`.
+        count: number of doublings, in [1, 13]; fewer if the cascade ends early, as after two for the
+            restitution 0.01.
+        drive: motion of the platform; ``None`` for the sine. The cascade begins with the attracting orbit of
+            one impact per period at the lowest forcing.
+        contact_periods: as for :func:`orbit_diagram`.
 
     >>> import bouncing_disk as bd
     >>> bd.doubling_cascade(restitution=0.5, count=3).axial_forcing.round(4)

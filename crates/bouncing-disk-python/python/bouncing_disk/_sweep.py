@@ -1,4 +1,5 @@
-"""A function at every point of a grid, here or on a Dask cluster, with a journal that resumes: `bouncing_disk.sweep`."""
+"""A function at every point of a grid, in this process or on a Dask cluster, with a journal to resume from:
+`bouncing_disk.sweep`."""
 
 from __future__ import annotations
 
@@ -30,10 +31,10 @@ if TYPE_CHECKING:
 __all__ = ["FailedPoint", "SweepFailedError", "SweepJournalError", "sweep"]
 
 Array = npt.NDArray[Any]
-#: The results of a call by their names; the first axis is that of its points.
+#: The results of a call by name; the first axis runs over its points.
 Results = dict[str, Array]
 
-#: Types that JSON writes without a loss: those of axes, and of results.
+#: Types that JSON stores without loss: for axes, and for results.
 _AXIS_TYPES = "?U" + np.typecodes["AllInteger"] + "efd"
 _RESULT_TYPES = _AXIS_TYPES + "FD"
 #: A sweep is given up when this many calls have failed.
@@ -59,7 +60,7 @@ class SweepFailedError(BouncingDiskError, RuntimeError):
     """The function failed at points of the grid. The finished points are in the journal, if there is one.
 
     Attributes:
-        failures: the points in the order of the grid, one for each call that failed; none where no call can succeed,
+        failures: the points in the order of the grid, one for each failed call; empty if no call can succeed
             because a worker has another version of this package.
     """
 
@@ -71,7 +72,8 @@ class SweepJournalError(BouncingDiskError, RuntimeError):
 
     Attributes:
         journal: the file.
-        kind: why: ``"another-sweep"``, ``"not-a-journal"``, ``"damaged"``, ``"in-use"`` or ``"cannot-write"``.
+        kind: the reason: ``"another-sweep"``, ``"not-a-journal"``, ``"damaged"``, ``"in-use"`` or
+            ``"cannot-write"``.
     """
 
     journal: str
@@ -91,25 +93,28 @@ def sweep(
     """Compute a function at every point of a grid, in this process or on a Dask cluster.
 
     Args:
-        function: called with keywords: one value for each axis, and the `arguments`. It returns a number, a text or an
-            array, or several of them by their names: a mapping, a named tuple or a dataclass, such as the results of
-            this package (fields that are named as an axis are left out).
+        function: called with keywords: one value for each axis, and the `arguments`. It returns a number, a
+            text or an array, or several named ones: a mapping, a named tuple or a dataclass, such as the
+            results of this package (fields with the name of an axis are omitted).
         axes: the values of each axis, numbers or texts. The grid is their Cartesian product.
         client: a ``distributed.Client``. Its workers need this package in the same version. Without one this process
             computes; functions of this package use all its processors.
-        arguments: what the function gets at every point.
-        chunk: call the function with arrays of at most this many points instead of the numbers of one point. The first
-            axis of its results is that of the points. This is much faster for functions of many orbits.
-        journal: a file to which this process appends the results of each call at once. The same sweep, called again,
-            computes only what is missing. It compares the text of the function, not of what this calls. Do not use one
-            file in two processes where files cannot be locked (Windows, some network file systems).
-        progress: called with the numbers of points that are done and of all points.
+        arguments: further arguments of the function, the same at every point.
+        chunk: call the function with arrays of at most this many points instead of the numbers of one point.
+            The first axis of its results runs over the points. This is much faster for functions of many
+            orbits.
+        journal: a file to which this process appends the results of each call at once. The same sweep, called
+            again, computes only the missing points. It compares the text of the function, not of the
+            functions that it calls. Do not use one file in two processes if files cannot be locked (Windows,
+            some network file systems).
+        progress: called with the number of finished points and of all points.
 
     Returns:
         A Dataset of xarray: a variable for each name, or ``result``, whose first dimensions are the axes.
 
     Raises:
-        SweepFailedError: The function failed. The points are named. All others are computed, unless 100 calls failed.
+        SweepFailedError: The function failed. The error names the points. All others are computed, unless 100
+            calls failed.
         SweepJournalError: The file is the journal of another sweep (the message says what differs), is in use, was
             changed, or cannot be written.
 
@@ -153,7 +158,8 @@ def _axis(name: str, values: npt.ArrayLike) -> Array:
 
 @dataclass(frozen=True)
 class _Job:
-    """A sweep as workers get it. A call is known by the number of its first point; the last axis is the fastest."""
+    """A sweep as sent to workers. A call is identified by the index of its first point; the last axis is the
+    fastest."""
 
     function: Callable[..., Any]
     axes: dict[str, Array]
@@ -163,7 +169,7 @@ class _Job:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """How many values each axis has."""
+        """Number of values of each axis."""
         return tuple(map(len, self.axes.values()))
 
     def calls(self) -> range:
@@ -184,7 +190,7 @@ class _Job:
         return {name: value[0].item() for name, value in self.values(range(number, number + 1)).items()}
 
     def results(self, points: range) -> Results:
-        """What the function returns for these points."""
+        """The results of the function for these points."""
         values: Mapping[str, Any] = self.values(points) if self.chunk else self.point(points.start)
         arrays = {}
         for name, result in self._named(self.function(**values, **self.arguments)).items():
@@ -210,7 +216,7 @@ class _Job:
         return FailedPoint(self.point(first), f"{what}{type(error).__name__}: {error}", lines)
 
     def header(self) -> dict[str, Any]:
-        """The first line of a journal: everything on which the results depend."""
+        """The first line of a journal: everything that the results depend on."""
         function = self.function
         name = f"{getattr(function, '__module__', None)}.{getattr(function, '__qualname__', None)}"
         if not inspect.isroutine(function) or inspect.ismethod(function) or "<" in name:
@@ -243,7 +249,7 @@ class _OtherVersion(RuntimeError):
 
 
 def _call(job: _Job, first: int) -> Results | FailedPoint:
-    """One call, wherever it is made. If it fails, halves of its points are tried, to name the one that fails."""
+    """One call, in any process. If it fails, halves of its points are tried to find the failing one."""
     if job.version != native.VERSION:
         raise _OtherVersion(f"the worker has bouncing-disk {native.VERSION}, and the caller {job.version}")
     points = job.span(first)
@@ -272,13 +278,13 @@ def _itself(job: _Job) -> _Job:
 
 
 def _distributed(job: _Job, calls: list[int], client: Any) -> Generator[tuple[int, Results | FailedPoint]]:
-    """The calls in the order in which a cluster finishes them. Dask repeats those of a worker that died."""
-    # A task like the others, so that it is repeated if all workers that hold it are lost.
+    """The calls in the order in which a cluster finishes them. Dask repeats the calls of a worker that died."""
+    # An ordinary task, so that it is repeated if all workers that hold it are lost.
     shared = client.submit(_itself, job, pure=False)
     pending = dict(zip(client.map(_call, [shared] * len(calls), calls, pure=False), calls, strict=True))
     try:
         for future in import_module("distributed").as_completed(list(pending)):
-            # What the client has taken, the workers forget.
+            # Workers forget results that the client has taken.
             first = pending.pop(future)
             try:
                 yield first, future.result()
@@ -291,7 +297,7 @@ def _distributed(job: _Job, calls: list[int], client: Any) -> Generator[tuple[in
 
 
 def _finished(job: _Job, client: Any, journal: _Journal | None, progress: Progress) -> dict[int, Results]:
-    """The results of all calls by their first points: those of the journal, and the others as they come in."""
+    """The results of all calls by their first points: first from the journal, then as they arrive."""
     finished = journal.finished if journal is not None else {}
     missing = [first for first in job.calls() if first not in finished]
     failures: dict[int, FailedPoint] = {}
@@ -322,7 +328,7 @@ def _finished(job: _Job, client: Any, journal: _Journal | None, progress: Progre
 
 
 def _form(results: Results) -> dict[str, str]:
-    """What all calls must have in common. Numbers may be integers at one point and floats at another."""
+    """The common properties of all calls. Numbers may be integers at one point and floats at another."""
     words = {"U": "texts", "b": "truths"}
     return {name: f"{words.get(array.dtype.kind, 'numbers')} {array.shape[1:]}" for name, array in results.items()}
 
@@ -337,13 +343,13 @@ def _dataset(job: _Job, finished: dict[int, Results]) -> Any:
 
 
 class _Journal:
-    """The file of a sweep: lines of JSON, each after its checksum. The first is the header, each other one a call."""
+    """The file of a sweep: lines of JSON, each after its checksum: a header, then one line per call."""
 
     def __init__(self, path: str | os.PathLike[str], header: dict[str, Any]) -> None:
         self._path = os.path.abspath(path)
         self.finished: dict[int, Results] = {}
         try:
-            # Not buffered: an interrupt comes before a line or after it.
+            # Unbuffered, so that an interrupt comes before or after a line.
             self._file = io.FileIO(self._path, "a+")
         except OSError as error:
             raise self._refused(f"cannot be opened: {error.strerror}", "cannot-write") from error
@@ -354,7 +360,7 @@ class _Journal:
             raise
 
     def close(self) -> None:
-        """Let others in."""
+        """Unlocks the file."""
         self._file.close()
 
     def append(self, first: int, results: Results) -> None:
@@ -420,13 +426,13 @@ def _line(record: Any) -> bytes:
 
 
 def _record(line: bytes) -> Any:
-    """The record of a line; None if it is not as it was written."""
+    """The record of a line; None if the line was changed."""
     checksum, _, text = line.partition(b" ")
     return json.loads(text) if checksum == b"%08x" % zlib.crc32(text) else None
 
 
 def _encoded(array: Array) -> list[Any]:
-    """An array as JSON; complex numbers are two of its numbers."""
+    """An array as JSON; a complex number is a pair."""
     flat = np.ascontiguousarray(array).ravel()
     return [array.dtype.str, array.shape, flat.view(flat.real.dtype).tolist()]
 

@@ -33,7 +33,7 @@ def _callers_level() -> int:
 class System(Parameters):
     """A disk on a vibrating and twisting platform, in SI units.
 
-    Every value is checked as the object is made; the object never changes.
+    Every value is checked on construction; the object is immutable.
 
     Args:
         amplitude: amplitude A of the platform's height (m), not negative.
@@ -46,20 +46,21 @@ class System(Parameters):
         restitution: coefficient of restitution, in [0, 1).
         preload_acceleration: preload acceleration g (m/s^2), positive.
         load_acceleration: angular deceleration by a load torque (rad/s^2).
-        contact, stator: the tables ``[contact]`` and ``[stator]`` of a file, as of :class:`Motor`; that of the
-            contact has the ``mass`` of the disk unless it has a time. Calls that do not compute with them refuse them.
+        contact, stator: the tables ``[contact]`` and ``[stator]`` of a file, as for :class:`Motor`;
+            ``[contact]`` needs the ``mass`` of the disk unless it has a time. Calls that do not support them
+            raise an error.
 
     Attributes:
         period: period of the platform (s).
         peak_angular_speed: largest angular speed omega Phi of the platform (rad/s).
         stroke: stroke c = (A^2 + (a_e Phi)^2)^(1/2) at the contact radius (m), Eq. (13).
-        amplitude_angle: amplitude angle phi_L = arctan(a_e Phi/A) (rad): 0 lifts, pi/2 turns; 0 where nothing
-            moves.
+        amplitude_angle: amplitude angle phi_L = arctan(a_e Phi/A) (rad): 0 for pure lift, pi/2 for pure
+            twist; 0 without motion.
         axial_forcing: axial forcing parameter Gamma = A omega^2/(pi g).
         angular_forcing: angular forcing parameter Gamma_T = a_g^2 Phi omega^2/(a_e pi g mu); None without
             friction.
         peak_acceleration: peak acceleration A omega^2/g of the platform in units of the preload acceleration.
-        rise_time: time (s) in which friction that pushes one way gives the disk the platform's largest
+        rise_time: time (s) in which friction acting in one direction gives the disk the platform's largest
             angular speed.
 
     >>> import bouncing_disk as bd
@@ -119,7 +120,7 @@ class System(Parameters):
 
     def replace(self, **changes: Any) -> System:
         """The same system with other arguments."""
-        # As _holding() does, without its call: thousands of tosses are asked for.
+        # Like _holding(), but inlined: a program may make thousands of tosses.
         made = System.__new__(System)
         made.__dict__["_native"] = self._native.replaced(changes)
         return made
@@ -140,16 +141,16 @@ class System(Parameters):
 
 
 class Drive(Parameters):
-    """How a platform moves in place of the sine: the table ``[drive]`` of the command line's files.
+    """Motion of a platform other than the sine: the table ``[drive]`` of the command line's files.
 
     A shape multiplies the amplitude of the platform: ``"sine"``, ``"triangle"``, ``"parabolas"``, ``"cubics"``, or a
-    dictionary of one item, ``sawtooth``, ``fourier``, ``pieces`` or ``sampled``. The shapes are checked as the object is made;
-    samples that are unlikely to be intended, such as those of which the last one repeats the first, give a warning.
+    dictionary of one item, ``sawtooth``, ``fourier``, ``pieces`` or ``sampled``. The shapes are checked on
+    construction; unlikely samples, such as a last one that repeats the first, give a warning.
 
     Args:
-        height, angle: the shapes; the angle is the phase lag earlier. One that is left out is the plain sine, whatever
-            the other one is: a recorded motion needs both.
-        start_phase: phase (rad) at which the command line's toss starts, which the calls of this package refuse.
+        height, angle: the shapes; the angle leads by the phase lag. A missing one is the plain sine, whatever
+            the other: a recorded motion needs both.
+        start_phase: phase (rad) at which the command line's toss starts; the calls of this package reject it.
 
     >>> import bouncing_disk as bd
     >>> bd.Drive.sawtooth(0.3)
@@ -177,28 +178,28 @@ class Drive(Parameters):
         """Sums of a_j sin(j tau + phi_j) over j = 1, 2, ...: pairs of a_j and phi_j (rad), at most 32.
 
         Args:
-            height: those of the height.
-            angle: those of the angle; the sine unless given.
+            height: the terms of the height.
+            angle: the terms of the angle; by default the sine.
         """
         return Drive._of("fourier", height, angle)
 
     @staticmethod
     def pieces(height: Iterable[Any], angle: Iterable[Any] | None = None) -> Drive:
-        """Polynomials one after the other: pairs of a duration and (c0, c1, c2, c3), in periods from its start.
+        """Successive polynomials: pairs of a duration and (c0, c1, c2, c3), in periods from its start.
 
         Args:
-            height: those of the height, which is continuous; its velocity may jump.
-            angle: those of the angle; the sine unless given.
+            height: the pieces of the height, which is continuous; its velocity may jump.
+            angle: the pieces of the angle; by default the sine.
         """
         return Drive._of("pieces", height, angle)
 
     @staticmethod
     def sampled(height: ArrayLike, angle: ArrayLike | None = None) -> Drive:
-        """The periodic cubic spline through samples at equal distances over one period.
+        """The periodic cubic spline through equidistant samples over one period.
 
         Args:
             height: at least 3 heights, in multiples of the amplitude, shape (n,); the first one is not repeated at the end.
-            angle: those of the angle; the sine unless given.
+            angle: samples of the angle; by default the sine.
         """
         return Drive._of("sampled", height, angle)
 
@@ -227,9 +228,9 @@ class Drive(Parameters):
 
 
 class ChatterCut(Parameters):
-    """Put a chattering disk on the platform by a rule, as simulations impact by impact do.
+    """A rule that puts a chattering disk on the platform, as impact-by-impact simulations need.
 
-    Without one (``chatter=None``) the infinite sequence of impacts is summed in closed form.
+    Without such a rule (``chatter=None``) the infinite sequence of impacts is summed in closed form.
 
     Args:
         smallest_speed: normalised impact speed, not negative, below which the disk is put on the platform.

@@ -51,7 +51,7 @@ class TossPerformance(NamedTuple):
 
     Attributes:
         airborne_speed: rotary speed of the disk in the air (rad/s).
-        efficiency: rotary energy gained by the disk over the energy put in; NaN if no energy was.
+        efficiency: rotary energy gained by the disk over the energy put in; NaN if none was.
         speed_ratio: airborne speed over the largest rotary speed of the platform; None without twist.
         separation_phase: phase of the separation (rad).
         sliding_at_separation: whether the disk slides as it leaves.
@@ -79,13 +79,13 @@ def single_toss(
 ) -> TossPerformance:
     """The toss of a disk from its platform, up to the separation.
 
-    It starts at the lowest point of the platform, whatever its motion. A disk that starts on a kink moves with the
+    It starts at the lowest point of the platform, for any motion. A disk that starts on a kink moves with the
     platform after the kink.
 
     Args:
-        initial_spin: whether the disk does not turn at first, or turns with the platform.
-        drive: how the platform moves; ``None`` for the sine.
-        contact_time: how long an impact lasts (s), positive; ``None`` for rigid impacts.
+        initial_spin: whether the disk starts at absolute rest or turns with the platform.
+        drive: motion of the platform; ``None`` for the sine.
+        contact_time: duration of an impact (s), positive; ``None`` for rigid impacts.
 
     >>> import bouncing_disk as bd
     >>> toss = bd.single_toss(bd.System.pizza_toss())
@@ -103,9 +103,9 @@ class TrajectorySamples(Result):
         time: seconds from phase 0 of the first period.
         height, axial_velocity: of the disk (m, m/s), above the platform's mean height.
         angle, angular_speed: of the disk (rad, rad/s); the angle starts at the platform's own.
-        platform_height, platform_axial_velocity, platform_angle, platform_angular_speed: those of the
+        platform_height, platform_axial_velocity, platform_angle, platform_angular_speed: the same for the
             platform.
-        mode: how the disk moves: a place in :attr:`MODES`.
+        mode: mode of the disk, an index into :attr:`MODES`.
     """
 
     MODES: ClassVar[tuple[str, ...]] = ("flight", "sticking", "sliding-forward", "sliding-backward")
@@ -128,15 +128,15 @@ class EventTable(Result):
 
     Attributes:
         time, phase: instant (s) and phase of the platform (rad).
-        kind: what happened: a place in :attr:`KINDS`.
-        mode_before, mode_after: how the disk moves: places in :attr:`TrajectorySamples.MODES`.
+        kind: the kind of event, an index into :attr:`KINDS`.
+        mode_before, mode_after: mode of the disk, indices into :attr:`TrajectorySamples.MODES`.
         height, angle: of the disk (m, rad).
         axial_velocity_before, axial_velocity_after: of the disk (m/s).
         angular_speed_before, angular_speed_after: of the disk (rad/s).
         axial_impact_velocity, tangential_impact_velocity: disk minus platform just before an impact (m/s,
             rad/s), else NaN.
         capped: whether friction ended the slip within an impact.
-        summed_impacts: impacts that an attachment has summed, else 0.
+        summed_impacts: impacts summed by an attachment, else 0.
         error_bound: bound on the error of an attachment's phase (rad), else NaN.
     """
 
@@ -173,14 +173,14 @@ class EventTable(Result):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Trajectory(Stored):
-    """The motion of a disk up to some event, in SI units.
+    """The motion of a disk up to an event, in SI units.
 
     Made by :func:`simulate` and :func:`toss_trajectory`.
 
     Attributes:
         system: the system.
         start_time: time of the start (s), from phase 0 of the first period.
-        end_time: time of the last event (s); where no event follows, the requested end of the motion.
+        end_time: time of the last event (s); if no event follows, the requested end of the motion.
         event_count: number of events.
         energy: the energy balance of the whole motion, per unit mass.
     """
@@ -192,13 +192,13 @@ class Trajectory(Stored):
     energy: Energy
 
     def samples(self, *, count: Int) -> TrajectorySamples:
-        """Disk and platform at instants of equal distances from the start to the end.
+        """Disk and platform at equidistant instants from the start to the end.
 
         Args:
             count: number of instants, in [2, 2^24].
 
         Raises:
-            ComputationError: There are no events, and the motion was given no duration.
+            ComputationError: The motion has no events and was given no duration.
 
         >>> import bouncing_disk as bd
         >>> samples = bd.toss_trajectory(bd.System.pizza_toss()).samples(count=200)
@@ -227,7 +227,7 @@ def toss_trajectory(
     """The whole toss of a disk from its platform, from the start until it lands.
 
     Args:
-        initial_spin: whether the disk does not turn at first, or turns with the platform.
+        initial_spin: whether the disk starts at absolute rest or turns with the platform.
     """
     return native.toss_trajectory(locals())
 
@@ -246,8 +246,8 @@ def simulate(
 ) -> Trajectory:
     """The motion of a disk, event by event.
 
-    The disk starts on the platform if neither ``gap`` nor ``relative_velocity`` is given, leaves it if the
-    latter is given alone, and is in the air if there is a gap.
+    The disk starts on the platform if neither ``gap`` nor ``relative_velocity`` is given, leaves it if only
+    the latter is given, and is in the air if there is a gap.
 
     Args:
         phase: phase of the platform at the start (rad).
@@ -255,8 +255,8 @@ def simulate(
         gap: height above the platform (m), positive.
         relative_velocity: axial velocity relative to the platform (m/s); not negative without a gap.
         events: the most events, in [1, 1000000].
-        duration: time (s), positive, after which the next event is the last one; without one, the motion
-            ends then.
+        duration: time (s), positive, after which the next event is the last; without events the motion ends at
+            this time.
         chatter: how a chatter ends; ``None`` sums it.
 
     >>> import bouncing_disk as bd
@@ -272,21 +272,21 @@ class RotaryResponse(Result):
     """The fate of the spin of a disk on a periodic orbit of n impacts.
 
     Attributes:
-        outcome: ``"steady"``: from any spin the disk comes to the steady one of ``angular_speed``;
-            ``"kept"``: the load exactly balances the most that friction can give, and a disk that slides
+        outcome: ``"steady"``: any spin tends to the steady one of ``angular_speed``;
+            ``"kept"``: the load exactly balances the largest mean friction, and a disk that slides
             through every impact in the direction of the load keeps its spin; ``"runaway"``: the load exceeds
             friction, and no spin repeats itself.
         multiplier: the rotary multiplier of the orbit: 0 if steady, 1 if kept, NaN for a runaway.
         angular_speed: the steady angular speed just before each impact (rad/s), shape (n,). This array and
             the next two are empty unless the outcome is ``"steady"``.
-        slip: the angular speed less that of the platform just before each impact (rad/s), shape (n,).
-        sliding: the direction of the slip after each impact, shape (n,): 1 where the disk turns faster than
-            the platform, -1 where it turns more slowly, 0 where the impact ends the slip.
+        slip: angular speed relative to the platform just before each impact (rad/s), shape (n,).
+        sliding: the direction of the slip after each impact, shape (n,): 1 if the disk turns faster
+            than the platform, -1 if more slowly, 0 if the impact ends the slip.
         stick_margin: the largest margin (rad/s) with which friction ends the slip in an impact: a smaller
-            disturbance of the spin is forgotten within one period of the orbit. NaN unless steady.
+            disturbance of the spin decays within one period of the orbit. NaN unless steady.
         mean_angular_speed: the mean steady angular speed (rad/s), NaN unless steady.
-        limit: where the kept spins end, as a spin before the first impact (rad/s): under a positive load all
-            slower spins are kept, under a negative one all faster ones. NaN if every spin is kept, or none.
+        limit: the end of the kept spins, as a spin before the first impact (rad/s): a positive load
+            keeps all slower spins, a negative one all faster ones. NaN if every spin is kept, or none.
         change: the change of a runaway disk's angular speed in one period of the orbit once every impact
             slides (rad/s), else NaN.
     """
@@ -308,7 +308,7 @@ def rotary_response(system: System, orbit: PeriodicOrbit) -> RotaryResponse:
     Args:
         orbit: an orbit of ``ImpactMap.of_system(system)``.
 
-    Dough tossed on the saddle of one impact in one period, on which no motion settles:
+    Dough tossed on the saddle with one impact per period, which attracts no motion:
 
     >>> import bouncing_disk as bd
     >>> system = bd.System.pizza_toss().replace(angular_frequency=8.5)

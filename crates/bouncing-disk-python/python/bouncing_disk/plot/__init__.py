@@ -1,9 +1,9 @@
 """The paper's figures for your own system, by Matplotlib: ``from bouncing_disk import plot``.
 
 Each function takes a system, a map or a motor, computes its data and draws them, or takes existing results.
-It returns ``(fig, ax)``, and draws into `ax` if that is given. The look is that of a
-journal: ticks inside on all sides, serif text, units on every axis. It is set for these figures alone, not
-for yours.
+It returns ``(fig, ax)``, and draws into `ax` if that is given. The style is that of
+a journal: ticks inside on all sides, serif text, units on every axis. It applies to these figures only, not
+to yours.
 
 Matplotlib is an optional dependency: ``pip install 'bouncing-disk[plot]'``.
 """

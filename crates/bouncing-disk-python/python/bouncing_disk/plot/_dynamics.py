@@ -31,15 +31,15 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-#: Size of a point (1/72 inch) of many, of which several make a line, and of few, each of which must be seen.
+#: Size of a point (1/72 inch): if many make lines, and if each of a few must be visible.
 _DOT, _LARGE_DOT = 0.6, 2.4
-#: So many points are many.
+#: The number of points that counts as many.
 _MANY = 20_000
 #: Labels of basins that a legend explains.
 _MOST_LABELS = 8
-#: Of the normalised speed of a start that comes to rest: a slow one.
+#: Normalised speed of the slow start, which comes to rest.
 _SLOW = 0.05
-#: How far off the period-1 orbit a start is, so that it leaves it where it is unstable.
+#: Distance of a start from the period-1 orbit, so that it leaves an unstable one.
 OFF_PERIOD_ONE = 1.01
 
 
@@ -56,18 +56,18 @@ def orbit_diagram(
 ) -> tuple[Figure, Axes]:
     """An orbit (bifurcation) diagram, as Fig. 6 of the paper.
 
-    Without a diagram, two starts are followed at each forcing: one a hundredth off the period-1 orbit
-    (black), where there is one, and a slow one (grey), which is drawn above it.
+    Without a diagram, two starts are followed at each forcing: one a hundredth off the period-1
+    orbit (black), if that exists, and a slow one (grey), drawn on top.
 
     Args:
         diagram: the diagram to draw, with a legend if it has names.
         restitution: coefficient of restitution, without a diagram.
         axial_forcing: lowest and highest axial forcing parameter Gamma.
-        columns: forcings, one at least.
+        columns: number of forcings, at least 1.
         transient, recorded: impacts to discard, and to draw, at each of them.
         quantity: the quantity to draw over the forcing: the phase of the impacts in periods, or their normalised
             speed.
-        ax: where it is drawn.
+        ax: axes to draw into.
 
     >>> from bouncing_disk import plot
     >>> fig, ax = plot.orbit_diagram(restitution=0.6, axial_forcing=(0.26, 0.3), columns=5, transient=200)
@@ -144,7 +144,7 @@ def forcing_ends(axial_forcing: tuple[float, float]) -> tuple[float, float]:
 
 
 def dot_size(points: int) -> float:
-    """The size of a point among many: few are visible singly, and many make lines."""
+    """The size of a point: few must each be visible, many make lines."""
     return float(np.clip(_LARGE_DOT - (_LARGE_DOT - _DOT) * points / _MANY, _DOT, _LARGE_DOT))
 
 
@@ -172,13 +172,13 @@ def _two_starts(
         diagrams["from the period-1 orbit"] = diagram(
             forcings[born], phases, -OFF_PERIOD_ONE * velocities / np.pi
         )
-    # On top: beyond the crisis both are on the same attractor.
+    # On top, because beyond the crisis both are on the same attractor.
     diagrams["from a slow impact"] = diagram(forcings, 0.0, _SLOW)
     return diagrams
 
 
 def dots_legend(ax: Any, own: bool) -> None:
-    """A legend with dots that can be seen, behind which no point is lost."""
+    """A legend with visible dots that hides no point."""
     legend = legend_above(ax, own=own, most=2, handletextpad=0.1)
     for handle in legend.get_lines():
         handle.set_marker("o")
@@ -198,12 +198,12 @@ def basins(
     for ever.
 
     Args:
-        basins: the basins to draw, or attractors, or a map: then those of all attractors that
+        basins: the basins to draw; from attractors or a map, the basins of all attractors that
             :func:`bouncing_disk.attractors` finds.
-        phases, speeds: cells along the impact phase and speed, of attractors or a map.
-        speed_range: lowest and highest normalised speed, of attractors or a map.
+        phases, speeds: cells along the impact phase and speed, for attractors or a map.
+        speed_range: lowest and highest normalised speed, for attractors or a map.
         legend: whether the colours are explained above the axes.
-        ax: where it is drawn.
+        ax: axes to draw into.
 
     >>> import bouncing_disk as bd
     >>> from bouncing_disk import plot
@@ -232,7 +232,7 @@ def basins(
         )
         axes.set_xlabel(r"impact phase $\tau_\mathrm{imp}/2\pi$")
         axes.set_ylabel(labelled(r"impact speed $|w_A\Gamma/(\omega A)|$", unit))
-        # Ticks of an image lie under it: they are dark where it is white, and must be seen where it is dark.
+        # Ticks must be visible on white and on dark parts of the image.
         axes.tick_params(which="both", direction="out", top=False, right=False)
         if legend:
             _label_legend(axes, basins, colours, own=ax is None)
@@ -248,7 +248,7 @@ def _basin_colours(labels: int) -> list[tuple[float, float, float]]:
 
 
 def _label_legend(ax: Any, basins: bd.Basins, colours: list[tuple[float, float, float]], own: bool) -> None:
-    """The labels that occur, of which the rarest share one line if there are many."""
+    """The labels that occur; if there are many, the rarest share one line."""
     patch: Any = import_module("matplotlib.patches").Patch
     shares = {label: basins.share(label) for label in range(len(basins.meaning))}
     shown = [label for label, share in shares.items() if share > 0.0]
@@ -269,7 +269,7 @@ def _label_legend(ax: Any, basins: bd.Basins, colours: list[tuple[float, float, 
 
 
 def _explained(basins: bd.Basins, label: int) -> str:
-    """The meaning of a label, in a few words, and its share."""
+    """A short meaning of a label, and its share."""
     orbit = re.fullmatch(r"periodic orbit: impacts (\d+), platform periods (\d+)", basins.meaning[label])
     if orbit is None:
         meaning = re.sub(r"(:|, then| again and again| for ever).*", "", basins.meaning[label])

@@ -19,22 +19,22 @@ if TYPE_CHECKING:
 #: Width of a column of a journal (inches).
 SINGLE_COLUMN = 3.4
 
-#: Colours that differ in print without colour, too, and for all kinds of eyes.
+#: Colours that differ in greyscale print and for colour-blind readers, too.
 BLACK, GREY, BLUE, ORANGE = "#222222", "#a8a8a8", "#0072b2", "#d55e00"
 GREEN, SKY, PURPLE, YELLOW = "#009e73", "#56b4e9", "#cc79a7", "#e69f00"
 
-#: Those that several things of one figure get, in this order, again and again.
+#: The colours of successive items in one figure, repeated in this order.
 COLOURS = (BLACK, GREY, BLUE, ORANGE, GREEN, SKY, PURPLE, YELLOW)
 
 _STYLE: dict[str, Any] = {
-    # By their names: what "serif" is would be looked up when the figure is drawn, with the settings of then.
+    # By name, because "serif" would be looked up when the figure is drawn, with the settings of that moment.
     "font.family": ["STIXGeneral", "DejaVu Serif"],
     "font.size": 10.0,
     "mathtext.fontset": "stix",
     "axes.labelsize": 10.5,
     "axes.linewidth": 0.8,
     "axes.xmargin": 0.0,
-    # A number that is to be added to all ticks is overlooked, and a power of ten reads like a formula.
+    # Readers overlook an offset of all ticks, and a power of ten reads like a formula.
     "axes.formatter.useoffset": False,
     "axes.formatter.use_mathtext": True,
     "xtick.direction": "in",
@@ -57,9 +57,9 @@ _STYLE: dict[str, Any] = {
 
 @contextmanager
 def style() -> Iterator[None]:
-    """The look of these figures, for others of the same document: ``with plot.style(): ...``.
+    """The style of these figures, for others in the same document: ``with plot.style(): ...``.
 
-    Only the settings of this look are changed, and restored. (``rc_context`` restores all. A notebook makes
+    Only the settings of this style are changed and restored. (``rc_context`` restores all. A notebook makes
     Matplotlib interactive with the first figure; if that were undone, the notebook would show no more
     figures.)
     """
@@ -78,7 +78,7 @@ def pyplot() -> Any:
 
 
 def drawn_on(ax: Axes | None, height: float = 2.4) -> tuple[Figure, Axes]:
-    """The axes of a figure with one panel; new ones a column wide, unless they are given."""
+    """The axes of a figure with one panel: the given ones, or new ones one column wide."""
     if ax is not None:
         return _figure_of(ax), ax
     fig, new = pyplot().subplots(figsize=(SINGLE_COLUMN, height), layout="constrained")
@@ -88,7 +88,7 @@ def drawn_on(ax: Axes | None, height: float = 2.4) -> tuple[Figure, Axes]:
 def drawn_on_rows(
     axes: Sequence[Axes] | np.ndarray[Any, Any] | None, rows: int, height: float
 ) -> tuple[Figure, np.ndarray[Any, Any]]:
-    """The axes of a figure with panels above each other, which share their abscissa."""
+    """The axes of a figure with stacked panels that share their abscissa."""
     if axes is None:
         size = (SINGLE_COLUMN, height)
         fig, new = pyplot().subplots(rows, sharex=True, figsize=size, layout="constrained")
@@ -105,13 +105,13 @@ def _figure_of(ax: Any) -> Figure:
 
 
 def _has_subfigures(ax: Any) -> bool:
-    """Whether the axes may lie in a figure inside of a figure."""
+    """Whether the axes may lie in a subfigure."""
     return ax.figure is not None and getattr(ax.figure, "figure", ax.figure) is not ax.figure
 
 
 #: By powers of 1000 below the unit.
 _SMALL = ("", "m", "µ", "n", "p", "f")
-#: By powers of 1000 above it, of units that are used with them.
+#: By powers of 1000 above it, for units that are used with them.
 _LARGE = ("", "k", "M", "G", "T")
 _WITH_LARGE = ("W", "N", "N m", "Hz")
 #: Above this, numbers at ticks become long.
@@ -121,7 +121,7 @@ _LONG = 1.0e4
 def unit_of(values: npt.ArrayLike, unit: str, *, least: float = 0.1) -> tuple[float, str]:
     """A factor and the unit in which the largest of the values, times this factor, is a handy number.
 
-    That is one from `least` to some ten thousand. The unit may be empty.
+    Handy means from `least` to about ten thousand. The unit may be empty.
     """
     sizes = np.abs(np.asarray(values, dtype=float))
     largest = float(np.max(sizes, initial=0.0, where=np.isfinite(sizes)))
@@ -143,7 +143,7 @@ def labelled(words: str, unit: str) -> str:
 
 
 def in_words(value: float, digits: int = 3) -> str:
-    """A number of some digits, for a text between dollar signs."""
+    """A rounded number for a text between dollar signs."""
     rounded = float(f"{value:.{digits}g}")
     # Python's own switch to powers of ten depends on the digits, too.
     if rounded == 0.0 or 1.0e-4 <= abs(rounded) < _LONG:
@@ -156,7 +156,7 @@ def in_words(value: float, digits: int = 3) -> str:
 
 
 def with_error(value: float, error: float) -> str:
-    """A value and in brackets its standard error, two digits in units of the last one of the value."""
+    """A value with its standard error in brackets, two digits in units of the value's last one."""
     if not (np.isfinite(error) and error > 0.0):
         return in_words(value)
     digits = max(0, 1 - int(np.floor(np.log10(error))))
@@ -166,17 +166,17 @@ def with_error(value: float, error: float) -> str:
 
 
 def note(ax: Axes, words: str) -> None:
-    """Says in the middle of empty axes why they are empty."""
+    """Writes into the middle of empty axes why they are empty."""
     ax.text(0.5, 0.5, words, transform=ax.transAxes, ha="center", va="center", fontsize=9.0, color="0.35")
 
 
 def legend_above(
     ax: Axes, handles: Sequence[Any] | None = None, *, own: bool, most: int = 4, **options: Any
 ) -> Any:
-    """A legend above the axes, of as many columns as fit there.
+    """A legend above the axes, in as many columns as fit.
 
-    The figure grows with the rows of the legend if it is `own`, that is made for these axes, so that nothing
-    is taken from them.
+    If the figure is `own`, made for these axes, it grows with the rows of the legend, so that the
+    axes lose no space.
     """
     if handles is None:
         handles = ax.get_legend_handles_labels()[0]
@@ -202,7 +202,7 @@ def legend_above(
 
 
 def out_of_range(field: str, value: float, legal: str) -> bd.OutOfRangeError:
-    """The error of a value outside of its range."""
+    """The error of a value outside its range."""
     return bd.OutOfRangeError(f"{field} is {value}, outside {legal}", field, float(value), legal)
 
 

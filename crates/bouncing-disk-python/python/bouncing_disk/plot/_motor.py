@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-#: The part of the members that the band holds, in percent of either end.
+#: Percentage of the members outside the band at either end.
 _BAND = (10.0, 90.0)
 
 
@@ -41,16 +41,17 @@ def motor_transient(
     member: int = 0,
     ax: Axes | None = None,
 ) -> tuple[Figure, Axes]:
-    """The speed of a motor from rest: one member, the band of four fifths of all, and the fit of their means.
+    """The speed of a motor from rest: one member, the band of the middle 80 % of all, and the fit of their
+    means.
 
     Args:
         runs: the run-ups to draw; for a motor, they are computed.
-        members: how many, of a motor.
-        duration: how long they last (s), of a motor; by default eight of its time constants.
-        intervals: intervals over which the speed is averaged, of a motor.
-        seed: seed of the perturbations, of a motor.
-        member: which member is drawn alone, from 0 on.
-        ax: where it is drawn.
+        members: number of run-ups, for a motor.
+        duration: duration of a run-up (s), for a motor; by default eight of its time constants.
+        intervals: number of intervals over which the speed is averaged, for a motor.
+        seed: seed of the perturbations, for a motor.
+        member: index of the member that is drawn singly.
+        ax: axes to draw into.
     """
     if isinstance(runs, bd.Motor):
         runs = runs.system
@@ -101,8 +102,7 @@ def motor_transient(
 def _is_known(steady: bd.Spread, constant: bd.Spread, end: float) -> bool:
     """Whether the fit of the means is meaningful.
 
-    A rise that takes longer than the run-up is not known from it, and neither is a mean that is smaller than
-    twice its own error.
+    A run-up does not determine a rise longer than itself, nor a mean smaller than twice its error.
     """
     for spread in (steady, constant):
         error = spread.standard_error
@@ -117,7 +117,7 @@ def _values(steady: bd.Spread, constant: bd.Spread) -> str:
 
 
 def _run_up_time(system: bd.System) -> float:
-    """Eight time constants, of a short trial of this motor, or of longer ones until it is long enough."""
+    """Eight time constants, from a short trial run of this motor, lengthened until it suffices."""
     duration = 4.0 * (system.rise_time or 0.25)
     for _ in range(12):
         trial = bd.ensemble(system, members=8, duration=duration, intervals=100)
@@ -135,14 +135,15 @@ def torque_speed(
     relative_error: float = 0.01,
     ax: Axes | None = None,
 ) -> tuple[Figure, Axes]:
-    """Speed and mechanical power of a motor against its load, with two standard errors; speeds of coexisting motions.
+    """Speed and mechanical power of a motor over its load, with two standard errors, and speeds of coexisting
+    motions.
 
     Args:
         curve: the curve to draw; for a motor, it is computed.
-        load_torques: the loads (N m), of a motor; by default twelve from zero to the stall load, shape (n,).
-        relative_error: requested standard error of the speeds, relative to the speed without load, of a
+        load_torques: the loads (N m), for a motor, shape (n,); by default twelve from zero to the stall load.
+        relative_error: requested standard error of the speeds, relative to the no-load speed, for a
             motor.
-        ax: where it is drawn. The power has an axis of its own on the right.
+        ax: axes to draw into. The power has its own axis on the right.
 
     Returns:
         The axes of the speed.
@@ -155,7 +156,7 @@ def torque_speed(
     elif not isinstance(curve, bd.TorqueSpeedCurve):
         raise TypeError(f"curve must be a TorqueSpeedCurve or a Motor, not {type(curve).__name__}")
     order = np.argsort(curve.load_torque, kind="stable")
-    # A load that drives the rotor backwards ever faster has no steady speed.
+    # A load that drives the rotor backwards ever faster leaves no steady speed.
     steady_status = bd.TorqueSpeedCurve.STATUSES.index("steady")
     steady = curve.status == steady_status
     runs = order[(steady & np.isfinite(curve.speed))[order]]
@@ -200,13 +201,13 @@ def torque_speed(
 
 
 def _bars(factor: float, errors: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    """Two standard errors; none where the error is not known."""
+    """Two standard errors; none if the error is unknown."""
     bars: npt.NDArray[np.float64] = 2.0 * factor * np.where(np.isfinite(errors), errors, np.nan)
     return bars
 
 
 def _level(left: Axes, right: Axes) -> None:
-    """Both axes get their zeros at one height, and show all that they have."""
+    """Aligns the zeros of both axes and shows all data."""
     ends = []
     for axis in (left, right):
         low, high = axis.dataLim.intervaly
@@ -214,11 +215,11 @@ def _level(left: Axes, right: Axes) -> None:
         room = 0.06 * (high - low) or 1.0
         ends.append((low - room if low < 0.0 else 0.0, high + room if high > 0.0 or low == 0.0 else 0.0))
     shares = sorted(-low / (high - low) for low, high in ends)
-    # The share below zero: that of the one that needs most, unless this squeezes the other one.
+    # The share below zero, as the more demanding axis needs it unless this squeezes the other.
     below = shares[1] if shares[1] <= 0.7 else max(shares[0], 0.7)
     for axis, (low, high) in zip((left, right), ends):
         height = max(-low / below if below > 0.0 else 0.0, high / (1.0 - below) if below < 1.0 else 0.0)
-        # A little more at the zero itself, so that points on it are whole.
+        # A small margin below zero, so that points on it are whole.
         edge = 0.03 * height
         axis.set_ylim(-below * height - edge, (1.0 - below) * height + edge)
     left.axhline(0.0, color=GREY, linewidth=0.6, zorder=0)

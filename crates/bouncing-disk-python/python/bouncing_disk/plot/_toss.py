@@ -30,9 +30,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-#: The events that are drawn, with their marks and whether these are filled.
+#: The events drawn, with their marks and whether these are filled.
 _EVENTS = (("separation", "o", False), ("impact", "o", True), ("attachment", "s", True))
-#: Of more events the marks would cover the curves.
+#: The marks of more events would cover the curves.
 _MOST_EVENTS = 400
 #: Points of the curves.
 _SAMPLES_PER_PERIOD = 24.0
@@ -51,7 +51,7 @@ def trajectory_of(
 
 
 def enough_samples(trajectory: bd.Trajectory) -> int:
-    """Enough to show the oscillation of the platform as one."""
+    """Enough samples to resolve the oscillation of the platform."""
     periods = (trajectory.end_time - trajectory.start_time) / trajectory.system.period
     return int(np.clip(_SAMPLES_PER_PERIOD * periods, _LEAST_SAMPLES, _MOST_SAMPLES))
 
@@ -69,10 +69,10 @@ def toss(
 
     Args:
         motion: the motion to draw; for a system, its toss until the disk lands.
-        initial_spin: how the toss of a system starts, as of ``toss_trajectory``.
-        samples: points of the curves; by default 2000, or of a long motion 24 in each period of the platform,
-            but not more than 200000.
-        ax: where height and angle are drawn.
+        initial_spin: start of the toss of a system, as for ``toss_trajectory``.
+        samples: points of the curves; by default 2000, or for a long motion 24 in each period of the
+            platform, at most 200000.
+        ax: axes for height and angle.
 
     Returns:
         (Figure, array of two Axes).
@@ -93,7 +93,7 @@ def toss(
     metres, metre = unit_of(np.concatenate([curve.height, curve.platform_height]), "m")
     radians, radian = unit_of(np.concatenate([curve.angle, curve.platform_angle]), "rad")
     time = seconds * (curve.time - began)
-    # Of many oscillations, thick lines would leave a black area.
+    # With many oscillations, thick lines would merge into a black area.
     of_platform, of_disk = (
         float(np.clip(40.0 / max(count, 1.0), 0.3, 1.0)) for count in (periods, len(names))
     )
@@ -145,16 +145,16 @@ def toss_animation(
     slow_motion: float = 4.0,
     frames: int | None = None,
 ) -> FuncAnimation:
-    """Disk and platform from the side, beside their heights over time.
+    """Disk and platform from the side, next to their heights over time.
 
     Dots at the contact radius, in front of the disk and of the platform, turn with them; they are paler
     behind.
 
     Args:
         motion: the motion to show; for a system, its toss until the disk lands.
-        initial_spin: how the toss of a system starts, as of ``toss_trajectory``.
-        slow_motion: how many times longer the animation lasts than the motion.
-        frames: pictures, two at least; by default 30 a second, and not more than 100000.
+        initial_spin: start of the toss of a system, as for ``toss_trajectory``.
+        slow_motion: duration of the animation over that of the motion.
+        frames: number of pictures, at least 2; by default 30 per second, at most 100000.
 
     Returns:
         ``animation.save("toss.gif")`` writes it, ``HTML(animation.to_jshtml())`` shows it in a notebook. Keep
@@ -166,7 +166,7 @@ def toss_animation(
     if frames is None:
         frames = round(min(max(duration * slow_motion * _FRAMES_PER_SECOND, 2.0), _MOST_FRAMES))
     curve = trajectory.samples(count=whole_number("frames", frames, 2))
-    # The curves do not get coarser with the film.
+    # The resolution of the curves does not depend on the film.
     graphs = trajectory.samples(count=enough_samples(trajectory))
     across, across_unit = unit_of(trajectory.system.contact_radius, "m")
     metres, metre = unit_of(np.concatenate([graphs.height, graphs.platform_height]), "m")
@@ -204,7 +204,7 @@ def toss_animation(
         high = metres * max(graphs.platform_height.max(), graphs.height.max())
         room = 0.08 * (high - low) or 1.0
         side.set_ylim(low - room, high + room)
-        # Laid out once and not in every picture, which takes ten times as long as the picture itself.
+        # Laid out only once, because this takes ten times as long as a picture.
         fig.canvas.draw()
         fig.set_layout_engine("none")
 
