@@ -34,7 +34,7 @@ pub(crate) struct Options {
     /// The port of --serve; 0 takes any that is free.
     #[arg(long, value_name = "PORT", default_value_t = 8080, requires = "serve")]
     port: u16,
-    /// Another rustc, such as that of a distribution, which has or can build the standard library of
+    /// Another rustc, such as a distribution's, that has or can build the standard library for
     /// WebAssembly.
     #[arg(long, value_name = "PATH")]
     rustc: Option<PathBuf>,
@@ -52,20 +52,20 @@ pub(crate) fn run(options: &Options) -> Result<ExitCode> {
         && !address.is_empty()
         && !["https://", "http://"].iter().any(|scheme| address.starts_with(scheme))
     {
-        bail!("--address {address} is no address of a page: it begins with https://");
+        bail!("--address {address} is not the address of a page: it must begin with https://");
     }
     tools::complain_of_missing(options.rustc.as_deref(), options.build_std)?;
     let target = target_folder()?;
     let out = options.out.as_ref().map_or(target.join("explorer"), |out| in_workspace("").join(out));
-    complain!("Building the explorer, in 4 steps: some ten minutes the first time, a minute or two later");
+    complain!("Building the explorer in 4 steps: about ten minutes the first time, a minute or two later");
     let module = out.join("module");
     bound(options, &target, &module)?;
     let page = in_workspace(PAGE);
-    complain!("3/4 The page's packages, from npm: some seconds");
+    complain!("3/4 The page's packages, from npm: a few seconds");
     // Install exactly the packages of the lock file, without running their scripts: they bring their programs
     // ready to use.
     succeed(tools::npm().current_dir(&page).args(["ci", "--no-audit", "--no-fund", "--loglevel=error"]))?;
-    complain!("4/4 The page: some seconds");
+    complain!("4/4 The page: a few seconds");
     succeed(
         Command::new("node")
             .current_dir(&page)
@@ -86,12 +86,12 @@ pub(crate) fn run(options: &Options) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Writes the module and what binds it to JavaScript into a folder.
+/// Writes the module and its JavaScript bindings into a folder.
 fn bound(options: &Options, target: &Path, folder: &Path) -> Result<()> {
-    complain!("1/4 The library as a module of WebAssembly: a minute or two");
+    complain!("1/4 The library as a WebAssembly module: a minute or two");
     let module = compiled(options, target)?;
     std::fs::create_dir_all(folder).with_context(|| format!("{} cannot be made", folder.display()))?;
-    complain!("2/4 What binds it to JavaScript: some seconds, the first time some minutes");
+    complain!("2/4 The bindings to JavaScript: a few seconds, the first time a few minutes");
     let wasm_bindgen = tools::wasm_bindgen(&target.join("explorer-tools"))?;
     succeed(
         Command::new(wasm_bindgen)

@@ -27,7 +27,7 @@ const DOCS_COMMAND: &str = "cargo xtask figures --docs";
 /// The most computing threads: more than any machine has that this runs on, and few enough to be started at
 /// once. Tens of thousands take minutes to start and more to find that there is nothing to do.
 const MOST_THREADS: i64 = 1024;
-/// The exit status for a wrong command line, the same as that of the argument parser.
+/// The exit status for a wrong command line, as in the argument parser.
 const USAGE: u8 = 2;
 
 /// The options of `cargo xtask figures`.

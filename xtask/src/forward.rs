@@ -21,7 +21,7 @@ pub(crate) struct Options {
 /// Optimised, since figures compute; in another folder than this program, which Windows cannot replace while
 /// it runs.
 pub(crate) fn run(_: &Options) -> Result<ExitCode> {
-    complain!("The chore needs the figures; compiling them takes some minutes the first time.");
+    complain!("The chore needs the figures; compiling them takes a few minutes the first time.");
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| OsString::from("cargo")));
     cargo.args(["run", "--release", "--package", "xtask", "--manifest-path"]).arg(in_workspace("Cargo.toml"));
     let status = cargo.arg("--").args(std::env::args_os().skip(1)).status();

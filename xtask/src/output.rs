@@ -21,7 +21,7 @@ macro_rules! say {
     ($($text:tt)*) => { $crate::output::line(std::io::stdout(), format_args!($($text)*)) };
 }
 
-/// As `eprintln!`, but without its panic. If standard error refuses a line, nobody is left to inform.
+/// As `eprintln!`, but without its panic. If standard error is closed, nobody is left to inform.
 macro_rules! complain {
     ($($text:tt)*) => {{ let _ = $crate::output::line(std::io::stderr(), format_args!($($text)*)); }};
 }

@@ -38,7 +38,7 @@ impl Report {
             }
             Self::Lines => {
                 complain!("{id:<8} begins");
-                // It counts, and is not drawn.
+                // It counts without drawing.
                 ProgressBar::hidden()
             }
         };
@@ -71,7 +71,7 @@ impl Running<'_> {
         let line = format!("{:<8} {outcome} {:.2} s", self.bar.prefix(), run_time.as_secs_f64());
         match self.report {
             Report::Bars(bars) => {
-                // Only a closed terminal refuses a line.
+                // Only a closed terminal fails here.
                 let _ = bars.println(line);
             }
             Report::Lines => complain!("{line}"),

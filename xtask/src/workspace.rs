@@ -28,5 +28,7 @@ pub(crate) fn target_folder() -> Result<PathBuf> {
     let output = cargo().args(["metadata", "--format-version", "1", "--no-deps", "--locked"]).output();
     let metadata: serde_json::Value =
         serde_json::from_slice(&output.context("cargo cannot be run")?.stdout).unwrap_or_default();
-    Ok(PathBuf::from(metadata["target_directory"].as_str().context("cargo does not tell its target folder")?))
+    Ok(PathBuf::from(
+        metadata["target_directory"].as_str().context("cargo does not state its target folder")?,
+    ))
 }

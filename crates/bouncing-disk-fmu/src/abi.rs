@@ -1,7 +1,7 @@
 //! The functions of FMI 3.0, as a master calls them.
 //!
-//! A master passes the handles that it was given, and arrays as long as it says: that is what the standard demands of it,
-//! and nothing here can check it. Null pointers are refused.
+//! A master passes the handles that it was given, and arrays as long as it says: that is what the standard
+//! demands of it, and nothing here can check it. Null pointers are errors.
 
 #![allow(unsafe_code, reason = "the interface is one of C")]
 #![allow(non_snake_case, reason = "the names are those of the standard")]
@@ -47,7 +47,7 @@ impl Logger {
 /// The error of a panic, which must not leave through C.
 fn caught<T>(call: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(call))
-        .unwrap_or_else(|_| Err("an internal error, please report it".to_owned()))
+        .unwrap_or_else(|_| Err("an internal error; please report it".to_owned()))
 }
 
 /// Calls an instance; an error goes into its log.
@@ -157,7 +157,7 @@ unsafe extern "C" fn fmi3InstantiateCoSimulation(
         let sheet = sheet.map_err(|error| format!("{} cannot be read: {error}", path.display()))?;
         if token(&sheet) != given {
             return Err(concat!(
-                "the instantiation token is not that of this unit, made by bouncing-disk ",
+                "the instantiation token does not belong to this unit, made by bouncing-disk ",
                 env!("CARGO_PKG_VERSION")
             )
             .to_owned());
@@ -182,7 +182,7 @@ unsafe extern "C" fn fmi3FreeInstance(handle: *mut Handle) {
     }
 }
 
-/// Errors are said whatever the master wants to hear; there is nothing else to say.
+/// Errors are reported whatever the master asks for; there is nothing else to say.
 #[unsafe(no_mangle)]
 extern "C" fn fmi3SetDebugLogging(
     _handle: *mut Handle,
@@ -258,7 +258,9 @@ unsafe extern "C" fn fmi3GetFloat64(
 ) -> i32 {
     let read = |instance: &mut Instance| {
         if value_count != count || (values.is_null() && count > 0) {
-            return Err(format!("{value_count} values for {count} variables, which are all scalars"));
+            return Err(format!(
+                "{value_count} values for {count} variables: all variables are scalars, so the numbers must be equal"
+            ));
         }
         // SAFETY: arrays of the master, of these lengths.
         for (index, reference) in unsafe { array(references, count) }?.iter().enumerate() {
@@ -284,7 +286,9 @@ unsafe extern "C" fn fmi3SetFloat64(
         // SAFETY: arrays of the master, of these lengths.
         let (references, values) = unsafe { (array(references, count)?, array(values, value_count)?) };
         if value_count != count {
-            return Err(format!("{value_count} values for {count} variables, which are all scalars"));
+            return Err(format!(
+                "{value_count} values for {count} variables: all variables are scalars, so the numbers must be equal"
+            ));
         }
         references.iter().zip(values).try_for_each(|(reference, value)| instance.set(*reference, *value))
     };
@@ -351,14 +355,14 @@ of_no_variable! {
     fmi3SetUInt64 fmi3SetBoolean fmi3SetString fmi3SetBinary fmi3SetClock
 }
 
-/// Functions of what the description says this unit has not, which masters look for all the same; the caller removes the
-/// other arguments.
+/// Functions for features that this unit lacks by its description, which masters look for all the same; the
+/// caller removes the other arguments.
 macro_rules! not_there {
     ($($name:ident)*) => {$(
         #[unsafe(no_mangle)]
         unsafe extern "C" fn $name(handle: *mut Handle) -> i32 {
             // SAFETY: as above.
-            unsafe { with(handle, |_| Err(concat!(stringify!($name), " is not there, as the description says").to_owned())) }
+            unsafe { with(handle, |_| Err(concat!(stringify!($name), " is not available, as the description states").to_owned())) }
         }
     )*};
 }

@@ -1,4 +1,4 @@
-//! An instance of the unit: which calls are legal when, and what they do.
+//! An instance of the unit: which calls are legal in which state, and their actions.
 
 use bouncing_disk::Motor;
 use bouncing_disk::core::Unobserved;
@@ -25,7 +25,7 @@ enum Mode {
 pub(crate) struct Instance {
     motor: Motor,
     variables: Vec<Variable>,
-    /// Of each variable; those of outputs mean nothing.
+    /// Of each variable; the values of outputs have no meaning.
     values: Vec<f64>,
     mode: Mode,
     start: f64,
@@ -87,7 +87,7 @@ impl Instance {
                 return Err(format!("the parameter {name} can be set until the initialisation ends"));
             }
             Role::Input(_) if self.mode == Mode::Terminated => {
-                return Err(format!("{name} cannot be set after the end"));
+                return Err(format!("{name} cannot be set after the termination"));
             }
             _ => {}
         }
@@ -108,7 +108,7 @@ impl Instance {
         match self.variable(reference)?.role {
             Role::Time => Ok(self.start + self.running.as_ref().map_or(0.0, |(motor, _)| motor.time())),
             Role::Output(_) if self.mode == Mode::Instantiated => {
-                Err("outputs are known from the initialisation on".to_owned())
+                Err("outputs are available only after the initialisation has begun".to_owned())
             }
             Role::Output(of) => self.started().map(|(_, outputs)| of(outputs)),
             _ => Ok(self.values[reference as usize]),
@@ -161,7 +161,7 @@ impl Instance {
         let follows = (point - reached).abs() <= size && step >= 0.0;
         if !follows {
             return Err(format!(
-                "the step of {step:?} s at {point:?} s does not follow the one that ended at {reached:?} s"
+                "the step of {step:?} s at {point:?} s does not continue the previous one, which ended at {reached:?} s"
             ));
         }
         let running = self.running.as_ref().ok_or("the motor has not started")?;

@@ -85,7 +85,7 @@ impl Axis {
         Self::linear(low, high).ticks(Ticks::few(high - low))
     }
 
-    /// 0 at the first end, 1 at the last; NaN for what a logarithmic axis cannot show.
+    /// 0 at the first end, 1 at the last; NaN if a logarithmic axis cannot show the value.
     pub(crate) fn fraction(&self, value: f64) -> f64 {
         match self.logarithmic {
             false => (value - self.first) / (self.last - self.first),

@@ -1,7 +1,7 @@
 //! The builder methods of all parts of a figure, written once.
 
-/// Writes builder methods, each from its name, its arguments and what it does with the value it is called on:
-/// `/// Doc.`, `name(argument: Type) |own| own.field = argument;`.
+/// Writes builder methods, each from its name, its arguments and its action on the value: `/// Doc.`,
+/// `name(argument: Type) |own| own.field = argument;`.
 ///
 /// Those that layers share need only their names. They set parts of the field `style` of a layer (a
 /// [`Style`](crate::style::Style) or a [`TextStyle`](crate::style::TextStyle)) or its field `name`.

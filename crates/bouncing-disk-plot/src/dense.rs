@@ -29,7 +29,7 @@ builders!(DensePoints {
 });
 
 impl DensePoints {
-    /// Points in data coordinates. Where discs that are not opaque overlap, the colour grows darker.
+    /// Points in data coordinates. Overlapping translucent discs darken the colour.
     pub fn new(points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         Self { points: points.into_iter().collect(), radius: 0.3, style: Colour::BLACK.into(), name: None }
     }

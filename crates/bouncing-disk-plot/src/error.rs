@@ -53,13 +53,13 @@ pub enum DrawError {
         high: f64,
     },
     /// A layer refers to the axis on the right of a panel that has none.
-    #[error("panel \"{panel}\": a layer needs the axis on the right, which is missing")]
+    #[error("panel \"{panel}\": a layer needs the right axis, which is missing")]
     NoRightAxis {
         /// The letter of the panel.
         panel: String,
     },
     /// A cell of a raster refers to no colour of its palette.
-    #[error("a raster cell has colour {index} of a palette of {colours}")]
+    #[error("a raster cell has colour {index}, but the palette only {colours}")]
     RasterColour {
         /// The index.
         index: u8,

@@ -154,7 +154,7 @@ impl Parser<'_> {
         while let Some(character) = self.next() {
             match character {
                 '}' if in_group => return Ok(spans),
-                '}' => return Err(malformed(self.source, "a brace is closed that was not opened")),
+                '}' => return Err(malformed(self.source, "a closing brace has no opening one")),
                 _ => self.item(character, level, &mut spans)?,
             }
         }
@@ -217,7 +217,7 @@ impl Parser<'_> {
         if let Some(accent) = accent {
             let mut accented = self.argument(level)?;
             let Some(first) = accented.first_mut() else {
-                return Err(malformed(self.source, "an accent has nothing to stand on"));
+                return Err(malformed(self.source, "an accent has no letter to stand on"));
             };
             let after = first.text.chars().next().map_or(0, char::len_utf8);
             first.text.insert(after, accent);

@@ -19,7 +19,7 @@ pub fn in_math(value: f64) -> String {
     }
 }
 
-/// The least and the largest of the finite values; infinite and the wrong way round where there is none.
+/// The least and the largest of the finite values; infinite and reversed if there is none.
 pub(crate) fn extent(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
     let finite = values.into_iter().filter(|value| value.is_finite());
     finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))

@@ -103,7 +103,7 @@ builders!(Panel {
     /// Lists the named layers.
     legend(legend: Legend) |own| own.legend = Some(legend);
     /// Draws the markers of [`Scatter`](super::Scatter) layers above the frame and its ticks instead of
-    /// below, so that those at an edge are seen whole; those of the axis on the right stay below.
+    /// below, so that those at an edge are seen whole; the labels of the right axis stay below.
     markers_on_top() |own| own.markers_on_top = true;
 });
 

@@ -14,7 +14,7 @@ use crate::label::{Label, Level, SCRIPT_SIZE};
 use crate::path::polyline;
 use crate::style::{Anchor, Dash, Fill, Stroke, Style, TextStyle};
 
-/// How far a curve may lie beside the circle that it stands for, in points.
+/// Largest distance of a curve from the circle that it approximates, in points.
 pub(crate) const TOLERANCE: f64 = 0.01;
 
 /// The size in points of axis labels and of text that has no other.

@@ -1,6 +1,6 @@
 //! The arguments of a call by their names, each checked as it is read.
 //!
-//! Python owns the signatures: a function there hands over its `locals()`, and what it returns is made here.
+//! Python owns the signatures: a function there hands over its `locals()`, and its result is made here.
 
 use std::fmt::{self, Display, Formatter};
 
@@ -41,7 +41,7 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Arguments<'py> {
     }
 }
 
-/// An argument of some type, or an entry of one; an error of the type names it.
+/// An argument of some type, or an entry of one; a type error names it.
 pub(crate) fn extracted<'py, T: for<'a> FromPyObject<'a, 'py>>(
     value: &Bound<'py, PyAny>,
     name: impl Display,
@@ -50,7 +50,7 @@ pub(crate) fn extracted<'py, T: for<'a> FromPyObject<'a, 'py>>(
     extracted.map_err(|error| named(value.py(), error, name))
 }
 
-/// An error, which names the argument if it is one of the type.
+/// An error, which names the argument if it is a type error.
 fn named(py: Python<'_>, error: PyErr, name: impl Display) -> PyErr {
     if !error.is_instance_of::<PyTypeError>(py) {
         return error;
@@ -117,7 +117,7 @@ impl<'py> Arguments<'py> {
         self.read(name, plain(&given, &Place::Argument(name))?).map(Some)
     }
 
-    /// What the library makes of plain values.
+    /// The library's object for plain values.
     pub(crate) fn read<T: DeserializeOwned>(&self, name: &str, values: Value) -> PyResult<T> {
         let wrong = |error| errors::of_text(self.py(), format!("the {name} cannot be read: {error}"), None);
         serde_json::from_value(values).map_err(wrong)
@@ -136,7 +136,7 @@ impl<'py> Arguments<'py> {
         self.of::<Count>(name)?.u32(self.py(), name)
     }
 
-    /// A number of items: no call has more than 2^32 of them.
+    /// A number of items, below 2^32 in every call.
     pub(crate) fn usize(&self, name: &str) -> PyResult<usize> {
         self.u32(name).map(|count| count as usize)
     }
@@ -224,10 +224,10 @@ pub(crate) fn choice<T: Copy>(given: &Bound<'_, PyAny>, name: &str, choices: &[(
     })
 }
 
-/// A real number: of Python, of NumPy, an array of no dimensions, or what has `__float__`.
+/// A real number: of Python, of NumPy, a 0-d array, or an object with `__float__`.
 ///
-/// `float()` makes numbers of truths, of texts in arrays, and of complex numbers, whose imaginary part it
-/// drops; all these are type errors here, as they are in arrays.
+/// `float()` accepts booleans, texts in arrays, and complex numbers, whose imaginary part it drops; here all
+/// these are type errors, as in arrays.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Real(pub(crate) f64);
 
@@ -252,7 +252,7 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Real {
         }
         match object.extract::<f64>() {
             Ok(number) => Ok(Self(number)),
-            // An integer beyond all doubles is a value outside of every range.
+            // An integer beyond all doubles is outside every range.
             Err(error) if error.is_instance_of::<PyOverflowError>(object.py()) => {
                 Ok(Self(if object.lt(0)? { f64::NEG_INFINITY } else { f64::INFINITY }))
             }
@@ -261,20 +261,20 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Real {
     }
 }
 
-/// What is a text, or a list of texts.
+/// Entries that are a text, or a list of texts.
 const TEXTS: [&str; 6] = ["angle", "geometry", "height", "kind", "law", "materials"];
 
-/// What is a list.
+/// Entries that are a list.
 const LISTS: [&str; 8] =
     ["factors", "fourier", "materials", "pieces", "sampled", "speeds", "times", "torques"];
 
-/// What is a list of lists.
+/// Entries that are a list of lists.
 const NESTED: [&str; 2] = ["fourier", "pieces"];
 
-/// What is a table, or a list of tables.
+/// Entries that are a table, or a list of tables.
 const TABLES: [&str; 6] = ["angle", "contact", "drive", "height", "load", "stator"];
 
-/// Where a value stands among the arguments of a call, such as `stator.mass` or `height.sampled[3]`.
+/// The place of a value among the arguments of a call, such as `stator.mass` or `height.sampled[3]`.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Place<'a> {
     Argument(&'a str),
@@ -293,7 +293,7 @@ impl Display for Place<'_> {
 }
 
 impl Place<'_> {
-    /// The name of the entry that the value is, or that holds it.
+    /// The name of the entry that is or holds the value.
     const fn name(&self) -> &str {
         match self {
             Self::Argument(name) | Self::Entry(_, name) => name,
@@ -305,12 +305,12 @@ impl Place<'_> {
         names.contains(&self.name())
     }
 
-    /// Whether a list stands here.
+    /// Whether a list belongs here.
     fn takes_list(&self) -> bool {
         self.is_one_of(if matches!(self, Self::Item(..)) { &NESTED } else { &LISTS })
     }
 
-    /// What stands here, in words.
+    /// The expected type, in words.
     fn expected(&self) -> &'static str {
         if self.takes_list() {
             "a list"
@@ -331,15 +331,15 @@ impl Place<'_> {
     }
 }
 
-/// A value as a file has it: a text, a finite number, or a list or a table of such. Numbers and arrays of NumPy are
-/// numbers and lists; nothing else is taken for one.
+/// A value as in a file: a text, a finite number, or a list or a table of them. NumPy's numbers and arrays
+/// count as numbers and lists; nothing else does.
 pub(crate) fn plain(value: &Bound<'_, PyAny>, place: &Place<'_>) -> PyResult<Value> {
     let wrong = || Err(place.wrong(value, place.expected()));
     let takes_list = place.takes_list();
     let takes_number = !place.is_one_of(&TABLES)
         && !place.is_one_of(&TEXTS)
         && (!takes_list || matches!(place, Place::Item(..)));
-    // Most samples are such, and what follows takes far longer.
+    // Most samples are floats, and the general path takes far longer.
     if takes_number && value.is_instance_of::<PyFloat>() {
         return number(value, place).map(Value::from);
     }
@@ -347,7 +347,7 @@ pub(crate) fn plain(value: &Bound<'_, PyAny>, place: &Place<'_>) -> PyResult<Val
         if takes_list || !place.is_one_of(&TABLES) {
             return wrong();
         }
-        // As an argument that is None, such an entry is not given.
+        // Like an argument that is None, such an entry is not given.
         let given = entries(value, place)?.into_iter().filter(|(_, own)| !own.is_none());
         return given
             .map(|(name, own)| {
@@ -378,7 +378,7 @@ fn number(value: &Bound<'_, PyAny>, place: &Place<'_>) -> PyResult<f64> {
     Ok(number)
 }
 
-/// The items of a list, an array or another ordered collection; `None` of what is none.
+/// The items of a list, an array or another ordered collection; `None` for other objects.
 fn items<'py>(value: &Bound<'py, PyAny>, place: &Place<'_>) -> PyResult<Option<Vec<Bound<'py, PyAny>>>> {
     let is_unordered = value.is_instance_of::<PySet>() || value.is_instance_of::<PyFrozenSet>();
     let is_bytes = value.is_instance_of::<PyBytes>()
@@ -388,7 +388,7 @@ fn items<'py>(value: &Bound<'py, PyAny>, place: &Place<'_>) -> PyResult<Option<V
         return Ok(None);
     }
     refuse_masked(value).map_err(|error| named(value.py(), error, place))?;
-    // Arrays of no dimensions, as all else that is no collection, are not iterable.
+    // 0-d arrays, like other objects that are not collections, are not iterable.
     value.try_iter().map_or(Ok(None), |items| items.collect::<PyResult<_>>().map(Some))
 }
 
@@ -417,7 +417,7 @@ pub(crate) fn pair(value: &Bound<'_, PyAny>, place: &Place<'_>) -> PyResult<[f64
     Ok([number(low, 0)?.0, number(high, 1)?.0])
 }
 
-/// Refuses True and False, which Python takes for 1 and 0.
+/// Rejects True and False, which Python takes for 1 and 0.
 fn refuse_truth(object: &Bound<'_, PyAny>) -> PyResult<()> {
     if object.is_instance_of::<PyBool>() {
         return Err(PyTypeError::new_err("must be a number, and is a bool"));
@@ -425,7 +425,7 @@ fn refuse_truth(object: &Bound<'_, PyAny>) -> PyResult<()> {
     Ok(())
 }
 
-/// A whole number. One that is negative or too large is a double, so that it is refused as a value and not as an
+/// A whole number. A negative or too large one becomes a double, so that its value is reported and not an
 /// overflow.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Count(pub(crate) Result<u64, f64>);
@@ -473,12 +473,12 @@ pub(crate) struct Numbers {
 }
 
 impl Numbers {
-    /// The number of an item of a call that has so many: one number is that of all.
+    /// The number for an item of a call: a single number holds for all.
     pub(crate) fn get(&self, index: usize) -> f64 {
         if self.scalar { self.values[0] } else { self.values[index] }
     }
 
-    /// How many there are; `None` for one that goes with any.
+    /// The length; `None` for a single number, which goes with any.
     pub(crate) fn len(&self) -> Option<usize> {
         (!self.scalar).then_some(self.values.len())
     }
@@ -488,8 +488,7 @@ impl Numbers {
     }
 }
 
-/// Refuses masked values: NumPy takes what is below a mask for values, so that gaps of measurements would
-/// count.
+/// Rejects masked values: NumPy would read the values below the mask, and count gaps as measurements.
 fn refuse_masked(object: &Bound<'_, PyAny>) -> PyResult<()> {
     let py = object.py();
     static IS_MASKED: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
@@ -497,7 +496,7 @@ fn refuse_masked(object: &Bound<'_, PyAny>) -> PyResult<()> {
     if object.hasattr(intern!(py, "_mask"))?
         && IS_MASKED.get_or_try_init(py, masked)?.bind(py).call1((object,))?.is_truthy()?
     {
-        return Err(PyTypeError::new_err("an array has masked values: take them out, or fill them, before"));
+        return Err(PyTypeError::new_err("an array has masked values: remove or fill them first"));
     }
     Ok(())
 }
@@ -555,7 +554,7 @@ pub(crate) fn runs(object: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<Vec<f6
     Ok((0..columns).map(column).collect())
 }
 
-/// The one length of several arguments, each a number or a row; of numbers alone one item.
+/// The common length of several arguments, each a number or a row; 1 if all are numbers.
 pub(crate) fn common_length(all: &[(&str, Option<usize>)]) -> PyResult<usize> {
     let mut found: Option<(&str, usize)> = None;
     for (name, length) in all {
@@ -575,7 +574,7 @@ pub(crate) fn common_length(all: &[(&str, Option<usize>)]) -> PyResult<usize> {
 /// The impact of a phase and a normalised speed.
 pub(crate) fn first_impact(impact_phase: f64, normalised_speed: f64) -> Result<ImpactState, Error> {
     ImpactState::from_normalised(impact_phase, normalised_speed).map_err(|error| match error {
-        // The library's velocity is the speed times -pi, which nobody has given.
+        // The caller gave the speed, and the library's velocity is -pi times it.
         bouncing_disk::core::Error::OutOfRange { field: "axial_impact_velocity", .. } => {
             Error::OutOfRange { field: "normalised_speed", value: normalised_speed, legal: "[0, 5.7e307]" }
         }
@@ -594,7 +593,7 @@ pub(crate) struct Starts {
 }
 
 impl Starts {
-    /// Those of four arguments that go together.
+    /// The starts of four arguments that go together.
     pub(crate) fn of(a: &Arguments<'_>) -> PyResult<Self> {
         const NAMES: [&str; 4] = ["axial_forcing", "restitution", "impact_phase", "normalised_speed"];
         let mut all = Vec::new();

@@ -32,7 +32,7 @@ holders! {
 #[derive(Debug, PartialEq)]
 pub(crate) struct DrivenAttractors(AttractorsModel<DrivenMap>);
 
-/// Starts on each circle that is tried for the radius of a known orbit.
+/// Starts on each tested circle for the radius of a known orbit.
 const SAMPLES: u32 = 64;
 
 fn shown_attractor<'py>(py: Python<'py>, label: Option<Label>, own: &Attractor) -> Made<'py> {
@@ -131,7 +131,7 @@ fn basin_settings(a: &Arguments<'_>) -> PyResult<BasinSettings> {
     Ok(BasinSettings { max_impacts: a.u32("max_impacts")?, policy: a.policy()? })
 }
 
-/// The basins as Python has them.
+/// The basins as Python's class.
 fn shown_basins<'py>(
     map: Bound<'py, PyAny>,
     grid: &Grid,
@@ -154,7 +154,7 @@ fn shown_basins<'py>(
     )
 }
 
-/// The labels in a vector of their own.
+/// The labels in their own vector.
 fn labels(basins: &Basins) -> Result<Vec<Label>, Error> {
     let mut labels = room_for(basins.labels().len())?;
     labels.extend_from_slice(basins.labels());
@@ -176,7 +176,7 @@ pub(crate) fn basins_of(a: Arguments<'_>) -> Made<'_> {
     shown_basins(a.get("self")?.getattr("impact_map")?, &grid, labels, meaning)
 }
 
-/// What the labels of these attractors mean.
+/// The meanings of the labels of these attractors.
 fn meaning(all: &[Attractor]) -> Vec<String> {
     let words = all.iter().map(|attractor| attractor.kind.to_string());
     std::iter::once("undecided".to_owned()).chain(words).collect()
@@ -202,7 +202,7 @@ fn known(
     (orbit, radius): (OrbitModel, Option<f64>),
     observer: &dyn Observer,
 ) -> Result<KnownOrbit, Error> {
-    // How far the search is says nothing about the rows that are to come.
+    // The progress of the search does not predict that of the rows.
     let quiet = |progress: Progress| observer.observe(Progress { done: 0, ..progress });
     let radius = match radius {
         Some(radius) => radius,
@@ -233,7 +233,7 @@ pub(crate) fn basins(a: Arguments<'_>) -> Made<'_> {
 
 /// The basins of a result of these calls.
 fn given_basins(a: &Arguments<'_>) -> PyResult<Basins> {
-    let wrong = || PyTypeError::new_err("basins must be a Basins, as of basins() and Attractors.basins()");
+    let wrong = || PyTypeError::new_err("basins must be a Basins, made by basins() or Attractors.basins()");
     let labels = a.get("basins")?.getattr("labels").map_err(|_| wrong())?;
     let labels = labels.cast_into::<PyArray2<u8>>().map_err(|_| wrong())?.readonly();
     let columns = labels.shape()[1];
@@ -299,7 +299,7 @@ pub(crate) fn basin_fractions_over(a: Arguments<'_>) -> Made<'_> {
     let (search, reach) = (search(&a)?, a.real("reach")?);
     let found = a.run(|observer| Ok(fractions_over(restitution, &forcings, &search, reach, observer)?))?;
     let (attractors, forcings) = (found.followed.len(), found.at.len());
-    // A number of each attractor at each forcing, NaN where it is not there.
+    // A number of each attractor at each forcing, NaN where the attractor is absent.
     let table = |of: &dyn Fn(&Attractor) -> f64| {
         let rows =
             (0..attractors).flat_map(|number| found.over(number).map(|(_, own)| own.map_or(f64::NAN, of)));

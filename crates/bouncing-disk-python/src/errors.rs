@@ -1,4 +1,4 @@
-//! From the errors of the library to the exceptions of `bouncing_disk._errors`, with all their numbers.
+//! Converts the errors of the library to the exceptions of `bouncing_disk._errors`, with all their numbers.
 
 use bouncing_disk::Error;
 use bouncing_disk::core::Error as CoreError;
@@ -22,7 +22,7 @@ fn raise<'py>(py: Python<'py>, class: &str, arguments: impl PyCallArgs<'py>) -> 
     made.map_or_else(|failure| failure, PyErr::from_value)
 }
 
-/// The errors that arguments are the reason of which do not fit together.
+/// The errors caused by arguments that do not fit together.
 const INVALID: [&str; 23] = [
     "not-of-kind",
     "no-closed-form",
@@ -49,10 +49,10 @@ const INVALID: [&str; 23] = [
     "load-in-time",
 ];
 
-/// The kind of an error, which is the library's name of it in small letters, and the numbers that it carries.
+/// The kind of an error, its name in the library in small letters, and its numbers.
 fn kind_and_details<'py>(py: Python<'py>, error: &impl Serialize) -> PyResult<(String, Bound<'py, PyDict>)> {
     let given = pythonize(py, error)?;
-    // Without numbers it is the kind alone.
+    // An error without numbers is only the kind.
     let Ok(given) = given.cast::<PyDict>() else { return Ok((given.extract()?, PyDict::new(py))) };
     let (kind, details) = given.items().get_item(0)?.extract()?;
     Ok((kind, details))
@@ -70,7 +70,7 @@ pub(crate) fn of_kind(py: Python<'_>, message: String, error: &impl Serialize) -
     }
 }
 
-/// The exception of an error that no argument of a call can be the reason of.
+/// The exception of an error that no argument of a call can cause.
 pub(crate) fn of(py: Python<'_>, error: impl Into<FitError>) -> PyErr {
     let error = error.into();
     let message = error.to_string();
@@ -88,7 +88,7 @@ pub(crate) fn of(py: Python<'_>, error: impl Into<FitError>) -> PyErr {
     }
 }
 
-/// Arguments whose names do not follow from what the library calls them.
+/// Arguments whose names do not follow from the library's names.
 const ARGUMENTS: [(&str, &[&str]); 22] = [
     ("phase", &["impact_phase"]),
     ("period", &["impact_phase"]),
@@ -114,10 +114,10 @@ const ARGUMENTS: [(&str, &[&str]); 22] = [
     ("cells_along_a_box", &["box_side"]),
 ];
 
-/// The argument of a call that a quantity of the library is about: `longest period`, `points of a branch` and
+/// The argument of a call for a quantity of the library: `longest period`, `points of a branch` and
 /// `number of ranges` are `longest_period`, `max_points` and `ranges`. `None` if it follows from several.
 fn argument(quantity: &'static str, call: &Bound<'_, PyDict>) -> Option<String> {
-    // A table `load` is no number: a load outside its range is that of a torque.
+    // A table `load` is not a number: a load outside its range is a torque.
     let is_given = |name: &String| {
         let given = call.get_item(name.as_str()).ok().flatten();
         given.is_some_and(|given| name != "load" || given.extract::<f64>().is_ok())
@@ -126,11 +126,11 @@ fn argument(quantity: &'static str, call: &Bound<'_, PyDict>) -> Option<String> 
     let marks = [" (", " of ", " from ", " beyond ", " below ", " in periods", " along an axis"];
     let cut = marks.iter().filter_map(|mark| head.find(mark)).min();
     let head = head[..cut.unwrap_or(head.len())].replace(' ', "_");
-    // That of the map, which is no argument of its methods.
+    // The restitution of the map, which is not an argument of its methods.
     if quantity.starts_with("restitution of ") {
         return Some(head);
     }
-    // A field of a table, such as `stator.mass`, is named in full; `contact.time` may be an argument of its own.
+    // A field of a table, such as `stator.mass`, is named in full; `contact.time` may be a separate argument.
     let is_table =
         |name| call.get_item(name).ok().flatten().is_some_and(|own| own.cast::<PyMapping>().is_ok());
     if head.split_once('.').is_some_and(|(table, _)| is_table(table)) && quantity.ends_with(&head) {
@@ -142,7 +142,7 @@ fn argument(quantity: &'static str, call: &Bound<'_, PyDict>) -> Option<String> 
     let others = ARGUMENTS.iter().filter(|(library, _)| *library == head).flat_map(|(_, names)| *names);
     let ranged = call.get_item("ranges").ok().flatten().filter(|all| all.contains(&head).unwrap_or(false));
     // What is illegal of one of many comes from the argument that holds them.
-    let containers = ["basins", "ranges", "over"];
+    let containers = ["basins", "ranges", "axes"];
     spellings
         .into_iter()
         .chain(plurals)
@@ -151,7 +151,7 @@ fn argument(quantity: &'static str, call: &Bound<'_, PyDict>) -> Option<String> 
         .find(is_given)
 }
 
-/// The exception of an error, with the name that the call has for the quantity it is about.
+/// The exception of an error, with the call's name for its quantity.
 pub(crate) fn of_call(py: Python<'_>, error: impl Into<FitError>, call: &Bound<'_, PyDict>) -> PyErr {
     let error = error.into();
     let FitError::Model(
@@ -165,7 +165,7 @@ pub(crate) fn of_call(py: Python<'_>, error: impl Into<FitError>, call: &Bound<'
         let message = format!("{error}; it follows from several arguments");
         return together(message, field, value, legal, call).unwrap_or_else(|failure| failure);
     };
-    // The caller's number where the library has it in other units, and its range in those of the caller.
+    // The caller's number if the library uses other units, and its range in the caller's units.
     let given = call.get_item(&name).ok().flatten().and_then(|given| given.extract::<f64>().ok());
     match given.filter(|given| given.total_cmp(&value).is_ne()) {
         Some(given) => {
@@ -192,7 +192,7 @@ fn together(
     Ok(raise(call.py(), "InvalidError", (message, "out-of-range-together", details)))
 }
 
-/// The unit of an argument that the library has in another one.
+/// The unit of an argument that the library converts.
 fn unit(argument: &str) -> &'static str {
     match argument {
         "gap" => " m",
@@ -204,8 +204,8 @@ fn unit(argument: &str) -> &'static str {
     }
 }
 
-/// An interval such as `(0, 1e17] (units of g/omega^2)` in another unit, of which the library's is `one`;
-/// `None` of what is no interval of two numbers. Six digits are enough to see which end is passed.
+/// An interval such as `(0, 1e17] (units of g/omega^2)` in another unit, where the library's unit is `one`;
+/// `None` for other words. Six digits show which end is exceeded.
 fn in_unit(interval: &str, one: f64, unit: &str) -> Option<String> {
     let (low, rest) = interval.split_once(", ")?;
     let (high, _) = rest.split_at(rest.find([']', ')'])?);
@@ -221,7 +221,7 @@ fn in_unit(interval: &str, one: f64, unit: &str) -> Option<String> {
 
 /// The exception of a number outside its range, in the words of the library.
 pub(crate) fn out_of_range(py: Python<'_>, field: &str, value: f64, legal: &str) -> PyErr {
-    // The library words an interval otherwise than a condition.
+    // The library words an interval and a condition differently.
     let bracket = if legal.starts_with(['[', '(']) { "[" } else { "" };
     let words = Error::OutOfRange { field: "", value, legal: bracket }.to_string();
     let words = words.strip_suffix(bracket).unwrap_or(&words);
@@ -262,7 +262,7 @@ pub(crate) fn no_events(py: Python<'_>) -> PyErr {
     raise(py, "ComputationError", (message, "no-events", PyDict::new(py)))
 }
 
-/// A defect of the library: it has panicked, which nothing that is passed to it may bring about.
+/// A defect of the library: a panic, which no argument should cause.
 pub(crate) fn defect() -> PyErr {
     PyRuntimeError::new_err("a defect of bouncing_disk (a panic, printed above); please report it")
 }

@@ -22,7 +22,7 @@ use crate::errors;
 use crate::parameters::Motor;
 use crate::results::{array, column, make, matrix, room_for};
 
-/// One value tells neither deviation nor error.
+/// One value has neither deviation nor error.
 fn shown_spread<'py>(py: Python<'py>, spread: &Spread, members: usize) -> Made<'py> {
     let of_many = |number: f64| if members > 1 { number } else { f64::NAN };
     make!(py, "Spread", spread.mean, of_many(spread.deviation), of_many(spread.standard_error))
@@ -39,7 +39,7 @@ pub(crate) fn ensemble(a: Arguments<'_>) -> Made<'_> {
         seed: a.u64("seed")?,
         policy: a.policy()?,
     };
-    // The mass does not matter to a transient on a prescribed stator.
+    // A transient on a prescribed stator does not depend on the mass.
     let of_system = |system: SystemModel| {
         system.driven_platform(&DriveParameters::default())?;
         MotorParameters::of_system(&system, 1.0).build()
@@ -153,7 +153,7 @@ fn rated_point(numbers: &Bound<'_, PyAny>, place: &Place<'_>) -> PyResult<RatedP
     Ok(point)
 }
 
-/// Parameters of a motor from the points that its maker prints.
+/// Parameters of a motor from rated points.
 #[pyfunction]
 pub(crate) fn fit_rated_points(a: Arguments<'_>) -> Made<'_> {
     let (motor, py) = (a.motor()?, a.py());

@@ -1,7 +1,7 @@
 //! The compiled module `bouncing_disk._native` of the Python package `bouncing_disk`.
 //!
-//! It has no physics, no numerics and no signatures of its own: Python hands over the arguments of a call by
-//! their names; they are checked and turned into those of the Rust library, results into NumPy arrays and the
+//! It contains no physics, numerics or signatures. Python hands over the arguments of a call by
+//! name. They are checked and converted for the Rust library; results become NumPy arrays and
 //! classes of the Python package.
 #![cfg(feature = "extension-module")]
 
@@ -57,13 +57,13 @@ mod _native {
     /// The version of the package.
     #[pymodule_export]
     const VERSION: &str = env!("CARGO_PKG_VERSION");
-    /// Label of a start that was neither at rest nor near a known orbit after the impacts that were allowed.
+    /// Label of a start that was neither at rest nor near a known orbit after the allowed impacts.
     #[pymodule_export]
     const UNDECIDED: u8 = bouncing_disk::core::attractors::UNDECIDED;
     /// Label of a start that comes to rest.
     #[pymodule_export]
     const ATTACHED: u8 = bouncing_disk::core::attractors::ATTACHED;
-    /// Label of the first known orbit; the next ones count up from here.
+    /// Label of the first known orbit; the others follow it.
     #[pymodule_export]
     const FIRST_ORBIT: u8 = bouncing_disk::core::attractors::FIRST_ORBIT;
 }

@@ -1,9 +1,9 @@
 //! Long calls: they release the interpreter's lock, Ctrl-C stops them, and they report progress to a
 //! callable.
 //!
-//! The work is done by a pool of threads; the calling thread waits, wakes up a few times in every 0.2 s, lets
-//! Python look at its signals, and calls the callable. So the callable is only ever called by the thread that
-//! made the call, as progress bars and notebooks expect, and no thread that computes ever waits for the
+//! A pool of threads does the work. The calling thread waits, wakes up a few times in every 0.2 s,
+//! lets Python handle its signals, and calls the callable. So the callable runs only on the calling
+//! thread, as progress bars and notebooks expect, and no computing thread waits for the
 //! interpreter.
 
 use std::ops::ControlFlow;
@@ -21,7 +21,7 @@ use pyo3::prelude::*;
 use crate::arguments::Arguments;
 use crate::{errors, threads};
 
-/// How often signals are looked at, and the callable is called.
+/// How often signals are handled, and the callable is called.
 const INTERVAL: Duration = Duration::from_millis(40);
 
 /// The state that the computing threads share with the waiting one.
@@ -34,7 +34,7 @@ struct Watched {
 
 impl Observer for Watched {
     fn observe(&self, progress: Progress) -> ControlFlow<()> {
-        // Calls of several threads come in no certain order.
+        // Calls of several threads come in any order.
         self.done.fetch_max(progress.done, Ordering::Relaxed);
         self.total.store(progress.total, Ordering::Relaxed);
         if self.stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
@@ -70,7 +70,7 @@ impl Arguments<'_> {
     }
 
     /// The same for a fit, which may be refused.
-    pub(crate) fn run_fit<T: Send, E: Into<FitError>>(
+    pub(crate) fn run_fit<T: Send, E: Into<FitError> + Send>(
         &self,
         work: impl FnOnce(&dyn Observer) -> Result<T, E> + Send,
     ) -> PyResult<T> {
@@ -101,7 +101,7 @@ impl Arguments<'_> {
             pool.in_place_scope(|scope| {
                 scope.spawn(move |_| {
                     *result_of = Some(catch_unwind(AssertUnwindSafe(|| work(shared))));
-                    // The other end cannot be gone: it waits until this is done.
+                    // The receiver exists: it waits until this is done.
                     let _ = sender.send(());
                 });
                 while let Err(RecvTimeoutError::Timeout) = finished.recv_timeout(INTERVAL) {
@@ -121,7 +121,7 @@ impl Arguments<'_> {
         })?;
         outcome.map_err(|error| self.refused(error))?;
         if let Some(progress) = progress {
-            // Of nothing everything is done.
+            // No items means all are done.
             let total = watched.total.load(Ordering::Relaxed);
             progress.call1(py, (total, total))?;
         }
@@ -129,13 +129,12 @@ impl Arguments<'_> {
     }
 }
 
-/// Runs what takes microseconds, where it is.
+/// Runs work of microseconds on the calling thread.
 pub(crate) fn short<T>(call: &Arguments<'_>, work: impl FnOnce() -> Result<T, Error>) -> PyResult<T> {
     caught(work)?.map_err(|error| call.refused(error))
 }
 
 /// The outcome of `work`, whose panic is a defect.
-#[inline]
 pub(crate) fn caught<T>(work: impl FnOnce() -> Result<T, Error>) -> PyResult<Result<T, Error>> {
     catch_unwind(AssertUnwindSafe(work)).map_err(|_| errors::defect())
 }

@@ -19,7 +19,7 @@ use crate::arguments::{Arguments, Count, Made, Place, Real, extracted, held, pla
 use crate::results::{matrix, stored};
 use crate::{errors, long_call};
 
-/// The contents of a `System`. Its numbers are made when Python asks for the first one.
+/// The contents of a `System`. Its numbers are computed when Python first asks for one.
 #[pyclass(frozen, module = "bouncing_disk._native")]
 pub(crate) struct System(pub(crate) SystemModel);
 
@@ -140,12 +140,12 @@ impl Drive {
     }
 }
 
-/// The contents of an `ImpactMap`. Its steps are what loops in Python call themselves.
+/// The contents of an `ImpactMap`. Loops in Python call its steps directly.
 #[pyclass(frozen, name = "ImpactMap", module = "bouncing_disk._native")]
 pub(crate) struct Map {
     /// The map of rigid impacts on the sine, with this forcing and restitution.
     pub(crate) sine: ImpactMap,
-    /// The axial forcing if it was given: one computed from the peak acceleration may differ in the last place.
+    /// The axial forcing if given: computed from the peak acceleration it may differ in the last place.
     forcing: Option<f64>,
     /// The map itself if it is on another platform.
     pub(crate) other: Option<Box<(DrivenMap, Platform)>>,
@@ -165,7 +165,7 @@ macro_rules! on_map {
 }
 pub(crate) use on_map;
 
-/// A platform that moves in another way than the sine, or has compliant contacts.
+/// A platform with another drive than the sine, or with compliant contacts.
 pub(crate) struct Platform {
     drive: Option<DriveParameters>,
     contact_periods: Option<f64>,
@@ -197,7 +197,7 @@ impl Platform {
 }
 
 impl Map {
-    /// The map of a call that is computed for rigid impacts on the sine only.
+    /// The map for calls that need rigid impacts on the sine.
     pub(crate) fn rigid_sine(&self, py: Python<'_>) -> PyResult<&ImpactMap> {
         let Some((_, platform)) = self.other.as_deref() else { return Ok(&self.sine) };
         let refused = platform.height().sine().err();
@@ -219,7 +219,7 @@ impl Map {
         let contact = platform.and_then(|own| own.contact_periods);
         let drive = platform.and_then(|own| own.drive.clone()).map(|own| python(py, "Drive", Drive(own)));
         let drive = drive.transpose()?;
-        // Of a compliant contact no bound is known.
+        // No bound is known for a compliant contact.
         let unknown = contact.map(|_| f64::NAN);
         let bound = unknown.unwrap_or_else(|| on_map!(self, |map| map.impact_speed_bound() / PI));
         let all = [
@@ -267,12 +267,12 @@ impl Map {
     }
 }
 
-/// The dictionaries, lists and numbers of a text of the library's.
+/// The dictionaries, lists and numbers of a text from the library.
 fn from_json<'py>(py: Python<'py>, json: &str) -> Made<'py> {
     py.import("json")?.call_method1("loads", (json,))
 }
 
-/// What becomes of an impact of these two numbers.
+/// The result for an impact of these two numbers.
 fn with_state<T>(
     py: Python<'_>,
     phase: Real,
@@ -295,7 +295,7 @@ pub(crate) fn pair(state: ImpactState) -> (f64, f64) {
     (state.phase().angle(), state.velocity())
 }
 
-/// The numbers of an object by their names, with those that were given apart.
+/// The numbers of an object by name, the given ones separately.
 fn numbers<'py>(
     py: Python<'py>,
     given: Bound<'py, PyAny>,
@@ -379,12 +379,12 @@ pub(crate) fn system(a: Arguments<'_>) -> PyResult<System> {
     system_of(numbers, tables).map(System).map_err(|error| a.refused(error))
 }
 
-/// The object of this class that holds what the library has made.
+/// The object of this class that holds an object of the library.
 fn python<'py>(py: Python<'py>, class: &str, held: impl IntoPyObject<'py>) -> Made<'py> {
     py.import("bouncing_disk")?.getattr(class)?.call_method1("_holding", (held,))
 }
 
-/// The system that the library has made, as Python has it.
+/// A system of the library as Python's object.
 pub(crate) fn python_system<'py>(py: Python<'py>, system: &SystemModel) -> Made<'py> {
     python(py, "System", System(*system))
 }
@@ -493,7 +493,7 @@ pub(crate) fn map_of_system(a: Arguments<'_>) -> Made<'_> {
     python_map(a.py(), system.map())
 }
 
-/// The map of the sine that the library has made, as Python has it.
+/// A map of the sine from the library as Python's object.
 pub(crate) fn python_map<'py>(py: Python<'py>, map: &ImpactMap) -> Made<'py> {
     python(py, "ImpactMap", Map { sine: *map, forcing: None, other: None })
 }
@@ -512,7 +512,7 @@ pub(crate) fn paper_cut() -> ChatterCut {
     ChatterCut(PAPER_CUT)
 }
 
-/// The drive that the argument `drive` is, as an object or its dictionary.
+/// The drive of the argument `drive`, an object or its dictionary.
 pub(crate) fn drive_of(given: &Bound<'_, PyAny>) -> PyResult<Option<DriveParameters>> {
     if given.is_none() {
         return Ok(None);
@@ -550,7 +550,7 @@ impl<'py> Arguments<'py> {
         Ok(self.held::<System>("system")?.get().0)
     }
 
-    /// The system of what is computed for rigid impacts on a prescribed platform only.
+    /// The system for calls that need rigid impacts on a prescribed platform.
     pub(crate) fn rigid_system(&self) -> PyResult<SystemModel> {
         let system = self.system()?;
         let rigid = DimensionlessSystem::try_from(&system);
@@ -574,7 +574,7 @@ impl<'py> Arguments<'py> {
         motor.with(change).map_err(|error| self.refused(error))
     }
 
-    /// The map of a function, or of a method of its own.
+    /// The map of a function, or of a method of the map.
     pub(crate) fn map(&self) -> PyResult<Bound<'py, Map>> {
         self.held(if self.0.contains("impact_map")? { "impact_map" } else { "self" })
     }

@@ -1,5 +1,5 @@
-//! Results, which are classes of the Python package: plain Python, so that they pickle, compare and print as
-//! Python's own do.
+//! Results as classes of the Python package: plain Python, so that they pickle, compare and print like
+//! Python's own.
 
 use bouncing_disk::Error;
 use bouncing_disk::core::Error as CoreError;
@@ -23,24 +23,24 @@ macro_rules! make {
 }
 pub(crate) use make;
 
-/// The result of a class that is made of these fields.
+/// The result of a class made from these fields.
 pub(crate) fn made<'py>(py: Python<'py>, class: &str, fields: Vec<Bound<'py, PyAny>>) -> Made<'py> {
     static MODULE: PyOnceLock<Py<PyModule>> = PyOnceLock::new();
     let module = MODULE.get_or_try_init(py, || Ok::<_, PyErr>(py.import("bouncing_disk")?.unbind()))?;
     let (class, fields) = (module.bind(py).getattr(class)?, PyTuple::new(py, fields)?);
     if class.cast::<PyType>()?.is_subclass_of::<PyTuple>()? {
-        // A named tuple; its own constructor is written in Python, and takes longer than all else of a toss.
+        // A named tuple, whose constructor in Python would take longer than the rest of a toss.
         return py.get_type::<PyTuple>().call_method1(intern!(py, "__new__"), (class, fields));
     }
     class.call1(fields)
 }
 
-/// A result with what it holds of the library.
+/// A result with its object of the library.
 pub(crate) fn holding<'py, T: Into<PyClassInitializer<T>> + PyClass>(
     made: Bound<'py, PyAny>,
     held: T,
 ) -> Made<'py> {
-    // The classes are frozen, so that users change nothing.
+    // The classes are frozen, so users change nothing.
     made.getattr("__dict__")?.set_item("_native", Bound::new(made.py(), held)?)?;
     Ok(made)
 }
@@ -73,7 +73,7 @@ pub(crate) fn column<'py, I, T: numpy::Element>(
     array(py, collected(items, &of))
 }
 
-/// A count as NumPy's integers have it.
+/// A count as NumPy's integer.
 pub(crate) fn signed(count: u64) -> i64 {
     i64::try_from(count).unwrap_or(i64::MAX)
 }
@@ -83,7 +83,7 @@ pub(crate) fn complex(multipliers: bouncing_disk::core::orbits::Multipliers) -> 
     multipliers.pairs().map(|[real, imaginary]| Complex64::new(real, imaginary))
 }
 
-/// An empty vector with room for so many numbers; their lack is an error.
+/// An empty vector with room for this many numbers; lack of memory is an error.
 pub(crate) fn room_for<T>(count: usize) -> Result<Vec<T>, Error> {
     let mut room = Vec::new();
     room.try_reserve_exact(count).map_err(|_| CoreError::TooLarge {
@@ -107,7 +107,7 @@ pub(crate) fn read<T: serde::de::DeserializeOwned>(py: Python<'_>, json: &str) -
     })
 }
 
-/// What a Python object holds of the library: it is compared and stored by that.
+/// The library's object in a Python object, by which it is compared and stored.
 macro_rules! holders {
     ($($(#[$doc:meta])* $name:ident($model:ty) = $shown:path;)*) => {$(
         $(#[$doc])*

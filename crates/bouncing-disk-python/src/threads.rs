@@ -1,8 +1,8 @@
-//! The threads that compute.
+//! The computing threads.
 //!
-//! Each call borrows a pool of its own, which is kept for the next one: two Python threads compute at the
-//! same time and neither waits for the work of the other. A process that was forked has none of its parent's
-//! threads; it makes its own pools.
+//! Each call borrows its own pool, which is kept for the next call: two Python threads compute at
+//! the same time, and neither waits for the other. A forked process has none of its parent's threads,
+//! so it makes its own pools.
 
 use std::mem;
 use std::num::NonZeroUsize;
@@ -19,11 +19,11 @@ use crate::errors;
 /// The most threads of a pool.
 const MOST: u64 = 1024;
 
-/// The pools that nobody uses at the moment.
+/// The idle pools.
 struct Idle {
-    /// The process that they belong to.
+    /// Their process.
     process: u32,
-    /// Threads of a pool; `None` for as many as rayon thinks fit.
+    /// Threads of a pool; `None` for rayon's default.
     threads: Option<NonZeroUsize>,
     pools: Vec<ThreadPool>,
 }
@@ -34,7 +34,7 @@ fn idle() -> MutexGuard<'static, Idle> {
     let mut idle = IDLE.lock().unwrap_or_else(PoisonError::into_inner);
     let process = std::process::id();
     if idle.process != process {
-        // The threads of the pools of a parent are not here: to end them would wait for them.
+        // A parent's threads do not exist here; dropping its pools would wait for them.
         mem::forget(mem::take(&mut idle.pools));
         idle.process = process;
     }
@@ -82,13 +82,13 @@ impl Drop for Borrowed {
     }
 }
 
-/// How many threads a call computes with.
+/// The number of threads of a call.
 #[pyfunction]
 pub(crate) fn threads(py: Python<'_>) -> PyResult<usize> {
     py.detach(|| Ok(Borrowed::take()?.current_num_threads()))
 }
 
-/// Sets how many threads each later call computes with.
+/// Sets the number of threads of each later call.
 #[pyfunction]
 pub(crate) fn set_threads(a: Arguments<'_>) -> PyResult<()> {
     const RANGE: &str = "[1, 1024]";

@@ -26,7 +26,7 @@ holders! {
     Trajectory((SystemModel, Motion)) = shown_trajectory;
 }
 
-/// The most events of a trajectory: each takes some 400 bytes.
+/// The most events of a trajectory: each takes about 400 bytes.
 const MOST_EVENTS: u64 = 1_000_000;
 
 /// The most samples.
@@ -97,7 +97,7 @@ pub(crate) fn single_toss<'py>(
     shown_toss(py, &done.map_err(|error| errors::of(py, error))?)
 }
 
-/// How the motion of a call starts, which is in SI units there.
+/// The start of the motion of a call, given in SI units.
 fn start(a: &Arguments<'_>, system: &SystemModel) -> PyResult<impl Fn() -> Result<InitialCondition, Error>> {
     let (phase, angular_speed) = (a.real("phase")?, a.optional("angular_speed")?);
     let (gap, velocity) = (a.optional("gap")?, a.optional("relative_velocity")?);
@@ -120,7 +120,7 @@ fn start(a: &Arguments<'_>, system: &SystemModel) -> PyResult<impl Fn() -> Resul
     })
 }
 
-/// The place in `TrajectorySamples.MODES`.
+/// The index into `TrajectorySamples.MODES`.
 fn mode(mode: Mode) -> u8 {
     match mode {
         Mode::Flight => 0,
@@ -130,7 +130,7 @@ fn mode(mode: Mode) -> u8 {
     }
 }
 
-/// The place in `EventTable.KINDS`.
+/// The index into `EventTable.KINDS`.
 fn kind(event: &Event) -> u8 {
     EventKind::ALL.iter().position(|kind| *kind == event.kind()).map_or(u8::MAX, |place| place as u8)
 }
@@ -149,13 +149,13 @@ fn shown_trajectory(py: Python<'_>, (system, motion): (SystemModel, Motion)) -> 
     holding(made, Trajectory((system, motion)))
 }
 
-/// The platform in SI units: its state scales as that of the disk.
+/// The platform in SI units: its state scales like the disk's.
 fn platform(scales: &Scales, state: &PlatformState) -> SiState {
     let PlatformState { height, axial_velocity, angle, angular_speed } = *state;
     scales.state(&DiskState { mode: Mode::Sticking, height, axial_velocity, angle, angular_speed })
 }
 
-/// Disk and platform at instants of equal distances.
+/// Disk and platform at equidistant instants.
 #[pyfunction]
 pub(crate) fn samples(a: Arguments<'_>) -> Made<'_> {
     const RANGE: &str = "[2, 16777216]";
@@ -277,7 +277,7 @@ pub(crate) fn simulate(a: Arguments<'_>) -> Made<'_> {
     shown_trajectory(py, (system, motion))
 }
 
-/// What becomes of the spin of a disk on a periodic orbit.
+/// The fate of the spin of a disk on a periodic orbit.
 #[pyfunction]
 pub(crate) fn rotary_response(a: Arguments<'_>) -> Made<'_> {
     let (system, orbit, py) = (a.rigid_system()?, a.held::<PeriodicOrbit>("orbit")?, a.py());

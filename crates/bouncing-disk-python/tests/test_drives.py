@@ -187,7 +187,7 @@ def test_a_warning_is_of_the_line_that_makes_the_drive() -> None:
 
 
 def test_noisy_samples_give_a_warning() -> None:
-    with pytest.warns(UserWarning, match="if they have noise"):
+    with pytest.warns(UserWarning, match="smooth noisy samples"):
         bd.Drive.sampled(np.sin(2.0 * np.pi * np.arange(64) / 64) + 0.01 * (-1.0) ** np.arange(64))
 
 

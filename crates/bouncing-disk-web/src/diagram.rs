@@ -25,7 +25,7 @@ const MOST_LEFT_OUT: usize = 1_000_000;
 const LONGEST_PERIOD: usize = 32;
 const SETTLED: f64 = 1e-6;
 
-/// Normalised speeds that differ by less are those of one impact that repeats itself, or will.
+/// Normalised speeds that differ by less belong to one impact that repeats, or will repeat.
 const NEARLY: f64 = 1e-3;
 
 /// In one impact a disk takes up the share 2/Gamma_T of the platform's largest angular speed at most, if it

@@ -24,7 +24,7 @@ impl Explorer {
         Self::default()
     }
 
-    /// The answer to a request in JSON (`request.rs`). The answer also says what is wrong with a request.
+    /// The answer to a request in JSON (`request.rs`). The answer also states faults of a request.
     pub fn respond(&mut self, request: &str) -> Reply {
         serde_json::from_str(request)
             .map_err(|error| Refusal::of_request(&error))

@@ -22,8 +22,8 @@ const MOST_EVENTS: usize = 500_000;
 /// Most periods of an answer.
 const MOST_PERIODS: u64 = 100_000;
 
-/// Energy is per mass from the start to the end (J/kg): what came in by the platform, what impacts, friction
-/// and the load took, and what the disk has more than at the start. Numbers: a row for each sample with the
+/// Energy is per mass from the start to the end (J/kg): the energy supplied by the platform, the losses to impacts,
+/// friction and the load, and the gain of the disk since the start. Numbers: a row for each sample with the
 /// time, height, angle, velocity and angular speed of the disk, and height, angle, velocity and angular speed
 /// of the platform; then a row for each event with its time, phase, normalised speed and tangential velocity
 /// of an impact (an angular speed relative to the platform; both else NaN), the angular speed after it and
@@ -111,7 +111,7 @@ fn rigid(system: &System, start: MotionStart, periods: u64, samples: u64) -> Res
     let end = begun.after(span);
     let snapshots = engine.clone().sample(span, (periods * samples + 1) as usize, &Unobserved)?;
     let mut course = Course::new(begun, snapshots);
-    // The event after the end, and what follows the last one where nothing more happens, are unfinished.
+    // The event after the end, and the motion after the last event, are unfinished.
     let unfinished = loop {
         match engine.advance()? {
             Some(record) if record.time.order(&end).is_gt() => {
@@ -125,7 +125,7 @@ fn rigid(system: &System, start: MotionStart, periods: u64, samples: u64) -> Res
     Ok(course)
 }
 
-/// A motion through contacts that take time. An impact at the start is the touch of the first one.
+/// A motion with compliant contacts. An impact at the start is the touch of the first one.
 fn soft(system: &System, start: MotionStart, periods: u64, samples: u64) -> Result<Course, Refusal> {
     let platform = DrivenPlatform::from(*system.platform()).with_contact(system.soft_contact());
     let (driven, policy) = (DrivenSystem::new(&platform, system.disk())?, ChatterPolicy::Complete);

@@ -22,8 +22,8 @@ const MOST_IMPACTS: u64 = 20_000_000;
 const TRAP_RANGE: f64 = 0.02;
 
 /// The report of a data sheet before anything turns, with its system. The trap is the nearest preload at which
-/// the motor may be caught in a motion of few impacts; none is looked for where contacts take time. Of a stator
-/// that yields regime and forcing are those of its motion without a rotor.
+/// the motor may be caught in a motion of few impacts; none is searched for with compliant contacts. For a compliant
+/// stator, regime and forcing refer to its motion without a rotor.
 pub(crate) fn report(sheet: MotorParameters) -> Result<Reply, Refusal> {
     let motor = motor_of(&sheet)?;
     let unloaded = match motor.stator() {
@@ -57,9 +57,9 @@ fn motor_of(sheet: &MotorParameters) -> Result<Motor, Refusal> {
     Ok(sheet.build()?)
 }
 
-/// The form that fits a run-up best, an exponential or a ramp: its time constant, or the time at which the straight rise
-/// ends (s), and the root mean square of what it misses (rad/s); or why there is none. Numbers: rows of the time (s), the
-/// mean angular speed over the members and its standard error (rad/s).
+/// The form that fits a run-up best, an exponential or a ramp: its time constant, or the time at which the
+/// straight rise ends (s), and the root mean square of its residuals (rad/s); or why there is none. Numbers:
+/// rows of the time (s), the mean angular speed over the members and its standard error (rad/s).
 pub(crate) fn transient(request: &TransientRequest) -> Result<Reply, Refusal> {
     let TransientRequest { ref sheet, members, rise_times, points: intervals, seed } = *request;
     let motor = motor_of(sheet)?;
@@ -122,13 +122,12 @@ pub(crate) fn stall(sheet: MotorParameters, relative_error: f64, seed: u64) -> R
     }))
 }
 
-/// The page has one law of contacts that take time, and constant loads.
+/// The page has only one law of compliant contacts, and only constant loads.
 pub(crate) fn read(text: &str) -> Result<Reply, Refusal> {
     let motor = Motor::from_json(text).map_err(|error| Refusal::new("text", error.to_string()))?;
     let motor = motor_of(motor.parameters())?;
     if let Some((ContactLaw::Hysteresis, _)) = motor.system().soft_contact() {
-        let message =
-            "contact.law = \"hysteresis\" is for the command line and Python: contacts have a damper here";
+        let message = "contact.law = \"hysteresis\" is for the command line and Python: contacts on the page have a damper";
         return Err(Refusal::new("text", message.to_owned()));
     }
     sheet_of(&motor)

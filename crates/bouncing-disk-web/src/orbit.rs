@@ -13,12 +13,13 @@ use serde_json::json;
 use crate::reply::{Refusal, Reply};
 use crate::request::{ImpactStart, SystemParameters, forcing_of};
 
-/// The parameters, and what follows from them. The angular forcing is null without friction, the rise time (that
-/// of a motor without load) where nothing turns; the peak acceleration is in units of the preload, and an impact
-/// with the normalised speed 1 has the speed unit (m/s); the load torque is that on a disk of this mass (kg). A platform that `bounces` leaves a disk at rest. The
-/// contact time over the period and the indentation are null where no time is given.
+/// The parameters, and derived quantities. The angular forcing is null without friction, the rise time (that
+/// of a motor without load) where nothing turns; the peak acceleration is in units of the preload, and an
+/// impact with the normalised speed 1 has the speed unit (m/s); the load torque is that on a disk of this
+/// mass (kg). A platform that `bounces` leaves a disk at rest. The contact time over the period and the
+/// indentation are null where no time is given.
 pub(crate) fn summary(system: &System, mass: f64) -> Result<Reply, Refusal> {
-    // The mass is that of no system: it is legal where a load can be its torque.
+    // The mass belongs to no system: it is legal where a load can be its torque.
     system.disk().parameters().with_load_torque(0.0, mass)?;
     let period = TAU / system.platform().angular_frequency();
     let parameters = SystemParameters::from(system);
@@ -42,15 +43,15 @@ pub(crate) fn summary(system: &System, mass: f64) -> Result<Reply, Refusal> {
 }
 
 /// The performance of the toss of Sec. III, of a disk that does not turn before; SI. A platform that never falls away
-/// from the disk, and contacts that take time, are refused.
+/// from the disk, and compliant contacts, are errors.
 pub(crate) fn toss(system: &System) -> Result<Reply, Refusal> {
     Reply::short(&single_toss(system, InitialSpin::AbsoluteRest)?)
 }
 
 /// Impacts and platform periods of a round are null where nothing repeats; the two Floquet multipliers are
-/// pairs of real and imaginary parts. The exponent is the growth per impact with its standard error; that of
-/// a periodic orbit follows from its multipliers and has none. `rounding_dependent`: the cycle after a rest
-/// was chosen by rounding.
+/// pairs of real and imaginary parts. The exponent is the growth per impact with its standard error; the
+/// exponent of a periodic orbit follows from its multipliers and has none. `rounding_dependent`: the cycle
+/// after a rest was chosen by rounding.
 pub(crate) fn verdict(map: &ImpactMap, start: ImpactStart) -> Result<Reply, Refusal> {
     let verdict = map.verdict(start.state()?, VerdictSettings::default())?;
     let (mut round, mut multipliers, mut exponent, mut exponent_error) = (None, None, None, None);

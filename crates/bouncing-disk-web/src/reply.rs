@@ -7,7 +7,7 @@ use serde::Serialize;
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// The answer to a request: JSON for what is short, flat arrays for what is long.
+/// The answer to a request: JSON for short data, flat arrays for long data.
 #[cfg_attr(target_arch = "wasm32", wasm_bindgen(getter_with_clone))]
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reply {
@@ -17,7 +17,7 @@ pub struct Reply {
     pub numbers: Vec<f64>,
     /// Labels, modes and kinds.
     pub bytes: Vec<u8>,
-    /// Whether the request is refused.
+    /// Whether the request is rejected.
     pub refused: bool,
     /// Sixteen hexadecimal digits of all of it, which are the same on every machine.
     pub digest: String,
@@ -67,7 +67,7 @@ impl Refusal {
         Self::new("request", format!("the request cannot be read: {error}"))
     }
 
-    /// A number of a request that no value of the library would refuse.
+    /// An illegal number of a request that the library does not check.
     pub(crate) fn out_of_range(field: &'static str, value: f64, legal: &'static str) -> Self {
         Error::OutOfRange { field, value, legal }.into()
     }

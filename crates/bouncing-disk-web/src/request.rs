@@ -80,7 +80,7 @@ pub(crate) enum MapParameters {
 }
 
 impl MapParameters {
-    /// Contacts that take time are refused, unless the time is too short to matter ([`System::soft_contact`]).
+    /// Compliant contacts are errors, unless the time is too short to matter ([`System::soft_contact`]).
     pub(crate) fn build(&self) -> Result<ImpactMap, Refusal> {
         match self {
             Self::OfSystem(system) => {
@@ -88,7 +88,8 @@ impl MapParameters {
                 if system.soft_contact().is_none() {
                     return map(forcing_of(&system), system.disk().restitution());
                 }
-                let message = "verdicts and basins are those of rigid impacts: set the contact time to 0";
+                let message =
+                    "verdicts and basins are computed for rigid impacts only: set the contact time to 0";
                 Err(Refusal::new("computation", message.to_owned()))
             }
             Self::OfForcing { axial_forcing, restitution } => map(*axial_forcing, *restitution),
@@ -128,7 +129,7 @@ pub(crate) enum MotionStart {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(tag = "call", rename_all = "snake_case", deny_unknown_fields)]
 pub(crate) enum Request {
-    // Are these parameters legal, which are they once all is set, and what follows from them?
+    // Checks parameters, and states all of them with their derived quantities.
     Check { system: SystemParameters, mass: f64 },
     Motion { system: SystemParameters, start: MotionStart, periods: u64, samples_per_period: u64 },
     // The single toss of a disk that rests on the platform at its lowest point.
@@ -151,7 +152,7 @@ pub(crate) enum Request {
 }
 
 /// The columns `[from, to)` of an orbit diagram of `count` forcings. Angular speeds follow from the angular
-/// forcing, the phase lag and the load of the system, of which the amplitude alone is that of the column.
+/// forcing, the phase lag and the load of the system, of which only the amplitude is taken from the column.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DiagramRequest {
@@ -168,7 +169,7 @@ pub(crate) struct DiagramRequest {
     /// Whether the rotation is computed, too: it costs some times the vertical motion.
     #[serde(default)]
     pub(crate) rotation: bool,
-    /// The shape of the platform's height; the rotation is that of the sine.
+    /// The shape of the platform's height; the rotation is computed for the sine.
     #[serde(default)]
     pub(crate) drive: Waveform,
 }

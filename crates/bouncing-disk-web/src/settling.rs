@@ -7,7 +7,7 @@ const ROUNDING: f64 = 1.0e-12;
 /// one disturbs the other.
 const LARGEST_GROWTH: f64 = 1.05;
 
-/// The fewest rounds of which it can be said that they come nearer.
+/// The fewest rounds from which an approach can be judged.
 const FEWEST_ROUNDS: usize = 4;
 
 /// Whether the values, one of each impact, are still on their way to values that repeat: every `period`
@@ -16,8 +16,8 @@ const FEWEST_ROUNDS: usize = 4;
 ///
 /// Near a period doubling or a fold, where a multiplier is near 1 or -1, an orbit needs many impacts to
 /// settle, and a record after a fixed number of them is a transient; so is the spin of a disk that slides in
-/// each impact. Values that repeat, those of chaos and those that spiral in are not on their way in this
-/// sense; the latter settle as fast as the impacts lose energy.
+/// each impact. Values that repeat, are chaotic or spiral in are not on their way in this sense; the latter
+/// settle as fast as the impacts lose energy.
 pub(crate) fn is_settling(values: &[f64], longest_period: usize, tolerance: f64) -> bool {
     let largest = values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
     let slack = ROUNDING * largest;

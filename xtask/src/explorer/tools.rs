@@ -17,7 +17,7 @@ pub(super) fn npm() -> Command {
     Command::new(if cfg!(windows) { "npm.cmd" } else { "npm" })
 }
 
-/// One line that says what is missing, and how to get it.
+/// One line on the missing tool, and how to get it.
 pub(super) fn complain_of_missing(rustc: Option<&Path>, build_std: bool) -> Result<()> {
     let mut missing = Vec::new();
     if !build_std && !has_target(rustc) {
@@ -52,7 +52,7 @@ fn node_version() -> Option<u32> {
     version.trim().strip_prefix('v')?.split('.').next()?.parse().ok()
 }
 
-/// Whether the standard library of the target is installed beside the compiler.
+/// Whether the standard library of the target is installed with the compiler.
 fn has_target(rustc: Option<&Path>) -> bool {
     let environment = std::env::var_os("RUSTC");
     let rustc = rustc.map(Path::as_os_str).or(environment.as_deref()).unwrap_or(OsStr::new("rustc"));
@@ -85,7 +85,7 @@ pub(super) fn wasm_bindgen(folder: &Path) -> Result<PathBuf> {
 fn locked_version(package: &str) -> Result<String> {
     let id = printed(cargo().args(["pkgid", "--locked", "--package", package]));
     let version = id.as_deref().and_then(|id| id.trim().rsplit_once('@'));
-    Ok(version.with_context(|| format!("Cargo.lock has no {package}"))?.1.to_owned())
+    Ok(version.with_context(|| format!("Cargo.lock does not contain {package}"))?.1.to_owned())
 }
 
 /// What a program prints, if it can be run and succeeds.

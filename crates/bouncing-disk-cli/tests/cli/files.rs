@@ -283,7 +283,7 @@ fn an_input_is_no_result() {
     folder.done("motor transient --members 6 --duration 2 --intervals 20 --out run.csv");
     folder.done("verdicts -G 0.3:0.4:2 --impacts 64 --chunk 1/1 --out part.json");
     folder.write("toss.json", "{}");
-    let told = "it cannot be an input and the result";
+    let told = "it cannot be both an input and the result";
     let lines: [(&str, &str); _] = [
         ("fit run.csv --out ./run.csv --force", told),
         ("merge part.json --out part.json --force", told),
@@ -312,9 +312,9 @@ fn one_file_by_two_names_is_seen_before_anything_is_computed() {
         ("inner/a.json --out inner/../inner/a.json", "it is requested twice"),
         ("inner/a.json --out ./inner//a.json", "it is requested twice"),
         // The journal would be opened through the links, however many.
-        ("other/a.json --journal link", "it cannot be the journal and the result"),
-        ("inner/a.json --journal far", "it cannot be the journal and the result"),
-        ("round.json --journal round.json", "it cannot be the journal and the result"),
+        ("other/a.json --journal link", "it cannot be both the journal and the result"),
+        ("inner/a.json --journal far", "it cannot be both the journal and the result"),
+        ("round.json --journal round.json", "it cannot be both the journal and the result"),
     ] {
         folder.all_refused(2, &[(&format!("{long} {options}"), told)]);
     }
@@ -393,7 +393,7 @@ fn a_unit_is_packed_whole_or_not_at_all() {
         2,
         &[
             ("motor fmu", "give --out FILE.fmu"),
-            ("motor fmu --out a.csv", "ends in .fmu"),
+            ("motor fmu --out a.csv", "must end in .fmu"),
             ("motor fmu --out a.fmu", "--force replaces it"),
             ("motor fmu --out c.fmu --library no.so", "not the library of a functional mock-up unit"),
             ("motor fmu --out c.fmu --library none.so", "cannot be read"),

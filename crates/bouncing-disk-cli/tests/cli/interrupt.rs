@@ -91,7 +91,7 @@ fn other_long_commands_stop_too() {
         signal(&child, "INT");
         let output = child.wait_with_output().unwrap();
         assert_eq!(output.status.code(), Some(130), "{line}: {}", errors(&output));
-        assert!(errors(&output).contains("interrupted: "), "{line}");
+        assert!(errors(&output).contains("interrupted at "), "{line}");
         assert!(sent.elapsed() < Duration::from_secs(5), "{line}: {:?}", sent.elapsed());
         assert!(folder.names().is_empty(), "{line}: {:?}", folder.names());
     }

@@ -17,7 +17,7 @@ use crate::ticks::Ticks;
 /// Colours of starts before they come again in a darker shade.
 const COLOURS: usize = 8;
 
-/// Starts whose names have room beside the letter of the panel.
+/// Starts whose names fit next to the letter of the panel.
 const BESIDE: usize = 2;
 
 /// Names in a row of their own, and the height of such a row (pt).
@@ -45,8 +45,8 @@ impl OrbitDiagram<'_> {
     pub const ALONE: Colour = Colour::rgb(40, 40, 40);
 
     /// The colour of a start; beyond the eighth the same in a darker shade, and again. The first start lies on
-    /// top of the others: beyond the crisis a start at rest and one beside the period-1 orbit are on the same
-    /// attractor, and light points say so.
+    /// top of the others: beyond the crisis a start at rest and one near the period-1 orbit are on the same
+    /// attractor, which light points show.
     fn colour(index: usize, starts: usize) -> Colour {
         if starts == 1 {
             return Self::ALONE;
@@ -85,7 +85,7 @@ impl OrbitDiagram<'_> {
         };
         let panel = |column: usize, letter: &str, y: Axis| {
             let of = |impact: &(f64, f64, f64)| (impact.0, if column == 0 { impact.1 } else { impact.2 });
-            // Above the frame, beside the power of ten of large speeds: a corner may not be free.
+            // Above the frame, next to the power of ten of large speeds: a corner may not be free.
             let left = if column == 1 && fastest >= 1e3 { 0.2 } else { 0.0 };
             let mut panel = Panel::new(grid.cell(0, column))
                 .x(Axis::linear(self.axial_forcings.0, self.axial_forcings.1).label(r"$\Gamma$"))

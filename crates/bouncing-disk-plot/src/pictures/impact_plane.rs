@@ -16,7 +16,7 @@ pub const IMPACT_PHASE: &str = r"$\tau_{imp}/2\pi$";
 /// The label of the normalised impact speed.
 pub const IMPACT_SPEED: &str = r"$|w_A\Gamma/(\omega A)|$";
 
-/// The title of what holds at one forcing and one restitution.
+/// The title of a picture at one forcing and one restitution.
 pub fn forcing_and_restitution(axial_forcing: f64, restitution: f64) -> String {
     format!(r"$\Gamma = {}$, $\epsilon = {}$", in_math(axial_forcing), in_math(restitution))
 }

@@ -132,7 +132,7 @@ pub struct Regimes<'a> {
 }
 
 impl Regimes<'_> {
-    /// The map, and the key of what there is.
+    /// The map, and the key of its colours.
     pub fn draw(&self) -> Figure {
         let frame = if self.only.is_some() { 120.0 } else { 256.0 };
         let (x, y) = (self.axial_forcings, self.restitutions);
@@ -162,8 +162,8 @@ impl Regimes<'_> {
 const LEVELS: usize = 24;
 
 /// A quantity over two parameters that have equal distances, row by row, as a map with a bar of its colours;
-/// a cell that is not finite is grey. Cells have their marks, which a key below the map explains. Where `bound` is named, a line
-/// runs between the cells that keep it and the others.
+/// a cell that is not finite is grey. Cells have their marks, which a key below the map explains. If `bound`
+/// is named, a line separates the cells that keep it from the others.
 pub fn heat_map(
     columns: &Quantity<'_>,
     rows: &Quantity<'_>,

@@ -7,10 +7,10 @@ use crate::panel::Panel;
 use crate::scatter::{Marker, Scatter};
 use crate::ticks::Ticks;
 
-/// What a cell says of its motor beside the value.
+/// The mark of a cell, in addition to its value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CellMarks {
-    /// Several motions coexist; the value is that of the one reached from rest.
+    /// Several motions coexist; the value refers to the motion reached from rest.
     pub coexisting: bool,
     /// The motion repeats itself.
     pub periodic: bool,
@@ -24,8 +24,8 @@ pub struct CellMarks {
     pub keeps: Option<bool>,
 }
 
-/// A mark: its words in the key, its marker, its place in the cell of a map, in shares of the cell from the middle, its size
-/// around the point of a curve (points), and whether a cell has it. No mark covers another.
+/// A mark: its words in the key, its marker, its place in the cell of a map, in shares of the cell from the
+/// middle, its size around the point of a curve (points), and whether a cell has it. No mark covers another.
 struct Mark {
     words: &'static str,
     marker: Marker,
@@ -83,8 +83,8 @@ fn scatter(points: impl IntoIterator<Item = (f64, f64)>, mark: &Mark, size: f64)
     Scatter::new(points).marker(mark.marker).size(size).width(0.5)
 }
 
-/// The marks of the cells of a map, row by row, whose middles are at `x` and `y`; `sides` are those of a cell, in the units of
-/// the axes and in points.
+/// The marks of the cells of a map, row by row, whose middles are at `x` and `y`; `sides` are the sides of a
+/// cell, in the units of the axes and in points.
 pub(super) fn of_map(
     (x, y): (&[f64], &[f64]),
     cells: &[CellMarks],

@@ -65,9 +65,9 @@ pub fn interval_curve(points: &[Point], colour: Colour, band: Fill, name: Option
     [area.style(band).into(), Line::new(line()).width(0.8).colour(colour).into(), dots.into()]
 }
 
-/// A quantity, with the half widths of its intervals, over one parameter. `coexisting` has values and half widths of further
-/// motions with their marks, not finite where there is none: where there are several motions, their points are not joined.
-/// A key below the curve explains the marks.
+/// A quantity, with the half widths of its intervals, over one parameter. `coexisting` contains values and
+/// half widths of further motions with their marks, not finite if there is none: where there are several
+/// motions, their points are not joined. A key below the curve explains the marks.
 ///
 /// Of a sweep whose values go up to the cell `turns_at` and down again, both ways are curves of their own.
 pub fn swept_curve(
@@ -157,7 +157,7 @@ pub struct LoadPoint {
     pub mechanical_power: Option<(f64, f64)>,
     /// The share of the power put in that becomes mechanical.
     pub efficiency: Option<(f64, f64)>,
-    /// Of a stator that yields: its amplitude (m), and the share of the drive's power that becomes mechanical.
+    /// For a compliant stator: its amplitude (m), and the share of the drive's power that becomes mechanical.
     pub amplitude: Option<(f64, f64)>,
     /// The latter.
     pub electrical_efficiency: Option<(f64, f64)>,
@@ -166,13 +166,13 @@ pub struct LoadPoint {
 /// The share of the lower panel that the legend leaves to the curves.
 const UNDER_LEGEND: f64 = 0.68;
 
-/// The distance of the foot of a rotated name from its rule (points): room for what is below its line.
+/// The distance of the foot of a rotated name from its rule (points): room for text below its line.
 const NEXT_TO_RULE: f64 = 3.0;
 
-/// Two panels over the load: speed with its spread over motors, and powers with the efficiency; of a stator that yields a third
-/// one with its amplitude. Beyond
-/// `largest_torque` (N m) the load overpowers the motor. The upper panel also shows the speeds of motions that coexist
-/// with these, each as a curve of its own.
+/// Two panels over the load: speed with its spread over motors, and powers with the efficiency; for a
+/// compliant stator a third panel with its amplitude. Beyond `largest_torque` (N m) the load overpowers the
+/// motor. The upper panel also shows the speeds of motions that coexist with these, each as a curve of its
+/// own.
 pub fn torque_speed(largest_torque: f64, found: &[LoadPoint], coexisting: &[Vec<LoadPoint>]) -> Figure {
     let yields = found.iter().any(|own| own.amplitude.is_some());
     let (height, panels) = if yields { (490.0, 3) } else { (338.0, 2) };
@@ -218,7 +218,7 @@ pub fn torque_speed(largest_torque: f64, found: &[LoadPoint], coexisting: &[Vec<
     };
     let extremes = [extreme(|point| point.1, Some("slowest, fastest drawn")), extreme(|point| point.2, None)];
     let extremes = extremes.into_iter().filter(|_| has_spread);
-    // To the left of a rule, where nothing but the curve is: at the upper end, or in the middle of what is
+    // To the left of a rule, where nothing but the curve is: at the upper end, or in the middle of the part
     // below zero.
     let beside = |load: f64, label: String, below_zero: bool| {
         let left = (load - first) / (last - first) - NEXT_TO_RULE / grid.cell(0, 0).width;

@@ -27,7 +27,7 @@ const POINTS: usize = 100;
 const ABOVE_BIRTH: [f64; 4] = [1e-3, 0.1, 0.5, 2.0];
 
 /// A branch is followed to a multiple of its forcing, then its lengths are counted in the forcing that it has
-/// there: those of a nearly elastic disk go over many decades.
+/// there: for a nearly elastic disk they cover many decades.
 const STRIDE: f64 = 2.0;
 
 /// Branches are followed so far beyond the first doubling of their pair: all doublings lie there.
@@ -128,7 +128,7 @@ impl Found {
         Ok(())
     }
 
-    /// A branch and all that it goes on with up to a forcing, piece by piece.
+    /// A branch and its continuations up to a forcing, piece by piece.
     fn followed(&mut self, branch: Branch, low: f64, enough: f64) -> Result<Vec<Branch>, Error> {
         let mut pieces = vec![branch];
         while let Some(last) = pieces.last() {
@@ -163,7 +163,7 @@ impl Found {
             let Some(branch) = if_any(piece.switched(at, &settings(range, true)?, &Unobserved))? else {
                 break;
             };
-            // Its first point lies beyond the doubling: what is between them belongs to it, too.
+            // Its first point lies beyond the doubling: everything between them belongs to it, too.
             if let [first, second, ..] = branch.points.as_slice() {
                 let back = second.parameter < first.parameter;
                 let map = branch.map_at(first.parameter)?;

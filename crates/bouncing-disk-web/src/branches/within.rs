@@ -33,8 +33,8 @@ impl Known {
 }
 
 /// The parts of a branch with their parameter in [`low`, `high`], in the order of the arclength, each
-/// continued anew with steps that are a share of it: at least `points` of them on a part, however narrow the
-/// range is (the smallest step is an arclength of 1e-9). The arclengths are those of the parts. Fewer lie on a
+/// continued again with steps that are a share of it: at least `points` of them on a part, however narrow the
+/// range is (the smallest step is an arclength of 1e-9). Arclengths are measured along the parts. Fewer lie on a
 /// part that ends in a birth by doubling and is short: close to it the two halves of the orbit are
 /// indistinguishable, and the birth follows at once.
 ///

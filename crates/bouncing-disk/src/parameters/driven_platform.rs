@@ -640,18 +640,18 @@ mod tests {
     fn bad_waveforms_are_refused_with_their_place() {
         let line = |c0: f64, c1: f64| [c0, c1, 0.0, 0.0];
         for (height, words) in [
-            (Waveform::Fourier(vec![(0.1, 0.0), (f64::NAN, 0.0)]), "height: harmonic number 1"),
+            (Waveform::Fourier(vec![(0.1, 0.0), (f64::NAN, 0.0)]), "height: the harmonic 1 of 2"),
             (Waveform::Fourier(vec![(0.1, 0.0); MAX_HARMONICS + 1]), "at most 32"),
             (Waveform::Pieces(Vec::new()), "sum of the durations of the pieces = 0"),
             (Waveform::Pieces(vec![(0.5, line(0.0, 0.0))]), "sum of the durations of the pieces = 0.5"),
-            (Waveform::Pieces(vec![(0.5, line(0.0, 0.0)), (0.0, line(0.0, 0.0))]), "piece number 1 of 2"),
-            (Waveform::Pieces(vec![(f64::NAN, line(0.0, 0.0))]), "piece number 0 of 1"),
+            (Waveform::Pieces(vec![(0.5, line(0.0, 0.0)), (0.0, line(0.0, 0.0))]), "the piece 1 of 2"),
+            (Waveform::Pieces(vec![(f64::NAN, line(0.0, 0.0))]), "the piece is not finite"),
             (
                 Waveform::Pieces(vec![(0.5, line(0.0, 0.2)), (0.5, line(0.125, -0.25))]),
                 "the height jumps by 0.025",
             ),
             (Waveform::Sampled(vec![0.0, 0.1]), "number of samples = 2"),
-            (Waveform::Sampled(vec![0.0, 0.1, f64::INFINITY]), "sample number 2 of 3"),
+            (Waveform::Sampled(vec![0.0, 0.1, f64::INFINITY]), "the sample 2 of 3"),
             (Waveform::Sampled(vec![0.0; MAX_PIECES + 1]), "samples"),
             (Waveform::Sawtooth(1.0), "rise = 1"),
         ] {

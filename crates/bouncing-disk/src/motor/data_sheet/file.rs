@@ -363,7 +363,7 @@ mod tests {
             ("hight = 'sine'", "\"hight\" is unknown; did you mean \"height\"?"),
             ("height = 'triangel'", "\"triangel\" is not a shape; write \"sine\", \"triangle\""),
             ("then = 'rest'", "drive.then is not a key: a drive is one motion that repeats"),
-            ("height = { fourier = [[nan, 0]] }", "height: harmonic number 0"),
+            ("height = { fourier = [[nan, 0]] }", "height: the harmonic is not finite"),
             ("angle = { pieces = [[1, [0, 1, 0, 0]]] }", "the angle jumps by -1.0 amplitudes where piece 0"),
             ("height = { pieces = [] }", "sum of the durations of the pieces = 0"),
         ] {
