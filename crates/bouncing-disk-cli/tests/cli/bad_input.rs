@@ -107,7 +107,7 @@ fn drives() {
                 "drive.segments is not a key: a drive is one motion that repeats. Give a start-up or a burst",
             ),
             ("then", "drive.then is not a key: "),
-            ("infinite", "infinite.toml: start_phase = inf is outside"),
+            ("infinite", "infinite.toml: start_phase = inf is not legal"),
             ("few", "few.toml: the height: number of samples = 2"),
         ] {
             folder.all_refused(2, &[(&format!("{command} {name}.toml"), told)]);

@@ -9,12 +9,12 @@ const TAKEN = null;
 const POSITIVE = { 0: /must be more than 0\.$/, "-0": /must be more than 0\.$/, "-1": /must be more than 0\.$/ };
 const ATLEAST0 = { 0: TAKEN, "-0": TAKEN, "1e-310": TAKEN, "-1e-310": /must be 0 or more\.$/, "-1": /must be 0 or more\.$/ };
 const ANY = { 0: TAKEN, "-0": TAKEN, "1e-310": TAKEN, "-1e-310": TAKEN, "-1": TAKEN };
-const FORCING = /is refused: the axial forcing must be from 0 to 3\.18e7 \(A omega/;
+const FORCING = /is not possible: the axial forcing must be from 0 to 3\.18e7 \(A omega/;
 const FIELDS = {
   axial_forcing: { "0": TAKEN, "-0": TAKEN, "1e-310": TAKEN, "-1": FORCING, "3e7": TAKEN, "4e7": FORCING },
   restitution: {
     "0": TAKEN, "-0": TAKEN, "1e-310": TAKEN, "0.9999999999999999": TAKEN, "1": /at least 0 and less than 1\./, "-1e-310": /less than 1\./,
-    "1e400": /^"1e400" is too large/, "1e-400": /too small to be told from 0/, "1e-323 %": /too small/,
+    "1e400": /^"1e400" is too large/, "1e-400": /too small to distinguish from 0/, "1e-323 %": /too small/,
   },
   friction: { ...ATLEAST0, "1e90": TAKEN, "1e101": /must be from 0 to 1e100 \(dimensionless\)/ },
   amplitude: { ...ATLEAST0, "4e6": TAKEN, "5e6": /\[0, 1e8\]/ },

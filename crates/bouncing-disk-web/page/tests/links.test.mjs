@@ -105,9 +105,9 @@ const LINKS = [
   // Nothing legal opens the defaults.
   ...[
     ["", []],
-    ["%%%", ["means nothing"]],
+    ["%%%", ["is unknown"]],
     ["restitution=7&amplitude=-1&contact_time=-1&angular_frequency=0&mass=-3&normalised_speed=-1", ["not possible"]],
-    ["<script>alert(1)</script>", ["means nothing"]],
+    ["<script>alert(1)</script>", ["is unknown"]],
   ].map(([hash, said]) => [hash, { restitution: "0.5", angular_frequency: "15" }, said]),
 ];
 

@@ -81,7 +81,7 @@ test("an optimum says from how many points it is, and which of them its error do
   for (const [line, said] of [
     [
       [of(1, 0.1), of(4.8, 0.1), of(5, 0.1), of(4.5, 0.1), unsettled],
-      /largest of 4 .* is \(5\.00 ± 0\.10\) rad\/s at μ = 2\. Points .* told apart from it: 1, from 1 to 1\./,
+      /largest of 4 .* is \(5\.00 ± 0\.10\) rad\/s at μ = 2\. Points .* distinguished from it: 1, from 1 to 1\./,
     ],
     [[1, 2, 5, 4, 3].map((value) => of(value)), /is 5\.000 rad\/s at μ = 2\.$/],
     [[5, 2, 5, 5, 3].map((value) => of(value)), /it: 2, from 2 to 3\. .* at the end of the range/],

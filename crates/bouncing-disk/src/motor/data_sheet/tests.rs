@@ -682,7 +682,7 @@ fn faults_of_a_table_stator_are_told() {
         ("[stator]", "[stator]\nmas = 1", "\"mas\" is unknown; did you mean \"mass\"?"),
         ("\"axial\"", "\"axail\"", "did you mean \"axial\"?"),
         ("friction = ", "amplitude = 1e-8\nfriction = ", "both amplitude and stator.volts are given"),
-        ("anti_resonance = 71300.0", "anti_resonance = 69e3", "stator.anti_resonance = 69000 is outside"),
+        ("anti_resonance = 71300.0", "anti_resonance = 69e3", "stator.anti_resonance = 69000 is not legal"),
         ("friction = ", "'stator.mass' = 1\nfriction = ", "did you mean \"stator\"?"),
         ("quality = 300.0", "quality = 0.3", "stator.quality = 0.3 is outside its legal range [0.5, 1e5]"),
         (

@@ -488,7 +488,7 @@ mod tests {
             (|own| *own = Contact::default(), "neither contact.time nor contact.materials"),
             (|own| own.geometry = None, "contact.geometry is not given"),
             (|own| own.ring_radius = None, "contact.ring_radius is not given"),
-            (|own| own.ring_radius = Some(0.02), "contact.ring_radius = 0.02 is outside"),
+            (|own| own.ring_radius = Some(0.02), "contact.ring_radius = 0.02 is not legal"),
             (|own| own.area = Some(1e-6), "both another geometry and contact.area"),
             (|own| own.mass = Some(0.03), "both mass and contact.mass"),
         ];
