@@ -29,9 +29,9 @@ use crate::failure::Result;
     name = "bouncing-disk",
     version,
     after_help = "\
-Exit status: 0 done; 1 the computation failed or the system refused; 2 the line or a file that it names is not \
-legal; 130 interrupted by Ctrl-C, 143 terminated. A first signal ends the computation and keeps what can be kept, a \
-second one ends the program at once. Results are the same bits for any number of threads.
+Exit status: 0 done; 1 a failure of the computation or the system; 2 an illegal command line or input file; 130 \
+interrupted by Ctrl-C; 143 terminated. A first signal ends the computation and keeps finished rows, a second one ends \
+the program at once. Results are the same to the last bit for any number of threads.
 
 Examples:
   bouncing-disk toss

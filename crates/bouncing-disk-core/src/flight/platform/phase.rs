@@ -57,7 +57,7 @@ impl Phase {
             // NaN is never near.
             let near = (value - own).abs() <= PAIR_TOLERANCE;
             if !near {
-                return illegal(field, value, "within 1e-9 of that of its angle");
+                return illegal(field, value, "within 1e-9 of the value at its angle");
             }
         }
         Ok(())

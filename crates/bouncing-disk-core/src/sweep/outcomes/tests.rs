@@ -50,7 +50,7 @@ fn results_come_in_any_order_and_the_first_one_stays() {
 fn stored_results_that_do_not_fit_are_refused() {
     for (text, complaint) in [
         (r#"{"total":2,"finished":[[2,0.5]]}"#, "index of a finished item: found 2, expected 1"),
-        (r#"{"total":0,"finished":[[0,0.5]]}"#, "index of a finished item: 0"),
+        (r#"{"total":0,"finished":[[0,0.5]]}"#, "index of a finished item: found 0"),
         (r#"{"total":3,"finished":[[1,0.5],[0,0.5]]}"#, "out of order"),
         (r#"{"total":3,"finished":[[1,0.5],[1,0.5]]}"#, "out of order"),
         (r#"{"total":-3,"finished":[]}"#, "-3"),
