@@ -132,7 +132,8 @@ def test_the_names_numbers_and_ranges_of_some(
     error = refused.value
     assert (error.field, error.value) == (field, value) and re.fullmatch(told, error.range), error.range
     whole = f"{value:.0f}" if abs(value) < 1e15 and value == round(value) else ".*"
-    assert re.fullmatch(rf"{field} = {whole} is (outside its legal range|not legal: it must be) {re.escape(error.range)}", str(error))
+    words = "is outside its legal range" if error.range[0] in "[(" else "is not legal: it must be"
+    assert re.fullmatch(rf"{field} = {whole} {words} {re.escape(error.range)}", str(error))
 
 
 def test_the_end_of_a_range_in_si_is_that_of_the_library() -> None:
@@ -270,7 +271,7 @@ def test_words_and_objects_that_are_wrong_are_named() -> None:
 def test_what_is_the_sines_only_refuses_other_maps(call: Callable[[bd.ImpactMap], Any]) -> None:
     soft = MAP.replace(contact_periods=0.1)
     for own, kind in ((OTHER, "drive-not-sine"), (MAP.replace(drive=bd.Drive.triangle()), "drive-not-sine"), (soft, "soft-contact")):
-        with pytest.raises(bd.InvalidError, match="rigid impacts on the sine only") as refused:
+        with pytest.raises(bd.InvalidError, match="only for rigid impacts on the sine") as refused:
             call(own)
         assert refused.value.kind == kind
 
@@ -282,7 +283,7 @@ def test_computations_without_a_result_say_why() -> None:
     assert 0.0 < failed.value.details["peak_acceleration"] < 1.0  # type: ignore[operator]
     with pytest.raises(bd.FitRefusedError):
         bd.fit_transients(times=np.linspace(0.1, 1.0, 50), speeds=np.zeros((50, 8)))
-    with pytest.raises(bd.ComputationError, match="does not attract"):
+    with pytest.raises(bd.ComputationError, match="is not proven to attract"):
         saddle = bd.periodic_orbits(MAP, max_impacts=1, max_platform_periods=1)[-1]
         bd.basins(MAP, phases=3, speeds=3, known_orbits=[saddle])
 

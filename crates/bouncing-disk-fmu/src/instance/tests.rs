@@ -73,7 +73,7 @@ fn parameters_count_until_the_start_and_inputs_until_the_end() {
     instance.set(torque, 1e-5).expect("legal");
     instance.step(0.1, 0.1).expect("legal");
     assert!(speed(&mut instance) < running);
-    assert!(instance.step(0.3, 0.1).expect_err("a gap").contains("does not follow"));
+    assert!(instance.step(0.3, 0.1).expect_err("a gap").contains("does not continue"));
     assert!(instance.step(0.2, -0.1).is_err() && instance.step(0.2, f64::NAN).is_err());
     instance.step(0.2, 0.0).expect("no step at all is legal");
     instance.terminate().expect("legal");

@@ -222,7 +222,7 @@ fn the_traps_of_units_are_told() {
         ("mass", |sheet| sheet.mass = Some(20.0), "in g"),
         ("phase_lag", |sheet| sheet.phase_lag = -30.0, "in degrees"),
         ("peak_angular_speed", |sheet| sheet.peak_angular_speed = Some(3_000.0), "in rpm"),
-        ("spring_constant", |sheet| sheet.spring_constant = Some(1e-3), "factor 1000"),
+        ("spring_constant", |sheet| sheet.spring_constant = Some(1e-3), "factor of 1000"),
     ];
     for (field, change, meant) in traps {
         let mut sheet = designers();

@@ -91,7 +91,7 @@ fn values_are_read_as_instruments_write_them() {
     assert!(marks("0;1,234\n1;2,345\n2;3,456\n").contains("line 2, field 2: the decimal mark"));
     assert!(read("time_s;speed_rad_s\n0,000;1,234\n0,001;2,345\n0,002;3,456\n").is_ok());
     assert!(marks("0;1,234,567\n").contains("line 2, field 2"));
-    assert!(marks("0,5,1\n").contains("it has 1 fields"));
+    assert!(marks("0,5,1\n").contains("the line has 1 fields"));
 }
 
 #[test]
