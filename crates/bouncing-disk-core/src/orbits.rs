@@ -29,6 +29,7 @@ pub(crate) mod periodic;
 pub use cascade::feigenbaum::{FeigenbaumEstimate, feigenbaum_estimates};
 pub use cascade::{CascadeDoubling, DoublingCascade, MAX_DOUBLINGS, doubling_cascade};
 pub use closing::{ClosingMap, ContinuationParameter};
+pub use continuation::curve::{Curve, CurveEnd, CurvePoint, SpecialKind, SpecialPoint};
 pub use continuation::{
     Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation, ContinuedMap, LocatedDoubling,
 };

@@ -1,15 +1,14 @@
-//! The linear system of a closed sequence of equations with an additional parameter and condition, solved in
-//! time and memory proportional to its length. Newton's method on a branch of periodic orbits uses it.
+//! The linear system of a closed sequence of equations with one or two more parameters and conditions, in time
+//! and memory proportional to its length, for Newton's method on a branch of periodic orbits and on a curve of
+//! bifurcations.
 
 use glam::{DMat2, DVec2};
 
 use crate::numerics::block_cyclic::{FIRST, NEXT, OWN, eliminate, rotate};
 
-/// Columns of a row during elimination, after the unknowns: the parameter and the right side.
+/// Columns of a row that is being eliminated, behind those of the unknowns: those of the parameters. The right
+/// side follows them.
 const PARAMETER: usize = 6;
-const RIGHT: usize = 7;
-
-type Row = [f64; 8];
 
 /// The additional condition: `first . x[0] + parameter mu = right`.
 #[derive(Debug, Clone, Copy)]
@@ -22,8 +21,16 @@ pub struct Border {
     pub right: f64,
 }
 
-/// The equations of a closed sequence: `own[i] x[i] + next[i] x[i + 1] + column[i] mu = right[i]`, with the
-/// index modulo their number.
+/// One of two conditions that are added: `first . x[0] + parameters . mu = right`.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Condition<const K: usize> {
+    pub(crate) first: DVec2,
+    pub(crate) parameters: [f64; K],
+    pub(crate) right: f64,
+}
+
+/// The equations of a closed sequence: `own[i] x[i] + next[i] x[i + 1] + column[i] mu = right[i]`, the index
+/// taken modulo their number.
 #[derive(Debug, Clone, Default)]
 pub struct CyclicEquations {
     /// The coefficients of each equation's own unknown.
@@ -45,33 +52,66 @@ impl CyclicEquations {
     /// bordered matrix, even at a fold, where the closed sequence alone is singular. The solution of a
     /// singular system is not finite, or as large as rounding makes it.
     pub fn solve(&self, border: Border) -> (Vec<DVec2>, f64) {
-        let n = self.own.len();
-        if n == 0 {
+        if self.own.is_empty() {
             return (Vec::new(), border.right / border.parameter);
         }
+        let Border { first, parameter, right } = border;
+        let condition = Condition { first, parameters: [parameter], right };
+        let (solution, [parameter]) = self.solved::<1, 8>([&self.column], [condition]);
+        (solution, parameter)
+    }
+
+    /// The same with a second parameter, whose column is `second`, and two conditions.
+    pub(crate) fn solve_two(
+        &self,
+        second: &[DVec2],
+        conditions: [Condition<2>; 2],
+    ) -> (Vec<DVec2>, [f64; 2]) {
+        self.solved::<2, 9>([&self.column, second], conditions)
+    }
+
+    /// With K parameters and rows of WIDTH = 7 + K columns, for one equation at least.
+    fn solved<const K: usize, const WIDTH: usize>(
+        &self,
+        columns: [&[DVec2]; K],
+        conditions: [Condition<K>; K],
+    ) -> (Vec<DVec2>, [f64; K]) {
+        let n = self.own.len();
+        let right = PARAMETER + K;
+        let rows = |i: usize| {
+            let mut rows = [[0.0; WIDTH]; 2];
+            for (k, row) in rows.iter_mut().enumerate() {
+                for (parameter, column) in columns.iter().enumerate() {
+                    row[PARAMETER + parameter] = column[i][k];
+                }
+                row[right] = self.right[i][k];
+            }
+            rows
+        };
         // The two rows that couple the first unknown with the next one to be eliminated.
-        let mut last = self.rows(0);
+        let mut last = rows(0);
         if n == 1 {
             put(&mut last, FIRST, self.own[0] + self.next[0]);
         } else {
             put(&mut last, FIRST, self.own[0]);
             put(&mut last, OWN, self.next[0]);
         }
-        let mut eliminated: Vec<[Row; 2]> = Vec::with_capacity(n - 1);
+        let mut eliminated: Vec<[[f64; WIDTH]; 2]> = Vec::with_capacity(n - 1);
         for i in 1..n {
-            let mut fresh = self.rows(i);
+            let mut fresh = rows(i);
             put(&mut fresh, OWN, self.own[i]);
             put(&mut fresh, if i + 1 < n { NEXT } else { FIRST }, self.next[i]);
             let (done, left) = eliminate(last, fresh);
             eliminated.push(done);
             last = left;
         }
-        let (start, parameter) = closed(last, border);
+        let (start, parameters) = closed(last, conditions);
         let mut solution = vec![start; n];
         let mut following = DVec2::ZERO;
         for (unknown, rows) in solution[1..].iter_mut().zip(&eliminated).rev() {
-            let known = |row: &Row| {
-                (row[RIGHT] - row[PARAMETER] * parameter)
+            let known = |row: &[f64; WIDTH]| {
+                let parts = row[PARAMETER..].iter().zip(&parameters);
+                parts.fold(row[right], |left, (part, parameter)| left - part * parameter)
                     - (row[FIRST] * start.x + row[FIRST + 1] * start.y)
                     - (row[NEXT] * following.x + row[NEXT + 1] * following.y)
             };
@@ -79,41 +119,49 @@ impl CyclicEquations {
             *unknown = DVec2::new((known(&rows[0]) - rows[0][OWN + 1] * y) / rows[0][OWN], y);
             following = *unknown;
         }
-        (solution, parameter)
-    }
-
-    /// Two rows with the parameter's column and the right side of an equation.
-    fn rows(&self, i: usize) -> [Row; 2] {
-        let mut rows = [[0.0; 8]; 2];
-        for (k, row) in rows.iter_mut().enumerate() {
-            (row[PARAMETER], row[RIGHT]) = (self.column[i][k], self.right[i][k]);
-        }
-        rows
+        (solution, parameters)
     }
 }
 
-fn put(rows: &mut [Row; 2], at: usize, block: DMat2) {
+fn put<const WIDTH: usize>(rows: &mut [[f64; WIDTH]; 2], at: usize, block: DMat2) {
     for (k, row) in rows.iter_mut().enumerate() {
         (row[at], row[at + 1]) = (block.x_axis[k], block.y_axis[k]);
     }
 }
 
-/// The first unknown and the parameter, from the last two rows and the condition.
-fn closed([first, second]: [Row; 2], border: Border) -> (DVec2, f64) {
-    let mut condition = [0.0; 8];
-    (condition[FIRST], condition[FIRST + 1]) = (border.first.x, border.first.y);
-    (condition[PARAMETER], condition[RIGHT]) = (border.parameter, border.right);
-    let mut rows = [first, second, condition];
-    for (upper, column) in [(0, FIRST), (1, FIRST + 1)] {
-        for lower in upper + 1..3 {
-            rotate(&mut rows, upper, lower, column);
+/// The first unknown and the parameters, from the last two rows and the conditions.
+fn closed<const K: usize, const WIDTH: usize>(
+    last: [[f64; WIDTH]; 2],
+    conditions: [Condition<K>; K],
+) -> (DVec2, [f64; K]) {
+    let right = PARAMETER + K;
+    let mut rows = last.to_vec();
+    for condition in conditions {
+        let mut row = [0.0; WIDTH];
+        (row[FIRST], row[FIRST + 1]) = (condition.first.x, condition.first.y);
+        row[PARAMETER..right].copy_from_slice(&condition.parameters);
+        row[right] = condition.right;
+        rows.push(row);
+    }
+    let column = |unknown: usize| if unknown < 2 { FIRST + unknown } else { PARAMETER + unknown - 2 };
+    for upper in 0..=K {
+        for lower in upper + 1..2 + K {
+            rotate(&mut rows, upper, lower, column(upper));
         }
     }
-    let [first, second, third] = rows;
-    let parameter = third[RIGHT] / third[PARAMETER];
-    let y = (second[RIGHT] - second[PARAMETER] * parameter) / second[FIRST + 1];
-    let x = ((first[RIGHT] - first[PARAMETER] * parameter) - first[FIRST + 1] * y) / first[FIRST];
-    (DVec2::new(x, y), parameter)
+    let mut parameters = [0.0; K];
+    for at in (0..K).rev() {
+        let row = &rows[2 + at];
+        let known = (at + 1..K).fold(row[right], |left, k| left - row[PARAMETER + k] * parameters[k]);
+        parameters[at] = known / row[PARAMETER + at];
+    }
+    let known = |row: &[f64; WIDTH]| {
+        let parts = row[PARAMETER..].iter().zip(&parameters);
+        parts.fold(row[right], |left, (part, parameter)| left - part * parameter)
+    };
+    let y = known(&rows[1]) / rows[1][FIRST + 1];
+    let x = (known(&rows[0]) - rows[0][FIRST + 1] * y) / rows[0][FIRST];
+    (DVec2::new(x, y), parameters)
 }
 
 #[cfg(test)]
@@ -172,7 +220,32 @@ mod tests {
         }
     }
 
-    /// At a fold the closed sequence alone is singular, but not the whole: x - mu (1, 0) = 0 in the second
+    /// With two parameters: the same oracle.
+    #[test]
+    fn the_equations_and_both_conditions_hold() {
+        for n in [1, 2, 3, 40] {
+            for seed in 0..20 {
+                let (system, one) = random_system(n, 1.0, seed);
+                let (other, two) = random_system(n, 1.0, seed + 100);
+                let parameters = [[one.parameter, 0.3], [two.parameter, -0.7]];
+                let conditions = [(one, parameters[0]), (two, parameters[1])].map(|(border, parameters)| {
+                    Condition { first: border.first, parameters, right: border.right }
+                });
+                let (x, [mu, nu]) = system.solve_two(&other.column, conditions);
+                // The second parameter known, the rest are the equations of one.
+                let mut left = system.clone();
+                for (right, column) in left.right.iter_mut().zip(&other.column) {
+                    *right -= *column * nu;
+                }
+                for (border, [_, second]) in [(one, parameters[0]), (two, parameters[1])] {
+                    let border = Border { right: border.right - second * nu, ..border };
+                    assert!(residual(&left, border, (&x, mu)) < 1e-14, "n {n}, seed {seed}");
+                }
+            }
+        }
+    }
+
+    /// In a fold the closed sequence alone is singular and the whole is not: x - mu (1, 0) = 0 in the second
     /// row only.
     #[test]
     fn a_fold_is_solved() {

@@ -153,6 +153,22 @@ pub(crate) struct Plane {
     pub(crate) distance: f64,
 }
 
+/// Newton's method by a step that returns its size, until steps are rounding: their number. `None` if they do not
+/// settle.
+pub(crate) fn settled<M: ClosingMap>(mut step: impl FnMut() -> Option<f64>) -> Option<u32> {
+    let mut last = f64::INFINITY;
+    for steps in 1..=MAX_CORRECTIONS {
+        let size = step()?;
+        // Next to a singular point the steps shrink slowly, and a small one does not tell of a small distance.
+        let settled = M::IS_QUADRATIC && size <= FAST * last || size > STILL * last && size <= NEARLY;
+        if size <= ROUNDING || last <= NEARLY && settled {
+            return Some(steps);
+        }
+        last = size;
+    }
+    None
+}
+
 /// A sequence of flights that closes, with the properties that are the same all along a branch.
 #[derive(Debug, Clone)]
 pub(crate) struct Closing<M> {
@@ -171,15 +187,32 @@ impl<M: ClosingMap> Closing<M> {
         by: ContinuationParameter,
         states: &[ImpactState],
     ) -> Result<(Self, Closed), Error> {
+        let durations = states.iter().map(|&state| map.time_to_next(state)).collect::<Result<Vec<_>, _>>()?;
+        Ok(Self::with_durations(map, by, states, &durations))
+    }
+
+    /// The same where the durations of the flights are known, at least to a radian.
+    pub(crate) fn with_durations(
+        map: &M,
+        by: ContinuationParameter,
+        states: &[ImpactState],
+        durations: &[f64],
+    ) -> (Self, Closed) {
         let n = states.len();
         let impacts: Vec<DVec2> = states.iter().map(|state| map.unknowns(*state)).collect();
-        let mut turns = Vec::with_capacity(n);
-        for (i, &state) in states.iter().enumerate() {
+        let turns = durations.iter().enumerate().map(|(i, duration)| {
             let between = impacts[(i + 1) % n].x - impacts[i].x;
-            turns.push(nearest_whole((map.time_to_next(state)? - between) / TAU));
-        }
+            nearest_whole((duration - between) / TAU)
+        });
+        let turns = turns.collect();
         let parameter = map.parameter(by).unwrap_or(f64::NAN);
-        Ok((Self { map: map.clone(), by, scale: map.scale(by), turns }, Closed { impacts, parameter }))
+        (Self { map: map.clone(), by, scale: map.scale(by), turns }, Closed { impacts, parameter })
+    }
+
+    /// The equations of the same flights on another map, in another parameter.
+    pub(crate) fn beside(&self, map: M, by: ContinuationParameter, parameter_scale: f64) -> Self {
+        let scale = Scale { parameter: parameter_scale, ..self.scale };
+        Self { map, by, scale, turns: self.turns.clone() }
     }
 
     /// The turns of the phase in each flight.
@@ -286,8 +319,7 @@ impl<M: ClosingMap> Closing<M> {
     /// not settle.
     pub(crate) fn corrected(&self, guess: Closed, plane: &Plane) -> Option<(Closed, u32)> {
         let mut at = guess;
-        let mut last = f64::INFINITY;
-        for step in 1..=MAX_CORRECTIONS {
+        let steps = settled::<M>(|| {
             let equations = self.equations(&at)?;
             let here = self.scaled(&at);
             let along = (0..3).fold(0.0, |sum, k| sum + plane.normal[k] * (here[k] - plane.base[k]));
@@ -299,15 +331,9 @@ impl<M: ClosingMap> Closing<M> {
                 return None;
             }
             at = at.moved(&Closed { impacts: steps, parameter: change }, 1.0);
-            // Next to a singular point the steps shrink slowly, and a small one does not tell of a small
-            // distance.
-            let settled = M::IS_QUADRATIC && size <= FAST * last || size > STILL * last && size <= NEARLY;
-            if size <= ROUNDING || last <= NEARLY && settled {
-                return Some((at, step));
-            }
-            last = size;
-        }
-        None
+            Some(size)
+        })?;
+        Some((at, steps))
     }
 
     /// The direction of the branch, of scaled length 1 in first impact and parameter, on the side of

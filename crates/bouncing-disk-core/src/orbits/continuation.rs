@@ -23,6 +23,7 @@ use crate::orbits::closing::{Closing, ClosingMap, ContinuationParameter, Flight}
 use crate::orbits::periodic::{Multipliers, PeriodicOrbit, Stability, phase_difference};
 use crate::run::{Observer, Progress, Watch};
 
+pub(super) mod curve;
 mod sine;
 pub(super) mod walker;
 
@@ -163,6 +164,13 @@ pub trait ContinuedMap: ClosingMap {
     /// Whether the platform meets the disk between two impacts.
     #[doc(hidden)]
     fn is_grazed(&self, flight: &Flight) -> Result<bool, Error>;
+
+    /// The gap of a flight at a time (rad) after its launch, its rate and the rate of that; `None` where flights are not
+    /// known, as with compliant contacts.
+    #[doc(hidden)]
+    fn gap(&self, _flight: &Flight, _after: f64) -> Option<[f64; 3]> {
+        None
+    }
 
     /// The duration that this map finds for a flight.
     #[doc(hidden)]

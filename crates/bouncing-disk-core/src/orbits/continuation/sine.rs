@@ -8,6 +8,7 @@ use super::ContinuedMap;
 use crate::flight::launch::{Impact, Launch};
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{ImpactMap, ImpactState};
+use crate::numerics::elementary::{cos, sin, sin_cos};
 use crate::numerics::error::Error;
 use crate::orbits::closing::Flight;
 use crate::orbits::periodic::PeriodicOrbit;
@@ -31,6 +32,15 @@ impl ContinuedMap for ImpactMap {
             evaluations: 0,
         };
         Ok(self.vibration().graze_margin(launch(flight)?, &impact) <= 0.0)
+    }
+
+    fn gap(&self, flight: &Flight, after: f64) -> Option<[f64; 3]> {
+        let (peak, (phase, speed)) = (self.vibration().peak_acceleration(), flight.from);
+        let start = cos(phase);
+        let (sine, cosine) = sin_cos(phase + after);
+        let risen = 2.0 * cos(phase + 0.5 * after) * sin(0.5 * after);
+        let gap = (speed + peak * start) * after - 0.5 * after * after - peak * risen;
+        Some([gap, speed - after + peak * (start - cosine), peak * sine - 1.0])
     }
 
     fn duration_found(&self, flight: &Flight) -> Result<f64, Error> {

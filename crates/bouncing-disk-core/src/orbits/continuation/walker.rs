@@ -17,15 +17,15 @@ use crate::orbits::periodic::margin::next_to_margin;
 use crate::run::{Observer, Watch, WorkCount};
 
 /// The cosine of the largest angle that the direction turns in one step.
-const STRAIGHT: f64 = 0.95;
+pub(super) const STRAIGHT: f64 = 0.95;
 
 /// The largest correction, relative to the step.
-const LARGEST_CORRECTION: f64 = 0.3;
+pub(super) const LARGEST_CORRECTION: f64 = 0.3;
 
 /// Newton steps up to which the arclength of a step grows, and from which it shrinks; by these factors.
-const EASY: u32 = 4;
-const HARD: u32 = 7;
-const GROWTH: f64 = 1.5;
+pub(super) const EASY: u32 = 4;
+pub(super) const HARD: u32 = 7;
+pub(super) const GROWTH: f64 = 1.5;
 
 /// Halvings until the bracket of a special point is at the rounding of the arclength.
 pub(super) const HALVINGS: u32 = 56;
@@ -41,14 +41,14 @@ const SAME_FLIGHT: f64 = 1.0e-8;
 const FLIP_ROUNDINGS: f64 = 8.0;
 
 /// A branch is not taken to be closed before so many points.
-const FEWEST_OF_CLOSED: usize = 8;
+pub(super) const FEWEST_OF_CLOSED: usize = 8;
 
 /// A fold is one if the parameter changes by more than this share of itself within this arclength to either side.
 const FLAT: f64 = 1.0e-11;
 const ASIDE: f64 = 1.0e-3;
 
 /// The smallest arclength of a step.
-const SMALLEST_STEP: f64 = 1.0e-10;
+pub(super) const SMALLEST_STEP: f64 = 1.0e-10;
 
 /// A step that passes a place at which the acceleration of the platform jumps: so short, it may turn by up to a right
 /// angle.
@@ -56,7 +56,7 @@ const CORNER: f64 = 1.0e-7;
 
 /// If no next point is found, the walker asks the map again after this arclength. The map has lost a flight if the duration
 /// is off by more than the second number (rad).
-const BEYOND: f64 = 1.0e-7;
+pub(super) const BEYOND: f64 = 1.0e-7;
 const LOST: f64 = 1.0e-3;
 
 /// [`ContinuedMap::continued`] from an orbit of the map or of one next to it.
@@ -563,13 +563,8 @@ enum Halves {
 }
 
 impl<M: ContinuedMap> Walker<'_, M> {
-    /// The distance of each impact of the second half from that of the first, up to whole turns; none for an
-    /// odd number of impacts.
     fn apart(&self, at: &Closed) -> Vec<DVec2> {
-        let (n, speed) = (at.impacts.len(), self.closing.scale.speed);
-        let pairs = at.impacts[..n / 2].iter().zip(&at.impacts[n / 2..]);
-        let turned = |(a, b): (&DVec2, &DVec2)| DVec2::new(turned(b.x - a.x), (b.y - a.y) / speed);
-        if n.is_multiple_of(2) { pairs.map(turned).collect() } else { Vec::new() }
+        apart(&at.impacts, self.closing.scale.speed)
     }
 
     /// Whether the forcing does not distinguish an orbit from a shorter one that is passed twice.
@@ -636,6 +631,15 @@ impl<M: ContinuedMap> Walker<'_, M> {
     }
 }
 
-fn largest(apart: &[DVec2]) -> f64 {
+/// The distance of each impact of the second half from that of the first (in units of `speed`), up to whole turns; none
+/// for an odd number of impacts.
+pub(super) fn apart(impacts: &[DVec2], speed: f64) -> Vec<DVec2> {
+    let n = impacts.len();
+    let pairs = impacts[..n / 2].iter().zip(&impacts[n / 2..]);
+    let turned = |(a, b): (&DVec2, &DVec2)| DVec2::new(turned(b.x - a.x), (b.y - a.y) / speed);
+    if n.is_multiple_of(2) { pairs.map(turned).collect() } else { Vec::new() }
+}
+
+pub(super) fn largest(apart: &[DVec2]) -> f64 {
     apart.iter().fold(0.0, |most, part| most.max(part.x.abs()).max(part.y.abs()))
 }

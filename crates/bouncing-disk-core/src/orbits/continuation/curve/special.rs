@@ -1,0 +1,172 @@
+//! The points at which the bifurcation of a curve changes.
+
+use super::surface::dot;
+use super::walk::{CurveWalker, Located};
+use super::{BifurcationKind, CurvePoint, SpecialKind, SpecialPoint};
+use crate::numerics::error::Error;
+use crate::orbits::closing::{Closed, Plane};
+use crate::orbits::continuation::ContinuedMap;
+
+/// The amplitude (scaled) of the doubled orbit from which its bend is computed, and that of the other one whose
+/// difference gives the error: rounding grows with the third power of 1 over it, the error of the bend with its square.
+const AMPLITUDE: f64 = 5.0e-3;
+
+/// The largest change of the parameters along a cusp, per arclength.
+const STILL: f64 = 1.0e-5;
+
+/// Rounding of the direction of a curve, from differences of its condition.
+const DIRECTION_ROUNDING: f64 = 1.0e-8;
+
+/// The roundings of a determinant that is 1, for each impact.
+const RESONANCE_ROUNDINGS: f64 = 4.0;
+
+/// A special point between two points of a curve.
+pub(super) enum Special {
+    None,
+    Found(Box<SpecialPoint>),
+    /// The points are too far from each other to tell.
+    Unclear,
+}
+
+impl<M: ContinuedMap> CurveWalker<'_, M> {
+    /// The kinds that can be between two points.
+    pub(super) fn special_kinds(&self) -> Vec<SpecialKind> {
+        match self.kind {
+            BifurcationKind::Fold => vec![SpecialKind::Cusp],
+            BifurcationKind::Doubling => vec![SpecialKind::CriticalityChange],
+            BifurcationKind::Graze { flight } => {
+                vec![SpecialKind::GrazingFold { flight }, SpecialKind::GrazingDoubling { flight }]
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// The special point of this kind between two points.
+    pub(super) fn special(
+        &self,
+        kind: SpecialKind,
+        base: &Located,
+        next: &Located,
+    ) -> Result<Special, Error> {
+        let step = next.arclength - base.arclength;
+        let (Some((first, _)), Some((last, _))) = (self.sign(kind, base, base), self.sign(kind, next, base))
+        else {
+            return Ok(Special::None);
+        };
+        if step <= 0.0 || first == 0.0 || (first > 0.0) == (last > 0.0) {
+            return Ok(Special::None);
+        }
+        let as_before = |located: &Located| {
+            Ok(self.sign(kind, located, base).is_some_and(|(value, _)| value * first > 0.0))
+        };
+        let Some((last_before, beyond)) = self.change(base, next, as_before)? else {
+            return Ok(Special::Unclear);
+        };
+        let Some((_, error)) = self.sign(kind, &last_before, base) else { return Ok(Special::None) };
+        if kind == SpecialKind::Cusp && self.moves_on(&last_before).min(self.moves_on(&beyond)) > STILL {
+            return Ok(Special::None);
+        }
+        let off = error * step / (last - first).abs();
+        let point = self.point(&last_before);
+        Ok(point.map_or(Special::None, |point| {
+            let mut special = self.special_at(kind, point, &last_before, off);
+            // The parameters are stationary in a cusp, and bend.
+            let bend = [0, 1].map(|k| next.direction.parameters[k] - base.direction.parameters[k]);
+            for (own, bend) in special.point.errors.iter_mut().zip(bend) {
+                *own += (bend / step).abs() * off * off;
+            }
+            Special::Found(Box::new(special))
+        }))
+    }
+
+    /// A special point, which may be off by this arclength.
+    pub(super) fn special_at(
+        &self,
+        kind: SpecialKind,
+        point: CurvePoint,
+        located: &Located,
+        off: f64,
+    ) -> SpecialPoint {
+        let across = self.moves(located).map_or([f64::MAX; 2], |moves| moves.across);
+        let errors = [0, 1].map(|k| across[k] + (located.direction.parameters[k] * off).abs());
+        SpecialPoint { kind, point: CurvePoint { errors, ..point } }
+    }
+
+    /// The strong resonance at the end of a curve.
+    pub(super) fn resonance(&self, last: &Located) -> Option<SpecialPoint> {
+        let kind = match self.kind {
+            BifurcationKind::Fold => SpecialKind::Resonance11,
+            BifurcationKind::Doubling => SpecialKind::Resonance12,
+            _ => return None,
+        };
+        let point = self.point(last)?;
+        let rounding = RESONANCE_ROUNDINGS * f64::EPSILON * point.states.len() as f64;
+        ((1.0 - point.determinant).abs() <= rounding).then(|| self.special_at(kind, point, last, 0.0))
+    }
+
+    /// The function that changes its sign in a special point, and its error.
+    fn sign(&self, kind: SpecialKind, located: &Located, base: &Located) -> Option<(f64, f64)> {
+        let of = |kind| {
+            let value = self.surface.value(kind, &located.at, 0.0)?;
+            Some((value.value, value.rounding))
+        };
+        match kind {
+            SpecialKind::Cusp => {
+                let [_, _, first, second] = self.surface.scaled(&located.direction);
+                let along = dot(self.surface.scaled(&base.direction), [0.0, 0.0, first, second]);
+                Some((along, DIRECTION_ROUNDING * self.moves_on(base)))
+            }
+            SpecialKind::CriticalityChange => self.criticality(located),
+            SpecialKind::GrazingFold { .. } => of(BifurcationKind::Fold),
+            SpecialKind::GrazingDoubling { .. } => of(BifurcationKind::Doubling),
+            SpecialKind::Resonance11 | SpecialKind::Resonance12 => None,
+        }
+    }
+
+    /// The change of the parameters (scaled) per arclength.
+    fn moves_on(&self, located: &Located) -> f64 {
+        let [_, _, first, second] = self.surface.scaled(&located.direction);
+        first.abs().max(second.abs())
+    }
+
+    /// Whether the doubled orbit exists where the orbit is unstable: then this is positive. Its error is the second
+    /// number.
+    ///
+    /// At the amplitude d the doubled orbit exists at the parameter p0 + b d^2; there 1 + T + D of the orbit itself has
+    /// the sign of b d(1 + T + D)/dp.
+    pub(super) fn criticality(&self, located: &Located) -> Option<(f64, f64)> {
+        let surface = &self.surface;
+        let [_, _, first, second] = surface.scaled(&located.direction);
+        // In the parameter that is more across the curve.
+        let vary = usize::from(second.abs() < first.abs());
+        let (closing, closed) = surface.section(&located.at, vary)?;
+        let n = closed.impacts.len();
+        let flip = closing.flip_direction(&closed)?;
+        let there_and_back: Vec<_> = flip.iter().copied().chain(flip.iter().map(|part| -*part)).collect();
+        let twice = closing.twice();
+        let direction = twice.normalised(Closed { impacts: there_and_back, parameter: 0.0 })?;
+        let start = Closed {
+            impacts: [closed.impacts.as_slice(), &closed.impacts].concat(),
+            parameter: closed.parameter,
+        };
+        let (normal, base) = (twice.scaled(&direction), twice.scaled(&start));
+        let scale = twice.scale.parameter;
+        let moved = |distance: f64| {
+            let plane = Plane { normal, base, distance };
+            let (at, _) = twice.corrected(start.moved(&direction, distance), &plane)?;
+            // The orbit itself, gone through twice, is a solution, too.
+            let apart = (at.impacts[0] - at.impacts[n]).length();
+            let expected = 2.0 * (direction.impacts[0] * distance).length();
+            (apart > 0.5 * expected).then_some((at.parameter - closed.parameter) / scale)
+        };
+        // The odd powers of the amplitude cancel.
+        let bend = |d: f64| Some((moved(d)? + moved(-d)?) / (2.0 * d * d));
+        let (near, far) = (bend(AMPLITUDE)?, bend(2.0 * AMPLITUDE)?);
+        let exact = (4.0 * near - far) / 3.0;
+        let mut normals = [[0.0; 4]; 2];
+        (normals[0][2 + vary], normals[1][3 - vary]) = (1.0, 1.0);
+        let [along, _] = surface.directions(&located.at, normals)?;
+        let slope = surface.derivative(self.kind, &located.at, &along, 0.0)?;
+        Some((-exact * slope, (exact - near).abs() * AMPLITUDE * slope.abs()))
+    }
+}
