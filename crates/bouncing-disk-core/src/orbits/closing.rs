@@ -41,6 +41,8 @@ pub enum ContinuationParameter {
     Restitution,
     /// The number of a family of maps, such as `bouncing_disk_drives::DrivenFamily`.
     Number,
+    /// The second number of a family over two, as `bouncing_disk_drives::DrivenFamily::of_two`.
+    SecondNumber,
 }
 
 impl ContinuationParameter {
@@ -49,7 +51,7 @@ impl ContinuationParameter {
         match self {
             Self::Forcing => (0.0, Vibration::MAX_PEAK_ACCELERATION / core::f64::consts::PI),
             Self::Restitution => (f64::MIN_POSITIVE, 1.0 - f64::EPSILON / 2.0),
-            Self::Number => (f64::MIN, f64::MAX),
+            Self::Number | Self::SecondNumber => (f64::MIN, f64::MAX),
         }
     }
 }

@@ -16,7 +16,7 @@ fn strengths(map: &ImpactMap, by: ContinuationParameter, parameter: f64) -> (f64
     match by {
         ContinuationParameter::Forcing => (PI * parameter, map.restitution()),
         ContinuationParameter::Restitution => (map.vibration().peak_acceleration(), parameter),
-        ContinuationParameter::Number => (f64::NAN, f64::NAN),
+        ContinuationParameter::Number | ContinuationParameter::SecondNumber => (f64::NAN, f64::NAN),
     }
 }
 
@@ -25,7 +25,7 @@ impl ClosingMap for ImpactMap {
         match by {
             ContinuationParameter::Forcing => Some(self.vibration().axial_forcing()),
             ContinuationParameter::Restitution => Some(self.restitution()),
-            ContinuationParameter::Number => None,
+            ContinuationParameter::Number | ContinuationParameter::SecondNumber => None,
         }
     }
 
@@ -35,14 +35,8 @@ impl ClosingMap for ImpactMap {
                 Self::new(Vibration::from_axial_forcing(value)?, self.restitution())
             }
             ContinuationParameter::Restitution => Self::new(*self.vibration(), value),
-            ContinuationParameter::Number => {
-                within(
-                    "number of a family",
-                    value,
-                    f64::NAN,
-                    f64::NAN,
-                    "the number of a `DrivenFamily`, which this map is not",
-                )?;
+            ContinuationParameter::Number | ContinuationParameter::SecondNumber => {
+                within("number of a family", value, f64::NAN, f64::NAN, "a number of a `DrivenFamily`")?;
                 Ok(*self)
             }
         }
@@ -96,7 +90,7 @@ impl ClosingMap for ImpactMap {
             equations.column.push(match by {
                 ContinuationParameter::Forcing => DVec2::new(-PI * slope, -(1.0 + r) * PI * c1),
                 ContinuationParameter::Restitution => DVec2::new(0.0, landing - p * c1),
-                ContinuationParameter::Number => DVec2::NAN,
+                ContinuationParameter::Number | ContinuationParameter::SecondNumber => DVec2::NAN,
             });
         }
         Some(equations)

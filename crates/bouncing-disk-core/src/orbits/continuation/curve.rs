@@ -65,10 +65,10 @@ pub enum SpecialKind {
         /// Which flight, the one after this impact.
         flight: usize,
     },
-    /// Both multipliers are 1 within rounding, the strong resonance 1:1. As the determinant of n rigid impacts is
+    /// Both multipliers are 1 to 1e-3, the strong resonance 1:1. As the determinant of n rigid impacts is
     /// r^(2n), a curve of folds has it only in its end at restitution 1.
     Resonance11,
-    /// Both multipliers are -1 within rounding, the strong resonance 1:2: the end of a curve of doublings at
+    /// Both multipliers are -1 to 1e-3, the strong resonance 1:2: the end of a curve of doublings at
     /// restitution 1.
     Resonance12,
 }
@@ -103,7 +103,7 @@ pub struct SpecialPoint {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum CurveEnd {
-    /// A parameter reaches this end of its range.
+    /// A parameter reaches this end of its range: to the rounding, or to 1e-7 of the arclength where there is no map beyond.
     RangeLimit {
         /// Which parameter.
         parameter: ContinuationParameter,
@@ -115,7 +115,8 @@ pub enum CurveEnd {
         /// Which flight, the one after this impact.
         flight: usize,
     },
-    /// The speed of an impact falls to zero.
+    /// The speed of an impact falls to zero, or so near to it that the derivative, which grows with its inverse, is no
+    /// longer known.
     VanishingImpact {
         /// Which impact.
         impact: usize,

@@ -14,6 +14,9 @@ const SAMPLES: f64 = 64.0;
 /// The step (scaled) of the differences that tell how a condition changes along a direction.
 const DIFFERENCE: f64 = 1.0e-5;
 
+/// The share of it that is the step of a one-sided difference, and of one next to a jump.
+const ONE_SIDED: f64 = 1.0e-3;
+
 /// Roundings of a condition, in units of its terms.
 const ROUNDINGS: f64 = 8.0;
 
@@ -50,10 +53,32 @@ impl<M: ContinuedMap> Surface<M> {
         direction: &Place,
         after: f64,
     ) -> Option<f64> {
-        let step = DIFFERENCE / self.largest(direction);
-        let value = |by: f64| self.value(kind, &at.moved(direction, by), after);
-        let derivative = (value(step)?.value - value(-step)?.value) / (2.0 * step);
+        let mut step = DIFFERENCE / self.largest(direction);
+        if self.joint_between(&at.moved(direction, -step), &at.moved(direction, step)).is_some() {
+            step *= ONE_SIDED;
+        }
+        let value = |by: f64| Some(self.value(kind, &at.moved(direction, by), after)?.value);
+        let derivative = match (value(step), value(-step)) {
+            (Some(after), Some(before)) => (after - before) / (2.0 * step),
+            // Next to the end of a parameter there are maps on one side only.
+            _ => {
+                let step = ONE_SIDED * step;
+                let here = value(0.0)?;
+                value(step).map_or_else(
+                    || Some((here - value(-step)?) / step),
+                    |after| Some((after - here) / step),
+                )?
+            }
+        };
         derivative.is_finite().then_some(derivative)
+    }
+
+    /// The first impact between whose places the acceleration of the platform jumps.
+    pub(super) fn joint_between(&self, one: &Place, other: &Place) -> Option<usize> {
+        let (closing, closed) = self.section(one, 0)?;
+        let map = closing.map_at(closed.parameter).ok()?;
+        let mut phases = one.impacts.iter().zip(&other.impacts);
+        phases.position(|(one, other)| map.has_joint_between(one.x, other.x))
     }
 
     /// When a flight comes nearest to the platform on its way.

@@ -7,9 +7,13 @@ use crate::numerics::error::Error;
 use crate::orbits::closing::{Closed, Plane};
 use crate::orbits::continuation::ContinuedMap;
 
-/// The amplitude (scaled) of the doubled orbit from which its bend is computed, and that of the other one whose
-/// difference gives the error: rounding grows with the third power of 1 over it, the error of the bend with its square.
-const AMPLITUDE: f64 = 5.0e-3;
+/// The largest amplitude (scaled) of the doubled orbit from which its bend is computed, and how often it is halved: the
+/// bend is extrapolated to none, until rounding, which grows with the third power of 1 over it, is in the way.
+const AMPLITUDE: f64 = 1.6e-2;
+const HALVINGS: usize = 8;
+
+/// How many times the differences of extrapolated bends its error is.
+const SAFETY: f64 = 16.0;
 
 /// The largest change of the parameters along a cusp, per arclength.
 const STILL: f64 = 1.0e-5;
@@ -17,8 +21,8 @@ const STILL: f64 = 1.0e-5;
 /// Rounding of the direction of a curve, from differences of its condition.
 const DIRECTION_ROUNDING: f64 = 1.0e-8;
 
-/// The roundings of a determinant that is 1, for each impact.
-const RESONANCE_ROUNDINGS: f64 = 4.0;
+/// A determinant is 1 to this, for each impact: where a curve ends at restitution 1.
+const RESONANT: f64 = 1.0e-6;
 
 /// A special point between two points of a curve.
 pub(super) enum Special {
@@ -49,10 +53,8 @@ impl<M: ContinuedMap> CurveWalker<'_, M> {
         next: &Located,
     ) -> Result<Special, Error> {
         let step = next.arclength - base.arclength;
-        let (Some((first, _)), Some((last, _))) = (self.sign(kind, base, base), self.sign(kind, next, base))
-        else {
-            return Ok(Special::None);
-        };
+        let signs = (self.sign(kind, base, base), self.sign(kind, next, base));
+        let (Some((first, at_first)), Some((last, at_last))) = signs else { return Ok(Special::None) };
         if step <= 0.0 || first == 0.0 || (first > 0.0) == (last > 0.0) {
             return Ok(Special::None);
         }
@@ -66,7 +68,10 @@ impl<M: ContinuedMap> CurveWalker<'_, M> {
         if kind == SpecialKind::Cusp && self.moves_on(&last_before).min(self.moves_on(&beyond)) > STILL {
             return Ok(Special::None);
         }
-        let off = error * step / (last - first).abs();
+        // By the flatter side, and the largest error: one alone may be small by chance.
+        let part = last_before.arclength - base.arclength;
+        let slope = (first.abs() / part).min(last.abs() / (step - part));
+        let off = error.max(at_first).max(at_last) / slope;
         let point = self.point(&last_before);
         Ok(point.map_or(Special::None, |point| {
             let mut special = self.special_at(kind, point, &last_before, off);
@@ -100,8 +105,8 @@ impl<M: ContinuedMap> CurveWalker<'_, M> {
             _ => return None,
         };
         let point = self.point(last)?;
-        let rounding = RESONANCE_ROUNDINGS * f64::EPSILON * point.states.len() as f64;
-        ((1.0 - point.determinant).abs() <= rounding).then(|| self.special_at(kind, point, last, 0.0))
+        let is_one = (1.0 - point.determinant).abs() <= RESONANT * point.states.len() as f64;
+        is_one.then(|| self.special_at(kind, point, last, 0.0))
     }
 
     /// The function that changes its sign in a special point, and its error.
@@ -133,9 +138,12 @@ impl<M: ContinuedMap> CurveWalker<'_, M> {
     /// number.
     ///
     /// At the amplitude d the doubled orbit exists at the parameter p0 + b d^2; there 1 + T + D of the orbit itself has
-    /// the sign of b d(1 + T + D)/dp.
+    /// the sign of b d(1 + T + D)/dp. It is not decided where an impact has almost no speed.
     pub(super) fn criticality(&self, located: &Located) -> Option<(f64, f64)> {
         let surface = &self.surface;
+        if self.slow_impact(located).is_some() {
+            return None;
+        }
         let [_, _, first, second] = surface.scaled(&located.direction);
         // In the parameter that is more across the curve.
         let vary = usize::from(second.abs() < first.abs());
@@ -161,12 +169,39 @@ impl<M: ContinuedMap> CurveWalker<'_, M> {
         };
         // The odd powers of the amplitude cancel.
         let bend = |d: f64| Some((moved(d)? + moved(-d)?) / (2.0 * d * d));
-        let (near, far) = (bend(AMPLITUDE)?, bend(2.0 * AMPLITUDE)?);
-        let exact = (4.0 * near - far) / 3.0;
+        let (exact, error) = extrapolated(bend)?;
         let mut normals = [[0.0; 4]; 2];
         (normals[0][2 + vary], normals[1][3 - vary]) = (1.0, 1.0);
         let [along, _] = surface.directions(&located.at, normals)?;
         let slope = surface.derivative(self.kind, &located.at, &along, 0.0)?;
-        Some((-exact * slope, (exact - near).abs() * AMPLITUDE * slope.abs()))
+        Some((-exact * slope, error * slope.abs()))
     }
+}
+
+/// The limit at 0 of an even function, and its error, by extrapolation from halved amplitudes (C. J. F. Ridders, Adv.
+/// Eng. Softw. 4, 75 (1982)). Amplitudes at which it is not known are left out.
+fn extrapolated(function: impl Fn(f64) -> Option<f64>) -> Option<(f64, f64)> {
+    let (mut best, mut row) = (None::<(f64, f64)>, Vec::<f64>::new());
+    for halving in 0..HALVINGS {
+        let Some(value) = function(AMPLITUDE / f64::from(1_u32 << halving)) else {
+            row.clear();
+            continue;
+        };
+        let mut next = vec![value];
+        let mut power = 1.0;
+        for (order, before) in row.iter().enumerate() {
+            power *= 4.0;
+            let better = (power * next[order] - before) / (power - 1.0);
+            // Of the same order from the amplitude before, too: two numbers agree by chance, three hardly.
+            let same = row.get(order + 1).copied().unwrap_or(f64::INFINITY);
+            let apart = |other: f64| (better - other).abs();
+            let error = SAFETY * apart(next[order]).max(apart(*before)).max(apart(same));
+            if best.is_none_or(|(_, least)| error < least) {
+                best = Some((better, error));
+            }
+            next.push(better);
+        }
+        row = next;
+    }
+    best
 }

@@ -1,7 +1,13 @@
+use std::collections::BTreeMap;
+
 use super::*;
 use crate::map::impact_map::map;
+use crate::numerics::elementary::sin;
+use crate::numerics::random::SplitMix64;
 use crate::orbits::closing::ContinuationParameter::{Forcing, Restitution};
+use crate::orbits::continuation::BranchPoint;
 use crate::orbits::periodic::PeriodicOrbit;
+use crate::orbits::periodic::catalogue::OrbitSearch;
 use crate::run::Unobserved;
 
 /// 1 - r over 1 + r.
@@ -59,4 +65,184 @@ fn period_one_folds_and_doubles_where_it_does_by_hand() {
             }
         }
     }
+}
+
+/// The curves, in both directions, of all bifurcations that have one of the orbits of random maps.
+fn random_curves(maps: u32, impacts: usize, mut see: impl FnMut(&Branch, Curve)) {
+    let mut random = SplitMix64::new(7);
+    for _ in 0..maps {
+        let map = map(0.2 + 1.3 * random.unit(), 0.2 + 0.6 * random.unit());
+        let search = OrbitSearch::new(impacts, 4).expect("legal").with_starts(24, 24).expect("legal");
+        for orbit in map.periodic_orbits(&search, &Unobserved).expect("no failure").orbits.iter().take(12) {
+            let settings = |parameter, range, rising| {
+                let settings = Continuation::new(parameter, range, rising).expect("legal");
+                settings.with_steps(0.01, 0.1, 400).expect("legal")
+            };
+            for up in [true, false] {
+                let branch = map.continued(orbit, &settings(Forcing, (0.05, 1.6), up), &Unobserved);
+                let branch = branch.expect("continued");
+                for index in 0..branch.bifurcations.len() {
+                    for rising in [true, false] {
+                        let second = settings(Restitution, (0.05, 0.95), rising);
+                        match branch.curve(index, (0.05, 2.0), &second, &Unobserved) {
+                            Ok(curve) => see(&branch, curve),
+                            Err(Error::NotOfKind { .. }) => {}
+                            // A flight that grazes twice at the start.
+                            Err(error) => assert!(matches!(error, Error::NoBranch { .. }), "{error}"),
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// By a program of 70 digits that shares nothing with this one: the closed sequences by Newton's method with differences
+/// of 1e-30; a cusp where the forcing over the first phase has no first and second derivative, a change of criticality
+/// where the doubled orbit at a distance of 1e-9 has the forcing of the doubling.
+const CUSPS: [[f64; 2]; 2] =
+    [[0.800_880_630_061_099_9, 0.477_639_290_488_790_2], [0.440_254_309_679_521_6, 0.746_770_725_654_488_3]];
+const CRITICALITY_CHANGES: [[f64; 2]; 2] =
+    [[0.375_700_644_652_223, 0.808_519_467_060_148_3], [0.404_659_544_998_400_1, 0.784_089_120_051_399_5]];
+
+#[test]
+fn curves_of_random_maps_end_with_a_reason_and_have_the_points_of_another_program() {
+    let (mut ends, mut judged) = (BTreeMap::<(&str, &str), u32>::new(), [0; 4]);
+    let (mut checked, mut grazing) = (0, Vec::new());
+    random_curves(30, 4, |branch, curve| {
+        *ends.entry((curve.kind.name(), curve.end.name())).or_default() += 1;
+        for special in &curve.special {
+            let CurvePoint { parameters, errors, .. } = special.point;
+            for (index, exact) in CUSPS.iter().chain(&CRITICALITY_CHANGES).enumerate() {
+                let kind = if index < 2 { SpecialKind::Cusp } else { SpecialKind::CriticalityChange };
+                let off = [0, 1].map(|k| (parameters[k] - exact[k]).abs());
+                if special.kind == kind && off[0].max(off[1]) < 1e-4 {
+                    assert!(off[0] <= errors[0] && off[1] <= errors[1], "{off:?} {special:?}");
+                    let room = if index < 2 { 1e-13 } else { 1e-6 };
+                    assert!(errors[0].max(errors[1]) < room, "{special:?}");
+                    judged[index] += 1;
+                }
+            }
+            if matches!(special.kind, SpecialKind::GrazingFold { .. } | SpecialKind::GrazingDoubling { .. }) {
+                grazing.push((curve.kind.name(), special.kind.name(), parameters, errors));
+            }
+        }
+        checked += agrees_with_continued(branch, &curve);
+    });
+    assert!(judged.iter().all(|count| *count > 0), "{judged:?}");
+    assert!(checked >= 200, "{checked}");
+    assert!(!ends.keys().any(|(_, end)| ["step too small", "point limit"].contains(end)), "{ends:?}");
+    // Where a curve of folds or doublings ends in a graze, one of grazes passes: the two cross there.
+    let mut crossings = 0;
+    for (_, kind, one, errors) in grazing.iter().filter(|own| own.0 == "graze") {
+        for (_, other_kind, other, more) in grazing.iter().filter(|own| own.0 != "graze") {
+            let off = [0, 1].map(|k| (one[k] - other[k]).abs());
+            if kind == other_kind && off[0].max(off[1]) < 1e-6 {
+                assert!((0..2).all(|k| off[k] <= errors[k] + more[k]), "{off:?} {errors:?} {more:?}");
+                crossings += 1;
+            }
+        }
+    }
+    assert!(crossings > 0);
+}
+
+/// How many points of a curve are bifurcations of the branch at their restitution, as `continued` finds it: none is off
+/// by more than its error and that of the branch.
+fn agrees_with_continued(branch: &Branch, curve: &Curve) -> u32 {
+    let start = &branch.points[0];
+    let mut checked = 0;
+    for point in curve.points.iter().skip(1).step_by(8).take(3) {
+        let [forcing, restitution] = point.parameters;
+        // The same orbit at this restitution.
+        let map = branch.map_at(start.parameter).expect("legal");
+        let own = map.restitution();
+        let range = (own.min(restitution) - 1e-3, own.max(restitution) + 1e-3);
+        let settings = Continuation::new(Restitution, range, restitution > own).expect("legal");
+        let Ok(aside) = map.continued_from(&start.orbit, &settings, &Unobserved) else { continue };
+        let near = |point: &&BranchPoint| (point.parameter - restitution).abs() < 2e-3;
+        let Some(there) = aside.points.iter().rev().find(near) else { continue };
+        let Ok(map) = ImpactMap::new(*map.vibration(), restitution) else { continue };
+        let Ok(orbit) = map.refine(&there.orbit.states) else { continue };
+        for rising in [true, false] {
+            let settings = Continuation::new(Forcing, (0.05, 2.0), rising).expect("legal");
+            let Ok(found) = map.continued_from(&orbit, &settings, &Unobserved) else { continue };
+            let offs = found.of_kind(curve.kind).map(|found| (found.point.parameter - forcing).abs());
+            let nearest = offs.fold(f64::INFINITY, f64::min);
+            if nearest < 1e-5 {
+                // A branch has a graze to 1e-11, and the rest to the rounding of the orbit.
+                let own = if curve.kind.name() == "graze" { 1e-11 } else { 1e-13 };
+                assert!(nearest <= point.errors[0] + own, "{nearest:e} {:?} {point:?}", curve.kind);
+                checked += 1;
+                break;
+            }
+        }
+    }
+    checked
+}
+
+/// Next to the restitutions 0 and 1. At 1 both multipliers are 1 or -1, and the fold reaches the forcing 0. Towards 0 the
+/// flight of the fold grazes the platform first.
+#[test]
+fn curves_reach_the_limits_of_the_restitution() {
+    let branch = branch(1, 0.5);
+    let limits = (f64::MIN_POSITIVE, 1.0 - f64::EPSILON / 2.0);
+    let curve = |kind, rising| {
+        let settings = Continuation::new(Restitution, limits, rising).expect("legal");
+        branch.curve(index(&branch, kind), (0.0, 6.0), &settings, &Unobserved).expect("continued")
+    };
+    let (fold, doubled) = (BifurcationKind::Fold, BifurcationKind::Doubling);
+    for (kind, rising, end, special) in [
+        (fold, true, CurveEnd::RangeLimit { parameter: Forcing, value: 0.0 }, Some(SpecialKind::Resonance11)),
+        (fold, false, CurveEnd::Graze { flight: 0 }, Some(SpecialKind::GrazingFold { flight: 0 })),
+        (
+            doubled,
+            true,
+            CurveEnd::RangeLimit { parameter: Restitution, value: limits.1 },
+            Some(SpecialKind::Resonance12),
+        ),
+        (doubled, false, CurveEnd::RangeLimit { parameter: Restitution, value: limits.0 }, None),
+    ] {
+        let curve = curve(kind, rising);
+        let [forcing, restitution] = curve.points.last().expect("some").parameters;
+        assert_eq!(curve.end, end, "{forcing} {restitution}");
+        assert_eq!(curve.special.iter().map(|special| special.kind).next(), special);
+        let by_hand = if kind == fold { loss(restitution) } else { doubling(1, restitution) };
+        assert!((forcing - by_hand).abs() <= 1e-14, "{forcing} {restitution}");
+        if special != Some(SpecialKind::GrazingFold { flight: 0 }) {
+            assert!(restitution.min(1.0 - restitution) < 1e-7, "{restitution}");
+            continue;
+        }
+        // By hand: the smallest gap of the flight from phase 0, w t - t^2/2 + P (t - sin t).
+        let lowest = |r: f64| {
+            let (peak, speed) = (core::f64::consts::PI * loss(r), core::f64::consts::TAU * r / (1.0 + r));
+            let gaps = (1..15_000).map(|step| {
+                let t = 1e-4 * f64::from(step);
+                speed * t - 0.5 * t * t + peak * (t - sin(t))
+            });
+            gaps.fold(f64::INFINITY, f64::min)
+        };
+        assert!(lowest(restitution - 1e-7) < 0.0 && lowest(restitution + 1e-7) > 0.0, "{restitution}");
+    }
+}
+
+#[test]
+fn what_has_no_curve_is_refused() {
+    let branch = branch(1, 0.5);
+    let second = Continuation::new(Restitution, (0.1, 0.9), true).expect("legal");
+    let refused = |index, range, settings: &Continuation| {
+        branch.curve(index, range, settings, &Unobserved).expect_err("refused")
+    };
+    assert!(matches!(refused(9, (0.1, 2.0), &second), Error::NotOfKind { index: 9, .. }));
+    assert!(matches!(refused(0, (2.0, 3.0), &second), Error::OutOfRange { .. }));
+    assert!(matches!(refused(0, (1.0, 0.1), &second), Error::OutOfRange { .. }));
+    let same = Continuation::new(Forcing, (0.1, 0.9), true).expect("legal");
+    assert!(matches!(refused(0, (0.1, 2.0), &same), Error::NotOfKind { .. }));
+    let none = Continuation::new(ContinuationParameter::SecondNumber, (0.1, 0.9), true).expect("legal");
+    assert!(matches!(refused(0, (0.1, 2.0), &none), Error::NotOfKind { .. }));
+    let stop = |_| core::ops::ControlFlow::Break(());
+    let stopped = branch.curve(0, (0.1, 2.0), &second, &stop);
+    assert!(matches!(stopped, Err(Error::Stopped { .. })), "{stopped:?}");
+    let few = second.with_steps(1e-3, 1e-3, 5).expect("legal");
+    let curve = branch.curve(0, (0.1, 2.0), &few, &Unobserved).expect("continued");
+    assert_eq!((curve.points.len(), curve.end), (5, CurveEnd::PointLimit(5)));
 }

@@ -2,12 +2,14 @@
 
 use core::cell::RefCell;
 
+use glam::DVec2;
+
 use super::special::Special;
 use super::surface::{Place, Scaled, Surface, dot, less};
 use super::{BifurcationKind, Curve, CurveEnd, CurvePoint, SpecialKind, SpecialPoint};
 use crate::numerics::error::Error;
 use crate::numerics::roots::bisected_bracket;
-use crate::orbits::closing::{Closed, Closing, Flight};
+use crate::orbits::closing::{Closed, Closing, Flight, turned};
 use crate::orbits::continuation::walker::{
     BEYOND, EASY, FEWEST_OF_CLOSED, GROWTH, HALVINGS, HARD, LARGEST_CORRECTION, NEIGHBOURS, SMALLEST_STEP,
     STRAIGHT, apart, largest,
@@ -31,8 +33,12 @@ const SAME_FLIGHT: f64 = 1.0e-3;
 /// there.
 const CLOSE: f64 = 1.0e-3;
 
+/// The speed of an impact (units of 1 + P) below which it is what ends a curve that cannot be followed further: the
+/// derivative grows with the inverse of this speed.
+const SLOW: f64 = 1.0e-3;
+
 /// Roundings of the equations, in units of their terms.
-const ROUNDINGS: f64 = 4.0;
+const ROUNDINGS: f64 = 16.0;
 
 /// A point of a curve.
 #[derive(Debug, Clone)]
@@ -184,7 +190,9 @@ impl<'s, M: ContinuedMap> CurveWalker<'s, M> {
             let (Some(next), Some(stretch)) = (next, stretch) else {
                 step *= 0.5;
                 if step < SMALLEST_STEP {
-                    break self.border(&base).unwrap_or(CurveEnd::StepTooSmall(step));
+                    let end = self.border(&base)?.unwrap_or(CurveEnd::StepTooSmall(step));
+                    special.extend(self.resonance(&base));
+                    break end;
                 }
                 continue;
             };
@@ -219,8 +227,12 @@ impl<'s, M: ContinuedMap> CurveWalker<'s, M> {
             let Some(reason) = leaves(self, &last, base)? else { continue };
             let stays = |located: &Located| Ok(leaves(self, located, base)?.is_none());
             let Some((inside, beyond)) = self.change(base, &last, stays)? else { return Ok(None) };
-            end = Some(leaves(self, &beyond, base)?.unwrap_or(reason));
-            last = inside;
+            let reason = leaves(self, &beyond, base)?.unwrap_or(reason);
+            // A distance of half a period changes its sign without being small.
+            if reason == CurveEnd::Birth && largest(&self.halves(&inside)) > 2.0 * CLOSE {
+                continue;
+            }
+            (last, end) = (inside, Some(reason));
         }
         let mut special = Vec::new();
         for kind in self.special_kinds() {
@@ -238,7 +250,15 @@ impl<'s, M: ContinuedMap> CurveWalker<'s, M> {
                 BifurcationKind::Doubling => Some(SpecialKind::GrazingDoubling { flight }),
                 _ => None,
             };
-            special.extend(kind.map(|kind| self.special_at(kind, point, &last, 0.0)));
+            // The place along the curve at which the gap vanishes.
+            let graze = BifurcationKind::Graze { flight };
+            let off = self.surface.nearest(flight, &last.at).and_then(|after| {
+                let gap = self.surface.value(graze, &last.at, after)?;
+                let slope = self.surface.derivative(graze, &last.at, &last.direction, after)?;
+                Some((gap.value.abs() + gap.rounding) / slope.abs())
+            });
+            let off = off.unwrap_or(BEYOND);
+            special.extend(kind.map(|kind| self.special_at(kind, point, &last, off)));
         }
         special.sort_by(|a, b| a.point.arclength.total_cmp(&b.point.arclength));
         Ok(Some(Stretch { last, special, end }))
@@ -299,30 +319,56 @@ impl<'s, M: ContinuedMap> CurveWalker<'s, M> {
         Ok((map.duration_found(&rest)? - rest.duration).abs() > SAME_FLIGHT)
     }
 
+    fn halves(&self, located: &Located) -> Vec<DVec2> {
+        apart(&located.at.impacts, self.surface.scales[0])
+    }
+
     /// Whether the halves of the orbit have become one.
     fn halves_meet(&self, located: &Located, base: &Located) -> Result<Option<CurveEnd>, Error> {
-        let halves = |located: &Located| apart(&located.at.impacts, self.surface.scales[0]);
-        let (before, here) = (halves(base), halves(located));
+        let (before, here) = (self.halves(base), self.halves(located));
         let along: f64 = before.iter().zip(&here).map(|(a, b)| a.dot(*b)).sum();
         let meet = !before.is_empty() && (along <= 0.0 || largest(&here) <= CLOSE.min(largest(&before)));
         Ok(meet.then_some(CurveEnd::Birth))
     }
 
-    /// The joint of the platform that an impact reaches just beyond a point.
-    fn border(&self, base: &Located) -> Option<CurveEnd> {
-        let (closing, closed) = self.surface.section(&base.at, 0)?;
-        let map = closing.map_at(closed.parameter).ok()?;
+    /// Why no point is found beyond this one: the end of a range in which there are maps, an impact that has almost lost
+    /// its speed, or a joint of the platform that an impact reaches.
+    fn border(&self, base: &Located) -> Result<Option<CurveEnd>, Error> {
         let beyond = base.at.moved(&base.direction, BEYOND);
-        let mut phases = base.at.impacts.iter().zip(&beyond.impacts);
-        let impact = phases.position(|(one, other)| map.has_joint_between(one.x, other.x))?;
+        let left = self.out_of_range(&Located { at: beyond, ..base.clone() }, base)?;
+        Ok(left.or_else(|| self.obstacle_beyond(base)))
+    }
+
+    fn obstacle_beyond(&self, base: &Located) -> Option<CurveEnd> {
+        if let Some(impact) = self.slow_impact(base) {
+            return Some(CurveEnd::VanishingImpact { impact });
+        }
+        let impact = self.surface.joint_between(&base.at, &base.at.moved(&base.direction, BEYOND))?;
         Some(CurveEnd::BorderCollision { impact })
+    }
+
+    /// An impact that has almost lost its speed.
+    pub(super) fn slow_impact(&self, located: &Located) -> Option<usize> {
+        let (closing, closed) = self.surface.section(&located.at, 0)?;
+        let slow = -SLOW * self.surface.scales[0];
+        closing
+            .flights_of(&closed)
+            .iter()
+            .position(|flight| flight.to.1 >= slow)
+            .map(|flight| (flight + 1) % closed.impacts.len())
     }
 
     /// Whether the step from `base` to `next` passes the start of the curve.
     fn passes(&self, base: &Located, next: &Located, begun: &Located) -> bool {
         let [from, to, goal] = [base, next, begun].map(|located| self.surface.scaled(&located.at));
         let direction = self.surface.scaled(&begun.direction);
-        let (left, over) = (less(goal, from), less(to, goal));
+        // The phase may have gone once round.
+        let apart = |a: Scaled, b: Scaled| {
+            let [phase, rest @ ..] = less(a, b);
+            let [speed, first, second] = rest;
+            [turned(phase), speed, first, second]
+        };
+        let (left, over) = (apart(goal, from), apart(to, goal));
         let step = next.arclength - base.arclength;
         dot(direction, left) > 0.0 && dot(direction, over) >= 0.0 && dot(left, left).sqrt() <= 1.1 * step
     }
