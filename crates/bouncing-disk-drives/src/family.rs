@@ -1,4 +1,4 @@
-//! The closed sequences of flights on a family of driven maps that differ in one number.
+//! The closed sequences of flights on the maps of a drive that differ in one number or two.
 
 use core::f64::consts::TAU;
 use core::fmt::{self, Debug, Formatter};
@@ -53,17 +53,19 @@ const TORN: f64 = 1.0e7;
 #[derive(Clone)]
 pub struct DrivenFamily {
     map: DrivenMap,
-    number: f64,
-    unit: f64,
-    maps: Arc<dyn Fn(f64) -> Option<DrivenMap> + Send + Sync>,
+    numbers: [f64; 2],
+    units: [f64; 2],
+    /// Whether the maps differ in the second number, too.
+    is_of_two: bool,
+    maps: Arc<dyn Fn([f64; 2]) -> Option<DrivenMap> + Send + Sync>,
 }
 
 impl Debug for DrivenFamily {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.debug_struct("DrivenFamily")
             .field("map", &self.map)
-            .field("number", &self.number)
-            .field("unit", &self.unit)
+            .field("numbers", &self.numbers)
+            .field("units", &self.units)
             .finish_non_exhaustive()
     }
 }
@@ -71,7 +73,7 @@ impl Debug for DrivenFamily {
 /// Whether both have the same map now.
 impl PartialEq for DrivenFamily {
     fn eq(&self, other: &Self) -> bool {
-        (&self.map, self.number, self.unit) == (&other.map, other.number, other.unit)
+        (&self.map, self.numbers, self.units) == (&other.map, other.numbers, other.units)
     }
 }
 
@@ -87,9 +89,45 @@ impl DrivenFamily {
         unit: f64,
         maps: impl Fn(f64) -> Option<DrivenMap> + Send + Sync + 'static,
     ) -> Result<Self, Error> {
-        within("unit of a number", unit, f64::MIN_POSITIVE, f64::MAX, "(0, inf)")?;
-        let map = member(&maps, number)?;
-        Ok(Self { map, number, unit, maps: Arc::new(maps) })
+        let family = Self::of_two([number, 0.0], [unit, 1.0], move |[number, _]| maps(number))?;
+        Ok(Self { is_of_two: false, ..family })
+    }
+
+    /// The same with two numbers, for curves of bifurcations over both
+    /// ([`Branch::curve`](bouncing_disk_core::orbits::Branch::curve)).
+    ///
+    /// ```
+    /// use bouncing_disk_core::orbits::{BifurcationKind, Continuation, ContinuationParameter, ContinuedMap as _};
+    /// use bouncing_disk_core::{ImpactState, Phase, Unobserved};
+    /// use bouncing_disk_drives::{Drive, DrivenFamily, DrivenMap};
+    ///
+    /// // Where the doubling is as amplitude and phase of a second harmonic vary.
+    /// let with = |[second, phase]: [f64; 2]| {
+    ///     DrivenMap::new(Drive::fourier(&[(1.45, 0.0), (second, phase)]).ok()?, 0.5).ok()
+    /// };
+    /// let family = DrivenFamily::of_two([0.0, 0.3], [1.0, 1.0], with)?;
+    /// let orbit = family.map().refine(&[ImpactState::new(Phase::new(0.77)?, -4.19)?])?;
+    /// let first = Continuation::new(ContinuationParameter::Number, (-1.0, 1.0), true)?;
+    /// let branch = family.continued(&orbit, &first, &Unobserved)?;
+    /// assert_eq!(branch.bifurcations[0].kind, BifurcationKind::Doubling);
+    /// let second = Continuation::new(ContinuationParameter::SecondNumber, (0.3, 0.4), true)?;
+    /// let curve = branch.curve(0, (-1.0, 1.0), &second, &Unobserved)?;
+    /// assert!((curve.points.last().expect("some").parameters[1] - 0.4).abs() < 1e-12);
+    /// # Ok::<(), bouncing_disk_core::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`Self::new`], for either number.
+    pub fn of_two(
+        numbers: [f64; 2],
+        units: [f64; 2],
+        maps: impl Fn([f64; 2]) -> Option<DrivenMap> + Send + Sync + 'static,
+    ) -> Result<Self, Error> {
+        for unit in units {
+            within("unit of a number", unit, f64::MIN_POSITIVE, f64::MAX, "(0, inf)")?;
+        }
+        let map = member(&maps, numbers)?;
+        Ok(Self { map, numbers, units, is_of_two: true, maps: Arc::new(maps) })
     }
 
     /// The present map.
@@ -100,7 +138,18 @@ impl DrivenFamily {
 
     /// The same family with another unit.
     pub(crate) fn with_unit(self, unit: f64) -> Self {
-        Self { unit, ..self }
+        Self { units: [unit, self.units[1]], ..self }
+    }
+
+    /// The numbers with another value of one.
+    fn numbers_with(&self, by: ContinuationParameter, value: f64) -> [f64; 2] {
+        let [first, second] = self.numbers;
+        if by == ContinuationParameter::SecondNumber { [first, value] } else { [value, second] }
+    }
+
+    /// The map with another value of a number.
+    fn map_with(&self, by: ContinuationParameter, value: f64) -> Option<DrivenMap> {
+        (self.maps)(self.numbers_with(by, value))
     }
 
     /// Residuals of a flight and of the impact after it, in the smooth equations.
@@ -134,14 +183,12 @@ impl DrivenFamily {
     }
 }
 
-fn member(maps: &dyn Fn(f64) -> Option<DrivenMap>, number: f64) -> Result<DrivenMap, Error> {
-    finite("number of a family", number)?;
-    let none = Error::OutOfRange {
-        field: "number of a family",
-        value: number,
-        legal: "a value for which the family has a map",
-    };
-    maps(number).ok_or(none)
+fn member(maps: &dyn Fn([f64; 2]) -> Option<DrivenMap>, numbers: [f64; 2]) -> Result<DrivenMap, Error> {
+    for number in numbers {
+        finite("number of a family", number)?;
+    }
+    let none = Error::OutOfRange { field: "number of a family", value: numbers[0], legal: "one with a map" };
+    maps(numbers).ok_or(none)
 }
 
 /// The mean slope of the height over a flight between these phases.
@@ -165,19 +212,25 @@ impl ClosingMap for DrivenFamily {
     const IS_QUADRATIC: bool = false;
 
     fn parameter(&self, by: ContinuationParameter) -> Option<f64> {
-        (by == ContinuationParameter::Number).then_some(self.number)
+        match by {
+            ContinuationParameter::Number => Some(self.numbers[0]),
+            ContinuationParameter::SecondNumber if self.is_of_two => Some(self.numbers[1]),
+            _ => None,
+        }
     }
 
-    fn with_parameter(&self, _by: ContinuationParameter, value: f64) -> Result<Self, Error> {
-        Ok(Self { map: member(&*self.maps, value)?, number: value, ..self.clone() })
+    fn with_parameter(&self, by: ContinuationParameter, value: f64) -> Result<Self, Error> {
+        let numbers = self.numbers_with(by, value);
+        Ok(Self { map: member(&*self.maps, numbers)?, numbers, ..self.clone() })
     }
 
     fn restitution(&self) -> f64 {
         self.map.restitution()
     }
 
-    fn scale(&self, _by: ContinuationParameter) -> Scale {
-        Scale { speed: 1.0 + self.map.drive().bounds().speed, parameter: self.unit }
+    fn scale(&self, by: ContinuationParameter) -> Scale {
+        let unit = self.units[usize::from(by == ContinuationParameter::SecondNumber)];
+        Scale { speed: 1.0 + self.map.drive().bounds().speed, parameter: unit }
     }
 
     fn unknowns(&self, state: ImpactState) -> DVec2 {
@@ -194,15 +247,16 @@ impl ClosingMap for DrivenFamily {
 
     fn equations(
         &self,
-        _by: ContinuationParameter,
+        by: ContinuationParameter,
         at: &Closed,
         durations: &[f64],
     ) -> Option<CyclicEquations> {
-        let map = (self.maps)(at.parameter)?;
+        let map = self.map_with(by, at.parameter)?;
         let (n, r, drive) = (at.impacts.len(), map.restitution(), map.drive());
-        let beside = |by: f64| {
-            let number = at.parameter + by * self.unit;
-            (self.maps)(number).map(|map| (number, map))
+        let unit = self.scale(by).parameter;
+        let beside = |step: f64| {
+            let number = at.parameter + step * unit;
+            self.map_with(by, number).map(|map| (number, map))
         };
         let here = Some((at.parameter, map.clone()));
         let maps: Vec<_> = [beside(-DIFFERENCE), here, beside(DIFFERENCE)].into_iter().flatten().collect();
@@ -232,10 +286,10 @@ impl ClosingMap for DrivenFamily {
         Some(equations)
     }
 
-    fn velocities(&self, _by: ContinuationParameter, at: &Closed, durations: &[f64]) -> Vec<(f64, f64)> {
+    fn velocities(&self, by: ContinuationParameter, at: &Closed, durations: &[f64]) -> Vec<(f64, f64)> {
         let n = at.impacts.len();
-        // Without a map there is no impact.
-        let Some(map) = (self.maps)(at.parameter) else { return vec![(0.0, 0.0); n] };
+        // Where there is no map, there is no impact.
+        let Some(map) = self.map_with(by, at.parameter) else { return vec![(0.0, 0.0); n] };
         let r = map.restitution();
         let one = |i: usize| {
             if map.compliant().is_some() {
@@ -269,6 +323,19 @@ impl ContinuedMap for DrivenFamily {
     /// Whether the first impact occurs earlier.
     fn is_grazed(&self, flight: &Flight) -> Result<bool, Error> {
         Ok(self.duration_found(flight)? < flight.duration - ON_JOINT)
+    }
+
+    fn gap(&self, flight: &Flight, after: f64) -> Option<[f64; 3]> {
+        // A compliant contact has no flights of its own.
+        if self.map.compliant().is_some() {
+            return None;
+        }
+        let (drive, (phase, speed)) = (self.map.drive(), flight.from);
+        let (start, there) = (drive.at(phase), drive.at(phase + after));
+        let gap = speed * after
+            - 0.5 * after * after
+            - (mean_slope(drive, phase, phase + after, after) - start.velocity) * after;
+        Some([gap, speed + start.velocity - after - there.velocity, -1.0 - there.acceleration])
     }
 
     fn duration_found(&self, flight: &Flight) -> Result<f64, Error> {
