@@ -23,13 +23,15 @@
 //! Beyond the crisis of Fig. 6 lives were measured with 200 orbits at each of 14 distances. The unstable
 //! manifold of its period-1 orbit touches at 0.560753164.
 
+use core::ops::ControlFlow;
+
 use crate::chaos::manifold::{Side, of_saddle};
 use crate::flight::platform::vibration::Vibration;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::elementary::ln;
 use crate::numerics::error::{Error, within};
 use crate::orbits::periodic::{Multipliers, PeriodicOrbit};
-use crate::run::{Observer, Watch};
+use crate::run::{Observer, Progress, Watch};
 
 mod following;
 pub(crate) mod lifetimes;
@@ -143,6 +145,19 @@ pub enum LifeAfterRest {
     },
 }
 
+/// The kind of a crisis, by the motion after it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub enum CrisisKind {
+    /// The attractor is lost: a disk that has come to rest rests again and again.
+    Boundary,
+    /// The attractor becomes larger: rest is a part of it, and chaos follows each rest.
+    Interior,
+    /// Some forcings just beyond are of the first kind, others of the second.
+    Undecided,
+}
+
 /// The tangency of a crisis: the unstable manifold of a saddle on an attractor touches the stable manifold of
 /// a saddle outside it.
 #[derive(Debug, Clone, PartialEq)]
@@ -165,10 +180,20 @@ pub struct Tangency {
 }
 
 impl Crisis {
-    /// The exponent of the mean survival time beyond the crisis, (Gamma - Gamma_c)^-exponent, after Grebogi,
-    /// Ott and Yorke. With two saddles it is 1/2 + ln|a|/|ln|b||, a and b (|a| > 1 > |b|) being the
-    /// multipliers per impact of the saddle on the attractor; with a single saddle it is ln|b|/ln (a b)^2.
-    /// `None` without a tangency, and if the multipliers do not determine it.
+    /// Whether the attractor is lost or becomes larger, as far as [`Self::after_rest`] decides it.
+    #[must_use]
+    pub const fn kind(&self) -> CrisisKind {
+        match self.after_rest {
+            LifeAfterRest::Short { .. } => CrisisKind::Boundary,
+            LifeAfterRest::Long { .. } => CrisisKind::Interior,
+            LifeAfterRest::Varied { .. } => CrisisKind::Undecided,
+        }
+    }
+
+    /// The exponent of the mean life beyond the crisis, (Gamma - Gamma_c)^-exponent, after Grebogi, Ott and
+    /// Yorke: 1/2 + ln|a|/|ln|b|| with the multipliers a and b (|a| > 1 > |b|) per impact of the saddle on
+    /// the attractor where the saddles are two, ln|b|/ln (a b)^2 with those of the saddle where it is one.
+    /// `None` without a tangency and where the multipliers do not determine it.
     #[must_use]
     pub fn life_exponent(&self) -> Option<f64> {
         let tangency = self.tangency.as_ref().ok()?;
@@ -296,6 +321,10 @@ pub enum NoCrisis {
 const LONG: f64 = 0.01;
 const LONG_ROUND: u64 = 200;
 
+/// The half range (relative) of a search about the crises at other restitutions, and how often it is doubled.
+const ABOUT: f64 = 0.01;
+const WIDENINGS: u32 = 3;
+
 /// Number of forcings next to a crisis at which a disk is followed after a rest.
 const FORCINGS_AFTER_REST: u32 = 16;
 
@@ -344,6 +373,69 @@ impl CrisisSearch {
         let found = self.sought(saddles, &watch)?;
         watch.end();
         Ok(found)
+    }
+
+    /// The curve of crises over the restitution: the crisis at each of them, in [1, 1000], neighbours next to each other.
+    /// The range of this search is that of the first; at each other one it lies about the forcing to which the crises
+    /// before point, and is doubled up to three times where it holds none. Each has its own error, saddle and kind.
+    ///
+    /// The items of the observer are the restitutions.
+    ///
+    /// ```
+    /// # use bouncing_disk_core::chaos::CrisisSearch;
+    /// # use bouncing_disk_core::Unobserved;
+    /// let search = CrisisSearch::new(0.5, (0.559, 0.562))?.with_samples(64, 200_000)?;
+    /// let found = search.over_restitution(&[0.5, 0.49], &Unobserved)?;
+    /// assert!(found.iter().all(Result::is_ok));
+    /// # Ok::<(), bouncing_disk_core::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a restitution outside (0, 1) and for their number; those of [`Self::crisis`].
+    pub fn over_restitution(
+        &self,
+        restitutions: &[f64],
+        observer: &dyn Observer,
+    ) -> Result<Vec<Result<Crisis, NoCrisis>>, Error> {
+        within("restitutions of a curve of crises", restitutions.len() as f64, 1.0, 1.0e3, "[1, 1000]")?;
+        let watch = Watch::begin(observer, 0, restitutions.len() as u64)?;
+        let asked = |_: Progress| match watch.ask() {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(_) => ControlFlow::Break(()),
+        };
+        let mut found: Vec<Result<Crisis, NoCrisis>> = Vec::new();
+        for &restitution in restitutions {
+            let known: Vec<_> = found.iter().flatten().map(|own| (own.restitution, own.forcing)).collect();
+            let mut search = self.about(restitution, &known)?;
+            let mut crisis = search.crisis(None, &asked)?;
+            for _ in 0..WIDENINGS {
+                if crisis.is_ok() {
+                    break;
+                }
+                let half = search.high - search.low;
+                let middle = search.low + 0.5 * half;
+                let low = (middle - half).max(0.0);
+                search = Self { low, high: middle + half, ..search };
+                crisis = search.crisis(None, &asked)?;
+            }
+            found.push(crisis);
+            watch.finish(1);
+        }
+        watch.end();
+        Ok(found)
+    }
+
+    /// The search at another restitution, about the forcing to which the last two of these crises point.
+    fn about(&self, restitution: f64, known: &[(f64, f64)]) -> Result<Self, Error> {
+        let own = 0.5 * (self.low + self.high);
+        let forcing = match known {
+            [] => own,
+            [only] => only.1,
+            [.., before, last] => last.1 + (last.1 - before.1) / (last.0 - before.0) * (restitution - last.0),
+        };
+        let half = if known.is_empty() { 0.5 * (self.high - self.low) } else { ABOUT * forcing };
+        let search = Self { restitution, low: forcing - half, high: forcing + half, ..*self };
+        search.check().map(|()| search)
     }
 
     fn sought(

@@ -227,3 +227,37 @@ fn mean_lives_scatter_as_their_errors_say() {
     // 0.1 and 99.9 % of the distribution with 15 degrees of freedom, over 15.
     assert!((0.23..2.52).contains(&chi_squared), "{chi_squared}");
 }
+
+/// From direct iteration of another program: where orbits begin to come to rest.
+#[test]
+fn the_curve_over_the_restitution_is_that_of_another_program() {
+    let known = [
+        (0.3, 0.809_135_30, 0.809_135_31),
+        (0.4, 0.655_712_5, 0.655_713_5),
+        (0.5, CRISIS, CRISIS),
+        (0.6, 0.485_820_0, 0.485_820_5),
+        (0.7, 0.429_606_5, 0.429_607_0),
+        (0.8, 0.399_475_5, 0.399_477_0),
+    ];
+    let search = search_of(0.5, (0.555, 0.565));
+    let mut kinds = Vec::new();
+    for step in [-1.0, 1.0] {
+        let restitutions: Vec<f64> = (0..7).map(|k| 0.5 + step * 0.05 * f64::from(k)).collect();
+        let found = search.over_restitution(&restitutions, &Unobserved).expect("no failure");
+        for (restitution, crisis) in restitutions.iter().zip(found) {
+            let Some((_, low, high)) = known.iter().find(|own| (own.0 - restitution).abs() < 1e-9) else {
+                continue;
+            };
+            let crisis = crisis.unwrap_or_else(|error| panic!("{restitution}: {error}"));
+            let (below, above) =
+                (crisis.forcing - crisis.forcing_error, crisis.forcing + crisis.forcing_error);
+            assert!(below <= *high && above >= *low, "{restitution}: {below} {above}");
+            kinds.push((*restitution, crisis.kind()));
+        }
+    }
+    let kind =
+        |restitution: f64| kinds.iter().find(|own| (own.0 - restitution).abs() < 1e-9).map(|own| own.1);
+    assert_eq!(kinds.len(), 7);
+    // At 0.5 the attractor is lost, at 0.3 rest becomes a part of it.
+    assert_eq!((kind(0.5), kind(0.3)), (Some(CrisisKind::Boundary), Some(CrisisKind::Interior)));
+}

@@ -1,12 +1,14 @@
 //! Curves of folds, doublings and grazes in two parameters, with the points on them where the bifurcation changes
 //! (docs/numerics/dynamics.md, "Curves in two parameters").
 
+use core::ops::ControlFlow;
+
 use super::{BifurcationKind, Branch, Continuation, ContinuedMap};
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::error::{Error, within};
 use crate::orbits::closing::{Closed, Closing, ContinuationParameter};
 use crate::orbits::periodic::Multipliers;
-use crate::run::{Observer, Watch};
+use crate::run::{Observer, Progress, Watch};
 
 mod condition;
 mod special;
@@ -228,6 +230,47 @@ impl<M: ContinuedMap> Branch<M> {
         Ok(curve)
     }
 
+    /// All curves of the folds, doublings and grazes of this branch, with the number of the bifurcation: from each in the
+    /// direction of the first settings and, unless that curve is closed, in that of the second. A bifurcation from which
+    /// no curve can be followed, as one at which two flights graze, has none.
+    ///
+    /// The items of `observer` are the curves.
+    ///
+    /// # Errors
+    /// Those of [`Self::curve`], except for [`Error::NoBranch`] and bifurcations of other kinds.
+    pub fn curves(
+        &self,
+        range: (f64, f64),
+        directions: &[Continuation; 2],
+        observer: &dyn Observer,
+    ) -> Result<Vec<(usize, Curve<M>)>, Error> {
+        let watch = Watch::begin(observer, 0, 2 * self.bifurcations.len() as u64)?;
+        let asked = |_: Progress| match watch.ask() {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(_) => ControlFlow::Break(()),
+        };
+        let mut found = Vec::new();
+        for (index, bifurcation) in self.bifurcations.iter().enumerate() {
+            for settings in directions {
+                if !has_curve(bifurcation.kind) {
+                    break;
+                }
+                let curve = match self.curve(index, range, settings, &asked) {
+                    Err(Error::NoBranch { .. }) => break,
+                    other => other?,
+                };
+                watch.finish(1);
+                let is_closed = curve.end == CurveEnd::Closed;
+                found.push((index, curve));
+                if is_closed {
+                    break;
+                }
+            }
+        }
+        watch.end();
+        Ok(found)
+    }
+
     /// The kind of a bifurcation, the equations of its orbit, and that orbit.
     fn start_of_curve(
         &self,
@@ -242,10 +285,6 @@ impl<M: ContinuedMap> Branch<M> {
         let (least, most) = self.parameter.legal();
         within("low end of a curve", low, least, most, "the range of its parameter")?;
         within("high end of a curve", high, low.next_up(), most, "(low end, that of its parameter]")?;
-        let has_curve = |kind: BifurcationKind| {
-            use BifurcationKind::{Doubling, Fold, Graze};
-            matches!(kind, Doubling | Fold | Graze { .. })
-        };
         let found = self.bifurcations.get(index).filter(|found| has_curve(found.kind));
         let Some(found) = found else {
             let (what, count) = ("bifurcation", self.bifurcations.len());
@@ -272,6 +311,11 @@ impl<M: ContinuedMap> Branch<M> {
         );
         Ok((found.kind, closing, at))
     }
+}
+
+/// Whether a bifurcation is of a kind that has curves.
+const fn has_curve(kind: BifurcationKind) -> bool {
+    matches!(kind, BifurcationKind::Fold | BifurcationKind::Doubling | BifurcationKind::Graze { .. })
 }
 
 #[cfg(test)]

@@ -242,6 +242,12 @@ fn what_has_no_curve_is_refused() {
     let stop = |_| core::ops::ControlFlow::Break(());
     let stopped = branch.curve(0, (0.1, 2.0), &second, &stop);
     assert!(matches!(stopped, Err(Error::Stopped { .. })), "{stopped:?}");
+    let both = [second, Continuation::new(Restitution, (0.1, 0.9), false).expect("legal")];
+    assert!(matches!(branch.curves((0.1, 2.0), &both, &stop), Err(Error::Stopped { .. })));
+    let all = branch.curves((0.1, 2.0), &both, &Unobserved).expect("continued");
+    let expected: Vec<_> = (0..branch.bifurcations.len()).flat_map(|index| [index, index]).collect();
+    assert_eq!(all.iter().map(|own| own.0).collect::<Vec<_>>(), expected);
+    assert_eq!(all[0].1, branch.curve(0, (0.1, 2.0), &second, &Unobserved).expect("continued"));
     let few = second.with_steps(1e-3, 1e-3, 5).expect("legal");
     let curve = branch.curve(0, (0.1, 2.0), &few, &Unobserved).expect("continued");
     assert_eq!((curve.points.len(), curve.end), (5, CurveEnd::PointLimit(5)));
