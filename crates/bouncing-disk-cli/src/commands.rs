@@ -1,6 +1,7 @@
 //! The command line: its commands, one file each.
 
 pub(crate) mod basins;
+mod curves;
 mod diagram;
 #[cfg(test)]
 mod documented;
@@ -57,6 +58,7 @@ pub(crate) enum Command {
     Verdicts(verdicts::VerdictsArgs),
     Basins(basins::BasinsArgs),
     Doublings(doublings::DoublingsArgs),
+    Curves(curves::CurvesArgs),
     Fit(fit::FitArgs),
     Merge(merge::MergeArgs),
     Completions(shell::CompletionsArgs),
@@ -72,6 +74,7 @@ pub(crate) fn run(command: Command, context: Context) -> Result<()> {
         Command::Verdicts(args) => verdicts::run(&args, context),
         Command::Basins(args) => basins::run(&args, context),
         Command::Doublings(args) => doublings::run(&args, context),
+        Command::Curves(args) => curves::run(&args, context),
         Command::Fit(args) => fit::run(&args, context),
         Command::Merge(args) => merge::run(&args, context),
         Command::Completions(args) => shell::completions(&args, CommandLine::command()),

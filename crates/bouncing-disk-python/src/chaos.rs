@@ -388,6 +388,22 @@ fn shown_crisis(py: Python<'_>, crisis: CrisisModel) -> Made<'_> {
     holding(made, Crisis(crisis))
 }
 
+/// The same at several restitutions; `None` where there is none.
+#[pyfunction]
+pub(crate) fn crises(a: Arguments<'_>) -> PyResult<Vec<Option<Bound<'_, PyAny>>>> {
+    let (restitutions, range) = (a.row("restitution")?, a.pair("axial_forcing")?);
+    let (samples, impacts) = (a.u32("samples")?, a.u64("impacts")?);
+    let first = restitutions.first().copied().unwrap_or(f64::NAN);
+    let search = CrisisSearch::new(first, range)
+        .and_then(|search| search.with_samples(samples, impacts))
+        .map_err(|error| a.refused(error))?;
+    let found = a.run(|observer| Ok(search.over_restitution(&restitutions, observer)?))?;
+    found
+        .into_iter()
+        .map(|crisis| crisis.ok().map(|crisis| shown_crisis(a.py(), crisis)).transpose())
+        .collect()
+}
+
 /// Where a chaotic attractor begins to lose orbits to rest.
 #[pyfunction]
 pub(crate) fn crisis(a: Arguments<'_>) -> Made<'_> {

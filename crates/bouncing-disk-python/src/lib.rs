@@ -31,7 +31,8 @@ mod _native {
     };
     #[pymodule_export]
     use crate::chaos::{
-        Crisis, crisis, lives, lyapunov_exponents, lyapunov_spectra, manifold, orbit_diagram, verdicts,
+        Crisis, crises, crisis, lives, lyapunov_exponents, lyapunov_spectra, manifold, orbit_diagram,
+        verdicts,
     };
     #[pymodule_export]
     use crate::estimate::{ensemble, fit_rated_points, fit_transients, read_speeds};
@@ -42,8 +43,8 @@ mod _native {
     };
     #[pymodule_export]
     use crate::orbits::{
-        Branch, PeriodicOrbit, branch_orbit, continued, doubling_cascade, iterate, periodic_orbits, refine,
-        settled_orbit, switched, trapping_radius,
+        Branch, PeriodicOrbit, branch_orbit, continued, curves, doubling_cascade, iterate, periodic_orbits,
+        refine, settled_orbit, switched, trapping_radius,
     };
     #[pymodule_export]
     use crate::parameters::{

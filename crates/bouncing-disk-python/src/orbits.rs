@@ -4,9 +4,10 @@ use bouncing_disk::core::{
     BouncingMap as _, ImpactMap, ImpactState, Vibration,
     attractors::AttractingMap as _,
     orbits::{
-        BifurcationKind, Branch as BranchModel, BranchEnd, BranchPoint, Continuation, ContinuationParameter,
-        ContinuedMap, OrbitSearch, PeriodicOrbit as OrbitModel, Stability,
-        doubling_cascade as doubling_cascade_of, feigenbaum_estimates,
+        BifurcationKind, Branch as BranchModel, BranchEnd, BranchPoint, ClosingMap as _, Continuation,
+        ContinuationParameter, ContinuedMap, Curve as CurveModel, CurveEnd, OrbitSearch,
+        PeriodicOrbit as OrbitModel, SpecialKind, Stability, doubling_cascade as doubling_cascade_of,
+        feigenbaum_estimates,
     },
 };
 use bouncing_disk::drives::{DrivenFamily, driven_doubling_cascade};
@@ -221,6 +222,100 @@ pub(crate) fn switched(a: Arguments<'_>) -> Made<'_> {
     let branch = &branch.get().0;
     let settings = continuation(&a, branch.parameter, true)?;
     shown_own_branch(a.py(), a.run(|observer| Ok(branch.switched(index, &settings, observer)?))?)
+}
+
+/// The curves of the folds, doublings and grazes of a branch over a second parameter.
+#[pyfunction]
+pub(crate) fn curves(a: Arguments<'_>) -> PyResult<Vec<Bound<'_, PyAny>>> {
+    let (map, range) = (a.map()?, a.pair("branch_range")?);
+    let Map { sine, other, .. } = map.get();
+    if let (Some(other), Ok(branch)) = (other, a.held::<DrivenBranch>("branch")) {
+        let (DrivenBranch(branch, first), second) = (branch.get(), a.of::<String>("parameter")?);
+        let family = other.1.family_of_two(sine, [first, &second]).map_err(|error| a.refused(error))?;
+        let start = branch.map.parameter(branch.parameter).unwrap_or(f64::NAN);
+        let map = family.with_parameter(branch.parameter, start).map_err(|error| a.refused(error))?;
+        let branch = BranchModel { map, ..branch.clone() };
+        return curves_of(&a, &branch, range, ContinuationParameter::SecondNumber, [first, &second]);
+    }
+    let branch = a.held::<Branch>("branch")?;
+    let (branch, second) = (&branch.get().0, a.choice("parameter", &PARAMETERS)?);
+    let name = |wanted| PARAMETERS.iter().find(|own| own.1 == wanted).map_or("unknown", |own| own.0);
+    curves_of(&a, branch, range, second, [name(branch.parameter), name(second)])
+}
+
+fn curves_of<'py, M: ContinuedMap + Send + Sync>(
+    a: &Arguments<'py>,
+    branch: &BranchModel<M>,
+    range: (f64, f64),
+    second: ContinuationParameter,
+    names: [&str; 2],
+) -> PyResult<Vec<Bound<'py, PyAny>>> {
+    let both = [continuation(a, second, true)?, continuation(a, second, false)?];
+    let found = a.run(|observer| Ok(branch.curves(range, &both, observer)?))?;
+    found.iter().map(|(index, curve)| shown_curve(a.py(), *index, curve, names)).collect()
+}
+
+fn shown_curve<'py, M>(py: Python<'py>, index: usize, curve: &CurveModel<M>, names: [&str; 2]) -> Made<'py> {
+    let points = &curve.points;
+    let period = points.first().map_or(0, |point| point.states.len());
+    let impacts = |of: fn(&ImpactState) -> f64| {
+        let rows = points.iter().flat_map(|point| point.states.iter().map(of)).collect();
+        matrix(py, rows, [points.len(), period])
+    };
+    let flat = |pairs: Vec<[f64; 2]>| pairs.into_iter().flatten().collect::<Vec<_>>();
+    let mut special = Vec::new();
+    for found in &curve.special {
+        let flight = match found.kind {
+            SpecialKind::GrazingFold { flight } | SpecialKind::GrazingDoubling { flight } => Some(flight),
+            _ => None,
+        };
+        let (name, point) = (found.kind.name().replace(' ', "-"), &found.point);
+        let (values, errors) = (point.parameters, point.errors);
+        let phases = column(py, &point.states, |state| state.phase().angle());
+        special.push(make!(
+            py,
+            "SpecialPoint",
+            name,
+            (values[0], values[1]),
+            (errors[0], errors[1]),
+            point.arclength,
+            flight,
+            phases,
+            column(py, &point.states, ImpactState::velocity)
+        )?);
+    }
+    let end = match curve.end {
+        CurveEnd::RangeLimit { parameter, value } => {
+            let own = names[usize::from(parameter == curve.parameters[1])];
+            format!("{own} reaches {value:?}")
+        }
+        CurveEnd::Graze { flight } => format!("flight {flight} touches the platform"),
+        CurveEnd::VanishingImpact { impact } => format!("impact {impact} loses its speed"),
+        CurveEnd::BorderCollision { impact } => format!("impact {impact} reaches a joint of the platform"),
+        CurveEnd::Birth => "the orbit becomes one of half the period".to_owned(),
+        CurveEnd::Closed => "the curve is back at its start".to_owned(),
+        CurveEnd::PointLimit(points) => format!("there are {points} points"),
+        CurveEnd::StepTooSmall(arclength) => format!("no next point at the arclength {arclength:?}"),
+        _ => "unknown".to_owned(),
+    };
+    let multipliers = points.iter().flat_map(|point| complex(point.multipliers())).collect();
+    let decided = points.iter().map(|point| point.is_supercritical.map_or(0, |own| if own { 1 } else { -1 }));
+    make!(
+        py,
+        "Curve",
+        kind(curve.kind).0,
+        index,
+        (names[0], names[1]),
+        matrix(py, flat(points.iter().map(|point| point.parameters).collect()), [points.len(), 2])?,
+        matrix(py, flat(points.iter().map(|point| point.errors).collect()), [points.len(), 2])?,
+        column(py, points, |point| point.arclength),
+        impacts(|state| state.phase().angle())?,
+        impacts(ImpactState::velocity)?,
+        matrix(py, multipliers, [points.len(), 2])?,
+        array(py, decided.collect::<Vec<i64>>()),
+        end,
+        PyTuple::new(py, special)?,
+    )
 }
 
 /// One orbit of a branch.

@@ -194,6 +194,12 @@ impl Platform {
     pub(crate) fn family(&self, sine: &ImpactMap, number: &str) -> Result<DrivenFamily, Error> {
         self.height().family(sine, self.contact_periods, number.parse()?)
     }
+
+    /// The maps that differ in the numbers of these names.
+    pub(crate) fn family_of_two(&self, sine: &ImpactMap, numbers: [&str; 2]) -> Result<DrivenFamily, Error> {
+        let [first, second] = numbers;
+        self.height().family_of_two(sine, self.contact_periods, [first.parse()?, second.parse()?])
+    }
 }
 
 impl Map {

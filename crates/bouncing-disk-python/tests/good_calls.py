@@ -118,6 +118,12 @@ def good() -> list[tuple[Callable[..., Any], list[Any], dict[str, Any]]]:
         ),
         (branch.switched, [], {"index": 0, "parameter_range": (0.4, 0.5), "max_points": 5}),
         (branch.orbit, [0], {}),
+        (bd.crises, [], {"restitution": [0.5], "axial_forcing": (0.559, 0.562), "impacts": 200_000}),
+        (
+            bd.curves,
+            [MAP, branch],
+            {"parameter": "restitution", "parameter_range": (0.4, 0.6), "branch_range": (0.1, 1.0), "max_points": 5},
+        ),
         (bd.doubling_cascade, [], {"restitution": 0.5, "count": 1}),
         (bd.single_toss, [TOSS], {"initial_spin": "with-hand"}),
         (bd.toss_trajectory, [TOSS], {"initial_spin": "with-hand"}),

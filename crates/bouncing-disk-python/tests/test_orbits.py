@@ -414,3 +414,35 @@ def test_branches_and_doublings_on_a_drive_and_with_a_compliant_contact() -> Non
         with pytest.raises(bd.InvalidError) as refused:
             bd.continued(bouncing, orbit, parameter=parameter, parameter_range=(0, 1))
         assert refused.value.kind == "no-such-number"
+
+
+def test_curves_are_those_by_hand_and_name_their_points() -> None:
+    bouncing = bd.ImpactMap(axial_forcing=0.45, restitution=0.5)
+    orbit = bouncing.settled_orbit(impact_phase=1.2, normalised_speed=1.3)
+    assert orbit is not None
+    ranges: dict[str, Any] = {"parameter_range": (0.01, 0.9), "branch_range": (0.01, 2.0)}
+    down = bd.continued(bouncing, orbit, parameter_range=(0.1, 0.6), rising=False)
+    fold = [curve for curve in bd.curves(bouncing, down, **ranges) if curve.kind == "fold"]
+    assert [curve.bifurcation for curve in fold] == [0, 0]
+    for curve in fold:
+        forcing, restitution = curve.values.T
+        off = np.abs(forcing - (1.0 - restitution) / (1.0 + restitution))
+        assert np.all(off <= curve.errors[:, 0]) and curve.multipliers.shape == (len(forcing), 2)
+    # Towards restitution 0 the flight of the fold grazes the platform.
+    assert [found.kind for curve in fold for found in curve.special] == ["grazing-fold"]
+    assert fold[1].special[0].flight == 0 and fold[1].end == "flight 0 touches the platform"
+    with pytest.raises(bd.InvalidError, match="another than the branch's"):
+        bd.curves(bouncing, down, parameter="axial_forcing", **ranges)
+
+
+def test_curves_on_a_drive_are_those_by_hand() -> None:
+    parabolas = bd.ImpactMap(axial_forcing=0.35, restitution=0.5, drive=bd.Drive.parabolas())
+    orbits = bd.periodic_orbits(parabolas, max_impacts=1, max_platform_periods=1)
+    orbit = next(orbit for orbit in orbits if orbit.is_stable)
+    branch = bd.continued(parabolas, orbit, parameter_range=(0.2, 0.5))
+    found = bd.curves(parabolas, branch, parameter_range=(0.3, 0.7), branch_range=(0.1, 2.0))
+    assert {curve.kind for curve in found} == {"doubling"}
+    for curve in found:
+        forcing, restitution = curve.values.T
+        by_hand = 0.25 * np.pi * (1.0 + restitution**2) / (1.0 + restitution) ** 2
+        assert np.all(np.abs(forcing - by_hand) < 1e-12)

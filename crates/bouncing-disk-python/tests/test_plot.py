@@ -499,3 +499,38 @@ def test_curves_of_one_load_and_without_a_steady_speed() -> None:
     assert ax.get_xlim()[0] < 0.0 < ax.get_xlim()[1]
     unknown = dataclasses.replace(CURVE, speed=np.full(3, np.nan))
     assert note_of(plot.torque_speed(unknown)[1]) == "no load with a steady speed"
+
+
+def test_curves_lie_over_verdicts() -> None:
+    bouncing = bd.ImpactMap(axial_forcing=0.45, restitution=0.5)
+    orbit = bouncing.settled_orbit(impact_phase=1.2, normalised_speed=1.3)
+    assert orbit is not None
+    down = bd.continued(bouncing, orbit, parameter_range=(0.1, 0.6), rising=False)
+    curves = bd.curves(bouncing, down, parameter_range=(0.01, 0.9), branch_range=(0.01, 2.0))
+    forcing, restitution = np.meshgrid([0.3, 0.4, 0.5], [0.4, 0.6])
+    start: dict[str, Any] = {"impact_phase": 1.2, "normalised_speed": 1.3, "impacts": 100}
+    verdicts = bd.verdicts(axial_forcing=forcing.ravel(), restitution=restitution.ravel(), **start)
+    fig, ax = plot.curves(curves, verdicts=verdicts)
+    assert texts_of(ax) == ["fold", "grazing-fold"]
+    assert np.array_equal(np.asarray(ax.collections[0].get_array()).ravel(), verdicts.kind)
+    first = next(curve for curve in curves if curve.kind == "fold")
+    assert np.array_equal(lines_of(ax)["fold"][1], first.values[:, 1])
+    assert note_of(plot.curves([])[1]) == "no curves"
+    row = bd.verdicts(axial_forcing=[0.3, 0.4], restitution=0.5, **start)
+    with pytest.raises(ValueError, match="a grid"):
+        plot.curves(curves, verdicts=row)
+
+
+def test_branches_are_solid_where_they_attract() -> None:
+    bouncing = bd.ImpactMap(axial_forcing=0.45, restitution=0.5)
+    orbit = bouncing.settled_orbit(impact_phase=1.2, normalised_speed=1.3)
+    assert orbit is not None
+    branch = bd.continued(bouncing, orbit, parameter_range=(0.1, 0.6))
+    for quantity in ("phase", "speed"):
+        fig, ax = plot.branches([branch, branch.switched(index=0, parameter_range=(0.1, 0.6))], quantity=quantity)
+        across, up = drawn(ax.lines[0])
+        assert np.array_equal(np.isfinite(up), branch.is_stable) and np.array_equal(across, branch.values)
+        assert texts_of(ax) == ["doubling"]
+    assert note_of(plot.branches([])[1]) == "no branches"
+    with pytest.raises(ValueError, match="quantity"):
+        plot.branches(branch, quantity="height")  # type: ignore[arg-type]

@@ -99,7 +99,7 @@ fn every_command_has_an_example_in_its_help() {
     let folder = Folder::new();
     let motors = ["report", "transient", "curve", "stall", "best", "traps", "sweep"]
         .map(|name| format!("motor {name}"));
-    let others = ["toss", "orbits", "diagram", "verdicts", "basins", "doublings", "fit", "merge"];
+    let others = ["toss", "orbits", "diagram", "verdicts", "basins", "doublings", "curves", "fit", "merge"];
     for command in motors.into_iter().chain(others.map(str::to_owned)) {
         let help = folder.done(&format!("{command} --help"));
         let examples: Vec<&str> =

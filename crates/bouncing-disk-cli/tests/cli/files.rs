@@ -6,7 +6,7 @@ use crate::common::{Folder, errors};
 use serde_json::Value;
 
 /// Every command that computes, made quick.
-const QUICK: [(&str, bool); 13] = [
+const QUICK: [(&str, bool); 14] = [
     ("toss", true),
     ("toss --many --transient 100 --examined 100 --periods 2", true),
     ("motor report", false),
@@ -23,6 +23,7 @@ const QUICK: [(&str, bool); 13] = [
     ("verdicts -G 0:1:4 -r 0:0.9:3 --impacts 500 --transient 100", true),
     ("basins --cells 8 --starts 50", true),
     ("doublings --count 3", true),
+    ("curves --max-points 3", false),
 ];
 
 #[test]

@@ -434,6 +434,31 @@ fn doublings() {
 }
 
 #[test]
+fn curves() {
+    let found = written("curves --max-points 5");
+    let first = &found["curves"][0];
+    assert_eq!((&first["kind"], &first["impacts"]), (&json!("doubling"), &json!(1)));
+    for point in first["points"].as_array().unwrap() {
+        let [forcing, restitution] = [0, 1].map(|k| point["parameters"][k].as_f64().unwrap());
+        assert!((forcing - ImpactMap::first_doubling_forcing(restitution)).abs() < 1e-12);
+    }
+    // Another drive: of parabolas the doubling is pi (1 + r^2)/(4 (1 + r)^2).
+    let folder = Folder::new();
+    let system = folder.done("diagram --template");
+    folder.write("a.toml", &(system + "\n[drive]\nheight = \"parabolas\"\n"));
+    let text = folder.done("curves a.toml -G 0.35 -r 0.5 --max-points 3 --out a.csv --out a.json");
+    assert_eq!(text, "");
+    let found: Value = serde_json::from_str(&folder.text("a.json")).unwrap();
+    let doubling = found["curves"].as_array().unwrap().iter().find(|own| own["kind"] == "doubling").unwrap();
+    for point in doubling["points"].as_array().unwrap() {
+        let [forcing, restitution] = [0, 1].map(|k| point["parameters"][k].as_f64().unwrap());
+        let by_hand =
+            0.25 * std::f64::consts::PI * (1.0 + restitution * restitution) / (1.0 + restitution).powi(2);
+        assert!((forcing - by_hand).abs() < 1e-12, "{forcing} {by_hand}");
+    }
+}
+
+#[test]
 fn motors() {
     let motor = Motor::paper_70_khz();
     let axis = |field, values: [f64; 2]| SweepAxis::new(field, values.to_vec());

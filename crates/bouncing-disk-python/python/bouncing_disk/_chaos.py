@@ -20,6 +20,7 @@ __all__ = [
     "Manifold",
     "OrbitDiagram",
     "Verdicts",
+    "crises",
     "crisis",
     "lyapunov_exponents",
     "lyapunov_spectra",
@@ -507,3 +508,31 @@ def crisis(
     0.56075
     """
     return native.crisis(locals())
+
+
+def crises(
+    *,
+    restitution: ArrayLike,
+    axial_forcing: Pair,
+    samples: Int = 64,
+    impacts: Int = 2_000_000,
+    progress: Progress = None,
+) -> list[Crisis | None]:
+    """The curve of crises over the restitution: :func:`crisis` at each of them.
+
+    The first is sought in the range that is given, each other one about the forcing to which those before point.
+
+    Args:
+        restitution: coefficients of restitution, in (0, 1), neighbours next to each other, shape (n,).
+        axial_forcing: Gamma below the first crisis and beyond it.
+        samples, impacts: as of :func:`crisis`.
+
+    Returns:
+        A crisis for each restitution; None where none is found.
+
+    >>> import bouncing_disk as bd
+    >>> found = bd.crises(restitution=[0.5, 0.48], axial_forcing=(0.559, 0.562), impacts=200_000)
+    >>> [round(crisis.axial_forcing, 3) for crisis in found]
+    [0.561, 0.578]
+    """
+    return native.crises(locals())

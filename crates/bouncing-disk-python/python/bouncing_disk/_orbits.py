@@ -17,11 +17,13 @@ if TYPE_CHECKING:
 __all__ = [
     "Bifurcation",
     "Branch",
-    "Continuation",
+    "Curve",
     "DoublingCascade",
     "ImpactMap",
     "PeriodicOrbit",
+    "SpecialPoint",
     "continued",
+    "curves",
     "doubling_cascade",
     "periodic_orbits",
 ]
@@ -416,6 +418,105 @@ def continued(
     [('doubling', 0.486003)]
     """
     return native.continued(locals())
+
+
+@dataclass(frozen=True, eq=False)
+class SpecialPoint(Result):
+    """A point at which the bifurcation of a :class:`Curve` changes.
+
+    Attributes:
+        kind: ``"cusp"``, ``"criticality-change"`` (of a doubling, from super- to subcritical), ``"grazing-fold"``,
+            ``"grazing-doubling"``, ``"resonance-1:1"`` or ``"resonance-1:2"`` (at restitution 1).
+        values: the two parameters.
+        errors: how far they may be off.
+        arclength: arclength from the start of the curve.
+        flight: which flight grazes.
+        impact_phase: phases of the impacts of the orbit (rad), shape (period,).
+        axial_impact_velocity: their relative velocities, not positive, in units of g/omega, shape (period,).
+    """
+
+    kind: str
+    values: tuple[float, float]
+    errors: tuple[float, float]
+    arclength: float
+    flight: int | None
+    impact_phase: FloatArray
+    axial_impact_velocity: FloatArray
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Curve(Result):
+    """A curve of bifurcations of one kind in two parameters, made by :func:`curves`; n points.
+
+    Attributes:
+        kind: ``"fold"``, ``"doubling"`` or ``"graze"``.
+        bifurcation: the place of its start in the branch's :attr:`Branch.bifurcations`.
+        parameters: the parameter of the branch and the second one.
+        values: both parameters of each point, shape (n, 2).
+        errors: how far rounding may have moved the curve: along the first parameter at this value of the second, and
+            along the second at this value of the first; the largest double where the curve runs along it, shape (n, 2).
+        arclength: arclength from the start of the curve, shape (n,).
+        impact_phase: phases of the impacts of each orbit (rad), shape (n, period).
+        axial_impact_velocity: relative velocities of the impacts, not positive, in units of g/omega, shape (n, period).
+        multipliers: Floquet multipliers of each orbit, complex, shape (n, 2).
+        criticality: of a doubling, 1 where it is supercritical (the doubled orbit exists where this one is unstable)
+            and -1 where it is subcritical; 0 on other curves and where it is not decided, shape (n,).
+        end: why the curve ends, in words.
+        special: the points at which the bifurcation changes: a tuple of :class:`SpecialPoint`.
+    """
+
+    kind: str
+    bifurcation: int
+    parameters: tuple[str, str]
+    values: FloatArray
+    errors: FloatArray
+    arclength: FloatArray
+    impact_phase: FloatArray
+    axial_impact_velocity: FloatArray
+    multipliers: ComplexArray
+    criticality: IntArray
+    end: str
+    special: tuple[SpecialPoint, ...]
+
+
+def curves(
+    impact_map: ImpactMap,
+    branch: Branch,
+    *,
+    parameter: str = "restitution",
+    parameter_range: Pair,
+    branch_range: Pair,
+    first_step: Float = 0.01,
+    largest_step: Float = 0.05,
+    max_points: Int = 10_000,
+    progress: Progress = None,
+) -> list[Curve]:
+    """Where the folds, doublings and grazes of a branch are as a second parameter varies.
+
+    From each of these bifurcations one curve goes towards higher values of the second parameter at first, and one
+    towards lower values unless the first is closed.
+
+    Args:
+        impact_map: the map that was continued.
+        branch: its branch.
+        parameter: the second parameter, one of those of :func:`continued`.
+        parameter_range: its lowest and highest value.
+        branch_range: lowest and highest value of the parameter of the branch.
+        first_step, largest_step: arclength of the first and of the largest step, in [1e-9, 1].
+        max_points: the most points of a curve, in [2, 1000000].
+
+    Raises:
+        InvalidError: ``"not-of-kind"`` if the second parameter is that of the branch.
+
+    >>> import bouncing_disk as bd
+    >>> bouncing = bd.ImpactMap(axial_forcing=0.45, restitution=0.5)
+    >>> orbit = bouncing.settled_orbit(impact_phase=1.2, normalised_speed=1.3)
+    >>> branch = bd.continued(bouncing, orbit, parameter_range=(0.1, 0.6))
+    >>> found = bd.curves(bouncing, branch, parameter_range=(0.3, 0.9), branch_range=(0.1, 2))
+    >>> [(curve.kind, [round(float(value), 6) for value in curve.values[-1]]) for curve in found]
+    [('doubling', [0.323502, 0.9]), ('doubling', [0.677151, 0.3])]
+    """
+    return native.curves(locals())
 
 
 @dataclass(frozen=True, eq=False, repr=False)

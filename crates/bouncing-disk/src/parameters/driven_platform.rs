@@ -217,27 +217,66 @@ impl Waveform {
         contact_periods: Option<f64>,
         number: MapNumber,
     ) -> Result<DrivenFamily, Error> {
+        let (now, unit) = self.number_now(sine, contact_periods, &number)?;
+        let with = self.maps(sine, contact_periods, [number]);
+        Ok(DrivenFamily::new(now, unit, move |value| with([value]))?)
+    }
+
+    /// The maps that differ in two numbers, for curves of bifurcations over both.
+    ///
+    /// # Errors
+    /// Those of [`Self::family`], for either number.
+    pub fn family_of_two(
+        &self,
+        sine: &ImpactMap,
+        contact_periods: Option<f64>,
+        numbers: [MapNumber; 2],
+    ) -> Result<DrivenFamily, Error> {
+        let [first, second] = &numbers;
+        let (one, unit) = self.number_now(sine, contact_periods, first)?;
+        let (other, other_unit) = self.number_now(sine, contact_periods, second)?;
+        let with = self.maps(sine, contact_periods, numbers);
+        Ok(DrivenFamily::of_two([one, other], [unit, other_unit], with)?)
+    }
+
+    /// The value of a number, and its unit in the arclength of a branch.
+    fn number_now(
+        &self,
+        sine: &ImpactMap,
+        contact_periods: Option<f64>,
+        number: &MapNumber,
+    ) -> Result<(f64, f64), Error> {
         self.map(sine, contact_periods)?;
         let forcing = sine.vibration().axial_forcing();
-        let (now, unit) = match &number {
+        Ok(match number {
             MapNumber::AxialForcing => (forcing, forcing),
             MapNumber::Restitution => (sine.restitution(), 1.0),
             MapNumber::ContactPeriods => (contact_periods.ok_or(Error::NoSuchNumber)?, 1.0),
             MapNumber::OfShape(place) => (*self.clone().number(place).ok_or(Error::NoSuchNumber)?, 1.0),
-        };
+        })
+    }
+
+    /// The map for each value of these numbers.
+    fn maps<const N: usize>(
+        &self,
+        sine: &ImpactMap,
+        contact_periods: Option<f64>,
+        numbers: [MapNumber; N],
+    ) -> impl Fn([f64; N]) -> Option<DrivenMap> + Send + Sync + 'static {
         let (shape, sine) = (self.clone(), *sine);
-        let with = move |value: f64| {
+        move |values| {
             let (mut shape, mut periods) = (shape.clone(), contact_periods);
             let (mut vibration, mut restitution) = (*sine.vibration(), sine.restitution());
-            match &number {
-                MapNumber::AxialForcing => vibration = Vibration::from_axial_forcing(value).ok()?,
-                MapNumber::Restitution => restitution = value,
-                MapNumber::ContactPeriods => periods = Some(value),
-                MapNumber::OfShape(place) => *shape.number(place)? = value,
+            for (number, value) in numbers.iter().zip(values) {
+                match number {
+                    MapNumber::AxialForcing => vibration = Vibration::from_axial_forcing(value).ok()?,
+                    MapNumber::Restitution => restitution = value,
+                    MapNumber::ContactPeriods => periods = Some(value),
+                    MapNumber::OfShape(place) => *shape.number(place)? = value,
+                }
             }
             shape.map(&ImpactMap::new(vibration, restitution).ok()?, periods).ok()
-        };
-        Ok(DrivenFamily::new(now, unit, with)?)
+        }
     }
 
     /// A parameter of the shape by its position.

@@ -8,13 +8,15 @@ to yours.
 Matplotlib is an optional dependency: ``pip install 'bouncing-disk[plot]'``.
 """
 
-from bouncing_disk.plot._dynamics import basins, orbit_diagram
+from bouncing_disk.plot._dynamics import basins, branches, curves, orbit_diagram
 from bouncing_disk.plot._frame import style
 from bouncing_disk.plot._motor import motor_transient, torque_speed
 from bouncing_disk.plot._toss import toss, toss_animation
 
 __all__ = [
     "basins",
+    "branches",
+    "curves",
     "motor_transient",
     "orbit_diagram",
     "style",

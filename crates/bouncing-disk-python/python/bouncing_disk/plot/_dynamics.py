@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -13,7 +13,9 @@ import numpy.typing as npt
 import bouncing_disk as bd
 from bouncing_disk.plot._frame import (
     BLACK,
+    BLUE,
     COLOURS,
+    GREEN,
     ORANGE,
     drawn_on,
     labelled,
@@ -146,6 +148,157 @@ def forcing_ends(axial_forcing: tuple[float, float]) -> tuple[float, float]:
 def dot_size(points: int) -> float:
     """The size of a point: few must each be visible, many make lines."""
     return float(np.clip(_LARGE_DOT - (_LARGE_DOT - _DOT) * points / _MANY, _DOT, _LARGE_DOT))
+
+
+#: Colour of a curve by its kind, and the mark of a special point.
+_KINDS = {"fold": BLUE, "doubling": BLACK, "graze": GREEN}
+_MARKS = {"fold": "s", "doubling": "o", "birth": "o", "graze": "x", "vanishing-impact": "x", "border-collision": "+"}
+_SPECIAL = {
+    "cusp": "^",
+    "criticality-change": "D",
+    "grazing-fold": "s",
+    "grazing-doubling": "o",
+    "resonance-1:1": "*",
+    "resonance-1:2": "*",
+}
+#: Colours of verdicts behind curves, in the order of :attr:`bouncing_disk.Verdicts.KINDS`.
+_VERDICTS = ("#dbe9f6", "#f9d5c0", "#efefef", "white", "#d9d9d9")
+_NAMES = {"axial_forcing": r"axial forcing $\Gamma$", "restitution": "restitution $r$"}
+
+
+def curves(
+    curves: Sequence[bd.Curve], *, verdicts: bd.Verdicts | None = None, ax: Axes | None = None
+) -> tuple[Figure, Axes]:
+    """Curves of bifurcations in the plane of two parameters, over a map of verdicts.
+
+    A curve of subcritical doublings is dashed.
+
+    Args:
+        curves: curves over the same two parameters.
+        verdicts: what the disk does in the long run on a grid of the axial forcing and the restitution, drawn behind
+            curves over these two.
+        ax: where it is drawn.
+
+    >>> import bouncing_disk as bd
+    >>> from bouncing_disk import plot
+    >>> bouncing = bd.ImpactMap(axial_forcing=0.45, restitution=0.5)
+    >>> orbit = bouncing.settled_orbit(impact_phase=1.2, normalised_speed=1.3)
+    >>> branch = bd.continued(bouncing, orbit, parameter_range=(0.1, 0.6))
+    >>> found = bd.curves(bouncing, branch, parameter_range=(0.3, 0.9), branch_range=(0.1, 2))
+    >>> fig, ax = plot.curves(found)
+    >>> ax.get_ylabel()
+    'restitution $r$'
+    """
+    planes = {curve.parameters for curve in curves}
+    if len(planes) > 1:
+        raise ValueError(f"curves must be over the same two parameters, not {sorted(planes)}")
+    names = planes.pop() if planes else ("axial_forcing", "restitution")
+    with style():
+        fig, axes = drawn_on(ax)
+        if verdicts is not None:
+            if names != ("axial_forcing", "restitution"):
+                raise ValueError(f"verdicts are over the axial forcing and the restitution, not {names}")
+            _verdicts_behind(axes, verdicts)
+        shown = set()
+        for curve in curves:
+            label = None if curve.kind in shown else curve.kind
+            shown.add(curve.kind)
+            colour = _KINDS.get(curve.kind, BLACK)
+            across, up = curve.values.T
+            axes.plot(across, up, color=colour, label=label)
+            below = np.where(curve.criticality < 0, up, np.nan)
+            axes.plot(across, below, color="white", linestyle=(0, (2, 2)), linewidth=0.9)
+        for kind, mark in _SPECIAL.items():
+            points = [found.values for curve in curves for found in curve.special if found.kind == kind]
+            if points:
+                across, up = np.array(points).T
+                axes.plot(across, up, linestyle="", marker=mark, markersize=3.5, color=ORANGE, label=kind)
+        axes.set_xlabel(_NAMES.get(names[0], names[0]))
+        axes.set_ylabel(_NAMES.get(names[1], names[1]))
+        if curves:
+            legend_above(axes, own=ax is None, most=3)
+        else:
+            note(axes, "no curves")
+    return fig, axes
+
+
+def _verdicts_behind(axes: Any, verdicts: bd.Verdicts) -> None:
+    """A cell for each verdict of a grid of forcings and restitutions."""
+    across, column = np.unique(verdicts.axial_forcing, return_inverse=True)
+    up, row = np.unique(verdicts.restitution, return_inverse=True)
+    if len(across) < 2 or len(up) < 2 or len(across) * len(up) != len(verdicts.kind):
+        raise ValueError("verdicts must be those of a grid of axial forcings and restitutions")
+    kinds = np.zeros((len(up), len(across)), dtype=int)
+    kinds[row, column] = verdicts.kind
+    colours = import_module("matplotlib.colors").ListedColormap(_VERDICTS)
+    axes.pcolormesh(
+        across, up, kinds, cmap=colours, vmin=-0.5, vmax=len(_VERDICTS) - 0.5, shading="nearest", rasterized=True
+    )
+
+
+def branches(
+    branches: bd.Branch | Sequence[bd.Branch],
+    *,
+    quantity: Literal["phase", "speed"] = "phase",
+    ax: Axes | None = None,
+) -> tuple[Figure, Axes]:
+    """Branches of periodic orbits over their parameter: solid where they attract, dashed elsewhere, with their
+    bifurcations.
+
+    Args:
+        branches: one branch, or several over the same parameter.
+        quantity: the quantity to draw: the phase of the impacts in periods, or their normalised speed.
+        ax: where it is drawn.
+
+    >>> import bouncing_disk as bd
+    >>> from bouncing_disk import plot
+    >>> bouncing = bd.ImpactMap(axial_forcing=0.45, restitution=0.5)
+    >>> orbit = bouncing.settled_orbit(impact_phase=1.2, normalised_speed=1.3)
+    >>> fig, ax = plot.branches(bd.continued(bouncing, orbit, parameter_range=(0.1, 0.6)))
+    >>> [text.get_text() for text in ax.get_legend().get_texts()]
+    ['doubling']
+    """
+    if quantity not in ("phase", "speed"):
+        raise ValueError(f'quantity must be "phase" or "speed", not {quantity!r}')
+    all_of = [branches] if isinstance(branches, bd.Branch) else list(branches)
+    with style():
+        fig, axes = drawn_on(ax)
+        shown = set()
+        for branch in all_of:
+            phases = np.mod(branch.impact_phase, 2.0 * np.pi) / (2.0 * np.pi)
+            values = phases if quantity == "phase" else branch.normalised_speed
+            for one in values.T:
+                # A phase that passes 2 pi is no line across the figure.
+                jumps = np.abs(np.diff(one, prepend=one[:1])) > 0.5
+                line = np.where(jumps & (quantity == "phase"), np.nan, one)
+                axes.plot(branch.values, np.where(branch.is_stable, line, np.nan), color=BLACK)
+                axes.plot(branch.values, line, color=BLACK, linestyle=(0, (2, 2)), linewidth=0.6)
+            for found in branch.bifurcations:
+                orbit = found.orbit
+                own = orbit.impact_phase / (2.0 * np.pi) if quantity == "phase" else orbit.normalised_speed
+                label = None if found.kind in shown else found.kind
+                shown.add(found.kind)
+                axes.plot(
+                    np.full(len(own), found.parameter),
+                    own,
+                    linestyle="",
+                    marker=_MARKS.get(found.kind, "."),
+                    markersize=3.5,
+                    color=_KINDS.get(found.kind, ORANGE),
+                    label=label,
+                )
+        names = {branch.parameter for branch in all_of}
+        axes.set_xlabel(", ".join(_NAMES.get(name, name) for name in sorted(names)))
+        if quantity == "phase":
+            axes.set_ylim(0.0, 1.0)
+            axes.set_ylabel(r"impact phase $\tau_\mathrm{imp}/2\pi$")
+        else:
+            axes.set_ylim(bottom=0.0)
+            axes.set_ylabel(r"impact speed $|w_A\Gamma/(\omega A)|$")
+        legend_above(axes, own=ax is None, most=3)
+        if not all_of:
+            note(axes, "no branches")
+    return fig, axes
 
 
 def _two_starts(
