@@ -26,7 +26,7 @@ along the forcing. See docs/studying-the-dynamics.md, \"Curves in two parameters
 
 Examples:
   bouncing-disk curves
-  bouncing-disk curves --axial-forcing 0.52 --max-impacts 2 --max-platform-periods 2 --out curves.csv")]
+  bouncing-disk curves -G 0.52 --restitution 0.45 --out curves.csv")]
 pub(crate) struct CurvesArgs {
     /// Axial forcing parameter Gamma = A omega^2/(pi g), a number. That of FILE, --preset or --set unless
     /// given; without these 0.45
@@ -106,16 +106,16 @@ fn curves<M: ContinuedMap>(
     [first, second]: [ContinuationParameter; 2],
     watch: &impl bouncing_disk::core::Observer,
 ) -> Result<Vec<Found>> {
-    let settings = |parameter, [low, high]: [f64; 2], rising| {
-        Continuation::new(parameter, (low, high), rising)
-            .and_then(|own| own.with_steps(0.01, 0.05, args.max_points))
+    let settings = |rising| {
+        let own = Continuation::new(second, args.parameter_range.into(), rising)?;
+        own.with_steps(0.01, 0.05, args.max_points)
     };
-    let directions =
-        [settings(second, args.parameter_range, true)?, settings(second, args.parameter_range, false)?];
+    let directions = [settings(true)?, settings(false)?];
     let (mut known, mut found) = (Vec::<Bifurcation>::new(), Vec::new());
     for orbit in orbits {
         for rising in [true, false] {
-            let mut branch = map.continued(orbit, &settings(first, args.branch_range, rising)?, watch)?;
+            let along = Continuation::new(first, args.branch_range.into(), rising)?;
+            let mut branch = map.continued(orbit, &along, watch)?;
             branch.bifurcations.retain(|own| !known.iter().any(|other| is_same(own, other)));
             known.extend(branch.bifurcations.iter().cloned());
             let curves = branch.curves(args.branch_range.into(), &directions, watch)?;

@@ -452,8 +452,8 @@ fn curves() {
     let doubling = found["curves"].as_array().unwrap().iter().find(|own| own["kind"] == "doubling").unwrap();
     for point in doubling["points"].as_array().unwrap() {
         let [forcing, restitution] = [0, 1].map(|k| point["parameters"][k].as_f64().unwrap());
-        let by_hand =
-            0.25 * std::f64::consts::PI * (1.0 + restitution * restitution) / (1.0 + restitution).powi(2);
+        let by_hand = 0.25 * std::f64::consts::PI * (1.0 + restitution * restitution)
+            / ((1.0 + restitution) * (1.0 + restitution));
         assert!((forcing - by_hand).abs() < 1e-12, "{forcing} {by_hand}");
     }
 }
