@@ -6,6 +6,7 @@ Writes docs/figures/curves.png, or the file that is named.
 from __future__ import annotations
 
 import sys
+from typing import Any
 
 import bouncing_disk as bd
 import numpy as np
@@ -20,14 +21,14 @@ def all_curves() -> list[bd.Curve]:
     bouncing = bd.ImpactMap(axial_forcing=0.45, restitution=PAPER)
     orbit = bouncing.settled_orbit(impact_phase=1.2, normalised_speed=1.3)
     assert orbit is not None
-    ranges = {"parameter_range": RESTITUTIONS, "branch_range": FORCINGS}
-    found = []
+    ranges: dict[str, Any] = {"parameter_range": RESTITUTIONS, "branch_range": FORCINGS}
+    found: list[bd.Curve] = []
     down = bd.continued(bouncing, orbit, parameter_range=FORCINGS, rising=False)
     branch = bd.continued(bouncing, orbit, parameter_range=FORCINGS)
     found += bd.curves(bouncing, down, **ranges)
     for impacts in (1, 2, 4, 8, 16):
         found += [curve for curve in bd.curves(bouncing, branch, **ranges) if curve.kind == "doubling"]
-        doubling = next(k for k, found in enumerate(branch.bifurcations) if found.kind == "doubling")
+        doubling = next(k for k, own in enumerate(branch.bifurcations) if own.kind == "doubling")
         print(f"Gamma of {impacts} impacts: {branch.bifurcations[doubling].parameter:.7f}")
         if impacts < 16:
             branch = branch.switched(index=doubling, parameter_range=FORCINGS)

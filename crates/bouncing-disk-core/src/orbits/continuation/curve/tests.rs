@@ -60,6 +60,9 @@ fn period_one_folds_and_doubles_where_it_does_by_hand() {
                     let off = (forcing - by_hand(k, restitution)).abs();
                     assert!(off < 1e-12, "{point:?}");
                     assert!(off <= point.errors[0], "{off} {point:?}");
+                    // The cascade to chaos begins with it: the doubled orbit attracts.
+                    let expected = (kind == BifurcationKind::Doubling).then_some(true);
+                    assert_eq!(point.is_supercritical, expected, "{point:?}");
                 }
                 assert_eq!(curve.end, CurveEnd::RangeLimit { parameter: Restitution, value: limit });
             }
