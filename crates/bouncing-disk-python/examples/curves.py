@@ -52,7 +52,7 @@ def main(name: str) -> None:
         restitution=restitution.ravel(),
         impact_phase=1.2,
         normalised_speed=1.3,
-        impacts=2000,
+        impacts=100_000,
     )
     with plot.style():
         fig, ax = plot.curves(curves, verdicts=verdicts)

@@ -1,5 +1,5 @@
 //! Curves of folds, doublings and grazes in two parameters, with the points on them where the bifurcation changes
-//! (docs/numerics/dynamics.md, "Curves in two parameters").
+//! (docs/numerics-dynamics.md, "Curves in two parameters").
 
 use core::ops::ControlFlow;
 
