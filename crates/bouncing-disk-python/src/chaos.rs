@@ -388,7 +388,7 @@ fn shown_crisis(py: Python<'_>, crisis: CrisisModel) -> Made<'_> {
     holding(made, Crisis(crisis))
 }
 
-/// The same at several restitutions; `None` where there is none.
+/// The crisis at each restitution, or `None`.
 #[pyfunction]
 pub(crate) fn crises(a: Arguments<'_>) -> PyResult<Vec<Option<Bound<'_, PyAny>>>> {
     let (restitutions, range) = (a.row("restitution")?, a.pair("axial_forcing")?);

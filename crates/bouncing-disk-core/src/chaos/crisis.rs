@@ -376,8 +376,9 @@ impl CrisisSearch {
     }
 
     /// The curve of crises over the restitution: the crisis at each of them, in [1, 1000], neighbours next to each other.
-    /// The range of this search is that of the first; at each other one it lies about the forcing to which the crises
-    /// before point, and is doubled up to three times where it holds none. Each has its own error, saddle and kind.
+    /// The first is searched for in the range of this search; each other one about the forcing to which the crises
+    /// before point, in a range that is doubled up to three times if it holds none. Each has its own error, saddle and
+    /// kind.
     ///
     /// The items of the observer are the restitutions.
     ///
@@ -391,7 +392,7 @@ impl CrisisSearch {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a restitution outside (0, 1) and for their number; those of [`Self::crisis`].
+    /// [`Error::OutOfRange`] for a restitution outside (0, 1) and for their number; the errors of [`Self::crisis`].
     pub fn over_restitution(
         &self,
         restitutions: &[f64],

@@ -1,13 +1,12 @@
 //! The linear system of a closed sequence of equations with one or two more parameters and conditions, in time
-//! and memory proportional to its length, for Newton's method on a branch of periodic orbits and on a curve of
-//! bifurcations.
+//! and memory proportional to its length. Newton's method on branches and on curves of bifurcations solves it.
 
 use glam::{DMat2, DVec2};
 
 use crate::numerics::block_cyclic::{FIRST, NEXT, OWN, eliminate, rotate};
 
-/// Columns of a row that is being eliminated, behind those of the unknowns: those of the parameters. The right
-/// side follows them.
+/// Columns of a row that is being eliminated, behind the unknowns: the parameters. The right side follows
+/// them.
 const PARAMETER: usize = 6;
 
 /// The additional condition: `first . x[0] + parameter mu = right`.

@@ -227,7 +227,7 @@ def _verdicts_behind(axes: Any, verdicts: bd.Verdicts) -> None:
     across, column = np.unique(verdicts.axial_forcing, return_inverse=True)
     up, row = np.unique(verdicts.restitution, return_inverse=True)
     if len(across) < 2 or len(up) < 2 or len(across) * len(up) != len(verdicts.kind):
-        raise ValueError("verdicts must be those of a grid of axial forcings and restitutions")
+        raise ValueError("verdicts must lie on a grid of axial forcings and restitutions")
     kinds = np.zeros((len(up), len(across)), dtype=int)
     kinds[row, column] = verdicts.kind
     colours = import_module("matplotlib.colors").ListedColormap(_VERDICTS)

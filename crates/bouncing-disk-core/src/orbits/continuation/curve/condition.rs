@@ -30,7 +30,7 @@ pub(super) struct Value {
 }
 
 impl<M: ContinuedMap> Surface<M> {
-    /// The function that vanishes in a bifurcation of this kind. `after` is that of a place nearby.
+    /// The function that vanishes in a bifurcation of this kind. `after` is the time of the minimum at a place nearby.
     pub(super) fn value(&self, kind: BifurcationKind, at: &Place, after: f64) -> Option<Value> {
         if let BifurcationKind::Graze { flight } = kind {
             let (closing, closed) = self.section(at, 0)?;

@@ -17,7 +17,7 @@ use crate::orbits::continuation::walker::{
 use crate::orbits::continuation::{Continuation, ContinuedMap, ROUNDED};
 use crate::run::WorkCount;
 
-/// Steps across a curve until a point on it is given up, and a step (scaled) above which the slope is taken anew.
+/// Steps across a curve until a point on it is given up, and a step (scaled) above which the slope is updated.
 const MAX_STEPS: u32 = 30;
 const FAR: f64 = 1.0e-7;
 
