@@ -289,7 +289,7 @@ def periodic_orbits(
 
 
 class Continuation(TypedDict, total=False):
-    """The steps along a branch: keywords of :func:`continued` and :meth:`Branch.switched`.
+    """The steps along a branch or curve: keywords of :func:`continued`, :meth:`Branch.switched` and :func:`curves`.
 
     Args:
         first_step, largest_step: arclength of the first and of the largest step, in [1e-9, 1]; 0.01 and 0.05 unless given.
@@ -403,8 +403,7 @@ def continued(
             as ``"fourier[1][0]"`` for the amplitude of the second harmonic, or ``"sawtooth"``.
         parameter_range: its lowest and highest value.
         rising: whether it begins towards higher values.
-        first_step, largest_step: arclength of the first and of the largest step, in [1e-9, 1].
-        max_points: the most orbits, in [2, 1000000].
+        settings: the steps along the branch: :class:`Continuation`, as keywords.
 
     Raises:
         InvalidError: ``"not-an-orbit"`` for an orbit of another map; ``"no-such-number"`` for a parameter that the
@@ -486,10 +485,8 @@ def curves(
     parameter: str = "restitution",
     parameter_range: Pair,
     branch_range: Pair,
-    first_step: Float = 0.01,
-    largest_step: Float = 0.05,
-    max_points: Int = 10_000,
     progress: Progress = None,
+    **settings: Unpack[Continuation],
 ) -> list[Curve]:
     """Where the folds, doublings and grazes of a branch are as a second parameter varies.
 
@@ -502,8 +499,7 @@ def curves(
         parameter: the second parameter, one of those of :func:`continued`.
         parameter_range: its lowest and highest value.
         branch_range: lowest and highest value of the parameter of the branch.
-        first_step, largest_step: arclength of the first and of the largest step, in [1e-9, 1].
-        max_points: the most points of a curve, in [2, 1000000].
+        settings: the steps along a curve: :class:`Continuation`, as keywords.
 
     Raises:
         InvalidError: ``"not-of-kind"`` if the second parameter is that of the branch.
