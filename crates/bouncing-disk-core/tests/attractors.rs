@@ -6,6 +6,9 @@
 //! agree with 2,000 random starts of 100,000 impacts (Fisher's exact test at 95 %). Of up to 24 fresh starts
 //! on each of the 12 motions called chaotic none left within 102,000 impacts. Every cell of the five panels
 //! of Fig. 7, 1,000 x 1,000 each, has the same label as with the known orbits there.
+//!
+//! The third attractor of Fig. 7(b) (r = 0.5): an orbit of two impacts in one period is born with its saddle in a
+//! fold at Gamma = 0.472442164412, and doubles at 0.482813186654, 0.486681629343 and 0.487559285035.
 
 use std::f64::consts::TAU;
 

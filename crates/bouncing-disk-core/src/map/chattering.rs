@@ -1,4 +1,33 @@
 //! The chatter that follows a launch of an impact map.
+//!
+//! **The error of a cut.** On a platform with a constant pull a, S(v) is the sum of the launch speeds after an
+//! impact at speed v, and the flights last (2/a) S(v) together.
+//!
+//! As the platform moves, the pull changes, and with it the speed of return. Over a window W from the impact
+//! on let the pull be at least alpha > 0 and change at most at the rate delta. With b = P cos tau, delta =
+//! min(|b| + P W, P) and alpha = a - delta W satisfy this.
+//!
+//! A flight in the window lasts at most 2 w/alpha, in which the pull changes by at most 2 delta w/alpha. With
+//! the least pull of the flight it rises at most w^2/(2 least), and it falls back with at most the greatest
+//! pull. So it returns with at most w sqrt(1 + 2 delta w/alpha^2) <= w (1 + K w), K = delta/alpha^2. So
+//! v_(n+1) <= (1 + K r v_n) r v_n, and
+//!
+//!     v_n - v_(n+1) >= (1 - r - K r^2 v_n) v_n >= (1 - theta)(1 - r) v_n,    theta = K S(v_0),
+//!
+//! because r v_n/(1 - r) <= S(v_n) <= S(v_0). While theta < 1 the sum above is larger by at most 1/(1 -
+//! theta), and all flights together last at most
+//!
+//!     T = (2/alpha) S(v_0)/(1 - theta).
+//!
+//! If T <= W, all impacts lie in the window, by induction: each added flight needs w_n <= S(v_n), which the
+//! sum up to v_n leaves. `ImpactMap::comes_to_rest_within` starts with the window 4 S/a, narrows it to T up
+//! to three times, and returns the last bound, or `None` if the first window fails.
+//!
+//! The cut puts the disk on the platform up to T too early. Because the pull lasts over T, both motions rest
+//! before the platform falls away, and leave it at the same phase. The omitted height is below w^2/(2 alpha).
+//! The omitted axial impulses are the integral of the pull over the remaining time minus w, at most a' T with
+//! a' <= a + delta T the greatest pull; friction in contact can use as much. So the error of the angular
+//! speed is at most 2 mu a' T.
 
 use crate::chatter::accumulation::{Accumulation, ChatterImpact};
 use crate::chatter::impact_series::ChatterSeries;
@@ -73,7 +102,7 @@ impl<L: RestitutionLaw> ImpactMap<L> {
     /// bounds the error of a cut that puts the disk on the platform at this impact. It is `None` if no bound
     /// is known: the law has no [`rebound_sum`](RestitutionLaw::rebound_sum), or the chatter is so long that
     /// the pull 1 - P sin tau may change considerably. The bound holds for the pull that P and the carried
-    /// pair give (docs/numerics-dynamics.md, "The error of a cut").
+    /// pair give (derived at the head of this file).
     ///
     /// ```
     /// # use bouncing_disk_core::map::KuwabaraKono;

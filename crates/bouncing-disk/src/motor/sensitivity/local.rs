@@ -1,5 +1,30 @@
 //! Local sensitivities: the exponent of the power law that relates the steady speed or the stall torque to a
 //! parameter, for small changes (Fig. 13).
+//!
+//! **On one vertical motion.** Friction, twist, lag, radii and load do not affect the vertical motion, so all
+//! steps use the same perturbed orbits. For a member's values q± at ±s, (q₊ − q₋)/2 is odd in s. A
+//! least-squares cubic a s + b s³ through s = 0.04, 0.08, 0.12 and 0.16 gives the member's slope a. The
+//! derivative is the mean slope over the mean of q, with the standard error of a ratio of means. If the slope
+//! of a polynomial with a third term c s⁵ differs by more than 1.96 errors of the difference, the excess is
+//! added in quadrature (`curvature`). Lags vary by radians and loads by shares of μ m g a_e, because both may
+//! be zero. A member's stall torque is the zero of the straight line through its speeds under five loads, up
+//! to 0.06 μ m g a_e from the stall load.
+//!
+//! *Test.* The rotary motion depends on friction, twist and radii only through μ and Q = a_g² Φ ω²/(a_e g): a
+//! no-load speed is ω Φ times a function of Q/μ, and the stall torque μ m g a_e times such a function. If the
+//! speed has the exponent x in friction, its exponents in twist, contact radius and radius of gyration are 1
+//! − x, x and −2 x; if the stall torque has the exponent y in twist, the other exponents are 1 − y, 1 − y and
+//! 2 y.
+//!
+//! **The vertical motion.** Speeds as functions of amplitude, preload, restitution and frequency are rough at
+//! every scale: only trends are meaningful. Motors are sampled, one in each equal part of a stated range,
+//! because a grid could hit or miss the traps; those in a low-period trap are excluded and counted. A
+//! straight line through the rest over the logarithm of the parameter gives the exponent, which depends on
+//! the range, and the scatter about it the standard error. The frequency is varied at a fixed largest angular
+//! speed of the stator.
+//!
+//! *Coverage.* For each parameter of two motors, 92 to 98 of 100 intervals of 95 % for the steady speed
+//! contain the mean (`motor/sensitivity/local/tests.rs`).
 
 use bouncing_disk_core::numerics::elementary::{exp, hypot, ln};
 use bouncing_disk_core::numerics::random::SplitMix64;
