@@ -305,7 +305,7 @@ fn a_table_of_points_is_read_or_its_fault_placed() {
         ),
         ("load_torque\n1\n", "the column of the speed, or its unit, is missing"),
         ("speed_rad_s,load_torque,load_torque\n1,2,3\n", "occurs twice"),
-        ("speed_rad_s,load_torque\n1,2,3\n", "line 2: it has 3 fields"),
+        ("speed_rad_s,load_torque\n1,2,3\n", "line 2: the line has 3 fields"),
         ("speed_rad_s,load_torque\n1,x\n", "line 2, field 2: \"x\" is not a number"),
         (
             "speed_rad_s;load_torque\n1,5;2\n1.5;2\n",

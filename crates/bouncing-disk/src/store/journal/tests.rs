@@ -206,7 +206,7 @@ fn a_changed_line_is_named() {
     let header = String::from_utf8(scratch.bytes()).expect("text");
     let (_, lines) = text.split_once('\n').expect("a header");
     scratch.write(header + lines);
-    assert_eq!(fewer().expect_err("four items").to_string(), "item 3 does not exist: there are 3 items");
+    assert_eq!(fewer().expect_err("four items").to_string(), "item 3 does not exist: there are only 3 items");
     scratch.write(&text);
     // Results of another kind.
     let error = Journal::<String>::open(&scratch.0, &key(0.1), 100).expect_err("lists");
@@ -233,7 +233,7 @@ fn what_could_not_be_read_again_is_not_written() {
     let error = journal.append(1, &vec![f64::NAN]).expect_err("no JSON");
     assert!(error.to_string().starts_with("the result of item 1 cannot be stored"), "{error}");
     let error = journal.append(100, &vec![1.0]).expect_err("no such item");
-    assert_eq!(error.to_string(), "item 100 does not exist: there are 100 items");
+    assert_eq!(error.to_string(), "item 100 does not exist: there are only 100 items");
     assert_eq!((scratch.bytes(), journal.done()), (before, 1));
 }
 

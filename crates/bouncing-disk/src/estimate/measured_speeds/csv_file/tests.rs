@@ -150,7 +150,7 @@ fn a_wrong_line_is_named_with_what_to_do() {
          separate the columns by semicolons"
     );
     assert!(fault_of("0.5").contains("the line has 1 fields, but the header has 2"));
-    assert!(fault_of("0,5;1,25").contains("it has 3 fields"));
+    assert!(fault_of("0,5;1,25").contains("the line has 3 fields"));
     assert!(fault_of("0.5,\"1").contains("line 3, field 2: a quotation mark is not closed"));
     assert!(fault_of("0.5,\"1\n2\"").contains("line 3, field 2: a quotation mark is not closed"));
     for member in ["-1", "1.5", "4294967296", "", "a"] {
