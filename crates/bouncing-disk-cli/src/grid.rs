@@ -23,7 +23,8 @@ use crate::interrupt;
 use crate::output::files::{Kind, check_place};
 use crate::output::{OutputArgs, PROGRAM, Report, VERSION};
 
-/// Most rows that are computed together. Their number doubles as long as rows are fast; later ones may be slow.
+/// Largest number of rows that are computed together. Their number doubles as long as rows are fast; later
+/// ones may be slow.
 const MOST_TOGETHER: usize = 4096;
 
 /// How long a group of rows is computed: an interruption loses at most this much.
@@ -199,7 +200,7 @@ fn interrupted(journal: Option<&Path>, done: usize, items: usize) -> Failure {
     })
 }
 
-/// Most bytes of the first line of a part.
+/// Largest number of bytes in the first line of a part.
 const LONGEST: u64 = 1 << 26;
 
 /// The command and the job of the part in a file.

@@ -6,7 +6,7 @@ use std::str::FromStr;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use serde::{Deserialize, Serialize};
 
-/// Most values of a range: a longer one is a typing error.
+/// Largest number of values of a range: a longer one is a typing error.
 const MOST: usize = 1_000_000;
 
 /// Numbers at equal distances, both ends included: `0.1:1.5:500` on the command line, or a single number.

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use crate::builders::builders;
 use crate::label::Label;
 
-/// Most ticks that an axis can show; more is a wrong step.
+/// Largest number of ticks that an axis can show; more is a wrong step.
 const MOST_TICKS: f64 = 400.0;
 
 /// The choice of ticks of an axis: round steps with about five labels unless another is made.

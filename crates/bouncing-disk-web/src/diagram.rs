@@ -13,11 +13,11 @@ use crate::reply::{Refusal, Reply};
 use crate::request::{DiagramRequest, map};
 use crate::settling::{is_settling, repeats_every};
 
-/// Most forcings of a diagram, and most impacts of an answer.
+/// Largest number of forcings in a diagram, and of impacts in an answer.
 const MOST_COLUMNS: usize = 1_000_000;
 const MOST_IMPACTS: usize = 1 << 22;
 
-/// Most impacts of an orbit before those that are recorded.
+/// Largest number of impacts of an orbit before those that are recorded.
 const MOST_LEFT_OUT: usize = 1_000_000;
 
 /// Longest period (impacts) of an orbit that is seen to be on its way to it, and how far it may still move on

@@ -16,10 +16,11 @@ use serde_json::json;
 use crate::reply::{Refusal, Reply};
 use crate::request::{ImpactStart, MotionStart};
 
-/// Most events of an answer: a disk that chatters on a platform with little restitution has many.
+/// Largest number of events of an answer: a disk that chatters on a platform with little restitution has
+/// many.
 const MOST_EVENTS: usize = 500_000;
 
-/// Most periods of an answer.
+/// Largest number of periods of an answer.
 const MOST_PERIODS: u64 = 100_000;
 
 /// Energy is per mass from the start to the end (J/kg): the energy supplied by the platform, the losses to impacts,

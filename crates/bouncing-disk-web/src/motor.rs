@@ -15,7 +15,7 @@ use crate::request::{LoadsRequest, SystemParameters, TransientRequest};
 /// Impacts that the search of a stall load may take: a second or two for most motors.
 const FEW_IMPACTS: u64 = 5_000_000;
 
-/// Most impacts that a request may allow: those of the library's default.
+/// Largest number of impacts that a request may allow: those of the library's default.
 const MOST_IMPACTS: u64 = 20_000_000;
 
 /// The distance up to which a trap is reported, as a relative change of the preload or the amplitude.

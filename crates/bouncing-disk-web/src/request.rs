@@ -163,7 +163,8 @@ pub(crate) struct DiagramRequest {
     pub(crate) start: ImpactStart,
     pub(crate) transient: usize,
     pub(crate) recorded: usize,
-    /// Most impacts that are discarded from an orbit that has not settled after `transient` ones.
+    /// Largest number of impacts that are discarded from an orbit that has not settled after `transient`
+    /// ones.
     #[serde(default)]
     pub(crate) patience: usize,
     /// Whether the rotation is computed, too: it costs some times the vertical motion.
@@ -204,7 +205,7 @@ pub(crate) struct LoadsRequest {
     pub(crate) sheet: MotorParameters,
     pub(crate) load_torques: Vec<f64>,
     pub(crate) relative_error: f64,
-    /// Most impacts that the answer may take, up to 20 million.
+    /// Largest number of impacts that the answer may take, up to 20 million.
     pub(crate) most_impacts: u64,
     pub(crate) seed: u64,
 }

@@ -94,7 +94,7 @@ const LONGEST_NAME: usize = 64;
 /// Shortest part of a name that may stand for it, as "load" for "`load_torque`".
 const SHORTEST_PART: usize = 4;
 
-/// Most characters of a user's text that an error repeats.
+/// Largest number of characters of a user's text that an error repeats.
 const LONGEST_EXCERPT: usize = 60;
 
 /// The beginning of a user's text.

@@ -42,13 +42,13 @@ pub(crate) struct CurvesArgs {
     /// Restitutions of the curves, LOW:HIGH
     #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "LOW:HIGH", default_value = "0.05:0.95", value_parser = interval)]
     parameter_range: [f64; 2],
-    /// Most impacts of an orbit, in [1, 64]
+    /// Largest number of impacts of an orbit, in [1, 64]
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = 1)]
     max_impacts: usize,
-    /// Most periods of the platform that an orbit takes, in [1, 10000]
+    /// Largest number of periods of the platform that an orbit takes, in [1, 10000]
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = 1)]
     max_platform_periods: u64,
-    /// Most points of a curve, in [2, 1000000]
+    /// Largest number of points of a curve, in [2, 1000000]
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = 10_000)]
     max_points: usize,
     #[command(flatten)]

@@ -30,10 +30,10 @@ pub(crate) struct OrbitsArgs {
     map: MapArgs,
     #[command(flatten)]
     contact: ContactArgs,
-    /// Most impacts of an orbit, in [1, 64]
+    /// Largest number of impacts of an orbit, in [1, 64]
     #[arg(help_heading = OWN, long, alias = "impacts", allow_negative_numbers = true, value_name = "N", default_value_t = 4)]
     max_impacts: usize,
-    /// Most periods of the platform in an orbit, in [1, 10000]
+    /// Largest number of periods of the platform in an orbit, in [1, 10000]
     #[arg(help_heading = OWN, long, alias = "platform-periods", allow_negative_numbers = true, value_name = "N", default_value_t = 4)]
     max_platform_periods: u64,
     /// Starts along each axis, in [2, 4096]

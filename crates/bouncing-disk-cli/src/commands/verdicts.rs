@@ -16,7 +16,7 @@ use super::prelude::*;
 
 const FORCINGS: &str = "0.30:0.62:33";
 
-/// Most cells that keep their evidence.
+/// Largest number of cells that keep their evidence.
 const MOST_DETAILED: u64 = 1 << 24;
 
 /// Bytes of a cell while the result is made, with its evidence and without.

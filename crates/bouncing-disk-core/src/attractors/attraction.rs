@@ -24,7 +24,7 @@ const SMALLEST_RADIUS: f64 = 1.0e-5;
 const WIDENING: f64 = 1.15;
 const SHARE_OF_WIDEST: f64 = 0.7;
 
-/// Most impacts of an orbit that is tested for trapping circles.
+/// Largest number of impacts of an orbit that is tested for trapping circles.
 const SHORT: usize = 8;
 
 /// For the test whether starts return nearer to their initial impact: the largest radius, the one at which

@@ -28,7 +28,7 @@ use crate::run::Observer;
 use cells::VisitedCells;
 use settings::AttractorSearch;
 
-/// Most attractors apart from the disk at rest: as many as labels can distinguish.
+/// Largest number of attractors apart from the disk at rest: as many as labels can distinguish.
 const MOST_ATTRACTORS: usize = 250;
 
 /// The motion of a disk after it has come to rest on the platform.

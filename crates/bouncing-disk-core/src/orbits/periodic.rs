@@ -19,7 +19,7 @@ pub(crate) mod margin;
 pub(crate) mod newton;
 pub(crate) mod pair;
 
-/// Most Newton steps of [`ImpactMap::refine`].
+/// Largest number of Newton steps of [`ImpactMap::refine`].
 pub const MAX_NEWTON_STEPS: u32 = 50;
 
 /// The longest period searched for and refined.

@@ -9,10 +9,11 @@ use crate::numerics::error::Error;
 use crate::run::Observer;
 use crate::sweep::bouncing_map::BouncingOrbit;
 
-/// Most events without an impact until a disk counts as no longer bouncing: kinks may hit it forever.
+/// Largest number of events without an impact until a disk counts as no longer bouncing: kinks may hit it
+/// forever.
 const MOST_CONTACT_EVENTS: usize = 10_000;
 
-/// Most impacts that [`orbit_diagram`] records, of all orbits together.
+/// Largest number of impacts that [`orbit_diagram`] records, of all orbits together.
 pub const MAX_RECORDED: u64 = 1 << 31;
 
 /// The number of impacts of each orbit before the disk comes to rest, at most `most`. The result `most` means

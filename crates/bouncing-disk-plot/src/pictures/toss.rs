@@ -27,7 +27,7 @@ pub struct TossInstant {
 /// A quantity of disk and platform.
 type Of = fn(&TossInstant) -> [f64; 2];
 
-/// Most periods of the platform in a picture: more of them would be a mat without lines.
+/// Largest number of periods of the platform in a picture: more of them would be a mat without lines.
 pub const LONGEST_MOTION: u64 = 20;
 
 /// The last instants of a motion, for [`LONGEST_MOTION`] periods, and its number of periods, rounded, if

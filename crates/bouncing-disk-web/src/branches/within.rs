@@ -15,7 +15,7 @@ const SMALLEST_STEP: f64 = 1.0e-9;
 /// A part has at most so many times the points that it should have.
 const PATIENCE: usize = 16;
 
-/// Most points on the way to the edge of a range.
+/// Largest number of points on the way to the edge of a range.
 const MOST_TO_EDGE: usize = 10_000;
 
 /// A known point of the branch.

@@ -9,7 +9,7 @@ use bouncing_disk_core::Phase;
 use super::DrivenSystem;
 use crate::motion::chatter::Chatter;
 
-/// Most impacts that are followed; the rest of a chatter then counts as one.
+/// Largest number of impacts that are followed; the rest of a chatter then counts as one.
 const MOST_IMPACTS: u64 = 100_000;
 
 /// A launch slower than this share of the first one belongs to the last impact.

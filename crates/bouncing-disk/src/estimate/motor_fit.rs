@@ -47,11 +47,11 @@ const BATCH: usize = 2;
 /// The same for transients.
 const BATCH_OF_TRANSIENTS: usize = 20;
 
-/// Most measured points of a fit.
+/// Largest number of measured points of a fit.
 const MOST_POINTS: usize = 100;
 
-/// Most fitted parameters and uncertain conditions together; more dimensions would need more motors than
-/// anybody computes.
+/// Largest number of fitted parameters and uncertain conditions together; more dimensions would need more
+/// motors than anybody computes.
 const MOST_COORDINATES: usize = 16;
 
 /// Range of an uncertain condition, in standard errors.
@@ -60,7 +60,7 @@ pub(crate) const ERRORS: f64 = 3.0;
 /// No speed counts as known better than this share of the stator's largest speed.
 const RESOLUTION: f64 = 1e-3;
 
-/// Most transients of a fit.
+/// Largest number of transients of a fit.
 const MOST_TRANSIENTS: usize = 100;
 
 /// The interpolation error of a computed curve, as a share of the largest mean: no mean counts as known
@@ -84,8 +84,8 @@ const SETTLED: f64 = 0.25;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MotorFitSettings {
-    /// Most points of the ranges at which all measurements are computed, in [8, 400]. Default 200. Fewer are
-    /// used if they suffice.
+    /// Largest number of points of the ranges at which all measurements are computed, in [8, 400]. Default
+    /// 200. Fewer are used if they suffice.
     pub most_evaluations: usize,
     /// How a point is computed. Default: 6 members, an error of 0.02, at most 500,000 impacts.
     pub operating: OperatingSettings,

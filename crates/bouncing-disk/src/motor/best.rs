@@ -65,7 +65,7 @@ const SURER: f64 = 2.0;
 const SEEDS: usize = 8;
 const SHARED: f64 = 2.0;
 
-/// Most passes along one line, each with another length, and the factor between lengths.
+/// Largest number of passes along one line, each with another length, and the factor between lengths.
 const LOOKS: usize = 6;
 const LENGTHEN: f64 = 3.0;
 

@@ -2,7 +2,7 @@
 
 use crate::error::{Error, check, finite, not_negative, positive};
 
-/// Most nodes of each table of a load.
+/// Largest number of nodes of each table of a load.
 pub const MAX_LOAD_NODES: usize = 16;
 
 /// Rising abscissas with their values.

@@ -16,7 +16,7 @@ use crate::figures::shared::numbers::StraightLine;
 /// Relative distance of the amplitudes that are tried: a fraction of the width of a robust cycle of two
 /// flights.
 const AMPLITUDE_STEP: f64 = 1e-9;
-/// Most amplitudes tried on each side.
+/// Largest number of amplitudes tried on each side.
 const MOST_STEPS: u32 = 40_000;
 /// Duration drawn, in rise times ωΦ a_g²/(μ a_e g).
 pub(super) const LONG_RISES: f64 = 6.0;

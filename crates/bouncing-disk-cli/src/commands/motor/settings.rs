@@ -20,7 +20,7 @@ pub(super) struct SettingsArgs {
     /// Number of vertical motions to average over
     #[arg(long, allow_negative_numbers = true, value_name = "N", default_value_t = OperatingSettings::default().members)]
     members: usize,
-    /// Most impacts of all members together
+    /// Largest number of impacts of all members together
     #[arg(long, allow_negative_numbers = true, value_name = "N", default_value_t = OperatingSettings::default().most_impacts)]
     most_impacts: u64,
     /// Size of the relaunch perturbation, in units of g/omega

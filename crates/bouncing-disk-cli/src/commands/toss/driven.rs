@@ -11,7 +11,7 @@ use bouncing_disk::{Event, System};
 use super::{Sample, TossArgs, deliver, described, instants, quantities};
 use crate::commands::prelude::*;
 
-/// Most events before a disk is expected to come down.
+/// Largest number of events before a disk is expected to come down.
 const MOST_EVENTS: usize = 10_000;
 
 pub(super) fn run(system: &System, drive: &DriveParameters, args: &TossArgs, context: Context) -> Result<()> {

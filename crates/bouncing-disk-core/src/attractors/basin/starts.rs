@@ -11,8 +11,8 @@ use crate::sweep::lockstep::lanes::{Batch, LANES, Lanes};
 
 use core::f64::consts::PI;
 
-/// Most cells in a share, except for longer rows: enough that a thread seldom waits for the next share, few
-/// enough for the threads to finish together.
+/// Largest number of cells in a share, except for longer rows: enough that a thread seldom waits for the next
+/// share, few enough for the threads to finish together.
 const SHARE: usize = 1_024;
 
 /// A block of rows of the grid: the first row, and the labels.

@@ -45,7 +45,7 @@ const FEWEST_RESTS: u64 = 8;
 /// The fewest impacts of an orbit.
 const FEWEST_IMPACTS: usize = 200;
 
-/// Most forcings, at which orbits survived, whose states are kept.
+/// Largest number of forcings, at which orbits survived, whose states are kept.
 const KEPT: usize = 24;
 
 /// Impacts over which exponents are taken. A growth that is a power of their number, as that of neutral

@@ -19,8 +19,8 @@ use crate::run::Tick;
 /// found.
 const SHOOTING_RESIDUAL: f64 = 1.0e-12;
 
-/// Most Newton steps from a rough guess, after which [`ImpactMap::refine`] takes over or the guess is
-/// abandoned.
+/// Largest number of Newton steps from a rough guess, after which [`ImpactMap::refine`] takes over or the
+/// guess is abandoned.
 pub(super) const MAX_STEPS: usize = 14;
 
 /// The residual below which the iteration converges quadratically, so that the refinement takes over.

@@ -33,7 +33,7 @@ pub(crate) const LARGEST_FILE: u64 = 64 << 20;
 /// The longest line that is read (bytes).
 const LONGEST_LINE: usize = 1 << 16;
 
-/// Most rows of numbers.
+/// Largest number of rows of numbers.
 const MOST_ROWS: usize = 4_000_000;
 
 /// Fewest rows of a run.

@@ -36,7 +36,7 @@ const ENOUGH: usize = 20;
 /// Accepted ranges closer to each other than this share of half the range are merged.
 const GAP: f64 = 0.05;
 
-/// Most steps to a minimum.
+/// Largest number of steps to a minimum.
 const STEPS: usize = 30;
 
 /// The profile along one parameter: its points, and the least deviance over all other coordinates there.

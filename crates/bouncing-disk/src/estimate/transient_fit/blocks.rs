@@ -30,7 +30,7 @@ const LEAST_BLOCKS: usize = 8;
 /// constant; at least this number is assumed.
 const LEAST_SAMPLE: usize = 5;
 
-/// Most blocks; more would hardly improve the estimate of the error.
+/// Largest number of blocks; more would hardly improve the estimate of the error.
 const MOST_BLOCKS: usize = 64;
 
 /// Factor by which a block is longer than the correlation time (docs/numerics-dynamics.md, "Fits with

@@ -11,11 +11,11 @@ use crate::motion::engine::{Engine, SineGround};
 use crate::motion::phase_time::PhaseSpan;
 use crate::motion::state::Snapshot;
 
-/// Most states that [`Engine::sample`] returns; each takes about 100 bytes.
+/// Largest number of states that [`Engine::sample`] returns; each takes about 100 bytes.
 pub const MAX_SAMPLES: usize = 1 << 24;
 
-/// Most periods of the platform for which [`Engine::sample`] follows a motion. With an impact in each they
-/// take many minutes, and no instant is rounded by more than a millionth of a period.
+/// Largest number of periods of the platform for which [`Engine::sample`] follows a motion. With an impact in
+/// each they take many minutes, and no instant is rounded by more than a millionth of a period.
 pub const MAX_SAMPLED_PERIODS: u64 = 1 << 30;
 
 /// The cost of an event, in flights: one that ends a chatter takes longer than a flight.

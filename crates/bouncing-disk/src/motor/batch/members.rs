@@ -10,10 +10,10 @@ use crate::error::{Error, check, room_for, within_limit};
 use crate::motor::rotor::transient::{SpeedCurve, TransientSettings};
 use crate::parameters::system::System;
 
-/// Most members of an ensemble.
+/// Largest number of members of an ensemble.
 pub const MAX_MEMBERS: usize = 1_000_000;
 
-/// Most speeds of all members of an ensemble together; with their times they take a gigabyte.
+/// Largest number of speeds of all members of an ensemble together; with their times they take a gigabyte.
 pub const MAX_SPEEDS: usize = 1 << 26;
 
 /// The arguments of one [`transient`](crate::motor::transient()).

@@ -28,7 +28,7 @@ use crate::toss::single::TOSS_START;
 /// Impacts over which the perturbed motion is followed.
 const FOLLOWED_IMPACTS: u64 = 20_000;
 
-/// Most impacts over which it is followed, if it has rested less than [`FEW_RESTS`] times.
+/// Largest number of impacts over which it is followed, if it has rested less than [`FEW_RESTS`] times.
 const MOST_IMPACTS: u64 = 10 * FOLLOWED_IMPACTS;
 
 /// See [`MOST_IMPACTS`].

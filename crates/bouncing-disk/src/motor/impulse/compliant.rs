@@ -7,7 +7,7 @@ use bouncing_disk_drives::compliance::{CompliantPlatform, ContactEnd, Pressed};
 use super::{NormalImpulses, PhasedImpulse};
 use crate::error::{Error, within_limit};
 
-/// Most periods that are followed.
+/// Largest number of periods that are followed.
 const MAX_PERIODS: usize = 1_000_000;
 
 /// Parts per period, and at least per contact, into which the force is divided: the speed of the stator

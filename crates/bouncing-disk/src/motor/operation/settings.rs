@@ -24,8 +24,8 @@ pub struct OperatingSettings {
     pub relative_error: f64,
     /// Members of the ensemble, each with its own vertical motion, in [4, 4096]. Default 16.
     pub members: usize,
-    /// Most impacts of all members together, in [1, 1e15]; for a rotor that never bounces, most periods. If
-    /// they are used up before the requested error is reached, the result is
+    /// Largest number of impacts of all members together, in [1, 1e15]; for a rotor that never bounces, of
+    /// periods. If they are used up before the requested error is reached, the result is
     /// [`Operation::Unsettled`](crate::motor::Operation::Unsettled). Each member takes at least a dozen in
     /// any case. Default 20 million, which takes a few seconds.
     pub most_impacts: u64,

@@ -74,8 +74,8 @@ const QUICKEST: f64 = 1.0e6;
 /// If there are more windows than this, pairs are merged.
 const MOST_WINDOWS: usize = 128;
 
-/// Most rotors of all members of one ensemble together: half a gigabyte with their windows, including those
-/// of the second start of each.
+/// Largest number of rotors of all members of one ensemble together: half a gigabyte with their windows,
+/// including those of the second start of each.
 pub const MAX_OPERATED_ROTORS: usize = 1 << 16;
 
 /// Fewest impacts of a window, and fewest periods of the platform.
@@ -350,7 +350,7 @@ struct SteadyRun<'a> {
     /// Duration of a window (rad) and its fewest impacts.
     duration: f64,
     least_impacts: u64,
-    /// Most impacts of a window.
+    /// Largest number of impacts of a window.
     most_impacts: u64,
     /// The speed (rad/s) to which errors are relative, if it is already known.
     reference: Option<f64>,

@@ -37,17 +37,17 @@ const MOST_TOUCHES: u64 = 600_000;
 /// A start whose motion repeats before this number of touches was already on its way to the cycle.
 const SETTLED: u64 = 256;
 
-/// Most steps of a motion per touch.
+/// Largest number of steps of a motion per touch.
 const STEPS_OF_TOUCH: u64 = 8;
 
 /// Touches after which the state is stored.
 const MARK: u64 = 16;
 
-/// Most states per start from which a rotor may continue.
+/// Largest number of states per start from which a rotor may continue.
 const MOST_STATES: usize = 16;
 
-/// Most touches of a start recorded in closed form, and of one that an engine follows or that has rigid
-/// impacts.
+/// Largest number of touches of a start recorded in closed form, and of one that an engine follows or that
+/// has rigid impacts.
 const LONGEST: u64 = 20_000;
 const SHORTEST: u64 = 2_000;
 

@@ -24,7 +24,7 @@ use crate::motor::operation::settings::OperatingSettings;
 /// in a given narrower trap with a probability below 1 in 40.
 pub const LEAST_TRAP_WIDTH: f64 = 5.0e-4;
 
-/// Most steps of a scan.
+/// Largest number of steps of a scan.
 const MOST_STEPS: f64 = 1.0e7;
 
 /// Bisections of a step that locate the edge of a trap.

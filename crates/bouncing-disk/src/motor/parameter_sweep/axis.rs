@@ -4,7 +4,7 @@ use crate::error::{Error, check, within_limit};
 use crate::motor::data_sheet::motor_field::MotorField;
 use crate::motor::data_sheet::parameters::MotorParameters;
 
-/// Most cells of a sweep, for example a map of 300 by 300.
+/// Largest number of cells of a sweep, for example a map of 300 by 300.
 pub const MAX_SWEEP_CELLS: usize = 100_000;
 
 /// A parameter and its values, in any order, in the unit of the parameter. Values may repeat.

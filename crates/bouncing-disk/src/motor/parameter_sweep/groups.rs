@@ -19,15 +19,15 @@ use crate::motor::operation::settings::OperatingSettings;
 /// has this many times fewer impacts; otherwise a few cells that never settle would take most of an hour.
 const SHARE_OF_CELL: u64 = 100;
 
-/// Most cells of a group. Far fewer would make poor use of a vertical motion; with far more, much would be
-/// lost when a run is stopped.
+/// Largest number of cells of a group. Far fewer would make poor use of a vertical motion; with far more,
+/// much would be lost when a run is stopped.
 const MOST_CELLS: usize = 256;
 
-/// Most rotors of a group on all of its vertical motions together. Each has a few hundred windows of 40
-/// bytes, so a group needs about 100 MB at most.
+/// Largest number of rotors of a group on all of its vertical motions together. Each has a few hundred
+/// windows of 40 bytes, so a group needs about 100 MB at most.
 const MOST_ROTORS: usize = 1 << 14;
 
-/// Most cells of a group, so that its memory is bounded for any number of vertical motions.
+/// Largest number of cells of a group, so that its memory is bounded for any number of vertical motions.
 pub(crate) fn most_cells(settings: &OperatingSettings) -> usize {
     (MOST_ROTORS / settings.members.max(1)).clamp(1, MOST_CELLS)
 }

@@ -14,13 +14,14 @@ use crate::parameters::dimensionless::DimensionlessSystem;
 use crate::parameters::scales::Scales;
 use crate::parameters::system::System;
 
-/// Most periods of the platform in a transient: beyond 2^53 a double cannot count them one by one.
+/// Largest number of periods of the platform in a transient: beyond 2^53 a double cannot count them one by
+/// one.
 const MAX_PERIODS: f64 = 9_007_199_254_740_992.0;
 
 /// Shortest interval of a curve (rad): the rounding of a phase.
 const SHORTEST_INTERVAL: f64 = 1.0e-15;
 
-/// Most intervals of a curve.
+/// Largest number of intervals of a curve.
 pub(crate) const MAX_INTERVALS: usize = 1_000_000;
 
 /// The cost of an event, in flights: one that ends a chatter takes longer than a flight.

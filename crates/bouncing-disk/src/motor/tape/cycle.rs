@@ -21,7 +21,7 @@ const HALVINGS: u32 = 60;
 /// Steps per period during a contact, in a cycle and in a coarser copy that shows the error of the steps.
 const RESOLUTIONS: [f64; 2] = [2048.0, 1024.0];
 
-/// Most knots of a cycle of any length.
+/// Largest number of knots of a cycle of any length.
 const MOST_KNOTS: f64 = 65_536.0;
 
 /// The record of a cycle.

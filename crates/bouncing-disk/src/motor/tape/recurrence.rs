@@ -25,7 +25,7 @@ const LEAST_CYCLE: f64 = PI;
 /// Touches separated by less than this time (rad) count as one.
 pub(crate) const AT_ONCE: f64 = 1.0e-9;
 
-/// Most touches of a cycle.
+/// Largest number of touches of a cycle.
 const LONGEST: u64 = 128;
 
 /// The state in which a disk touches the platform, or leaves it.

@@ -58,7 +58,7 @@ const TERMS: usize = 9;
 /// Length of a piece, in radians of the fastest change.
 const PIECE: f64 = 1.5;
 
-/// Most pieces of a table; longer contacts are left to the general solver.
+/// Largest number of pieces of a table; longer contacts are left to the general solver.
 const MOST_PIECES: f64 = 256.0;
 
 /// A step in radians of the fastest change for which Taylor series hold: their first omitted terms are below
@@ -68,7 +68,7 @@ const NEAR: f64 = 0.05;
 /// Rounding of the coefficients of a piece, relative to their terms.
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
 
-/// Most pieces over which a short flight is followed.
+/// Largest number of pieces over which a short flight is followed.
 const SCANNED: f64 = 5.0;
 
 /// The share of its first piece over which a function that starts at zero must certainly rise.
@@ -77,8 +77,8 @@ const START: f64 = 0.125;
 /// Bisections of a piece whose coefficients do not decide.
 const HALVINGS: u32 = 6;
 
-/// Most fourth-order steps to a root; after one smaller than [`LAST_STEP`], in radians of the fastest change,
-/// only rounding is left.
+/// Largest number of fourth-order steps to a root; after one smaller than [`LAST_STEP`], in radians of the
+/// fastest change, only rounding is left.
 const STEPS: u32 = 12;
 const LAST_STEP: f64 = 5.0e-5;
 
