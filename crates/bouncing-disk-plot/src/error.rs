@@ -59,7 +59,7 @@ pub enum DrawError {
         panel: String,
     },
     /// A cell of a raster refers to no colour of its palette.
-    #[error("a raster cell has colour {index}, but the palette only {colours}")]
+    #[error("a raster cell has colour {index}, but the palette has only {colours}")]
     RasterColour {
         /// The index.
         index: u8,
@@ -67,7 +67,7 @@ pub enum DrawError {
         colours: usize,
     },
     /// A list does not have a value for each point or cell, or it is empty.
-    #[error("{what}: {given} values for {needed}")]
+    #[error("{what}: {given} values for {needed} points or cells")]
     Length {
         /// Which list.
         what: &'static str,
@@ -77,7 +77,7 @@ pub enum DrawError {
         needed: usize,
     },
     /// The figure or a panel has no area, or is too large for a picture.
-    #[error("{what} is {width} by {height} points")]
+    #[error("{what} of {width} by {height} points has no area, or is too large for a picture")]
     Size {
         /// Which part.
         what: &'static str,

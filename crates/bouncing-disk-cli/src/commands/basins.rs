@@ -100,7 +100,7 @@ pub(crate) struct BasinsJob {
 /// The attractors of the impacts.
 pub(crate) enum Known {
     Sine(Attractors),
-    /// On another drive, or with a compliant contact.
+    /// Attractors on another drive, or with a compliant contact.
     Driven(Attractors<DrivenMap>),
 }
 

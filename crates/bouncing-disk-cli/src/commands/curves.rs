@@ -28,7 +28,7 @@ Examples:
   bouncing-disk curves
   bouncing-disk curves -G 0.52 --restitution 0.45 --out curves.csv")]
 pub(crate) struct CurvesArgs {
-    /// Axial forcing parameter Gamma = A omega^2/(pi g), a number. That of FILE, --preset or --set unless
+    /// Axial forcing parameter Gamma = A omega^2/(pi g), a number. Taken from FILE, --preset or --set unless
     /// given; without these 0.45
     #[arg(help_heading = super::map::VERTICAL, long, short = 'G', value_name = "GAMMA", allow_hyphen_values = true)]
     axial_forcing: Option<Range>,

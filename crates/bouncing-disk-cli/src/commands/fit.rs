@@ -71,7 +71,7 @@ pub(crate) struct FitArgs {
     #[arg(help_heading = OWN, long, alias = "evaluations", allow_negative_numbers = true, value_name = "N", requires = "parameter",
           default_value_t = MotorFitSettings::default().most_evaluations)]
     most_evaluations: usize,
-    /// For rated points: most impacts for one computed speed, all members together, at least 1
+    /// For rated points: largest number of impacts for one computed speed, all members together, at least 1
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", requires = "parameter",
           default_value_t = MotorFitSettings::default().operating.most_impacts)]
     most_impacts: u64,

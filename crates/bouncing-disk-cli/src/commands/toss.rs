@@ -66,11 +66,11 @@ pub(crate) struct TossArgs {
     /// With --many: impacts over which the motion is judged
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = 1_024, requires = "many")]
     examined: usize,
-    /// With --many: periods of the platform in the file of the motion, from the start, at most 2^30
+    /// With --many: number of platform periods, from the start, to write to a file of the motion, at most 2^30
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = 10, requires = "many")]
     periods: u64,
-    /// Instants of the motion in a file, at most a million; by default 40 in each period of the platform,
-    /// and at least 400
+    /// Number of instants to write to a file of the motion, at most a million; by default 40 in each period of
+    /// the platform, and at least 400
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=MOST_INSTANTS))]
     samples: Option<u32>,
     #[command(flatten)]

@@ -127,7 +127,7 @@ pub(crate) struct BestArgs {
     #[arg(help_heading = OWN, long, value_name = "FIELD=RANGE", required_unless_present = "template", value_parser = search_range)]
     over: Vec<SearchRange>,
     /// A bound, QUANTITY >= NUMBER or QUANTITY <= NUMBER; at most two
-    #[arg(help_heading = OWN, long = "where", value_name = "NAME>=NUMBER")]
+    #[arg(help_heading = OWN, long = "where", value_name = "BOUND")]
     bounds: Vec<QuantityBound>,
 }
 

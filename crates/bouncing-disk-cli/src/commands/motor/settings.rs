@@ -47,7 +47,7 @@ impl SettingsArgs {
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Spread")]
 pub(super) struct SpreadArgs {
-    /// Relative tolerance of preload and amplitude for the spread
+    /// Relative tolerance of preload and amplitude over which the spread is computed
     #[arg(long, allow_hyphen_values = true, value_name = "SHARE", default_value_t = InputTolerance::default().preload)]
     tolerance: f64,
     /// Motors sampled within the tolerance

@@ -43,7 +43,7 @@ pub(crate) struct SweepArgs {
     picture: SweepQuantity,
     /// A bound as in `motor best`, drawn in a map as a line between the cells that keep it and the
     /// others
-    #[arg(help_heading = OWN, long = "where", value_name = "NAME>=NUMBER")]
+    #[arg(help_heading = OWN, long = "where", value_name = "BOUND")]
     bound: Option<QuantityBound>,
     #[command(flatten)]
     settings: SettingsArgs,
