@@ -117,7 +117,7 @@ impl DrivenFamily {
     /// ```
     ///
     /// # Errors
-    /// Those of [`Self::new`], for either number.
+    /// The errors of [`Self::new`], for either number.
     pub fn of_two(
         numbers: [f64; 2],
         units: [f64; 2],

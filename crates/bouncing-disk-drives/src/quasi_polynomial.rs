@@ -188,7 +188,7 @@ pub struct Jet {
 
 /// A polynomial of degree at most 3 plus damped sines.
 ///
-/// It is stored by value and slope at t = 0, and the terms without their own value and slope there. So a
+/// It is stored as its value and slope at t = 0, and its terms less their own value and slope there. So a
 /// function that starts at zero keeps its relative accuracy arbitrarily close to the start.
 ///
 /// ```

@@ -22,7 +22,7 @@ const ERROR: i32 = 3;
 
 type Log = unsafe extern "C" fn(*mut c_void, i32, *const c_char, *const c_char);
 
-/// What a master knows as an instance.
+/// The object that a master knows as an instance.
 #[derive(Debug)]
 struct Handle {
     instance: Instance,
@@ -115,7 +115,7 @@ fn folder_of(text: &str) -> Result<PathBuf, String> {
     Ok(PathBuf::from(if is_drive { &decoded[1..] } else { &decoded }))
 }
 
-/// With %20 and the like as the characters that they stand for; a percent sign that begins none stays. `None` if the
+/// The text with %20 and the like decoded; a percent sign that begins no such code stays. `None` if the
 /// result is not UTF-8.
 fn decoded(text: &str) -> Option<String> {
     let (bytes, mut decoded, mut at) = (text.as_bytes(), Vec::new(), 0);

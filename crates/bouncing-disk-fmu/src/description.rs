@@ -28,7 +28,7 @@ const UNITS: &[(&str, &str)] = &[
     ("W", "kg=\"1\" m=\"2\" s=\"-3\""),
 ];
 
-/// What an instance must be given to show that it belongs to this description: a hash (FNV-1a) of the data sheet and of
+/// The token that an instance must be given to show that it belongs to this description: a hash (FNV-1a) of the data sheet and of
 /// the version.
 pub(crate) fn token(sheet: &str) -> String {
     let hash = |basis: u64| {

@@ -25,11 +25,11 @@ enum Mode {
 pub(crate) struct Instance {
     motor: Motor,
     variables: Vec<Variable>,
-    /// Of each variable; the values of outputs have no meaning.
+    /// The values of the variables; those of outputs have no meaning.
     values: Vec<f64>,
     mode: Mode,
     start: f64,
-    /// With its outputs, once the parameters are known.
+    /// The simulation with its outputs, once the parameters are known.
     running: Option<(MotorSimulation, MotorOutputs)>,
 }
 

@@ -18,11 +18,11 @@ impl Colour {
     pub const BLACK: Self = Self::rgb(0, 0, 0);
     /// White.
     pub const WHITE: Self = Self::rgb(255, 255, 255);
-    /// For the main curves where the paper prints dark gray.
+    /// Dark grey, for main curves that the paper prints in dark gray.
     pub const DARK_GREY: Self = Self::rgb(70, 70, 70);
     /// Mid grey.
     pub const GREY: Self = Self::rgb(128, 128, 128);
-    /// For secondary curves where the paper prints light gray.
+    /// Light grey, for secondary curves that the paper prints in light gray.
     pub const LIGHT_GREY: Self = Self::rgb(190, 190, 190);
     /// A grey that only tints an area.
     pub const PALE_GREY: Self = Self::rgb(228, 228, 228);

@@ -72,12 +72,12 @@ impl Figure {
     ///
     /// # Errors
     ///
-    /// As [`Figure::to_svg`], and when rendering fails.
+    /// The errors of [`Figure::to_svg`], and [`DrawError::Render`] if rendering fails.
     pub fn to_png(&self) -> Result<Vec<u8>, DrawError> {
         rendered(&self.to_svg()?, f32::MAX)
     }
 
-    /// As [`Figure::to_png`], made smaller where it would be wider than so many pixels.
+    /// The picture of [`Figure::to_png`], made smaller if it would be wider than `pixels`.
     ///
     /// # Errors
     ///

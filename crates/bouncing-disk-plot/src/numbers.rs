@@ -1,6 +1,6 @@
 //! Numbers as people read them, and their extent.
 
-/// A number with so many significant digits at most, without trailing zeros; powers of ten only where they
+/// A number with at most `digits` significant digits, without trailing zeros; powers of ten only if they
 /// are needed.
 pub fn rounded(value: f64, digits: usize) -> String {
     let rounded: f64 = format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value);

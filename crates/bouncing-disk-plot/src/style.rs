@@ -49,7 +49,7 @@ impl Default for Stroke {
 }
 
 builders!(Stroke {
-    /// With dashes.
+    /// The stroke with dashes.
     dashed(dash: Dash) |own| own.dash = dash;
 });
 

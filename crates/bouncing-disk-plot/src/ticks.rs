@@ -22,7 +22,7 @@ pub(crate) enum Choice {
     #[default]
     Automatic,
     Every(f64),
-    /// Of numerator and denominator.
+    /// Steps of pi times a fraction, given as numerator and denominator.
     PiFractions(u32, u32),
     PiDecimals(f64),
     At(Vec<(f64, Label)>),
@@ -155,7 +155,7 @@ pub(crate) fn logarithmic(ticks: &Ticks, low: f64, high: f64) -> PlacedTicks {
     PlacedTicks { ticks, power: None }
 }
 
-/// Those of the given ticks that lie on the axis.
+/// The given ticks that lie on the axis.
 fn within(given: &[(f64, Label)], low: f64, high: f64) -> PlacedTicks {
     let inside = given.iter().filter(|(value, _)| (low..=high).contains(value));
     let ticks = inside.map(|(value, label)| Tick { value: *value, label: Some(label.clone()) });

@@ -86,7 +86,7 @@ fn forcing_text(forcing: f64) -> String {
     if text.len() < 4 { format!("{forcing:.2}") } else { text }
 }
 
-/// That the boundary in `panel` is fractal; that in `smooth` is not.
+/// The claim that the boundary in `panel` is fractal, and the one in `smooth` is not.
 fn fractal(panel: &Panel, smooth: &Panel) -> Claim {
     let words = |panel: &Panel| {
         panel

@@ -156,7 +156,7 @@ struct LowPeriod {
     /// Motors drawn to find them.
     drawn: usize,
     motors: Vec<AlikeMotor>,
-    /// For each the lines that its speed forms.
+    /// The lines that each speed forms.
     lines: Vec<Lines>,
 }
 

@@ -309,7 +309,7 @@ impl AttractingMap for ImpactMap {
         self.prime_orbit(guess)
     }
 
-    /// From the lowest point of the platform: all rests end at the same phase.
+    /// One start, at the lowest point of the platform: all rests end at the same phase.
     fn to_rests(&self, _seen: &[ImpactState], _observer: &dyn Observer) -> Result<Vec<ImpactState>, Error> {
         Ok(vec![ImpactState::of_impact(Phase::new(1.5 * PI)?, 0.0)])
     }
@@ -318,7 +318,7 @@ impl AttractingMap for ImpactMap {
         orbit.proven_radius(self)
     }
 
-    /// In lockstep lanes.
+    /// Labels rows in lockstep lanes.
     fn labels_of_rows(
         &self,
         grid: Grid,

@@ -27,7 +27,7 @@ const SHARE_OF_WIDEST: f64 = 0.7;
 /// Largest number of impacts of an orbit that is tested for trapping circles.
 const SHORT: usize = 8;
 
-/// For the test whether starts return nearer to their initial impact: the largest radius, the one at which
+/// Settings of the test whether starts return nearer to their initial impact: the largest radius, the one at which
 /// the search gives up, the circles of each trial as shares of its radius, the starts on each circle, and the
 /// ratio of the result to the radius.
 const LARGEST_CIRCLE: f64 = 0.05;

@@ -437,7 +437,7 @@ impl<M: AttractingMap> Attractors<M> {
     ///
     /// Starts are spread evenly over the trapping region ([`AttractingMap::impact_speed_bound_at`]), which no
     /// attractor can leave, so the result does not depend on a chosen window. Each start is followed until it
-    /// rests, or is seen to approach a periodic orbit, which is then refined. Of the remaining starts one is
+    /// rests, or is seen to approach a periodic orbit, which is then refined. One of the remaining starts is
     /// followed for as many impacts as the [search](AttractorSearch::with_impacts) allows, and so are 1,024
     /// orbits that begin near its impacts. If none of these leaves, all starts that return to the visited
     /// cells are on the same attractor. If one leaves, the motion is a [transient](AttractorKind::Transient),

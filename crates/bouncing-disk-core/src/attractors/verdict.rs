@@ -433,8 +433,8 @@ const FEWEST_IMPACTS: f64 = 64.0;
 /// The settings for following an orbit to its verdict.
 ///
 /// An orbit that repeats or rests is decided as soon as this is observed. The others are followed for
-/// `transient` + `impacts` impacts. After a rest on a platform that falls away this starts again, once for
-/// each phase at which the rest ends.
+/// `transient` + `impacts` impacts. After a rest on a platform that falls away the count starts again, once
+/// for each phase at which the rest ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedSettings"))]

@@ -27,9 +27,9 @@ pub enum ManifoldKind {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Side {
-    /// Towards later phases; towards slower impacts if the manifold does not change its phase.
+    /// The side of later phases, or of slower impacts if the phase is constant along the manifold.
     Later,
-    /// Towards earlier phases, or faster impacts.
+    /// The side of earlier phases, or of faster impacts.
     Earlier,
 }
 

@@ -343,7 +343,7 @@ impl<L: RestitutionLaw> ImpactMap<L> {
 pub enum OrbitEvent {
     /// The disk hits the platform.
     Impact(Impact),
-    /// The disk comes to rest on the platform. On a sine that falls away from it, it separates again; on a
+    /// The disk comes to rest on the platform. On a sine it separates again as the platform falls away; on a
     /// drive the separation is an event of its own. In a compliant contact it stays forever; the error bound
     /// is infinite if this is only inferred from 4096 turns of the spring without a release.
     Attachment(Attachment),

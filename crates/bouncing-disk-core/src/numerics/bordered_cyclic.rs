@@ -69,7 +69,7 @@ impl CyclicEquations {
         self.solved::<2, 9>([&self.column, second], conditions)
     }
 
-    /// With K parameters and rows of WIDTH = 7 + K columns, for one equation at least.
+    /// The solution with K parameters and rows of WIDTH = 7 + K columns, for at least one equation.
     fn solved<const K: usize, const WIDTH: usize>(
         &self,
         columns: [&[DVec2]; K],

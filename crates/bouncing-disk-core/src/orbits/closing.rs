@@ -128,9 +128,9 @@ pub(crate) fn turned(angle: f64) -> f64 {
 /// The units in which changes of the first impact and of the parameter are measured.
 #[derive(Debug, Clone, Copy)]
 pub struct Scale {
-    /// Of the speed.
+    /// The unit of the speed.
     pub speed: f64,
-    /// Of the parameter.
+    /// The unit of the parameter.
     pub parameter: f64,
 }
 
@@ -138,11 +138,11 @@ pub struct Scale {
 /// (rad).
 #[derive(Debug, Clone, Copy)]
 pub struct Flight {
-    /// Just after the impact before.
+    /// The state just after the impact before.
     pub from: (f64, f64),
-    /// Just before the impact after.
+    /// The state just before the impact after.
     pub to: (f64, f64),
-    /// Between both.
+    /// The time between both impacts.
     pub duration: f64,
 }
 
@@ -183,7 +183,7 @@ pub(crate) struct Closing<M> {
 }
 
 impl<M: ClosingMap> Closing<M> {
-    /// The equations of an orbit of `map`, and the orbit in their unknowns.
+    /// The equations that an orbit of `map` satisfies, and the orbit as a solution of them.
     pub(crate) fn of(
         map: &M,
         by: ContinuationParameter,

@@ -29,7 +29,7 @@ pub(super) mod walker;
 
 use walker::Walker;
 
-/// By how much, relative, the forcing of a map may differ from the one that it was made for: the roundings of
+/// Largest relative difference of a map's forcing from the one that it was made for: the roundings of
 /// a product and a quotient with pi.
 const ROUNDED: f64 = 4.0 * f64::EPSILON;
 

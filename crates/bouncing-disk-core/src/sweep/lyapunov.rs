@@ -127,7 +127,7 @@ impl LyapunovEstimate {
         within("impacts of an exponent", self.impacts as f64, 1.0, f64::MAX, "at least 1").map(|_| ())
     }
 
-    /// An empty mean for the logarithms of growths.
+    /// A mean, still empty, of the logarithms of growth factors.
     #[must_use]
     pub fn growths() -> BatchMeans {
         BatchMeans::with_resolution(GROWTH_RESOLUTION)

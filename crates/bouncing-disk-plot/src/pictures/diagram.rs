@@ -34,7 +34,7 @@ pub struct OrbitDiagram<'a> {
     pub axial_forcings: (f64, f64),
     /// The restitution of all orbits.
     pub restitution: f64,
-    /// What follows the restitution in words, as the shape of a drive: ", parabolas".
+    /// Words to print after the restitution, such as the shape of a drive: ", parabolas".
     pub shape: &'a str,
     /// The orbits, by where they start.
     pub starts: &'a [OrbitsFrom],

@@ -41,8 +41,8 @@ pub struct Basins<'a> {
     pub phases: [f64; 2],
     /// See [`phases`](Self::phases).
     pub speeds: [f64; 2],
-    /// Of as many cells along each axis the labels, row by row from the lowest speed: 0 is undecided, 1 rest,
-    /// 2 the first orbit.
+    /// The labels of the cells, as many along each axis, row by row from the lowest speed: 0 is undecided,
+    /// 1 rest, 2 the first orbit.
     pub labels: &'a [u8],
     /// The words of the labels.
     pub legend: &'a [(u8, String)],
@@ -54,7 +54,7 @@ impl Basins<'_> {
     /// The label of the first orbit.
     const FIRST_ORBIT: u8 = 2;
 
-    /// As in the paper: the rest white, the first orbit black; further ones in colours.
+    /// The colour of a label, as in the paper: rest white, the first orbit black; further orbits in colours.
     fn colour(label: u8) -> Colour {
         match label {
             0 => Colour::LIGHT_GREY,

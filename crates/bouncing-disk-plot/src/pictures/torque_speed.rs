@@ -66,10 +66,10 @@ pub fn interval_curve(points: &[Point], colour: Colour, band: Fill, name: Option
 }
 
 /// A quantity, with the half widths of its intervals, over one parameter. `coexisting` contains values and
-/// half widths of further motions with their marks, not finite if there is none: where there are several
-/// motions, their points are not joined. A key below the curve explains the marks.
+/// half widths of further motions with their marks; they are not finite if there is no such motion. If there
+/// are several motions, their points are not joined. A key below the curve explains the marks.
 ///
-/// Of a sweep whose values go up to the cell `turns_at` and down again, both ways are curves of their own.
+/// If the values of a sweep go up to the cell `turns_at` and down again, each way is a separate curve.
 pub fn swept_curve(
     along: &Quantity<'_>,
     quantity: &Quantity<'_>,

@@ -38,8 +38,8 @@ impl FittedCurve {
         Line::new(self.points.iter().copied()).colour(Colour::BLACK).width(1.0).dash(Dash::Dashed)
     }
 
-    /// Its numbers, with so many decimals of the speed, at the right end of two lines: the lower one at the
-    /// height `bottom` of the frame, the upper one `pitch` above.
+    /// The fitted numbers in two lines at the right, with `decimals` decimals of the speed: the lower line at
+    /// the height `bottom` of the frame, the upper one `pitch` above.
     pub fn notes(&self, decimals: usize, bottom: f64, pitch: f64) -> [Text; 2] {
         let speed = format!(r"$\dot{{\alpha}}_{{ss}} = {:.decimals$}$ rad/s", self.steady_speed);
         let constant = format!("$t_c = {:.3}$ s", self.time_constant);

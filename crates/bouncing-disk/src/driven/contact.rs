@@ -71,7 +71,7 @@ impl Ride<'_> {
         }
     }
 
-    /// As [`Drive::change`].
+    /// The change of the motion as by [`Drive::change`].
     pub(super) fn change(&self, at: f64, span: f64) -> (f64, f64) {
         match self {
             Self::Platform(drive) => drive.change(at, span),
@@ -386,7 +386,7 @@ impl Touching<'_> {
         })
     }
 
-    /// For a compliant contact: the work of the platform over the next `span`, the loss in the damper, and
+    /// Energies of a compliant contact: the work of the platform over the next `span`, the loss in the damper, and
     /// the gap at the start and at the end.
     pub(super) fn normal_work(&self, start: &DiskState, at: f64, span: f64) -> (f64, f64, [f64; 2]) {
         let Some(compliant) = &self.system.compliance else { return (0.0, 0.0, [0.0; 2]) };

@@ -40,9 +40,9 @@ pub struct DrivenGround {
 /// A flight over a drive.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum DrivenFlight {
-    /// From this gap above the platform, with this velocity relative to it.
+    /// A flight from this gap above the platform, with this velocity relative to it.
     Free { gap: f64, velocity: f64 },
-    /// From a contact whose force has fallen to zero.
+    /// A flight from a contact whose force has fallen to zero.
     Separated,
     /// Many short flights, from this launch speed to rest.
     Chatter { speed: f64, chatter: ChatterDuration },

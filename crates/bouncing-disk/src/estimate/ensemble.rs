@@ -35,8 +35,8 @@ impl Spread {
     /// The spread of at least one value, all finite.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] without values, for a value that is not finite, or for a deviation that a double
-    /// cannot represent.
+    /// [`Error::OutOfRange`] if there are no values, if a value is not finite, or if a double cannot represent
+    /// the deviation.
     pub fn of(values: &[f64]) -> Result<Self, Error> {
         check(!values.is_empty(), "number of values", 0.0, "[1, inf)")?;
         for &value in values {

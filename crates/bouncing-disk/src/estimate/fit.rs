@@ -103,7 +103,7 @@ pub struct RampFit {
 }
 
 impl RampFit {
-    /// As [`ExponentialFit::new`], with the ramp instead of the exponential.
+    /// Fits the ramp as [`ExponentialFit::new`] fits the exponential.
     ///
     /// # Errors
     /// The errors of [`ExponentialFit::new`].
@@ -126,7 +126,7 @@ impl RampFit {
     }
 }
 
-/// Runs a fit as a call of its own.
+/// Runs a fit as one observed call.
 fn observed<Fit>(
     observer: &dyn Observer,
     fit: impl FnOnce(&mut WorkCount<'_>) -> Result<Fit, Error>,

@@ -84,8 +84,8 @@ const SETTLED: f64 = 0.25;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MotorFitSettings {
-    /// Largest number of points of the ranges at which all measurements are computed, in [8, 400]. Default
-    /// 200. Fewer are used if they suffice.
+    /// Largest number of parameter sets at which all measurements are computed, in [8, 400]. Default 200.
+    /// Fewer are used if they suffice.
     pub most_evaluations: usize,
     /// How a point is computed. Default: 6 members, an error of 0.02, at most 500,000 impacts.
     pub operating: OperatingSettings,

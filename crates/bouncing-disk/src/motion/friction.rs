@@ -42,7 +42,7 @@ enum Growth {
     Never,
     /// The whole period.
     Always,
-    /// Over `width` radians from the phase whose negative is `shift`.
+    /// The `width` radians from the phase whose negative is `shift`.
     Within { shift: f64, width: f64 },
 }
 

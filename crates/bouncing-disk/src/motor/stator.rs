@@ -15,9 +15,9 @@ use crate::stator::{LoadLine, StatorSystem};
 /// The motion of a motor's stator, and its system, chosen once when the sheet is built.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Stator {
-    /// As in Eq. (1), with rigid impacts and a constant load.
+    /// The prescribed sine of Eq. (1), with rigid impacts and a constant load.
     Sine,
-    /// By prescribed waveforms, or with compliant contacts.
+    /// Prescribed waveforms, or compliant contacts.
     Driven(Arc<Prescribed>),
     /// A compliant stator, or a load that follows a law.
     Yielding(Arc<StatorSystem>),

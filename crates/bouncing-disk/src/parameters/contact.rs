@@ -61,7 +61,7 @@ materials! {
     /// Wheat dough: three times a shear modulus of 1 to 30 kPa at small oscillations, depending on water and
     /// frequency; orders of magnitude, not taken from a table. Bubbles make it compressible.
     Dough: 3.0e-6, 1.0e-4, 0.45;
-    /// From soft tissue (an order of magnitude, not taken from a table) to epidermis (Geerligs et al., J.
+    /// Skin: from soft tissue (an order of magnitude, not taken from a table) to epidermis (Geerligs et al., J.
     /// Biomech. 44, 1176 (2011)).
     Skin: 5.0e-6, 2.0e-3, 0.45;
 }

@@ -225,7 +225,7 @@ impl Waveform {
     /// The maps that differ in two numbers, for curves of bifurcations over both.
     ///
     /// # Errors
-    /// Those of [`Self::family`], for either number.
+    /// The errors of [`Self::family`], for either number.
     pub fn family_of_two(
         &self,
         sine: &ImpactMap,

@@ -153,7 +153,7 @@ impl System {
     /// contact radius (Eq. 13).
     ///
     /// # Errors
-    /// Those of [`Platform::from_stroke`] and of [`Self::new`].
+    /// The errors of [`Platform::from_stroke`] and of [`Self::new`].
     pub fn with_stroke(&self, stroke: f64, amplitude_angle: f64) -> Result<Self, Error> {
         let platform = Platform::from_stroke(Stroke { stroke, amplitude_angle, ..self.stroke() })?;
         self.with_parts(platform, *self.disk())

@@ -36,7 +36,7 @@ pub(crate) struct LinearFlow<const N: usize> {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Functional<const N: usize> {
     now: Vector<N>,
-    /// For each component of the state, its weights in the coefficients, up to the last non-zero one.
+    /// The weights of each component of the state in the coefficients, up to the last non-zero one.
     columns: Vec<Vec<f64>>,
     /// The sums of their magnitudes.
     sizes: Vector<N>,

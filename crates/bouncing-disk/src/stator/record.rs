@@ -69,14 +69,14 @@ impl StatorRecord {
 /// How a flight begins, which determines the derivatives of the gap that vanish at its start.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Launch {
-    /// Above the platform.
+    /// A start above the platform.
     Air,
-    /// From the platform with a speed.
+    /// A launch from the platform with a speed.
     Rebound,
-    /// By a force that falls to zero: in a rigid contact without acceleration, in a compliant one below the
+    /// A contact force that falls to zero: in a rigid contact without acceleration, in a compliant one below the
     /// platform. Contains the third derivative of the gap.
     Release(f64),
-    /// Below the platform of a compliant contact, where spring and damper would pull.
+    /// A start below the platform in a compliant contact, where spring and damper would pull.
     Below,
 }
 

@@ -36,7 +36,7 @@ pub(super) struct Census {
     /// ends.
     pub(super) sliding_impacts: u64,
     pub(super) capped_impacts: u64,
-    /// Those that occurred, in the order of the modes and events.
+    /// The transitions that occurred, in the order of the modes and events.
     pub(super) transitions: BTreeSet<Transition>,
 }
 

@@ -51,8 +51,8 @@ pub(super) struct Bouncing {
     period: Option<usize>,
     /// The same if two rounds need to agree only as well as the picture shows.
     drawn_period: Option<usize>,
-    /// Of all pairs of impacts in runs of flights of less than half a period those whose later one is slower, and whose later
-    /// flight is shorter.
+    /// Pairs of successive impacts, in runs of flights of less than half a period, whose later impact is slower, and pairs whose
+    /// later flight is shorter.
     slower: Cases,
     shorter: Cases,
     /// Whether it is on another attractor than the followed one.
@@ -140,7 +140,7 @@ struct Chatter {
     axial_forcing: f64,
     /// Impacts up to the paper's cut.
     impacts: usize,
-    /// Of all pairs of these, those whose later one is slower, and whose later flight is shorter.
+    /// Pairs of successive impacts whose later impact is slower, and pairs whose later flight is shorter.
     slower: Cases,
     shorter: Cases,
     /// The time of rest (periods), from the separation on, with infinitely many impacts summed, and with the

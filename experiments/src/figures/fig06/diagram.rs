@@ -62,7 +62,7 @@ impl Inputs {
         [self.linear, self.semielliptical]
     }
 
-    /// With the angular forcings of (c) and (d) exchanged.
+    /// The diagram with the angular forcings of (c) and (d) exchanged.
     pub(super) fn exchanged(self) -> Self {
         let Self { mut linear, mut semielliptical, .. } = self;
         std::mem::swap(&mut linear.angular_forcing, &mut semielliptical.angular_forcing);

@@ -241,7 +241,7 @@ pub(super) fn torques(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
 /// Relative change of a parameter (of the phase lag, in rad): its square, the error of a central difference, and the rounding
 /// that it divides are both far below [`DEPENDENT`].
 const CHANGE: f64 = 1.0e-5;
-/// Of a QR decomposition with exchanges, a diagonal element that is smaller than this share of the largest is zero: independent rows
+/// A diagonal element of a QR decomposition with exchanges counts as zero below this share of the largest one: independent rows
 /// leave ten thousand times as much, dependent ones a hundredth.
 const DEPENDENT: f64 = 0.5e-6;
 /// The phase (rad), w_A/(ωA) and w_T/(ωΦ) of the impacts that are mapped: no special ones, slow and fast, forward and backward, in

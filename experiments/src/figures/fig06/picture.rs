@@ -32,7 +32,7 @@ pub(super) struct Picture<'a> {
 type Column = fn(&Slice) -> &[f64];
 
 pub(super) fn draw(picture: &Picture<'_>) -> Figure {
-    /// Of the four panels of the paper.
+    /// The four panels of the paper.
     const UPPER: f64 = 400.0;
     const HEIGHT: f64 = 570.0;
     let diagram = picture.diagram;

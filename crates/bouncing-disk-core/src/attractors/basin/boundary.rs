@@ -57,7 +57,7 @@ pub enum BoundaryFit {
         /// The smallest and the largest slope.
         slopes: (f64, f64),
     },
-    /// At fewer than three distances there is any uncertain cell, too few for a fit.
+    /// Cells are uncertain at fewer than three distances, too few for a fit.
     TooFew {
         /// The number of distances with uncertain cells.
         distances: usize,
@@ -82,7 +82,7 @@ impl Basins {
     /// `distances` (such as 1, 2, 4, 8, ... or 1, 3, 9, ...) the same cells count: all that are farther from
     /// the edges of the grid than the largest distance. Undecided cells count as a basin of their own.
     ///
-    /// The items of `observer` are the rows of cells that count, once for each distance.
+    /// The items of `observer` are the counted rows of cells, once for each distance.
     ///
     /// ```
     /// use bouncing_disk_core::attractors::{AttractorSearch, Axis, BasinSettings, BoundaryFit, Grid};

@@ -138,7 +138,7 @@ fn one_way(one: &Places, other: &Places, peak: f64) -> f64 {
     one.iter().map(nearest).sum::<f64>() / one.len() as f64
 }
 
-/// For each of `new` the index of its counterpart in `old`, and the distance: the nearest pairs within
+/// The index of the counterpart in `old` of each of `new`, and the distance: the nearest pairs within
 /// `reach` first, each once.
 pub(super) fn matched(
     old: &[Option<Places>],

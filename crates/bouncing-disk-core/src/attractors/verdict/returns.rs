@@ -84,7 +84,7 @@ mod tests {
         ImpactState::new(Phase::new(angle).expect("legal"), velocity).expect("legal")
     }
 
-    /// A sequence of each period is found in fewer impacts than four periods, and none longer than allowed.
+    /// Each period is found within four periods, but no period longer than the limit.
     #[test]
     fn every_period_up_to_the_longest_is_found() {
         for period in [1_usize, 2, 3, 5, 7, 16, 31, 64, 65] {

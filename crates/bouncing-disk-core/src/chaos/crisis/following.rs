@@ -231,7 +231,7 @@ impl CrisisSearch {
         Ok(Ok(End { bracket, lost, attractor: below.states, life: lives[0].impacts }))
     }
 
-    /// Those that come to rest.
+    /// The orbits that come to rest.
     fn lost(&self, starts: &[ImpactState], forcing: f64, lived: &[(usize, ImpactState)]) -> Vec<Lost> {
         let ended = starts.iter().zip(lived).filter(|(_, own)| own.0 < self.each());
         ended.map(|(&start, own)| Lost { forcing, start, impacts: own.0 }).collect()
@@ -299,7 +299,7 @@ impl CrisisSearch {
         Ok(vec![side(Side::Later)?, side(Side::Earlier)?])
     }
 
-    /// How many impacts each orbit has before it comes to rest, at most so many, and the last of them.
+    /// The number of impacts of each orbit before it comes to rest, up to the limit, and the last of them.
     fn follow(
         &self,
         forcing: f64,
@@ -377,7 +377,7 @@ impl CrisisSearch {
         Ok(None)
     }
 
-    /// How many impacts a disk has from its separation after a rest to the next rest, at most so many.
+    /// The number of impacts from the separation after a rest to the next rest, up to the limit.
     pub(super) fn relaunched(&self, forcing: f64, most: u64) -> Result<u64, Error> {
         let map = self.map(forcing)?;
         let Some(phase) = map.vibration().separation_phase() else { return Ok(0) };

@@ -230,14 +230,15 @@ impl<M: ContinuedMap> Branch<M> {
         Ok(curve)
     }
 
-    /// All curves of the folds, doublings and grazes of this branch, with the number of the bifurcation: from each in the
-    /// direction of the first settings and, unless that curve is closed, in that of the second. A bifurcation from which
-    /// no curve can be followed, as one at which two flights graze, has none.
+    /// All curves of the folds, doublings and grazes of this branch, each with the number of its bifurcation. From each
+    /// bifurcation a curve is followed in the direction of the first settings and, unless it is closed, in the
+    /// direction of the second. A bifurcation from which no curve can be followed, such as one at which two flights
+    /// graze, is left out.
     ///
     /// The items of `observer` are the curves.
     ///
     /// # Errors
-    /// Those of [`Self::curve`], except for [`Error::NoBranch`] and bifurcations of other kinds.
+    /// The errors of [`Self::curve`], except for [`Error::NoBranch`] and bifurcations of other kinds.
     pub fn curves(
         &self,
         range: (f64, f64),

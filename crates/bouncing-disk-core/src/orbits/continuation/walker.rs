@@ -34,7 +34,7 @@ pub(super) const HALVINGS: u32 = 56;
 /// strongly unstable orbit, far below the distance of two curves that doubles can tell apart.
 pub(super) const NEIGHBOURS: f64 = 1.0e-9;
 
-/// By how much the duration of a flight (rad) may differ from the one that the map finds.
+/// Largest difference of a flight's duration (rad) from the one that the map finds.
 const SAME_FLIGHT: f64 = 1.0e-8;
 
 /// Roundings of (1 + m1)(1 + m2) for each impact, in units of the size of the derivative.
@@ -80,13 +80,14 @@ pub(crate) fn continued_from<M: ContinuedMap>(
 #[derive(Debug, Clone)]
 pub(super) struct Located {
     pub(super) at: Closed,
-    /// Of scaled length 1 in first impact and parameter.
+    /// The direction, of scaled length 1 in first impact and parameter.
     pub(super) direction: Closed,
     pub(super) arclength: f64,
     pub(super) corrections: u32,
 }
 
-/// Where a branch began, and in which direction (scaled; phase, speed, parameter): whether it is back there.
+/// Start and initial direction of a branch (scaled; phase, speed, parameter), by which its return is
+/// recognised.
 #[derive(Debug, Clone, Copy)]
 struct Start {
     at: [f64; 3],
@@ -96,7 +97,7 @@ struct Start {
 /// The course of a branch in one step.
 #[derive(Debug)]
 struct Stretch {
-    /// Where the step ends: at the next point, or where the branch ends before it.
+    /// The end of the step: the next point, or the end of the branch before it.
     last: Located,
     /// The bifurcations up to there, in the order of the arclength.
     found: Vec<Bifurcation>,
@@ -117,7 +118,7 @@ impl<'s, M: ContinuedMap> Walker<'s, M> {
         self.work.borrow_mut().spend(8 * M::WORK * self.closing.flights() as u64)
     }
 
-    /// From an orbit, in the direction of the settings.
+    /// A walker that starts from an orbit, in the direction of the settings.
     pub(super) fn new(
         closing: Closing<M>,
         guess: Closed,
@@ -137,7 +138,7 @@ impl<'s, M: ContinuedMap> Walker<'s, M> {
         Ok((walker, Located { at, direction, arclength: 0.0, corrections }))
     }
 
-    /// From a doubling, onto the branch of twice the period.
+    /// A walker that starts from a doubling, on the branch of twice the period.
     pub(super) fn after_doubling(
         closing: Closing<M>,
         at: Closed,
@@ -416,7 +417,7 @@ impl<'s, M: ContinuedMap> Walker<'s, M> {
         border.map_or(kind, |impact| BifurcationKind::BorderCollision { impact })
     }
 
-    /// As [`Self::bracket`]; `None` where the two points are not neighbours on one curve.
+    /// The result of [`Self::bracket`]; `None` if the two points are not neighbours on one curve.
     fn change(
         &self,
         base: &Located,

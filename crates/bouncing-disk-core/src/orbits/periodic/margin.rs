@@ -57,7 +57,7 @@ fn size(matrix: DMat2) -> f64 {
     matrix.to_cols_array().iter().fold(1.0, |sum, entry| sum + entry.abs())
 }
 
-/// The equations of an orbit, and the orbit in their unknowns.
+/// The equations that an orbit satisfies, and the orbit as a solution of them.
 struct Equations {
     map: ImpactMap,
     closing: Closing<ImpactMap>,

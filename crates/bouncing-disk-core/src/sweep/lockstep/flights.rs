@@ -309,7 +309,8 @@ mod tests {
         landed
     }
 
-    /// Of every number, because stages are computed for as many sixteens of lanes as hold their flights; and many.
+    /// Batches of every size, because stages are computed for as few sixteens of lanes as hold their flights; and
+    /// many flights.
     #[test]
     fn lanes_hold_what_single_flights_say() {
         const ALL: usize = 3 * LANES - 5;

@@ -116,7 +116,7 @@ const SIXTEEN: usize = 16;
 struct Sixteens(usize);
 
 impl Sixteens {
-    /// As few as hold so many flights.
+    /// The fewest sixteens that hold `count` flights.
     const fn holding(count: usize) -> Self {
         Self(count.div_ceil(SIXTEEN))
     }
@@ -390,7 +390,7 @@ impl Arcs {
 }
 
 impl Impacts {
-    /// In place of a duration: it follows from the phases of launch and impact and the turns
+    /// Stored instead of a duration that follows from the phases of launch and impact and the turns
     /// (`flight::landed`).
     pub(crate) const BETWEEN_PHASES: f64 = -1.0;
 

@@ -57,7 +57,7 @@ impl TransientMember {
         Ok(starts)
     }
 
-    /// As [`transient`](crate::motor::transient()).
+    /// The transient of one member, as by [`transient`](crate::motor::transient()).
     pub(crate) fn alone(&self, work: &mut WorkCount<'_>) -> Result<SpeedCurve, Error> {
         SpeedCurve::alone(&self.system, self.phase, &self.settings, work)
     }

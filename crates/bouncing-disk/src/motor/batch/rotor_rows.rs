@@ -3,7 +3,7 @@
 /// Rotors per row: as many as the widest vectors of current processors hold.
 pub(crate) const WIDTH: usize = 8;
 
-/// A number of each rotor.
+/// One number per rotor.
 pub(crate) type Row = [f64; WIDTH];
 
 /// Eight rotors, and their accumulated sums. Unused ones have no friction, load or speed.

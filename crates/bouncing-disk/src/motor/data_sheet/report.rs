@@ -27,7 +27,7 @@ pub struct MotorReport {
     /// The vertical motion of the rotor.
     pub regime: MotorRegime,
     /// Mean duration of a flight in periods of the stator, over the flights longer than half a period, as a
-    /// chatter has infinitely many short ones. From a perturbed motion of 20 000 to 200 000 impacts. `None`
+    /// chatter has infinitely many short ones. It is measured on a perturbed motion of 20 000 to 200 000 impacts. `None`
     /// if no flight is that long.
     pub periods_per_flight: Option<f64>,
     /// Mean speed of the impacts that end these flights (m/s).

@@ -30,7 +30,7 @@ pub(super) struct Pairs {
 }
 
 impl Pairs {
-    /// For each member, the mean of its two rotors and the value from above.
+    /// Two values for each member: the mean over its two rotors, and the value of the rotor from above.
     pub(super) fn of(&self, value: &dyn Fn(&Sum) -> f64) -> [Vec<f64>; 2] {
         let middles =
             self.below.iter().zip(&self.above).map(|(one, other)| 0.5 * (value(one) + value(other)));

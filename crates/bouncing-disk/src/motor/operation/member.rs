@@ -65,8 +65,8 @@ pub(crate) const fn size_of_perturbation(index: usize) -> usize {
     (index % 4).saturating_sub(1)
 }
 
-/// With fewer members all use the perturbation of the settings, because the scatter at one size would be
-/// unknown.
+/// Smallest number of members for perturbations of several sizes; fewer members all use the perturbation of
+/// the settings, because the scatter at one size would be unknown.
 pub(crate) const LEAST_FOR_DECADE: usize = 8;
 
 /// The factor of the perturbation.
@@ -80,16 +80,14 @@ pub(crate) fn thrown(index: usize) -> Option<f64> {
     is_thrown(index).then(|| MOST_THROWN * golden_share(index))
 }
 
-/// If the stator's mass times its ringing time, relative to the disk's, exceeds this, a run from rest takes
+/// Largest product of mass ratio and ringing time of a stator for a run from rest: beyond it, the run takes
 /// too long to settle.
 const SLOWEST: f64 = 1.0e5;
 
-/// If the amplitude of a stator takes longer than this (rad) to fall by a factor e, it is not left to ring
-/// down.
+/// Longest decay time (rad, by a factor e) of an amplitude that is left to ring down.
 pub(crate) const LONGEST_DECAY: f64 = 1.0e5;
 
-/// On a stator with this many times the disk's mass a flight changes the amplitude by less than the stated
-/// error.
+/// Mass ratio of stator and disk from which a flight changes the amplitude by less than the stated error.
 const HEAVY: f64 = 100.0;
 
 /// The starts of members on a compliant stator.

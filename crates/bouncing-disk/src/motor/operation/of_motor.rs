@@ -183,8 +183,8 @@ fn share_height(one: &Motor, other: &Motor) -> bool {
 /// The observer's items are the motors.
 ///
 /// # Errors
-/// The errors of [`Motor::operating_point`]; [`Error::OutOfRange`] for no motor; [`Error::LoadInTime`] for a
-/// time-dependent load.
+/// The errors of [`Motor::operating_point`]; [`Error::OutOfRange`] if there is no motor;
+/// [`Error::LoadInTime`] for a time-dependent load.
 pub fn operations(
     motors: &[Motor],
     settings: &OperatingSettings,

@@ -153,8 +153,8 @@ pub struct OperatingPoint {
     /// stator.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub time_constant: Option<Estimate>,
-    /// Under a load that decreases with the speed, if the rotor keeps one of two speeds: the speed between
-    /// them (rad/s) beyond which it changes to the other.
+    /// If the load decreases with the speed and the rotor keeps one of two speeds: the speed between them
+    /// (rad/s) beyond which it changes to the other.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub unstable_speed: Option<Estimate>,
     /// Mean torque (N m) of friction on a rotor that is held at rest; `None` for a rotor that acts back on

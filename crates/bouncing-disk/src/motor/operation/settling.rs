@@ -114,7 +114,7 @@ mod tests {
             .collect()
     }
 
-    /// For rotors that have met.
+    /// The shortfall for rotors that have met.
     fn alone(speeds: &Speeds, wanted: f64) -> Option<Shortfall> {
         shortfall(speeds, speeds, false, wanted)
     }

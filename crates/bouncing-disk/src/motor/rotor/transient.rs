@@ -377,7 +377,7 @@ impl Bins {
 }
 
 impl Interval {
-    /// As [`Bins::add`], for a time after the end of the interval.
+    /// Adds as [`Bins::add`] does, for a time after the end of the interval.
     #[inline]
     pub(crate) fn pass(&mut self, passed: &mut [f64], width: f64, to: f64, angle: f64) {
         let rate = angle / (to - self.reached);

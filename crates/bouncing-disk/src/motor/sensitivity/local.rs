@@ -57,8 +57,8 @@ const LEAST_POINTS: usize = 5;
 pub struct SensitivitySettings {
     /// Settings for the operation of each motor.
     pub operating: OperatingSettings,
-    /// For a parameter of the vertical motion: half the range of its logarithm over which motors are sampled,
-    /// in (0, 2]. Default 0.2, which is from 82 % to 122 % of the motor's own value.
+    /// Half the range, in the logarithm of a parameter of the vertical motion, over which motors are sampled,
+    /// in (0, 2]. Default 0.2: from 82 % to 122 % of the motor's own value.
     pub half_range: f64,
     /// The number of motors sampled over this range, in [5, 10000]. Default 24.
     pub points: usize,
@@ -87,7 +87,7 @@ impl SensitivitySettings {
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum SensitivityMethod {
-    /// By central differences of rotors on the same vertical motions.
+    /// Central differences of rotors on the same vertical motions.
     SharedMotion {
         /// The standard error due to the scatter of the members.
         scatter: f64,
@@ -95,7 +95,7 @@ pub enum SensitivityMethod {
         /// zero if the scatter alone explains the change of the slope.
         curvature: f64,
     },
-    /// By a straight line through motors with different vertical motions, sampled over the range in the
+    /// A straight line through motors with different vertical motions, sampled over the range in the
     /// settings.
     Regression {
         /// Motors on the line.

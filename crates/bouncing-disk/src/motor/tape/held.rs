@@ -62,11 +62,10 @@ pub(crate) struct Held {
 /// The start of a disk on a stator that moves with a held amplitude.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum DiskStart {
-    /// On the motion that belongs to the amplitude; in flight, perturbed by a tiny amount in proportion to
-    /// this share.
+    /// The motion that belongs to the amplitude; a start in flight is perturbed by a tiny amount in proportion
+    /// to this share.
     OnMotion(f64),
-    /// At rest on the stator at this phase of the drive; if the disk lies there for ever, it is on that
-    /// motion.
+    /// Rest on the stator at this phase of the drive; if the disk lies there for ever, it is on that motion.
     AtRest(Phase),
     /// Thrown up at this phase, with this multiple of the stator's speed, unless it lies there for ever.
     Thrown(Phase, f64),

@@ -113,8 +113,8 @@ impl RigidTape {
         Key::new(impact.phase, [impact.velocity, 0.0, 0.0], [[0.0; 2]; MODES])
     }
 
-    /// A rest of the disk up to its separation, with the preceding chatter; without an attachment, the first
-    /// rest.
+    /// Records a rest of the disk up to its separation, with the preceding chatter; without an attachment,
+    /// the first rest.
     fn rest(&mut self, rest: Option<&Attachment>, tape: &mut Tape) -> Result<(), Error> {
         let Some(vertical) = &self.vertical else { return Ok(()) };
         let began = vertical.now();

@@ -694,7 +694,7 @@ struct NearSine {
 }
 
 impl NearSine {
-    /// For a short step, by series up to the ninth power.
+    /// The result for a short step, by series up to the ninth power.
     fn of(t: f64) -> Self {
         let s = t * t;
         let versine = s * (0.5 - s * (1.0 / 24.0 - s * (1.0 / 720.0 - s * (1.0 / 40_320.0))));
@@ -753,7 +753,7 @@ fn split(piece: &Piece, share: f64) -> (Piece, Piece) {
     (left, right)
 }
 
-/// As [`first_fall`], for a function that may rise from zero at the start of its piece: the errors of the
+/// The time of [`first_fall`] for a function that may rise from zero at the start of its piece: the errors of the
 /// table vanish there with the fifth power of the time.
 #[allow(clippy::option_option, reason = "not decided, and no root")]
 fn first_fall_after(piece: &Piece, margin: f64, [from_zero, for_good]: [bool; 2]) -> Option<Option<f64>> {

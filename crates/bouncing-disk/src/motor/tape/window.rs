@@ -11,7 +11,7 @@ pub(crate) enum Speeds {
     /// Nothing, as for a rotor that acts back.
     #[default]
     Unknown,
-    /// At times spread evenly over the window, in their order; NaN if there is no sample.
+    /// The speeds at times spread evenly over the window, in their order; NaN if there is no sample.
     Samples([f64; SAMPLES]),
     /// The least and the largest speed of a cycle.
     Within([f64; 2]),
@@ -53,7 +53,7 @@ pub(crate) struct RotorWindow {
     /// Change of the kinetic energy.
     pub(crate) kinetic_change: f64,
     pub(crate) speeds: Speeds,
-    /// On a compliant stator: its energies, and the rotor's own vertical motion. Boxed because there are many
+    /// The energies of a compliant stator, and the rotor's own vertical motion. Boxed because there are many
     /// windows and most stators are rigid.
     pub(crate) stator: Option<Box<(StatorLedger, AxialWindow)>>,
 }

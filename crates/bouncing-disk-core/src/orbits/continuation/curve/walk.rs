@@ -44,7 +44,7 @@ const ROUNDINGS: f64 = 16.0;
 #[derive(Debug, Clone)]
 pub(super) struct Located {
     pub(super) at: Place,
-    /// Of scaled length 1.
+    /// The direction of the curve, of scaled length 1.
     pub(super) direction: Place,
     /// The normal (scaled) in the surface across the curve, and how the condition changes along it.
     across: Scaled,
@@ -454,9 +454,9 @@ impl<'s, M: ContinuedMap> CurveWalker<'s, M> {
 
 /// How far rounding moves a point of a curve.
 pub(super) struct Moves {
-    /// In the two parameters, across the direction of the curve.
+    /// The shift of the two parameters across the direction of the curve.
     pub(super) across: [f64; 2],
-    /// The curve, along the first parameter and along the second.
+    /// The shift of the curve along the first parameter and along the second.
     pub(super) along: [f64; 2],
 }
 

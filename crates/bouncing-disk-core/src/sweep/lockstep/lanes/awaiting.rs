@@ -109,7 +109,7 @@ impl Awaiting {
         Self { start: ROW, speed: ROW, free_periods: ROW, reached: ROW }
     }
 
-    /// Sets number `k` to one of some arcs, with the time that a first step has led to, or zero.
+    /// Sets lane `k` to arc `from` of `arcs`; `reached` is the time to which a first step has led, or zero.
     #[inline(always)]
     pub(super) fn set(&mut self, k: usize, arcs: &Arcs, from: usize, reached: f64) {
         self.reached[k] = reached;

@@ -41,7 +41,7 @@ impl Lanes {
         self.0.count_ones() as usize
     }
 
-    /// Those that are not among others.
+    /// The members that are not in `others`.
     #[inline(always)]
     pub(super) const fn without(self, others: Self) -> Self {
         Self(self.0 & !others.0)

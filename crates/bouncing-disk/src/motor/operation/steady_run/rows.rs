@@ -270,8 +270,8 @@ impl SteadyRun<'_> {
         })
     }
 
-    /// The life of an irregular motion, with `unit` as the time per radian. Beyond the start-up, during which
-    /// a member may have been on its way to a cycle from the start, it ends at a constant rate.
+    /// The life of an irregular motion, with `unit` as the time per radian. The start-up is left out, because
+    /// a member may then still be on its way to a cycle; after it, motions end at a constant rate.
     fn life(&self, unit: f64) -> Life {
         let mut life = self.life;
         for own in &self.members {
