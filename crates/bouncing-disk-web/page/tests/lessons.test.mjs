@@ -198,7 +198,7 @@ test("sensitivity: the exponents, and how many impacts they leave", async () => 
   const [own, other] = [await heights({}), await heights({ [compare.parameter]: compare.value })];
   const apart = own.map((height, row) => Math.abs(height - other[row]) / system.amplitude);
   const first = apart.findIndex((share) => share > 0.01) / 48;
-  compared.says(`some ${first.toFixed(0)} periods`, `= ${(Math.log(1e14) / read).toFixed(0)} impacts`);
+  compared.says(`about ${first.toFixed(0)} periods`, `= ${(Math.log(1e14) / read).toFixed(0)} impacts`);
   const { exponent } = await orbitOf(step("sensitivity", 4).state);
   assert.ok(Math.abs(exponent + Math.LN2) < 1e-9);
   step("sensitivity", 4).says(`−${Math.LN2.toFixed(3)}`);

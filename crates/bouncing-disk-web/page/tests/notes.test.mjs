@@ -160,7 +160,7 @@ test("Fig. 11: the torque follows the preload, the speed does not", async () => 
     const high = await stall(state(`280 mN, ${frequency}`));
     const low = await stall(state(`80 mN, ${frequency}`));
     ratios.push((high.torque / low.torque).toFixed(1));
-    for (const { no_load_speed } of [high, low]) says(`some ${no_load_speed.toFixed(0)} rad/s`);
+    for (const { no_load_speed } of [high, low]) says(`about ${no_load_speed.toFixed(0)} rad/s`);
   }
   says(`by a factor of ${(280 / 80).toFixed(1)} and the stall torque by ${ratios[0]} to ${ratios[1]},`);
 });

@@ -26,7 +26,7 @@ scan("the best hand motion: its optima are those of Fig. 4, and a point opens it
   const largest = /θ = 0: The largest of 40 computed points is 2[12]\.\d+ rad\/s at φL = 0\.945 rad/;
   await whenText(page, "#view-scan .optima", largest, 60_000);
   assert.equal((await optima(page)).length, 5);
-  assert.match(await remark(page), /^Points without a settled value: 5 of 205, the first since the disk never leaves/);
+  assert.match(await remark(page), /^Points without a settled value: 5 of 205, the first because the disk never leaves/);
   const { columns, rows } = await saved(page, "scan");
   assert.deepEqual(columns.slice(0, 3), ["phase_lag", "amplitude_angle", "toss_speed"]);
   assert.equal(rows.length, 205);
