@@ -365,7 +365,7 @@ class BasinFractions(Result):
         restitution: coefficient of restitution.
         axial_forcing: axial forcing parameter Gamma, in the order in which they were followed, shape (n,).
         attractors: the attractors at each forcing: a tuple of n :class:`Attractors`.
-        followed: which of the m attractors each of those at a forcing is: a tuple of n int64 arrays.
+        followed: for each attractor at a forcing, its index among the m attractors: a tuple of n int64 arrays.
         appears: the first forcing at which each attractor was found, by its index, shape (m,): it appears
             between this one and the one before.
         vanishes: the last forcing at which each was found, by its index, shape (m,): it vanishes between

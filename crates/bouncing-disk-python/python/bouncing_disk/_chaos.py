@@ -468,7 +468,7 @@ class Crisis(Stored):
         Args:
             beyond: distances from the crisis in Gamma, positive, shape (n,).
             orbits: orbits at each distance, in [1, 1e6].
-            impacts: most impacts over which an orbit is followed, at least 1.
+            impacts: largest number of impacts over which an orbit is followed, at least 1.
         """
         return native.lives(locals())
 
@@ -520,12 +520,12 @@ def crises(
 ) -> list[Crisis | None]:
     """The curve of crises over the restitution: :func:`crisis` at each of them.
 
-    The first is sought in the range that is given, each other one about the forcing to which those before point.
+    The first is sought in the given range, each later one around the forcing extrapolated from the crises before.
 
     Args:
         restitution: coefficients of restitution, in (0, 1), neighbours next to each other, shape (n,).
         axial_forcing: Gamma below the first crisis and beyond it.
-        samples, impacts: as of :func:`crisis`.
+        samples, impacts: as for :func:`crisis`.
 
     Returns:
         A crisis for each restitution; None where none is found.

@@ -229,8 +229,8 @@ def fit_rated_points(
             with their standard errors (``load_torque_error``).
         ranges: range of each fitted parameter: friction, restitution, phase_lag, amplitude, twist_amplitude,
             contact.time, stator.mass, stator.quality, stator.twist_per_height.
-        most_evaluations: most parameter sets at which all points are computed, in [8, 400].
-        most_impacts: most impacts for a computed speed, all members together.
+        most_evaluations: largest number of parameter sets at which all points are computed, in [8, 400].
+        most_impacts: largest number of impacts for a computed speed, all members together.
         seed: seed of the perturbations.
 
     >>> import bouncing_disk as bd

@@ -263,7 +263,7 @@ class OperatingSettings(TypedDict, total=False):
         relative_error: requested standard error of the mean speed, relative to the larger of the no-load
             speed and itself, in [1e-6, 0.5]; by default 0.01.
         members: vertical motions to average over, in [4, 4096]; by default 16.
-        most_impacts: most impacts of all members together, in [1, 1e15]; by default 20 million.
+        most_impacts: largest number of impacts of all members together, in [1, 1e15]; by default 20 million.
         relaunch_perturbation: size of the relaunch perturbation in units of g/omega, in (0, 1]; by default
             0.001.
         seed: seed of the perturbations; by default 1.

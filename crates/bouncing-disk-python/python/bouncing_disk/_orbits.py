@@ -496,7 +496,7 @@ def curves(
     Args:
         impact_map: the map that was continued.
         branch: its branch.
-        parameter: the second parameter, one of those of :func:`continued`.
+        parameter: the second parameter, chosen as for :func:`continued`.
         parameter_range: its lowest and highest value.
         branch_range: lowest and highest value of the parameter of the branch.
         settings: the steps along a curve: :class:`Continuation`, as keywords.

@@ -56,7 +56,7 @@ def orbit_diagram(
     quantity: Literal["phase", "speed"] = "phase",
     ax: Axes | None = None,
 ) -> tuple[Figure, Axes]:
-    """An orbit (bifurcation) diagram, as Fig. 6 of the paper.
+    """An orbit (bifurcation) diagram, as in Fig. 6 of the paper.
 
     Without a diagram, two starts are followed at each forcing: one a hundredth off the period-1
     orbit (black), if that exists, and a slow one (grey), drawn on top.
@@ -347,7 +347,7 @@ def basins(
     legend: bool = True,
     ax: Axes | None = None,
 ) -> tuple[Figure, Axes]:
-    """Basins of attraction, as Fig. 7 of the paper: white where the disk comes to rest, dark where it bounces
+    """Basins of attraction, as in Fig. 7 of the paper: white where the disk comes to rest, dark where it bounces
     for ever.
 
     Args:
@@ -393,7 +393,7 @@ def basins(
 
 
 def _basin_colours(labels: int) -> list[tuple[float, float, float]]:
-    """Of each label: undecided, at rest, the known orbits."""
+    """The colour of each label: undecided, at rest, the known orbits."""
     to_rgb = import_module("matplotlib.colors").to_rgb
     dark = pyplot().get_cmap("viridis")(np.linspace(0.35, 0.95, max(labels - 3, 1)))
     named = [ORANGE, "white", BLACK, *dark]

@@ -63,7 +63,7 @@ def toss(
     samples: int | None = None,
     ax: Sequence[Axes] | np.ndarray[Any, Any] | None = None,
 ) -> tuple[Figure, np.ndarray[Any, Any]]:
-    """Height and angle of disk and platform over time, with the events, as Fig. 5 of the paper.
+    """Height and angle of disk and platform over time, with the events, as in Fig. 5 of the paper.
 
     Events of a motion with more than 400 are omitted: they would cover the curves.
 
