@@ -117,7 +117,7 @@ fn diagrams(fig: &mut Paper<'_>, inputs: Inputs) -> Result<(), ExperimentError> 
         inputs.restitution,
         inputs.followed_from,
         bouncing.len(),
-        crisis.map_or_else(String::new, |crisis| format!("Dashed: crisis at Γ = {crisis:.5}.")),
+        crisis.map_or_else(String::new, |crisis| format!("Dashed: crisis at Γ = {crisis:.4}.")),
     ));
     let picture = Picture { diagram, doublings, crisis, axial_forcings_of_fig7, enlarged: &enlarged };
     fig.draw(picture::draw(&picture));
