@@ -510,7 +510,7 @@ fn modules_used_by<'a>(
     all.iter().filter(is_used).copied().collect()
 }
 
-/// A room uses only rooms before its own.
+/// Each module of a library stands in the table, and uses only modules before it.
 #[test]
 fn every_module_is_a_room_in_its_place() {
     let mut faults = Faults::default();
