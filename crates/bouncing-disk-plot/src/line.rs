@@ -15,7 +15,7 @@ const RESOLUTION: f64 = 0.04;
 /// A curve is drawn this far beyond the frame, where it is clipped, and not further.
 const OVERHANG: f64 = 20.0;
 
-/// A curve through points; broken where a coordinate is NaN or cannot be shown.
+/// A curve through points, broken at points with a coordinate that is NaN or cannot be shown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
     points: Vec<(f64, f64)>,

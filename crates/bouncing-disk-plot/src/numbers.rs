@@ -10,7 +10,7 @@ pub fn rounded(value: f64, digits: usize) -> String {
     }
 }
 
-/// A number with six significant digits as a label has it between dollar signs, with powers of ten as such.
+/// A number with six significant digits as mathematics for a label, with powers of ten written as powers.
 pub fn in_math(value: f64) -> String {
     let text = rounded(value, 6);
     match text.split_once('e') {

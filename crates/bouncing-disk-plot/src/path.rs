@@ -3,7 +3,7 @@
 use kurbo::{BezPath, PathEl, Point};
 
 /// An outline of straight lines, in the local coordinates of a
-/// [`Drawing`](crate::Drawing). One with a point that is not finite is not drawn.
+/// [`Drawing`](crate::Drawing). It is not drawn if a point is not finite.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
     outline: BezPath,
@@ -24,7 +24,7 @@ impl Path {
         Self { outline }
     }
 
-    /// Back to the start of the last part.
+    /// The path with its last part closed.
     #[must_use]
     pub fn close(mut self) -> Self {
         // There is nothing to close before the first point.

@@ -38,7 +38,7 @@ pub struct Stroke {
     pub width: f64,
     /// The dashes.
     pub dash: Dash,
-    /// From 0, invisible, to 1.
+    /// The opacity, from 0, invisible, to 1.
     pub opacity: f64,
 }
 
@@ -70,7 +70,7 @@ impl Stroke {
 pub struct Fill {
     /// The colour.
     pub colour: Colour,
-    /// From 0, invisible, to 1.
+    /// The opacity, from 0, invisible, to 1.
     pub opacity: f64,
 }
 

@@ -121,7 +121,7 @@ pub enum Error {
         /// The name of the parameter.
         field: &'static str,
     },
-    /// Neither of two parameters is given, of which one is needed.
+    /// Neither of two alternative parameters is given; one of them is needed.
     #[error("neither {one} nor {other} is given; one of them is needed")]
     NeitherGiven {
         /// The name of the first.

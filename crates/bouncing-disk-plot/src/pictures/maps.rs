@@ -63,7 +63,7 @@ impl Basins<'_> {
         }
     }
 
-    /// The map with its crosses, and the key of the labels that there are.
+    /// The map with its crosses, and the key of the labels that occur.
     pub fn draw(&self) -> Figure {
         const WIDTH: f64 = 470.0;
         const HEIGHT: f64 = 300.0;
@@ -161,9 +161,9 @@ impl Regimes<'_> {
 /// Colours of a map, between the least and the largest value.
 const LEVELS: usize = 24;
 
-/// A quantity over two parameters that have equal distances, row by row, as a map with a bar of its colours;
-/// a cell that is not finite is grey. Cells have their marks, which a key below the map explains. If `bound`
-/// is named, a line separates the cells that keep it from the others.
+/// A quantity over two evenly spaced parameters, row by row, as a map with a bar of its colours; a cell that
+/// is not finite is grey. Cells carry marks, which a key below the map explains. If `bound` is named, a line
+/// separates the cells that satisfy it from the others.
 pub fn heat_map(
     columns: &Quantity<'_>,
     rows: &Quantity<'_>,

@@ -14,13 +14,13 @@ pub struct CellMarks {
     pub coexisting: bool,
     /// The motion repeats itself.
     pub periodic: bool,
-    /// The value is not known to the accuracy that was asked for.
+    /// The value is not known to the requested accuracy.
     pub unsettled: bool,
     /// There is no steady motion: the load overpowers the motor.
     pub runaway: bool,
     /// A motor with rigid impacts is locked on a short cycle.
     pub locked: bool,
-    /// A bound is kept; `None` without a bound, or where that is not known.
+    /// Whether a bound is satisfied; `None` if there is no bound, or if this is not known.
     pub keeps: Option<bool>,
 }
 

@@ -19,7 +19,7 @@ use crate::style::{Anchor, Fill, Stroke};
 pub struct Quantity<'a> {
     /// Its name; `_` stands for a space.
     pub name: &'a str,
-    /// Its unit, `1` where it has none.
+    /// Its unit; `1` for a dimensionless quantity.
     pub unit: &'a str,
     /// The values; one that is not finite is a gap.
     pub values: &'a [f64],
@@ -139,8 +139,8 @@ pub fn swept_curve(
     Figure::new(SINGLE_COLUMN, height).panel(panel).panels(key.map(|(key, _)| key))
 }
 
-/// The behaviour of a motor under a load (N m): values with the half widths of their intervals, where it has
-/// a steady speed.
+/// The behaviour of a motor under a load (N m): values with the half widths of their intervals, if it has a
+/// steady speed.
 #[derive(Clone, Copy, Debug)]
 pub struct LoadPoint {
     /// The load torque (N m).
@@ -157,9 +157,9 @@ pub struct LoadPoint {
     pub mechanical_power: Option<(f64, f64)>,
     /// The share of the power put in that becomes mechanical.
     pub efficiency: Option<(f64, f64)>,
-    /// For a compliant stator: its amplitude (m), and the share of the drive's power that becomes mechanical.
+    /// The amplitude (m) of a compliant stator.
     pub amplitude: Option<(f64, f64)>,
-    /// The latter.
+    /// The share of the drive's power that becomes mechanical, for a compliant stator.
     pub electrical_efficiency: Option<(f64, f64)>,
 }
 
@@ -171,8 +171,8 @@ const NEXT_TO_RULE: f64 = 3.0;
 
 /// Two panels over the load: speed with its spread over motors, and powers with the efficiency; for a
 /// compliant stator a third panel with its amplitude. Beyond `largest_torque` (N m) the load overpowers the
-/// motor. The upper panel also shows the speeds of motions that coexist with these, each as a curve of its
-/// own.
+/// motor. The upper panel also shows the speeds of motions that coexist with these, each as a separate
+/// curve.
 pub fn torque_speed(largest_torque: f64, found: &[LoadPoint], coexisting: &[Vec<LoadPoint>]) -> Figure {
     let yields = found.iter().any(|own| own.amplitude.is_some());
     let (height, panels) = if yields { (490.0, 3) } else { (338.0, 2) };

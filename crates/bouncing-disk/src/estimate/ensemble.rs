@@ -94,7 +94,7 @@ impl TransientEnsemble {
     /// The observer's items are the fits.
     ///
     /// # Errors
-    /// The first error of a member, in their order; [`Error::OutOfRange`] without members; the errors of
+    /// The first error of a member, in their order; [`Error::OutOfRange`] if there are no members; the errors of
     /// [`ExponentialFit::new`].
     pub fn of_results(
         results: Vec<Result<SpeedCurve, Error>>,

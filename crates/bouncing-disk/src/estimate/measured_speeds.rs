@@ -61,7 +61,7 @@ impl MeasuredSpeeds {
     /// The speeds of at least one run, with increasing numbers.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] without runs, for numbers that do not rise, fewer than three points in a run,
+    /// [`Error::OutOfRange`] if there are no runs, for numbers that do not rise, fewer than three points in a run,
     /// lists of different lengths, times that do not rise, and numbers that are not finite; an error of the
     /// core for more than [`MAX_SPEEDS`] speeds.
     pub fn new(runs: Vec<MeasuredRun>) -> Result<Self, Error> {

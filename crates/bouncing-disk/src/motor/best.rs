@@ -219,7 +219,7 @@ impl Motor {
     /// The best of a quantity over one or two fields of the data sheet, under bounds on others. If motions
     /// coexist, a point is judged by the first branch of its row; the value belongs to the same motion.
     ///
-    /// The observer's items are the points that are computed, at most.
+    /// The observer's items are the points that may be computed.
     ///
     /// ```
     /// use bouncing_disk::core::Unobserved;

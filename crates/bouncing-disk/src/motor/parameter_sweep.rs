@@ -36,8 +36,8 @@ use crate::motor::parameter_sweep::axis::{SweepAxis, cells, check_axes, sheet_of
 /// computed one by one.) Such a group, of 256 cells at most, runs until each of its cells is known well
 /// enough. A value in a cell therefore depends on the rest of its group, within its standard error. The cells
 /// of a group share their perturbations, so their differences are more precise than their values. A cell
-/// whose rotor acts back on its stator may use a hundredth of the settings' most impacts, because there an
-/// impact takes a hundred times as long.
+/// whose rotor acts back on its stator may use a hundredth of the impacts that the settings allow, because
+/// there an impact takes a hundred times as long.
 ///
 /// Groups depend on the sweep alone. The results have the same bits for any number of threads.
 ///
@@ -119,8 +119,8 @@ impl MotorSweep {
     /// The operations of a group, in its order.
     ///
     /// # Errors
-    /// The errors of [`Self::motor_of`] and of [`operations`], including the one for no motor if the group
-    /// does not exist.
+    /// The errors of [`Self::motor_of`] and of [`operations`], which reports that there is no motor if the
+    /// group does not exist.
     pub fn operations(&self, group: usize, observer: &dyn Observer) -> Result<Vec<OperatingRow>, Error> {
         let cells = self.groups.get(group).map_or(&[][..], |cells| cells);
         let motors = cells.iter().map(|cell| self.motor_of(*cell)).collect::<Result<Vec<_>, Error>>()?;

@@ -34,7 +34,7 @@ impl TransientMember {
     /// from one that the seed selects. Independent ensembles need seeds that differ by at least `members`.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for no member or illegal settings; an error of the core for more than
+    /// [`Error::OutOfRange`] if there is no member or a setting is illegal; an error of the core for more than
     /// [`MAX_MEMBERS`] members, more than [`MAX_SPEEDS`] speeds in total or insufficient memory.
     pub fn of_ensemble(
         system: &System,

@@ -78,7 +78,7 @@ impl Motor {
     /// The observer's items are the impacts that may be spent.
     ///
     /// # Errors
-    /// The errors of [`Self::operating_point`]; [`Error::OutOfRange`] for no load.
+    /// The errors of [`Self::operating_point`]; [`Error::OutOfRange`] if there is no load.
     pub fn torque_speed_curve(
         &self,
         load_torques: &[f64],
