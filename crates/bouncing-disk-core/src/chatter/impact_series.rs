@@ -141,7 +141,8 @@ fn powers(x: f64) -> [f64; 2 * ORDER + 1] {
 ///
 /// Its impacts are numbered from 1; number 0 is the launch from which it starts. The flight that ends with
 /// impact n + 1, and the effects of this impact, are power series in r^n. All contain the factor 1 - r. The
-/// coefficients omit it, so that they do not vanish near r = 1: such a series gives a quantity per 1 - r.
+/// coefficients omit it, so that they do not vanish near r = 1: such a series gives a quantity divided by
+/// 1 - r.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ChatterSeries {
     restitution: f64,
@@ -344,8 +345,8 @@ impl ChatterSeries {
         series.weighted(|k| self.sums[k])
     }
 
-    /// The sum over all impacts from n + 1 of a quantity given per 1 - r; the inverse of
-    /// [`Self::per_flight`].
+    /// The sum over all impacts from n + 1 of a quantity that is given divided by 1 - r; the inverse
+    /// of [`Self::per_flight`].
     #[must_use]
     pub fn summed(&self, series: &PowerSeries) -> PowerSeries {
         series.weighted(|k| if k > 0 { 1.0 / self.sums[k] } else { 0.0 })
@@ -478,20 +479,20 @@ impl ImpactRange<'_> {
         self.lost * series.weighted(|k| self.sums[k]).at(self.first)
     }
 
-    /// The sum of a quantity given per 1 - r.
+    /// The sum of a quantity that is given divided by 1 - r.
     #[must_use]
     pub fn sum(&self, quantity: &PowerSeries) -> f64 {
         self.change(&self.series.summed(quantity))
     }
 
-    /// The sum of the products of two quantities of an impact, each given per 1 - r.
+    /// The sum of the products of two quantities of an impact, each given divided by 1 - r.
     #[must_use]
     pub fn product(&self, one: &PowerSeries, other: &PowerSeries) -> f64 {
         (1.0 - self.series.restitution) * self.sum(&one.times(other))
     }
 
-    /// The sum of a `quantity` (per 1 - r) times the decrease of `series` from before the first impact to
-    /// after the summed one.
+    /// The sum of a `quantity` (given divided by 1 - r) times the decrease of `series` from before the first
+    /// impact to after the summed one.
     #[must_use]
     pub fn moment(&self, quantity: &PowerSeries, series: &PowerSeries) -> f64 {
         let (restitution, own) = (self.series.restitution, &self.series.sums);

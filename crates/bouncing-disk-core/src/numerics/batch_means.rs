@@ -105,7 +105,7 @@ impl BatchMeans {
     ///
     /// It is the largest of the following (docs/numerics-dynamics.md, "The standard error"):
     /// - the errors from batches of this length, twice and four times this length and so on, down to 16
-    ///   batches: batches shorter than the correlation give less;
+    ///   batches: batches shorter than the correlation underestimate the error;
     /// - half of the difference of the means of the two halves: the bias from a transient that ends in the
     ///   first half, and from any drift;
     /// - the resolution of a number, and the rounding of the sums.

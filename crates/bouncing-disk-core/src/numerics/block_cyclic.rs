@@ -15,11 +15,11 @@ type Row = [f64; 7];
 
 /// Solves `blocks[i] x[i] - x[i + 1] = right[i]`, for x, with the index modulo the number n >= 1 of blocks.
 ///
-/// Rotations of the two rows of blocks that contain an unknown eliminate the unknowns one by one from number
-/// 1, until only the first is left: a structured QR factorisation (S. J. Wright, SIAM J. Sci. Stat. Comput.
-/// 13, 742 (1992)). With rotations rounding errors do not grow, however unstable the sequence; with the
-/// product of the blocks they would. The solution of a singular system is not finite, or as large as rounding
-/// makes it.
+/// Rotations of the two rows of blocks that contain an unknown eliminate the unknowns one by one, starting
+/// with number 1, until only the first is left: a structured QR factorisation (S. J. Wright, SIAM J. Sci.
+/// Stat. Comput. 13, 742 (1992)). With rotations rounding errors do not grow, however unstable the sequence;
+/// with the product of the blocks they would. The solution of a singular system is not finite, or as large as
+/// rounding makes it.
 pub fn solve_block_cyclic(blocks: &[DMat2], right: &[DVec2]) -> Vec<DVec2> {
     let n = blocks.len().min(right.len());
     if n == 0 {

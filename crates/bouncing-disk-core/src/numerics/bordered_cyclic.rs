@@ -45,11 +45,11 @@ pub struct CyclicEquations {
 impl CyclicEquations {
     /// The unknowns x and mu.
     ///
-    /// As in [`solve_block_cyclic`](super::block_cyclic::solve_block_cyclic) rotations eliminate the unknowns
-    /// from number 1, and the parameter is carried along like the first unknown. The condition contains only
-    /// these two, so it joins the others in three final equations. So the whole is as well conditioned as the
-    /// bordered matrix, even at a fold, where the closed sequence alone is singular. The solution of a
-    /// singular system is not finite, or as large as rounding makes it.
+    /// As in [`solve_block_cyclic`](super::block_cyclic::solve_block_cyclic), rotations eliminate the
+    /// unknowns one by one, starting with number 1, and carry the parameter along like the first unknown. The
+    /// condition contains only these two, so it joins the others in three final equations. So the whole is as
+    /// well conditioned as the bordered matrix, even at a fold, where the closed sequence alone is singular.
+    /// The solution of a singular system is not finite, or as large as rounding makes it.
     pub fn solve(&self, border: Border) -> (Vec<DVec2>, f64) {
         if self.own.is_empty() {
             return (Vec::new(), border.right / border.parameter);

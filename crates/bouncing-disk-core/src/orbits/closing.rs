@@ -134,15 +134,15 @@ pub struct Scale {
     pub parameter: f64,
 }
 
-/// A flight from an impact to the next: phase (rad) and relative velocity (g/omega) at either end, and its duration
-/// (rad).
+/// A flight from one impact to the next: phase (rad) and relative velocity (g/omega) at either end, and its
+/// duration (rad).
 #[derive(Debug, Clone, Copy)]
 pub struct Flight {
-    /// The state just after the impact before.
+    /// The state just after the first impact.
     pub from: (f64, f64),
-    /// The state just before the impact after.
+    /// The state just before the second impact.
     pub to: (f64, f64),
-    /// The time between both impacts.
+    /// The time between the two impacts.
     pub duration: f64,
 }
 

@@ -9,11 +9,12 @@
 //!
 //! Four properties are required (docs/numerics-impacts.md, "The attack on seams"). The march (`march.rs`)
 //! accepts a gap within 32 roundings of its terms as zero. It leaves a case open if its rounding does not
-//! exclude an earlier impact: nearly always a launch slower than 1e-20 whose pull is a rounding. The oracle
-//! judged one in five of these in the first and third row, all in the others, and a random share of the
-//! confirmed cases (all in the second and fourth row), in 256 bits. A case is undecidable if the last digits of
-//! P, phase or speed decide it, or if it is a launch below 1e-140 against a pull that is a rounding. No case
-//! failed, and two full runs gave the same sums (22 November 2026, two cores of an AMD EPYC with AVX-512):
+//! exclude an earlier impact: nearly always a launch slower than 1e-20 whose pull is rounding error. The
+//! oracle judged one in five of these in the first and third row, all in the others, and a random share of
+//! the confirmed cases (all in the second and fourth row), in 256 bits. A case is undecidable if the last
+//! digits of P, phase or speed decide it, or if it is a launch below 1e-140 against a pull that is rounding
+//! error. No case failed, and two full runs gave the same sums (22 November 2026, two cores of an AMD EPYC
+//! with AVX-512):
 //!
 //! | | cases | confirmed by the march | judged by the oracle | open | undecidable |
 //! | --- | --- | --- | --- | --- | --- |

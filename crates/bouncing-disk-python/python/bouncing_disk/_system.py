@@ -205,12 +205,12 @@ class Drive(Parameters):
 
     @staticmethod
     def triangle() -> Drive:
-        """A height of straight lines through the zeros and extremes of the sine."""
+        """A piecewise linear height through the zeros and extremes of the sine."""
         return Drive("triangle")
 
     @staticmethod
     def sawtooth(rise: Float) -> Drive:
-        """A height of straight lines.
+        """A height that rises and falls linearly.
 
         Args:
             rise: share of the period in which it rises, in [1e-9, 1 - 1e-9].
@@ -219,7 +219,7 @@ class Drive(Parameters):
 
     @staticmethod
     def parabolas() -> Drive:
-        """A height of one parabola for each half of the period."""
+        """A height with one parabola in each half of the period."""
         return Drive("parabolas")
 
     @staticmethod

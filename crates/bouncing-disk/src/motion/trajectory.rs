@@ -14,8 +14,8 @@ use crate::motion::segment::Segment;
 use crate::motion::state::Snapshot;
 use crate::parameters::dimensionless::DimensionlessSystem;
 
-/// The events of a motion up to some point, and the motion between them, or up to an instant if no event
-/// follows.
+/// The events of a motion up to some point and the motion between them; if no event follows, also the motion
+/// up to some instant.
 ///
 /// Deserialising checks that the times do not decrease.
 #[derive(Debug, Clone, PartialEq)]

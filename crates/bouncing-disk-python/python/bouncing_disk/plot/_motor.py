@@ -50,7 +50,7 @@ def motor_transient(
         duration: duration of a run-up (s), for a motor; by default eight of its time constants.
         intervals: number of intervals over which the speed is averaged, for a motor.
         seed: seed of the perturbations, for a motor.
-        member: index of the member that is drawn singly.
+        member: index of the member that is drawn as a curve.
         ax: axes to draw into.
     """
     if isinstance(runs, bd.Motor):

@@ -61,9 +61,9 @@ pub struct StallLoad {
     pub torque: Estimate,
     /// The torque as a share of mu m g a_e, the largest mean torque of friction; in [-1, 1].
     pub share: f64,
-    /// Two load torques (N m): under the first the motor certainly keeps turning, beyond three standard
-    /// errors of its speed, and under the second it is certainly driven back. The second is mu m g a_e if no
-    /// smaller one certainly does this.
+    /// Two load torques (N m): under the first the motor keeps turning, under the second it is driven back,
+    /// each at a speed more than three standard errors from zero. The second is mu m g a_e if no smaller load
+    /// is certain to drive it back.
     pub bracket: [f64; 2],
     /// The mean torque (N m) on a rotor that is held at rest. A free rotor swings about its mean speed and
     /// stops under another load. `None` for a rotor that acts back on its stator.
