@@ -142,7 +142,7 @@ fn argument(quantity: &'static str, call: &Bound<'_, PyDict>) -> Option<String> 
     let others = ARGUMENTS.iter().filter(|(library, _)| *library == head).flat_map(|(_, names)| *names);
     let ranged = call.get_item("ranges").ok().flatten().filter(|all| all.contains(&head).unwrap_or(false));
     // What is illegal of one of many comes from the argument that holds them.
-    let containers = ["basins", "ranges", "axes"];
+    let containers = ["basins", "ranges", "over"];
     spellings
         .into_iter()
         .chain(plurals)

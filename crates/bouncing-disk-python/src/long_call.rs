@@ -135,6 +135,7 @@ pub(crate) fn short<T>(call: &Arguments<'_>, work: impl FnOnce() -> Result<T, Er
 }
 
 /// The outcome of `work`, whose panic is a defect.
+#[inline]
 pub(crate) fn caught<T>(work: impl FnOnce() -> Result<T, Error>) -> PyResult<Result<T, Error>> {
     catch_unwind(AssertUnwindSafe(work)).map_err(|_| errors::defect())
 }

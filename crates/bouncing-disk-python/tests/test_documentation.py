@@ -105,7 +105,7 @@ def test_the_page_prints_what_it_says(tmp_path: Path, monkeypatch: pytest.Monkey
 @pytest.mark.skipif(not PAGE.exists(), reason="the tests were copied without the docs")
 def test_the_programs_for_clusters_are_python() -> None:
     programs = [text for language, text in blocks() if language == "python no-run"]
-    assert len(programs) == 4
+    assert len(programs) == 2
     for program in programs:
         compile(program, "docs/python.md", "exec")
 

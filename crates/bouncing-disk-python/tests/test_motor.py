@@ -136,11 +136,11 @@ def test_the_best_lag_turns_the_motor_fastest() -> None:
     ("wrong", "told"),
     [
         ({"of": "sped"}, "of: there is no quantity"),
-        ({"where": ["speed > 5"]}, "where: a bound is"),
+        ({"where": ["speed > 5"]}, "where: \"speed > 5\" is not a bound"),
         ({"over": {"phase": (0.0, 1.0)}}, "phase"),
         ({"over": {"phase_lag": (0.0,)}}, "1 ends"),
         ({"over": {"phase_lag": (1.0, 0.0)}}, "above its lower end"),
-        ({"over": {}}, "over = 0 is outside"),
+        ({"over": {}}, "over = 0 is not legal"),
     ],
 )
 def test_searches_that_are_none_are_refused_by_name(wrong: dict[str, Any], told: str) -> None:

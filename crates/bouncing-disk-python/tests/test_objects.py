@@ -37,7 +37,8 @@ EVERYTHING = everything()
 def test_every_kind_is_tried() -> None:
     # Those of calls that are not quick, and parts of results without a class of their own in a test.
     slow = {"Best", "StallLoad"}
-    parts = {"Energy", "FailedPoint", "IntervalEstimate", "Result", "RiseEstimate", "SpecialPoint", "Spread", "OperatingSettings"}
+    parts = {"Energy", "FailedPoint", "IntervalEstimate", "Result", "RiseEstimate", "SpecialPoint", "Spread"}
+    parts |= {"AttractorSearch", "Continuation", "OperatingSettings"}
     kinds = {name for name in bd.__all__ if inspect.isclass(getattr(bd, name))}
     errors = {name for name in kinds if issubclass(getattr(bd, name), Exception)}
     assert kinds - errors - slow - parts - {"OperatingPoints"} == set(EVERYTHING)

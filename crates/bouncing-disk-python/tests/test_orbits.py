@@ -346,7 +346,7 @@ def test_a_branch_is_continued_through_its_doubling() -> None:
     assert doubled.impact_phase.shape[1] == 2 and doubled.orbit(0).period == 2
     with pytest.raises(bd.OutOfRangeError):
         branch.orbit(len(branch))
-    with pytest.raises(bd.InvalidError, match="1 of 1 is not a doubling"):
+    with pytest.raises(bd.InvalidError, match="the bifurcation is not a doubling"):
         branch.switched(index=1, parameter_range=(0.1, 0.6))
 
 

@@ -187,13 +187,7 @@ def attractors(
     """The attractors of a map, found without known orbits.
 
     Args:
-        starts: starts, spread evenly over all impacts that an attractor can have, in [0, 2^18].
-        transient: impacts that are skipped, at least 1.
-        impacts: impacts over which orbits of each aperiodic motion are followed, at least 64.
-        longest_period: the longest period, in impacts, in [1, 4096].
-        cells: cells along each axis of the grid that distinguishes aperiodic motions, in [8, 4096].
-        budget: approximate limit on the impacts of the whole search, in [256 a start, 2^50]; starts still
-            running when it is used up are undecided. On a drive an impact counts as 32.
+        settings: the fields of :class:`AttractorSearch`, as keywords.
 
     >>> import bouncing_disk as bd
     >>> found = bd.attractors(bd.ImpactMap(axial_forcing=0.486, restitution=0.5))
@@ -414,7 +408,7 @@ def basin_fractions_over(
         axial_forcing: axial forcing parameter Gamma, in the order in which attractors are followed; at
             most 65536, shape (n,).
         reach: largest distance of an attractor from its position at the previous forcing (rad), in [0, 100].
-        starts, transient, impacts, longest_period, cells, budget: as for :func:`attractors`.
+        settings: the fields of :class:`AttractorSearch`, as keywords.
 
     The period-1 orbit appears at Gamma = 1/3, next to the disk at rest:
 
