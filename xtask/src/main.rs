@@ -82,7 +82,7 @@ mod tests {
     #[test]
     fn every_chore_that_the_documentation_names_is_legal() {
         let mut pages = vec![workspace::in_workspace("README.md")];
-        for folder in ["docs", "docs/numerics", "crates/bouncing-disk-web"] {
+        for folder in ["docs", "crates/bouncing-disk-web"] {
             let entries = fs::read_dir(workspace::in_workspace(folder)).unwrap();
             pages.extend(entries.map(|entry| entry.unwrap().path()));
         }

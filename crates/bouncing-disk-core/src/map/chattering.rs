@@ -12,12 +12,16 @@
 //! pull. So it returns with at most w sqrt(1 + 2 delta w/alpha^2) <= w (1 + K w), K = delta/alpha^2. So
 //! v_(n+1) <= (1 + K r v_n) r v_n, and
 //!
-//!     v_n - v_(n+1) >= (1 - r - K r^2 v_n) v_n >= (1 - theta)(1 - r) v_n,    theta = K S(v_0),
+//! ```text
+//! v_n - v_(n+1) >= (1 - r - K r^2 v_n) v_n >= (1 - theta)(1 - r) v_n,    theta = K S(v_0),
+//! ```
 //!
 //! because r v_n/(1 - r) <= S(v_n) <= S(v_0). While theta < 1 the sum above is larger by at most 1/(1 -
 //! theta), and all flights together last at most
 //!
-//!     T = (2/alpha) S(v_0)/(1 - theta).
+//! ```text
+//! T = (2/alpha) S(v_0)/(1 - theta).
+//! ```
 //!
 //! If T <= W, all impacts lie in the window, by induction: each added flight needs w_n <= S(v_n), which the
 //! sum up to v_n leaves. `ImpactMap::comes_to_rest_within` starts with the window 4 S/a, narrows it to T up

@@ -180,11 +180,13 @@ pub(super) fn matched(
 /// use bouncing_disk_core::attractors::{AttractorSearch, basin_fractions_over};
 /// use bouncing_disk_core::Unobserved;
 ///
-/// // The period-1 orbit appears at Gamma = 1/3; the other attractor is the disk at rest. let search =
-/// AttractorSearch::default().with_starts(200)?; let over = basin_fractions_over(0.5, &[0.32, 0.36, 0.40],
-/// &search, 0.3, &Unobserved)?; assert_eq!(over.followed.len(), 2); assert_eq!((over.followed[1].appears,
-/// over.followed[1].vanishes), (1, 2)); let shares: Vec<_> = over.over(1).map(|(_, own)| own.map(|own|
-/// own.starts.value())).collect(); assert!(shares[0].is_none() && shares[2] > shares[1]);
+/// // The period-1 orbit appears at Gamma = 1/3; beside it there is the disk at rest.
+/// let search = AttractorSearch::default().with_starts(200)?;
+/// let over = basin_fractions_over(0.5, &[0.32, 0.36, 0.40], &search, 0.3, &Unobserved)?;
+/// assert_eq!(over.followed.len(), 2);
+/// assert_eq!((over.followed[1].appears, over.followed[1].vanishes), (1, 2));
+/// let shares: Vec<_> = over.over(1).map(|(_, own)| own.map(|own| own.starts.value())).collect();
+/// assert!(shares[0].is_none() && shares[2] > shares[1]);
 /// # Ok::<(), bouncing_disk_core::Error>(())
 /// ```
 ///

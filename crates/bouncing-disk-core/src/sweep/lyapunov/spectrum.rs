@@ -158,13 +158,14 @@ impl<M: BouncingMap> Followed<'_, M> {
 /// use bouncing_disk_core::chaos::{LyapunovOutcome, lyapunov_spectra};
 /// use bouncing_disk_core::{ImpactMap, ImpactState, Unobserved, Vibration};
 ///
-/// let map = ImpactMap::new(Vibration::from_axial_forcing(0.55)?, 0.5)?; let start =
-/// ImpactState::from_normalised(0.8, 1.3)?; let outcomes = lyapunov_spectra(&[(map, start)], 1_000, 10_000,
-/// &Unobserved)?; let spectrum = outcomes[0].spectrum().expect("it bounces on"); // Chaos, and the exponents
-/// sum to the exact value of the map: close to 2 ln(1/2). assert!(spectrum.largest > 10.0 *
-/// spectrum.standard_error); let (second, sum) = (spectrum.second.unwrap_or(0.0),
-/// spectrum.exact_sum.unwrap_or(0.0)); assert!((spectrum.largest + second - sum).abs() < 1e-12 && (sum +
-/// 1.386).abs() < 1e-2);
+/// let map = ImpactMap::new(Vibration::from_axial_forcing(0.55)?, 0.5)?;
+/// let start = ImpactState::from_normalised(0.8, 1.3)?;
+/// let outcomes = lyapunov_spectra(&[(map, start)], 1_000, 10_000, &Unobserved)?;
+/// let spectrum = outcomes[0].spectrum().expect("it bounces on");
+/// // Chaos, and the sum of the exponents is that of the map: close to 2 ln(1/2).
+/// assert!(spectrum.largest > 10.0 * spectrum.standard_error);
+/// let (second, sum) = (spectrum.second.unwrap_or(0.0), spectrum.exact_sum.unwrap_or(0.0));
+/// assert!((spectrum.largest + second - sum).abs() < 1e-12 && (sum + 1.386).abs() < 1e-2);
 /// # Ok::<(), bouncing_disk_core::Error>(())
 /// ```
 ///
