@@ -229,7 +229,7 @@ fn sheets_of_the_repository_are_valid() {
             list.push(sheet.to_owned());
         }
     }
-    assert!(motors.len() > 2 && drives.len() > 1, "{motors:?} {drives:?}");
+    assert!(motors.len() > 2 && !drives.is_empty(), "{motors:?} {drives:?}");
     let schema = motor_schema();
     for sheet in motors {
         assert!(is_valid(&schema, &value(&sheet)) && Motor::from_toml(&sheet).is_ok(), "{sheet}");
