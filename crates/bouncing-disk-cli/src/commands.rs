@@ -136,7 +136,8 @@ mod tests {
             command.get_subcommands().for_each(check);
             for option in command.get_opts().filter(|own| own.get_possible_values().is_empty()) {
                 let value = option.get_value_names().unwrap_or_default().join(" ");
-                let is_word = ["FILE", "NAME", "UNIT"].contains(&value.as_str()) || value.contains('=');
+                let is_word =
+                    ["BOUND", "FILE", "NAME", "UNIT"].contains(&value.as_str()) || value.contains('=');
                 let takes = option.is_allow_negative_numbers_set() || option.is_allow_hyphen_values_set();
                 assert!(is_word || takes, "{} --{}", command.get_name(), option.get_id());
             }
