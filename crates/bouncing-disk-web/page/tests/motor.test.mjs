@@ -107,7 +107,7 @@ test("motions that coexist are curves, sentences and lines of their own", async 
   ]);
   assert.deepEqual(speed.marks.map(({ x, y, form }) => [x, y, form]), [[0, 12, "circle"]]);
   assert.equal(power.curves.length, 2);
-  assert.match(words.describeCurves(rows, null)[0], / Under 1 of 2 loads motions coexist/);
+  assert.match(words.describeCurves(rows, null)[0], / Under 1 of 2 loads motions with different speeds coexist/);
   assert.doesNotMatch(curves({}, {})[0], /coexist/);
   const told = [
     ["Contact", "the rotor stays on the stator"],

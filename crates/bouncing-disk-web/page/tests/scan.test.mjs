@@ -116,7 +116,7 @@ onPage("the sixteenth digit: chaos shows it, the same number does nothing, anoth
   assert.equal(await page.inputValue("#view-compare input[aria-label^='value of B']"), "0.5000000000000001");
   await whenText(page, "#view-compare .optima", /for the first time after/);
   // The window is that of the parting, which one sees.
-  const [, parting] = /From period (\d+) on one sees it/.exec((await compared(page))[1]);
+  const [, parting] = /From period (\d+) on this is visible/.exec((await compared(page))[1]);
   assert.equal(await page.inputValue(FROM), String(parting - 3));
   const { columns, rows } = await saved(page, "comparison");
   const apart = rows.map((row) => row[columns.indexOf("difference_over_A")]);
