@@ -1,4 +1,4 @@
-//! Files of version 0.1: what users wrote is read, parts of its computations are refused by name. See docs/contributing.md.
+//! Files of version 0.1: its parameter files are read, and parts of its computations are rejected by name (docs/contributing.md).
 
 use std::fs;
 use std::path::Path;

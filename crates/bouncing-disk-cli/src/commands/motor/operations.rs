@@ -229,10 +229,10 @@ Example:
 pub(crate) struct TrapsArgs {
     #[command(flatten)]
     operation: OperationArgs,
-    /// Least preload (N); by default 0.9 times that of the motor
+    /// Least preload (N); by default 0.9 times the preload of the motor
     #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "FORCE")]
     from: Option<f64>,
-    /// Largest preload (N); by default 1.1 times that of the motor
+    /// Largest preload (N); by default 1.1 times the preload of the motor
     #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "FORCE")]
     to: Option<f64>,
     /// Least width of a range, relative to the preload

@@ -59,12 +59,12 @@ pub enum SpecialKind {
     CriticalityChange,
     /// A flight of the orbit grazes the platform in its fold: a curve of folds ends on one of grazes.
     GrazingFold {
-        /// Which flight, the one after this impact.
+        /// The index of the impact before the flight.
         flight: usize,
     },
     /// A flight of the orbit grazes the platform in its doubling: a curve of doublings ends on one of grazes.
     GrazingDoubling {
-        /// Which flight, the one after this impact.
+        /// The index of the impact before the flight.
         flight: usize,
     },
     /// Both multipliers are 1 to 1e-3, the strong resonance 1:1. As the determinant of n rigid impacts is
@@ -107,25 +107,25 @@ pub struct SpecialPoint {
 pub enum CurveEnd {
     /// A parameter reaches this end of its range: to the rounding, or to 1e-7 of the arclength where there is no map beyond.
     RangeLimit {
-        /// Which parameter.
+        /// The parameter.
         parameter: ContinuationParameter,
         /// The end of its range.
         value: f64,
     },
-    /// A flight touches the platform before its impact: beyond, an earlier impact forestalls it.
+    /// A flight touches the platform before its impact: beyond, an earlier impact prevents it.
     Graze {
-        /// Which flight, the one after this impact.
+        /// The index of the impact before the flight.
         flight: usize,
     },
     /// The speed of an impact falls to zero, or so near to it that the derivative, which grows with its inverse, is no
     /// longer known.
     VanishingImpact {
-        /// Which impact.
+        /// The index of the impact.
         impact: usize,
     },
     /// An impact reaches a phase at which the acceleration of the platform jumps, and with it the multipliers.
     BorderCollision {
-        /// Which impact.
+        /// The index of the impact.
         impact: usize,
     },
     /// The second half of the orbit becomes a repetition of the first: a curve of folds ends where the doubling in

@@ -373,7 +373,7 @@ impl<'s, M: ContinuedMap> CurveWalker<'s, M> {
         dot(direction, left) > 0.0 && dot(direction, over) >= 0.0 && dot(left, left).sqrt() <= 1.1 * step
     }
 
-    /// The last point with a property that holds at `base`, and the first one without it; `None` where the two are not
+    /// The last point with a property that holds at `base`, and the first one without it; `None` if the two are not
     /// neighbours on one curve.
     pub(super) fn change(
         &self,
