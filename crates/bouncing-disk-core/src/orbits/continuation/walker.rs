@@ -28,7 +28,7 @@ pub(super) const HARD: u32 = 7;
 pub(super) const GROWTH: f64 = 1.5;
 
 /// Halvings until the bracket of a special point is at the rounding of the arclength.
-pub(super) const HALVINGS: u32 = 56;
+const HALVINGS: u32 = 56;
 
 /// The distance (scaled) up to which two points are neighbours on one curve: the rounding of a point on a
 /// strongly unstable orbit, far below the distance of two curves that doubles can tell apart.
@@ -439,26 +439,15 @@ impl<'s, M: ContinuedMap> Walker<'s, M> {
     }
 
     /// The last point with a property that holds at `base`, and the first one without it, by halvings of the
-    /// way to `next`. A point that is not found does not have it.
+    /// way to `next`.
     pub(super) fn bracket(
         &self,
         base: &Located,
         next: &Located,
-        mut holds: impl FnMut(&Located) -> Result<bool, Error>,
+        holds: impl FnMut(&Located) -> Result<bool, Error>,
     ) -> Result<(Located, Located), Error> {
-        let (mut last, mut beyond) = (base.clone(), next.clone());
-        bisected_bracket(0.0, next.arclength - base.arclength, HALVINGS, |part| {
-            self.spend()?;
-            let Some(located) = self.at(base, part) else { return Ok::<_, Error>(false) };
-            let held = holds(&located)?;
-            if held {
-                last = located;
-            } else {
-                beyond = located;
-            }
-            Ok(held)
-        })?;
-        Ok((last, beyond))
+        let at = |part| self.spend().map(|()| self.at(base, part));
+        halved((base, next), next.arclength - base.arclength, at, holds)
     }
 
     /// The reason why it is no orbit of the map.
@@ -643,4 +632,27 @@ pub(super) fn apart(impacts: &[DVec2], speed: f64) -> Vec<DVec2> {
 
 pub(super) fn largest(apart: &[DVec2]) -> f64 {
     apart.iter().fold(0.0, |most, part| most.max(part.x.abs()).max(part.y.abs()))
+}
+
+/// The last point with a property that the first of `ends` has, and the first one without it, by halvings of the
+/// arclength between them. `at` finds the point at an arclength from the first end; if there is none, it lacks
+/// the property.
+pub(super) fn halved<P: Clone>(
+    ends: (&P, &P),
+    arclength: f64,
+    at: impl Fn(f64) -> Result<Option<P>, Error>,
+    mut holds: impl FnMut(&P) -> Result<bool, Error>,
+) -> Result<(P, P), Error> {
+    let (mut last, mut beyond) = (ends.0.clone(), ends.1.clone());
+    bisected_bracket(0.0, arclength, HALVINGS, |part| {
+        let Some(located) = at(part)? else { return Ok::<_, Error>(false) };
+        let held = holds(&located)?;
+        if held {
+            last = located;
+        } else {
+            beyond = located;
+        }
+        Ok(held)
+    })?;
+    Ok((last, beyond))
 }

@@ -8,11 +8,10 @@ use super::special::Special;
 use super::surface::{Place, Scaled, Surface, dot, less};
 use super::{BifurcationKind, Curve, CurveEnd, CurvePoint, SpecialKind, SpecialPoint};
 use crate::numerics::error::Error;
-use crate::numerics::roots::bisected_bracket;
 use crate::orbits::closing::{Closed, Closing, Flight, turned};
 use crate::orbits::continuation::walker::{
-    BEYOND, EASY, FEWEST_OF_CLOSED, GROWTH, HALVINGS, HARD, LARGEST_CORRECTION, NEIGHBOURS, SMALLEST_STEP,
-    STRAIGHT, apart, largest,
+    BEYOND, EASY, FEWEST_OF_CLOSED, GROWTH, HARD, LARGEST_CORRECTION, NEIGHBOURS, SMALLEST_STEP, STRAIGHT,
+    apart, halved, largest,
 };
 use crate::orbits::continuation::{Continuation, ContinuedMap, ROUNDED};
 use crate::run::WorkCount;
@@ -379,20 +378,10 @@ impl<'s, M: ContinuedMap> CurveWalker<'s, M> {
         &self,
         base: &Located,
         next: &Located,
-        mut holds: impl FnMut(&Located) -> Result<bool, Error>,
+        holds: impl FnMut(&Located) -> Result<bool, Error>,
     ) -> Result<Option<(Located, Located)>, Error> {
-        let (mut last, mut beyond) = (base.clone(), next.clone());
-        bisected_bracket(0.0, next.arclength - base.arclength, HALVINGS, |part| {
-            self.spend()?;
-            let Some(located) = self.at(base, part) else { return Ok::<_, Error>(false) };
-            let held = holds(&located)?;
-            if held {
-                last = located;
-            } else {
-                beyond = located;
-            }
-            Ok(held)
-        })?;
+        let at = |part| self.spend().map(|()| self.at(base, part));
+        let (last, beyond) = halved((base, next), next.arclength - base.arclength, at, holds)?;
         Ok((self.surface.distance(&last.at, &beyond.at) <= NEIGHBOURS).then_some((last, beyond)))
     }
 
