@@ -164,7 +164,7 @@ kinds! {
     /// A formula with an equality.
     Equation = "equation", "Reproduced if both sides agree apart from rounding.";
     /// One thing is larger, slower, negligible, significant.
-    Comparison = "comparison", "Reproduced if our values stand in the stated relation. A \"negligible\" difference is at most the one that the paper's own two numbers may have; a \"significant\" one exceeds the printed uncertainty.";
+    Comparison = "comparison", "Reproduced if our values stand in the stated relation. A \"negligible\" difference is at most the largest between numbers that round to the paper's own two; a \"significant\" one exceeds the printed uncertainty.";
     /// Said of a whole range of parameters, or without any qualification.
     Always = "always", "Differs if there is one counterexample inside the stated range, provided that it is not a single point: it must persist under a small change of the inputs.";
     /// "Can", "may", "possible", or one named case.
@@ -172,13 +172,13 @@ kinds! {
     /// "Most", "predominantly", a regime that a range is named after.
     Most = "most", "Reproduced if it holds for more than half of the cases.";
     /// "Grows", "falls", "rises", "approaches".
-    Trend = "trend", "Reproduced if, among all pairs of points of the range whose values differ, more change in the stated direction than in the other. A maximum or a turn is two trends.";
+    Trend = "trend", "Reproduced if, among all pairs of points of the range whose values differ, more change in the stated direction than in the other. A maximum or a turn counts as two trends.";
     /// "Much larger", "sufficiently", "eventually".
     Limit = "limit", "Reproduced if the deviation falls below a hundredth in the stated limit.";
     /// "Appears", "seems", "can be seen".
-    Appears = "appears", "Reproduced if the picture referred to shows it at its resolution, over most of the range meant, whatever lies between its points.";
+    Appears = "appears", "Reproduced if the cited picture, at its resolution, shows it over most of the range meant; behaviour between the plotted points does not count.";
     /// A speed, a torque, a form of transient or a trend of the motor.
-    Motor = "motor", "Two verdicts. The first, which counts, is on the mean of an ensemble of motors with perturbed relaunch; over many values of a parameter, on the middle mean or the middle exponent. The second is on single unperturbed orbits: reproduced if it holds for at least 95 % of them, differs if for at most 5 %.";
+    Motor = "motor", "Two verdicts. The first, which counts, is on the mean of an ensemble of motors with perturbed relaunch; over many values of a parameter, on the median of the means or of the exponents. The second is on single unperturbed orbits: reproduced if it holds for at least 95 % of them, differs if for at most 5 %.";
     /// Which orbit one motor is on, and what follows from that.
     Orbit = "orbit", "Judged over single orbits, like the second verdict on a motor.";
 }
