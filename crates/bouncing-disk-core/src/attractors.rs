@@ -1,9 +1,10 @@
 //! Attractors: the final motions of the disk, their basins, and how certain the answers are.
 //!
-//! Every impact is slower than [`ImpactMap::impact_speed_bound`](crate::ImpactMap::impact_speed_bound), so
-//! starts in this region find every attractor that is not too small. A start counts as captured by a periodic
-//! orbit within its [trapping radius](crate::orbits::PeriodicOrbit::trapping_radius), the only definition of
-//! "near enough" here.
+//! Every impact is slower than [`ImpactMap::impact_speed_bound`](crate::ImpactMap::impact_speed_bound), so a
+//! search from starts in this region finds every attractor whose basin is not too small. A start counts as
+//! captured by a periodic orbit once it comes within the [trapping
+//! radius](crate::orbits::PeriodicOrbit::trapping_radius) of that orbit; no other definition of "near enough"
+//! is used.
 //!
 //! ```
 //! use bouncing_disk_core::attractors::{AttractorSearch, Axis, BasinSettings, Grid};
@@ -19,7 +20,7 @@
 //! ```
 //!
 //! [`verdicts`] decides whether single orbits rest, repeat or are chaotic; [`BasinEntropy`] and
-//! [`BoundaryScaling`] measure basins. The methods: docs/numerics-dynamics.md.
+//! [`BoundaryScaling`] measure basins. The methods are in docs/numerics-dynamics.md.
 
 mod attracting_map;
 pub(crate) mod attraction;

@@ -1,9 +1,9 @@
 //! Chaos: Lyapunov exponents, the manifolds of saddles, and the crises that end chaotic attractors.
 //!
-//! The largest Lyapunov exponent is the mean logarithm of the growth of a tangent vector per impact; both
-//! exponents sum to 2 ln r, because the map contracts areas by r^2. An attractor ends in a boundary crisis
-//! when the stable and the unstable manifold of a saddle touch (Grebogi, Ott and Yorke, Physica D 7, 181,
-//! 1983). Beyond the crisis the mean survival time falls as a power of the distance from it.
+//! The largest Lyapunov exponent is the mean logarithm of the growth of a tangent vector per impact; the two
+//! exponents sum to 2 ln r, because the map contracts areas by r^2. An attractor ends in a boundary crisis when
+//! the stable and unstable manifolds of a saddle touch (Grebogi, Ott and Yorke, Physica D 7, 181, 1983). Beyond
+//! the crisis the mean survival time falls as a power of the distance from it.
 //!
 //! ```
 //! use bouncing_disk_core::chaos::lyapunov_exponents;

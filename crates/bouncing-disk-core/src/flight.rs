@@ -14,7 +14,7 @@
 //! # Ok::<(), bouncing_disk_core::Error>(())
 //! ```
 //!
-//! Successive flights make the [impact map](crate::map).
+//! One flight is one step of the [impact map](crate::map).
 
 pub(crate) mod bounds;
 pub(crate) mod drop;

@@ -41,9 +41,9 @@
 //! | `serde` | yes | `Serialize` for results, `Deserialize` for settings and inputs of computations |
 //!
 //! Deserialising runs the same checks as construction: a value outside its range, a missing key of a required
-//! value and an unknown key are errors. An infinite error bound is `null` in JSON, which has no such number.
-//! With `serde_json`, enable its feature `float_roundtrip`: without it a third of all numbers change in their
-//! last bit when they are read.
+//! value and an unknown key are errors. An infinite error bound is `null` in JSON, which cannot represent
+//! infinity. With `serde_json`, enable its feature `float_roundtrip`: without it a third of all numbers change
+//! in their last bit when they are read.
 
 pub mod attractors;
 pub mod chaos;

@@ -14,7 +14,7 @@
 //! # Ok::<(), bouncing_disk_core::Error>(())
 //! ```
 //!
-//! Orbits that repeat are in [`orbits`](crate::orbits), many at a time in [`sweep`](mod@crate::sweep).
+//! Periodic orbits are in [`orbits`](crate::orbits), batches of orbits in [`sweep`](mod@crate::sweep).
 
 mod chattering;
 pub(crate) mod impact_map;

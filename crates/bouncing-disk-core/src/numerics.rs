@@ -1,5 +1,5 @@
-//! Arithmetic that gives the same bits on every processor, roots, minima, statistics of samples,
-//! random streams and digests.
+//! Arithmetic with the same bits on every processor; roots, minima, statistics of samples, random streams and
+//! digests.
 
 pub mod batch_means;
 pub(crate) mod block_cyclic;

@@ -1,8 +1,8 @@
 //! Periodic orbits: how to find them, their stability, and their births, doublings and ends.
 //!
 //! An orbit of n impacts in k periods of the platform is a fixed point of the n-th iterate of the impact map.
-//! It attracts if both eigenvalues of the derivative, its Floquet multipliers, lie inside the unit circle. At
-//! a fold one of them is 1, at a period doubling -1. The orbit with one impact in each period has a closed
+//! It attracts if both eigenvalues of the derivative, its Floquet multipliers, lie inside the unit circle. At a
+//! fold one of them is 1; at a period doubling one is -1. The orbit with one impact in each period has a closed
 //! form: cos tau = (1 - r) / ((1 + r) Gamma).
 //!
 //! ```

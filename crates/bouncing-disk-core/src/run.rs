@@ -9,7 +9,7 @@ use std::sync::Mutex;
 
 use crate::numerics::error::Error;
 
-/// Work of one thread between two calls of an observer, in flights: about a millisecond, about ten without
+/// Work of one thread between two calls of an observer, in flights: about a millisecond, or about ten without
 /// optimisation. So every thread calls an observer far more often than every 50 ms.
 ///
 /// Work is counted and not timed because no computation of a result reads a clock. In lockstep all lanes of a
@@ -38,10 +38,10 @@ impl Progress {
 /// Receives the progress of a long call, and may stop it.
 ///
 /// Every call that may take longer than 0.1 s takes an observer as its last argument, or [`Unobserved`] for
-/// none. It is called before the first work, after every [`FLIGHTS_BETWEEN_CALLS`] flights of each thread,
-/// and when all is done. If it breaks, the call returns [`Error::Stopped`], except at the last call, when all
-/// is done. The working threads call it concurrently and in no fixed order, so `done` of one call may be less
-/// than in the call before. An observer never changes any bit of a result.
+/// none. It is called before the first work, after every [`FLIGHTS_BETWEEN_CALLS`] flights of each thread, and
+/// when all is done. If it breaks before all is done, the long call returns [`Error::Stopped`]. The working
+/// threads call it concurrently and in no fixed order, so `done` may decrease from one call to the next. An
+/// observer never changes any bit of a result.
 ///
 /// Any function or closure with this signature is an observer. The core reads no clock, but the observer may.
 ///
@@ -298,12 +298,12 @@ pub(crate) mod testing {
             Self { calls, asked: AtomicU64::new(0), last: Mutex::default() }
         }
 
-        /// How often it was called.
+        /// How many times it was called.
         pub(crate) fn asked(&self) -> u64 {
             self.asked.load(Ordering::Relaxed)
         }
 
-        /// The last progress that it saw.
+        /// The last progress that it received.
         pub(crate) fn last(&self) -> Progress {
             *self.last.lock().expect("no panic")
         }

@@ -1,9 +1,8 @@
 //! Many orbits at once: orbit diagrams, survival times, or any results that a visitor collects from their
 //! events.
 //!
-//! The events have the same bits as if each orbit were followed by itself, for any number of threads. Several
-//! flights are computed at a time in lockstep, in the lanes of vector instructions
-//! (docs/numerics-impacts.md).
+//! The events have the same bits as if each orbit were followed on its own, for any number of threads. Several
+//! flights are computed at a time in lockstep, in the lanes of vector instructions (docs/numerics-impacts.md).
 //!
 //! ```
 //! use bouncing_disk_core::sweep::orbit_diagram;

@@ -10,13 +10,13 @@
 //! For a < 0 take a = 0. The bracket is largest at t = 3 a/(2 b) if that comes before half a radian, that is for
 //! b > 3 a: there it is (3/8) a^2/b < a/8. Otherwise it is largest at t = 1/2: a/4 - b/24, which is at least a/8.
 //! A launch faster than the larger of a/8 and a/4 - b/24, plus the last term at t = 1/2, cannot land within half a
-//! radian. 1/24 is rounded down to 0.0416 and 1/192 up to 0.0053; the latter adds 2e-5 P more than the former may
-//! lack where b < 0.
+//! radian. 1/24 is rounded down to 0.0416 and 1/192 up to 0.0053; for b < 0 the latter adds at least 2e-5 P more
+//! than the former removes.
 //!
 //! **The first crest** (`Crests::surely_cleared`). Let t_c be the time to the crest, kappa the time from
 //! separation to crest, u the disk's speed at launch and f its speed when it comes down to the height of the
-//! crests. At the crest the disk has the speed e = u - t_c, and f^2 - e^2 is twice its height above it. No
-//! impact occurs between half a radian and the crest
+//! crests. At the crest the disk has the speed e = u - t_c, and f^2 - e^2 is twice its height above the crest.
+//! No impact occurs between half a radian and the crest
 //!
 //! 1. if t_c <= kappa: launched while the platform falls away, the disk moves away from it until the crest,
 //!    because the gap is convex;
@@ -28,15 +28,14 @@
 //!    is beyond any rounding. (Behind the last crest the slope loses more in the concave piece than it gains
 //!    before: w is larger still.)
 //!
-//! 3. if e <= 0 and f + e > 0: the disk is above the crest when the platform is there, and falls. In the
-//!    convex piece before the crest the slope is then negative throughout, and the gap larger than at its
-//!    end. In the concave piece before that it is positive at both ends (a disk launched behind the last
-//!    crest first moves away). The test requires f + e >= 1e-5 (1 + P) = d, in case 2, too. The gap at the
-//!    crest, (f - e)(f + e)/2 >= d^2/2, is then 5e-11 (1 + P)^2, thousands of times the rounding of u^2 <=
-//!    t_c^2.
+//! 3. if e <= 0 and f + e > 0: when the platform is at the crest, the disk is above it and falls. In the convex
+//!    piece before the crest the slope is then negative throughout, and the gap larger than at its end. In the
+//!    concave piece before that the gap is positive at both ends (a disk launched behind the last crest first
+//!    moves away). The test requires f + e >= d = 1e-5 (1 + P), in case 2 too. The gap at the crest, (f -
+//!    e)(f + e)/2 >= d^2/2, is then 5e-11 (1 + P)^2, thousands of times the rounding of u^2 <= t_c^2.
 //!
-//! There remain launches that are slower than the platform at the separation and faster at the crest, and
-//! launches that are hit.
+//! The test leaves undecided the launches that are slower than the platform at the separation and faster at the
+//! crest, and those that are hit.
 //!
 //! **Dips before the crest** ([`clears_by_tangents`]). Between the separation and the crest the gap is
 //! convex, so it lies above the tangents at both ends. Its slopes there are u - t_s - P cos sigma and u -
@@ -46,12 +45,12 @@
 use crate::flight::gap::{CrestForm, SHORT_FLIGHT};
 use crate::flight::platform::vibration::CLEAR;
 
-/// T^2/6, rounded down, and T^3/24, rounded up by more than the former rounding, for the half radian T of
-/// [`SHORT_FLIGHT`]: the factors of the drift P cos and of P in the gap over its time.
+/// The factors of the drift P cos and of P in gap(T)/T for T = [`SHORT_FLIGHT`], half a radian: T^2/6, rounded
+/// down, and T^3/24, rounded up by more than that.
 const DRIFT_SHARE: f64 = 0.0416;
 const BEND_SHARE: f64 = 0.0053;
 
-/// Whether a launch may land within [`SHORT_FLIGHT`], given P sin and P cos at launch. None that lands is
+/// Whether a launch may land within [`SHORT_FLIGHT`], given P sin and P cos at launch. No launch that lands is
 /// missed: over half a radian the pull is at most its value at launch, less its drift, plus the curvature of
 /// the platform.
 #[inline(always)]
@@ -72,8 +71,8 @@ pub(crate) fn arc_speed(disk_speed: f64, depth: f64) -> f64 {
     -(disk_speed * disk_speed - 2.0 * depth).sqrt()
 }
 
-/// Whether a launch certainly clears inflection and crest without a dip between them, given times and gaps
-/// there. A launch that fails may clear them, too.
+/// Whether a launch certainly clears inflection and crest without a dip between them, given the times and gaps
+/// there. A launch that fails the test may clear them too.
 ///
 /// The gap is convex between the two. It does not dip to zero if it falls or rises all the way, or if the
 /// tangents at both ends, below which a convex function cannot lie, meet at a positive gap.
@@ -150,8 +149,8 @@ mod tests {
         assert!(short > 10_000 && spared > 10_000, "{short} {spared}");
     }
 
-    /// No launch at any phase and speed that is certain to clear the first crest touches the platform before
-    /// it, unless within half a radian; and most launches that clear it are certain.
+    /// No launch that is certain to clear the first crest touches the platform before it, at any phase and
+    /// speed, unless within half a radian. Most launches that clear the crest are certain to.
     #[test]
     fn a_crest_that_is_surely_cleared_is_cleared() {
         let (mut certain, mut hit, mut doubtful) = (0, 0, 0);

@@ -7,8 +7,8 @@
 //! ```
 //!
 //! whose terms are each accurate in the relative sense: neither a gap far below the rounding of P nor a
-//! velocity far above the platform's cancels. A disk that stays above the crests for longer is followed from
-//! the moment when it comes down to them.
+//! velocity far above the platform's is lost by cancellation. A disk that stays above the crests for longer is
+//! followed from the moment when it comes down to them.
 
 use core::f64::consts::{PI, TAU};
 
@@ -34,8 +34,8 @@ const LAST_STEP: f64 = 1.0e-9;
 /// the minimum by at most the square of this number, relative to the terms that form it.
 const DIP_ACCURACY: f64 = 1.0e-9;
 
-/// A disk that falls at least this fast hits a platform that is less than [`BRIEFEST`] rad away with this
-/// velocity, to all digits: a pull of up to 1e8 has no time to change it.
+/// A disk that falls at least this fast, and lands within [`BRIEFEST`] rad, lands with the velocity that it
+/// started with, to all digits: a pull of up to 1e8 has no time to change it.
 const SLOWEST_BRIEF: f64 = 1.0e-200;
 
 /// Evaluations after which the search bisects the logarithm of the time, and after which it reports an error;
@@ -66,7 +66,8 @@ impl Vibration {
     /// minus platform, units of g/omega, of either sign).
     ///
     /// The guarantee of [`Self::first_impact`] holds; here the first piece may be convex and entered with a
-    /// falling gap. A short flight is accurate in the relative sense, however small the gap or fast the disk.
+    /// falling gap. A short flight is accurate in the relative sense, however small the gap and however fast
+    /// the disk.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a gap or a velocity outside these ranges;
@@ -208,7 +209,8 @@ impl DropForm {
         }
     }
 
-    /// The root in a bracket with exactly one, through which the gap falls, and the relative velocity there.
+    /// The root in a bracket with exactly one, at which the gap falls through zero, and the relative velocity
+    /// there.
     fn root(&self, mut bracket: Bracket, evaluations: &mut u32) -> Result<(f64, f64), Error> {
         let before = *evaluations;
         let guess = self.guess();

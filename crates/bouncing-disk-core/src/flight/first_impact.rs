@@ -11,15 +11,15 @@
 //! in docs/numerics-impacts.md):
 //!
 //! 1. *One crest decides.* A disk below a crest of the platform (phase pi/2) is hit by that crest at the
-//!    latest. So the impact lies before the first crest after the launch that rises above the disk, or,
-//!    if the disk rises above the crests, before the first crest after it has come down to their height, a
-//!    moment known in closed form. Either window is shorter than one period.
-//! 2. *The curvature of the gap, P sin(tau + h) - 1, changes sign at two phases known in closed form.* A
-//!    window has at most three pieces of constant curvature; a concave piece that starts above zero has a
-//!    root only if it ends below, and then one; a convex piece can only be entered and left again through one
-//!    minimum.
-//! 3. *gap(h)/h is regular*, so the launch itself is divided out and flights of any brevity have relative
-//!    accuracy.
+//!    latest. So the impact lies before the first crest after the launch that rises above the disk. If the disk
+//!    rises above the crests, this is the first crest after it has come down to their height, at a moment known
+//!    in closed form. In both cases the window to search is shorter than one period.
+//! 2. *The curvature of the gap, P sin(tau + h) - 1, changes sign at two phases known in closed form.* A window
+//!    has at most three pieces, each with a curvature of constant sign. A concave piece that starts above zero
+//!    has a root only if it ends below, and then exactly one. A convex piece has at most one minimum, the only
+//!    place where the gap may dip below zero and rise again.
+//! 3. *gap(h)/h is regular*, so the root at the launch is divided out, and even the briefest flights have
+//!    relative accuracy.
 
 use core::f64::consts::{PI, TAU};
 
@@ -67,7 +67,7 @@ impl Vibration {
         impact
     }
 
-    /// [`Self::impact_after`] as a part of its caller.
+    /// [`Self::impact_after`], inlined into its caller.
     #[inline(always)]
     pub(crate) fn impact_after_in_place(&self, from: Phase, speed: f64) -> Result<Impact, Error> {
         let p = self.peak_acceleration();
@@ -94,8 +94,8 @@ impl Vibration {
     /// The window of a possible first root before the crest, and a place in it to start the search; `None` if
     /// there is certainly no root.
     ///
-    /// Everything within [`SHORT_FLIGHT`] has been decided already, in the relative accuracy that it needs.
-    /// The sign of a gap is taken from the crest form where that is beyond doubt, else from the launch form.
+    /// Everything within [`SHORT_FLIGHT`] has been decided already, with the relative accuracy that it needs.
+    /// The sign of a gap is taken from the crest form if that is beyond doubt, otherwise from the launch form.
     #[inline(never)]
     pub(crate) fn bracket_before_crest_of_launch(
         &self,
@@ -145,8 +145,8 @@ impl Vibration {
         low.dip(lo, crest, evaluations).map(|hi| (Bracket { lo, hi }, lo))
     }
 
-    /// The impact of a disk that rises above the crests: down to their height it flies free, in closed form.
-    /// `disk_speed` and `depth` (below the crest) are those at `angle`; `speed` is only for the error.
+    /// The impact of a disk that rises above the crests: down to their height its flight is known in closed
+    /// form. `disk_speed` and `depth` (below the crest) are those at `angle`; `speed` is only for the error.
     #[inline(always)]
     pub(crate) fn impact_from_above(
         &self,
@@ -161,8 +161,8 @@ impl Vibration {
         self.impact_after_arc(angle, (disk_speed + fall, fall), speed, evaluations)
     }
 
-    /// The impact of a disk that comes down to the height of the crests with the speed `fall` at the time
-    /// `free` after `angle`; `speed` is only for the error.
+    /// The impact of a disk that comes down to the height of the crests with the speed `fall` a time `free`
+    /// after `angle`; `speed` is only for the error.
     #[inline(always)]
     pub(crate) fn impact_after_arc(
         &self,
@@ -219,7 +219,7 @@ impl Vibration {
         Bracket { lo: end, hi: crest }
     }
 
-    /// The impact if it comes within [`SHORT_FLIGHT`], else `None`.
+    /// The impact if it occurs within [`SHORT_FLIGHT`], otherwise `None`.
     fn short_flight(&self, from: &Phase, speed: f64) -> Result<Option<Impact>, Error> {
         if speed <= FASTEST_BRIEF {
             self.flight_of_hardly_any_speed(from, speed)
@@ -228,7 +228,7 @@ impl Vibration {
         }
     }
 
-    /// [`Self::short_flight`] of a launch that is not brief, as a part of its caller.
+    /// [`Self::short_flight`] of a launch that is not brief, inlined into its caller.
     #[inline(always)]
     fn short_flight_with_speed(&self, from: &Phase, speed: f64) -> Result<Option<Impact>, Error> {
         let p = self.peak_acceleration();
@@ -263,16 +263,16 @@ pub(crate) fn turned_by(from: Phase, h: f64) -> (Phase, u64) {
     (Phase::from_parts(wrapped, s + (c * sin_h - s * versine), c - (s * sin_h + c * versine)), turns)
 }
 
-/// Where the platform falls away from a disk at rest with less acceleration than this share of 1 + P, that
-/// acceleration is not taken from 1 - P sin tau, most of which is then rounding.
+/// If the platform falls away from a disk at rest with an acceleration below this share of 1 + P, the
+/// acceleration is not computed from 1 - P sin tau, which is then mostly rounding error.
 const DOUBTFUL_PULL: f64 = 1.0e-13;
 
 impl Vibration {
-    /// [`Self::short_flight`] from rest, or of a launch that may be [brief](is_brief), where the search
-    /// cannot find it.
+    /// [`Self::short_flight`] from rest, or of a launch that may be [brief](is_brief), for which the search may
+    /// fail.
     ///
     /// # Errors
-    /// [`Error::NoLiftOff`] from rest where the platform does not fall away.
+    /// [`Error::NoLiftOff`] from rest if the platform does not fall away.
     #[cold]
     #[inline(never)]
     fn flight_of_hardly_any_speed(&self, from: &Phase, speed: f64) -> Result<Option<Impact>, Error> {
@@ -298,9 +298,9 @@ impl Vibration {
         }
     }
 
-    /// The impact of a flight from rest that starts while the platform has nearly stopped to fall away: the
-    /// acceleration c0 = P sin tau - 1 with which it does is then smaller than the rounding of that
-    /// difference, and is taken from the distances to the two phases where it vanishes. `None` for all other
+    /// The impact of a flight from rest that starts while the platform has nearly stopped falling away. Its
+    /// acceleration c0 = P sin tau - 1 away from the disk is then smaller than the rounding of that difference,
+    /// and is computed from the distances to the two phases at which it vanishes. `None` for all other
     /// launches.
     ///
     /// Over so short a flight the acceleration is c0 + c1 h - h^2/2, c1 = P cos tau, which integrates to
@@ -326,8 +326,8 @@ impl Vibration {
         Some(Impact { periods: 0, remainder: h, turns, phase, velocity, evaluations: 0 })
     }
 
-    /// The window of the first root within [`SHORT_FLIGHT`], piece by piece of constant curvature: convex
-    /// while the platform falls `away`, else concave; the first piece reaches to `end`.
+    /// The window of the first root within [`SHORT_FLIGHT`], searched over pieces of constant curvature sign:
+    /// convex while the platform falls `away`, else concave; the first piece reaches to `end`.
     fn short_bracket(
         &self,
         flight: &ShortForm,
@@ -363,12 +363,12 @@ impl Vibration {
 
 #[cfg(debug_assertions)]
 impl Vibration {
-    /// Asserts that the `duration` of a flight is what the velocities at its ends say: a disk in free flight
-    /// loses one unit of speed a radian, whatever the phases are (docs/numerics-impacts.md, "The clock").
+    /// Asserts that the `duration` of a flight agrees with the velocities at its ends: a disk in free flight
+    /// loses one unit of speed per radian, whatever the phases are (docs/numerics-impacts.md, "The clock").
     /// Debug builds only.
     ///
-    /// An impact without velocity is a graze, whose slope is known to half of the digits only: it says
-    /// nothing.
+    /// An impact with zero velocity is a graze, whose slope is known to only half of the digits; it is not
+    /// checked.
     pub(crate) fn assert_clock(
         &self,
         from: Phase,
@@ -392,9 +392,9 @@ impl Vibration {
     }
 }
 
-/// Bound on the rounding of both sides of the law that `Vibration::assert_clock` states, relative to what
-/// they are computed from: some forty roundoffs, of which phases, speeds and their difference take some ten.
-/// A period is 2 pi.
+/// Bound on the rounding of both sides of the law that `Vibration::assert_clock` states, relative to the
+/// numbers they are computed from: about forty roundoffs, of which phases, speeds and their difference
+/// contribute about ten. A period is 2 pi.
 #[cfg(debug_assertions)]
 const CLOCK_ROUNDING: f64 = 1.0e-14;
 
@@ -405,8 +405,8 @@ pub(crate) fn landed_within_a_turn(angle: f64, root: Root) -> Impact {
     impact
 }
 
-/// The impact of an arc whose reference is `start`, in [-pi, 3 pi), `periods` whole periods later than a
-/// launch at `angle` would put it.
+/// The impact of an arc whose reference is `start`, in [-pi, 3 pi), `periods` whole periods later than after a
+/// launch at `angle` in the same period.
 #[inline(always)]
 pub(crate) fn landed(angle: f64, start: f64, periods: f64, root: Root) -> Impact {
     let (wrapped, turns) = impact_phase(start + root.time);
@@ -440,8 +440,7 @@ pub(crate) fn landed(angle: f64, start: f64, periods: f64, root: Root) -> Impact
 mod tests {
     use super::*;
 
-    /// It is above the platform nowhere else on the way, so that the crest is the first impact whatever
-    /// window holds it.
+    /// The crest is the first impact of this disk, whichever window contains it.
     #[test]
     fn a_disk_that_comes_down_to_the_crest_at_the_crest_lands_there() {
         for (peak, fall) in [(0.5, 1e-9), (3.0, 0.5), (3.0, 4.0), (200.0, 40.0)] {

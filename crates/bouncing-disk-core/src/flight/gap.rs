@@ -7,7 +7,7 @@ use crate::numerics::elementary::{
 };
 use crate::numerics::error::Error;
 
-/// Longest flight (rad) solved with the series of gap(h)/h; longer ones use the pair.
+/// Longest flight (rad) solved with the series of gap(h)/h; longer ones use the phase pair.
 pub(crate) const SHORT_FLIGHT: f64 = 0.5;
 
 /// Bounds the last step (rad) times one plus its relative curvature. The remainder of the fifth-order series
@@ -35,7 +35,7 @@ const PATIENCE_OF_SCALE: u32 = 64;
 /// Rounding error of one evaluation of the gap, relative to the sum of the sizes of its terms.
 const GAP_ROUNDING: f64 = 4.5e-16;
 
-/// A time window with exactly one root, through which the gap falls.
+/// A time window with exactly one root, at which the gap falls through zero.
 #[derive(Clone, Copy)]
 pub(crate) struct Bracket {
     pub(crate) lo: f64,
@@ -43,9 +43,9 @@ pub(crate) struct Bracket {
 }
 
 impl Bracket {
-    /// A time between both ends that roughly halves the number of doubles between them. Bisection needs this
-    /// if the root may be many decades below the upper end. At most 12 steps come within a factor of two of
-    /// the root.
+    /// A time between the ends that roughly halves the number of doubles between them. Bisection needs this if
+    /// the root may be many decades below the upper end. At most 12 steps are needed to come within a factor of
+    /// two of the root.
     pub(crate) fn geometric_middle(self) -> f64 {
         let arithmetic = 0.5 * (self.lo + self.hi);
         // The bits of positive doubles are ordered like the doubles.
@@ -81,8 +81,8 @@ impl GapTaylor {
     /// Whether the gap falls and the series reversal of [`Self::last_step`] reaches the root from here.
     ///
     /// With the Newton step x = gap/slope: |x| (1 + |curvature/slope|) and x^2 (|third| + |platform|)/|slope|
-    /// are small; terms of the third order and above are bounded by the latter. Multiplied out, because a
-    /// division takes long.
+    /// are small; the second quantity bounds the terms of the third order and above. The conditions are
+    /// multiplied out, because a division is slow.
     #[inline(always)]
     pub(crate) fn is_near_root(&self) -> bool {
         let (gap, fall) = (self.gap.abs(), -self.slope);
@@ -93,10 +93,11 @@ impl GapTaylor {
         bent & third & (fall > 0.0)
     }
 
-    /// Whether [`Self::is_near_root`] holds for certain, which takes half the time: both of its conditions
-    /// follow from |x| (|s| + |c| + m) <= L |s|, with the Newton step x, slope s, curvature c, third and fourth
-    /// derivative p and q, m = (|p| + |q|)/6 and L = [`LAST_STEP`]: since (|s| + m)^2 >= 4 |s| m,
-    /// x^2 (|p| + |q|) <= L^2 s^2 (6 m)/(4 |s| m) = 3 L^2 |s|/2. For all of them m = 0.24 P > sqrt(2) P/6 serves.
+    /// A sufficient condition for [`Self::is_near_root`], tested in half the time: |x| (|s| + |c| + m) <= L |s|.
+    /// Here x is the Newton step, s the slope, c the curvature, p and q the third and fourth derivatives, m =
+    /// (|p| + |q|)/6 and L = [`LAST_STEP`]. Both conditions follow, since (|s| + m)^2 >= 4 |s| m implies x^2
+    /// (|p| + |q|) <= L^2 s^2 (6 m)/(4 |s| m) = 3 L^2 |s|/2. For every gap m may be replaced by 0.24 P > sqrt(2)
+    /// P/6.
     #[inline(always)]
     pub(crate) fn is_surely_near_root(&self, peak: f64) -> bool {
         let fall = -self.slope;
@@ -125,7 +126,8 @@ impl GapTaylor {
         if correction.abs() < 0.5 * d.abs() { d + correction } else { d }
     }
 
-    /// [`Self::corrected_step`] with a mask instead of a selection; the same except for the sign of zero.
+    /// [`Self::corrected_step`] with a mask instead of a selection; the result is the same except for the sign
+    /// of zero.
     #[inline(always)]
     pub(crate) fn corrected_step_of_lane(&self, d: f64, root: f64) -> f64 {
         let correction = self.correction(d, root);
@@ -176,12 +178,12 @@ pub(crate) trait GapForm: Copy {
     /// Bound on the rounding error of the gap at `t`.
     fn rounding(&self, t: f64) -> f64;
 
-    /// The root in `bracket`, which must contain exactly one, through which the gap falls, from a first
-    /// `guess`.
+    /// The root in `bracket`, found from a first `guess`. The bracket must contain exactly one root, at which
+    /// the gap falls through zero.
     ///
     /// Each step is the root of the quadratic model with the next two terms as a correction, kept inside the
-    /// shrinking bracket by bisection; the last one is the fifth-order series reversal, whose smallness
-    /// criterion bounds what it leaves.
+    /// shrinking bracket by bisection; the last one is the fifth-order series reversal, whose criterion bounds
+    /// the remaining error.
     #[inline(always)]
     fn root(&self, mut bracket: Bracket, guess: f64, evaluations: u32) -> Result<Root, Error> {
         let mut t = guess;
@@ -284,7 +286,8 @@ impl CrestForm {
         (platform_depth - self.depth) + t * (self.speed - 0.5 * t)
     }
 
-    /// Where the tangents at both ends of a convex piece of length `end` meet: the gap lies above it.
+    /// The height at which the tangents at both ends of a convex piece of length `end` meet: the gap lies above
+    /// it.
     #[inline(always)]
     pub(crate) fn lowest_of_tangents(gap: f64, gap_at_end: f64, first: f64, last: f64, end: f64) -> f64 {
         let meet = (gap - gap_at_end + last * end) / (last - first);
@@ -453,14 +456,15 @@ impl ShortForm {
         (step.abs() <= LAST_SHORT_STEP * h) & (slope < 0.0)
     }
 
-    /// The relative velocity a last `step` after `h`, at which it is `velocity`; not positive.
+    /// The relative velocity after a last `step` from `h`, given the `velocity` at `h`; never positive.
     #[inline(always)]
     pub(crate) fn impact_velocity(&self, h: f64, velocity: f64, step: f64) -> f64 {
         let impact = velocity + self.curvature(h) * step;
         if impact < 0.0 { impact } else { 0.0 }
     }
 
-    /// The first flight of a chattering sequence, from the expansion in the launch speed.
+    /// The duration of a flight such as the first of a chattering sequence, from the expansion in the launch
+    /// speed.
     #[inline(always)]
     pub(crate) fn expected(&self) -> f64 {
         let inverse = 1.0 / self.pull;

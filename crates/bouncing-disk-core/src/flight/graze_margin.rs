@@ -18,9 +18,9 @@ impl Vibration {
     /// If it is small compared with P, a slightly different launch would have hit the platform earlier. It is
     /// computed separately from the impact because an orbit does not need it.
     ///
-    /// The gap has at most one minimum in each interval in which the platform falls away faster than the
-    /// disk. The minima are a concave sequence (the disk's parabola, sampled once a period), so the first or
-    /// the last one is the smallest: the cost does not grow with the flight.
+    /// The gap has at most one minimum in each interval in which the platform falls away faster than the disk.
+    /// The minima are a concave sequence (the disk's parabola, sampled once a period), so the first or the last
+    /// one is the smallest: the cost does not grow with the length of the flight.
     #[must_use]
     pub fn graze_margin(&self, launch: Launch, impact: &Impact) -> f64 {
         let peak = self.peak_acceleration();

@@ -21,7 +21,7 @@ impl Launch {
     ///
     /// Speed zero means "from rest on the platform". If the platform falls away, P sin tau >= 1, the disk
     /// separates; otherwise the flight returns [`Error::NoLiftOff`]. The launch itself is legal, because it
-    /// knows no platform.
+    /// does not depend on the platform.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a negative or non-finite speed.
@@ -64,7 +64,7 @@ pub struct Impact {
     pub periods: u64,
     /// The rest of the duration in radians, in [0, 2 pi).
     pub remainder: f64,
-    /// How often the phase passed 0 (mod 2 pi) during the flight: the advance of a period counter.
+    /// How many times the phase passed 0 (mod 2 pi) during the flight: the advance of a period counter.
     pub turns: u64,
     /// Phase of the impact.
     pub phase: Phase,

@@ -1,36 +1,36 @@
 //! The chatter that follows a launch of an impact map.
 //!
 //! **The error of a cut.** On a platform with a constant pull a, S(v) is the sum of the launch speeds after an
-//! impact at speed v, and the flights last (2/a) S(v) together.
+//! impact at speed v, and the flights last (2/a) S(v) in total.
 //!
-//! As the platform moves, the pull changes, and with it the speed of return. Over a window W from the impact
-//! on let the pull be at least alpha > 0 and change at most at the rate delta. With b = P cos tau, delta =
-//! min(|b| + P W, P) and alpha = a - delta W satisfy this.
+//! As the platform moves, the pull changes, and with it the speed of return. Over a window of length W after
+//! the impact, let the pull be at least alpha > 0 and change at a rate of at most delta. With b = P cos tau,
+//! delta = min(|b| + P W, P) and alpha = a - delta W satisfy this.
 //!
-//! A flight in the window lasts at most 2 w/alpha, in which the pull changes by at most 2 delta w/alpha. With
-//! the least pull of the flight it rises at most w^2/(2 least), and it falls back with at most the greatest
-//! pull. So it returns with at most w sqrt(1 + 2 delta w/alpha^2) <= w (1 + K w), K = delta/alpha^2. So
-//! v_(n+1) <= (1 + K r v_n) r v_n, and
+//! A flight in the window lasts at most 2 w/alpha, in which the pull changes by at most 2 delta w/alpha. Under
+//! the least pull of the flight the disk rises by at most w^2/(2 least), and it falls back under at most the
+//! greatest pull. So it returns with a speed of at most w sqrt(1 + 2 delta w/alpha^2) <= w (1 + K w), K =
+//! delta/alpha^2. Hence v_(n+1) <= (1 + K r v_n) r v_n, and
 //!
 //! ```text
 //! v_n - v_(n+1) >= (1 - r - K r^2 v_n) v_n >= (1 - theta)(1 - r) v_n,    theta = K S(v_0),
 //! ```
 //!
-//! because r v_n/(1 - r) <= S(v_n) <= S(v_0). While theta < 1 the sum above is larger by at most 1/(1 -
-//! theta), and all flights together last at most
+//! because r v_n/(1 - r) <= S(v_n) <= S(v_0). If theta < 1, the sum of the launch speeds exceeds S(v_0) by a
+//! factor of at most 1/(1 - theta), and all flights together last at most
 //!
 //! ```text
 //! T = (2/alpha) S(v_0)/(1 - theta).
 //! ```
 //!
-//! If T <= W, all impacts lie in the window, by induction: each added flight needs w_n <= S(v_n), which the
-//! sum up to v_n leaves. `ImpactMap::comes_to_rest_within` starts with the window 4 S/a, narrows it to T up
-//! to three times, and returns the last bound, or `None` if the first window fails.
+//! If T <= W, all impacts lie in the window, by induction: each further flight needs w_n <= S(v_n), and the sum
+//! up to v_n leaves at least this much. `ImpactMap::comes_to_rest_within` starts with the window 4 S/a, narrows
+//! it to T up to three times, and returns the last bound, or `None` if the first window fails.
 //!
 //! The cut puts the disk on the platform up to T too early. Because the pull lasts over T, both motions rest
 //! before the platform falls away, and leave it at the same phase. The omitted height is below w^2/(2 alpha).
 //! The omitted axial impulses are the integral of the pull over the remaining time minus w, at most a' T with
-//! a' <= a + delta T the greatest pull; friction in contact can use as much. So the error of the angular
+//! a' <= a + delta T the greatest pull; friction in contact can transmit as much. So the error of the angular
 //! speed is at most 2 mu a' T.
 
 use crate::chatter::accumulation::{Accumulation, ChatterImpact};
@@ -52,8 +52,8 @@ impl ImpactMap {
     /// and the carried pair. Near weightlessness one rounding of P or of the phase changes the pull and the
     /// duration; this conditioning of the problem is not part of the bound.
     ///
-    /// The accumulation point lies before the next separation. A chatter that ends before it has changed the
-    /// phase has the duration 0.
+    /// The accumulation point lies before the next separation. A chatter too short to change the phase has the
+    /// duration 0.
     ///
     /// ```
     /// # use bouncing_disk_core::{ImpactMap, Launch, Phase, Vibration};
@@ -77,11 +77,11 @@ impl ImpactMap {
     }
 
     /// The impacts of the chatter after a launch that [`Self::accumulation`] accepts with a duration above 0.
-    /// They end when an impact carries less than 1e-17 of the first one's impulse, or its launch speed is
+    /// They end when an impact carries less than 1e-17 of the first one's impulse, or if its launch speed is
     /// below the smallest normal number.
     ///
     /// They are computed lazily. There are 39/(1 - r) of them, so near r = 1 this may take forever.
-    /// [`Self::chatter_series`] gives all of them, and their sums, at once.
+    /// [`Self::chatter_series`] returns all of them and their sums at once.
     pub fn chatter_impacts(&self, launch: Launch) -> impl Iterator<Item = ChatterImpact> + use<> {
         self.vibration().chatter_impacts(launch.phase(), launch.relative_speed(), self.restitution())
     }
@@ -98,15 +98,15 @@ impl ImpactMap {
 /// A generous bound on the rounding of the bound.
 const ROUNDING: f64 = 1.0e-12;
 
-/// How often the window is shortened to the bound that it gave.
+/// How many windows are tried: each after the first is as long as the bound from the one before.
 const WINDOWS: u32 = 4;
 
 impl<L: RestitutionLaw> ImpactMap<L> {
-    /// A time (rad) within which the disk comes to rest after an impact, until the platform falls away. It
-    /// bounds the error of a cut that puts the disk on the platform at this impact. It is `None` if no bound
-    /// is known: the law has no [`rebound_sum`](RestitutionLaw::rebound_sum), or the chatter is so long that
-    /// the pull 1 - P sin tau may change considerably. The bound holds for the pull that P and the carried
-    /// pair give (derived at the head of this file).
+    /// A time (rad) within which the disk comes to rest after an impact, before the platform falls away. It
+    /// bounds the error of a cut that puts the disk on the platform at this impact. It is `None` if no bound is
+    /// known: the law has no [`rebound_sum`](RestitutionLaw::rebound_sum), or the chatter is so long that the
+    /// pull 1 - P sin tau may change considerably. The bound holds for the pull computed from P and the carried
+    /// pair (derived at the head of this file).
     ///
     /// ```
     /// # use bouncing_disk_core::map::KuwabaraKono;

@@ -154,7 +154,7 @@ impl ImpactMap {
         self.restitution.value()
     }
 
-    /// The derivative at `state`, whose next impact is the one in `next` after a flight of the duration `h`.
+    /// The derivative at `state`; the next impact is `next`, after a flight of duration `h`.
     pub(crate) fn derivative(&self, state: ImpactState, next: ImpactState, h: f64) -> DMat2 {
         self.derivative_by_slope(state, next, h, self.restitution())
     }
@@ -189,7 +189,7 @@ impl<L: RestitutionLaw> ImpactMap<L> {
     /// The restitution of an impact with this relative axial speed >= 0 (units of g/omega).
     ///
     /// # Errors
-    /// [`Error::IllegalRestitution`] if the law gives a number outside [0, 1], or NaN.
+    /// [`Error::IllegalRestitution`] if the law returns a number outside [0, 1], or NaN.
     #[inline(always)]
     pub fn restitution_at(&self, impact_speed: f64) -> Result<f64, Error> {
         restitution_of(&self.restitution, impact_speed)
@@ -202,9 +202,8 @@ impl<L: RestitutionLaw> ImpactMap<L> {
         Ok(-self.restitution_at(0.0 - velocity)? * velocity)
     }
 
-    /// The impact after the one in `state`, without any chattering policy: a chattering disk is followed
-    /// through ever smaller impacts until its speed underflows. [`Self::orbit`] and [`Self::state_after`] end
-    /// a chatter.
+    /// The next impact after `state`, without any chattering policy: a chattering disk is followed through ever
+    /// smaller impacts until its speed underflows. [`Self::orbit`] and [`Self::state_after`] end a chatter.
     ///
     /// # Errors
     /// [`Error::NoLiftOff`] if the disk stays on the platform (restitution or speed zero), errors of
@@ -214,8 +213,8 @@ impl<L: RestitutionLaw> ImpactMap<L> {
         self.vibration.impact_after(state.phase, self.rebound_speed(state.velocity)?)
     }
 
-    /// The impact a number of [steps](Self::step) after the one in `state`: the same bits as step by step,
-    /// but faster because the state stays in registers. As in a step, no policy ends a chatter. The items of
+    /// The impact a number of [steps](Self::step) after `state`: bit for bit the result of single steps, but
+    /// faster because the state stays in registers. As in a step, no policy ends a chatter. The items of
     /// `observer` are the impacts.
     ///
     /// ```
@@ -261,7 +260,7 @@ impl<L: RestitutionLaw> ImpactMap<L> {
     }
 
     /// [`Self::step`] with the derivative of the next (phase, velocity) with respect to the present one, in
-    /// radians and units of g/omega. Column-major: `x_axis` is the derivative by the phase.
+    /// radians and units of g/omega. Column-major: `x_axis` is the derivative with respect to the phase.
     ///
     /// It is singular at a graze (impact velocity zero), with infinite entries.
     ///
@@ -285,8 +284,8 @@ impl<L: RestitutionLaw> ImpactMap<L> {
         Ok((impact, self.derivative_by_slope(state, impact.into(), impact.duration(), slope)))
     }
 
-    /// The derivative at `state`, whose next impact is the one in `next` after a flight of the duration `h`;
-    /// `slope` is the derivative of the launch speed by the impact speed.
+    /// The derivative at `state`; the next impact is `next`, after a flight of duration `h`. `slope` is the
+    /// derivative of the launch speed with respect to the impact speed.
     fn derivative_by_slope(&self, state: ImpactState, next: ImpactState, h: f64, slope: f64) -> DMat2 {
         let p = self.vibration.peak_acceleration();
         let (s, c) = (state.phase.sin(), state.phase.cos());
@@ -307,8 +306,8 @@ impl<L: RestitutionLaw> ImpactMap<L> {
     /// The orbit that starts with the impact in `state`; the first item is the next event.
     ///
     /// The closed form of [`ChatterPolicy::Complete`] holds for a constant restitution: under another law, or
-    /// with a restitution outside its range, the first event is an error. [`ChatterPolicy::Cut`] ends a
-    /// chatter under every law; its error is the `error_bound` of the [`Attachment`].
+    /// with a restitution outside the range of this form, the first event is an error. [`ChatterPolicy::Cut`]
+    /// ends a chatter under every law; its error is the `error_bound` of the [`Attachment`].
     #[must_use]
     pub fn orbit(&self, state: ImpactState, policy: ChatterPolicy) -> Orbit<L> {
         Orbit::after_impact(self.clone(), policy, state)
@@ -344,8 +343,8 @@ pub enum OrbitEvent {
     /// The disk hits the platform.
     Impact(Impact),
     /// The disk comes to rest on the platform. On a sine it separates again as the platform falls away; on a
-    /// drive the separation is an event of its own. In a compliant contact it stays forever; the error bound
-    /// is infinite if this is only inferred from 4096 turns of the spring without a release.
+    /// drive the separation is an event of its own. In a compliant contact the disk stays forever; the error
+    /// bound is infinite if this is only inferred from 4096 turns of the spring without a release.
     Attachment(Attachment),
     /// On a drive: the disk leaves, because the contact force falls to zero or the velocity of the platform
     /// drops.
@@ -364,7 +363,7 @@ pub struct ContactChange {
     pub duration: f64,
     /// The phase of the event.
     pub phase: Phase,
-    /// How often the phase passed 0 (mod 2 pi) since the disk came to rest.
+    /// How many times the phase has passed 0 (mod 2 pi) since the disk came to rest.
     pub turns: u64,
     /// The velocity of the disk relative to the platform just after the platform's velocity has jumped,
     /// before any law of impact applies. It is zero or positive for a separation, negative for a kick.
@@ -393,8 +392,8 @@ pub struct Attachment {
     pub accumulation: Accumulation,
     /// Launch speed after the last impact, in units of g/omega, from which the chatter started.
     pub last_speed: f64,
-    /// The phase of the next separation, and how often the phase passes 0 (mod 2 pi) between attachment and
-    /// separation; `None` on a drive, and if the disk rests forever (P <= 1).
+    /// The phase of the next separation, and how many times the phase passes 0 (mod 2 pi) between attachment
+    /// and separation; `None` on a drive, and if the disk rests forever (P <= 1).
     pub separation: Option<(Phase, u64)>,
 }
 
@@ -498,7 +497,7 @@ impl<L: RestitutionLaw> Orbit<L> {
     }
 
     /// Bound on the time (rad) during which the disk would go on bouncing after an impact at which a cut ends
-    /// the chatter; `None` for a constant restitution, for which [`ChatterPolicy::Complete`] has the exact
+    /// the chatter; `None` for a constant restitution, for which [`ChatterPolicy::Complete`] computes the exact
     /// time.
     fn error_of_cut(&self, phase: Phase, velocity: f64) -> f64 {
         match self.map.restitution.constant(Internal) {

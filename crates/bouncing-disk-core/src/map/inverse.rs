@@ -7,23 +7,23 @@ use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::elementary::wrapped_angle;
 use crate::numerics::error::{Error, within};
 
-/// The phase pi - tau, at which the platform running backwards is at its height at tau.
+/// The phase pi - tau, at which the time-reversed platform has its height at tau.
 fn mirrored(phase: Phase) -> Phase {
     // Mirroring rounds the angle, but not its sine and cosine.
     Phase::from_parts(wrapped_angle(PI - phase.angle()), phase.sin(), -phase.cos())
 }
 
 impl ImpactMap {
-    /// The impact before the one in `state`: the only one that [`Self::step`] maps to it.
+    /// The impact before `state`: the only one that [`Self::step`] maps to `state`.
     ///
     /// Backwards in time the platform vibrates in the same way, but from the phase pi - tau, and the disk
     /// leaves it with the speed |v|. The first impact of that flight is the previous impact. The disk arrives
     /// there with its launch speed, the restitution times the unknown impact speed. So the inverse exists if
     /// the restitution is not 0 and the disk was in flight before the impact, and speeds grow backwards.
     ///
-    /// Like [`Self::step`], it jumps where the flight grazes the platform. An impact with zero speed can only
-    /// be a graze while the platform falls away faster than the disk; if one is returned, a launch with zero
-    /// speed followed it.
+    /// Like [`Self::step`], it is discontinuous where the flight grazes the platform. An impact with zero speed
+    /// is possible only as a graze, while the platform falls away faster than the disk. If such an impact is
+    /// returned, a launch with zero speed followed it.
     ///
     /// ```
     /// # use bouncing_disk_core::{ImpactMap, ImpactState, Vibration};

@@ -45,14 +45,14 @@ pub trait RestitutionLaw: Clone + Debug {
     /// A value outside this range, or NaN, ends the motion with [`Error::IllegalRestitution`] at that impact.
     fn restitution(&self, impact_speed: f64) -> f64;
 
-    /// The derivative of [`Self::restitution`] by the speed (units of omega/g). At speeds below the smallest
-    /// normal number, in particular 0, it may be infinite: only its product with the speed matters, which
-    /// then counts as 0.
+    /// The derivative of [`Self::restitution`] with respect to the speed (units of omega/g). At speeds below
+    /// the smallest normal number, in particular 0, it may be infinite: only its product with the speed
+    /// matters, which then counts as 0.
     fn derivative(&self, impact_speed: f64) -> f64;
 
     /// A bound on the sum of all launch speeds after an impact at this speed on a platform at rest, until the
-    /// disk rests. For a law that does not grow with the speed, it is the integral of r/(1 - r) over the
-    /// speeds from 0 to this one, or anything larger. It gives the error of a cut
+    /// disk rests. For a law that does not grow with the speed, it is the integral of r/(1 - r) over the speeds
+    /// from 0 to this one, or anything larger. It bounds the error of a cut
     /// ([`ImpactMap::comes_to_rest_within`](crate::ImpactMap::comes_to_rest_within)).
     ///
     /// `None`, the default, is for a law that may grow with the speed or is unknown: its cuts have no error
@@ -61,8 +61,8 @@ pub trait RestitutionLaw: Clone + Debug {
         None
     }
 
-    /// The restitution if it is the same at every speed and known to be legal. Only [`Constant`] returns one,
-    /// because no other crate can name the argument: the closed forms of a chatter rely on this.
+    /// The restitution if it is the same at every speed and known to be legal. Only [`Constant`] returns one.
+    /// The closed forms of a chatter rely on this, so no other crate can name the argument.
     #[doc(hidden)]
     #[inline(always)]
     fn constant(&self, _: Internal) -> Option<f64> {
@@ -70,7 +70,7 @@ pub trait RestitutionLaw: Clone + Debug {
     }
 }
 
-/// Only this crate can name it, so no other crate can override a method that takes it.
+/// Only this crate can name this type, so no other crate can override a method with an argument of this type.
 #[derive(Debug, Clone, Copy)]
 pub struct Internal;
 
@@ -154,7 +154,8 @@ pub(crate) fn restitution_of<L: RestitutionLaw>(law: &L, impact_speed: f64) -> R
     }
 }
 
-/// The derivative of the launch speed r(v) v by the impact speed v; for a constant law, the restitution.
+/// The derivative of the launch speed r(v) v with respect to the impact speed v; for a constant law, the
+/// restitution.
 pub(crate) fn launch_slope<L: RestitutionLaw>(law: &L, impact_speed: f64) -> Result<f64, Error> {
     let restitution = restitution_of(law, impact_speed)?;
     if law.constant(Internal).is_some() || impact_speed < f64::MIN_POSITIVE {

@@ -4,16 +4,17 @@
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::ImpactMap;
 
-/// The largest factor by which its roundings may reduce a bound: at most ten, all of positive numbers.
+/// The largest factor by which rounding may reduce a bound, which is computed from positive numbers with at
+/// most ten roundings.
 const ROUNDINGS: f64 = 1.0 + 8.0 * f64::EPSILON;
 
 impl ImpactMap {
     /// The bound M on the disk's own speed |u| after an impact, for every periodic orbit and every attractor.
     /// Here u = w + P cos tau, relative to the ground and not to the platform, in units of g/omega.
     ///
-    /// An impact leaves u' = -r V + (1 + r) P cos tau', where the disk lands with V^2 = u^2 + 2 P (sin tau -
-    /// sin tau'), at most u^2 + 4 P. Hence |u'| <= f(|u|) = r sqrt(u^2 + 4 P) + (1 + r) P. The slope of f is
-    /// below r < 1, so that f has one fixed point,
+    /// An impact leaves u' = -r V + (1 + r) P cos tau', where the landing speed V satisfies V^2 = u^2 + 2 P
+    /// (sin tau - sin tau') <= u^2 + 4 P. Hence |u'| <= f(|u|) = r sqrt(u^2 + 4 P) + (1 + r) P. The slope of f
+    /// is below r < 1, so that f has one fixed point,
     ///
     /// M = q + r sqrt(q (q + 4/(1 + r))), q = P/(1 - r),
     ///
@@ -57,8 +58,8 @@ impl ImpactMap {
     /// [`Self::launch_speed_bound`] M, since the disk lands at the platform's height there. It is 0 if this
     /// is negative (a platform that falls faster than any disk is not hit). Rounded upwards.
     ///
-    /// The impacts within it form the trapping region. An orbit that starts there stays, every periodic orbit
-    /// and every attractor lies in it, and the distance of every other orbit from it tends to 0.
+    /// The impacts within this bound form the trapping region. An orbit that starts there stays, every periodic
+    /// orbit and every attractor lies in it, and the distance of every other orbit from it tends to 0.
     ///
     /// ```
     /// # use bouncing_disk_core::{ImpactMap, Phase, Vibration};

@@ -1,14 +1,14 @@
 //! The period-doubling cascade to as many digits as the arithmetic carries: from one doubling to the next by
 //! Newton's iteration on the impact times (docs/numerics-dynamics.md, "The doubling cascade").
 //!
-//! No step iterates the map to convergence, so slow attraction does not matter. For r = 0.1, 0.5 and 0.8 the
-//! gap of no flight has another minimum; for r = 0.01 the orbit of the third doubling would dip through the
+//! No step iterates the map to convergence, so slow attraction does not matter. For r = 0.1, 0.5 and 0.8 no
+//! flight's gap has another minimum; for r = 0.01 the orbit of the third doubling would dip through the
 //! platform.
 //!
-//! Doubles carry the forcings to n = 13: the stated error is 9e-14 at n = 12 for r = 0.1, and the differences
-//! from double-doubles are at most 6e-15 for r = 0.1, 0.5 and 0.8. The multiplier differs from -1 by up to
-//! 3e-6 there, and ratios of distances keep six digits at n = 12. Double-doubles give 3e-29 for the forcings
-//! and 4e-22 for the multiplier.
+//! In doubles the forcings can be computed to n = 13: the stated error is 9e-14 at n = 12 for r = 0.1, and
+//! the differences from double-doubles are at most 6e-15 for r = 0.1, 0.5 and 0.8. The multiplier differs
+//! from -1 by up to 3e-6 there, and ratios of distances keep six digits at n = 12. In double-doubles these
+//! errors are 3e-29 for the forcings and 4e-22 for the multiplier.
 
 pub(crate) mod branch;
 pub(crate) mod feigenbaum;
@@ -23,8 +23,8 @@ use crate::run::{Observer, Watch};
 /// The largest number of doublings: the last one is the doubling of the orbit of period [`MAX_PERIOD`].
 pub const MAX_DOUBLINGS: usize = 13;
 
-/// A graze margin that doubles cannot distinguish from zero (units of g/omega^2): their gap is exact to 1e-14
-/// of the peak acceleration and the flight, and the phases here to all their digits.
+/// A graze margin that doubles cannot distinguish from zero (units of g/omega^2): a gap is exact to 1e-14 of
+/// the peak acceleration and the flight, and the phases here are exact to all their digits.
 const UNSURE_MARGIN: f64 = 1.0e-9;
 
 /// A period doubling of the cascade that starts at the orbit with one impact per period of the platform.
@@ -81,15 +81,15 @@ impl<R> DoublingCascade<R> {
     }
 }
 
-/// The first `count`, in [1, [`MAX_DOUBLINGS`]], period doublings of the orbit with one impact per period of
-/// the platform, for `restitution` in (0, 1), to all digits of its number type.
+/// The first `count` period doublings of the orbit with one impact per period of the platform, to all digits
+/// of the number type of `restitution`. The restitution is in (0, 1) and `count` in [1, [`MAX_DOUBLINGS`]].
 ///
-/// In doubles every forcing gives the multiplier -1 to within [`CascadeDoubling::forcing_error`], at most
-/// 1.5e-13 at the thirteenth doubling. From one doubling to the next the rounding error grows 6.6 times in
-/// the multiplier and 1.4 times in the forcing (docs/numerics-dynamics.md). The distances between doublings
-/// shrink 4.67 times, so ratios of distances have six digits at the twelfth.
-/// [`DoubleDouble`](crate::numerics::double_double::DoubleDouble) gives sixteen more; then parse a decimal
-/// restitution from text, as the double `0.1` is not a tenth.
+/// In doubles the multiplier is -1 within [`CascadeDoubling::forcing_error`] of every stated forcing; this
+/// error is at most 1.5e-13 at the thirteenth doubling. From one doubling to the next the rounding error
+/// grows 6.6 times in the multiplier and 1.4 times in the forcing (docs/numerics-dynamics.md). The distances
+/// between doublings shrink 4.67 times, so ratios of distances have six digits at the twelfth.
+/// [`DoubleDouble`](crate::numerics::double_double::DoubleDouble) adds sixteen digits; with it, parse a
+/// decimal restitution from text, because the double `0.1` is not exactly a tenth.
 ///
 /// The items of `observer` are the doublings.
 ///
@@ -108,9 +108,10 @@ impl<R> DoublingCascade<R> {
 /// # Ok::<(), bouncing_disk_core::Error>(())
 /// ```
 ///
-/// A cascade may end early. It ends with [`Error::NotSettled`] if a branch is lost, with the margin if an
-/// orbit comes so near an earlier impact that doubles cannot decide, and with [`Error::EarlierImpact`] if the
-/// orbit hits the platform earlier. The result then contains the doublings up to there, and the error.
+/// A cascade may end early. It ends with [`Error::NotSettled`] if a branch is lost or if an orbit comes so
+/// near an earlier impact that doubles cannot decide; in the second case the residual is the margin. It ends
+/// with [`Error::EarlierImpact`] if the orbit hits the platform earlier. The result then contains the error
+/// and the doublings before it.
 ///
 /// # Errors
 /// [`Error::OutOfRange`] for the restitution or the count; [`Error::Stopped`] if the observer breaks; the

@@ -1,5 +1,5 @@
-//! The equations of a closed sequence of flights and of their derivatives by one parameter. With rigid impacts they
-//! ignore earlier impacts that would end a flight, and so are smooth through a graze
+//! The equations of a closed sequence of flights and their derivatives with respect to one parameter. With rigid
+//! impacts they ignore earlier impacts that would end a flight, and so are smooth through a graze
 //! (docs/numerics-dynamics.md, "Branches").
 
 use core::f64::consts::TAU;
@@ -16,18 +16,18 @@ use crate::numerics::error::Error;
 
 mod sine;
 
-/// Newton steps until a correction is given up.
+/// Newton steps after which a correction is given up.
 const MAX_CORRECTIONS: u32 = 12;
 
-/// A Newton step (scaled) after which one more reaches the rounding.
+/// The size (scaled) of a Newton step after which one more step reaches rounding.
 const NEARLY: f64 = 1.0e-8;
 
-/// The share of the step before up to which a step is one of quadratic convergence, and the one from which on
-/// it is rounding.
+/// The size of a step relative to the previous one: up to the first value convergence is quadratic, above the
+/// second the step is rounding.
 const FAST: f64 = 0.1;
 const STILL: f64 = 0.9;
 
-/// A Newton step that is rounding.
+/// The size of a Newton step that is pure rounding.
 const ROUNDING: f64 = 1.0e-15;
 
 /// The parameter in which an orbit is continued.
@@ -41,12 +41,12 @@ pub enum ContinuationParameter {
     Restitution,
     /// The number of a family of maps, such as `bouncing_disk_drives::DrivenFamily`.
     Number,
-    /// The second number of a family over two, as `bouncing_disk_drives::DrivenFamily::of_two`.
+    /// The second number of a family over two numbers, as in `bouncing_disk_drives::DrivenFamily::of_two`.
     SecondNumber,
 }
 
 impl ContinuationParameter {
-    /// The range in which a map exists, and in which an impact is followed by a flight.
+    /// The range in which a map exists and an impact is followed by a flight.
     pub(crate) const fn legal(self) -> (f64, f64) {
         match self {
             Self::Forcing => (0.0, Vibration::MAX_PEAK_ACCELERATION / core::f64::consts::PI),
@@ -86,7 +86,7 @@ pub trait ClosingMap: Clone + Debug {
     #[doc(hidden)]
     fn time_to_next(&self, state: ImpactState) -> Result<f64, Error>;
 
-    /// How far the equations are from being satisfied, negative, and their derivatives.
+    /// The negative residuals of the equations, and their derivatives.
     #[doc(hidden)]
     fn equations(&self, by: ContinuationParameter, at: &Closed, durations: &[f64])
     -> Option<CyclicEquations>;
@@ -102,8 +102,8 @@ pub trait ClosingMap: Clone + Debug {
     }
 }
 
-/// Impacts (phase in rad, and with rigid impacts the disk's own speed after the impact, otherwise its velocity before
-/// it, in units of g/omega) and the parameter.
+/// Impacts and the parameter. An impact is a phase (rad) and a speed (units of g/omega): with rigid impacts the
+/// disk's own speed after the impact, otherwise its velocity before the impact.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Closed {
     /// The impacts.
@@ -113,14 +113,14 @@ pub struct Closed {
 }
 
 impl Closed {
-    /// This much of a direction further.
+    /// This solution moved by `by` times a direction.
     pub(crate) fn moved(&self, direction: &Self, by: f64) -> Self {
         let impacts = self.impacts.iter().zip(&direction.impacts).map(|(x, d)| *x + *d * by).collect();
         Self { impacts, parameter: self.parameter + by * direction.parameter }
     }
 }
 
-/// An angle less its whole turns, in [-pi, pi].
+/// An angle minus its whole turns, in [-pi, pi].
 pub(crate) fn turned(angle: f64) -> f64 {
     angle - TAU * nearest_whole(angle / TAU)
 }
@@ -146,7 +146,7 @@ pub struct Flight {
     pub duration: f64,
 }
 
-/// The plane in which a correction looks for a point: at this distance from a base, across a direction
+/// The plane in which a correction looks for a point: normal to a direction, at this distance from a base
 /// (scaled; phase, speed, parameter).
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Plane {
@@ -155,8 +155,8 @@ pub(crate) struct Plane {
     pub(crate) distance: f64,
 }
 
-/// Newton's method by a step that returns its size, until steps are rounding: their number. `None` if they do not
-/// settle.
+/// The number of Newton steps until they are pure rounding; `None` if they do not settle. `step` makes one step
+/// and returns its size.
 pub(crate) fn settled<M: ClosingMap>(mut step: impl FnMut() -> Option<f64>) -> Option<u32> {
     let mut last = f64::INFINITY;
     for steps in 1..=MAX_CORRECTIONS {
@@ -174,7 +174,7 @@ pub(crate) fn settled<M: ClosingMap>(mut step: impl FnMut() -> Option<f64>) -> O
 /// A sequence of flights that closes, with the properties that are the same all along a branch.
 #[derive(Debug, Clone)]
 pub(crate) struct Closing<M> {
-    /// The map at the start of the branch: where the other parameters come from.
+    /// The map at the start of the branch, which supplies the other parameters.
     pub(crate) map: M,
     pub(crate) by: ContinuationParameter,
     pub(crate) scale: Scale,
@@ -193,7 +193,7 @@ impl<M: ClosingMap> Closing<M> {
         Ok(Self::with_durations(map, by, states, &durations))
     }
 
-    /// The same where the durations of the flights are known, at least to a radian.
+    /// The same if the durations of the flights are known, at least to within a radian.
     pub(crate) fn with_durations(
         map: &M,
         by: ContinuationParameter,
@@ -222,13 +222,13 @@ impl<M: ClosingMap> Closing<M> {
         &self.turns
     }
 
-    /// The equations of the orbit gone through twice.
+    /// The equations of the orbit traversed twice.
     pub(crate) fn twice(&self) -> Self {
         Self { turns: [self.turns.as_slice(), &self.turns].concat(), ..self.clone() }
     }
 
-    /// The equations of the shorter orbit whose repetition both halves of this one are nearly, and the mean
-    /// of both.
+    /// The equations of the shorter orbit that each half of this one nearly is, and the mean of the two
+    /// halves.
     pub(crate) fn half(&self, at: &Closed) -> (Self, Closed) {
         let n = self.turns.len() / 2;
         let (first, second) = at.impacts.split_at(n);
@@ -260,7 +260,7 @@ impl<M: ClosingMap> Closing<M> {
         (0..impacts.len()).map(|i| self.duration(impacts, i)).collect()
     }
 
-    /// The flights of a solution; the velocities of one that is no orbit may have any sign.
+    /// The flights of a solution; if it is not an orbit, the velocities may have any sign.
     pub(crate) fn flights_of(&self, at: &Closed) -> Vec<Flight> {
         let (n, durations) = (at.impacts.len(), self.durations(&at.impacts));
         let velocities = self.map.velocities(self.by, at, &durations);
@@ -275,7 +275,7 @@ impl<M: ClosingMap> Closing<M> {
         (0..n).map(one).collect()
     }
 
-    /// The impacts of a solution; `None` where one has no speed.
+    /// The impacts of a solution; `None` if an impact has no speed.
     pub(crate) fn states(&self, at: &Closed) -> Option<Vec<ImpactState>> {
         let velocities = self.map.velocities(self.by, at, &self.durations(&at.impacts));
         let one = |(impact, (arrival, _)): (&DVec2, (f64, f64))| {
@@ -300,8 +300,7 @@ impl<M: ClosingMap> Closing<M> {
         [first.x, first.y / self.scale.speed, at.parameter / self.scale.parameter]
     }
 
-    /// How far the equations are from being satisfied, negative, and their derivatives; `None` where a flight
-    /// has no duration.
+    /// The negative residuals of the equations, and their derivatives; `None` if a flight has no duration.
     pub(crate) fn equations(&self, at: &Closed) -> Option<CyclicEquations> {
         let durations = self.durations(&at.impacts);
         if !durations.iter().all(|duration| *duration > 0.0 && duration.is_finite()) {

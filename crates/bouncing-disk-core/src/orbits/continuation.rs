@@ -2,16 +2,16 @@
 //! on the way (docs/numerics-dynamics.md, "Branches").
 //!
 //! The mean slope of the sine is computed as cos(tau + h/2) sin(h/2)/(h/2), without cancellation, and for
-//! other drives by `Drive::change`. Two branches of the equations meet at a birth: the parameter is a
-//! constant plus a square of the distance d of the halves, and is determined to eps/d only. The parameter of
-//! an orbit with d <= 1e-6 differs from the birth's by c 1e-12 only. An orbit on another drive ends where the
-//! map finds an earlier first impact. On parabolas all orbits of two impacts exist only at the forcing of the
-//! doubling, so a branch whose parameter is constant within 1e-11 over an arclength of 1e-3 to either side
-//! has no fold: rounding alone turns it.
+//! other drives by `Drive::change`. Two branches of the equations meet at a birth: there the parameter is a
+//! constant plus c d^2, with the distance d between the halves of the orbit, and is determined only to eps/d.
+//! For d <= 1e-6 it differs from the constant, its value at the birth, by at most c 1e-12. An orbit on
+//! another drive ends where the map finds an earlier first impact. On parabolas all orbits of two impacts
+//! exist only at the forcing of the doubling, so a branch whose parameter is constant within 1e-11 over an
+//! arclength of 1e-3 to either side has no fold: rounding alone turns it back.
 //!
-//! At a doubling, one component of the first impact of phi is set to 1, the choice that gives the shorter
-//! vector. In doubles the map misses a dip of v^2 below the root of the rounding, so a branch stops up to
-//! about 1e-8 of the parameter before an impact vanishes.
+//! At a doubling, one component of the first impact of the flipping vector phi is set to 1, the choice that
+//! gives the shorter vector. In doubles the map misses the dip v^2 of an impact with a speed v below the root
+//! of the rounding, so a branch stops up to about 1e-8 of the parameter before an impact vanishes.
 
 use core::ops::ControlFlow;
 
@@ -29,8 +29,8 @@ pub(super) mod walker;
 
 use walker::Walker;
 
-/// Largest relative difference of a map's forcing from the one that it was made for: the roundings of
-/// a product and a quotient with pi.
+/// Largest relative difference of a map's forcing from the one that it was made from: the roundings of a
+/// product and a quotient with pi.
 const ROUNDED: f64 = 4.0 * f64::EPSILON;
 
 /// The settings of a continuation: parameter, range and resolution.
@@ -64,9 +64,9 @@ impl Continuation {
     /// A continuation in `parameter` between `low` < `high`, at first towards higher values (`rising`) or
     /// lower ones.
     ///
-    /// The arclength is measured in first impact and parameter: radians, units of 1 + P, and the forcing at
-    /// the start (for the restitution: 1) count alike. The first step is 0.01, the largest 0.05, and there
-    /// are at most 10,000 points: see [`Self::with_steps`].
+    /// The arclength is measured in the first impact and the parameter. Its units are a radian, a speed of
+    /// 1 + P, and the forcing at the start (for the restitution: 1). The first step is 0.01, the largest
+    /// 0.05, and there are at most 10,000 points: see [`Self::with_steps`].
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if the range is empty or exceeds the parameter's range.
@@ -151,7 +151,7 @@ impl Continuation {
 /// A map whose periodic orbits can be continued in a parameter. The parameters of [`ImpactMap`] are its
 /// forcing and its restitution; `bouncing_disk_drives::DrivenFamily` has its number.
 pub trait ContinuedMap: ClosingMap {
-    /// The work of a flight, in flights of the sine.
+    /// The work of a flight, in units of a flight above a sine.
     #[doc(hidden)]
     const WORK: u64 = 1;
 
@@ -165,7 +165,7 @@ pub trait ContinuedMap: ClosingMap {
     #[doc(hidden)]
     fn is_grazed(&self, flight: &Flight) -> Result<bool, Error>;
 
-    /// The gap of a flight at a time (rad) after its launch, its rate and the rate of that; `None` where flights are not
+    /// The gap of a flight at a time (rad) after its launch, and its first two derivatives; `None` if flights are not
     /// known, as with compliant contacts.
     #[doc(hidden)]
     fn gap(&self, _flight: &Flight, _after: f64) -> Option<[f64; 3]> {
@@ -176,7 +176,7 @@ pub trait ContinuedMap: ClosingMap {
     #[doc(hidden)]
     fn duration_found(&self, flight: &Flight) -> Result<f64, Error>;
 
-    /// The orbit with these impacts, and trace and determinant of the derivative around it.
+    /// The orbit with these impacts, and the trace and determinant of the derivative around it.
     #[doc(hidden)]
     fn orbit_through(&self, states: Vec<ImpactState>, durations: &[f64])
     -> Option<(PeriodicOrbit, [f64; 2])>;
@@ -187,7 +187,7 @@ pub trait ContinuedMap: ClosingMap {
         false
     }
 
-    /// Whether the velocity of the platform jumps there.
+    /// Whether the velocity of the platform jumps at this phase.
     #[doc(hidden)]
     fn is_on_kink(&self, _phase: f64) -> bool {
         false
@@ -197,8 +197,8 @@ pub trait ContinuedMap: ClosingMap {
     /// pseudo-arclength: through folds, and along unstable parts, until it ends
     /// ([`BranchEnd`]).
     ///
-    /// Doublings, folds and the end of the orbit are located to within rounding. Two of one kind within one
-    /// step are missed: see [`Continuation::with_steps`].
+    /// Doublings, folds and the end of the orbit are located to within rounding. Two bifurcations of one kind
+    /// within one step are missed: see [`Continuation::with_steps`].
     ///
     /// The items of `observer` are the allowed points.
     ///
@@ -217,7 +217,7 @@ pub trait ContinuedMap: ClosingMap {
     /// # Errors
     /// [`Error::OutOfRange`] if the parameter of this map is outside the range, or the restitution is 0;
     /// [`Error::NotOfKind`] if it has no such parameter; [`Error::NotAnOrbit`] if `orbit` is not an orbit of
-    /// this map; [`Error::NoBranch`] if it is not an isolated one: start near a fold or a birth, not on it.
+    /// this map; [`Error::NoBranch`] if it is not isolated: start near a fold or a birth, not on it.
     fn continued(
         &self,
         orbit: &PeriodicOrbit,
@@ -231,8 +231,9 @@ pub trait ContinuedMap: ClosingMap {
         self.continued_from(orbit, settings, observer)
     }
 
-    /// The first `count` period doublings, in [1, [`MAX_DOUBLINGS`]], starting from `orbit`: of its branch,
-    /// of the branch that begins there, and so on. There are fewer if a branch ends before it doubles.
+    /// The first `count` period doublings (`count` in [1, [`MAX_DOUBLINGS`]]) from `orbit` on: the first on
+    /// its branch, the second on the branch that begins there, and so on. There are fewer if a branch ends
+    /// before it doubles.
     ///
     /// The items of `observer` are the doublings.
     ///
@@ -298,7 +299,7 @@ pub struct BranchPoint {
     pub orbit: PeriodicOrbit,
     /// The trace of the derivative around the orbit.
     pub trace: f64,
-    /// Its determinant, for n rigid impacts r^(2 n), in [-1, 1].
+    /// The determinant of this derivative, in [-1, 1]; for n rigid impacts r^(2 n).
     pub determinant: f64,
     /// The arclength from the start of the branch (see [`Continuation::new`]).
     pub arclength: f64,
@@ -360,7 +361,7 @@ pub enum BifurcationKind {
         /// The index of the impact.
         impact: usize,
     },
-    /// An impact passes a phase at which the acceleration of the platform jumps, and so do the multipliers:
+    /// An impact passes a phase at which the acceleration of the platform jumps, and the multipliers with it:
     /// an orbit gains or loses its stability, or the branch turns back in the parameter. If the velocity
     /// jumps, the branch ends.
     BorderCollision {
@@ -394,9 +395,9 @@ impl BifurcationKind {
 pub struct Bifurcation {
     /// Its kind.
     pub kind: BifurcationKind,
-    /// The orbit at this point. At a graze and at a vanishing impact it is the last one whose speeds and gaps
-    /// have the signs of an orbit, to their accuracy. There rounding decides which impact the map finds
-    /// first, so the last of [`Branch::points`] is one that the map confirms. At a birth it is the orbit that
+    /// The orbit at this point. At a graze and at a vanishing impact it is the last orbit whose speeds and
+    /// gaps have the right signs, to their accuracy. Rounding decides there which impact the map finds first,
+    /// so the last of [`Branch::points`] is an orbit that the map confirms. At a birth it is the orbit that
     /// doubles its period, with half the impacts.
     pub point: BranchPoint,
 }
@@ -486,8 +487,8 @@ impl<M: ContinuedMap> Branch<M> {
     }
 
     /// The branch of twice the period that begins at number `index` of this branch's [`Self::bifurcations`],
-    /// which must be a doubling. Its first point is the one after the doubling. The settings' `rising` has no
-    /// meaning, as the branch may go to either side.
+    /// which must be a doubling. Its first point is the first one after the doubling. The settings' `rising`
+    /// is ignored, because the branch may go to either side.
     ///
     /// The items of `observer` are the allowed points.
     ///

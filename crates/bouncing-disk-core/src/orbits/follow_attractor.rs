@@ -66,7 +66,7 @@ impl<Forcings: Iterator<Item = f64>> Iterator for Following<Forcings> {
 }
 
 impl ImpactMap {
-    /// The state `impacts` impacts after `start`, or `None` if the disk comes to rest before.
+    /// The state `impacts` impacts after `start`, or `None` if the disk comes to rest earlier.
     ///
     /// The items of `observer` are the impacts.
     ///

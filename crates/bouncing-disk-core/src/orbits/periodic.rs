@@ -148,8 +148,8 @@ pub struct PeriodicOrbit {
     /// The derivative of the map around the orbit, from its first impact.
     pub monodromy: DMat2,
     /// The largest change of the impacts (rad, and relative speed) due to rounding of the solution, and of
-    /// the map's parameters by a unit in the last place. Near a fold two orbits within this distance count as
-    /// one.
+    /// the map's parameters by one unit in the last place. Near a fold two orbits within this distance count
+    /// as one.
     pub position_error: f64,
     /// The largest change of the derivative's trace due to this rounding.
     pub trace_error: f64,
@@ -168,7 +168,7 @@ read_checked!(PeriodicOrbit as UncheckedOrbit {
 pub enum Stability {
     /// Both multipliers lie inside the unit circle by more than their uncertainty: the orbit attracts.
     Stable,
-    /// A multiplier is 1 or -1 within its uncertainty, as in a fold or a doubling: the orbit is semi-stable,
+    /// A multiplier is 1 or -1 within its uncertainty, as at a fold or a doubling: the orbit is semi-stable,
     /// or rounding decides whether it attracts or even exists.
     Marginal,
     /// A multiplier lies outside the unit circle by more than its uncertainty.
@@ -262,8 +262,8 @@ impl PeriodicOrbit {
         Multipliers::of_invariants(self.trace(), self.determinant())
     }
 
-    /// The error of the multipliers: the change of the roots of m^2 - T m + D by [`Self::trace_error`], at a
-    /// double root by its square root.
+    /// The error of the multipliers: the change of the roots of m^2 - T m + D due to [`Self::trace_error`],
+    /// which near a double root grows as its square root.
     #[must_use]
     pub fn multiplier_error(&self) -> f64 {
         let (trace, determinant) = (self.trace(), self.determinant());
@@ -273,10 +273,9 @@ impl PeriodicOrbit {
     }
 
     /// The determinant of the derivative, limited to magnitude 1, since phase space contracts. If
-    /// perturbations grow strongly, the determinant of a product of many matrices is pure rounding and may
-    /// have any size: over hundreds of impacts with multipliers up to 1e18, 1e19 instead of 1e-140. Without
-    /// the limit five chaotic orbits among 6,000 forcings near Gamma = 0.54509 (r = 0.5) would count as
-    /// periodic.
+    /// perturbations grow strongly, the determinant of a product of many matrices is pure rounding error of
+    /// any size: 1e19 instead of 1e-140 over hundreds of impacts with multipliers up to 1e18. Without the
+    /// limit five chaotic orbits among 6,000 forcings near Gamma = 0.54509 (r = 0.5) would count as periodic.
     #[doc(hidden)]
     #[must_use]
     pub fn determinant(&self) -> f64 {
@@ -290,7 +289,7 @@ impl PeriodicOrbit {
         self.monodromy.x_axis.x + self.monodromy.y_axis.y
     }
 
-    /// det(1 + monodromy) = (1 + m1)(1 + m2): falls through zero when the orbit doubles its period.
+    /// det(1 + monodromy) = (1 + m1)(1 + m2): it falls through zero when the orbit doubles its period.
     #[must_use]
     pub fn flip_function(&self) -> f64 {
         1.0 + self.trace() + self.determinant()
@@ -378,7 +377,7 @@ impl ImpactMap {
     }
 
     /// The smallest period (in impacts, up to `longest` in [1, [`MAX_PERIOD`]]) with which an orbit from
-    /// `state` repeats itself within `tolerance` >= 0 (rad, and relative speed), twice in a row; `None` if no
+    /// `state` repeats itself within `tolerance` >= 0 (rad, and relative speed), twice in a row. `None` if no
     /// such period exists or the disk comes to rest (judged by [`ChatterPolicy::Complete`]).
     ///
     /// # Errors
@@ -415,11 +414,11 @@ impl ImpactMap {
     }
 
     /// The attracting periodic orbit that the orbit from `state` settles on: `transient` impacts, then the
-    /// period (at most `longest`), then [`Self::refine`]. `None` if it comes to rest (judged by
+    /// period (at most `longest`), then [`Self::refine`]. `None` if this orbit comes to rest (judged by
     /// [`ChatterPolicy::Complete`]) or shows no period.
     ///
     /// The items of `observer` are the impacts of the transient, of the search for the period and of the
-    /// refinement, at their maximum.
+    /// refinement, each at its maximum.
     ///
     /// # Errors
     /// Errors of [`Self::refine`] and [`Self::period_of`].
@@ -463,7 +462,7 @@ impl ImpactMap {
     }
 }
 
-/// The distance of two impacts, in units in which a radian and the speed `speed_scale` count alike.
+/// The distance between two impacts, in units in which a radian and the speed `speed_scale` count alike.
 pub(crate) fn distance(a: ImpactState, b: ImpactState, speed_scale: f64) -> f64 {
     let phase = phase_difference(a.phase().angle(), b.phase().angle());
     let velocity = (a.velocity() - b.velocity()) / speed_scale;

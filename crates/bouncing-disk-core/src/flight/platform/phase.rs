@@ -39,7 +39,7 @@ impl core::fmt::Display for Phase {
 }
 
 /// The largest accepted difference between a deserialised pair and the sine and cosine of its angle: far more
-/// than any orbit's drift, far less than for another angle.
+/// than any orbit's drift, far less than the difference to another angle.
 pub(crate) const PAIR_TOLERANCE: f64 = 1.0e-9;
 
 read_checked!(Phase as UncheckedPhase { angle: f64, sin: f64, cos: f64 });

@@ -15,11 +15,11 @@ use core::f64::consts::{PI, TAU};
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedVibration"))]
 pub struct Vibration {
     peak_acceleration: f64,
-    /// Phase sigma at which P sin tau rises through 1 (pi/2 if it never does): a disk at rest separates, and
-    /// the curvature of the gap turns positive.
+    /// Phase sigma at which P sin tau rises through 1 (pi/2 if it never does): there a disk at rest separates,
+    /// and the curvature of the gap turns positive.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) separation_angle: f64,
-    /// pi - sigma: the curvature of the gap turns negative again.
+    /// pi - sigma, where the curvature of the gap turns negative again.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) retention_angle: f64,
     /// P cos sigma: the platform's speed at separation, zero for P <= 1.
@@ -144,7 +144,7 @@ impl Vibration {
 
 impl Vibration {
     /// Weight that a resting disk puts on the platform per unit mass, 1 - P sin tau, in units of g (Eq. 3 as
-    /// corrected in docs/errata.md); the disk separates where it falls to zero.
+    /// corrected in docs/errata.md); the disk separates when it falls to zero.
     #[must_use]
     #[inline]
     pub fn contact_force(&self, phase: Phase) -> f64 {
@@ -152,8 +152,8 @@ impl Vibration {
     }
 }
 
-/// Share of 1 + P by which the gaps and speeds of [`Crests`] and of the flight bounds exceed a tie: far more
-/// than their rounding.
+/// Share of 1 + P by which the gaps and speeds of [`Crests`] and of the flight bounds must exceed equality: far
+/// more than their rounding.
 pub(crate) const CLEAR: f64 = 1.0e-9;
 
 /// Share of 1 + P by which a disk at the crest must exceed the speed of one that falls past it.
@@ -177,10 +177,9 @@ impl Crests {
         }
     }
 
-    /// Whether a launch is certain not to be hit before the first crest, unless within half a radian
-    /// (proof at the head of `flight/bounds.rs`): `disk_speed` is that at
-    /// launch, `arc_speed` the one, negative, with which it comes down to the height of the crests, not a
-    /// number where it stays below.
+    /// Whether a launch is certain not to be hit before the first crest, unless within half a radian (proof at
+    /// the head of `flight/bounds.rs`). `disk_speed` is the speed at launch; `arc_speed` is the negative speed
+    /// with which the disk comes down to the height of the crests, NaN if it stays below them.
     #[inline(always)]
     pub(crate) fn surely_cleared(&self, peak: f64, angle: f64, disk_speed: f64, arc_speed: f64) -> bool {
         let ahead = CREST - angle;

@@ -7,8 +7,8 @@ use crate::numerics::elementary::pow;
 use crate::numerics::error::{Error, within};
 use crate::numerics::stored::read_checked;
 
-/// Newton steps to the fifth root of the restitution. From the right of the root of a convex function they
-/// never pass the root; at most 7 were needed.
+/// Largest number of Newton steps to the fifth root of the restitution. Started to the right of the root of a
+/// convex function, they never pass the root; at most 7 were needed.
 const NEWTON_STEPS: u32 = 20;
 
 /// The restitution of viscoelastic bodies in Hertzian contact: at low speed 1 - r is proportional to

@@ -1,7 +1,7 @@
 //! From one period doubling to the next, in any precision.
 //!
-//! The orbit of twice the period is followed in the amplitude s and not in the forcing, s being the distance
-//! of an impact from the one half a period later. At its birth s = 0 the forcing is stationary in s, so the
+//! The orbit of twice the period is followed in the amplitude s and not in the forcing; s is the distance of
+//! an impact from the one half a period later. At its birth s = 0 the forcing is stationary in s, so the
 //! equations bordered by the amplitude stay regular. The trace of its derivative falls nearly linearly in
 //! s^2, from 1 + r^2n at the birth to -1 - r^2n at its own doubling, which regula falsi finds between the two
 //! known ends.
@@ -21,7 +21,7 @@ const MAX_NEWTON_STEPS: u32 = 40;
 /// Steps of the regula falsi.
 const MAX_STEPS: u32 = 80;
 
-/// How often an amplitude without a solution is halved.
+/// How many times an amplitude without a solution is halved.
 const MAX_HALVINGS: u32 = 30;
 
 /// Residuals of up to this many roundings may be pure rounding error: a few dozen operations on numbers of
@@ -159,7 +159,7 @@ impl<R: Real> Bracket<R> {
         a + (b - a) * (f / (f - g))
     }
 
-    /// Narrows the bracket by a value; an end that stays for a second time is reduced.
+    /// Narrows the bracket by a value; the value at an end that stays for a second time is reduced.
     fn narrow(&mut self, at: R, value: R) {
         let zero = R::of(0.0);
         let weight = |old: R| {
@@ -181,7 +181,7 @@ fn flip_function<R: Real>(equations: &Equations<R>, determinant: R) -> R {
     equations.trace() + determinant + R::of(1.0)
 }
 
-/// The first doubling, of the orbit with one impact a period of the platform.
+/// The first doubling, of the orbit with one impact per period of the platform.
 pub(crate) fn first_flip<R: Real>(restitution: R, tick: Tick<'_>) -> Result<FlipPoint<R>, Error> {
     let one = R::of(1.0);
     let r = restitution.value();

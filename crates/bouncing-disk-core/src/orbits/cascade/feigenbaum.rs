@@ -14,15 +14,16 @@
 //! Near r = 1 the first doublings resemble doublings of area-preserving maps (ratios up to 7.9 at r = 0.95).
 //!
 //! A Richardson extrapolation with the ratio's own value removes the first part of a ratio of distances; the
-//! remainder shrinks by -0.12 each time. Ratios of widths need two extrapolations. The stated error is twice the
-//! larger of the last two changes, plus four times the effect of rounding on a ratio.
+//! remainder shrinks by a factor of -0.12 each time. Ratios of widths need two extrapolations. The stated error
+//! is twice the larger of the last two changes, plus four times the effect of rounding on a ratio.
 
 use super::CascadeDoubling;
 use super::branch::width_rounding;
 use crate::numerics::real::Real;
 
-/// The first doubling that gives an estimate with an error. Ratios of distances and widths need earlier
-/// doublings, so do one and two steps of extrapolation, and two changes of the extrapolated values.
+/// The first doubling that gives an estimate with an error. Earlier doublings are needed for ratios of
+/// distances and widths, for one and two steps of extrapolation, and for two changes of the extrapolated
+/// values.
 const FIRST_ESTIMATE: usize = 7;
 
 /// An error is this many times the larger one of the last two changes.
@@ -32,10 +33,10 @@ const CHANGES: f64 = 2.0;
 const ENLARGED_ROUNDING: f64 = 4.0;
 
 /// Estimates of Feigenbaum's constants delta = 4.6692016091... and alpha = 2.5029078750... from the doublings
-/// up to one of them. The known values are not used.
+/// up to the last one used. The known values are not used.
 ///
 /// From doubling to doubling, the ratios' distances from their limits shrink by 1/delta and -1/alpha.
-/// Extrapolation with the ratios' own values removes this part, for alpha also the part that shrinks by
+/// Extrapolation with the ratios' own values removes this part, and for alpha also the part that shrinks by
 /// 1/alpha^2 (docs/numerics-dynamics.md). The error is twice the larger of the last two changes of the
 /// extrapolated value, plus rounding: not a bound, but confirmed by the next doubling.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -68,8 +69,8 @@ impl core::fmt::Display for FeigenbaumEstimate {
     }
 }
 
-/// Feigenbaum's constants from a cascade, one estimate for each doubling from the seventh. In doubles
-/// rounding ends their progress near the eleventh doubling, in double-doubles beyond the last.
+/// Feigenbaum's constants from a cascade, one estimate for each doubling from the seventh. Rounding ends
+/// their improvement near the eleventh doubling in doubles, and beyond the last one in double-doubles.
 ///
 /// ```
 /// use bouncing_disk_core::orbits::{doubling_cascade, feigenbaum_estimates};

@@ -6,11 +6,11 @@
 //! three-term recurrence. A flight costs one sine and cosine, and no equation has to be solved.
 //!
 //! With the relative launch speed w_i, the relative impact velocity u_i and the flight h_i after impact i,
-//! the law w_i + r u_i = 0 has the derivatives
+//! the law w_i + r u_i = 0 has derivatives with respect to the phases of impacts i - 1, i and i + 1:
 //!
-//! - by phase i - 1: r w_(i-1)/h_(i-1);
-//! - by phase i: w_i/h_i - 1 + (1 + r) P sin tau_i - r (u_i/h_(i-1) + 1);
-//! - by phase i + 1: -u_(i+1)/h_i, which is positive.
+//! - phase i - 1: r w_(i-1)/h_(i-1);
+//! - phase i: w_i/h_i - 1 + (1 + r) P sin tau_i - r (u_i/h_(i-1) + 1);
+//! - phase i + 1: -u_(i+1)/h_i, which is positive.
 //!
 //! Two homogeneous and two particular solutions, carried once around, solve the closed recurrence in O(n). On
 //! a cascade this is stable: no multiplier exceeds 1, and the growing parts grow like a power of the period.
@@ -26,8 +26,8 @@ pub(crate) struct ImpactTimes<R> {
     pub(crate) periods: Vec<i32>,
 }
 
-/// The law of restitution at one impact, `w + r u = 0`, and its derivatives by the phases of the previous,
-/// this and the next impact, and by the peak acceleration.
+/// The law of restitution at one impact, `w + r u = 0`, and its derivatives with respect to the peak
+/// acceleration and to the phases of the previous, this and the next impact.
 #[derive(Debug, Clone, Copy)]
 struct ImpactEquation<R> {
     residual: R,
@@ -148,7 +148,7 @@ impl<R: Real> Equations<R> {
         Transfer { homogeneous, particular }
     }
 
-    /// The trace of the derivative around the orbit; the determinant is the restitution to the power of 2n.
+    /// The trace of the derivative around the orbit; the determinant is the restitution to the power 2n.
     pub(crate) fn trace(&self) -> R {
         let [first, second] = self.transfer().monodromy();
         first[0] + second[1]

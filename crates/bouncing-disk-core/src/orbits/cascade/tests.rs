@@ -112,7 +112,7 @@ fn first_doubling_forcing(r: DoubleDouble) -> DoubleDouble {
     (threshold * threshold + height * height).sqrt()
 }
 
-/// The search uses the closed form in doubles only as its start: the further digits are its own.
+/// The search uses the closed form in doubles only as its start: it finds the further digits itself.
 #[test]
 fn the_first_doubling_is_its_closed_form() {
     for text in ["0.001", "0.1", "0.2", "0.3", "0.4", "0.5", "0.6", "0.7", "0.8", "0.9", "0.999"] {

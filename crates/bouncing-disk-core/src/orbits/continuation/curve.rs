@@ -24,19 +24,19 @@ pub struct CurvePoint {
     /// The values of the two parameters.
     pub parameters: [f64; 2],
     /// How far rounding may have moved the curve: along the first parameter at this value of the second, and along
-    /// the second at this value of the first. The largest double where the curve runs along that parameter. At a
-    /// [`SpecialPoint`] it is the error of its location.
+    /// the second at this value of the first. If the curve runs along a parameter, the error along it is the
+    /// largest double. At a [`SpecialPoint`] it is the error of its location.
     pub errors: [f64; 2],
     /// The impacts of the orbit, in their order.
     pub states: Vec<ImpactState>,
     /// The trace of the derivative around the orbit.
     pub trace: f64,
-    /// Its determinant.
+    /// The determinant of this derivative.
     pub determinant: f64,
     /// The arclength from the start of the curve, as in [`Continuation::new`] with both parameters.
     pub arclength: f64,
     /// On a curve of doublings, whether the doubled orbit exists where this one is unstable, and so attracts if this
-    /// one did: a supercritical doubling. `None` on other curves, and where it is not decided.
+    /// one did: a supercritical doubling. `None` on other curves, and if this is not decided.
     pub is_supercritical: Option<bool>,
 }
 
@@ -53,30 +53,31 @@ impl CurvePoint {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum SpecialKind {
-    /// Two curves of folds meet and end, tangentially: between them three orbits exist.
+    /// Two curves of folds meet tangentially and end; between them three orbits exist.
     Cusp,
     /// A doubling turns from supercritical to subcritical, and a curve of folds of the doubled orbit begins.
     CriticalityChange,
-    /// A flight of the orbit grazes the platform in its fold: a curve of folds ends on one of grazes.
+    /// A flight of the orbit grazes the platform at the fold: a curve of folds ends on a curve of grazes.
     GrazingFold {
         /// The index of the impact before the flight.
         flight: usize,
     },
-    /// A flight of the orbit grazes the platform in its doubling: a curve of doublings ends on one of grazes.
+    /// A flight of the orbit grazes the platform at the doubling: a curve of doublings ends on a curve of
+    /// grazes.
     GrazingDoubling {
         /// The index of the impact before the flight.
         flight: usize,
     },
-    /// Both multipliers are 1 to 1e-3, the strong resonance 1:1. As the determinant of n rigid impacts is
-    /// r^(2n), a curve of folds has it only in its end at restitution 1.
+    /// Both multipliers are 1 within 1e-3, the strong resonance 1:1. As the determinant of n rigid impacts is
+    /// r^(2n), a curve of folds reaches this point only at its end at restitution 1.
     Resonance11,
-    /// Both multipliers are -1 to 1e-3, the strong resonance 1:2: the end of a curve of doublings at
+    /// Both multipliers are -1 within 1e-3, the strong resonance 1:2: the end of a curve of doublings at
     /// restitution 1.
     Resonance12,
 }
 
 impl SpecialKind {
-    /// Its name: `criticality change`.
+    /// Its name, such as `criticality change`.
     #[must_use]
     pub const fn name(&self) -> &'static str {
         match self {
@@ -105,14 +106,15 @@ pub struct SpecialPoint {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum CurveEnd {
-    /// A parameter reaches this end of its range: to the rounding, or to 1e-7 of the arclength where there is no map beyond.
+    /// A parameter reaches this end of its range: to within rounding, or to within 1e-7 of the arclength if there is no
+    /// map beyond.
     RangeLimit {
         /// The parameter.
         parameter: ContinuationParameter,
         /// The end of its range.
         value: f64,
     },
-    /// A flight touches the platform before its impact: beyond, an earlier impact prevents it.
+    /// A flight touches the platform before its impact: beyond this point an earlier impact prevents it.
     Graze {
         /// The index of the impact before the flight.
         flight: usize,
@@ -123,7 +125,7 @@ pub enum CurveEnd {
         /// The index of the impact.
         impact: usize,
     },
-    /// An impact reaches a phase at which the acceleration of the platform jumps, and with it the multipliers.
+    /// An impact reaches a phase at which the acceleration of the platform jumps, and the multipliers with it.
     BorderCollision {
         /// The index of the impact.
         impact: usize,
@@ -140,7 +142,7 @@ pub enum CurveEnd {
 }
 
 impl CurveEnd {
-    /// Its name: `range limit`.
+    /// Its name, such as `range limit`.
     #[must_use]
     pub const fn name(&self) -> &'static str {
         match self {
@@ -164,7 +166,7 @@ pub struct Curve<M = ImpactMap> {
     pub kind: BifurcationKind,
     /// The parameter of the branch from which the curve starts, and the second one.
     pub parameters: [ContinuationParameter; 2],
-    /// The map of the branch: the other parameters.
+    /// The map of the branch, with the values of the other parameters.
     pub map: M,
     /// Its points in the order of the arclength.
     pub points: Vec<CurvePoint>,
@@ -182,14 +184,14 @@ impl<M: ContinuedMap> Curve<M> {
 }
 
 impl<M: ContinuedMap> Branch<M> {
-    /// The curve of bifurcations over a second parameter, from number `index` of [`Self::bifurcations`] on: a fold, a
-    /// doubling or a graze. `settings` name the second parameter, its range and steps, and whether it rises at first;
-    /// the parameter of the branch stays in `range`.
+    /// The curve of bifurcations over a second parameter, starting from number `index` of [`Self::bifurcations`],
+    /// which must be a fold, a doubling or a graze. `settings` name the second parameter, its range and steps, and
+    /// whether it rises at first; the parameter of the branch stays in `range`.
     ///
-    /// Every point is an orbit of the map at its bifurcation; cusps and the other [`SpecialKind`]s are located. Two of
-    /// one kind within one step are missed: see [`Continuation::with_steps`].
+    /// Every point is an orbit of the map at its bifurcation; cusps and the other [`SpecialKind`]s are located. Two
+    /// special points of one kind within one step are missed: see [`Continuation::with_steps`].
     ///
-    /// The items of `observer` are the points that are allowed.
+    /// The items of `observer` are the allowed points.
     ///
     /// ```
     /// # use bouncing_disk_core::orbits::{BifurcationKind, Continuation, ContinuationParameter, ContinuedMap as _};

@@ -17,12 +17,12 @@ fn forcing(low: f64, high: f64, rising: bool) -> Continuation {
     Continuation::new(ContinuationParameter::Forcing, (low, high), rising).expect("legal")
 }
 
-/// Where the closed form has the birth of one impact every k periods.
+/// The forcing at which the orbits of one impact every k periods are born, in closed form.
 fn birth(k: u64, restitution: f64) -> f64 {
     k as f64 * (1.0 - restitution) / (1.0 + restitution)
 }
 
-/// The node of one impact every k periods, so much above its birth.
+/// The node of one impact every k periods, at a forcing this far above its birth.
 fn node(k: u64, restitution: f64, above: f64) -> (ImpactMap, PeriodicOrbit) {
     let map = map(birth(k, restitution) + above, restitution);
     let pair = map.period_one_pair(k).expect("above its birth");
@@ -30,8 +30,8 @@ fn node(k: u64, restitution: f64, above: f64) -> (ImpactMap, PeriodicOrbit) {
     (map, orbit)
 }
 
-/// Every point is an orbit of the map, also the last one before a graze, and so is every bifurcation within
-/// the branch; the invariants of points are those of their derivatives.
+/// Every point, even the last one before a graze, is an orbit of the map, and so is every bifurcation within
+/// the branch. Traces and determinants of points agree with the derivatives of their orbits.
 fn check_points(branch: &Branch) {
     let mut arclength = -1.0;
     let within =
@@ -106,7 +106,7 @@ fn folds_are_those_of_the_closed_form_to_1e_13() {
     assert!(saddles > 10, "{saddles}");
 }
 
-/// From branch to doubled branch: the cascade, as the search of its own finds it by another way.
+/// From branch to doubled branch: the same cascade as `doubling_cascade` finds by another method.
 #[test]
 fn doubled_branches_double_where_the_cascade_does() {
     let cascade = doubling_cascade(0.5, 3, &Unobserved).expect("found").doublings;
@@ -132,7 +132,7 @@ fn doubled_branches_double_where_the_cascade_does() {
     }
 }
 
-/// Back to where it was born: the orbit of two impacts ends in the one that doubled.
+/// Followed back to its birth, the orbit of two impacts ends in the orbit that doubled.
 #[test]
 fn a_doubled_orbit_is_born_in_the_doubling() {
     let map = map(0.5, 0.5);
@@ -149,9 +149,9 @@ fn a_doubled_orbit_is_born_in_the_doubling() {
     assert!((last.parameter - birth.point.parameter).abs() < 1e-2 && last.orbit.period() == 2);
 }
 
-/// The largest and the smallest steps, near the elastic limit and far from it: a branch turns at its fold,
-/// however near to it its range ends beyond, and ends at the end of its range, however near before. A leap
-/// over the fold, to where no orbit is, is none.
+/// With the largest and the smallest steps, near the elastic limit and far from it. A branch turns at its
+/// fold, however closely beyond the fold its range ends. It ends at the end of its range, however closely
+/// before the fold this is. No step leaps over the fold, where there is no orbit.
 #[test]
 fn a_range_ends_a_branch_on_its_own_side_of_the_fold_only() {
     for (r, k) in [(0.3, 1), (0.8, 2), (0.99, 1), (0.999_999, 1), (1.0 - 1e-9, 1), (1.0 - 1e-12, 3)] {
@@ -186,7 +186,7 @@ fn a_range_ends_a_branch_on_its_own_side_of_the_fold_only() {
     }
 }
 
-/// The same of births, on doubled branches and on those that double again, with their doublings listed once.
+/// The same for births, on doubled branches and on those that double again, with each doubling listed once.
 #[test]
 fn a_range_ends_a_doubled_branch_on_its_own_side_of_the_birth_only() {
     for r in [0.1, 0.5, 0.8, 0.99] {
@@ -248,7 +248,7 @@ fn a_birth_across_the_seam_is_the_doubling_of_the_closed_form() {
     assert_eq!((branch.end, birth.point.orbit.period()), (BranchEnd::Bifurcation, 1));
 }
 
-/// At the end of a range, or at the start of a branch, a doubling is one within rounding.
+/// At the end of a range, or at the start of a branch, a doubling counts within rounding.
 #[test]
 fn a_doubling_at_the_end_of_a_range_is_listed() {
     for r in [0.1, 0.5, 0.8, 0.99, 1.0 - 1e-9] {
@@ -271,8 +271,8 @@ fn a_doubling_at_the_end_of_a_range_is_listed() {
     }
 }
 
-/// The saddle of one impact ends where the platform's crest touches its flight: before, the first impact is
-/// the orbit's, after it is an earlier one.
+/// The saddle of one impact ends where the platform's crest touches its flight: before this, the first impact
+/// is the orbit's own; after it, an earlier one.
 #[test]
 fn a_branch_that_ends_in_a_graze_ends_where_the_first_impact_changes() {
     for (k, r) in [(1, 0.3), (1, 0.5), (1, 0.8), (2, 0.5)] {
@@ -298,7 +298,7 @@ fn a_branch_that_ends_in_a_graze_ends_where_the_first_impact_changes() {
     }
 }
 
-/// Whatever the search finds is continued either way, through orbits of the map only, to an end that has a
+/// Every orbit that the search finds is continued both ways, only through orbits of the map, to an end with a
 /// reason.
 #[test]
 fn all_orbits_of_random_maps_have_branches_that_end() {
@@ -348,8 +348,8 @@ fn all_orbits_of_random_maps_have_branches_that_end() {
     assert_eq!(ends[4], 0, "{ends:?}");
 }
 
-/// Where the flight of the saddle grazes, an orbit of two impacts is born of which one has no speed yet: both
-/// branches end there.
+/// Where the flight of the saddle grazes, an orbit of two impacts is born, one of them still without speed:
+/// both branches end there.
 #[test]
 fn an_impact_vanishes_where_the_flight_without_it_grazes() {
     let (own, _) = node(1, 0.21, 0.05);
@@ -455,7 +455,7 @@ fn a_branch_ends_at_its_limits() {
     assert!(empty.points.iter().all(|point| (point.parameter - at).abs() < 1e-12));
 }
 
-/// P/pi is not always the forcing that P was made of.
+/// P/pi is not always the forcing that P was computed from.
 #[test]
 fn an_orbit_of_a_map_made_for_an_end_of_the_range_lies_in_it() {
     let mut rounded = 0;

@@ -22,7 +22,8 @@ pub(super) const STRAIGHT: f64 = 0.95;
 /// The largest correction, relative to the step.
 pub(super) const LARGEST_CORRECTION: f64 = 0.3;
 
-/// Newton steps up to which the arclength of a step grows, and from which it shrinks; by these factors.
+/// The numbers of Newton steps up to which the next step is longer and from which it is shorter, and the
+/// factor by which a step grows.
 pub(super) const EASY: u32 = 4;
 pub(super) const HARD: u32 = 7;
 pub(super) const GROWTH: f64 = 1.5;
@@ -31,7 +32,7 @@ pub(super) const GROWTH: f64 = 1.5;
 const HALVINGS: u32 = 56;
 
 /// The distance (scaled) up to which two points are neighbours on one curve: the rounding of a point on a
-/// strongly unstable orbit, far below the distance of two curves that doubles can tell apart.
+/// strongly unstable orbit, far below the distance between two curves that doubles can tell apart.
 pub(super) const NEIGHBOURS: f64 = 1.0e-9;
 
 /// Largest difference of a flight's duration (rad) from the one that the map finds.
@@ -40,18 +41,19 @@ const SAME_FLIGHT: f64 = 1.0e-8;
 /// Roundings of (1 + m1)(1 + m2) for each impact, in units of the size of the derivative.
 const FLIP_ROUNDINGS: f64 = 8.0;
 
-/// A branch is not taken to be closed before so many points.
+/// The fewest points of a branch that counts as closed.
 pub(super) const FEWEST_OF_CLOSED: usize = 8;
 
-/// A fold is one if the parameter changes by more than this share of itself within this arclength to either side.
+/// A fold counts as one if the parameter changes by more than this share of itself within this arclength to
+/// either side.
 const FLAT: f64 = 1.0e-11;
 const ASIDE: f64 = 1.0e-3;
 
 /// The smallest arclength of a step.
 pub(super) const SMALLEST_STEP: f64 = 1.0e-10;
 
-/// A step that passes a place at which the acceleration of the platform jumps: so short, it may turn by up to a right
-/// angle.
+/// The length of a step that passes a place at which the acceleration of the platform jumps. So short a step may turn
+/// by up to a right angle.
 const CORNER: f64 = 1.0e-7;
 
 /// If no next point is found, the walker asks the map again after this arclength. The map has lost a flight if the duration
@@ -59,7 +61,7 @@ const CORNER: f64 = 1.0e-7;
 pub(super) const BEYOND: f64 = 1.0e-7;
 const LOST: f64 = 1.0e-3;
 
-/// [`ContinuedMap::continued`] from an orbit of the map or of one next to it.
+/// [`ContinuedMap::continued`] from an orbit of the map or of a neighbouring map.
 pub(crate) fn continued_from<M: ContinuedMap>(
     map: &M,
     orbit: &PeriodicOrbit,
@@ -113,7 +115,7 @@ pub(super) struct Walker<'s, M> {
 }
 
 impl<'s, M: ContinuedMap> Walker<'s, M> {
-    /// Counts the flights of a point: some Newton steps of all impacts.
+    /// Counts the flights of a point: a few Newton steps of all impacts.
     pub(super) fn spend(&self) -> Result<(), Error> {
         self.work.borrow_mut().spend(8 * M::WORK * self.closing.flights() as u64)
     }
@@ -180,7 +182,7 @@ impl<'s, M: ContinuedMap> Walker<'s, M> {
         Some(Located { at, direction, arclength: base.arclength + step, corrections })
     }
 
-    /// The same, if it is certain enough to be the next one of the same branch.
+    /// The same, if it is certain enough to be the next point of the same branch.
     fn next(&self, base: &Located, step: f64) -> Option<Located> {
         let next = self.at(base, step)?;
         let (before, after) = (self.closing.scaled(&base.direction), self.closing.scaled(&next.direction));
@@ -199,7 +201,7 @@ impl<'s, M: ContinuedMap> Walker<'s, M> {
         (is_straight || turns_a_corner()).then_some(next)
     }
 
-    /// The first impact between whose places the acceleration of the platform jumps.
+    /// The first impact between whose two phases the acceleration of the platform jumps.
     fn joint_between(&self, one: &Located, other: &Located) -> Option<usize> {
         let map = self.closing.map_at(one.at.parameter).ok()?;
         let mut phases = one.at.impacts.iter().zip(&other.at.impacts);
@@ -256,8 +258,8 @@ impl<'s, M: ContinuedMap> Walker<'s, M> {
         Ok(Branch { parameter: closing.by, map: closing.map.clone(), points, bifurcations, end })
     }
 
-    /// What ends the branch where there is no next point: a kink at an impact, or a place beyond which the map has
-    /// another flight.
+    /// The reason why the branch ends if there is no next point: a kink at an impact, or a place beyond which the
+    /// map has another flight.
     fn end_at(&self, base: &Located) -> Result<Option<Bifurcation>, Error> {
         let map = self.closing.map_at(base.at.parameter)?;
         let on_kink = base.at.impacts.iter().position(|impact| map.is_on_kink(impact.x));
@@ -269,8 +271,8 @@ impl<'s, M: ContinuedMap> Walker<'s, M> {
         Ok(self.point(base)?.map(|point| Bifurcation { kind, point }))
     }
 
-    /// The change by which the map itself loses a flight just beyond a point, along the branch or in the parameter
-    /// alone: where a force only touches zero, the branch is as steep as a root.
+    /// The bifurcation at which the map itself loses a flight just beyond a point, along the branch or in the
+    /// parameter alone. Where a force only touches zero, the branch is as steep as a square root.
     fn flight_lost(&self, base: &Located) -> Option<BifurcationKind> {
         let still = vec![DVec2::ZERO; base.at.impacts.len()];
         let aside = Closed { impacts: still, parameter: base.direction.parameter.signum() };
@@ -292,8 +294,8 @@ impl<'s, M: ContinuedMap> Walker<'s, M> {
     }
 
     /// The course of the branch from `base` to `next`, as far as it goes. `None` if the step is too long to
-    /// see it: every change along a curve lies between two neighbouring points of it; one that does not is a
-    /// leap to another curve.
+    /// tell: every change along a curve lies between two neighbouring points of this curve, otherwise the
+    /// step has leapt to another curve.
     fn stretch(&self, base: &Located, next: &Located) -> Result<Option<Stretch>, Error> {
         // Where the parameter turns back: only there it may leave its range and return to it within a step.
         let turn = match self.halves(base, next)? {
@@ -376,8 +378,8 @@ impl<'s, M: ContinuedMap> Walker<'s, M> {
         Ok(Some(Stretch { last, found, end }))
     }
 
-    /// Whether the parameter stays the same to either side but for rounding, as on the orbits of two impacts on parabolas:
-    /// then rounding alone turns it back.
+    /// Whether the parameter is the same to either side up to rounding, as for the orbits of two impacts on parabolas:
+    /// then rounding alone turns the branch back.
     fn is_vertical(&self, at: &Located) -> bool {
         [-ASIDE, ASIDE].into_iter().filter_map(|step| self.at(at, step)).any(|beside| {
             let parameter = at.at.parameter;
@@ -385,8 +387,8 @@ impl<'s, M: ContinuedMap> Walker<'s, M> {
         })
     }
 
-    /// The doubling between two points, if there is one: where a multiplier passes -1 between them, is -1
-    /// within rounding at the second one, or is so at the start of the branch.
+    /// The doubling between two points, if there is one: a multiplier passes -1 between them, or is -1 within
+    /// rounding at the second one or at the start of the branch.
     fn doubling(&self, base: &Located, next: &Located) -> Result<Option<Option<Bifurcation>>, Error> {
         let (Some(before), Some(after)) = (self.point(base)?, self.point(next)?) else {
             return Ok(Some(None));
@@ -411,7 +413,7 @@ impl<'s, M: ContinuedMap> Walker<'s, M> {
         Ok(Some(Some(Bifurcation { kind, point })))
     }
 
-    /// The kind, or a border collision where an acceleration jumps between the two neighbours.
+    /// The kind, or a border collision if an acceleration jumps between the two neighbours.
     fn kind_or_border(&self, kind: BifurcationKind, one: &Located, other: &Located) -> BifurcationKind {
         let border = self.joint_between(one, other);
         border.map_or(kind, |impact| BifurcationKind::BorderCollision { impact })
@@ -450,7 +452,7 @@ impl<'s, M: ContinuedMap> Walker<'s, M> {
         halved((base, next), next.arclength - base.arclength, at, holds)
     }
 
-    /// The reason why it is no orbit of the map.
+    /// The reason why a solution is not an orbit of the map.
     fn obstacle(&self, at: &Closed) -> Result<Option<BifurcationKind>, Error> {
         let map = self.closing.map_at(at.parameter)?;
         let flights = self.closing.flights_of(at);
@@ -483,7 +485,7 @@ impl<'s, M: ContinuedMap> Walker<'s, M> {
         Ok(true)
     }
 
-    /// The point in the form of the results; `None` where it is no orbit.
+    /// The point in the form of the results; `None` if it is not an orbit.
     pub(super) fn point(&self, located: &Located) -> Result<Option<BranchPoint>, Error> {
         let at = &located.at;
         let (n, map) = (at.impacts.len(), self.closing.map_at(at.parameter)?);
@@ -516,7 +518,7 @@ impl<'s, M: ContinuedMap> Walker<'s, M> {
     }
 }
 
-/// (1 + m1)(1 + m2), or 0 where it is rounding.
+/// (1 + m1)(1 + m2), or 0 if it is pure rounding.
 fn flip(point: &BranchPoint) -> f64 {
     let flip = point.flip_function();
     let PeriodicOrbit { states, monodromy, .. } = &point.orbit;
@@ -528,16 +530,18 @@ fn flip(point: &BranchPoint) -> f64 {
 // Where an orbit of 2m impacts is born by the doubling of one of m, both of its halves become that orbit. Its
 // own equations have two branches there, so the code locates the birth on the other branch.
 
-/// The distance of the halves (rad, units of 1 + P) below which the forcing does not distinguish an orbit
-/// from the repetition of one half: the difference of the forcings grows with the square of this distance.
+/// The distance between the halves (rad, units of 1 + P) below which the forcing does not distinguish an
+/// orbit from the repetition of one half: the difference of the forcings grows with the square of this
+/// distance.
 const REPEATED: f64 = 1.0e-6;
 
-/// The distance of the halves up to which an orbit on its way to the birth is as good as there. The equations
-/// determine the forcing to the rounding by this distance; on the shorter orbit they do so to the rounding.
+/// The distance between the halves up to which an orbit near its birth counts as there. The equations
+/// determine its forcing only to the rounding divided by this distance, but that of the shorter orbit to the
+/// rounding.
 const CLOSE: f64 = 1.0e-5;
 
 /// The search for the doubling of the shorter orbit begins this far from the last point, in units of the
-/// parameter's scale, and doubles the distance at most so often.
+/// parameter's scale, and doubles the distance at most this many times.
 const NEAREST: f64 = 1.0e-10;
 const WIDENINGS: u32 = 26;
 
@@ -546,9 +550,9 @@ const WIDENINGS: u32 = 26;
 enum Halves {
     /// They stay apart.
     Apart,
-    /// They become one in this birth, shortly after this point.
+    /// They become one at this birth, shortly after this point.
     Meet(Box<(Located, Bifurcation)>),
-    /// The points are too far from each other to tell.
+    /// The points are too far apart to tell.
     Unclear,
 }
 
@@ -557,7 +561,7 @@ impl<M: ContinuedMap> Walker<'_, M> {
         apart(&at.impacts, self.closing.scale.speed)
     }
 
-    /// Whether the forcing does not distinguish an orbit from a shorter one that is passed twice.
+    /// Whether the forcing does not distinguish an orbit from a shorter one traversed twice.
     fn is_repeated(&self, at: &Closed) -> bool {
         at.impacts.len().is_multiple_of(2) && largest(&self.apart(at)) <= REPEATED
     }
@@ -582,7 +586,7 @@ impl<M: ContinuedMap> Walker<'_, M> {
         Ok(self.birth(&last)?.map_or(Halves::Unclear, |birth| Halves::Meet(Box::new((last, birth)))))
     }
 
-    /// The doubling that the orbit is born in, next to `last`, on the branch of half its impacts.
+    /// The doubling in which the orbit is born, near `last`, on the branch of half its impacts.
     fn birth(&self, last: &Located) -> Result<Option<Bifurcation>, Error> {
         let (half, guess) = self.closing.half(&last.at);
         let half = Walker { closing: half, settings: self.settings, work: self.work.clone() };
@@ -635,8 +639,8 @@ pub(super) fn largest(apart: &[DVec2]) -> f64 {
 }
 
 /// The last point with a property that the first of `ends` has, and the first one without it, by halvings of the
-/// arclength between them. `at` finds the point at an arclength from the first end; if there is none, it lacks
-/// the property.
+/// arclength between them. `at` finds the point at an arclength from the first end; if there is no point, it
+/// counts as without the property.
 pub(super) fn halved<P: Clone>(
     ends: (&P, &P),
     arclength: f64,

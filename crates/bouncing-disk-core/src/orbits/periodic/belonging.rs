@@ -12,8 +12,8 @@ use crate::numerics::error::{Error, within};
 /// largest impact speed): the largest residual of a refined orbit, 1e-11, with a generous margin.
 const CLOSES: f64 = 1.0e-9;
 
-/// A generous bound on the rounding of an impact in the same units. A step magnifies it by its derivative,
-/// near a graze to far more than [`CLOSES`].
+/// A generous bound on the rounding of an impact in the same units. A step magnifies this rounding by the
+/// derivative of the map, near a graze to far more than [`CLOSES`].
 const ROUNDING: f64 = 1.0e-14;
 
 impl ImpactMap {

@@ -121,7 +121,7 @@ pub struct OrbitCoverage {
     /// g/omega).
     pub impact_speed_bound: f64,
     /// The largest number of platform periods of an orbit with the largest number of impacts: if the limit of
-    /// the search is not below it, the search omits no orbit for its length.
+    /// the search is not below it, the search omits no orbit because of its length.
     pub longest_platform_periods: u64,
     /// Starts, on a grid of cells over all phases and all impact speeds up to the bound.
     pub starts: u64,
@@ -140,7 +140,7 @@ pub struct OrbitCoverage {
     /// The number of orbits that are also found from only every other start along both axes: if all are, a
     /// grid of twice the spacing would have sufficed.
     pub found_by_coarser: u64,
-    /// The number of orbits found by a single attempt only. Its share of `converged` estimates the share of
+    /// The number of orbits found by only a single attempt. Its share of `converged` estimates the share of
     /// further attempts that would find yet another orbit (Good and Turing).
     pub found_once: u64,
 }
@@ -151,7 +151,7 @@ pub struct OrbitCoverage {
 pub struct OrbitsFound {
     /// Orbits of the map (no earlier impact ends a flight) that do not repeat a shorter one. They are sorted
     /// by number of impacts, then of platform periods, then by decreasing speed of their fastest impact,
-    /// which is the first of each.
+    /// which comes first in each orbit.
     pub orbits: Vec<PeriodicOrbit>,
     /// The coverage.
     pub coverage: OrbitCoverage,
@@ -174,7 +174,7 @@ impl ImpactMap {
     /// the resolution would have found the same.
     ///
     /// Two orbits whose impacts agree within 1e-6 (rad, and relative speed) count as one; near a fold or a
-    /// doubling they do if their [errors](PeriodicOrbit::position_error) overlap.
+    /// doubling they count as one if their [errors](PeriodicOrbit::position_error) overlap.
     ///
     /// The items of `observer` are the starts.
     ///
@@ -253,7 +253,7 @@ impl ImpactMap {
         Ok(row)
     }
 
-    /// Uses the orbit from one start as the guess of a periodic one, after each of its impacts.
+    /// Uses the orbit from one start, after each of its impacts, as a guess of a periodic orbit.
     fn search_start(
         &self,
         search: &OrbitSearch,
@@ -365,7 +365,7 @@ pub struct Catalogue {
 }
 
 impl Catalogue {
-    /// Adds an orbit that was found `found` times, or counts these if it is known.
+    /// Adds an orbit that was found `found` times, or adds to its count if it is known.
     pub fn add(&mut self, orbit: PeriodicOrbit, found: u64, by_coarser: bool) {
         let sum = orbit.states.iter().fold(0.0, |sum, state| sum + state.velocity());
         self.insert(Entry { orbit, sum, found, by_coarser });

@@ -2,13 +2,13 @@
 //! (docs/numerics-dynamics.md, "Orbits on the margin").
 //!
 //! The errors of the position and of the trace T: let a unit in the last place of Gamma and r together move
-//! the orbit by t to first order. Let v be the weak direction, in which any push moves the solution most.
-//! Differences of T along v give its change c(x) over the distance x. Let g and g' be |1 - T + D| minus and
-//! plus the rounding of T. If c(2t) < g/2, the condition of Newton and Kantorovich, the error of the position
-//! is 2t. Otherwise it is the first x, doubled from 2^-52, with x (c(x)/3 - g') > t |1 - T + D|. The equation
-//! changes by at least x c(x)/3 for a fold and for a cubic, so no map within rounding has a solution beyond
-//! it. The error of T is c at that distance. Away from the margin the error of the position is below 5e-7,
-//! and of T 1e-6 of the derivative's size.
+//! the orbit by t to first order. Let v be the weak direction, in which any perturbation moves the solution
+//! most. Differences of T along v give the change c(x) of T over the distance x. Let g and g' be |1 - T + D|
+//! minus and plus the rounding of T. If c(2t) < g/2, the condition of Newton and Kantorovich, the error of
+//! the position is 2t. Otherwise it is the first x, doubled from 2^-52, with x (c(x)/3 - g') > t |1 - T + D|.
+//! The equation changes by at least x c(x)/3 for a fold and for a cubic, so no map within rounding has a
+//! solution beyond this distance. The error of T is c at that distance. Away from the margin the error of the
+//! position is below 5e-7, and the error of T below 1e-6 of the derivative's size.
 
 use core::f64::consts::TAU;
 
@@ -82,7 +82,7 @@ impl Equations {
         })
     }
 
-    /// The displacement by a change of the forcing and the restitution by one unit in the last place, to
+    /// The displacement due to a change of the forcing and the restitution by one unit in the last place, to
     /// first order.
     fn moved_by_parameters(&self, equations: &CyclicEquations, at: &Closed) -> Option<Vec<DVec2>> {
         let r = self.map.restitution();

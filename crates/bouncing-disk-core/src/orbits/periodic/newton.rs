@@ -26,8 +26,8 @@ pub(super) const MAX_STEPS: usize = 14;
 /// The residual below which the iteration converges quadratically, so that the refinement takes over.
 const NEAR: f64 = 1.0e-5;
 
-/// The longest step of a phase (rad) from a rough guess. A longer one is shortened, with all steps of that
-/// iteration.
+/// The longest step of a phase (rad) from a rough guess. A longer one is shortened, together with all steps
+/// of that iteration.
 const LONGEST_STEP: f64 = 0.7;
 
 /// One step of the multiple shooting.
@@ -46,8 +46,7 @@ pub struct Shooting {
 }
 
 impl Shooting {
-    /// The step from these impacts of a map, which is given with its derivative; speeds count in units of
-    /// `scale`.
+    /// The step from these impacts of a map given with its derivative; speeds count in units of `scale`.
     pub fn from(
         states: &[ImpactState],
         scale: f64,
@@ -89,9 +88,9 @@ const fn not_settled(iterations: u32, residual: f64) -> Error {
     Error::NotSettled { what: "multiple shooting", iterations, residual }
 }
 
-/// The impacts to which Newton's method converges, with their shooting: to `residual`, and until the residual
-/// no longer shrinks. A step may be shortened, and is `None` if numbers leave their range. The tick counts
-/// impacts.
+/// The impacts to which Newton's method converges, with their shooting. It stops when the residual is at most
+/// `residual` and no longer shrinks. `stepped` may shorten a step, and returns `None` if numbers leave their
+/// range. The tick counts impacts.
 pub fn settled(
     guess: &[ImpactState],
     residual: f64,
@@ -208,7 +207,7 @@ pub(crate) fn prime_orbit(
 
 impl ImpactMap {
     /// The periodic orbit near `guess` (its impacts in order), by multiple shooting: every impact is an
-    /// unknown, so long and unstable orbits converge, too.
+    /// unknown, so that even long and unstable orbits converge.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for an empty guess or one longer than [`MAX_PERIOD`]; [`Error::NotSettled`] if

@@ -14,7 +14,7 @@ const SAMPLES: f64 = 64.0;
 /// The step (scaled) of the differences that tell how a condition changes along a direction.
 const DIFFERENCE: f64 = 1.0e-5;
 
-/// The share of it that is the step of a one-sided difference, and of one next to a jump.
+/// The step of a one-sided difference, and of a difference near a jump, relative to [`DIFFERENCE`].
 const ONE_SIDED: f64 = 1.0e-3;
 
 /// Roundings of a condition, in units of its terms.
@@ -30,7 +30,7 @@ pub(super) struct Value {
 }
 
 impl<M: ContinuedMap> Surface<M> {
-    /// The function that vanishes in a bifurcation of this kind. `after` is the time of the minimum at a place nearby.
+    /// The function that vanishes at a bifurcation of this kind. `after` is the time of the minimum at a place nearby.
     pub(super) fn value(&self, kind: BifurcationKind, at: &Place, after: f64) -> Option<Value> {
         if let BifurcationKind::Graze { flight } = kind {
             let (closing, closed) = self.section(at, 0)?;
@@ -45,7 +45,7 @@ impl<M: ContinuedMap> Surface<M> {
         Some(Value { value: 1.0 + trace + determinant, rounding, after: 0.0 })
     }
 
-    /// Its change along a direction.
+    /// The change of this function along a direction.
     pub(super) fn derivative(
         &self,
         kind: BifurcationKind,
@@ -73,7 +73,7 @@ impl<M: ContinuedMap> Surface<M> {
         derivative.is_finite().then_some(derivative)
     }
 
-    /// The first impact between whose places the acceleration of the platform jumps.
+    /// The first impact between whose two phases the acceleration of the platform jumps.
     pub(super) fn joint_between(&self, one: &Place, other: &Place) -> Option<usize> {
         let (closing, closed) = self.section(one, 0)?;
         let map = closing.map_at(closed.parameter).ok()?;
@@ -105,7 +105,7 @@ impl<M: ContinuedMap> Surface<M> {
     }
 }
 
-/// The minimum of the gap of a flight next to a time after its launch.
+/// The minimum of the gap of a flight near a time after its launch.
 fn lowest<M: ContinuedMap>(map: &M, flight: &Flight, near: f64) -> Option<Value> {
     let (mut after, mut last) = (near, f64::INFINITY);
     for _ in 0..MAX_STEPS {

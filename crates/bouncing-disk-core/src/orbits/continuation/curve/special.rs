@@ -7,12 +7,13 @@ use crate::numerics::error::Error;
 use crate::orbits::closing::{Closed, Plane};
 use crate::orbits::continuation::ContinuedMap;
 
-/// The largest amplitude (scaled) of the doubled orbit from which its bend is computed, and how often it is halved: the
-/// bend is extrapolated to none, until rounding, which grows with the third power of 1 over it, is in the way.
+/// The largest amplitude (scaled) of the doubled orbit from which its bend is computed, and how many times it is
+/// halved. The bend is extrapolated to amplitude 0; the effect of rounding grows with the inverse cube of the
+/// amplitude.
 const AMPLITUDE: f64 = 1.6e-2;
 const HALVINGS: usize = 8;
 
-/// How many times the differences of extrapolated bends its error is.
+/// The error of the bend over the differences between extrapolated bends.
 const SAFETY: f64 = 16.0;
 
 /// The largest change of the parameters along a cusp, per arclength.
@@ -21,14 +22,14 @@ const STILL: f64 = 1.0e-5;
 /// Rounding of the direction of a curve, from differences of its condition.
 const DIRECTION_ROUNDING: f64 = 1.0e-8;
 
-/// A determinant is 1 to this, for each impact: where a curve ends at restitution 1.
+/// How near to 1, per impact, the determinant is where a curve ends at restitution 1.
 const RESONANT: f64 = 1.0e-6;
 
 /// A special point between two points of a curve.
 pub(super) enum Special {
     None,
     Found(Box<SpecialPoint>),
-    /// The points are too far from each other to tell.
+    /// The points are too far apart to tell.
     Unclear,
 }
 
@@ -109,7 +110,7 @@ impl<M: ContinuedMap> CurveWalker<'_, M> {
         is_one.then(|| self.special_at(kind, point, last, 0.0))
     }
 
-    /// The function that changes its sign in a special point, and its error.
+    /// The function that changes its sign at a special point, and its error.
     fn sign(&self, kind: SpecialKind, located: &Located, base: &Located) -> Option<(f64, f64)> {
         let of = |kind| {
             let value = self.surface.value(kind, &located.at, 0.0)?;
@@ -134,11 +135,10 @@ impl<M: ContinuedMap> CurveWalker<'_, M> {
         first.abs().max(second.abs())
     }
 
-    /// Whether the doubled orbit exists where the orbit is unstable: then this is positive. Its error is the second
-    /// number.
+    /// A number that is positive if the doubled orbit exists where the orbit is unstable, and its error.
     ///
     /// At the amplitude d the doubled orbit exists at the parameter p0 + b d^2; there 1 + T + D of the orbit itself has
-    /// the sign of b d(1 + T + D)/dp. It is not decided where an impact has almost no speed.
+    /// the sign of b d(1 + T + D)/dp. The sign is not decided if an impact has almost no speed.
     pub(super) fn criticality(&self, located: &Located) -> Option<(f64, f64)> {
         let surface = &self.surface;
         if self.slow_impact(located).is_some() {
@@ -179,7 +179,7 @@ impl<M: ContinuedMap> CurveWalker<'_, M> {
 }
 
 /// The limit at 0 of an even function, and its error, by extrapolation from halved amplitudes (C. J. F. Ridders, Adv.
-/// Eng. Softw. 4, 75 (1982)). Amplitudes at which it is not known are left out.
+/// Eng. Softw. 4, 75 (1982)). Amplitudes at which the function is not known are left out.
 fn extrapolated(function: impl Fn(f64) -> Option<f64>) -> Option<(f64, f64)> {
     let (mut best, mut row) = (None::<(f64, f64)>, Vec::<f64>::new());
     for halving in 0..HALVINGS {

@@ -13,7 +13,7 @@ pub(super) struct Place {
 }
 
 impl Place {
-    /// This much of a direction further.
+    /// This place moved by `by` times a direction.
     pub(super) fn moved(&self, direction: &Self, by: f64) -> Self {
         let impacts = self.impacts.iter().zip(&direction.impacts).map(|(x, d)| *x + *d * by).collect();
         let [first, second] = self.parameters;

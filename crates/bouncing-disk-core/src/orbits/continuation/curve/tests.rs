@@ -10,7 +10,7 @@ use crate::orbits::periodic::PeriodicOrbit;
 use crate::orbits::periodic::catalogue::OrbitSearch;
 use crate::run::Unobserved;
 
-/// 1 - r over 1 + r.
+/// (1 - r)/(1 + r).
 fn loss(restitution: f64) -> f64 {
     (1.0 - restitution) / (1.0 + restitution)
 }
@@ -70,7 +70,8 @@ fn period_one_folds_and_doubles_where_it_does_by_hand() {
     }
 }
 
-/// The curves, in both directions, of all bifurcations that have one of the orbits of random maps.
+/// The curves, in both directions, from all bifurcations with curves on the branches of the orbits of random
+/// maps.
 fn random_curves(maps: u32, impacts: usize, mut see: impl FnMut(&Branch, Curve)) {
     let mut random = SplitMix64::new(7);
     for _ in 0..maps {
@@ -100,9 +101,9 @@ fn random_curves(maps: u32, impacts: usize, mut see: impl FnMut(&Branch, Curve))
     }
 }
 
-/// By a program of 70 digits that shares nothing with this one: the closed sequences by Newton's method with differences
-/// of 1e-30; a cusp where the forcing over the first phase has no first and second derivative, a change of criticality
-/// where the doubled orbit at a distance of 1e-9 has the forcing of the doubling.
+/// From an independent program with 70 digits, which finds the closed sequences by Newton's method with differences of
+/// 1e-30. At a cusp the first two derivatives of the forcing over the first phase vanish. At a change of criticality
+/// the doubled orbit at a distance of 1e-9 has the forcing of the doubling.
 const CUSPS: [[f64; 2]; 2] =
     [[0.800_880_630_061_099_9, 0.477_639_290_488_790_2], [0.440_254_309_679_521_6, 0.746_770_725_654_488_3]];
 const CRITICALITY_CHANGES: [[f64; 2]; 2] =
@@ -149,8 +150,8 @@ fn curves_of_random_maps_end_with_a_reason_and_have_the_points_of_another_progra
     assert!(crossings > 0);
 }
 
-/// How many points of a curve are bifurcations of the branch at their restitution, as `continued` finds it: none is off
-/// by more than its error and that of the branch.
+/// How many points of a curve are bifurcations of the branch at their restitution, as `continued` finds them: none is
+/// off by more than the sum of its error and that of the branch.
 fn agrees_with_continued(branch: &Branch, curve: &Curve) -> u32 {
     let start = &branch.points[0];
     let mut checked = 0;
@@ -183,7 +184,7 @@ fn agrees_with_continued(branch: &Branch, curve: &Curve) -> u32 {
     checked
 }
 
-/// Next to the restitutions 0 and 1. At 1 both multipliers are 1 or -1, and the fold reaches the forcing 0. Towards 0 the
+/// Near the restitutions 0 and 1. At 1 both multipliers are 1 or -1, and the fold reaches the forcing 0. Towards 0 the
 /// flight of the fold grazes the platform first.
 #[test]
 fn curves_reach_the_limits_of_the_restitution() {

@@ -20,7 +20,8 @@ use crate::run::WorkCount;
 const MAX_STEPS: u32 = 30;
 const FAR: f64 = 1.0e-7;
 
-/// A step across a curve that is rounding, and the one from which on steps that stop shrinking are so.
+/// The size of a step across a curve that is rounding, and the size below which steps that stop shrinking are
+/// rounding.
 const ROUNDING: f64 = 1.0e-15;
 const NEARLY: f64 = 1.0e-8;
 
@@ -28,12 +29,12 @@ const NEARLY: f64 = 1.0e-8;
 const ASIDE: f64 = 1.0e-4;
 const SAME_FLIGHT: f64 = 1.0e-3;
 
-/// The distance of the halves of an orbit (rad, units of 1 + P) up to which they are one: the equations are singular
-/// there.
+/// The distance between the halves of an orbit (rad, units of 1 + P) up to which they count as one: the equations
+/// are singular there.
 const CLOSE: f64 = 1.0e-3;
 
-/// The speed of an impact (units of 1 + P) below which it is what ends a curve that cannot be followed further: the
-/// derivative grows with the inverse of this speed.
+/// The speed of an impact (units of 1 + P) below which the impact is the reason why a curve cannot be followed
+/// further: the derivative grows with the inverse of this speed.
 const SLOW: f64 = 1.0e-3;
 
 /// Roundings of the equations, in units of their terms.
@@ -157,7 +158,7 @@ impl<'s, M: ContinuedMap> CurveWalker<'s, M> {
         Some(Located { at, direction, across, slope, after: here.after, arclength, corrections })
     }
 
-    /// The same, if it is certain enough to be the next one of the same curve.
+    /// The same, if it is certain enough to be the next point of the same curve.
     fn next(&self, base: &Located, step: f64) -> Option<Located> {
         let next = self.at(base, step)?;
         let surface = &self.surface;
@@ -219,7 +220,7 @@ impl<'s, M: ContinuedMap> CurveWalker<'s, M> {
         Ok(Curve { kind: self.kind, parameters, map: closing.map, points, special, end })
     }
 
-    /// The course of the curve from `base` to `next`, as far as it goes; `None` if the step is too long to see it.
+    /// The course of the curve from `base` to `next`, as far as it goes; `None` if the step is too long to tell.
     fn stretch(&self, base: &Located, next: &Located) -> Result<Option<Stretch>, Error> {
         let (mut last, mut end) = (next.clone(), None);
         for leaves in [Self::out_of_range, Self::obstacle, Self::halves_meet] {
@@ -278,7 +279,7 @@ impl<'s, M: ContinuedMap> CurveWalker<'s, M> {
         }))
     }
 
-    /// Why it is no orbit of the map; the graze of the curve does not count.
+    /// Why a place is not an orbit of the map, apart from the graze of the curve.
     fn obstacle(&self, located: &Located, _base: &Located) -> Result<Option<CurveEnd>, Error> {
         let Some((closing, closed)) = self.surface.section(&located.at, 0) else { return Ok(None) };
         let map = closing.map_at(closed.parameter)?;
@@ -303,7 +304,7 @@ impl<'s, M: ContinuedMap> CurveWalker<'s, M> {
         Ok(None)
     }
 
-    /// Whether the platform meets a flight apart from its graze: before it, or after it.
+    /// Whether the platform meets a flight before or after its graze.
     fn is_met_elsewhere(&self, map: &M, flight: &Flight, after: f64) -> Result<bool, Error> {
         let found = map.duration_found(flight)?;
         let is_graze = (found - after).abs() <= SAME_FLIGHT;
