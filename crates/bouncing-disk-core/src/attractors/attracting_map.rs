@@ -20,7 +20,7 @@ use crate::sweep::{SweepEvent, sweep};
 /// Largest number of one-impact orbits tried as candidates, longest flights first.
 const MOST_PERIOD_ONE: u64 = 10_000;
 
-/// Phases at which a disk is put on a drive, to see at which phases rests end.
+/// Phases at which a disk is put on a drive, to find the phases at which rests end.
 const PUT_ON: u32 = 64;
 
 /// Impacts after which a start that was seen to rest is abandoned.
@@ -88,7 +88,7 @@ impl RestEnds {
 
 /// A map whose attractors and basins are computed.
 pub trait AttractingMap: BouncingMap {
-    /// The work of an impact, in flights of the sine; it divides the budget of a search.
+    /// The work of an impact, in units of a flight above a sine; the budget of a search is divided by it.
     const WORK: u64 = 32;
 
     /// The speed (units of g/omega) that no impact of an attractor exceeds. For a compliant contact it is the
@@ -100,7 +100,7 @@ pub trait AttractingMap: BouncingMap {
         self.impact_speed_bound()
     }
 
-    /// Passes the orbits known in closed form that may attract to `add`, until it fails.
+    /// Passes to `add` the orbits known in closed form that may attract, until `add` fails.
     ///
     /// # Errors
     /// Errors of `add`.
@@ -112,7 +112,7 @@ pub trait AttractingMap: BouncingMap {
     /// The periodic orbits that a search finds.
     ///
     /// # Errors
-    /// [`Error::Stopped`] if the observer stops it.
+    /// [`Error::Stopped`] if the observer stops the search.
     #[doc(hidden)]
     fn orbits_found(
         &self,
@@ -161,7 +161,7 @@ pub trait AttractingMap: BouncingMap {
     /// Checks that `orbit` is an orbit of this map: that each of its impacts leads to the next one.
     ///
     /// # Errors
-    /// [`Error::NotAnOrbit`] and the others of [`ImpactMap::check_orbit`].
+    /// [`Error::NotAnOrbit`] and other errors of [`ImpactMap::check_orbit`].
     fn check_orbit(&self, orbit: &PeriodicOrbit) -> Result<(), Error> {
         belonging::check(orbit, |state| self.step(state), |state| self.step_with_derivative(state))
     }
@@ -188,8 +188,7 @@ pub trait AttractingMap: BouncingMap {
         Err(Error::NothingProven { region: 0.0 })
     }
 
-    /// The labels of all cells of a grid, [`UNDECIDED`] outside these rows. The rows are the items of the
-    /// observer.
+    /// The labels of all cells of a grid, [`UNDECIDED`] outside `rows`, which are the items of the observer.
     ///
     /// # Errors
     /// Errors of [`Self::basins_of_rows`].
@@ -226,9 +225,8 @@ pub trait AttractingMap: BouncingMap {
         Ok(labels)
     }
 
-    /// The basins on a grid: each start comes to rest, or belongs to the known orbit whose radius one of its
-    /// impacts is the first to enter (a radian counts as much as the [speed
-    /// scale](BouncingMap::speed_scale)).
+    /// The basins on a grid: each start comes to rest, or belongs to the known orbit whose radius its impacts
+    /// enter first (a radian counts as much as the [speed scale](BouncingMap::speed_scale)).
     ///
     /// The items of `observer` are the rows.
     ///

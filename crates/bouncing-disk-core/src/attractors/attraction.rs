@@ -27,18 +27,18 @@ const SHARE_OF_WIDEST: f64 = 0.7;
 /// Largest number of impacts of an orbit that is tested for trapping circles.
 const SHORT: usize = 8;
 
-/// Settings of the test whether starts return nearer to their initial impact: the largest radius, the one at which
-/// the search gives up, the circles of each trial as shares of its radius, the starts on each circle, and the
-/// ratio of the result to the radius.
+/// Settings of the test whether starts return nearer to their initial impact. They are the largest radius, the
+/// radius at which the search gives up, the circles of each trial as shares of its radius, the starts on each
+/// circle, and the ratio of the result to the radius.
 const LARGEST_CIRCLE: f64 = 0.05;
 const SMALLEST_CIRCLE: f64 = 1.0e-8;
 const CIRCLES: [f64; 3] = [1.0, 0.5, 0.25];
 const CIRCLE_SAMPLES: u32 = 16;
 const SHARE_OF_CIRCLE: f64 = 0.5;
 
-/// The share of its initial distance at which a start is near enough to stop; the rounds of the orbit after
-/// which a slower start, as near a doubling or a fold, must at least be nearer; and the largest distance
-/// allowed meanwhile, as a multiple of the initial distance.
+/// The share of its initial distance at which a start is near enough to stop. A slower start, as near a
+/// doubling or a fold, must at least be nearer after this number of rounds of the orbit; the last number is
+/// the largest distance allowed meanwhile, as a multiple of the initial distance.
 const NEARER: f64 = 0.125;
 const ROUNDS: u32 = 200;
 const STRAYING: f64 = 4.0;
@@ -102,8 +102,8 @@ fn largest_eigenvalue(form: DMat2) -> f64 {
 }
 
 impl Flight {
-    /// A bound on the change of the derivative (Frobenius norm) from the orbit's flight to another whose
-    /// impacts lie within `reach` of the orbit's.
+    /// A bound on the change of the derivative (Frobenius norm) from the orbit's flight to another flight
+    /// whose impacts lie within `reach` of the orbit's.
     fn change_of_derivative(&self, map: &ImpactMap, reach: f64) -> f64 {
         let (p, r) = (map.vibration().peak_acceleration(), map.restitution());
         let wave = |at: ImpactState| (Ball(at.phase().sin(), reach), Ball(at.phase().cos(), reach));
@@ -170,8 +170,8 @@ impl Flight {
 }
 
 /// The flights of an attracting orbit. The forms Q_i = 1 + D_i^T Q_(i+1) D_i measure distances from its
-/// impacts: to first order the sum of the squares of this distance and all later ones, so that each step
-/// reduces it.
+/// impacts: a form is, to first order, the sum of the squares of this distance and all later ones, so that
+/// each step reduces it.
 fn flights(map: &ImpactMap, orbit: &PeriodicOrbit) -> Result<Vec<Flight>, Error> {
     let p = map.vibration().peak_acceleration();
     let n = orbit.states.len();
@@ -245,7 +245,7 @@ impl PeriodicOrbit {
     /// rad.
     ///
     /// A longer orbit, and one with a shear so strong that no radius traps, gets a weaker test: 16 starts on
-    /// each of three circles about each impact, of the radius R = 0.05, 0.025, ... rad, of R/2 and of R/4.
+    /// each of three circles about each impact, with the radii R, R/2 and R/4 for R = 0.05, 0.025, ... rad.
     /// Every start must return to within an eighth of its initial distance from that impact, however far it
     /// strays on the way. If it approaches more slowly, it must be nearer than initially after 200 rounds of
     /// the orbit, and never farther away than four times its initial distance. The result is half of the
@@ -497,8 +497,8 @@ mod tests {
         }
     }
 
-    /// Every start within the proven radius ends on the orbit, also on its edge; and every attracting orbit
-    /// has one.
+    /// Every start within the proven radius ends on the orbit, even on the edge; and every attracting orbit
+    /// has such a radius.
     #[test]
     fn starts_within_the_proven_radius_end_on_the_orbit() {
         let mut random = SplitMix64::new(6);

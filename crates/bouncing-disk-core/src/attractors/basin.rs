@@ -170,8 +170,8 @@ impl KnownOrbit {
     /// [`PeriodicOrbit::trapping_radius`].
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a negative or non-finite radius; for an orbit that [`ImpactMap::refine`]
-    /// would not return, its errors: no impacts or too many, at rest, no period of the platform.
+    /// [`Error::OutOfRange`] for a negative or non-finite radius; errors of [`ImpactMap::refine`] for an
+    /// orbit that it would not return: no impacts or too many, at rest, no period of the platform.
     pub fn new(orbit: PeriodicOrbit, radius: f64) -> Result<Self, Error> {
         within("attraction radius", radius, 0.0, f64::MAX, "[0, inf) (rad)")?;
         orbit.check()?;
@@ -197,8 +197,8 @@ pub(super) fn caught(known: &[KnownOrbit], state: ImpactState, scale: f64) -> Op
     Some(FIRST_ORBIT + index as Label)
 }
 
-/// The label of a start with an impact in `state`, if this decides it: near a known orbit, or (under the
-/// complete policy) certain to chatter to rest.
+/// The label of a start with an impact in `state`, if this impact decides it: near a known orbit, or (under
+/// the complete policy) certain to chatter to rest.
 pub(super) fn settles(
     map: &impl BouncingMap,
     state: ImpactState,
@@ -384,10 +384,10 @@ impl Basins {
     }
 
     /// The number of cells with this label, with the confidence interval that a random sample of this size
-    /// gives for the share. For [`UNDECIDED`] these are the cells without a known fate.
+    /// would have for the share. For [`UNDECIDED`] these are the cells without a known fate.
     ///
-    /// The cells of a grid are more even than a random sample: its error is at most about half the share of
-    /// the boundary cells, and mostly far less.
+    /// The cells of a grid are spread more evenly than a random sample: the error of the share is at most
+    /// about half the share of the boundary cells, and mostly far less.
     #[must_use]
     pub fn share(&self, label: Label) -> Fraction {
         let count = self.labels.iter().filter(|&&own| own == label).count() as u64;
@@ -518,8 +518,8 @@ mod tests {
         assert_eq!(axis(0.0, 1.0, 4).centre(usize::MAX).to_bits(), 0.875_f64.to_bits());
     }
 
-    /// Their phases would have no fraction of a period, or their speeds become infinite in the units of the
-    /// map.
+    /// On such axes phases would have no fraction of a period, or speeds would be infinite in the units of
+    /// the map.
     #[test]
     fn axes_beyond_what_phases_and_speeds_can_hold_are_no_grid() {
         let ordinary = axis(0.0, 1.0, 3);

@@ -1,11 +1,11 @@
 //! The attractors of a map, found without known orbits, and their basins (docs/numerics-dynamics.md,
 //! "Attractors").
 //!
-//! One open start is followed for n = 102,000 impacts, then 1,024 orbits from next to its impacts for n impacts,
-//! too. If all stay, the motion is chaotic: a start belongs to it if, of 512 impacts after the transient, half of
-//! the share usual on the motion lie in its cells. If one leaves, it is a transient: all open starts are followed
-//! for n impacts (fewer if there are thousands), and its share is the starts still on it. If the usual share is
-//! below 0.1, cells tell nothing, and the motion is undecided.
+//! One open start is followed for n = 102,000 impacts, then 1,024 orbits that begin near its impacts, also for n
+//! impacts. If all stay, the motion is chaotic. A start then belongs to the motion if, of 512 impacts after the
+//! transient, at least half of the share usual on the motion lie in its cells. If one orbit leaves, the motion is
+//! a transient: all open starts are followed for n impacts (fewer if there are thousands), and those still on it
+//! are its share. If the usual share is below 0.1, cells cannot distinguish motions, and the motion is undecided.
 
 mod basins;
 pub(crate) mod cells;
@@ -41,8 +41,8 @@ pub enum AfterRest {
     StaysForEver,
     /// It separates, always in the same way, and comes to rest again.
     RestsAgain(RestCycle),
-    /// It separates and does not come to rest again in the search: the rest is not an attractor. It leads to
-    /// the motion at this index of [`Attractors::all`], and so do all starts that come to rest. If this
+    /// It separates and does not come to rest again in the search: the rest is not an attractor. The rest
+    /// leads to the motion at this index of [`Attractors::all`], as do all starts that come to rest. If this
     /// motion is a transient, the disk may rest again later.
     LeadsTo(usize),
     /// On a drive: rests end at several phases, and different motions follow.
@@ -88,14 +88,14 @@ impl AfterRest {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedRecurrence"))]
 pub struct Recurrence {
-    /// The cells visited in the second half of its impacts.
+    /// The cells visited in the second half of the orbit's impacts.
     pub cells: VisitedCells,
-    /// Impacts over which orbits that began on it were followed; for a transient, the number after which its
-    /// starts were counted.
+    /// Impacts over which orbits that began on the motion were followed; for a transient, the number after
+    /// which its starts were counted.
     pub impacts: u64,
-    /// The number of orbits, of at most 1,024 that began on it, that did not leave.
+    /// The number of orbits that did not leave, of at most 1,024 that began on the motion.
     pub orbits: u64,
-    /// Its last impact.
+    /// The last impact of the orbit.
     pub state: ImpactState,
 }
 
@@ -126,7 +126,7 @@ pub enum AttractorKind {
     /// A [stable](crate::orbits::Stability) periodic orbit, and its [`PeriodicOrbit::trapping_radius`]; 0 if
     /// there is none, as near a graze.
     Periodic(KnownOrbit),
-    /// A periodic orbit with a multiplier that is 1 or -1 within rounding, as in the fold in which two orbits
+    /// A periodic orbit with a multiplier that is 1 or -1 within rounding, as at the fold at which two orbits
     /// are born: it attracts from one side only, or rounding decides whether it attracts. Starts approach it
     /// ever more slowly and stay undecided in basins.
     Marginal(PeriodicOrbit),
@@ -223,8 +223,8 @@ impl AttractorKind {
     }
 
     /// Whether the motion lasts: forever at rest and on an attracting orbit, for [`Recurrence::impacts`]
-    /// impacts if it is chaotic. It does not, or not certainly, on a marginal orbit, in a transient, and if
-    /// the disk rests and may never rest again.
+    /// impacts if it is chaotic. It does not last, at least not certainly, on a marginal orbit, in a
+    /// transient, or if the disk rests and may never rest again.
     #[must_use]
     pub const fn lasts(&self) -> bool {
         match self {
@@ -295,8 +295,8 @@ impl core::fmt::Display for AttractorKind {
 pub struct Attractor {
     /// Its kind.
     pub kind: AttractorKind,
-    /// The share of starts that ended on it, 0 if it was only a candidate. Its interval is for the basin's
-    /// share of the trapping region.
+    /// The share of starts that ended on it, 0 if it was only a candidate. Its interval is the confidence
+    /// interval of the basin's share of the trapping region.
     pub starts: Fraction,
 }
 
@@ -306,7 +306,7 @@ pub struct Attractor {
 /// platform periods and decreasing speed, the marginal ones in the same order, and all others in the order of
 /// discovery.
 ///
-/// With serde they are stored and read for a sine.
+/// With serde they can be stored and read for a sine.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Attractors<M = ImpactMap> {
@@ -395,7 +395,7 @@ impl<M> Attractors<M> {
     }
 
     /// The starts that ended on none of them. Their perturbations neither certainly grow nor certainly
-    /// shrink, as when motion creeps past a fold; or they shrink but no period was found; or the
+    /// shrink, as when a motion creeps past a fold; or they shrink but no period was found; or the
     /// [budget](AttractorSearch::budget) was used up.
     #[must_use]
     pub fn undecided(&self) -> Fraction {
@@ -441,17 +441,17 @@ impl<M: AttractingMap> Attractors<M> {
     /// followed for as many impacts as the [search](AttractorSearch::with_impacts) allows, and so are 1,024
     /// orbits that begin near its impacts. If none of these leaves, all starts that return to the visited
     /// cells are on the same attractor. If one leaves, the motion is a [transient](AttractorKind::Transient),
-    /// and all starts are followed for the same number of impacts, or less if the budget is too small.
+    /// and all starts are followed for the same number of impacts, or fewer if the budget is too small.
     /// Periodic orbits are the same as in [`ImpactMap::periodic_orbits`], except for their first impact.
     ///
     /// Attracting one-impact orbits, known in closed form, and attracting orbits found by
     /// [`AttractorSearch::orbits`] are always included, however small their basins.
     ///
-    /// On a drive a rest may end at several phases. If the motions that follow differ, they are
+    /// On a drive a rest may end at several phases. If the motions that follow differ, the rest is
     /// [`AfterRest::Several`].
     ///
     /// Two things are not proven. The search misses an attractor whose basin contains no start; its share is
-    /// then below the upper end of the [interval](Fraction::interval) of zero starts. And a chaotic motion
+    /// then below the upper end of the [interval](Fraction::interval) for zero starts. And a chaotic motion
     /// may end after more impacts than it states.
     ///
     /// The items of `observer` are the starts. Each counts twice: when it has been examined, and when its

@@ -59,7 +59,7 @@ pub enum Verdict {
         impacts: u64,
         /// Periods of the platform during these impacts.
         platform_periods: u64,
-        /// 1 if the disk came to rest before, 0 if not.
+        /// 1 if the disk came to rest earlier, 0 if not.
         rests: u64,
     },
     /// The disk comes to rest on the platform, separates, and comes to rest again: as it always separates in
@@ -82,7 +82,7 @@ pub enum Verdict {
     Undecided {
         /// The reason.
         reason: UndecidedReason,
-        /// 1 if the disk came to rest before, 0 if not.
+        /// 1 if the disk came to rest earlier, 0 if not.
         rests: u64,
     },
 }
@@ -148,7 +148,7 @@ pub enum UndecidedReason {
         standard_error: f64,
     },
     /// The orbit stays at a periodic orbit that does not certainly attract: the larger modulus of its
-    /// multipliers is 1 within their error, or above 1 if the start was on it to the last bits.
+    /// multipliers is 1 within their error, or above 1 if the start was on the orbit to the last bits.
     OnPeriodicOrbit {
         /// Impacts of one period of the orbit.
         impacts: u64,
@@ -178,8 +178,8 @@ pub enum UndecidedReason {
         /// Impacts needed, including the transient ([`BouncingMap::transient_impacts`]).
         needed: f64,
     },
-    /// An impact has zero speed, or one so small that the derivative overflows a double; or it is at a kink
-    /// of a drive, which has no derivative.
+    /// An impact has zero speed, or one so small that the derivative overflows a double; or the impact is at
+    /// a kink of a drive, where there is no derivative.
     Grazing {
         /// Impacts up to this one.
         impacts: u64,
@@ -385,7 +385,7 @@ pub fn verdicts<M: BouncingMap>(
 
 /// [`verdicts`] of `count` orbits without keeping starts or verdicts: `start` makes the start of an index
 /// when it is needed, and `each` receives the verdicts in order, `None` for a missing start. Memory use does
-/// not depend on their number. The items of the observer are the orbits.
+/// not depend on the number of orbits. The items of the observer are the orbits.
 ///
 /// # Errors
 /// Errors of [`verdicts`] and of `start`; [`Error::Stopped`] if the observer breaks.

@@ -1,27 +1,29 @@
 //! The crisis in which a chaotic attractor is lost to rest: where orbits on it begin to come to rest, and the
 //! tangency of manifolds that is the reason (docs/numerics-dynamics.md, "Crises").
 //!
-//! The margin of the bracket: at its lower end no orbit rests in all M impacts, but the crisis may lie below
-//! it by m, because lives next to it exceed any M. So lives are measured at w, 4w, 16w and 64w above the
-//! lower end, w being the nearest distance at which 8 orbits rest and from which on lives shrink. A life T at
-//! the distance d (two errors larger) implies at most 2 T ((d + m)/m)^gamma at the lower end. Lives rise in
-//! steps, because the attractor's gaps close one after the other (at restitution 0.8 by a factor of 20 over a
-//! factor of 2.5 in distance). So gamma is the steepest power between neighbouring distances, two errors
-//! larger, and the factor 2 allows for a step in between. With ln (20 k) expected rests 5 of 100 searches see
-//! none by chance, k being the number of lower ends tried. The margin is the least m for which a rest would
-//! have been seen, by the best of the four distances.
+//! The margin of the bracket: at its lower end no orbit rests in all M impacts, but the crisis may lie a
+//! distance m below this end, because lives near the crisis exceed any M. So lives are measured at the
+//! distances w, 4w, 16w and 64w above the lower end; w is the shortest distance at which 8 orbits rest and
+//! beyond which lives shrink. A life T at the distance d (two errors larger) implies a life of at most 2 T
+//! ((d + m)/m)^gamma at the lower end. Lives rise in steps, because the attractor's gaps close one after the
+//! other (at restitution 0.8 by a factor of 20 over a factor of 2.5 in distance). So gamma is the steepest
+//! power between neighbouring distances, two errors larger, and the factor 2 allows for a step in between. If
+//! ln (20 k) rests are expected, with k the number of lower ends tried, 5 of 100 searches see none by chance.
+//! The margin is the least m for which a rest would have been seen according to the best of the four
+//! distances.
 //!
-//! An attractor counts as periodic if the lost orbits' largest exponent at the lower end is below 5 ln n/n (n
-//! = 4,000 impacts; neutral motion has a few ln n/n). At restitution 0.2 a periodic attractor ends at
-//! 0.9549475, the chaotic one at 0.957192295.
+//! An attractor counts as periodic if the lost orbits' largest exponent at the lower end is below 5 ln n/n
+//! (n = 4,000 impacts; the exponent of neutral motion is a few ln n/n). At restitution 0.2 a periodic
+//! attractor ends at 0.9549475, the chaotic one at 0.957192295.
 //!
-//! An independent program gives by direct iteration 0.957192294 to 0.957192296 at restitution 0.2, 0.80913530
-//! (no rest in 5e8 impacts) to 0.80913531 (mean life 7e5) at 0.3, 0.4858200 to 0.4858205 at 0.6, 0.4296065 to
-//! 0.4296070 at 0.7 and 0.3994755 to 0.3994770 at 0.8. Of 24 searches each, from starts over a fifth of the
-//! range, all brackets contain the results at 0.3, 0.6 and 0.7 and the tangency at 0.5; at 0.8, 22 do.
+//! An independent program finds the crisis by direct iteration at 0.957192294 to 0.957192296 at restitution
+//! 0.2, 0.80913530 (no rest in 5e8 impacts) to 0.80913531 (mean life 7e5) at 0.3, 0.4858200 to 0.4858205 at
+//! 0.6, 0.4296065 to 0.4296070 at 0.7 and 0.3994755 to 0.3994770 at 0.8. In 24 searches for each restitution,
+//! from starts over a fifth of the range, all brackets contain these results at 0.3, 0.6 and 0.7 and the
+//! tangency at 0.5; at 0.8, 22 brackets do.
 //!
 //! Beyond the crisis of Fig. 6 lives were measured with 200 orbits at each of 14 distances. The unstable
-//! manifold of its period-1 orbit touches at 0.560753164.
+//! manifold of the period-1 orbit touches at 0.560753164.
 
 use core::ops::ControlFlow;
 
@@ -101,14 +103,15 @@ pub struct Crisis {
     pub restitution: f64,
     /// Gamma of the tangency; without a tangency, the middle of the bracket.
     pub forcing: f64,
-    /// The error of `forcing`. Without a tangency it is half the width of the bracket. With one it is the
-    /// part of the bracket below the tangency: the crisis cannot lie above, except by the last change of the
-    /// forcing along the saddle and by rounding.
+    /// The error of `forcing`. Without a tangency it is half the width of the bracket. With a tangency it is
+    /// the part of the bracket below the tangency: the crisis cannot lie above this point, except by the last
+    /// change of the forcing along the saddle and by rounding.
     pub forcing_error: f64,
-    /// The values of Gamma between which following orbits has placed the crisis. It certainly lies below the
-    /// second, at which an orbit came to rest. It lies above the first with a confidence of 95 %: otherwise
-    /// 95 of 100 searches would have seen an orbit come to rest at a forcing where this one saw none,
-    /// provided that mean survival times rise no more steeply towards the crisis than the measured ones.
+    /// The values of Gamma between which followed orbits place the crisis. The crisis certainly lies below
+    /// the second, at which an orbit came to rest. It lies above the first with a confidence of 95 %:
+    /// otherwise 95 of 100 searches would have seen an orbit come to rest at a forcing where this one saw
+    /// none, provided that mean survival times rise no more steeply towards the crisis than the measured
+    /// ones.
     pub bracket: (f64, f64),
     /// An impact on the attractor near the lower end of the bracket.
     pub attractor: ImpactState,
@@ -118,14 +121,14 @@ pub struct Crisis {
     pub tangency: Result<Tangency, NoTangency>,
 }
 
-/// The motion of a disk after a rest just beyond a crisis. It always leaves a rest in the same state, so one
-/// orbit decides for each forcing. The 16 forcings tried lie between the crisis and the upper end of its
-/// bracket; if a tangency locates the crisis, within the first sixteenth of that range.
+/// The motion of a disk after a rest just beyond a crisis. The disk always leaves a rest in the same state,
+/// so one orbit decides for each forcing. The 16 forcings tried lie between the crisis and the upper end of
+/// its bracket; if a tangency locates the crisis, they lie within the first sixteenth of that range.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum LifeAfterRest {
     /// At every forcing it rests again after at most `impacts` impacts, far fewer than orbits survive on the
-    /// attractor, and so again after each rest: a boundary crisis, in which the attractor is lost. The number
+    /// attractor, and so rests again and again: a boundary crisis, in which the attractor is lost. The number
     /// is 0 if the platform never falls away from the disk.
     Short {
         /// Impacts from one rest to the next.
@@ -133,7 +136,7 @@ pub enum LifeAfterRest {
     },
     /// At every forcing it survives for long, as orbits on the attractor do: for more than 200 impacts and
     /// more than a hundredth of their mean survival time, or for all impacts followed. Rest has become a part
-    /// of the attractor, or the disk goes to another attractor after it.
+    /// of the attractor, or the disk goes to another attractor after a rest.
     Long {
         /// The smallest number of impacts followed without a rest.
         impacts: u64,
@@ -173,9 +176,10 @@ pub struct Tangency {
     pub share: f64,
     /// The side of the first impact of the saddle on which this piece begins.
     pub side: Side,
-    /// Second derivative, by the share, of the distance from the stable manifold near the second saddle (in
-    /// the units of manifolds), over the distance's rate of change with Gamma. The escaping share of the
-    /// first piece opens as sqrt(8 (Gamma - Gamma_c) / |curvature|). It is not 0 at a quadratic tangency.
+    /// Second derivative (with respect to the share) of the distance from the stable manifold near the second
+    /// saddle (in the units of manifolds), over the rate of change of this distance with Gamma. The escaping
+    /// share of the first piece opens as sqrt(8 (Gamma - Gamma_c) / |curvature|). It is not 0 at a quadratic
+    /// tangency.
     pub curvature: f64,
 }
 
@@ -191,9 +195,9 @@ impl Crisis {
     }
 
     /// The exponent of the mean life beyond the crisis, (Gamma - Gamma_c)^-exponent, after Grebogi, Ott and
-    /// Yorke: 1/2 + ln|a|/|ln|b|| with the multipliers a and b (|a| > 1 > |b|) per impact of the saddle on
-    /// the attractor where the saddles are two, ln|b|/ln (a b)^2 with those of the saddle where it is one.
-    /// `None` without a tangency and where the multipliers do not determine it.
+    /// Yorke. With the multipliers a and b (|a| > 1 > |b|) per impact of the saddle on the attractor, it is
+    /// 1/2 + ln|a|/|ln|b|| if the two saddles differ, and ln|b|/ln (a b)^2 if they are the same. `None`
+    /// without a tangency, or if the multipliers do not determine it.
     #[must_use]
     pub fn life_exponent(&self) -> Option<f64> {
         let tangency = self.tangency.as_ref().ok()?;
@@ -230,8 +234,8 @@ pub enum NoTangency {
         /// Its last change.
         change: f64,
     },
-    /// The manifolds touch inside the attractor, or at a later forcing than those of another saddle: the
-    /// attractor survives there, or is already gone, or no orbit near the tangency is lost.
+    /// The manifolds touch inside the attractor, or at a later forcing than the manifolds of another saddle:
+    /// the attractor survives there, or is already gone, or no orbit near the tangency is lost.
     #[error("the manifolds touch elsewhere, at Gamma = {forcing}")]
     Elsewhere {
         /// Gamma of their tangency.
@@ -264,7 +268,7 @@ pub enum NoCrisis {
         reached: f64,
     },
     /// No orbit comes to rest at the upper end of the range: the attractor is still there, perhaps larger
-    /// (after an interior crisis), or has been lost to one that does not come to rest.
+    /// (after an interior crisis), or has been lost to an attractor that does not come to rest.
     #[error("none of {samples} orbits comes to rest at Gamma = {forcing} within {impacts} impacts in total")]
     NoneRests {
         /// The upper end.
@@ -310,18 +314,19 @@ pub enum NoCrisis {
     OtherReason {
         /// The bracket of the crisis (see [`Crisis::bracket`]).
         bracket: (f64, f64),
-        /// The reason why the saddles give no tangency.
+        /// The reason why the saddles have no tangency.
         reason: NoTangency,
     },
 }
 
-/// A disk survives long after a rest if it makes more impacts than both of these: this share of the mean
-/// survival time, which one orbit in a hundred does not reach by chance, and a number above that of short
-/// cycles from rest to rest.
+/// A disk survives for long after a rest if its number of impacts exceeds both of these: a share of the mean
+/// survival time, which one orbit in a hundred does not reach by chance, and a number that is larger than in
+/// short cycles from rest to rest.
 const LONG: f64 = 0.01;
 const LONG_ROUND: u64 = 200;
 
-/// The half range (relative) of a search about the crises at other restitutions, and how often it is doubled.
+/// The half range (relative) of a search about the crises at other restitutions, and how many times it is
+/// doubled.
 const ABOUT: f64 = 0.01;
 const WIDENINGS: u32 = 3;
 
@@ -335,15 +340,15 @@ const NEXT_TO: f64 = 1.0 / 16.0;
 impl CrisisSearch {
     /// The crisis in which a chaotic attractor begins to lose orbits to rest.
     ///
-    /// Orbits on the attractor are followed as Gamma rises, in steps that are halved when one of them comes
-    /// to rest, until there is a bracket. Then follows a search for the saddle passed by the orbits that come
-    /// to rest just beyond it, and for the tangency of its stable manifold with an unstable one. The tangency
+    /// Orbits on the attractor are followed as Gamma rises, in steps that are halved when an orbit comes to
+    /// rest, until there is a bracket. Then follows a search for the saddle passed by the orbits that come to
+    /// rest just beyond it, and for the tangency of its stable manifold with an unstable one. The tangency
     /// refines the result if it lies within the bracket.
     ///
     /// Without `saddles` the attractor is the one to which the period-1 orbit leads at the lower end of the
-    /// range, or at its birth. With them it is the one to which the unstable manifold of the first saddle
-    /// leads, on the attractor or at its edge; the stable manifold belongs to the second, which may be the
-    /// same. They may be given at any forcings, from which they are followed.
+    /// range, or at its birth. With `saddles` it is the one to which the unstable manifold of the first
+    /// saddle leads, on the attractor or at its edge; the stable manifold belongs to the second saddle, which
+    /// may be the same one. Saddles may be given at any forcing, from which they are followed.
     ///
     /// The items of `observer` are impacts; their total is an upper bound.
     ///
@@ -375,10 +380,10 @@ impl CrisisSearch {
         Ok(found)
     }
 
-    /// The curve of crises over the restitution: the crisis at each of them, in [1, 1000], neighbours next to each other.
-    /// The first is searched for in the range of this search; each other one about the forcing to which the crises
-    /// before point, in a range that is doubled up to three times if it holds none. Each has its own error, saddle and
-    /// kind.
+    /// The curve of crises over the restitution: the crisis at each of `restitutions`, 1 to 1000 values, in an order in
+    /// which neighbours are close. The first crisis is searched for in the range of this search. Each further one is
+    /// searched for about the forcing extrapolated from the crises before it, in a range that is doubled up to three
+    /// times if it contains none. Each crisis has its own error, saddle and kind.
     ///
     /// The items of the observer are the restitutions.
     ///
@@ -426,7 +431,7 @@ impl CrisisSearch {
         Ok(found)
     }
 
-    /// The search at another restitution, about the forcing to which the last two of these crises point.
+    /// The search at another restitution, about the forcing extrapolated from the last two of these crises.
     fn about(&self, restitution: f64, known: &[(f64, f64)]) -> Result<Self, Error> {
         let own = 0.5 * (self.low + self.high);
         let forcing = match known {
@@ -490,8 +495,8 @@ impl CrisisSearch {
         }))
     }
 
-    /// The saddles that orbits pass before they come to rest, each with those whose unstable manifolds may
-    /// touch.
+    /// The saddles that orbits pass before they come to rest, each with the saddles whose unstable manifolds
+    /// may touch its stable manifold.
     fn pairs(&self, end: &End) -> Result<Vec<Pair>, Error> {
         let map = self.map(end.bracket.1)?;
         let node = map.period_one(1).and_then(|state| map.refine(&[state]).ok());

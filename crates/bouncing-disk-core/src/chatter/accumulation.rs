@@ -1,13 +1,13 @@
 //! Chattering: infinitely many impacts in a finite time, and the two ways to end it.
 //!
 //! The summed duration of such a sequence is [`Accumulation`]; the other sums over its impacts (rotary
-//! impulses, losses) are in `impact_series.rs`, and the model's use of both in its `motion/chatter.rs`.
+//! impulses, losses) are in `impact_series.rs`, and the model uses both in its `motion/chatter.rs`.
 //!
 //! Near an impact at phase tau with a = 1 - P sin tau > 0 the disk is pulled back with acceleration a and the
-//! flights form a near-geometric sequence with ratio `restitution`. With b = P cos tau (so that da/dtau = -b,
-//! db/dtau = a - 1) the time to the accumulation point is a power series in the launch speed w whose
-//! coefficients (`expansion.rs`, with the bound on their error) satisfy T(tau, w) = h + T(tau + h,
-//! restitution * u), h the first flight and u its impact speed. The coefficients are derived in
+//! flights form a near-geometric sequence with ratio `restitution`. Let b = P cos tau, so that da/dtau = -b,
+//! db/dtau = a - 1. The time T to the accumulation point is a power series in the launch speed w. It
+//! satisfies T(tau, w) = h + T(tau + h, restitution * u), with the first flight h and its impact speed u. Its
+//! coefficients and the bound on their error are in `expansion.rs`, their derivation in
 //! docs/numerics-impacts.md.
 
 use core::f64::consts::TAU;
@@ -27,7 +27,7 @@ const COMPLETION_ERROR: f64 = 1.0e-16;
 /// Speed below which a chatter may end within a rounding of the phase, without a series.
 const LARGEST_NEGLIGIBLE_SPEED: f64 = 1.0e-30;
 
-/// Largest remaining chatter (rad) that is summed in closed form. It keeps visible bounces visible.
+/// Largest remaining chatter (rad) that is summed in closed form. This limit keeps visible bounces visible.
 const LONGEST_COMPLETION: f64 = 1.0e-2;
 
 /// Bounds on the pull in a summed chatter, as shares of its first value: 2/3 and 4/3, widened for rounding.
@@ -89,8 +89,8 @@ impl Vibration {
     /// of the phase changes the pull and the duration; this conditioning of the problem is not part of the
     /// bound.
     ///
-    /// The accumulation point lies before the next separation. A chatter that ends before it has changed the
-    /// phase has the duration 0.
+    /// The accumulation point lies before the next separation. A chatter too short to change the phase has
+    /// the duration 0.
     ///
     /// `restitution` in [0, 1).
     #[must_use]
@@ -114,7 +114,7 @@ impl Vibration {
         bounces_on(self.contact_force(phase), speed, restitution)
     }
 
-    /// [`Self::accumulation`] for an expansion parameter `x` that is worth a try.
+    /// [`Self::accumulation`] for an expansion parameter `x` small enough to try.
     fn accumulation_of_small(
         &self,
         phase: Phase,
@@ -138,9 +138,9 @@ impl Vibration {
         Some(Accumulation { duration, error_bound, phase: Phase::of_angle(angle), turns })
     }
 
-    /// A chatter whose sum ends at the separation or beyond, because the pull used in the proof is a rounding
-    /// error. The disk rests if its next flight, of 2 w/(1 - P sin tau) <= 2e-16 rad, is too short to change
-    /// the phase; otherwise it continues to bounce.
+    /// A chatter whose sum ends at the separation or beyond, because the pull used in the proof is pure
+    /// rounding error. The disk rests if its next flight, of 2 w/(1 - P sin tau) <= 2e-16 rad, is too short
+    /// to change the phase; otherwise it continues to bounce.
     #[cold]
     fn rests_until_separation(&self, phase: Phase, speed: f64) -> Option<Accumulation> {
         (speed <= COMPLETION_ERROR * self.contact_force(phase)).then_some(Accumulation {
@@ -166,7 +166,7 @@ impl Vibration {
     }
 
     /// Whether a chatter against a growing pull lasts at most [`COMPLETION_ERROR`]: without this test a disk
-    /// could hop forever if the pull is a rounding error and its flights are too short to change the phase
+    /// could hop forever if the pull is rounding error and its flights are too short to change the phase
     /// (docs/numerics-impacts.md, "No time left").
     #[cold]
     fn ends_within_a_rounding(&self, phase: Phase, speed: f64, restitution: f64) -> bool {
@@ -204,10 +204,10 @@ impl Vibration {
 
     /// The impacts of the chatter after a launch at `phase` with `speed`, for a sequence that
     /// [`Self::accumulation`] accepts with a duration above 0. They end when an impact carries less than
-    /// 1e-17 of the first one's impulse, or its launch speed is below the smallest normal number.
+    /// 1e-17 of the first one's impulse, or if its launch speed is below the smallest normal number.
     ///
     /// The iterator computes them one by one, and there are 39/(1 - r) of them: near r = 1 this may take
-    /// forever. [`Self::chatter_series`] gives any of them, and their sums, at once.
+    /// forever. [`Self::chatter_series`] computes any of them and their sums at once.
     pub(crate) fn chatter_impacts(
         &self,
         phase: Phase,
@@ -277,11 +277,11 @@ fn window_holds_all(peak: f64, pull: f64, drift: f64, speed: f64, restitution: f
     (least > 0.0) & (ratio < 1.0) & (2.0 * speed <= window * least * (1.0 - ratio))
 }
 
-/// [`window_holds_all`] where `1 - ratio` would cancel or the speed has lost digits: with the window 3 w/(a
-/// (1 - r)) the condition 2 w <= window least (1 - ratio) has no speed in it: it becomes
-/// 2 <= 3 (least/a) (1 - r - r e)/(1 - r) with e = sqrt(most/least) - 1. With s = 2 change/least, e is formed as
-/// s/(sqrt(1 + s) + 1): nothing cancels, and no product of the speed underflows. It follows that least >= (2/3) a,
-/// and a rounded pair that gives less next to a separation is rejected.
+/// [`window_holds_all`] if `1 - ratio` would cancel or the speed has lost digits. With the window 3 w/(a (1 - r))
+/// the condition 2 w <= window least (1 - ratio) does not contain the speed: it becomes 2 <= 3 (least/a) (1 - r -
+/// r e)/(1 - r) with e = sqrt(most/least) - 1. With s = 2 change/least, e is formed as s/(sqrt(1 + s) + 1):
+/// nothing cancels, and no product of the speed underflows. Hence least >= (2/3) a; a rounded pair with a smaller
+/// value near a separation is rejected.
 #[cold]
 fn window_holds_every_impact(pull: f64, change: f64, restitution: f64) -> bool {
     let least = pull - change;
@@ -359,8 +359,8 @@ mod tests {
         }
     }
 
-    /// The pull is a rounding error here, and so would be a proof that the disk chatters to rest before the
-    /// separation: the disk would attach at or after it, and rest for a period on a platform that falls away.
+    /// The pull is rounding error here, and so would be a proof of rest before the separation: the disk would
+    /// attach at or after the separation, and rest for a period on a platform that falls away.
     #[test]
     fn no_chatter_ends_behind_the_separation() {
         let (mut attached, mut at_once) = (0, 0);
@@ -471,7 +471,7 @@ mod tests {
         assert!(held > 100 && refused > 500, "{held} {refused}");
     }
 
-    /// From the smallest number upwards, and near separations, where the pull is a rounding error: no summed
+    /// From the smallest number upwards, and near separations, where the pull is rounding error: no summed
     /// chatter is reported to bounce on, the sum ends before the separation, and the impacts end.
     #[test]
     fn the_slowest_chatters_come_to_an_end() {
@@ -516,7 +516,7 @@ mod tests {
         assert!(summed > 20_000, "{summed}");
     }
 
-    /// The phase decides whether the platform falls away, not the force, which is a rounding error there.
+    /// The phase decides whether the platform falls away, not the force, which is rounding error there.
     #[test]
     fn a_disk_without_speed_rests_where_the_platform_does_not_fall_away() {
         let mut pulled_off = 0;

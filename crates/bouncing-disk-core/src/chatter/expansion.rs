@@ -11,8 +11,8 @@ pub(super) const MAJORANT: f64 = 32.0;
 pub(super) const LAST_SHARE: f64 = 1.0e-17;
 
 /// Largest restitution, and smallest launch speed, of a chatter whose impacts are computed one by one. There
-/// are at most 7,600 impacts, as by the proof of [`window_holds_all`] every launch is slower than the
-/// previous one times 1 - (2/3)(1 - r).
+/// are at most 7,600 impacts because, by the proof of [`window_holds_all`], every launch is slower than 1 -
+/// (2/3)(1 - r) times the previous one.
 pub(super) const LARGEST_COUNTED_RESTITUTION: f64 = 1.0 - 1.0 / 128.0;
 pub(super) const SMALLEST_COUNTED_SPEED: f64 = f64::MIN_POSITIVE / LAST_SHARE;
 
@@ -183,8 +183,8 @@ mod tests {
         1.0 + (drift / pull).abs() + ((pull - 1.0) / pull).abs().sqrt()
     }
 
-    /// The remainder of a fourth-order series is of fifth order: at half the speed it is a thirty-second. An
-    /// error of one unit in one coefficient would leave a sixteenth.
+    /// The remainder of a fourth-order series is of fifth order: at half the speed it is one thirty-second as
+    /// large. An error of one unit in one coefficient would leave one sixteenth.
     #[test]
     fn the_sum_is_exact_to_the_fourth_order() {
         for expansion in expansions() {

@@ -1,11 +1,11 @@
 //! A chatter in closed form: every impact, and every sum over impacts, as a power series in r^n.
 //!
-//! The accumulation point is the same from impact to impact, and near it the remaining time R has a
-//! coordinate y in which an impact is a multiplication: R is a power series in y, and the n-th impact is at y
-//! = r^n. A quantity of an impact is then a power series in r^n, too, and its sums are geometric. The
+//! The accumulation point is the same from impact to impact, and near it there is a coordinate y in which going
+//! to the next impact is a multiplication by r: the remaining time R is a power series in y, and the n-th impact
+//! is at y = r^n. A quantity of an impact is then also a power series in r^n, and its sums are geometric. The
 //! recurrence r (p - q) sum c_k M_k(q, p) = (q - o) sum c_k M_k(q, o) for the remaining times p, q, o at three
 //! successive impacts is derived in docs/numerics-impacts.md, "Every impact at once". With `[k]` = 1 + r + ... +
-//! r^(k-1) and r (1 - r)^2 divided out, it gives the coefficients rho_m of R:
+//! r^(k-1) and r (1 - r)^2 divided out, this recurrence gives the coefficients rho_m of R:
 //!
 //! ```text
 //! rho_m [m][m-1]/2 = - the coefficient of y^m in  D B + H E  (rho_m = 0 there),
@@ -233,13 +233,13 @@ impl<'a> Shape<'a> {
         shape
     }
 
-    /// The flight per 1 - r.
+    /// The flight divided by 1 - r.
     fn flight(&self) -> PowerSeries {
         self.remaining.weighted(|k| self.sums[k])
     }
 
-    /// The sum of `forces` times the mean over a flight of R^k, weighted with the share of the flight to one
-    /// end, `near` being that end and `far` the other.
+    /// The sum of `forces` times the mean of R^k over a flight, weighted with the distance to one end as a
+    /// share of the flight. `near` is R^k at that end, `far` at the other.
     fn mean(&self, far: impl Fn(usize) -> PowerSeries, near: impl Fn(usize) -> PowerSeries) -> PowerSeries {
         let (far, near): ([PowerSeries; ORDER], [PowerSeries; ORDER]) =
             (core::array::from_fn(far), core::array::from_fn(near));
@@ -264,8 +264,8 @@ impl<'a> Shape<'a> {
         self.power(k).weighted(|order| ratios[order])
     }
 
-    /// The mean at an impact that gives the launch speed after it, and the excess, per 1 - r, of the mean
-    /// that gives the speed before it.
+    /// The mean at an impact that determines the launch speed after it, and the excess of the mean that
+    /// determines the speed before it, divided by 1 - r.
     fn means_at_impact(&self) -> (PowerSeries, PowerSeries) {
         let after =
             self.mean(|k| self.next_power(k), |k| self.power(k).weighted(|order| self.squares[order]));
@@ -276,12 +276,12 @@ impl<'a> Shape<'a> {
         (after, growth)
     }
 
-    /// Speed of the impact that ends the flight, per 1 - r.
+    /// Speed of the impact that ends the flight, divided by 1 - r.
     fn impact_speed(&self) -> PowerSeries {
         self.flight().times(&self.mean(|k| self.next_power(k), |k| self.power(k)))
     }
 
-    /// Speed of the launch that begins the flight, per 1 - r.
+    /// Speed of the launch that begins the flight, divided by 1 - r.
     fn launch_speed(&self) -> PowerSeries {
         self.flight().times(&self.mean(|k| self.power(k), |k| self.next_power(k)))
     }
@@ -315,19 +315,19 @@ impl ChatterSeries {
         &self.remaining
     }
 
-    /// Duration of the flight after impact n (rad) per 1 - r.
+    /// Duration of the flight after impact n (rad), divided by 1 - r.
     #[must_use]
     pub fn flight(&self) -> PowerSeries {
         self.per_flight(&self.remaining)
     }
 
-    /// Speed |w_A| of impact n + 1 per 1 - r, as a series in r^n.
+    /// Speed |w_A| of impact n + 1, divided by 1 - r, as a series in r^n.
     #[must_use]
     pub const fn impact_speed(&self) -> &PowerSeries {
         &self.impact_speed
     }
 
-    /// Relative launch speed after impact n per 1 - r.
+    /// Relative launch speed after impact n, divided by 1 - r.
     #[must_use]
     pub const fn launch_speed(&self) -> &PowerSeries {
         &self.launch_speed
@@ -339,7 +339,7 @@ impl ChatterSeries {
         (&self.sine, &self.cosine)
     }
 
-    /// The decrease of a series without constant term over the flight after impact n, per 1 - r.
+    /// The decrease of a series without constant term over the flight after impact n, divided by 1 - r.
     #[must_use]
     pub fn per_flight(&self, series: &PowerSeries) -> PowerSeries {
         series.weighted(|k| self.sums[k])
@@ -518,7 +518,7 @@ impl ImpactRange<'_> {
     }
 }
 
-/// A start minus the decrease of a series, as a polynomial in the share d in [0, 1] by which r^n has
+/// A start value minus the decrease of a series, as a polynomial in the share d in [0, 1] by which r^n has
 /// decreased.
 struct Path([f64; ORDER + 1]);
 

@@ -173,7 +173,7 @@ impl ShortFlightCount {
         Self(0)
     }
 
-    /// Whether the disk attaches after an impact with this duration (rad) and speed.
+    /// Whether the disk attaches after a flight of this duration (rad) and an impact at this speed.
     #[inline]
     pub(crate) fn attaches(&mut self, cut: &ChatterCut, duration: f64, impact_speed: f64) -> bool {
         self.0 = if duration < cut.short_flight * TAU { self.0 + 1 } else { 0 };

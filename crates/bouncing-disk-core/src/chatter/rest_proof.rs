@@ -3,10 +3,10 @@
 //!
 //! The pull of the platform on a disk near it is a = 1 - P sin tau. From the crest (tau = pi/2) it grows
 //! until the lowest point (3 pi/2), then it shrinks, for P > 1 to zero at the separation, for P <= 1 to its
-//! least value at the next crest. Let G be the integral of the pull from the launch to that point: the
-//! impulse left to stop the disk. The proof shows for a certain share k: if a launch is slower than k G, so
-//! is the next one, with its own, smaller G. All later launches are then too slow to outlast the pull, and
-//! the disk comes to rest (docs/numerics-impacts.md, "The proof of rest").
+//! least value at the next crest. Let G be the integral of the pull from the launch to that separation or
+//! crest: the impulse left to stop the disk. The proof shows for a certain share k: if a launch is slower
+//! than k G, so is the next one, with its own, smaller G. All later launches are then too slow to outlast the
+//! pull, and the disk comes to rest (docs/numerics-impacts.md, "The proof of rest").
 
 use core::f64::consts::{PI, TAU};
 
@@ -22,7 +22,7 @@ const SEPARATION_ROUNDING: f64 = 2.0e-16;
 /// Share by which a launch must be slower than the exact bounds: far more than their relative rounding.
 const SLACK: f64 = 1.0e-12;
 
-/// The numbers that the proof takes from a platform and a coefficient of restitution.
+/// The numbers of a platform and a coefficient of restitution that the proof needs.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RestProof {
     peak: f64,
@@ -291,7 +291,7 @@ mod tests {
         }
     }
 
-    /// Just above P = 1 the separation angle is known to 1e-13 only, and so is the remaining impulse.
+    /// Just above P = 1 the separation angle is known only to 1e-13, and so is the remaining impulse.
     #[test]
     fn the_rounding_of_the_separation_proves_nothing() {
         let vibration = Vibration::new(1.000_000_007_455_782).expect("legal");

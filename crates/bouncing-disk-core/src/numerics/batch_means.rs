@@ -1,9 +1,10 @@
 //! The mean of a long correlated sequence, and its standard error.
 //!
-//! The batches are sums of neighbours, whose length doubles as the sequence grows; there are 64 to 128, 32 to
-//! 64 and 16 to 32 of them. The drift is the distance of the mean from the mean of the second half, and
-//! covers the whole bias of a transient that ends within the first half. For growth like n^k, a sum of k ln
-//! n, it is (k/n)(ln n - 2 ln 2) for a mean of (k/n) ln n. Without a drift it is the error from two batches.
+//! The batches are sums of neighbouring numbers, and their length doubles as the sequence grows. Errors are
+//! computed from 64 to 128 batches, and from 32 to 64 and 16 to 32 joined ones. The drift is the distance of
+//! the mean from the mean of the second half, and covers the whole bias of a transient that ends within the
+//! first half. For growth like n^k, whose logarithms sum to k ln n, the drift is (k/n)(ln n - 2 ln 2) and the
+//! mean (k/n) ln n. In a sequence without a drift it is the error from two batches.
 
 use crate::numerics::statistics::standard_deviation;
 
@@ -106,11 +107,11 @@ impl BatchMeans {
     /// It is the largest of the following (docs/numerics-dynamics.md, "The standard error"):
     /// - the errors from batches of this length, twice and four times this length and so on, down to 16
     ///   batches: batches shorter than the correlation underestimate the error;
-    /// - half of the difference of the means of the two halves: the bias from a transient that ends in the
-    ///   first half, and from any drift;
+    /// - half of the difference between the means of the two halves: the bias from a transient that ends in
+    ///   the first half, and from any drift;
     /// - the resolution of a number, and the rounding of the sums.
     ///
-    /// So for uncorrelated numbers it is too large by about a fifth.
+    /// So for uncorrelated numbers the standard error is too large by about a fifth.
     #[must_use]
     pub fn standard_error(&self) -> Option<f64> {
         if self.sums.len() < FEWEST_BATCHES {

@@ -5,7 +5,7 @@ use glam::{DMat2, DVec2};
 
 use crate::numerics::block_cyclic::{FIRST, NEXT, OWN, eliminate, rotate};
 
-/// Columns of a row that is being eliminated, behind the unknowns: the parameters. The right side follows
+/// Columns of a row that is being eliminated, after the unknowns: the parameters. The right side follows
 /// them.
 const PARAMETER: usize = 6;
 
@@ -47,9 +47,9 @@ impl CyclicEquations {
     ///
     /// As in [`solve_block_cyclic`](super::block_cyclic::solve_block_cyclic), rotations eliminate the
     /// unknowns one by one, starting with number 1, and carry the parameter along like the first unknown. The
-    /// condition contains only these two, so it joins the others in three final equations. So the whole is as
-    /// well conditioned as the bordered matrix, even at a fold, where the closed sequence alone is singular.
-    /// The solution of a singular system is not finite, or as large as rounding makes it.
+    /// condition contains only these two, so it joins the others in three final equations. The whole system
+    /// is therefore as well conditioned as the bordered matrix, even at a fold, where the closed sequence
+    /// alone is singular. The solution of a singular system is not finite, or as large as rounding makes it.
     pub fn solve(&self, border: Border) -> (Vec<DVec2>, f64) {
         if self.own.is_empty() {
             return (Vec::new(), border.right / border.parameter);
@@ -184,7 +184,8 @@ mod tests {
     }
 
     /// The largest residual, relative to the largest sum of the magnitudes of an equation's terms: rotations
-    /// are stable in the norm of the whole, as the first unknown and the parameter affect every equation.
+    /// are stable in the norm of the whole, because the first unknown and the parameter affect every
+    /// equation.
     fn residual(system: &CyclicEquations, border: Border, (x, mu): (&[DVec2], f64)) -> f64 {
         let n = x.len();
         let size = |block: DMat2| block.x_axis.length() + block.y_axis.length();
@@ -244,7 +245,7 @@ mod tests {
         }
     }
 
-    /// In a fold the closed sequence alone is singular and the whole is not: x - mu (1, 0) = 0 in the second
+    /// At a fold the closed sequence alone is singular and the whole is not: x - mu (1, 0) = 0 in the second
     /// row only.
     #[test]
     fn a_fold_is_solved() {

@@ -30,7 +30,7 @@ const TAU_TAIL: f64 = 6.357_301_909_411_279e-8;
 const BOUND: f64 = 100.0;
 
 /// Sine and cosine of `x` radians; absolute error below 1.3e-16 for |x| up to 20 and below 1.5e-16 up to 1e5;
-/// for larger ones the `libm` crate is used.
+/// for larger |x| the `libm` crate is used.
 #[must_use]
 #[inline]
 pub fn sin_cos(x: f64) -> (f64, f64) {

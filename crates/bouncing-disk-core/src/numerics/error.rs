@@ -29,7 +29,7 @@ pub enum Error {
         /// Peak acceleration of the platform in units of the preload acceleration.
         peak_acceleration: f64,
     },
-    /// The flight would last longer than the period counter can hold exactly.
+    /// The flight would last longer than the period counter can represent exactly.
     #[error(
         "a flight that begins at relative speed {relative_speed:?} lasts {duration:?} rad, more than the limit of \
          {limit:?} rad"
@@ -184,7 +184,7 @@ pub enum Error {
         /// The byte position in the text, counted from 0.
         at: usize,
     },
-    /// A law of restitution gives a number outside [0, 1], or NaN.
+    /// A law of restitution returns a number outside [0, 1], or NaN.
     #[error(
         "the law of restitution gives {restitution:?} at the impact speed {impact_speed:?} g/omega, outside [0, 1]"
     )]

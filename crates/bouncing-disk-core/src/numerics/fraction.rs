@@ -64,9 +64,9 @@ impl Fraction {
     ///
     /// (f + z^2/2n +- z sqrt(f (1 - f)/n + z^2/4n^2))/(1 + z^2/n).
     ///
-    /// An empty sample gives [0, 1], and so does a `z` that is NaN. The sign of `z` does not matter. Points
-    /// of an even grid or sequence are more even than a random sample, so the interval is rather too wide
-    /// than too narrow.
+    /// For an empty sample, or if `z` is NaN, the interval is [0, 1]. The sign of `z` does not matter. Points
+    /// of an even grid or sequence are spread more evenly than a random sample, so the interval is too wide
+    /// rather than too narrow.
     #[must_use]
     pub fn wilson(&self, z: f64) -> (f64, f64) {
         let (n, f) = (self.of as f64, self.value());

@@ -12,7 +12,7 @@ const NONE_LEFT: f64 = 2.995_732_273_553_991;
 const ONE_LEFT: f64 = 0.025_317_807_984_289_876;
 
 /// The mean lifetime of a motion that orbits leave at a constant rate: the impacts of all orbits followed on
-/// it, over the number of orbits that left. The impacts of orbits that have not left count, too.
+/// it, over the number of orbits that left. The impacts of orbits that have not left also count.
 ///
 /// ```
 /// use bouncing_disk_core::numerics::lifetime::Lifetime;
@@ -62,9 +62,10 @@ impl Lifetime {
     }
 
     /// The 95 % interval of the mean lifetime (impacts): twice the impacts over the quantiles of chi squared
-    /// for twice the orbits that left, and twice one more for the lower end (B. Epstein, Technometrics 2, 447
-    /// (1960)), by the approximation of E. B. Wilson and M. M. Hilferty except for one orbit. If no orbit has
-    /// left, the lower end is a bound with 95 % confidence and the upper end is infinite.
+    /// (B. Epstein, Technometrics 2, 447 (1960)). If n orbits left, there are 2 n degrees of freedom for the
+    /// upper end and 2 n + 2 for the lower. The quantiles are approximated after E. B. Wilson and M. M.
+    /// Hilferty, except at the upper end for n = 1. If no orbit has left, the lower end is a bound with 95 %
+    /// confidence and the upper end is infinite.
     #[must_use]
     pub fn interval(&self) -> (f64, f64) {
         if self.left == 0 {

@@ -100,7 +100,7 @@ pub enum NoPowerLaw {
         /// The factor needed.
         needed: f64,
     },
-    /// The points lie on a curve: a parabola in the logarithms has a significant square term.
+    /// The points lie on a curve: a parabola in the logarithms has a significant quadratic term.
     #[error(
         "no power law: the exponent is {lower:.3} in the lower half and {upper:.3} in the upper half, {sigmas:.1} \
          standard errors apart"
@@ -110,7 +110,7 @@ pub enum NoPowerLaw {
         lower: f64,
         /// Exponent of the upper half.
         upper: f64,
-        /// The coefficient of the square in units of its standard error.
+        /// The coefficient of the quadratic term in units of its standard error.
         sigmas: f64,
     },
     /// The points scatter about every line by far more than their errors.

@@ -75,8 +75,8 @@ fn halved_while<E>(
 /// relative `accuracy`: Newton steps, replaced by bisection if they leave the bracket or fail to halve the
 /// step before the last.
 ///
-/// `function` gives the value and its derivative; `at_low` are both at `low`, which the caller often knows.
-/// If the value there is not positive, or the bracket is empty, `low` is the root.
+/// `function` returns the value and its derivative; `at_low` is this pair at `low`, which the caller often
+/// knows. If the value there is not positive, or the bracket is empty, `low` is the root.
 #[inline(always)]
 pub fn falling_root(
     mut low: f64,

@@ -1,7 +1,7 @@
 //! Deserialisation through the same checks as construction.
 
-/// Deserialises a type through its checks. A mirror of its fields requires each of them (except optional
-/// ones) and no other; then `check` runs on the whole, or the constructor named after `=>`.
+/// Deserialises a type through its checks. A mirror struct requires each of its fields (except optional ones)
+/// and accepts no other. Then `check` runs on the value, or the constructor named after `=>` makes it.
 ///
 /// `Error` is resolved in the calling module. Without the feature `serde` nothing reads the mirror; it is
 /// still compiled, so that checks and imports need no condition.

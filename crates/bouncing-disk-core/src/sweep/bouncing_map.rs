@@ -17,7 +17,7 @@ use crate::sweep::SweepEvent;
 /// orbit counts as final.
 pub(crate) const DISSIPATION_TIMES: f64 = 10.0;
 
-/// The work of an event on a drive, in flights of the sine.
+/// The work of an event on a drive, in units of a flight above a sine.
 const WORK_OF_EVENT: u64 = 16;
 
 /// The vertical impact map of a disk on a platform: the sine's [`ImpactMap`](crate::ImpactMap), and the
@@ -39,7 +39,7 @@ pub trait BouncingMap: Clone + core::fmt::Debug + Send + Sync {
     /// largest speed of the platform.
     fn speed_scale(&self) -> f64;
 
-    /// The impact after the one in `state`, without any chattering policy.
+    /// The next impact after `state`, without any chattering policy.
     ///
     /// # Errors
     /// [`Error::NoLiftOff`] if the disk stays on the platform, and errors of a flight.
@@ -63,9 +63,9 @@ pub trait BouncingMap: Clone + core::fmt::Debug + Send + Sync {
     /// Whether the disk is certain to chatter to rest after the impact in `state`.
     fn chatters_to_rest_after(&self, state: ImpactState) -> bool;
 
-    /// The derivative at the impact `from` whose next impact is `to`, after a flight of `duration` (rad), and
-    /// a bound on the change of that impact by rounding (rad and g/omega). They are NaN and infinite if there
-    /// is no derivative.
+    /// The derivative at the impact `from`, with the next impact `to` after a flight of `duration` (rad), and
+    /// a bound on the change of `to` due to rounding (rad and g/omega). If there is no derivative, its
+    /// entries are NaN and the bound is infinite.
     fn derivative(&self, from: ImpactState, to: ImpactState, duration: f64) -> (DMat2, f64);
 
     /// A bound on the rounding error of the phase (rad) at which a resting disk separates.
@@ -76,13 +76,13 @@ pub trait BouncingMap: Clone + core::fmt::Debug + Send + Sync {
     fn shrinks_areas_exactly(&self) -> bool;
 
     /// Impacts after which a transient counts as over: each impact contracts an area of states by
-    /// restitution^2, all of them by e^-10. For a compliant contact this is an estimate, and a verdict
-    /// measures the contraction of areas.
+    /// restitution^2, all of them together by e^-10. For a compliant contact this is an estimate, and a
+    /// verdict measures the contraction of areas.
     fn transient_impacts(&self) -> f64 {
         DISSIPATION_TIMES / (-2.0 * ln(self.restitution()))
     }
 
-    /// The impact a number of steps after the one in `state`, without an observer.
+    /// The impact a number of steps after `state`, without an observer.
     ///
     /// # Errors
     /// The error of the first step that fails.

@@ -1,5 +1,5 @@
 //! Many orbits of impact maps at once: the flights are computed in lockstep, with the same events as for each
-//! orbit by itself.
+//! orbit on its own.
 
 use core::f64::consts::TAU;
 
@@ -43,7 +43,7 @@ impl SweepEvent {
 pub struct SweepImpact {
     /// The impact.
     pub state: ImpactState,
-    /// How often the phase passed 0 (mod 2 pi) during the flight.
+    /// How many times the phase passed 0 (mod 2 pi) during the flight.
     pub turns: u64,
     /// The duration of the flight in radians, computed from the two phases. Its absolute error is their
     /// rounding, while [`Impact::remainder`] has relative accuracy, however short the flight.
@@ -66,8 +66,8 @@ impl SweepImpact {
         })
     }
 
-    /// A duration that gives the same decision as the exact one on whether a cut counts the flight as short;
-    /// `orbit` has not landed.
+    /// A duration for which a cut decides as for the exact one whether the flight is short; `orbit` has not
+    /// landed yet.
     #[inline(always)]
     pub(super) fn decisive_duration(&self, orbit: &Orbit) -> f64 {
         if let ChatterPolicy::Cut(cut) = orbit.policy()

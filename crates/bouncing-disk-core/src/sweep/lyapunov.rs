@@ -90,15 +90,16 @@ impl TangentGrowth {
     }
 }
 
-/// Bound on the change of the logarithm of one growth by rounding, always to the same side: the rounding of
-/// the two phases and the speeds that form its derivative (docs/numerics-dynamics.md, "The standard error").
+/// Bound on the change of the logarithm of one growth due to rounding, always to the same side: the rounding
+/// of the two phases and the speeds that form its derivative (docs/numerics-dynamics.md, "The standard
+/// error").
 const GROWTH_RESOLUTION: f64 = 16.0 * f64::EPSILON;
 
 /// The number of standard errors that counts as decisive.
 const DECISIVE_ERRORS: f64 = 3.0;
 
-/// The power of the number of impacts up to which a perturbation may grow without a positive exponent: 2 in
-/// the passage by a fold, 1 in a shear.
+/// The highest power of the number of impacts with which a perturbation may grow without a positive exponent:
+/// 2 in the passage by a fold, 1 in a shear.
 const NEUTRAL_POWER: f64 = 2.0;
 
 /// -ln(2^-52): the growth along an escape from a periodic orbit that contains the start to the last bit.
@@ -173,8 +174,9 @@ struct Followed {
 }
 
 /// The largest Lyapunov exponent per impact of each orbit of `starts`: the mean logarithmic growth of a small
-/// perturbation over `impacts` impacts after `transient` ones. `None` if the disk comes to rest (the motion
-/// after a rest does not depend on the motion before) or grazes the platform (the derivative is unbounded).
+/// perturbation over `impacts` impacts after a transient of `transient` impacts. `None` if the disk comes to
+/// rest (the motion after a rest does not depend on the motion before) or grazes the platform (the derivative
+/// is unbounded).
 ///
 /// The items of `observer` are the orbits.
 ///

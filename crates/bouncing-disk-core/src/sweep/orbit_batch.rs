@@ -5,7 +5,7 @@ use crate::numerics::error::Error;
 use crate::sweep::lockstep::lanes::{Batch, FlightScheduler, InstructionSet, LANES, Purpose};
 
 /// Independent orbits of the impact map, each advanced by one impact at a time; the states have the same bits
-/// as with [`ImpactMap::step`], several times faster than one by one.
+/// as with [`ImpactMap::step`], but are computed several times faster than one by one.
 ///
 /// ```
 /// use bouncing_disk_core::sweep::OrbitBatch;

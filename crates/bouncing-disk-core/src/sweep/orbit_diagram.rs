@@ -9,8 +9,8 @@ use crate::numerics::error::Error;
 use crate::run::Observer;
 use crate::sweep::bouncing_map::BouncingOrbit;
 
-/// Largest number of events without an impact until a disk counts as no longer bouncing: kinks may hit it
-/// forever.
+/// Largest number of events without an impact, after which a disk counts as no longer bouncing: kinks may hit
+/// it forever.
 const MOST_CONTACT_EVENTS: usize = 10_000;
 
 /// Largest number of impacts that [`orbit_diagram`] records, of all orbits together.

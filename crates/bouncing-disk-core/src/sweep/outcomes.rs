@@ -18,7 +18,7 @@ use crate::sweep::bouncing_map::BouncingOrbit;
 #[cfg_attr(feature = "serde", serde(bound(deserialize = "T: serde::Deserialize<'de>")))]
 pub struct PartialResults<T> {
     total: usize,
-    /// The finished items by increasing index. Pairs allow any type of result, also the unit type.
+    /// The finished items by increasing index. Pairs allow any type of result, even the unit type.
     finished: Vec<(usize, T)>,
 }
 
@@ -159,7 +159,7 @@ pub(crate) fn sweep_with<O: BouncingOrbit, W: Send, T>(
 /// `start` makes the visitor's value for the orbit of an index. `visit` receives the events of
 /// [`Orbit::advance`](crate::Orbit::advance) one by one, and breaks when the orbit need not be followed
 /// further. With the feature `parallel` the orbits are distributed over the threads of rayon's pool. Neither
-/// the number of threads nor the instructions of the processor change a bit.
+/// the number of threads nor the instructions of the processor changes any bit of the results.
 ///
 /// An endless orbit whose visitor never breaks is followed forever, or until the observer breaks.
 ///

@@ -10,8 +10,8 @@ use crate::run::{Watch, WorkCount, in_parallel, threads};
 use crate::sweep::bouncing_map::{BouncingOrbit, OrbitOutcome};
 use crate::sweep::lockstep::lanes::{Batch, FlightScheduler, InstructionSet, LANES, Purpose};
 
-/// With fewer orbits under way they are advanced one by one: a step of the lanes costs nearly the same
-/// however many of them are in use, as much as about this many single flights.
+/// If fewer orbits are under way, they are advanced one by one: a step of the lanes costs about as much as
+/// this many single flights, nearly independently of the number of lanes in use.
 const FEWEST: usize = 12;
 
 /// Batches of lanes of one thread.
@@ -252,7 +252,7 @@ fn place(batches: &mut [Batch], lane: usize, orbit: &Orbit) {
     set_launch(batches, lane, orbit);
 }
 
-/// Sets the impact from which a rebound without loss gives the launch of the orbit.
+/// Sets the impact from which a rebound without loss leads to the launch of the orbit.
 #[inline]
 fn set_launch(batches: &mut [Batch], lane: usize, orbit: &Orbit) {
     if let Some(launch) = orbit.launch() {

@@ -165,7 +165,7 @@ impl Basins {
     }
 }
 
-/// The fit of a line to points of logarithms with increasing abscissas.
+/// The line fitted to points on logarithmic axes, with increasing abscissas.
 fn fit(points: &[(f64, f64)]) -> BoundaryFit {
     if points.len() < FEWEST {
         return BoundaryFit::TooFew { distances: points.len() };

@@ -19,7 +19,7 @@ pub struct BasinEntropy {
     pub undecided_cells: u64,
     /// Labels that occur in the boxes.
     pub labels: u64,
-    /// S_b, the mean over the boxes of -sum p ln p, p being the shares of the labels in a box: 0 if each box
+    /// S_b, the mean over the boxes of -sum p ln p with the shares p of the labels in a box: 0 if each box
     /// has one label, at most the logarithm of the number of labels.
     pub entropy: f64,
     /// S_bb, the same mean over the boxes with more than one label; `None` if there is no such box. A box cut

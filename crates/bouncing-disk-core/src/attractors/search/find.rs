@@ -2,9 +2,9 @@
 //!
 //! Starts that return to the cells of an undecided motion, on which perturbations do not certainly grow, are
 //! undecided too: for example below a fold, or for periods above the longest one. The 1,024 orbits about a
-//! motion begin a relative 1e-7 away from its impacts, because an orbit through an impact itself has the same
-//! future. A search covers the trapping region and not a plotted window, so the label of a start depends only
-//! on the start.
+//! motion begin at a relative distance of 1e-7 from its impacts, because an orbit through an impact itself
+//! has the same future. A search covers the trapping region and not a plotted window, so the label of a start
+//! depends only on the start.
 //!
 //! An orbit that creeps towards a marginal one as 1/n may pass it after about 1e8 impacts if rounding
 //! shifts the fold.
@@ -296,10 +296,10 @@ impl<'a, M: AttractingMap> Finder<'a, M> {
         })
     }
 
-    /// Finds the attractors of the starts that have neither rested nor repeated themselves. One after the
-    /// other is followed for long, and the others are compared with its cells. As soon as one leaves, the
-    /// others are followed, too: the starts still under way have not left for as many impacts. This also
-    /// holds if they are followed again from their last state.
+    /// Finds the attractors of the starts that have neither rested nor repeated themselves. The starts are
+    /// followed for long one by one, and the others are compared with the cells of each. As soon as an orbit
+    /// leaves its motion, the other starts are followed too: those still under way have not left for as many
+    /// impacts. This also holds if they are followed again from their last state.
     fn settle(&mut self, mut open: Vec<Open>) -> Result<(), Error> {
         while let Some(start) = open.first().copied() {
             let comparison = open.len() as u64 * (self.transient() + COMPARED);
@@ -434,8 +434,8 @@ impl<'a, M: AttractingMap> Finder<'a, M> {
     }
 
     /// The lifetime of orbits on this motion, from orbits that begin on it and are followed for `impacts`
-    /// impacts, and the number that have not left. A quarter of them comes first: if one of these leaves, the
-    /// others need not be followed.
+    /// impacts, and the number that have not left. A quarter of these orbits comes first: if one of these
+    /// leaves, the others need not be followed.
     fn lifetime(&mut self, long: &LongLook, impacts: u64) -> Result<(Lifetime, u64), Error> {
         let every = |first: bool| {
             let own = long.beside.iter().enumerate();

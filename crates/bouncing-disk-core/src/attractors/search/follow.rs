@@ -24,7 +24,7 @@ pub(super) const SHARE_IN_CELLS: f64 = 0.5;
 pub(super) const FOLLOWED: usize = 1_024;
 
 /// The share by which each of them begins slower than an impact of the attractor. States of one orbit have
-/// the same future; a neighbouring state has its own after about a hundred impacts.
+/// the same future; a neighbouring state has a different one after about a hundred impacts.
 const BESIDE: f64 = 1.0e-7;
 
 /// The observed fate of a start.

@@ -17,10 +17,10 @@ pub const MAX_FORCINGS: usize = 1 << 16;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct FollowedAttractor {
-    /// The first forcing at which it was found, by its number in the list: it appears between this one and
-    /// the one before.
+    /// The first forcing at which it was found, by its number in the list: it appears between the previous
+    /// forcing and this one.
     pub appears: usize,
-    /// The last forcing at which it was found: it vanishes between this one and the next.
+    /// The last forcing at which it was found: it vanishes between this forcing and the next.
     pub vanishes: usize,
 }
 
@@ -36,9 +36,9 @@ pub struct AttractorsAt {
     /// The index of each of them in [`BasinFractions::followed`].
     pub followed: Vec<usize>,
     /// The distance of each from its counterpart at the previous forcing (rad; a radian counts as much as the
-    /// speed P at the present one). It is the mean distance of an impact of one from the nearest impact of
-    /// the other, the larger of both directions. `None` for an attractor that appears, and for the disk at
-    /// rest.
+    /// speed P at the present forcing). It is the mean distance of an impact of one attractor from the
+    /// nearest impact of the other, in the direction in which this mean is larger. `None` for an attractor
+    /// that appears, and for the disk at rest.
     pub moved: Vec<Option<f64>>,
 }
 
@@ -206,7 +206,7 @@ pub fn basin_fractions_over(
 
 impl BasinFractions {
     /// Adds the attractors at more forcings after the present ones: the same result as from a single call
-    /// with all forcings, also after storing and reading.
+    /// with all forcings, even after storing and reading.
     ///
     /// So a long list of forcings can be computed in parts.
     ///

@@ -83,8 +83,8 @@ impl AttractorSearch {
 
     /// The same search with these numbers of impacts: `transient` in [1, 2^40] that are skipped (default
     /// 2,000), and then `impacts` in [64, 2^40] (default 100,000). Orbits of each aperiodic motion are
-    /// followed for the sum of both, and so are all starts if one orbit leaves it. All other starts are
-    /// followed for at most twice the transient.
+    /// followed for the sum of both, and so are all starts if one orbit leaves its motion. All other starts
+    /// are followed for at most twice the transient.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for either number.

@@ -13,7 +13,7 @@ const STEPS: [u64; 2] = [0xc13f_a9a9_02a6_328f, 0x91e1_0da5_c79e_7b1d];
 /// Tries per requested start: the region fills at least a quarter of its bounding rectangle.
 const TRIES: u64 = 16;
 
-/// A fixed-point number in [0, 1), to the 53 bits that a double has.
+/// A fixed-point number in [0, 1), to the 53 bits of a double.
 fn unit(fixed: u64) -> f64 {
     (fixed >> 11) as f64 * (1.0 / 9_007_199_254_740_992.0)
 }

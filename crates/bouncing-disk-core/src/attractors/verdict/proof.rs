@@ -32,7 +32,7 @@ const UNSEEN: f64 = 0.9;
 /// Distance (rad) within which no other orbit attracts.
 const LINEAR: f64 = 1.0e-5;
 
-/// The distance (rad) within which an orbit must stay near a neutral one on which it was.
+/// The distance (rad) within which an orbit that was on a neutral one must stay near it.
 const STAYS_WITHIN: f64 = 2.0e-6;
 
 /// Largest error of multipliers that still prove anything.
@@ -142,15 +142,16 @@ fn comes_nearer(
     distances.map_while(|distance| distance.filter(|own| *own <= farthest)).any(|own| own <= near)
 }
 
-/// Whether the orbit from `state` stays within `most` of the periodic one over the most impacts of a proof.
+/// Whether the orbit from `state` stays within `most` of the periodic one over the largest number of impacts
+/// of a proof.
 fn stays_within(map: &impl BouncingMap, orbit: &PeriodicOrbit, state: ImpactState, most: f64) -> bool {
     let rounds = (MOST_CONFIRMING as usize / orbit.period()).max(1);
     let mut distances = distances(map, orbit, state).take(rounds);
     distances.all(|distance| distance.is_some_and(|distance| distance <= most))
 }
 
-/// The distances of the orbit from `state` from the periodic one after each of its periods; `None` once it
-/// has no next impact.
+/// The distances between the orbit from `state` and the periodic one after each period of the latter; `None`
+/// once it has no next impact.
 fn distances(
     map: &impl BouncingMap,
     orbit: &PeriodicOrbit,

@@ -31,8 +31,8 @@ impl Returns {
         Self { reference: None, age: 0, window: 1, turns: 0, impacts: 0, wait: 0, nearest: [None; 2] }
     }
 
-    /// Takes the next impact, before which the phase passed 0 `turns` times. If this impact is a return,
-    /// gives the number of impacts since the reference.
+    /// Receives the next impact, before which the phase passed 0 `turns` times. If this impact is a return,
+    /// the result is the number of impacts since the reference.
     #[inline]
     pub(crate) fn see(
         &mut self,

@@ -294,7 +294,7 @@ fn a_slow_passage_is_no_chaos() {
     assert!(spectrum.largest.abs() <= spectrum.standard_error, "{spectrum:?}");
 }
 
-/// Rounding may hold the disk on an orbit that repels, and chaos may be a transient where there is hardly any
+/// Rounding may hold the disk on an orbit that repels, and chaos may be a transient if there is hardly any
 /// dissipation.
 #[test]
 fn what_repels_or_may_end_is_no_chaos() {

@@ -4,7 +4,8 @@
 //! for the phase of separation; it is 1 if a graze is in doubt. A kick counts as an impact.
 //!
 //! A cycle that cannot end within the allowed impacts is called chaotic; its number of rests shows where it
-//! began. A window whose period exceeds the longest one has a negative exponent and is undecided.
+//! began. In a window whose period exceeds the longest one searched for, the exponent is negative and the
+//! motion undecided.
 
 use core::f64::consts::PI;
 use core::ops::ControlFlow;
@@ -109,13 +110,13 @@ pub(crate) struct Witness<'m, M> {
     growth: BatchMeans,
     turns: u64,
     /// The logarithm of the contraction of areas since then, on maps that do not contract areas by the
-    /// squared restitution in each impact.
+    /// squared restitution at each impact.
     shrunk: f64,
     grazed: Option<(u64, Phase)>,
     /// The phase at which a disk came to rest that has not separated since, and its error.
     attached: Option<(Phase, f64)>,
     round: Option<Round>,
-    /// The earlier rounds: there are any only if the disk leaves the platform at several phases.
+    /// The earlier rounds: there are none unless the disk leaves the platform at several phases.
     earlier: Vec<Round>,
     verdict: Option<Verdict>,
 }

@@ -18,7 +18,7 @@ use crate::sweep::lyapunov::lyapunov_exponents;
 use crate::sweep::{SweepEvent, sweep};
 use core::ops::ControlFlow;
 
-/// The least distance beyond its birth (relative to Gamma) from which on the period-1 orbit is followed.
+/// The least distance beyond its birth (relative to Gamma) at which the period-1 orbit is followed.
 const AFTER_BIRTH: f64 = 1.0e-3;
 
 /// Distance of the first orbits from the periodic one (relative to its velocity).
@@ -34,8 +34,9 @@ const LONGEST_STEP: f64 = 1.0 / 64.0;
 /// The narrowest bracket, relative to Gamma: [`SHAKE`] must not carry orbits over it.
 const NARROWEST: f64 = 1.0e-9;
 
-/// Once the mean survival time exceeds this share of all impacts, the upper end of the bracket is as near as
-/// so many impacts can show; from then on the bracket is halved so often.
+/// Once the mean survival time exceeds this share of all impacts, the upper end of the bracket is as near to
+/// the crisis as this number of impacts can show. From then on the bracket is halved only this number of
+/// times.
 const TOLD: f64 = 1.0 / 16.0;
 const MORE_HALVINGS: u32 = 5;
 
@@ -45,11 +46,11 @@ const FEWEST_RESTS: u64 = 8;
 /// The fewest impacts of an orbit.
 const FEWEST_IMPACTS: usize = 200;
 
-/// Largest number of forcings, at which orbits survived, whose states are kept.
+/// Largest number of forcings with surviving orbits whose states are kept.
 const KEPT: usize = 24;
 
-/// Impacts over which exponents are taken. A growth that is a power of their number, as that of neutral
-/// motion, has an exponent of a few ln n/n: five of these are not chaos.
+/// Impacts over which exponents are measured. A growth like a power of their number n, as in neutral motion,
+/// has an exponent of a few ln n/n: up to 5 ln n/n is not chaos.
 const EXPONENT_IMPACTS: usize = 4_000;
 
 /// Distances beyond the lower end at which survival times are compared, as multiples of the smallest.
@@ -67,7 +68,7 @@ const MISSED: f64 = 0.05;
 /// The longest move of an impact (rad, and relative speed) in one step along a branch of saddles.
 const LONGEST_MOVE: f64 = 0.2;
 
-/// The shortest step along it, relative to Gamma.
+/// The shortest step along such a branch, relative to Gamma.
 const SHORTEST_STEP: f64 = 1.0e-6;
 
 /// Orbits at a forcing.
@@ -87,9 +88,10 @@ pub(super) struct Lost {
 pub(super) struct End {
     /// See [`super::Crisis::bracket`].
     pub(super) bracket: (f64, f64),
-    /// Impacts on the attractor, next to its lower end.
+    /// Impacts on the attractor, near the lower end of the bracket.
     pub(super) attractor: Vec<ImpactState>,
-    /// Orbits from there that come to rest at its upper end or next to it, then those farther beyond.
+    /// Orbits from these impacts that come to rest at the upper end of the bracket or near it, then those
+    /// that come to rest farther beyond.
     pub(super) lost: Vec<Lost>,
     /// The mean survival time at the distance where 8 of them come to rest.
     pub(super) life: f64,
@@ -162,7 +164,7 @@ impl CrisisSearch {
     }
 
     /// The end of an attractor on which orbits survive at `below` and begin to come to rest at `forcing`; or
-    /// the reason why this is no crisis, with the surviving orbits if a periodic attractor beside theirs has
+    /// the reason why this is no crisis, with the surviving orbits if a periodic attractor next to theirs has
     /// ended. `below` is the last of `lower_ends` lower ends that were tried; orbits came to rest at the
     /// others.
     fn end(
@@ -246,7 +248,7 @@ impl CrisisSearch {
         Ok(exponents.iter().sum::<f64>() / exponents.len() as f64)
     }
 
-    /// Orbits on the attractor at the lower end of the range, or from where it is born.
+    /// Orbits on the attractor at the lower end of the range, or just beyond its birth.
     fn first_herd(
         &self,
         inside: Option<&PeriodicOrbit>,
@@ -278,7 +280,8 @@ impl CrisisSearch {
         Ok(Err(NoCrisis::RestsBefore { forcing, life: life as u64 }))
     }
 
-    /// Starts on either side of a saddle, on its unstable manifold; all about another orbit.
+    /// Starts on either side of a saddle, on its unstable manifold; about an orbit of another kind, all
+    /// together.
     fn starts_beside(&self, map: &ImpactMap, orbit: &PeriodicOrbit) -> Result<Vec<Vec<ImpactState>>, Error> {
         let Ok(saddle) = Saddle::of(map, orbit, 0) else {
             let mut random = SplitMix64::new(0);
@@ -331,8 +334,8 @@ impl CrisisSearch {
         lives
     }
 
-    /// A periodic orbit of any map of this restitution, followed to a forcing; or the forcing it could be
-    /// followed to.
+    /// A periodic orbit of any map of this restitution, followed to a forcing; or the last forcing to which
+    /// it could be followed.
     pub(super) fn followed_to(
         &self,
         orbit: &PeriodicOrbit,
@@ -390,7 +393,7 @@ impl CrisisSearch {
     }
 }
 
-/// How far an impact of an orbit has moved at most (rad, and relative speed).
+/// The largest displacement of an impact of an orbit (rad, and relative speed).
 fn moved(from: &PeriodicOrbit, to: &PeriodicOrbit) -> f64 {
     from.states.iter().zip(&to.states).fold(0.0, |most: f64, (a, b)| {
         let phase = phase_difference(b.phase().angle(), a.phase().angle()).abs();
@@ -421,17 +424,17 @@ const ORBITS: usize = 24;
 /// The last impacts of an orbit among which it passes the saddle.
 const IMPACTS: usize = 160;
 
-/// The most impacts of the saddle.
+/// The largest number of impacts of the saddle.
 const LONGEST: usize = 12;
 
-/// How nearly (rad, and units of 1 + P) an orbit closes that passes a saddle.
+/// The distance (rad, and units of 1 + P) to which an orbit that passes a saddle closes.
 const CLOSES: f64 = 0.02;
 
 /// The least share of the orbits that pass the same saddle.
 const SHARE: f64 = 0.25;
 
 impl CrisisSearch {
-    /// The saddles that orbits pass before they come to rest, those first that most of them pass.
+    /// The saddles that orbits pass before they come to rest, in order of decreasing number of orbits.
     pub(super) fn saddles_passed(&self, map: &ImpactMap, end: &End) -> Result<Vec<PeriodicOrbit>, Error> {
         let mut found: Vec<(PeriodicOrbit, usize)> = Vec::new();
         let mut orbits = 0;
@@ -450,7 +453,7 @@ impl CrisisSearch {
     }
 }
 
-/// The last impacts of an orbit that comes to rest after so many.
+/// The last impacts of an orbit that comes to rest after `impacts` impacts.
 fn last_impacts(map: &ImpactMap, start: ImpactState, impacts: usize) -> Result<Vec<ImpactState>, Error> {
     let mut state = map.steps(start, impacts.saturating_sub(IMPACTS) as u64)?;
     let mut last = vec![state];

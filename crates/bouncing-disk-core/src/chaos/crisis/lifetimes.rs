@@ -25,7 +25,7 @@ const FEWEST_ENDED: u64 = 20;
 pub struct MeanLife {
     /// The distance from the crisis in Gamma, above 0.
     pub beyond: f64,
-    /// Impacts of all orbits over the number that came to rest: the mean of an exponential law, also if some
+    /// Impacts of all orbits over the number that came to rest: the mean of an exponential law, even if some
     /// orbits were not followed to their end. The largest double if none came to rest.
     pub impacts: f64,
     /// Its standard error, relative to it; the largest double if none came to rest.

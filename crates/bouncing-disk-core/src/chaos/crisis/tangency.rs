@@ -1,13 +1,14 @@
 //! The tangency itself: the fold of the unstable manifold on the stable one, by Newton's method in Gamma.
 //!
-//! The search for the touched saddle S takes the cycles that close most nearly before the rests, refines them
-//! by Newton's method, and tries those that a quarter of the orbits pass. Along the unstable manifold, with
-//! the parameter s on its first piece, the derivatives of the map give the coordinate xi along the unstable
-//! direction of S, and dxi/ds. Bisection finds a fold, dxi/ds = 0, and the secant method solves xi(fold) = 0
-//! for Gamma. Using the stable direction instead of the stable manifold causes an error of the square of the
-//! distance from S. So the equation is solved again after each further cycle along S until the fold is within
-//! 1e-7 of S: the distance shrinks by the small multiplier, and an error of Gamma grows by the large one.
-//! Orbits rest beyond the tangency by a sixty-fourth of the bracket, and none before.
+//! The search for the touched saddle S starts from the most nearly closed cycles before the rests, refines
+//! them by Newton's method, and tries those that a quarter of the orbits pass. Let s be the parameter on the
+//! first piece of the unstable manifold, and xi the coordinate along the unstable direction of S; dxi/ds
+//! follows from the derivatives of the map. Bisection finds a fold, dxi/ds = 0, and the secant method solves
+//! xi(fold) = 0 for Gamma. Using the stable direction instead of the stable manifold causes an error of the
+//! order of the square of the distance from S. So the equation is solved again after each further cycle along
+//! S until the fold is within 1e-7 of S: the distance shrinks by the small multiplier, and an error of Gamma
+//! grows by the large one. At a sixty-fourth of the bracket beyond the tangency orbits rest; as far before it
+//! none does.
 
 use glam::DVec2;
 
@@ -25,23 +26,23 @@ use crate::sweep::survival_times;
 /// Samples of the first piece among which folds are looked for.
 const SAMPLES: u32 = 2_048;
 
-/// The most flights from the first piece to a fold for which the search looks.
+/// The largest number of flights from the first piece to a fold.
 const MOST_FLIGHTS: u32 = 80;
 
-/// The most folds that are followed to their tangency.
+/// The largest number of folds that are followed to their tangency.
 const MOST_TIPS: usize = 24;
 
 /// Orbits from the first piece that are followed to see whether they rest, and the impacts that takes.
 const PROBES: u32 = 128;
 const LOST: u32 = 400;
 
-/// How far from a tangency orbits about it are followed, over the bracket.
+/// The distance beyond and before a tangency at which orbits are followed, over the width of the bracket.
 const ASIDE: f64 = 1.0 / 64.0;
 
 /// The farthest that neighbouring samples may be apart at a fold (in the units of manifolds).
 const STEP: f64 = 0.2;
 
-/// The largest distance from the stable direction at which a fold counts as next to the stable manifold.
+/// The largest distance from the stable direction at which a fold counts as near the stable manifold.
 const TOUCHES: f64 = 0.02;
 
 /// Parts into which the window is divided to find the fold.
@@ -56,17 +57,17 @@ const VANISHES: f64 = 1.0e-3;
 /// Steps of the secant method in Gamma for a number of flights.
 const MAX_STEPS: u32 = 40;
 
-/// How often a step in Gamma is halved.
+/// How many times a step in Gamma is halved.
 const MAX_HALVINGS: u32 = 30;
 
 /// How many rounds along the second saddle are tried after the first.
 const MAX_ROUNDS: u32 = 12;
 
-/// Rounds after which the search abandons a tangency that is not next to the bracket.
+/// Rounds after which the search abandons a tangency that is not near the bracket.
 const ROUNDS_ASTRAY: u32 = 2;
 
 /// The distance from the second saddle (in the units of manifolds) at which its stable manifold is straight
-/// within the rounding: the square of it is left.
+/// to within rounding: the remaining error is the square of this distance.
 const STRAIGHT: f64 = 1.0e-7;
 
 /// The farthest that a point may be from the second saddle for its coordinates to mean anything.
@@ -79,15 +80,15 @@ pub(super) struct Pair {
     pub(super) touched: PeriodicOrbit,
 }
 
-/// A tangency and where it is.
+/// A tangency and its location.
 pub(super) struct Solution {
     pub(super) forcing: f64,
     pub(super) error: f64,
     pub(super) tangency: Tangency,
 }
 
-/// The tangency of least Gamma within the bracket beyond which orbits come to rest, of any of these pairs of
-/// orbits at its upper end.
+/// The tangency of any of these pairs, beyond which orbits come to rest, at the least Gamma within the
+/// bracket. The pairs are given at the upper end of the bracket.
 pub(super) fn tangencies(
     search: &CrisisSearch,
     pairs: &[Pair],
@@ -147,7 +148,7 @@ struct Sought<'s> {
     bracket: (f64, f64),
 }
 
-/// Everything at one Gamma.
+/// The map and the saddles at one Gamma.
 struct Setting {
     side: Side,
     map: ImpactMap,
@@ -156,12 +157,12 @@ struct Setting {
     saddle: Saddle,
 }
 
-/// A point of the unstable manifold next to the second saddle.
+/// A point of the unstable manifold near the second saddle.
 #[derive(Debug, Clone, Copy)]
 struct Spot {
     /// Coordinates along the unstable and the stable direction.
     at: DVec2,
-    /// How they change with the share of the first piece.
+    /// The derivatives of these coordinates with respect to the share of the first piece.
     along: DVec2,
 }
 
@@ -177,9 +178,9 @@ struct Fold {
 struct Tip {
     /// Flights from the first piece.
     flights: u32,
-    /// The impact of the second saddle next to which it lies.
+    /// The impact of the second saddle near which it lies.
     impact: usize,
-    /// Where on the first piece it comes from.
+    /// The part of the first piece from which it comes.
     window: (f64, f64),
 }
 
@@ -191,10 +192,10 @@ impl Tip {
     }
 }
 
-/// Where a fold lies on the stable direction.
+/// The forcing at which a fold lies on the stable direction.
 struct Crossing {
     forcing: f64,
-    /// How the distance changes with Gamma.
+    /// The rate of change of the distance with Gamma.
     rate: f64,
     fold: Fold,
 }
@@ -215,8 +216,8 @@ impl Setting {
         Grower::new(&self.map, &saddle, ManifoldKind::Unstable, self.side, &settings)
     }
 
-    /// The folds of the unstable manifold that lie next to the stable one, those of the fewest flights first,
-    /// each once.
+    /// The folds of the unstable manifold that lie near the stable one, in order of increasing number of
+    /// flights, each once.
     fn tips(&self, work: &mut WorkCount<'_>) -> Result<Vec<Tip>, Error> {
         let saddles: Vec<_> = (0..self.touched.period())
             .map(|impact| Saddle::of(&self.map, &self.touched, impact))
@@ -267,7 +268,7 @@ impl Setting {
         Ok(distinct)
     }
 
-    /// How many orbits from shares of the first piece come to rest within so many impacts.
+    /// How many orbits from shares of the first piece come to rest within `most` impacts.
     fn rests(&self, shares: impl Iterator<Item = f64>, most: u32) -> Result<usize, Error> {
         let piece = self.first_piece()?;
         let mut orbits = Vec::new();
@@ -279,7 +280,8 @@ impl Setting {
         Ok(lives.into_iter().filter(|life| *life < most as usize).count())
     }
 
-    /// Where a share of the first piece is after so many flights; `None` if it is not next to the saddle.
+    /// The point to which a share of the first piece is mapped by `flights` flights; `None` if it is not near
+    /// the saddle.
     fn spot(&self, share: f64, flights: u32) -> Result<Option<Spot>, Error> {
         let piece = self.first_piece()?;
         let Some((mut state, mut along)) = piece.first_piece(share)? else { return Ok(None) };
@@ -295,8 +297,8 @@ impl Setting {
         Ok(seen(&self.saddle, state, along))
     }
 
-    /// The fold in a window of the first piece: where the unstable coordinate is stationary. Of several the
-    /// one nearest to the stable manifold.
+    /// The fold in a window of the first piece: where the unstable coordinate is stationary. If there are
+    /// several, the one nearest to the stable manifold.
     fn fold(&self, window: (f64, f64), flights: u32) -> Result<Option<Fold>, Error> {
         let share = |part: u32| window.0 + (window.1 - window.0) * f64::from(part) / f64::from(PARTS);
         let mut best: Option<Fold> = None;
@@ -354,8 +356,9 @@ impl Sought<'_> {
         Ok(self.setting(self.bracket.0, 0)?.rests(shares, LOST)? == 0)
     }
 
-    /// Whether orbits from near the tangency come to rest beyond it and not before: only then does it open a
-    /// way out of the attractor, and not one from a part of the attractor to another.
+    /// Whether orbits from near the tangency come to rest beyond the tangency and not before it: only then
+    /// does the tangency open a way out of the attractor, and not just from one part of the attractor to
+    /// another.
     fn loses(&self, solution: &Solution, flights: u32) -> Result<bool, Error> {
         let (low, high) = self.bracket;
         let aside = ASIDE * (high - low);
@@ -376,14 +379,14 @@ impl Sought<'_> {
         Ok(Setting { side: self.side, map, inside, touched, saddle })
     }
 
-    /// How far the fold is from the straight stable manifold, at one Gamma.
-    /// `None` where it is lost, or one of the saddles.
+    /// The fold, with its distance from the straight stable manifold, at one Gamma. `None` if the fold or one
+    /// of the saddles is lost.
     fn distance(&self, forcing: f64, tip: &Tip) -> Option<Fold> {
         self.setting(forcing, tip.impact).and_then(|own| own.fold(tip.window, tip.flights)).ok().flatten()
     }
 
-    /// The Gamma at which the fold lies on the stable direction after so many flights, and the rate of the
-    /// distance with Gamma.
+    /// The Gamma at which the fold lies on the stable direction after its number of flights, and the rate of
+    /// change of the distance with Gamma.
     fn crossing(&self, start: f64, step: f64, tip: &Tip) -> Result<Crossing, NoTangency> {
         let mut tip = *tip;
         let Some(mut fold) = self.distance(start, &tip) else { return Err(NoTangency::NoFold) };
@@ -417,7 +420,7 @@ impl Sought<'_> {
         Err(NoTangency::NotSettled { forcing, change })
     }
 
-    /// The tangency from near `start`, where the orbit passes the saddle after so many flights: round by
+    /// The tangency from near `start`, where the orbit passes the saddle after the flights of `tip`: round by
     /// round along the saddle, until its stable manifold is straight.
     fn solved(&self, tip: &Tip, start: f64) -> Result<Result<(Solution, u32), NoTangency>, Error> {
         let (mut forcing, mut tip, mut change) = (start, *tip, f64::INFINITY);

@@ -27,7 +27,7 @@ fn found() -> Crisis {
     FOUND.clone()
 }
 
-/// The period-1 orbit in the midst of the attractor.
+/// The period-1 orbit in the middle of the attractor.
 fn node(axial_forcing: f64, restitution: f64) -> PeriodicOrbit {
     let map = crate::map::impact_map::map(axial_forcing, restitution);
     map.refine(&[map.period_one(1).expect("exists")]).expect("an orbit")
@@ -67,7 +67,7 @@ fn the_attractor_of_fig_6_touches_a_saddle_of_three_impacts() {
     assert!(tangency.orbit.iter().any(|state| !near(state)));
 }
 
-/// The saddle that is found may be given, in a wide range, and with far more samples.
+/// The result is the same if the saddle that is found is given, in a wide range, and with far more samples.
 #[test]
 fn the_crisis_does_not_depend_on_the_search() {
     let saddle = found().tangency.expect("found").touched;
@@ -93,7 +93,7 @@ fn the_crisis_does_not_depend_on_the_range() {
     }
 }
 
-/// The manifolds of these saddles touch where the attractor lives on, or is gone.
+/// The manifolds of these saddles touch where the attractor survives or is already gone.
 #[test]
 fn tangencies_that_the_lives_of_orbits_deny_are_refused() {
     for (restitution, at, range, lost) in
@@ -118,9 +118,9 @@ fn a_crisis_without_a_saddle_has_a_bracket() {
     assert_eq!(crisis.life_exponent(), None);
 }
 
-/// At restitution 0.2 a periodic attractor beside that of the others ends at 0.9549475: those are followed
-/// further. Their chaos lies in the window of an orbit of four impacts, and what leaves it comes back after a
-/// rest.
+/// At restitution 0.2 some orbits are on a periodic attractor that ends at 0.9549475; the others are followed
+/// further. Their chaos lies in the window of an orbit of four impacts, and an orbit that leaves it returns
+/// after a rest.
 #[test]
 fn a_periodic_attractor_that_ends_beside_is_no_crisis() {
     let crisis = search_of(0.2, (0.9, 0.96)).crisis(None, &Unobserved).expect("no failure");
@@ -157,7 +157,7 @@ fn a_range_may_begin_or_end_at_the_crisis() {
     assert!(found >= 3 && covered + 1 >= found, "{covered} of {found}");
 }
 
-/// Brute force: below the crisis orbits on the attractor live on, beyond it they do not.
+/// Brute force: below the crisis orbits on the attractor survive, beyond it they do not.
 #[test]
 fn orbits_live_below_the_crisis_and_die_beyond_it() {
     let crisis = found();
@@ -210,7 +210,7 @@ fn mean_lives_follow_a_power_law() {
 }
 
 /// Lives at distances that hardly differ are those of unrelated orbits: their means scatter as the errors
-/// say.
+/// predict.
 #[test]
 fn mean_lives_scatter_as_their_errors_say() {
     let crisis = found();

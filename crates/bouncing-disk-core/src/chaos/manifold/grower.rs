@@ -1,5 +1,5 @@
-//! The growth of one branch of a manifold: each generation is the image of the last one, with points inserted
-//! where it stretches or turns.
+//! The growth of one branch of a manifold: each generation is the image of the previous one, with points
+//! inserted where it stretches or turns.
 //!
 //! The rounding of a double is about 1e-10 of the first piece; parts below 2^-28 of it are not divided. The
 //! distance of the piece from the manifold is about (1e-5)^2. It shrinks by the other multiplier while
@@ -58,7 +58,7 @@ struct Node {
     place: Place,
 }
 
-/// The connection of two neighbouring points of a generation.
+/// The connection between two neighbouring points of a generation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Link {
     /// The curve, over this displacement (in the units of lengths).
@@ -135,8 +135,8 @@ impl<'m> Grower<'m> {
         Ok(grower)
     }
 
-    /// The state at a share of the first piece, if the disk flies, and its derivative by the share (phase,
-    /// velocity).
+    /// The state at a share of the first piece, if the disk flies, and its derivative with respect to the
+    /// share (phase, velocity).
     pub(crate) fn first_piece(&self, share: f64) -> Result<Option<(ImpactState, DVec2)>, Error> {
         let (beginning, end) = self.first;
         Ok(self.displaced(share)?.state().map(|state| (state, end - beginning)))
@@ -218,7 +218,7 @@ impl<'m> Grower<'m> {
         Ok(Node { from, place })
     }
 
-    /// The connection of two neighbouring points.
+    /// The connection between two neighbouring points.
     fn link(&self, from: &Node, to: &Node) -> Link {
         match (from.place, to.place) {
             (Place::At(a), Place::At(b)) => {
@@ -261,7 +261,7 @@ impl<'m> Grower<'m> {
         coarse
     }
 
-    /// A generation with enough points; the flag tells that it would need more than allowed.
+    /// A generation with enough points; the flag is true if it would need more than allowed.
     fn refined(
         &self,
         mut nodes: Vec<Node>,

@@ -9,7 +9,7 @@ use crate::numerics::error::Error;
 /// Decimal places that represent every double exactly.
 const EXACT_PLACES: usize = 1_074;
 
-/// Significant digits if no precision is requested: more than 106 bits hold.
+/// Significant digits if no precision is requested: more than 106 bits can hold.
 const SIGNIFICANT_DIGITS: i32 = 33;
 
 /// The smallest and the largest power of ten accepted when reading a number.

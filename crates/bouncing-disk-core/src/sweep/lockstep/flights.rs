@@ -26,7 +26,7 @@ pub trait LaneLoop {
 /// same bits as from [`Vibration::first_impact`].
 ///
 /// Lanes come in batches of [`Self::LANES`] and are numbered consecutively: lane 70 is lane 6 of batch 1.
-/// Setting a lane or batch that does not exist does nothing, and reading it gives `None`. The more batches,
+/// Setting a lane or batch that does not exist does nothing, and reading it returns `None`. The more batches,
 /// the better flights of one kind fill the vectors of the processor.
 ///
 /// ```
@@ -64,7 +64,8 @@ pub struct LaneImpacts<'a> {
     pub cos: &'a [f64; LANES],
     /// Relative axial velocities w_A just before the impact, <= 0, in units of g/omega.
     pub velocity: &'a [f64; LANES],
-    /// How often the phase passed 0 (mod 2 pi) during the flight; a negative value is rounding and means 0.
+    /// How many times the phase passed 0 (mod 2 pi) during the flight; a negative value is rounding and
+    /// means 0.
     pub turns: &'a [f64; LANES],
     /// Phases (rad) that the flights left from.
     launched: &'a [f64; LANES],
@@ -154,8 +155,8 @@ impl Flights {
     /// Sets the next launch of every lane of a batch to the rebound from its impact, with its own coefficient
     /// of restitution in [0, 1); another number counts as zero.
     ///
-    /// If the bits of `may_rest` are then zero, the disk keeps bouncing: [`crate::ImpactMap::accumulation`]
-    /// is `None`.
+    /// If the bits of a lane in `may_rest` are then zero, its disk keeps bouncing:
+    /// [`crate::ImpactMap::accumulation`] is `None`.
     pub fn rebound(&mut self, batch: usize, restitution: &[f64; LANES], may_rest: &mut [u64; LANES]) {
         let Some(batch) = self.batches.get_mut(batch) else { return };
         self.scheduler.dispatch().run(Rebound { rows: batch.rebounding(), restitution, may_rest });
@@ -277,7 +278,7 @@ mod tests {
         (Vibration::new(peak).expect("legal"), Launch::new(phase, speed).expect("legal"))
     }
 
-    /// Flies these launches, and compares all that the rows and the lanes hold, and the errors, with single flights.
+    /// Flies these launches, and compares all values in the rows and lanes, and the errors, with single flights.
     fn compared(flights: &mut Flights, launches: &[(Vibration, Launch)]) -> Vec<Impact> {
         for (lane, (vibration, launch)) in launches.iter().enumerate() {
             flights.set_platform(lane, *vibration);
@@ -357,7 +358,7 @@ mod tests {
         }
     }
 
-    /// A rebound with NaN launched disks that landed at no phase, and nobody was told.
+    /// A rebound with NaN once launched disks that landed at no phase, without an error.
     #[test]
     fn a_rebound_that_is_none_leaves_the_disk_where_it_hit() {
         let (vibration, launch) = (Vibration::new(2.0).expect("legal"), launch(1).1);

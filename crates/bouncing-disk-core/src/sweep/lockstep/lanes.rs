@@ -1,25 +1,25 @@
 //! Many flights in lockstep: the first impacts of [`LANES`] launches, bit for bit those of
 //! [`Vibration::first_impact`].
 //!
-//! The solver of one flight waits for its own results most of the time. Here each step of it is a loop over
-//! lanes that do not depend on each other, short enough for the processor to overlap many of them, and plain
-//! enough for the compiler to turn into vectors of whatever width the processor has ([`InstructionSet`]). A
-//! lane takes the vector path only where every decision on it is the one that the solver of one flight takes;
-//! the others are handed to that solver (docs/numerics-impacts.md, "Why the bits are the same"): 2.2 % of the
-//! flights of the basin W3 and 2.3 % of the motor W2 (data/performance/README.md).
+//! The solver of one flight waits for its own results most of the time. Here each of its steps is a loop over
+//! independent lanes, short enough for the processor to overlap many of them, and simple enough for the
+//! compiler to turn into vectors of whatever width the processor supports ([`InstructionSet`]). A lane
+//! follows the vector path only if every decision on this path is the same as in the solver of one flight
+//! (docs/numerics-impacts.md, "Why the bits are the same"). The others are handed to that solver: 2.2 % of
+//! the flights of the basin W3 and 2.3 % of the motor W2 (data/performance/README.md).
 //!
 //! The loops use the functions of the one-flight solver (`GapTaylor`, `CrestForm`, `LaunchForm`, `ShortForm`) in
 //! the same order. A lane takes the same *decisions*:
 //!
 //! - *Above the crests.* A lane takes the step of the model if it stays before the next crest, by 1e-9 turns, so
-//!   that rounding cannot decide otherwise. Else it takes Newton's step, or half the way to the crest, by the
-//!   solver's rule and from the same numbers. Disks that may come down behind a crest where the platform falls
-//!   away faster have two windows. They, and flights not near their root after the second or third evaluation,
-//!   continue for four evaluations with the windows, steps and brackets of the solver.
-//! - *Short.* Newton's iteration of `ShortForm`. Lanes that leave the first piece of constant curvature continue
-//!   if the gap is positive at the end of the pieces within half a radian and the slopes or the tangents there
-//!   exclude a dip.
-//! - *Low.* The same comparisons, with gaps beyond doubt, give the window before the first crest; four
+//!   that rounding cannot decide otherwise. Otherwise it takes Newton's step, or half the way to the crest, by
+//!   the solver's rule and from the same numbers. Disks that may come down behind a crest where the platform
+//!   falls away faster have two windows. These disks, and flights not near their root after the second or third
+//!   evaluation, continue for four evaluations with the windows, steps and brackets of the solver.
+//! - *Short.* Newton's iteration of `ShortForm`. Lanes that leave the first piece of constant curvature sign
+//!   continue if the gap is positive at the end of the pieces within half a radian and the slopes or the
+//!   tangents there exclude a dip.
+//! - *Low.* The same comparisons, with gaps beyond doubt, determine the window before the first crest; four
 //!   evaluations follow.
 //!
 //! The first step sorts all launches by the kind of flight that follows (`root.rs`). A batch that rises above
@@ -65,7 +65,7 @@ pub(crate) const fn mask(condition: bool) -> u64 {
     (condition as u64).wrapping_neg()
 }
 
-/// Sines and cosines of some angles, in two loops: the processor overlaps more iterations of shorter ones.
+/// Sines and cosines of some angles, in two loops: the processor overlaps more iterations of shorter loops.
 #[inline(always)]
 fn pairs<S: Simd>(width: impl Width, sin: &mut Row, cos: &mut Row, angle: impl Fn(usize) -> f64) {
     scaled_pairs::<S>(width, sin, cos, angle, |_| 1.0);
@@ -136,7 +136,7 @@ pub(crate) const fn kept(mask: u64, value: f64) -> f64 {
     f64::from_bits(value.to_bits() & mask)
 }
 
-/// Launches of all lanes: from the impacts before, with relative speeds >= 0.
+/// Launches of all lanes: from the previous impacts, with relative speeds >= 0.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Launches<'a> {
     pub(crate) from: &'a Impacts,
@@ -156,7 +156,7 @@ struct Rows<'a> {
 #[derive(Debug, Clone)]
 #[repr(align(64))]
 struct Arcs {
-    /// Phase less the whole periods flown, those periods, and the disk's speed, which is negative.
+    /// Phase minus the whole periods flown, these periods, and the disk's speed, which is negative.
     start: Row,
     free_periods: Row,
     speed: Row,
@@ -171,8 +171,8 @@ pub(crate) struct Impacts {
     pub(crate) cos: Row,
     /// Relative velocity, <= 0.
     pub(crate) velocity: Row,
-    /// How often the phase passed 0 during the flight; stale, like the duration, unless the launch was set
-    /// ([`Purpose`]).
+    /// How many times the phase passed 0 during the flight; stale, like the duration, unless the launch was
+    /// set ([`Purpose`]).
     pub(crate) turns: Row,
     /// Duration of the flight (rad), or [`Impacts::BETWEEN_PHASES`].
     pub(crate) duration: Row,
@@ -189,15 +189,15 @@ enum Ground {
 #[derive(Debug, Clone)]
 pub(crate) struct Batch {
     ground: Ground,
-    /// The impacts, and those before, which the launches of the last flight followed; they change places with
-    /// every flight.
+    /// The impacts, and the previous ones, from which the last flights were launched; the two change places
+    /// with every flight.
     impacts: [Impacts; 2],
     last: usize,
-    /// Where the launches are: with the impacts that they follow, until they are flown.
+    /// The index in `impacts` of the launches: until they are flown, that of the impacts that they follow.
     from: usize,
     /// Relative speeds of the launches.
     speed: Row,
-    /// Coefficients of restitution, where every launch follows the impact before.
+    /// Coefficients of restitution, if every launch follows the previous impact.
     restitution: Row,
     arcs: Arcs,
     vibrations: [Vibration; LANES],
@@ -322,7 +322,7 @@ impl Batch {
         impacts.velocity[lane] = velocity;
     }
 
-    /// Sets the coefficient of restitution of a lane, for flights that follow the impacts before.
+    /// Sets the coefficient of restitution of a lane, for flights that follow the previous impacts.
     pub(crate) const fn set_restitution(&mut self, lane: usize, restitution: f64) {
         self.restitution[lane] = restitution;
     }
@@ -411,7 +411,7 @@ impl Impacts {
         self.velocity[lane] = others.velocity[k];
     }
 
-    /// Takes over how long the flight was, too.
+    /// Also takes over the duration of the flight.
     #[inline(always)]
     const fn take_time(&mut self, lane: usize, others: &Self, k: usize) {
         self.turns[lane] = others.turns[k];

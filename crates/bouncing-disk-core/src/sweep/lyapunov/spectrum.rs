@@ -3,8 +3,8 @@
 //!
 //! If the image of the first direction has the length l, the second may be as long, with an orthogonal part
 //! det/l. Near a graze l and det grow like 1/v', so det/l stays of the order r^2 |v| with an error 1e-16 l,
-//! that is 1e-16/|v'| for each impact. Such impacts are as frequent as their speed, and the mean of ln|v'| is
-//! finite, so the sum of both exponents has an error of about 1e-13.
+//! that is 1e-16/|v'| for each impact. The frequency of such impacts is proportional to their speed, and the
+//! mean of ln|v'| is finite, so the sum of both exponents has an error of about 1e-13.
 
 use core::ops::ControlFlow;
 
@@ -145,9 +145,9 @@ impl<M: BouncingMap> Followed<'_, M> {
     }
 }
 
-/// Both Lyapunov exponents per impact of each orbit of `starts`, over `impacts` >= 16 impacts after
-/// `transient` ones, with the standard error of the largest; for an orbit without exponents, the reason.
-/// Orbits on a sine advance in lockstep.
+/// Both Lyapunov exponents per impact of each orbit of `starts`, over `impacts` >= 16 impacts after a
+/// transient of `transient` impacts, with the standard error of the largest; for an orbit without exponents,
+/// the reason. Orbits on a sine advance in lockstep.
 ///
 /// The largest exponent equals the result of [`lyapunov_exponents`](crate::chaos::lyapunov_exponents) up to
 /// the rounding of its sum.

@@ -15,7 +15,7 @@ use crate::numerics::elementary::{
 /// Comparisons that decide which path a lane takes keep this far from a tie (turns; relative to the pull).
 const CLEAR: f64 = 1.0e-9;
 
-/// One in so many lanes must need a third evaluation for all to get one.
+/// All lanes get a third evaluation if at least one in so many needs it.
 const MANY: usize = 4;
 
 /// Intermediate results of all lanes.
@@ -31,7 +31,7 @@ pub(super) struct Work {
     sin: Row,
     cos: Row,
     root: Row,
-    /// The quadratic step, and the one improved; the Newton step before the last one.
+    /// The quadratic step, and the improved one; the Newton step before the last step.
     quadratic: Row,
     step: Row,
     inverse: Row,
@@ -71,7 +71,7 @@ impl Work {
         lanes_of(&self.near)
     }
 
-    /// Where the first step of the search has led a lane that has not landed; zero where it is not known.
+    /// The time that the first step of the search has reached in a lane that has not landed; zero if unknown.
     #[inline(always)]
     pub(super) const fn reached(&self, k: usize) -> f64 {
         let second = if self.stepped { &self.second } else { &self.time };
@@ -145,7 +145,7 @@ fn form<P: PlatformLanes>(platforms: P, arcs: &Arcs, k: usize) -> CrestForm {
     CrestForm { peak: platforms.lane(k).peak, angle: arcs.start[k], speed: arcs.speed[k], depth: 0.0 }
 }
 
-/// Lanes with no crest between the start and so much later.
+/// Lanes with no crest within a time after the start.
 #[inline(always)]
 fn meets_no_crest(start: f64, time: f64) -> u64 {
     // In turns; whole numbers are half way between two crests.
@@ -165,7 +165,8 @@ fn model_step(width: impl Width, work: &mut Work, taylor: impl Fn(&Work, usize) 
     }
 }
 
-/// The first step of the search of one flight; none where the root is near. Whether all lanes are followed.
+/// The first step of the search of one flight; none if the root is near. Returns whether all lanes are
+/// followed.
 #[inline(always)]
 fn first_step<P: PlatformLanes>(width: impl Width, platforms: P, arcs: &Arcs, work: &mut Work) -> bool {
     for k in 0..width.lanes() {
@@ -190,7 +191,7 @@ fn first_step<P: PlatformLanes>(width: impl Width, platforms: P, arcs: &Arcs, wo
     all == u64::MAX
 }
 
-/// Lanes behind a crest, the platform falling away faster than the disk may fall: two windows.
+/// Lanes with two windows: behind a crest, where the platform may fall away faster than the disk.
 #[inline(always)]
 fn two_windows<P: PlatformLanes>(platforms: P, arcs: &Arcs, taylor: &GapTaylor, k: usize) -> u64 {
     let peak = platforms.lane(k).peak;
@@ -219,7 +220,7 @@ fn other_first_step<P: PlatformLanes>(width: impl Width, platforms: P, arcs: &Ar
     }
 }
 
-/// The step after the second evaluation, where the root is not near: that of the search if it stays in the
+/// The step after the second evaluation if the root is not near: the step of the search if it stays in the
 /// window.
 #[inline(always)]
 fn second_step<P: PlatformLanes>(width: impl Width, platforms: P, arcs: &Arcs, work: &mut Work) {
@@ -243,7 +244,7 @@ fn second_step<P: PlatformLanes>(width: impl Width, platforms: P, arcs: &Arcs, w
     }
 }
 
-/// Another evaluation, and the Newton step from there. Whether all lanes are near their root.
+/// Another evaluation, and the Newton step from there. Returns whether all lanes are near their root.
 #[inline(always)]
 fn evaluate<S: Simd, P: PlatformLanes>(
     width: impl Width,

@@ -18,7 +18,7 @@ pub(super) struct Awaiting {
     start: Row,
     speed: Row,
     free_periods: Row,
-    /// Where a first step has led, or zero.
+    /// The time that a first step has reached, or zero.
     reached: Row,
 }
 
@@ -109,7 +109,7 @@ impl Awaiting {
         Self { start: ROW, speed: ROW, free_periods: ROW, reached: ROW }
     }
 
-    /// Sets lane `k` to arc `from` of `arcs`; `reached` is the time to which a first step has led, or zero.
+    /// Sets lane `k` to arc `from` of `arcs`; `reached` is the time that a first step has reached, or zero.
     #[inline(always)]
     pub(super) fn set(&mut self, k: usize, arcs: &Arcs, from: usize, reached: f64) {
         self.reached[k] = reached;

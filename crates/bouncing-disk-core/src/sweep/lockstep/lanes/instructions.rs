@@ -63,7 +63,7 @@ pub(crate) enum Dispatch {
 }
 
 impl Dispatch {
-    /// The functions for `set`, or for the next lower set that this processor has.
+    /// The functions for `set`, or for the next lower set that this processor supports.
     pub(crate) fn new(set: InstructionSet) -> Self {
         #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
         if set != InstructionSet::Baseline

@@ -169,8 +169,8 @@ mod tests {
     use crate::flight::platform::vibration::Vibration;
     use crate::sweep::lockstep::lanes::{Dispatch, InstructionSet};
 
-    /// Launches about as fast as the platform at its fastest: what is decided of their windows is what one
-    /// flight decides.
+    /// Launches about as fast as the platform at its fastest: the decisions on their windows are those of
+    /// single flights.
     #[test]
     fn windows_are_those_of_single_flights() {
         let vibration = Vibration::new(2.0).expect("legal");

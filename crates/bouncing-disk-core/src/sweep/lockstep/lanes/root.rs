@@ -69,7 +69,7 @@ impl Times {
     }
 }
 
-/// Evaluations, each but the first after a step where the root is not near.
+/// Evaluations, each but the first after a step if the root is not near.
 pub(super) struct Advance<'a, F> {
     pub(super) width: Sixteens,
     pub(super) forms: &'a mut F,
@@ -149,7 +149,7 @@ impl<F: Forms> WithSimd for Finish<'_, F> {
     }
 }
 
-/// Kinds of launches; one that is neither rises above the crests.
+/// Kinds of launches; a launch of neither kind rises above the crests.
 #[derive(Debug, Clone)]
 #[repr(align(64))]
 pub(super) struct Kinds {

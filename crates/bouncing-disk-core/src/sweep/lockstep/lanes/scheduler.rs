@@ -17,7 +17,7 @@ use crate::sweep::lockstep::lanes::{
 /// The purpose of the flights.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Purpose {
-    /// Orbits of impact maps: every launch follows the impact before with the restitution of its lane, and
+    /// Orbits of impact maps: every launch follows the previous impact with the restitution of its lane, and
     /// durations are not computed. Launches that are set are ignored.
     Orbits,
     /// Launches that are set; the impacts get their turns and durations.
@@ -131,7 +131,7 @@ impl FlightScheduler {
         }
     }
 
-    /// Computes the impacts of one batch where all lanes rise above the crests, else adds its lanes to the
+    /// Computes the impacts of one batch if all lanes rise above the crests, otherwise adds its lanes to the
     /// queues.
     fn fly_batch(&mut self, batches: &mut [Batch], number: usize, lanes: usize, shared: Option<Platform>) {
         let Self { dispatch, timed, kinds, work, .. } = self;
@@ -173,7 +173,7 @@ impl FlightScheduler {
         self.queue_above(batches, number, shared, all.without(slow | low));
     }
 
-    /// Adds slow lanes of a batch to their queue, some of which are `low`, too.
+    /// Adds slow lanes of a batch to their queue, some of which are also `low`.
     #[inline(always)]
     fn queue_slow(
         &mut self,

@@ -1,7 +1,7 @@
 //! Flights that land within half a radian: `Vibration::short_flight`, many at a time.
 //!
-//! Slow launches are rare among ordinary ones, and all launches of a chattering disk are slow, so they are
-//! collected.
+//! Slow launches are rare among ordinary ones, and all launches of a chattering disk are slow, so slow
+//! launches are collected.
 
 use core::f64::consts::{PI, TAU};
 
@@ -32,7 +32,7 @@ pub(super) struct Short {
     peak: Row,
     /// Where the platform begins to fall away (rad).
     separation: Row,
-    /// Where the piece of constant curvature that the launch lies in ends.
+    /// Where the piece of constant curvature sign that contains the launch ends.
     end: Row,
     time: Row,
     /// gap/h and the relative velocity there.
@@ -96,7 +96,7 @@ fn form(short: &Short, k: usize) -> ShortForm {
     }
 }
 
-/// Where the launches lie and what pulls them.
+/// The pieces that contain the launches, and the pulls on them.
 #[inline(always)]
 fn begin(width: impl Width, short: &mut Short) {
     for k in 0..width.lanes() {

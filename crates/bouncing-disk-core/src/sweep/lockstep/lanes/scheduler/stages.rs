@@ -89,7 +89,7 @@ impl FlightScheduler {
         }
     }
 
-    /// Goes on with a lane at the height of the crests, from the time that a first step has led to, or from
+    /// Goes on with a lane at the height of the crests, from the time that a first step has reached, or from
     /// zero.
     pub(super) fn keep_falling(&mut self, batches: &mut [Batch], who: Who, reached: f64) {
         let (batch, lane) = (&batches[who.batch as usize], who.lane as usize);
