@@ -286,7 +286,7 @@ impl AttractingMap for ImpactMap {
         for k in (longest.saturating_sub(MOST_PERIOD_ONE).max(1)..=longest).rev() {
             let Some(pair) = self.period_one_pair(k) else { continue };
             let Some(orbit) = pair.node.orbit(self)? else { continue };
-            // All orbits with shorter flights have doubled, too.
+            // All orbits with shorter flights have also doubled.
             if orbit.stability() == Stability::Unstable {
                 break;
             }

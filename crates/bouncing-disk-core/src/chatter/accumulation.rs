@@ -100,7 +100,7 @@ impl Vibration {
             return None;
         }
         let reach = self.contact_force(phase) * (1.0 - restitution);
-        // A pull <= 0 and NaN fail here, too.
+        // A pull <= 0 and NaN also fail here.
         let small = speed > 0.0 && speed <= 0.5 * LONGEST_COMPLETION * reach;
         if !small || self.falls_away_at(phase.angle()) {
             return self.at_rest(phase, speed, restitution);
@@ -220,8 +220,8 @@ impl Vibration {
         let mut time = 0.0;
         let mut pair = (phase.sin(), phase.cos());
         let mut launch = speed;
-        // The proof of the window keeps the pull within a third of the first one; near a separation a rounded
-        // pair may give another pull, or none.
+        // The proof of the window keeps the pull within a third of the first one; near a separation the pull
+        // of a rounded pair may differ, or be zero.
         let first = self.contact_force(phase);
         let (least, most) = (PULL_SHARES.0 * first, PULL_SHARES.1 * first);
         core::iter::from_fn(move || {

@@ -78,7 +78,7 @@ impl RestProof {
             // Near the separation the impulse cancels; there the pull lies above its tangent.
             | ((sin >= 0.0) & (peak > 1.0) & (4.0 * speed * drift <= loss * (pull * pull)));
 
-        // The pull grows until 3 pi/2: all flights end before, or u <= w sqrt((1 + P)/a).
+        // The pull grows until 3 pi/2: all flights end before that, or u <= w sqrt((1 + P)/a).
         let most = 1.0 + peak;
         let growing = (2.0 * speed <= loss * pull * (1.5 * PI - angle))
             | (speed * (3.0 * pull + most) <= ((1.0 + loss) * pull - self.restitution * most) * impulse);

@@ -128,7 +128,7 @@ mod tests {
                 1 => (0.5 * SHORT_FLIGHT * pull + 0.01 * p) * libm::exp10(-2.0 * share),
                 _ => 0.375 * pull * pull / (p * phase.cos().abs()) * (0.8 + 0.3 * share),
             };
-            // No disk leaves a platform that is about to catch up with it, without speed.
+            // Without speed no disk leaves a platform that is about to catch up with it.
             if !(speed > 0.0 && speed.is_finite()) {
                 continue;
             }

@@ -126,8 +126,8 @@ impl Vibration {
             low.gap(t) <= 0.0
         };
         if inflection > SHORT_FLIGHT && has_passed(self.separation_depth, inflection) {
-            // The parabola of the launch; where it leads out of the window, the end, from which a concave gap
-            // is approached without overshooting.
+            // The parabola of the launch; if it leads out of the window, the end of the window, from which a
+            // concave gap is approached without overshooting.
             let parabola = 2.0 * low.speed / (1.0 - low.sine);
             let inside = parabola > SHORT_FLIGHT && parabola < inflection;
             return Some((
@@ -205,7 +205,8 @@ impl Vibration {
         }
         let p = self.peak_acceleration();
         let (sin, cos) = sin_cos_bounded(falling.angle);
-        // Slopes at both ends; between them the gap lies above both tangents, so above where these meet.
+        // Slopes at both ends; between them the gap lies above both tangents, so above the point where these
+        // meet.
         let (first, last) = (falling.speed - p * cos, (falling.speed - end) + self.separation_speed);
         let gap_at_end = falling.gap_over(self.separation_depth, end);
         let lowest = CrestForm::lowest_of_tangents(p - p * sin, gap_at_end, first, last, end);
@@ -316,7 +317,7 @@ impl Vibration {
         if !(brief && away <= DOUBTFUL_PULL * (1.0 + p)) {
             return None;
         }
-        // P cos tau, from the distance to the crest where the carried cosine is next to nothing.
+        // P cos tau, from the distance to the crest where the carried cosine is nearly zero.
         let drift = p * sin_cos_bounded(CREST - angle).0;
         let root = (drift * drift + 3.0 * away).sqrt();
         let h = if late { 6.0 * away / (root - drift) } else { 2.0 * (drift + root) };
@@ -378,7 +379,7 @@ impl Vibration {
     ) {
         let p = self.peak_acceleration();
         let lost = speed + p * (from.cos() - phase.cos()) - velocity;
-        // Pairs that have been turned by many short flights are off their angles, which tell the time.
+        // Pairs that were rotated by many short flights deviate from their angles, which determine the time.
         let parted = |of: Phase| {
             let (sin, cos) = crate::numerics::elementary::sin_cos(of.angle());
             (of.sin() * cos - of.cos() * sin).abs()

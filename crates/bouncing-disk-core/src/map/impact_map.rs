@@ -476,7 +476,7 @@ impl<L: RestitutionLaw> Orbit<L> {
                 match constant
                     .and_then(|restitution| self.map.vibration.accumulation(phase, speed, restitution))
                 {
-                    // A chatter without time left does not happen.
+                    // A chatter of zero duration has no impacts.
                     Some(at) => Next::Attach(at, if at.duration > 0.0 { speed } else { 0.0 }),
                     None => Next::Launch(phase, speed),
                 }
@@ -555,7 +555,7 @@ impl<L: RestitutionLaw> Orbit<L> {
             return self.report_by_law(impact);
         };
         let (phase, speed) = (impact.phase, -restitution * impact.velocity);
-        // Stored in place: nearly every impact, and the next flight waits for it.
+        // Stored in place: nearly every impact takes this path, and the next flight waits for the result.
         if self.policy == ChatterPolicy::Complete && self.map.vibration.bounces_on(phase, speed, restitution)
         {
             self.next = Next::Launch(phase, speed);

@@ -164,7 +164,7 @@ impl DoubleDouble {
             reduced = reduced - Self { high, low };
         }
         let (sin, cos) = reduced.sin_cos_of_reduced();
-        // The remainder is 0 to 3 for negative numbers, too.
+        // The remainder is 0 to 3 even for negative numbers.
         match right_angles.rem_euclid(4.0) as u8 {
             0 => (sin, cos),
             1 => (cos, -sin),

@@ -238,7 +238,7 @@ fn curvature(points: &[PowerLawPoint]) -> f64 {
     let total = sum(&|_| 1.0);
     let middle = sum(&|point| ln(point.x)) / total;
     let u = |point: &PowerLawPoint| ln(point.x) - middle;
-    // The square term, made orthogonal to the straight line.
+    // The quadratic term, made orthogonal to the straight line.
     let (second, third) = (sum(&|point| u(point) * u(point)), sum(&|point| u(point) * (u(point) * u(point))));
     let square = |point: &PowerLawPoint| u(point) * u(point) - third / second * u(point) - second / total;
     let (width, product) =

@@ -161,7 +161,7 @@ pub(crate) fn settled<M: ClosingMap>(mut step: impl FnMut() -> Option<f64>) -> O
     let mut last = f64::INFINITY;
     for steps in 1..=MAX_CORRECTIONS {
         let size = step()?;
-        // Next to a singular point the steps shrink slowly, and a small one does not tell of a small distance.
+        // Near a singular point the steps shrink slowly, and a small step does not imply a small distance.
         let settled = M::IS_QUADRATIC && size <= FAST * last || size > STILL * last && size <= NEARLY;
         if size <= ROUNDING || last <= NEARLY && settled {
             return Some(steps);
@@ -372,7 +372,7 @@ impl<M: ClosingMap> Closing<M> {
                 .iter()
                 .fold(0.0_f64, |most, part| most.max(part.x.abs()).max((part.y / self.scale.speed).abs()))
         };
-        // Of two conditions one at least is not blind for it.
+        // At least one of these two conditions determines the direction.
         let directions = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(|normal| {
             let (direction, _) = equations.solve(self.border(normal, 1.0));
             let longest = size(&direction);

@@ -9,8 +9,7 @@ use crate::numerics::error::{Error, room_for};
 use crate::run::{Observer, Watch, in_parallel, threads};
 
 impl ImpactMap {
-    /// The labels of all cells of a grid, [`UNDECIDED`] outside these rows. The rows are the items of the
-    /// observer.
+    /// The labels of all cells of a grid, [`UNDECIDED`] outside `rows`, which are the items of the observer.
     ///
     /// # Errors
     /// Errors of [`Self::basins`].

@@ -342,7 +342,7 @@ impl<'a, M: AttractingMap> Finder<'a, M> {
                 }
             } else {
                 // It neither repeats itself nor separates from its neighbours: starts that return to its
-                // cells are undecided, too.
+                // cells are also undecided.
                 open = self.compare(&long, &open)?.0;
             }
         }

@@ -142,13 +142,13 @@ impl CrisisSearch {
                 step = 0.5 * width;
                 continue;
             }
-            // The lower end again with all impacts: so far it had a quarter of them.
+            // The lower end again with all impacts: so far its orbits made only a quarter of them.
             lower_ends += 1;
             let lived = self.follow(here.forcing, &here.states, each, watch)?;
             if lived.iter().all(|own| own.0 == each) {
                 let below = Herd { forcing: here.forcing, states: ends(lived) };
                 match self.end(below, forcing, lower_ends, watch)? {
-                    // An attractor beside that of the other orbits has ended: follow the others further.
+                    // The attractor of some orbits has ended: follow the other orbits further.
                     Err((_, Some(survivors))) if survivors.forcing < self.high => reached = vec![survivors],
                     found => return Ok(found.map_err(|(reason, _)| reason)),
                 }
@@ -180,7 +180,7 @@ impl CrisisSearch {
             let error = (1.0 / near.ended as f64 + 1.0 / far.ended as f64).sqrt() / apart;
             (ln(near.impacts / far.impacts) / apart, error)
         };
-        // As far up as it takes until rests are not chance and survival times shrink.
+        // Upwards until the rests are not due to chance and survival times shrink.
         let (lives, lost, steepest) = loop {
             let (mut lives, mut lost) = (Vec::new(), Vec::new());
             for share in DISTANCES {
@@ -475,7 +475,7 @@ fn passed(map: &ImpactMap, last: &[ImpactState]) -> Option<PeriodicOrbit> {
         for (index, (a, b)) in last.iter().zip(last.iter().skip(period)).enumerate() {
             let phase = phase_difference(b.phase().angle(), a.phase().angle()).abs();
             let distance = phase + (b.velocity() - a.velocity()).abs() / scale;
-            // The impacts of a chatter come ever closer, but they are no cycle.
+            // The impacts of a chatter come ever closer, but are not a cycle.
             let flies = a.velocity() < -0.01 * scale;
             if flies && distance < CLOSES && nearest.is_none_or(|(least, ..)| distance < least) {
                 nearest = Some((distance, index, period));

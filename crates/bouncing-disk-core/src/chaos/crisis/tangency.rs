@@ -114,7 +114,7 @@ pub(super) fn tangencies(
                     Ok((Solution { forcing, .. }, _)) => NoTangency::Elsewhere { forcing },
                     Err(other) => other,
                 };
-                // Of those elsewhere the nearest.
+                // Of the tangencies elsewhere, the nearest is reported.
                 failure = match (other, failure) {
                     (NoTangency::Elsewhere { forcing: new }, NoTangency::Elsewhere { forcing })
                         if off(new) >= off(forcing) =>
@@ -396,7 +396,7 @@ impl Sought<'_> {
             // The fold moves along the first piece.
             tip = tip.around(fold.share);
             let Some(next) = self.distance(forcing, &tip) else {
-                // So far that it is lost: a shorter step.
+                // The step was so long that the fold is lost: a shorter step.
                 shortened += 1;
                 if shortened > MAX_HALVINGS {
                     return Err(NoTangency::NotSettled { forcing, change });
@@ -440,7 +440,7 @@ impl Sought<'_> {
             if fold.spot.at.length() <= STRAIGHT {
                 return Ok(Ok((self.solution(forcing, &tip, change, rate, fold)?, tip.flights)));
             }
-            // So far that the fold stays next to the saddle after one round more.
+            // The step is limited so that the fold stays near the saddle after one more round.
             let next = self.setting(forcing, tip.impact)?;
             tip.flights += next.saddle.flights as u32;
             step = (change.abs() * 1.0e-3)

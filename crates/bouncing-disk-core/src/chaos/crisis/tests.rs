@@ -52,7 +52,7 @@ fn the_attractor_of_fig_6_touches_a_saddle_of_three_impacts() {
     let expected = ln(small) / (2.0 * ln(large * small));
     let exponent = crisis.life_exponent().expect("known");
     assert!((exponent - expected).abs() < 1e-12 && (0.7..0.8).contains(&expected));
-    // The orbit begins and ends next to the saddle, and is an orbit.
+    // The orbit begins and ends near the saddle, and is an orbit.
     let map = map(crisis.forcing);
     for pair in tangency.orbit.windows(2) {
         assert_eq!(ImpactState::from(map.step(pair[0]).expect("flies")), pair[1]);
@@ -197,7 +197,7 @@ fn mean_lives_follow_a_power_law() {
     assert_eq!(lives.lives.len(), beyond.len());
     let law = lives.scaling.as_ref().expect("a power law");
     assert!((-1.1..-0.5).contains(&law.exponent), "{law:?}");
-    // Where nothing ends there is no law, and no number that looks like a life.
+    // If nothing ends, there is no law, and no number that looks like a life.
     let none = crisis.lives(&beyond, 20, 1, &Unobserved).expect("followed");
     assert_eq!(none.scaling, Err(NoPowerLaw::TooFewPoints { found: 0, needed: 6 }));
     assert!(none.lives.iter().all(|life| life.ended == 0 && life.impacts >= f64::MAX));

@@ -80,7 +80,7 @@ impl KuwabaraKono {
 /// The fifth root y of the restitution: the solution of y^5 + x y^3 = 1, whose left side grows with y and is
 /// convex.
 fn fifth_root(x: f64) -> f64 {
-    // Both are to the right of the root: there y^5 + x y^3 is 1 + x and 1 + y^5.
+    // Both values are to the right of the root: there y^5 + x y^3 is 1 + x and 1 + y^5.
     let mut y = if x <= 1.0 { 1.0 } else { pow(x, -1.0 / 3.0) };
     for _ in 0..NEWTON_STEPS {
         let square = y * y;

@@ -97,7 +97,7 @@ impl FromStr for DoubleDouble {
         while let Some(&byte) = bytes.get(at) {
             match byte {
                 b'0'..=b'9' => {
-                    // Digits beyond the 40th are too small for the number to hold.
+                    // Digits beyond the 40th are too small for the number to represent.
                     if value.high < 1.0e40 {
                         value = value * ten + Self::from(f64::from(byte - b'0'));
                         power -= i32::from(point);

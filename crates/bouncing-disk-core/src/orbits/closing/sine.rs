@@ -103,8 +103,7 @@ impl ClosingMap for ImpactMap {
             let before = (i + n - 1) % n;
             let platform = p * cos(at.impacts[i].x);
             let landing = at.impacts[before].y - durations[before];
-            // By the law: u - P cos tau would be a difference of large numbers where the restitution is
-            // small.
+            // By the law: u - P cos tau would be a difference of large numbers if the restitution is small.
             (landing - platform, r * (platform - landing))
         };
         (0..n).map(one).collect()

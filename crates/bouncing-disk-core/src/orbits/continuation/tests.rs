@@ -45,7 +45,7 @@ fn check_points(branch: &Branch) {
             let impact = map.step(states[i]).expect("flies");
             let next = states[(i + 1) % n];
             let turned = (impact.phase.angle() - next.phase().angle()).abs();
-            // Next to a graze the end of a flight is as uncertain as the root of the rounding.
+            // Near a graze the end of a flight is as uncertain as the root of the rounding.
             assert!(turned.min(core::f64::consts::TAU - turned) < 1e-7, "{map}: {point:?}");
             assert!((impact.velocity - next.velocity()).abs() < 1e-7 * (1.0 + next.velocity().abs()));
         }

@@ -159,7 +159,7 @@ impl<'s, M: ContinuedMap> Walker<'s, M> {
         let mut step = settings.first_step;
         while step > SMALLEST_STEP {
             let next = walker.next(&base, step);
-            // The orbit itself, gone through twice, is a solution, too.
+            // The orbit itself, traversed twice, is also a solution.
             let doubled = next.filter(|next| {
                 let apart = (next.at.impacts[0] - next.at.impacts[n]).length();
                 let moved = walker.closing.scaled(&base.direction);
@@ -371,7 +371,7 @@ impl<'s, M: ContinuedMap> Walker<'s, M> {
         let Some(doubling) = self.doubling(base, &last)? else { return Ok(None) };
         found.extend(doubling);
         found.sort_by(|a, b| a.point.arclength.total_cmp(&b.point.arclength));
-        // Next to its birth doubles cannot distinguish an orbit of 2m impacts from one of m.
+        // Near its birth doubles cannot distinguish an orbit of 2m impacts from one of m.
         if found.last().is_some_and(|last| last.kind == BifurcationKind::Birth) {
             last = base.clone();
         }

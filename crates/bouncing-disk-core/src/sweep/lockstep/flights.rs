@@ -81,7 +81,7 @@ impl LaneImpacts<'_> {
     #[must_use]
     #[inline(always)]
     pub fn duration(&self, lane: usize) -> f64 {
-        // As `flight::landed` finds it where the flight was not followed from its launch.
+        // As `flight::landed` finds it if the flight was not followed from its launch.
         let ahead = self.angle[lane] - self.launched[lane];
         let wrapped = ahead + TAU;
         let behind = mask(ahead < 0.0);
@@ -243,7 +243,7 @@ impl WithSimd for Rebound<'_> {
         let Self { rows: Rebounding { peaks, impacts, speed: speeds }, restitution, may_rest } = self;
         for lane in 0..LANES {
             let (peak, given) = (peaks[lane], restitution[lane]);
-            // Not a number would be the speed of a launch, and then the phase of an impact.
+            // A NaN would become the speed of a launch, and then the phase of an impact.
             let restitution = kept(mask(given >= 0.0) & mask(given < 1.0), given);
             let speed = -restitution * impacts.velocity[lane];
             let pull = 1.0 - peak * impacts.sin[lane];

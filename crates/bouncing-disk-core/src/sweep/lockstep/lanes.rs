@@ -125,7 +125,7 @@ impl Sixteens {
 impl Width for Sixteens {
     #[inline(always)]
     fn lanes(self) -> usize {
-        // Never more; the compiler sees that rows have so many.
+        // Never more lanes; so the compiler sees that they fit into a row.
         SIXTEEN * self.0.min(LANES / SIXTEEN)
     }
 }

@@ -60,7 +60,7 @@ impl<M: ContinuedMap> Surface<M> {
         let value = |by: f64| Some(self.value(kind, &at.moved(direction, by), after)?.value);
         let derivative = match (value(step), value(-step)) {
             (Some(after), Some(before)) => (after - before) / (2.0 * step),
-            // Next to the end of a parameter there are maps on one side only.
+            // Near the end of a parameter's range there are maps on only one side.
             _ => {
                 let step = ONE_SIDED * step;
                 let here = value(0.0)?;

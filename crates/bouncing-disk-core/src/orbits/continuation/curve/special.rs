@@ -69,14 +69,14 @@ impl<M: ContinuedMap> CurveWalker<'_, M> {
         if kind == SpecialKind::Cusp && self.moves_on(&last_before).min(self.moves_on(&beyond)) > STILL {
             return Ok(Special::None);
         }
-        // By the flatter side, and the largest error: one alone may be small by chance.
+        // From the smaller slope and the largest error, because a single error may be small by chance.
         let part = last_before.arclength - base.arclength;
         let slope = (first.abs() / part).min(last.abs() / (step - part));
         let off = error.max(at_first).max(at_last) / slope;
         let point = self.point(&last_before);
         Ok(point.map_or(Special::None, |point| {
             let mut special = self.special_at(kind, point, &last_before, off);
-            // The parameters are stationary in a cusp, and bend.
+            // The parameters are stationary at a cusp, so their second derivative counts.
             let bend = [0, 1].map(|k| next.direction.parameters[k] - base.direction.parameters[k]);
             for (own, bend) in special.point.errors.iter_mut().zip(bend) {
                 *own += (bend / step).abs() * off * off;
@@ -162,7 +162,7 @@ impl<M: ContinuedMap> CurveWalker<'_, M> {
         let moved = |distance: f64| {
             let plane = Plane { normal, base, distance };
             let (at, _) = twice.corrected(start.moved(&direction, distance), &plane)?;
-            // The orbit itself, gone through twice, is a solution, too.
+            // The orbit itself, traversed twice, is also a solution.
             let apart = (at.impacts[0] - at.impacts[n]).length();
             let expected = 2.0 * (direction.impacts[0] * distance).length();
             (apart > 0.5 * expected).then_some((at.parameter - closed.parameter) / scale)
@@ -192,7 +192,8 @@ fn extrapolated(function: impl Fn(f64) -> Option<f64>) -> Option<(f64, f64)> {
         for (order, before) in row.iter().enumerate() {
             power *= 4.0;
             let better = (power * next[order] - before) / (power - 1.0);
-            // Of the same order from the amplitude before, too: two numbers agree by chance, three hardly.
+            // Also the value of the same order from the previous amplitude: two numbers may agree by chance,
+            // three hardly.
             let same = row.get(order + 1).copied().unwrap_or(f64::INFINITY);
             let apart = |other: f64| (better - other).abs();
             let error = SAFETY * apart(next[order]).max(apart(*before)).max(apart(same));

@@ -136,7 +136,7 @@ fn curves_of_random_maps_end_with_a_reason_and_have_the_points_of_another_progra
     assert!(judged.iter().all(|count| *count > 0), "{judged:?}");
     assert!(checked >= 200, "{checked}");
     assert!(!ends.keys().any(|(_, end)| ["step too small", "point limit"].contains(end)), "{ends:?}");
-    // Where a curve of folds or doublings ends in a graze, one of grazes passes: the two cross there.
+    // Where a curve of folds or doublings ends in a graze, a curve of grazes passes: the two cross there.
     let mut crossings = 0;
     for (_, kind, one, errors) in grazing.iter().filter(|own| own.0 == "graze") {
         for (_, other_kind, other, more) in grazing.iter().filter(|own| own.0 != "graze") {
@@ -173,7 +173,7 @@ fn agrees_with_continued(branch: &Branch, curve: &Curve) -> u32 {
             let offs = found.of_kind(curve.kind).map(|found| (found.point.parameter - forcing).abs());
             let nearest = offs.fold(f64::INFINITY, f64::min);
             if nearest < 1e-5 {
-                // A branch has a graze to 1e-11, and the rest to the rounding of the orbit.
+                // A branch locates a graze to 1e-11, and the other points to the rounding of the orbit.
                 let own = if curve.kind.name() == "graze" { 1e-11 } else { 1e-13 };
                 assert!(nearest <= point.errors[0] + own, "{nearest:e} {:?} {point:?}", curve.kind);
                 checked += 1;

@@ -362,7 +362,7 @@ impl<'s, M: ContinuedMap> CurveWalker<'s, M> {
     fn passes(&self, base: &Located, next: &Located, begun: &Located) -> bool {
         let [from, to, goal] = [base, next, begun].map(|located| self.surface.scaled(&located.at));
         let direction = self.surface.scaled(&begun.direction);
-        // The phase may have gone once round.
+        // The phase may have advanced by a whole turn.
         let apart = |a: Scaled, b: Scaled| {
             let [phase, rest @ ..] = less(a, b);
             let [speed, first, second] = rest;
@@ -457,6 +457,6 @@ fn branch_direction<M: ContinuedMap>(closing: &Closing<M>, at: &Closed) -> Optio
         let direction = closing.scaled(&closing.tangent(at, normal)?);
         Some((direction[axis].abs(), direction))
     });
-    // Of these conditions the best one is the least blind for it.
+    // The best of these conditions is the one along which the direction is largest.
     directions.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, direction)| direction)
 }

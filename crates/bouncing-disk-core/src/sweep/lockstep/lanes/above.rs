@@ -175,7 +175,7 @@ fn first_step<P: PlatformLanes>(width: impl Width, platforms: P, arcs: &Arcs, wo
         let radicand = taylor.radicand();
         let usable = one_window & mask(taylor.slope < 0.0) & mask(radicand > 0.0);
         work.near[k] = one_window & mask(taylor.is_near_root());
-        // Not a number where the model is of no use: nor is the step then, and no comparison with it holds.
+        // NaN if the model is of no use: the step is then NaN too, and no comparison with it holds.
         work.root[k] = f64::from_bits(radicand.sqrt().to_bits() | !usable);
     }
     model_step(width, work, |work, k| first_taylor(platforms, arcs, work, k));
@@ -317,7 +317,7 @@ mod tests {
         for k in 0..200_000 {
             let start = PI * (4.0 * spread(k, 0.618_033_99) - 1.0);
             let ahead = (CREST - start).rem_euclid(TAU);
-            // Many of them next to the crest, before and behind it.
+            // Many of them near the crest, before and behind it.
             let beyond = libm::exp10(-12.0 * spread(k, 0.569_840_29)) * if k % 2 == 0 { 1.0 } else { -1.0 };
             let time = ahead + beyond;
             if time > 0.0 {

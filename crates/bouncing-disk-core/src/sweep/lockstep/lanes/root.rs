@@ -185,7 +185,7 @@ impl<P: PlatformLanes, const SET: bool> WithSimd for Classify<'_, P, SET> {
             let speed = if SET { speeds[lane] } else { -restitution[lane] * from.velocity[lane] };
             let (sine, cosine) = (peak * from.sin[lane], peak * from.cos[lane]);
             let disk_speed = speed + cosine;
-            // No comparison holds with what is not a number.
+            // No comparison with a NaN holds.
             arcs.speed[lane] = arc_speed(disk_speed, peak - sine);
             kinds.slow[lane] = mask(may_return_soon(peak, sine, cosine, speed));
             arcs.start[lane] = disk_speed;

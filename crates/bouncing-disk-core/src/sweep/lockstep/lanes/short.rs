@@ -71,7 +71,7 @@ impl WithSimd for Solve<'_> {
         begin(width, short);
         for k in 0..width.lanes() {
             short.time[k] = form(short, k).expected();
-            // What lies behind the launches only adds to the work.
+            // Lanes after the last launch would only add to the work.
             short.inside[k] = short.pulled[k] & mask(k < count);
             short.landed[k] = 0;
         }
