@@ -1,6 +1,6 @@
 //! Chattering: an infinite sequence of ever smaller impacts that brings the disk to rest on the platform.
 //!
-//! Flights and speeds shrink by the restitution r from one impact to the next, so after a launch with the
+//! Flights and speeds shrink by the restitution r from one impact to the next. So after a launch with the
 //! relative speed w the disk rests after about 2 w / (a (1 - r)), where a = 1 - P sin tau is the relative
 //! gravity. [`ChatterPolicy`](crate::ChatterPolicy) selects how an orbit treats this chatter: it is summed to
 //! the end with a proven error bound, or cut off as in Sec. IV A of the paper (docs/numerics-impacts.md).

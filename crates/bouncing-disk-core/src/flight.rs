@@ -1,7 +1,7 @@
 //! One flight: from the launch to the first impact on the platform.
 //!
 //! The gap between disk and platform after a flight of h radians is (w + P cos tau) h - h^2/2 - P (sin(tau +
-//! h) - sin tau), and its first zero h > 0 is the impact (Eq. 11 of Liu, Friend and Yeo).
+//! h) - sin tau). Its first zero h > 0 is the impact (Eq. 11 of Liu, Friend and Yeo).
 //! [`Vibration::first_impact`](crate::Vibration::first_impact) finds it with certainty
 //! (docs/numerics-impacts.md); [`mod@reference`] finds it slowly by an independent method, as a check.
 //!

@@ -20,8 +20,8 @@
 //! # }
 //! ```
 //!
-//! The names at the root describe one disk on one platform. Everything else is in chapters; the first page of
-//! each gives an example and an equation:
+//! The names at the root describe one disk on one platform. All other items are in chapters; the first page
+//! of each contains an example and an equation:
 //!
 //! | chapter | about |
 //! | --- | --- |
@@ -37,7 +37,7 @@
 //!
 //! | feature | default | what it does |
 //! | --- | --- | --- |
-//! | `parallel` | yes | grids and sweeps over the threads of rayon's pool, with the same bits |
+//! | `parallel` | yes | grids and sweeps run on the threads of rayon's pool, with the same bits |
 //! | `serde` | yes | `Serialize` for results, `Deserialize` for settings and inputs of computations |
 //!
 //! Deserialising runs the same checks as construction: a value outside its range, a missing key of a required

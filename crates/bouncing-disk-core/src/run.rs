@@ -1,6 +1,6 @@
 //! Long calls: how to watch and stop them, and how your own loop counts its work.
 //!
-//! Every call that may take longer than 0.1 s takes an [`Observer`] as its last argument, or [`Unobserved`]
+//! Every call that may last longer than 0.1 s takes an [`Observer`] as its last argument, or [`Unobserved`]
 //! for none; every thread calls it at least once per [`FLIGHTS_BETWEEN_CALLS`] flights.
 
 use core::ops::ControlFlow;
@@ -37,11 +37,11 @@ impl Progress {
 
 /// Receives the progress of a long call, and may stop it.
 ///
-/// Every call that may take longer than 0.1 s takes an observer as its last argument, or [`Unobserved`] for
-/// none. It is called before the first work, after every [`FLIGHTS_BETWEEN_CALLS`] flights of each thread, and
-/// when all is done. If it breaks before all is done, the long call returns [`Error::Stopped`]. The working
-/// threads call it concurrently and in no fixed order, so `done` may decrease from one call to the next. An
-/// observer never changes any bit of a result.
+/// Every call that may last longer than 0.1 s takes an observer as its last argument, or [`Unobserved`] for
+/// none. It is called before any work, after every [`FLIGHTS_BETWEEN_CALLS`] flights of each thread, and when
+/// all is done. If it breaks before all is done, the long call returns [`Error::Stopped`]. The working threads
+/// call it concurrently and in no fixed order, so `done` may decrease from one call to the next. An observer
+/// never changes any bit of a result.
 ///
 /// Any function or closure with this signature is an observer. The core reads no clock, but the observer may.
 ///
@@ -91,8 +91,8 @@ impl Observer for Unobserved {
     }
 }
 
-/// The progress of an observed call: counts the finished items of all threads, and remembers whether the
-/// observer has broken.
+/// The progress of an observed call: counts the finished items of all threads, and records whether the
+/// observer has stopped the call.
 ///
 /// The long calls of this crate and of the model count their work with it; your own loop over single flights
 /// may do so too.
@@ -158,7 +158,7 @@ impl<'o> Watch<'o> {
         Progress { done: self.done.load(Ordering::Relaxed), total: self.total }
     }
 
-    /// Whether the observer has broken.
+    /// Whether the observer has stopped the call.
     #[must_use]
     pub fn is_stopped(&self) -> bool {
         self.stopped.load(Ordering::Relaxed)
@@ -237,7 +237,7 @@ impl<'w> WorkCount<'w> {
     }
 }
 
-/// The results of `of` for the indices from 0 to `count`, in this order. With the feature `parallel` the
+/// The results of `of` for the indices below `count`, in increasing order. With the feature `parallel` the
 /// threads of rayon's pool share the indices.
 ///
 /// A thread that waits for results helps with the work; calls may be nested.

@@ -28,8 +28,8 @@ const SHARE_OF_WIDEST: f64 = 0.7;
 const SHORT: usize = 8;
 
 /// Settings of the test whether starts return nearer to their initial impact. They are the largest radius, the
-/// radius at which the search gives up, the circles of each trial as shares of its radius, the starts on each
-/// circle, and the ratio of the result to the radius.
+/// smallest one, the circles of each trial as shares of its radius, the starts on each circle, and the ratio
+/// of the result to the radius.
 const LARGEST_CIRCLE: f64 = 0.05;
 const SMALLEST_CIRCLE: f64 = 1.0e-8;
 const CIRCLES: [f64; 3] = [1.0, 0.5, 0.25];

@@ -47,7 +47,7 @@ pub enum AfterRest {
     LeadsTo(usize),
     /// On a drive: rests end at several phases, and different motions follow.
     Several {
-        /// Whether each of these motions comes to rest again and again, or stays.
+        /// Whether each of these motions comes to rest again and again, or stays at rest.
         last: bool,
     },
     /// It separates, and the search does not decide its further motion.

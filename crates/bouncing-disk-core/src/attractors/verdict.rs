@@ -28,7 +28,7 @@ pub enum Verdict {
     /// The orbit came so near to an attracting periodic orbit that it was seen to converge to it. The
     /// periodic orbit is a solution of [`ImpactMap::refine`] with the smallest period. Its multipliers lie
     /// inside the unit circle by more than [their error](crate::orbits::PeriodicOrbit::multiplier_error), and
-    /// none of its impacts chatters to rest.
+    /// the disk does not chatter to rest after any of its impacts.
     Periodic {
         /// Impacts of one period of the orbit.
         impacts: u64,
@@ -42,8 +42,8 @@ pub enum Verdict {
         distance: f64,
         /// Impacts after which this was observed.
         after: u64,
-        /// 1 if the disk came to rest on the way, 0 if not. By [`ImpactMap::basin_label`] a start with a rest
-        /// is in the basin of the attached disk, as the flight from a rest begins again.
+        /// 1 if the disk came to rest on the way, 0 if not. According to [`ImpactMap::basin_label`] a start
+        /// with a rest is in the basin of the attached disk, because the flight from a rest begins again.
         rests: u64,
     },
     /// Small perturbations grow by more than neutral motion, the escape from a periodic orbit and the error
@@ -78,7 +78,7 @@ pub enum Verdict {
         /// Earlier impacts, except summed ones.
         after: u64,
     },
-    /// The allowed number of impacts gives no certain answer.
+    /// The allowed number of impacts leads to no certain answer.
     Undecided {
         /// The reason.
         reason: UndecidedReason,
@@ -140,7 +140,7 @@ pub enum UndecidedReason {
         standard_error: f64,
     },
     /// Perturbations shrink, but no period up to the longest was proved: the period is longer, or the
-    /// approach too slow.
+    /// approach is too slow.
     NoPeriodFound {
         /// The largest exponent per impact.
         exponent: f64,
@@ -444,7 +444,7 @@ pub struct VerdictSettings {
     /// Impacts over which the exponent is measured, at least 64. Default 100,000.
     pub impacts: u64,
     /// The longest period searched for, in impacts, in [1, 4096]. Default 256. Between two calls of an
-    /// observer the proof of a period makes at most about fifty times as many flights, plus 8,192.
+    /// observer the proof of a period makes at most about fifty times this number of flights, plus 8,192.
     pub longest_period: usize,
     /// The distance between an impact and an earlier one below which a period is tried (rad, and relative
     /// speed), in (0, 0.01]. Default 1e-7. It decides how soon a period is found; its existence is then

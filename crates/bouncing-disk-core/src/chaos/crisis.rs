@@ -16,11 +16,11 @@
 //! (n = 4,000 impacts; the exponent of neutral motion is a few ln n/n). At restitution 0.2 a periodic
 //! attractor ends at 0.9549475, the chaotic one at 0.957192295.
 //!
-//! An independent program finds the crisis by direct iteration at 0.957192294 to 0.957192296 at restitution
-//! 0.2, 0.80913530 (no rest in 5e8 impacts) to 0.80913531 (mean life 7e5) at 0.3, 0.4858200 to 0.4858205 at
-//! 0.6, 0.4296065 to 0.4296070 at 0.7 and 0.3994755 to 0.3994770 at 0.8. In 24 searches for each restitution,
-//! from starts over a fifth of the range, all brackets contain these results at 0.3, 0.6 and 0.7 and the
-//! tangency at 0.5; at 0.8, 22 brackets do.
+//! An independent program finds the crisis by direct iteration: between 0.957192294 and 0.957192296 at
+//! restitution 0.2, and between 0.80913530 (no rest in 5e8 impacts) and 0.80913531 (mean life 7e5) at 0.3.
+//! The other brackets are 0.4858200 to 0.4858205 at 0.6, 0.4296065 to 0.4296070 at 0.7 and 0.3994755 to
+//! 0.3994770 at 0.8. In 24 searches for each restitution, from starts over a fifth of the range, all brackets
+//! contain these results at 0.3, 0.6 and 0.7 and the tangency at 0.5; at 0.8, 22 brackets do.
 //!
 //! Beyond the crisis of Fig. 6 lives were measured with 200 orbits at each of 14 distances. The unstable
 //! manifold of the period-1 orbit touches at 0.560753164.
@@ -110,7 +110,7 @@ pub struct Crisis {
     /// The values of Gamma between which followed orbits place the crisis. The crisis certainly lies below
     /// the second, at which an orbit came to rest. It lies above the first with a confidence of 95 %:
     /// otherwise 95 of 100 searches would have seen an orbit come to rest at a forcing where this one saw
-    /// none, provided that mean survival times rise no more steeply towards the crisis than the measured
+    /// none. This assumes that mean survival times rise no more steeply towards the crisis than the measured
     /// ones.
     pub bracket: (f64, f64),
     /// An impact on the attractor near the lower end of the bracket.
@@ -330,7 +330,7 @@ const LONG_ROUND: u64 = 200;
 const ABOUT: f64 = 0.01;
 const WIDENINGS: u32 = 3;
 
-/// Number of forcings next to a crisis at which a disk is followed after a rest.
+/// Number of forcings near a crisis at which a disk is followed after a rest.
 const FORCINGS_AFTER_REST: u32 = 16;
 
 /// How far beyond a tangency these forcings reach, as a share of the distance to the upper end of the

@@ -93,8 +93,8 @@ impl ManifoldSettings {
         settings.check().map(|()| settings)
     }
 
-    /// The same settings with another limit on the disk's own speed |P cos tau - r v| after an impact (units
-    /// of g/omega) up to which a stable manifold is followed, finite and >= 0. The default is
+    /// The same settings with another limit up to which a stable manifold is followed: the disk's own speed
+    /// |P cos tau - r v| after an impact (units of g/omega), finite and >= 0. The default is
     /// [`ImpactMap::launch_speed_bound`]; smaller values count as that bound.
     ///
     /// No state within the limit is lost: backwards in time, a disk faster than the bound becomes ever

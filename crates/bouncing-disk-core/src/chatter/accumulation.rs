@@ -47,7 +47,7 @@ pub struct Accumulation {
     pub error_bound: f64,
     /// The accumulation phase.
     pub phase: Phase,
-    /// 1 if the phase passed 0 (mod 2 pi) on the way, else 0.
+    /// 1 if the phase passed 0 (mod 2 pi) on the way, otherwise 0.
     pub turns: u64,
 }
 
@@ -85,8 +85,8 @@ pub struct ChatterImpact {
 impl Vibration {
     /// The accumulation point of the chatter that follows a launch at `phase` with `speed` >= 0. `None`
     /// unless a bound shows that the disk chatters to rest and that the closed form is exact to 1e-16 rad,
-    /// for the pull 1 - P sin tau given by P and the carried pair. Near weightlessness one rounding of P or
-    /// of the phase changes the pull and the duration; this conditioning of the problem is not part of the
+    /// for the pull 1 - P sin tau computed from P and the carried pair. Near weightlessness one rounding of P
+    /// or of the phase changes the pull and the duration; this conditioning of the problem is not part of the
     /// bound.
     ///
     /// The accumulation point lies before the next separation. A chatter too short to change the phase has

@@ -3,8 +3,8 @@
 //! The accumulation point is the same from impact to impact, and near it there is a coordinate y in which going
 //! to the next impact is a multiplication by r: the remaining time R is a power series in y, and the n-th impact
 //! is at y = r^n. A quantity of an impact is then also a power series in r^n, and its sums are geometric. The
-//! recurrence r (p - q) sum c_k M_k(q, p) = (q - o) sum c_k M_k(q, o) for the remaining times p, q, o at three
-//! successive impacts is derived in docs/numerics-impacts.md, "Every impact at once". With `[k]` = 1 + r + ... +
+//! remaining times p, q, o at three successive impacts obey the recurrence r (p - q) sum c_k M_k(q, p) = (q - o)
+//! sum c_k M_k(q, o), derived in docs/numerics-impacts.md, "Every impact at once". With `[k]` = 1 + r + ... +
 //! r^(k-1) and r (1 - r)^2 divided out, this recurrence gives the coefficients rho_m of R:
 //!
 //! ```text
@@ -141,8 +141,8 @@ fn powers(x: f64) -> [f64; 2 * ORDER + 1] {
 ///
 /// Its impacts are numbered from 1; number 0 is the launch from which it starts. The flight that ends with
 /// impact n + 1, and the effects of this impact, are power series in r^n. All contain the factor 1 - r. The
-/// coefficients omit it, so that they do not vanish near r = 1: such a series gives a quantity divided by
-/// 1 - r.
+/// coefficients omit it, so that they do not vanish near r = 1: such a series represents a quantity divided
+/// by 1 - r.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ChatterSeries {
     restitution: f64,

@@ -2,7 +2,7 @@
 //! away.
 //!
 //! The pull of the platform on a disk near it is a = 1 - P sin tau. From the crest (tau = pi/2) it grows
-//! until the lowest point (3 pi/2), then it shrinks, for P > 1 to zero at the separation, for P <= 1 to its
+//! until the lowest point (3 pi/2). Then it shrinks: for P > 1 to zero at the separation, for P <= 1 to its
 //! least value at the next crest. Let G be the integral of the pull from the launch to that separation or
 //! crest: the impulse left to stop the disk. The proof shows for a certain share k: if a launch is slower
 //! than k G, so is the next one, with its own, smaller G. All later launches are then too slow to outlast the

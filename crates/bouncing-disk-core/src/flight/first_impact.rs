@@ -328,7 +328,7 @@ impl Vibration {
     }
 
     /// The window of the first root within [`SHORT_FLIGHT`], searched over pieces of constant curvature sign:
-    /// convex while the platform falls `away`, else concave; the first piece reaches to `end`.
+    /// convex while the platform falls `away`, otherwise concave; the first piece reaches to `end`.
     fn short_bracket(
         &self,
         flight: &ShortForm,

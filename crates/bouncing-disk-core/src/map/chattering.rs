@@ -48,9 +48,9 @@ impl ImpactMap {
     }
 
     /// The accumulation point of the chatter that follows a launch. `None` unless a bound shows that the disk
-    /// chatters to rest and that the closed form is exact to 1e-16 rad, for the pull 1 - P sin tau given by P
-    /// and the carried pair. Near weightlessness one rounding of P or of the phase changes the pull and the
-    /// duration; this conditioning of the problem is not part of the bound.
+    /// chatters to rest and that the closed form is exact to 1e-16 rad, for the pull 1 - P sin tau computed
+    /// from P and the carried pair. Near weightlessness one rounding of P or of the phase changes the pull
+    /// and the duration; this conditioning of the problem is not part of the bound.
     ///
     /// The accumulation point lies before the next separation. A chatter too short to change the phase has the
     /// duration 0.
@@ -95,7 +95,7 @@ impl ImpactMap {
     }
 }
 
-/// A generous bound on the rounding of the bound.
+/// A generous bound on the relative rounding error of the result.
 const ROUNDING: f64 = 1.0e-12;
 
 /// How many windows are tried: each after the first is as long as the bound from the one before.

@@ -262,7 +262,7 @@ impl<L: RestitutionLaw> ImpactMap<L> {
     /// [`Self::step`] with the derivative of the next (phase, velocity) with respect to the present one, in
     /// radians and units of g/omega. Column-major: `x_axis` is the derivative with respect to the phase.
     ///
-    /// It is singular at a graze (impact velocity zero), with infinite entries.
+    /// The derivative is singular at a graze (impact velocity zero), with infinite entries.
     ///
     /// ```
     /// # use bouncing_disk_core::orbits::Multipliers;
@@ -386,7 +386,7 @@ impl ContactChange {
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedAttachment"))]
 pub struct Attachment {
     /// The accumulation point, where the disk attaches. Under [`ChatterPolicy::Cut`] it is the last impact
-    /// itself, with duration zero. A cut under a constant restitution gives no bound on the remainder:
+    /// itself, with duration zero. A cut under a constant restitution has no bound on the remainder:
     /// `error_bound` is infinite unless the speed was 0. Under another law the bound is
     /// [`ImpactMap::comes_to_rest_within`], infinite if this is `None`.
     pub accumulation: Accumulation,
@@ -590,7 +590,7 @@ impl<L: RestitutionLaw> Orbit<L> {
     ///
     /// # Errors
     /// Errors of [`Vibration::first_impact`]; [`Error::IllegalRestitution`] instead of an impact for which
-    /// the law gives no legal restitution; [`Error::NoClosedForm`]. An error ends the orbit.
+    /// the law returns no legal restitution; [`Error::NoClosedForm`]. An error ends the orbit.
     // Without inlining, a motor's transient takes 2 % longer.
     #[inline(always)]
     pub fn advance(&mut self) -> Result<Option<OrbitEvent>, Error> {

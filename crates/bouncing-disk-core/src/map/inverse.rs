@@ -35,7 +35,7 @@ impl ImpactMap {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for restitution 0, which forgets the speed of an impact, and if the earlier
+    /// [`Error::OutOfRange`] for restitution 0, at which the speed of an impact is lost, and if the earlier
     /// speed overflows a double; [`Error::NoLiftOff`] for an impact with zero speed on a platform that does
     /// not fall away; errors of [`Vibration::first_impact`](crate::Vibration::first_impact).
     pub fn step_back(&self, state: ImpactState) -> Result<ImpactState, Error> {

@@ -36,7 +36,7 @@ pub(crate) mod kuwabara_kono;
 /// # Ok::<(), bouncing_disk_core::Error>(())
 /// ```
 ///
-/// The same speed must always give the same restitution, and every impact checks that it lies in [0, 1].
+/// The same speed must always have the same restitution, and every impact checks that it lies in [0, 1].
 /// There are no further checks: a law may grow with the speed, or jump.
 pub trait RestitutionLaw: Clone + Debug {
     /// The coefficient of restitution, in [0, 1], of an impact with the relative axial speed |w_A| >= 0

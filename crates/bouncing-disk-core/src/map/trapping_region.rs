@@ -154,7 +154,7 @@ mod tests {
         assert!(nearest > 0.9, "the bound means something: {nearest}");
     }
 
-    /// The excess over the bound shrinks by r at every impact, and below the bound nothing escapes.
+    /// The excess over the bound shrinks by r at every impact, and a speed below the bound stays below it.
     #[test]
     fn random_orbits_obey_the_bounds() {
         let mut random = SplitMix64::new(18);

@@ -17,11 +17,11 @@ const FEWEST_BATCHES: usize = 16;
 /// Smallest number of values for a standard error.
 pub const FEWEST_NUMBERS: u64 = FEWEST_BATCHES as u64;
 
-/// The mean of a stream of numbers, with a standard error that covers the scatter of correlated numbers
-/// (batch means, if the correlation dies out within a sixteenth of the sequence), a drift (a difference
-/// between the two halves), and rounding.
+/// The mean of a stream of numbers, with a standard error that covers scatter, drift and rounding. The
+/// scatter of correlated numbers follows from batch means, if the correlation dies out within a sixteenth of
+/// the sequence; a drift is a difference between the two halves.
 ///
-/// It keeps between 64 and 128 sums of batches, however long the stream.
+/// It keeps between 64 and 128 sums of batches, however long the stream is.
 ///
 /// ```
 /// use bouncing_disk_core::numerics::batch_means::BatchMeans;

@@ -1,9 +1,9 @@
 //! Numbers stored as the sum of two doubles: about 31 decimal digits, with the same bits on every machine.
 //!
 //! The code uses only IEEE `+ - * /` and the square root, and computes the rounding error of a product by
-//! splitting its factors (Dekker), not by a fused multiply-add. So every processor and compiler gives the
-//! same two doubles. The algorithms are from T. J. Dekker, Numer. Math. 18, 224 (1971); their error bounds
-//! are from M. Joldes, J.-M. Muller and V. Popescu, ACM Trans. Math. Softw. 44, 15 (2017).
+//! splitting its factors (Dekker), not by a fused multiply-add. So the two doubles are the same for every
+//! processor and compiler. The algorithms are from T. J. Dekker, Numer. Math. 18, 224 (1971); their error
+//! bounds are from M. Joldes, J.-M. Muller and V. Popescu, ACM Trans. Math. Softw. 44, 15 (2017).
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 

@@ -229,7 +229,7 @@ pub enum Error {
     },
 }
 
-/// A number as text: a whole one as 1 and not 1.0, because counts are numbers here, too.
+/// A number as text: a whole one as 1 and not 1.0, because counts are also floating-point numbers here.
 fn without_fraction(value: f64) -> String {
     let text = format!("{value:?}");
     text.strip_suffix(".0").map_or_else(|| text.clone(), str::to_owned)

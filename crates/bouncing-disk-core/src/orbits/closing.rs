@@ -360,7 +360,7 @@ impl<M: ClosingMap> Closing<M> {
             .then_some(Closed { impacts, parameter: parameter / length })
     }
 
-    /// The direction in which the orbit flips where a multiplier is -1: the vector that returns with the
+    /// The direction in which the orbit flips if a multiplier is -1: the vector that returns with the
     /// opposite sign.
     pub(crate) fn flip_direction(&self, at: &Closed) -> Option<Vec<DVec2>> {
         let mut equations = self.equations(at)?;

@@ -9,9 +9,9 @@
 //! exist only at the forcing of the doubling, so a branch whose parameter is constant within 1e-11 over an
 //! arclength of 1e-3 to either side has no fold: rounding alone turns it back.
 //!
-//! At a doubling, one component of the first impact of the flipping vector phi is set to 1, the choice that
-//! gives the shorter vector. In doubles the map misses the dip v^2 of an impact with a speed v below the root
-//! of the rounding, so a branch stops up to about 1e-8 of the parameter before an impact vanishes.
+//! At a doubling, one component of the first impact of the flipping vector phi is set to 1: the one for which
+//! the vector is shorter. In doubles the map misses the dip v^2 of an impact with a speed v below the root of
+//! the rounding, so a branch stops up to about 1e-8 of the parameter before an impact vanishes.
 
 use core::ops::ControlFlow;
 
@@ -61,8 +61,8 @@ impl Continuation {
     /// The largest number of points of a branch.
     pub const MAX_POINTS: usize = 1_000_000;
 
-    /// A continuation in `parameter` between `low` < `high`, at first towards higher values (`rising`) or
-    /// lower ones.
+    /// A continuation in `parameter` between `low` < `high`. It starts towards higher values if `rising`,
+    /// otherwise towards lower ones.
     ///
     /// The arclength is measured in the first impact and the parameter. Its units are a radian, a speed of
     /// 1 + P, and the forcing at the start (for the restitution: 1). The first step is 0.01, the largest

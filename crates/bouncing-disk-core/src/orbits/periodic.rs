@@ -330,8 +330,8 @@ impl ImpactMap {
     /// The period-1 orbit with one impact every `platform_periods` >= 1 periods, in closed form:
     /// cos tau = k (1 - r)/((1 + r) Gamma), impact speed 2 pi k/(1 + r); `None` below its threshold.
     ///
-    /// The result is the solution in [0, pi/2]; the other phase always gives a saddle. This function does not
-    /// check that no earlier impact prevents the orbit, but [`Self::refine`] does.
+    /// The result is the solution in [0, pi/2]; the other phase always belongs to a saddle. This function
+    /// does not check that no earlier impact prevents the orbit, but [`Self::refine`] does.
     #[must_use]
     pub fn period_one(&self, platform_periods: u64) -> Option<ImpactState> {
         let k = platform_periods as f64;

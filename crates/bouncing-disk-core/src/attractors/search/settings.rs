@@ -72,7 +72,7 @@ impl AttractorSearch {
 
     /// The same search with this number of starts in [0, 2^18], spread evenly over the trapping region.
     /// Default 1,024: if they were random, a basin with 1 % of the region would be missed at most once in
-    /// 30,000 searches. With 0 there are only the candidates.
+    /// 30,000 searches. With 0 starts only the candidates are examined.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for the number.

@@ -84,7 +84,7 @@ pub(super) struct Lost {
     pub(super) impacts: usize,
 }
 
-/// Where orbits begin to come to rest.
+/// The end of an attractor, where orbits begin to come to rest.
 pub(super) struct End {
     /// See [`super::Crisis::bracket`].
     pub(super) bracket: (f64, f64),

@@ -51,7 +51,7 @@ const PARTS: u32 = 32;
 /// Halvings of the place of the fold.
 const HALVINGS: u32 = 60;
 
-/// The slope at a fold as a share of the slope beside it.
+/// The slope at a fold as a share of the slope on either side.
 const VANISHES: f64 = 1.0e-3;
 
 /// Steps of the secant method in Gamma for a number of flights.

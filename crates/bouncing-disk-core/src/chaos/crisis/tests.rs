@@ -131,7 +131,7 @@ fn a_periodic_attractor_that_ends_beside_is_no_crisis() {
     assert!(!matches!(crisis.after_rest, LifeAfterRest::Short { .. }), "{:?}", crisis.after_rest);
 }
 
-/// Ranges that begin or end next to the crisis: it is found there or not at all. The lower end of the bracket
+/// Ranges that begin or end near the crisis: it is found there or not at all. The lower end of the bracket
 /// holds in 95 of 100 searches: one of these may fail.
 #[test]
 fn a_range_may_begin_or_end_at_the_crisis() {

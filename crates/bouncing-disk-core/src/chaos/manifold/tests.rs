@@ -1,7 +1,7 @@
-//! Among the tests: at restitution 0.5 and Gamma = 0.40, 0.45 and 0.47 starts 1e-3 to either side of the
-//! stable manifold of the period-1 saddle (sin tau < 0) end differently, one at rest, one on the period-1
-//! orbit. Every point of the manifolds of five saddles leads back to the saddle to 1e-3 under the inverse of
-//! the map that grew it.
+//! Among the tests: starts 1e-3 to either side of the stable manifold of the period-1 saddle (sin tau < 0)
+//! end differently, one at rest, one on the period-1 orbit (restitution 0.5; Gamma = 0.40, 0.45 and 0.47).
+//! Every point of the manifolds of five saddles leads back to the saddle to 1e-3 under the inverse of the map
+//! that grew it.
 
 use crate::run::Unobserved;
 use core::f64::consts::TAU;

@@ -8,10 +8,10 @@ use crate::numerics::stored::read_checked;
 
 /// A phase of the platform's cycle: the angle tau in [0, 2 pi) with its sine and cosine.
 ///
-/// The three are kept together because the solver finds an impact with all of them known: an orbit that
-/// carries the pair need not recompute it at the next launch. The carried pair may differ from [`sin_cos`] of
-/// the angle, in the last place after a flight of more than half a radian. So a chaotic orbit continues bit
-/// for bit only from all three numbers.
+/// The three are kept together because the solver finds all three at an impact: an orbit that carries the
+/// pair need not recompute it at the next launch. The carried pair may differ from [`sin_cos`] of the angle,
+/// in the last place after a flight of more than half a radian. So a chaotic orbit continues bit for bit only
+/// from all three numbers.
 ///
 /// The drift between angle and pair is bounded. A flight of more than half a radian evaluates the pair again,
 /// so that it agrees with the angle to 7e-16. A shorter flight rotates its initial pair, and both pair and

@@ -3,8 +3,8 @@
 //! The orbit of twice the period is followed in the amplitude s and not in the forcing; s is the distance of
 //! an impact from the one half a period later. At its birth s = 0 the forcing is stationary in s, so the
 //! equations bordered by the amplitude stay regular. The trace of its derivative falls nearly linearly in
-//! s^2, from 1 + r^2n at the birth to -1 - r^2n at its own doubling, which regula falsi finds between the two
-//! known ends.
+//! s^2, from 1 + r^2n at the birth to -1 - r^2n at its own doubling. Regula falsi finds this doubling between
+//! the two known ends.
 
 use super::recurrence::{Equations, ImpactTimes};
 use crate::flight::launch::Launch;

@@ -21,9 +21,8 @@ use super::CascadeDoubling;
 use super::branch::width_rounding;
 use crate::numerics::real::Real;
 
-/// The first doubling that gives an estimate with an error. Earlier doublings are needed for ratios of
-/// distances and widths, for one and two steps of extrapolation, and for two changes of the extrapolated
-/// values.
+/// The first doubling with an estimate and its error. Earlier doublings are needed for ratios of distances
+/// and widths, for one and two steps of extrapolation, and for two changes of the extrapolated values.
 const FIRST_ESTIMATE: usize = 7;
 
 /// An error is this many times the larger one of the last two changes.

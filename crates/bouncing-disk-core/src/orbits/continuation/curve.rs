@@ -185,8 +185,8 @@ impl<M: ContinuedMap> Curve<M> {
 
 impl<M: ContinuedMap> Branch<M> {
     /// The curve of bifurcations over a second parameter, starting from number `index` of [`Self::bifurcations`],
-    /// which must be a fold, a doubling or a graze. `settings` name the second parameter, its range and steps, and
-    /// whether it rises at first; the parameter of the branch stays in `range`.
+    /// which must be a fold, a doubling or a graze. `settings` specify the second parameter, its range and steps,
+    /// and whether it rises at first; the parameter of the branch stays in `range`.
     ///
     /// Every point is an orbit of the map at its bifurcation; cusps and the other [`SpecialKind`]s are located. Two
     /// special points of one kind within one step are missed: see [`Continuation::with_steps`].

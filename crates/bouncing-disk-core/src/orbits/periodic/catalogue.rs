@@ -166,12 +166,12 @@ struct Row {
 impl ImpactMap {
     /// The periodic orbits of few impacts, stable and unstable.
     ///
-    /// Orbits of one impact come from the closed form and are complete. All others are found by Newton's
-    /// method on all impacts at once. The guesses are the first 1, 2, ... impacts of orbits that start on a
-    /// grid over all impacts that a periodic orbit can have ([`Self::impact_speed_bound`]). The exact map
-    /// decides where a flight ends, so a converged solution is an orbit of the map. A search from a grid
-    /// cannot prove that it is complete: [`OrbitCoverage`] states which starts were tried, and whether half
-    /// the resolution would have found the same.
+    /// Orbits of one impact come from the closed form, and their list is complete. All others are found by
+    /// Newton's method on all impacts at once. The guesses are the first 1, 2, ... impacts of orbits that
+    /// start on a grid over all impacts that a periodic orbit can have ([`Self::impact_speed_bound`]). The
+    /// exact map decides where a flight ends, so a converged solution is an orbit of the map. A search from a
+    /// grid cannot prove that it is complete: [`OrbitCoverage`] states which starts were tried, and whether
+    /// half the resolution would have found the same.
     ///
     /// Two orbits whose impacts agree within 1e-6 (rad, and relative speed) count as one; near a fold or a
     /// doubling they count as one if their [errors](PeriodicOrbit::position_error) overlap.

@@ -2,7 +2,7 @@
 //! [`Vibration::first_impact`].
 //!
 //! The solver of one flight waits for its own results most of the time. Here each of its steps is a loop over
-//! independent lanes, short enough for the processor to overlap many of them, and simple enough for the
+//! independent lanes. It is short enough for the processor to overlap many lanes, and simple enough for the
 //! compiler to turn into vectors of whatever width the processor supports ([`InstructionSet`]). A lane
 //! follows the vector path only if every decision on this path is the same as in the solver of one flight
 //! (docs/numerics-impacts.md, "Why the bits are the same"). The others are handed to that solver: 2.2 % of
@@ -130,7 +130,7 @@ impl Width for Sixteens {
     }
 }
 
-/// `value` where the mask is set, else +0.
+/// `value` if the mask is set, otherwise +0.
 #[inline(always)]
 pub(crate) const fn kept(mask: u64, value: f64) -> f64 {
     f64::from_bits(value.to_bits() & mask)

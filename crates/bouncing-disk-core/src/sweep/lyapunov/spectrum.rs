@@ -4,7 +4,7 @@
 //! If the image of the first direction has the length l, the second may be as long, with an orthogonal part
 //! det/l. Near a graze l and det grow like 1/v', so det/l stays of the order r^2 |v| with an error 1e-16 l,
 //! that is 1e-16/|v'| for each impact. The frequency of such impacts is proportional to their speed, and the
-//! mean of ln|v'| is finite, so the sum of both exponents has an error of about 1e-13.
+//! mean of ln|v'| is finite, so the sum of the two exponents has an error of about 1e-13.
 
 use core::ops::ControlFlow;
 
@@ -29,12 +29,12 @@ pub struct LyapunovSpectrum {
     pub largest: f64,
     /// Its standard error over the one orbit followed: scatter, drift and rounding ([`BatchMeans`]).
     pub standard_error: f64,
-    /// The other exponent. `None` for restitution 0, for which the map forgets one of its two dimensions at
+    /// The other exponent. `None` for restitution 0, for which the map loses one of its two dimensions at
     /// every impact and the exponent is minus infinity, and if a compliant contact does the same.
     pub second: Option<f64>,
-    /// The exact sum of both over these impacts: 2 ln(restitution) + ln(v_0/v_n)/n with the impact velocities
-    /// before the first and after the last of n flights. It tends to 2 ln(restitution). `None` for
-    /// restitution 0 and for compliant contacts.
+    /// The exact sum of the two exponents over these impacts: 2 ln(restitution) + ln(v_0/v_n)/n with the
+    /// impact velocities before the first and after the last of n flights. It tends to 2 ln(restitution).
+    /// `None` for restitution 0 and for compliant contacts.
     pub exact_sum: Option<f64>,
     /// Impacts through which the perturbations were followed.
     pub impacts: u64,

@@ -69,7 +69,7 @@ fn stored_results_with_orbits_of_another_map_are_refused() {
     assert!(error.contains("not an orbit of this map: after impact 1 "), "{error}");
 }
 
-/// Orbits from searches, refinements and branches, stable or not, near folds and grazes, also after storing.
+/// Orbits from searches, refinements and branches, stable or not, near folds and grazes, even after storing.
 #[test]
 fn own_orbits_are_never_refused() {
     let mut random = SplitMix64::new(64);

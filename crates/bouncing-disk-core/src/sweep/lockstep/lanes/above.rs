@@ -15,7 +15,7 @@ use crate::numerics::elementary::{
 /// Comparisons that decide which path a lane takes keep this far from a tie (turns; relative to the pull).
 const CLEAR: f64 = 1.0e-9;
 
-/// All lanes get a third evaluation if at least one in so many needs it.
+/// All lanes get a third evaluation if at least one in this many needs it.
 const MANY: usize = 4;
 
 /// Intermediate results of all lanes.
@@ -39,7 +39,7 @@ pub(super) struct Work {
     followed: Mask,
     /// Lanes near their root: at the start, or, if followed, surely at the last evaluation.
     near: Mask,
-    /// Whether `second` is the time of the second evaluation, else `time` is.
+    /// Whether `second` is the time of the second evaluation; otherwise `time` is.
     stepped: bool,
     /// Whether all lanes have landed at the second evaluation.
     pub(super) all: bool,

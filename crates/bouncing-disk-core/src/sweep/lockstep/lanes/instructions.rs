@@ -4,7 +4,7 @@
 use pulp::Simd;
 use pulp::WithSimd;
 
-/// The vector instructions that compute the lanes. The results have the same bits with each.
+/// The vector instructions that compute the lanes. The results have the same bits with each of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum InstructionSet {

@@ -157,7 +157,7 @@ pub(super) struct Kinds {
     pub(super) slow: Mask,
     /// May be hit before the first crest.
     pub(super) low: Mask,
-    /// Whether any lane is slow, low or does not come down within the longest flight.
+    /// Whether any lane is slow or low, or does not come down within the longest flight.
     pub(super) special: bool,
 }
 
@@ -167,7 +167,7 @@ impl Kinds {
     }
 }
 
-/// Sorts the launches of a batch: those that are `SET`, else those that follow the impacts before.
+/// Sorts the launches of a batch: those that are `SET`, otherwise those that follow the previous impacts.
 pub(super) struct Classify<'a, P, const SET: bool> {
     pub(super) platforms: P,
     pub(super) rows: Rows<'a>,

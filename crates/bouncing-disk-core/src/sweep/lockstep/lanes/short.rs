@@ -30,7 +30,7 @@ pub(super) struct Short {
     angle: Row,
     /// P.
     peak: Row,
-    /// Where the platform begins to fall away (rad).
+    /// The phase (rad) at which the platform begins to fall away.
     separation: Row,
     /// Where the piece of constant curvature sign that contains the launch ends.
     end: Row,
