@@ -36,9 +36,9 @@ const CIRCLES: [f64; 3] = [1.0, 0.5, 0.25];
 const CIRCLE_SAMPLES: u32 = 16;
 const SHARE_OF_CIRCLE: f64 = 0.5;
 
-/// The share of its initial distance at which a start is near enough to stop. A slower start, as near a
-/// doubling or a fold, must at least be nearer after this number of rounds of the orbit; the last number is
-/// the largest distance allowed meanwhile, as a multiple of the initial distance.
+/// A start is near enough to stop at the first number, a share of its initial distance. A slower start, as
+/// near a doubling or a fold, must at least be nearer after the second number of rounds of the orbit. The
+/// third is the largest distance allowed meanwhile, as a multiple of the initial distance.
 const NEARER: f64 = 0.125;
 const ROUNDS: u32 = 200;
 const STRAYING: f64 = 4.0;
@@ -49,7 +49,7 @@ const LARGEST_REGION: f64 = 0.5;
 const ROUNDINGS: f64 = 0.99;
 const SMALLEST_REGION: f64 = 64.0 * f64::EPSILON;
 
-/// Squarings of the derivative around the orbit: its power 2^64 is zero in doubles.
+/// Squarings of the derivative around the orbit: its 2^64th power is zero in doubles.
 const SQUARINGS: u32 = 64;
 
 /// A number known to lie within a radius about a centre.

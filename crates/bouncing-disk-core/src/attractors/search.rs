@@ -452,7 +452,7 @@ impl<M: AttractingMap> Attractors<M> {
     ///
     /// Two things are not proven. The search misses an attractor whose basin contains no start; its share is
     /// then below the upper end of the [interval](Fraction::interval) for zero starts. And a chaotic motion
-    /// may end after more impacts than it states.
+    /// may end after more impacts than the stated number.
     ///
     /// The items of `observer` are the starts. Each counts twice: when it has been examined, and when its
     /// attractor is known.

@@ -383,9 +383,9 @@ pub fn verdicts<M: BouncingMap>(
     Ok(all)
 }
 
-/// [`verdicts`] of `count` orbits without keeping starts or verdicts: `start` makes the start of an index
-/// when it is needed, and `each` receives the verdicts in order, `None` for a missing start. Memory use does
-/// not depend on the number of orbits. The items of the observer are the orbits.
+/// [`verdicts`] of `count` orbits without keeping starts or verdicts: `start` creates the start with a given
+/// index when it is needed, and `each` receives the verdicts in order, `None` for a missing start. Memory use
+/// does not depend on the number of orbits. The items of the observer are the orbits.
 ///
 /// # Errors
 /// Errors of [`verdicts`] and of `start`; [`Error::Stopped`] if the observer breaks.

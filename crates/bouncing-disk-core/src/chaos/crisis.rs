@@ -18,9 +18,9 @@
 //!
 //! An independent program finds the crisis by direct iteration: between 0.957192294 and 0.957192296 at
 //! restitution 0.2, and between 0.80913530 (no rest in 5e8 impacts) and 0.80913531 (mean life 7e5) at 0.3.
-//! The other brackets are 0.4858200 to 0.4858205 at 0.6, 0.4296065 to 0.4296070 at 0.7 and 0.3994755 to
-//! 0.3994770 at 0.8. In 24 searches for each restitution, from starts over a fifth of the range, all brackets
-//! contain these results at 0.3, 0.6 and 0.7 and the tangency at 0.5; at 0.8, 22 brackets do.
+//! The ranges at other restitutions are 0.4858200 to 0.4858205 at 0.6, 0.4296065 to 0.4296070 at 0.7 and
+//! 0.3994755 to 0.3994770 at 0.8. In 24 searches for each restitution, from starts over a fifth of the range,
+//! all brackets contain these results at 0.3, 0.6 and 0.7 and the tangency at 0.5; at 0.8, 22 brackets do.
 //!
 //! Beyond the crisis of Fig. 6 lives were measured with 200 orbits at each of 14 distances. The unstable
 //! manifold of the period-1 orbit touches at 0.560753164.
@@ -127,16 +127,16 @@ pub struct Crisis {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum LifeAfterRest {
-    /// At every forcing it rests again after at most `impacts` impacts, far fewer than orbits survive on the
-    /// attractor, and so rests again and again: a boundary crisis, in which the attractor is lost. The number
-    /// is 0 if the platform never falls away from the disk.
+    /// At every forcing the disk rests again after at most `impacts` impacts, far fewer than orbits survive
+    /// on the attractor, and so rests again and again: a boundary crisis, in which the attractor is lost. The
+    /// number is 0 if the platform never falls away from the disk.
     Short {
         /// Impacts from one rest to the next.
         impacts: u64,
     },
-    /// At every forcing it survives for long, as orbits on the attractor do: for more than 200 impacts and
-    /// more than a hundredth of their mean survival time, or for all impacts followed. Rest has become a part
-    /// of the attractor, or the disk goes to another attractor after a rest.
+    /// At every forcing the disk survives for long, as orbits on the attractor do: for more than 200 impacts
+    /// and more than a hundredth of their mean survival time, or for all impacts followed. Rest has become a
+    /// part of the attractor, or the disk goes to another attractor after a rest.
     Long {
         /// The smallest number of impacts followed without a rest.
         impacts: u64,
@@ -341,9 +341,9 @@ impl CrisisSearch {
     /// The crisis in which a chaotic attractor begins to lose orbits to rest.
     ///
     /// Orbits on the attractor are followed as Gamma rises, in steps that are halved when an orbit comes to
-    /// rest, until there is a bracket. Then follows a search for the saddle passed by the orbits that come to
-    /// rest just beyond it, and for the tangency of its stable manifold with an unstable one. The tangency
-    /// refines the result if it lies within the bracket.
+    /// rest, until there is a bracket. The next step is a search for the saddle passed by the orbits that
+    /// come to rest just beyond the crisis, and for the tangency of its stable manifold with an unstable one.
+    /// The tangency refines the result if it lies within the bracket.
     ///
     /// Without `saddles` the attractor is the one to which the period-1 orbit leads at the lower end of the
     /// range, or at its birth. With `saddles` it is the one to which the unstable manifold of the first

@@ -7,8 +7,8 @@
 //! ```
 //!
 //! whose terms are each accurate in the relative sense: neither a gap far below the rounding of P nor a
-//! velocity far above the platform's is lost by cancellation. A disk that stays above the crests for longer is
-//! followed from the moment when it comes down to them.
+//! velocity far above the platform's is lost by cancellation. A disk that stays above the crests longer is
+//! followed from the moment it comes down to them.
 
 use core::f64::consts::{PI, TAU};
 
@@ -247,8 +247,8 @@ impl DropForm {
     }
 
     /// A time in (`lo`, `hi`) at which the gap is not positive, or `None`. The slope must change from
-    /// negative to positive, and the piece be convex up to rounding. Like [`GapForm::dip`], but relative to
-    /// the time since the start.
+    /// negative to positive, and the piece must be convex up to rounding. Like [`GapForm::dip`], but relative
+    /// to the time since the start.
     fn dip(&self, mut lo: f64, mut hi: f64, evaluations: &mut u32) -> Option<f64> {
         let before = *evaluations;
         // The time at which the curvature at the start would stop the disk.

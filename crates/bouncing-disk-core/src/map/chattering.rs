@@ -29,9 +29,9 @@
 //!
 //! The cut puts the disk on the platform up to T too early. Because the pull lasts over T, both motions rest
 //! before the platform falls away, and leave it at the same phase. The omitted height is below w^2/(2 alpha).
-//! The omitted axial impulses are the integral of the pull over the remaining time minus w, at most a' T with
-//! a' <= a + delta T the greatest pull; friction in contact can transmit as much. So the error of the angular
-//! speed is at most 2 mu a' T.
+//! The omitted axial impulses are the integral of the pull over the remaining time minus w, at most a' T,
+//! where a' <= a + delta T is the greatest pull; friction in contact can transmit as much. So the error of
+//! the angular speed is at most 2 mu a' T.
 
 use crate::chatter::accumulation::{Accumulation, ChatterImpact};
 use crate::chatter::impact_series::ChatterSeries;
@@ -40,7 +40,7 @@ use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::map::restitution_law::RestitutionLaw;
 
 impl ImpactMap {
-    /// How the disk leaves the platform after an impact: with restitution times its speed.
+    /// The launch of the disk after an impact, at the impact speed times the restitution.
     #[must_use]
     pub const fn rebound(&self, impact: ImpactState) -> Launch {
         let speed = -self.restitution() * impact.velocity();
@@ -98,7 +98,7 @@ impl ImpactMap {
 /// A generous bound on the relative rounding error of the result.
 const ROUNDING: f64 = 1.0e-12;
 
-/// How many windows are tried: each after the first is as long as the bound from the one before.
+/// The number of windows tried; each after the first is as long as the bound from the previous one.
 const WINDOWS: u32 = 4;
 
 impl<L: RestitutionLaw> ImpactMap<L> {

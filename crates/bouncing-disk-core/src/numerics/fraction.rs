@@ -59,8 +59,8 @@ impl Fraction {
         self.wilson(NORMAL_975)
     }
 
-    /// The interval of true shares from which this sample is at most `z` standard errors away (E. B. Wilson,
-    /// J. Am. Stat. Assoc. 22, 209 (1927)), within [0, 1]: with f = k/n,
+    /// The interval of the true shares for which this sample is at most `z` standard errors away (E. B.
+    /// Wilson, J. Am. Stat. Assoc. 22, 209 (1927)), within [0, 1]: with f = k/n,
     ///
     /// (f + z^2/2n +- z sqrt(f (1 - f)/n + z^2/4n^2))/(1 + z^2/n).
     ///

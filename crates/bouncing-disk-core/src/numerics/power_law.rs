@@ -131,7 +131,7 @@ pub const FEWEST_POINTS: usize = 6;
 /// The least ratio of the largest x to the smallest one.
 pub const LEAST_FACTOR: f64 = 10.0;
 
-/// Largest distance of a parabola's square coefficient from 0, in standard errors.
+/// Largest distance of a parabola's quadratic coefficient from 0, in standard errors.
 const MOST_SIGMAS: f64 = 3.5;
 
 /// The largest accepted root mean square scatter in units of the errors, unless it is within [`MOST_FACTOR`].
@@ -227,9 +227,9 @@ pub fn fit_power_law(points: &[PowerLawPoint]) -> Result<Result<PowerLaw, NoPowe
     }))
 }
 
-/// The coefficient of the square in a parabola through (ln x, ln y), in units of its standard error. The
-/// error comes from the errors of the points or from their scatter about the parabola, whichever is larger.
-/// Zero if the points do not determine the coefficient.
+/// The coefficient of the quadratic term of a parabola through (ln x, ln y), in units of its standard error.
+/// The error comes from the errors of the points or from their scatter about the parabola, whichever is
+/// larger. Zero if the points do not determine the coefficient.
 fn curvature(points: &[PowerLawPoint]) -> f64 {
     let weight = |point: &PowerLawPoint| 1.0 / (point.relative_error * point.relative_error);
     let sum = |of: &dyn Fn(&PowerLawPoint) -> f64| {

@@ -24,7 +24,7 @@ impl SplitMix64 {
     /// The seed of one of many related streams, numbered from 0.
     ///
     /// If streams had consecutive seeds from `seed`, all but one would also belong to `seed + 1`: means over
-    /// the two sets would be nearly the same, and would not check each other.
+    /// the two sets would be nearly the same and could not check each other.
     ///
     /// ```
     /// use bouncing_disk_core::numerics::random::SplitMix64;

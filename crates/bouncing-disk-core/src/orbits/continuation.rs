@@ -149,7 +149,7 @@ impl Continuation {
 }
 
 /// A map whose periodic orbits can be continued in a parameter. The parameters of [`ImpactMap`] are its
-/// forcing and its restitution; `bouncing_disk_drives::DrivenFamily` has its number.
+/// forcing and its restitution; that of `bouncing_disk_drives::DrivenFamily` is its number.
 pub trait ContinuedMap: ClosingMap {
     /// The work of a flight, in units of a flight above a sine.
     #[doc(hidden)]
@@ -422,7 +422,7 @@ pub enum BranchEnd {
     /// The parameter reaches this end of its range: the last orbit lies there to within rounding, or to 1e-9
     /// near a birth just beyond.
     RangeLimit(f64),
-    /// The orbit ceases to exist or to be prime in the last bifurcation of the branch.
+    /// The orbit ceases to exist or to be prime at the last bifurcation of the branch.
     Bifurcation,
     /// The branch is back at its start.
     Closed,

@@ -34,9 +34,9 @@ pub struct Following<Forcings> {
 
 /// Follows the attractor of `start` through `forcings`.
 ///
-/// At each forcing the orbit from the state carried over runs for `transient` impacts. The walk ends before
-/// the first forcing at which the disk comes to rest during this transient: there the attractor is lost to
-/// chattering.
+/// At each forcing the orbit is followed from the state carried over for `transient` impacts. The walk ends
+/// before the first forcing at which the disk comes to rest during this transient: there the attractor is
+/// lost to chattering.
 pub fn follow_attractor<Forcings: IntoIterator<Item = f64>>(
     restitution: f64,
     forcings: Forcings,

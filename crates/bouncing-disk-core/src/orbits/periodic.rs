@@ -331,7 +331,7 @@ impl ImpactMap {
     /// cos tau = k (1 - r)/((1 + r) Gamma), impact speed 2 pi k/(1 + r); `None` below its threshold.
     ///
     /// The result is the solution in [0, pi/2]; the other phase always belongs to a saddle. This function
-    /// does not check that no earlier impact prevents the orbit, but [`Self::refine`] does.
+    /// does not check whether an earlier impact prevents the orbit; [`Self::refine`] does.
     #[must_use]
     pub fn period_one(&self, platform_periods: u64) -> Option<ImpactState> {
         let k = platform_periods as f64;

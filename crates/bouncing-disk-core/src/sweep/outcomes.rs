@@ -156,7 +156,7 @@ pub(crate) fn sweep_with<O: BouncingOrbit, W: Send, T>(
 /// Follows many independent orbits, each until its visitor has seen enough or it ends, and returns the
 /// visitors' results in the order of the orbits.
 ///
-/// `start` makes the visitor's value for the orbit of an index. `visit` receives the events of
+/// `start` creates the visitor's value for the orbit with a given index. `visit` receives the events of
 /// [`Orbit::advance`](crate::Orbit::advance) one by one, and breaks when the orbit need not be followed
 /// further. With the feature `parallel` the orbits are distributed over the threads of rayon's pool. Neither
 /// the number of threads nor the instructions of the processor changes any bit of the results.

@@ -1,6 +1,6 @@
 //! The uncertainty exponent of a basin boundary and its dimension, from the share of cells with an uncertain
-//! fate over the accuracy of a start (S. W. McDonald, C. Grebogi, E. Ott, J. A. Yorke, Physica D 17, 125
-//! (1985)).
+//! fate as a function of the accuracy of a start (S. W. McDonald, C. Grebogi, E. Ott, J. A. Yorke, Physica D
+//! 17, 125 (1985)).
 //!
 //! Tests: a straight boundary, alternately coloured gaps of Cantor's set (1 + ln 2/ln 3, found to 0.02),
 //! and random cells (2).
@@ -44,7 +44,7 @@ pub enum BoundaryFit {
     PowerLaw {
         /// The uncertainty exponent alpha: the share grows like distance^alpha.
         exponent: f64,
-        /// Its standard error, from the scatter about the line in logarithms.
+        /// Its standard error, from the scatter about the line on logarithmic axes.
         standard_error: f64,
         /// The boundary's dimension 2 - alpha, from 1 (a smooth curve) to 2.
         dimension: f64,

@@ -110,7 +110,8 @@ mod tests {
         Basins::of_labels(cells.map(|(row, column)| label(row, column)).collect(), columns).expect("legal")
     }
 
-    /// By hand: four boxes of 2 x 2, of which one is half and half, and one has a cell of another kind.
+    /// By hand: four boxes of 2 x 2, of which one has two labels in equal parts, and one has a single cell
+    /// with another label.
     #[test]
     fn the_entropy_of_four_boxes_is_that_by_hand() {
         let basins = basins(5, 4, |row, column| match (row, column) {

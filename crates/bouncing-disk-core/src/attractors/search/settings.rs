@@ -71,8 +71,8 @@ impl AttractorSearch {
     pub const MAX_IMPACTS: u64 = 1 << 40;
 
     /// The same search with this number of starts in [0, 2^18], spread evenly over the trapping region.
-    /// Default 1,024: if they were random, a basin with 1 % of the region would be missed at most once in
-    /// 30,000 searches. With 0 starts only the candidates are examined.
+    /// Default 1,024: if the starts were random, a basin with 1 % of the region would be missed at most once
+    /// in 30,000 searches. With 0 starts only the candidates are examined.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for the number.
@@ -83,8 +83,8 @@ impl AttractorSearch {
 
     /// The same search with these numbers of impacts: `transient` in [1, 2^40] that are skipped (default
     /// 2,000), and then `impacts` in [64, 2^40] (default 100,000). Orbits of each aperiodic motion are
-    /// followed for the sum of both, and so are all starts if one orbit leaves its motion. All other starts
-    /// are followed for at most twice the transient.
+    /// followed for the sum of the two numbers, and so are all starts if one orbit leaves its motion. All
+    /// other starts are followed for at most twice the transient.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for either number.

@@ -240,8 +240,8 @@ fn long(map: ImpactMap, start: ImpactState) -> Verdict {
     map.verdict(start, VerdictSettings::default()).expect("no failure")
 }
 
-/// The orbit of a fold has the multipliers 1 and r^2, the orbit of a doubling -1 and -r^2: a start on it
-/// stays on it.
+/// The orbit of a fold has the multipliers 1 and r^2, the orbit of a doubling -1 and -r^2: a start on such an
+/// orbit stays on it.
 #[test]
 fn the_orbit_of_a_fold_or_a_doubling_is_neutral() {
     for (forcing, restitution, sign) in [

@@ -35,8 +35,8 @@ const LONGEST_STEP: f64 = 1.0 / 64.0;
 const NARROWEST: f64 = 1.0e-9;
 
 /// Once the mean survival time exceeds this share of all impacts, the upper end of the bracket is as near to
-/// the crisis as this number of impacts can show. From then on the bracket is halved only this number of
-/// times.
+/// the crisis as this number of impacts can show. From then on the bracket is halved only as many times as
+/// the second number.
 const TOLD: f64 = 1.0 / 16.0;
 const MORE_HALVINGS: u32 = 5;
 
@@ -409,7 +409,7 @@ fn ends(lived: Vec<(usize, ImpactState)>) -> Vec<ImpactState> {
     lived.into_iter().map(|(_, state)| state).collect()
 }
 
-/// The same states, hardly moved, each by another amount.
+/// The same states, each moved slightly by a different amount.
 fn shaken(states: &[ImpactState]) -> Result<Vec<ImpactState>, Error> {
     let moved = states.iter().enumerate().map(|(index, state)| {
         let factor = 1.0 + SHAKE * (index as f64 / states.len() as f64);

@@ -16,7 +16,7 @@ const BETWEEN_STARTS: usize = 37;
 /// Impacts of that orbit before the first start.
 const TRANSIENT: usize = 2_000;
 
-/// Fewest orbits that came to rest for a mean life to count in the power law.
+/// The fewest orbits that must have come to rest for a mean life to count in the power law.
 const FEWEST_ENDED: u64 = 20;
 
 /// The mean survival time, beyond a crisis, of orbits that start on the former attractor.
@@ -28,7 +28,7 @@ pub struct MeanLife {
     /// Impacts of all orbits over the number that came to rest: the mean of an exponential law, even if some
     /// orbits were not followed to their end. The largest double if none came to rest.
     pub impacts: f64,
-    /// Its standard error, relative to it; the largest double if none came to rest.
+    /// Its standard error, relative to the mean; the largest double if none came to rest.
     pub relative_error: f64,
     /// Orbits that came to rest.
     pub ended: u64,
@@ -66,8 +66,8 @@ pub struct CrisisLives {
 
 impl Crisis {
     /// The mean survival times of orbits at these distances above 0 beyond the crisis (in Gamma), and their
-    /// power law. `orbits` orbits, in [1, 1e6], start from one orbit on the attractor just below the crisis,
-    /// and are followed for at most `impacts` >= 1.
+    /// power law. They start from one orbit on the attractor just below the crisis; their number is `orbits`
+    /// in [1, 1e6], and each is followed for at most `impacts` >= 1 impacts.
     ///
     /// The items of `observer` are the orbits at one distance, counted from 0 for each.
     ///

@@ -7,8 +7,8 @@
 //! xi(fold) = 0 for Gamma. Using the stable direction instead of the stable manifold causes an error of the
 //! order of the square of the distance from S. So the equation is solved again after each further cycle along
 //! S until the fold is within 1e-7 of S: the distance shrinks by the small multiplier, and an error of Gamma
-//! grows by the large one. At a sixty-fourth of the bracket beyond the tangency orbits rest; as far before it
-//! none does.
+//! grows by the large one. Orbits rest at a forcing a sixty-fourth of the bracket beyond the tangency, and
+//! none rests as far below it.
 
 use glam::DVec2;
 
@@ -32,14 +32,15 @@ const MOST_FLIGHTS: u32 = 80;
 /// The largest number of folds that are followed to their tangency.
 const MOST_TIPS: usize = 24;
 
-/// Orbits from the first piece that are followed to see whether they rest, and the impacts that takes.
+/// Orbits from the first piece that are followed to see whether they rest, and the impacts for which they are
+/// followed.
 const PROBES: u32 = 128;
 const LOST: u32 = 400;
 
 /// The distance beyond and before a tangency at which orbits are followed, over the width of the bracket.
 const ASIDE: f64 = 1.0 / 64.0;
 
-/// The farthest that neighbouring samples may be apart at a fold (in the units of manifolds).
+/// The largest distance between neighbouring samples at a fold (in the units of manifolds).
 const STEP: f64 = 0.2;
 
 /// The largest distance from the stable direction at which a fold counts as near the stable manifold.
@@ -70,7 +71,7 @@ const ROUNDS_ASTRAY: u32 = 2;
 /// to within rounding: the remaining error is the square of this distance.
 const STRAIGHT: f64 = 1.0e-7;
 
-/// The farthest that a point may be from the second saddle for its coordinates to mean anything.
+/// The largest distance of a point from the second saddle at which its coordinates are meaningful.
 const NEAR: f64 = 0.5;
 
 /// The saddles of a tangency: one whose unstable manifold touches, and one whose stable manifold is touched.
@@ -420,8 +421,8 @@ impl Sought<'_> {
         Err(NoTangency::NotSettled { forcing, change })
     }
 
-    /// The tangency from near `start`, where the orbit passes the saddle after the flights of `tip`: round by
-    /// round along the saddle, until its stable manifold is straight.
+    /// The tangency, sought from `start` on, at which the orbit passes the saddle after the flights of `tip`:
+    /// round by round along the saddle, until its stable manifold is straight.
     fn solved(&self, tip: &Tip, start: f64) -> Result<Result<(Solution, u32), NoTangency>, Error> {
         let (mut forcing, mut tip, mut change) = (start, *tip, f64::INFINITY);
         let mut step = 1.0e-8 * start;

@@ -25,7 +25,7 @@ use crate::numerics::real::Real;
 /// and widths, for one and two steps of extrapolation, and for two changes of the extrapolated values.
 const FIRST_ESTIMATE: usize = 7;
 
-/// An error is this many times the larger one of the last two changes.
+/// An error is this many times the larger of the last two changes.
 const CHANGES: f64 = 2.0;
 
 /// A generous bound on the factor by which extrapolation enlarges the rounding of a ratio.

@@ -28,7 +28,7 @@ pub(super) const EASY: u32 = 4;
 pub(super) const HARD: u32 = 7;
 pub(super) const GROWTH: f64 = 1.5;
 
-/// Halvings until the bracket of a special point is at the rounding of the arclength.
+/// Halvings until the bracket of a special point is as narrow as the rounding of the arclength.
 const HALVINGS: u32 = 56;
 
 /// The distance (scaled) up to which two points are neighbours on one curve: the rounding of a point on a
@@ -640,7 +640,7 @@ pub(super) fn largest(apart: &[DVec2]) -> f64 {
 
 /// The last point with a property that the first of `ends` has, and the first one without it, by halvings of the
 /// arclength between them. `at` finds the point at an arclength from the first end; if there is no point, it
-/// counts as without the property.
+/// counts as lacking the property.
 pub(super) fn halved<P: Clone>(
     ends: (&P, &P),
     arclength: f64,

@@ -78,8 +78,8 @@ impl PeriodOneOrbit {
     }
 }
 
-/// Both orbits with one impact every k periods of the platform. They are born together, in the fold at Gamma
-/// = k (1 - r)/(1 + r).
+/// Both orbits with one impact every k periods of the platform. They are born together, at the fold at
+/// Gamma = k (1 - r)/(1 + r).
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PeriodOnePair {

@@ -138,7 +138,7 @@ impl Flights {
         }
     }
 
-    /// Sets the next launch of a lane; its last impact is forgotten.
+    /// Sets the next launch of a lane; its last impact is discarded.
     pub fn set_launch(&mut self, lane: usize, launch: Launch) {
         if let Some(batch) = self.batches.get_mut(lane / LANES) {
             batch.set_launch(lane % LANES, launch.phase(), launch.relative_speed());
@@ -328,7 +328,7 @@ mod tests {
         }
     }
 
-    /// Launches about as fast as the platform at its fastest, that may dip below it between separation and
+    /// Launches about as fast as the platform at its fastest; they may dip below it between separation and
     /// crest.
     #[test]
     fn launches_that_dip_are_those_of_single_flights() {

@@ -1,10 +1,10 @@
 //! Both Lyapunov exponents of an orbit, by QR, with the standard error of the largest, or the reason why
 //! there are none.
 //!
-//! If the image of the first direction has the length l, the second may be as long, with an orthogonal part
-//! det/l. Near a graze l and det grow like 1/v', so det/l stays of the order r^2 |v| with an error 1e-16 l,
-//! that is 1e-16/|v'| for each impact. The frequency of such impacts is proportional to their speed, and the
-//! mean of ln|v'| is finite, so the sum of the two exponents has an error of about 1e-13.
+//! If the image of the first direction has the length l, the image of the second may be as long, with an
+//! orthogonal part det/l. Near a graze l and det grow like 1/v', so det/l stays of the order r^2 |v| with an
+//! error 1e-16 l, that is 1e-16/|v'| for each impact. The frequency of such impacts is proportional to their
+//! speed, and the mean of ln|v'| is finite, so the sum of the two exponents has an error of about 1e-13.
 
 use core::ops::ControlFlow;
 

@@ -25,7 +25,7 @@ const ROUNDINGS: f64 = 8.0;
 pub(super) struct Value {
     pub(super) value: f64,
     pub(super) rounding: f64,
-    /// The time (rad) from the launch to the minimum of the gap; 0 without one.
+    /// The time (rad) from the launch to the minimum of the gap; 0 if there is none.
     pub(super) after: f64,
 }
 

@@ -10,7 +10,7 @@ use pulp::WithSimd;
 pub enum InstructionSet {
     /// The instructions of every processor of the compilation target (SSE2 on x86-64).
     Baseline,
-    /// The fixed-width vectors of WebAssembly, where it is compiled for them: two lanes at once.
+    /// The fixed-width vectors of WebAssembly, if it is compiled for them: two lanes at once.
     Simd128,
     /// AVX2: four lanes at once.
     Avx2,

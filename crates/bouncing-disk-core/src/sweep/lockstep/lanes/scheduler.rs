@@ -348,7 +348,8 @@ impl<Rows> Queue<Rows> {
         k
     }
 
-    /// Takes flights of a batch from `lanes` until none is left or no room; `set` gets the place of each.
+    /// Takes flights of a batch from `lanes` until no lane is left or there is no room; `set` receives the
+    /// place of each.
     #[inline(always)]
     pub(super) fn fill(
         &mut self,
