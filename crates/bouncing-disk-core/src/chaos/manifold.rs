@@ -94,7 +94,7 @@ impl ManifoldSettings {
     }
 
     /// The same settings with another limit up to which a stable manifold is followed: the disk's own speed
-    /// |P cos tau - r v| after an impact (units of g/omega), finite and >= 0. The default is
+    /// after an impact, |P cos tau - r v| (units of g/omega), finite and >= 0. The default is
     /// [`ImpactMap::launch_speed_bound`]; smaller values count as that bound.
     ///
     /// No state within the limit is lost: backwards in time, a disk faster than the bound becomes ever
