@@ -9,8 +9,8 @@ use glam::DMat2;
 
 use crate::driven_map::{DrivenMap, DrivenOrbit};
 
-/// Bound on the rounding error of the end of a contact on a drive (rad), for a force that falls through zero
-/// at its slowest.
+/// Bound on the rounding error (rad) of the end of a contact on a drive, for a force that falls through zero
+/// as slowly as possible.
 const SEPARATION_ERROR: f64 = 1.0e-9;
 
 impl BouncingMap for DrivenMap {
@@ -44,7 +44,7 @@ impl BouncingMap for DrivenMap {
         self.chatters_to_rest_after(state)
     }
 
-    /// The flight is computed again, because an event does not contain its error.
+    /// The flight is computed again, because an event does not store the error of its flight.
     fn derivative(&self, from: ImpactState, to: ImpactState, _duration: f64) -> (DMat2, f64) {
         match self.step_with_derivative(from) {
             // There is no error bound for a compliant contact.

@@ -11,9 +11,9 @@ use bouncing_disk_core::{Error, Observer, Progress};
 use crate::driven_map::DrivenMap;
 use crate::family::DrivenFamily;
 
-/// The forcings at which an initial orbit is sought, in units of the forcing at which rigid impacts first
-/// have one. They rise from below in equal ratios, as compliant contacts have orbits there, and beyond 1 at
-/// doubling distances, as the orbit may soon lose its stability.
+/// The forcings at which an initial orbit is sought, in units of the forcing from which rigid impacts have
+/// such an orbit. Below 1, where compliant contacts have orbits, they rise in equal ratios; above 1 their
+/// distances from 1 double, because the orbit may soon lose its stability.
 const LOWEST: f64 = 0.5;
 const RATIO: f64 = 1.05;
 const NEAREST: f64 = 1.0e-4;
@@ -30,15 +30,15 @@ const STARTS: u32 = 16;
 const STEPS: (f64, f64) = (1.0e-3, 0.02);
 const MOST_POINTS: usize = 10_000;
 
-/// The largest forcing of a branch, in units of 1 and the lowest one.
+/// The largest forcing of a branch, divided by 1 plus the forcing from which rigid impacts have an orbit.
 const MOST: f64 = 20.0;
 
-/// The unit of the forcing is the first one, and at least this.
+/// The unit of the forcing is the forcing of the initial orbit, but at least this.
 const LEAST_UNIT: f64 = 0.1;
 
 /// The cascade of [`doubling_cascade`](bouncing_disk_core::orbits::doubling_cascade) on any drive and
-/// contact. `maps` gives the map for a forcing. The search follows the branches by continuation. The error of
-/// a forcing is the error of the trace over its slope; graze margins are unknown (NaN).
+/// contact. `maps` returns the map at a forcing. The search follows the branches by continuation. The error
+/// of a forcing is the error of the trace over its slope; graze margins are unknown (NaN).
 ///
 /// ```
 /// use bouncing_disk_core::Unobserved;
@@ -85,8 +85,8 @@ pub fn driven_doubling_cascade(
     Ok(DoublingCascade { doublings: doublings.collect(), ended_by })
 }
 
-/// An attracting orbit of one impact in one period at the lowest forcing that has one, and the forcing at
-/// which rigid impacts first have one, at the phase of fastest rise.
+/// An attracting orbit of one impact in one period at the lowest sampled forcing with such an orbit, and the
+/// forcing from which rigid impacts have one, at the phase of fastest rise.
 fn first_orbit(
     maps: impl Fn(f64) -> Option<DrivenMap> + Send + Sync + 'static,
     observer: &dyn Observer,

@@ -6,8 +6,8 @@
 //! x'' = -1 + F,   F = max(0, -k y - c y')  while y <= 0,   F = 0 while y > 0.
 //! ```
 //!
-//! A second law has no damper, but a spring that unloads at a lower stiffness than it loads, and holds still
-//! in between. Results on which both laws agree do not depend on the damping.
+//! A second law has no damper, but a spring that unloads at a lower stiffness than it loads, and does not
+//! move in between. Results on which both laws agree do not depend on the law of damping.
 //!
 //! Between two events the motion is a sum of polynomials and damped sines, and the events are first roots of
 //! such sums (docs/numerics-dynamics.md). The platform is a Fourier sum.
@@ -26,17 +26,17 @@ use crate::drive::Drive;
 use crate::drive::landing::{DrivenImpact, decided};
 use crate::quasi_polynomial::{DampedSine, QuasiPolynomial};
 
-/// Distance from critical damping below which damping counts as critical: the restitution differs by less
-/// than a rounding.
+/// Distance from critical damping below which damping counts as critical: the restitution then differs by
+/// less than its rounding error.
 const CRITICAL: f64 = 1.0e-8;
 
-/// Share of the loads by which a load must exceed the limit to move a spring that holds still: a load that
-/// touches the limit within rounding does not move it.
+/// Share of the loads by which a load must exceed the limit to move a spring at rest: a load at the limit to
+/// within rounding does not move it.
 const EDGE: f64 = 128.0 * f64::EPSILON;
 
-/// Relative difference below which two rates count as close: the difference of their exponentials is then an
-/// integral over the rates between them. The rule below evaluates it to rounding as long as the motion
-/// matters.
+/// Relative difference below which two rates count as close: the difference of their exponentials is then
+/// computed as an integral over the rates between them. The rule below evaluates this integral to rounding
+/// until the motion has become negligible.
 const NEAR: f64 = 3.0e-2;
 
 /// Nodes and weights of the Gauss-Legendre rule of four points on [-1, 1]; the weights add up to 1.
@@ -51,7 +51,7 @@ const GAUSS: [(f64, f64); 4] = [
 /// can be searched one by one.
 const FAST: f64 = 1.0e5;
 
-/// Share of the force below which a transient is rounding.
+/// Share of the force below which a transient counts as rounding error.
 const SETTLED: f64 = 1.0e-18;
 
 /// Stiffness and damping of a contact, in units of m omega^2 and m omega.
@@ -70,7 +70,7 @@ const SETTLED: f64 = 1.0e-18;
 pub struct Compliance {
     stiffness: f64,
     damping: f64,
-    /// The stiffness while it unloads.
+    /// The stiffness of the unloading spring.
     unloading: f64,
 }
 
@@ -78,24 +78,24 @@ pub struct Compliance {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum SpringState {
-    /// It loads; with a damper: it moves.
+    /// The spring loads; a spring with a damper is always in this state.
     Loading,
-    /// It unloads at its lower stiffness.
+    /// The spring unloads at its lower stiffness.
     Unloading,
-    /// Its force is between the loading and the unloading force: it holds still.
+    /// The spring does not move, because the load is between the unloading and the loading force.
     Held,
 }
 
 impl Compliance {
-    /// Least and largest restitution of a compliant contact. At a resonance free and forced oscillations,
-    /// 1/(1 - e) times as large as the platform's, cancel.
+    /// Least and largest restitution of a compliant contact. Closer to 1 too many digits would be lost at a
+    /// resonance, where free and forced oscillations 1/(1 - e) times as large as the platform's cancel.
     pub const RESTITUTIONS: [f64; 2] = [0.001, 1.0 - 1.0e-6];
 
     /// Least and largest contact time (rad).
     pub const CONTACT_TIMES: [f64; 2] = [1.0e-6, 1.0e4];
 
-    /// The contact for which an isolated impact without weight lasts for `contact_time` (rad), until the
-    /// force falls to zero, and has this restitution.
+    /// The contact in which an isolated impact, neglecting the disk's weight, has this restitution and lasts
+    /// for `contact_time` (rad) until the force falls to zero.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a contact time outside [1e-6, 1e4] rad, or a restitution outside
@@ -132,7 +132,7 @@ impl Compliance {
         Self { stiffness, damping, unloading: stiffness }
     }
 
-    /// The contact without a damper whose spring unloads at its stiffness times the square of the
+    /// The contact without a damper whose spring unloads at the loading stiffness times the square of the
     /// restitution.
     ///
     /// # Errors
@@ -162,8 +162,8 @@ impl Compliance {
         self.damping
     }
 
-    /// The share of its speed that an isolated impact without weight leaves when the force has fallen to
-    /// zero.
+    /// The ratio of the speeds at the end and the start of an isolated impact, which ends when the force has
+    /// fallen to zero; the disk's weight is neglected.
     #[must_use]
     pub fn restitution(&self) -> f64 {
         if self.is_hysteretic() {
@@ -173,7 +173,8 @@ impl Compliance {
         exp(-0.5 * self.damping * self.contact_time())
     }
 
-    /// The duration of an isolated impact without weight until the force has fallen to zero (rad).
+    /// The duration (rad) of an isolated impact until the force has fallen to zero; the disk's weight is
+    /// neglected.
     #[must_use]
     pub fn contact_time(&self) -> f64 {
         let frequency = self.stiffness.sqrt();
@@ -311,8 +312,8 @@ pub struct Touch {
     pub duration: f64,
     /// The number of times the phase has passed 0.
     pub turns: u64,
-    /// The state of the disk then: with zero gap, or with a negative gap if the force sets in again before
-    /// the spring is free.
+    /// The state of the disk then: with zero gap, or with a negative gap if the force returns before the
+    /// spring is free.
     pub state: RelativeState,
 }
 
@@ -414,7 +415,7 @@ impl CompliantPlatform {
     }
 
     /// The excess of the load over the force that is needed to move a disk at rest. For a disk that lies on
-    /// the platform without a force, this is more than [`Drive::holds`] counts as rounding.
+    /// the platform without a force, this exceeds the rounding that [`Drive::holds`] allows for.
     fn spare(&self, gap: f64) -> f64 {
         let bounds = self.drive.bounds();
         if gap == 0.0 {
@@ -674,8 +675,7 @@ impl Pressed {
         &self.from
     }
 
-    /// Whether the disk lies on the platform, which supports it to within rounding: time must pass before it
-    /// leaves.
+    /// Whether the disk lies on the platform, which supports it to within rounding: it cannot leave at once.
     fn is_put_down(&self) -> bool {
         let RelativeState { time, gap, velocity } = self.from;
         gap == 0.0 && velocity == 0.0 && self.platform.drive.holds(time)
@@ -774,7 +774,7 @@ impl Pressed {
         self.platform.spring_state(RelativeState { velocity: 0.0, ..state })
     }
 
-    /// The disk when the spring turns: it moves with the platform.
+    /// The disk when the spring turns, moving with the platform.
     #[must_use]
     pub fn turned(&self, after: f64) -> RelativeState {
         RelativeState { velocity: 0.0, ..self.after(after) }

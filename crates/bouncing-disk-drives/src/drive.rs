@@ -50,7 +50,7 @@ enum Shape {
     Pieces(Arc<Pieces>),
 }
 
-/// Heights, velocity, acceleration and third derivative of a platform at one time.
+/// Height, velocity, acceleration and third derivative of a platform at one time.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct DriveState {
@@ -68,9 +68,9 @@ pub struct DriveState {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct DriveBounds {
-    /// The platform is never lower.
+    /// Lower bound on the height.
     pub lowest: f64,
-    /// The platform is never higher; the bound is at most 1e-4 of the amplitudes above its highest point.
+    /// Upper bound on the height, at most 1e-4 of the amplitudes above the highest point.
     pub highest: f64,
     /// Bound on the speed.
     pub speed: f64,
@@ -176,8 +176,8 @@ impl Drive {
         }
     }
 
-    /// [`Self::at`], and `factor` times the derivative of this order (at most 2) from there on, if it is a
-    /// sum of sines.
+    /// [`Self::at`], and the terms of `factor` times the derivative of this order (at most 2) from there on,
+    /// if the drive is a sum of sines.
     pub(crate) fn at_with_terms(&self, time: f64, order: u32, factor: f64) -> (DriveState, Vec<DampedSine>) {
         let time = wrapped_angle(time);
         match &self.shape {
@@ -221,7 +221,7 @@ impl Drive {
     }
 
     /// The change of the velocity over a `span` >= 0 from `time`, without kinks; and the change of the height
-    /// minus the initial velocity times the span. Both have relative accuracy over a short span.
+    /// minus the initial velocity times the span. Both keep their relative accuracy over a short span.
     #[must_use]
     pub fn change(&self, time: f64, span: f64) -> (f64, f64) {
         if span >= TAU && self.next_joint(time).is_some() {
@@ -332,7 +332,8 @@ impl Drive {
         }
     }
 
-    /// The Fourier sum in which each harmonic is multiplied and advanced by `response` of its number.
+    /// The Fourier sum in which the amplitude of each harmonic is multiplied, and its phase advanced, by the
+    /// two values of `response` at its number.
     pub(crate) fn responding(&self, response: impl Fn(f64) -> (f64, f64)) -> Result<Self, Error> {
         let mut sum = [(0.0, 0.0); MAX_HARMONICS];
         if let Shape::Fourier(fourier) = &self.shape {
@@ -373,7 +374,7 @@ fn turned(number: f64, time: f64, angle: f64) -> (f64, f64) {
 }
 
 impl Harmonic {
-    /// Adds the harmonic at this time; its sine and cosine.
+    /// Adds the harmonic at this time; returns its sine and cosine.
     fn add(&self, time: f64, state: &mut DriveState) -> (f64, f64) {
         let &Self { number, amplitude, angle } = self;
         let (sin, cos) = turned(number, time, angle);
@@ -435,7 +436,8 @@ impl Fourier {
         DriveBounds { lowest, highest, ..self.bounds }
     }
 
-    /// Bounds on the height: between two samples it differs from the line between them by at most s'' d^2/8.
+    /// Bounds on the height: between two samples a distance d apart the height differs from their chord by at
+    /// most max|s''| d^2/8.
     fn height_bounds(&self) -> (f64, f64) {
         let count = 512.0 * self.highest_harmonic();
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);

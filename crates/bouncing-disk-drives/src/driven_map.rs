@@ -18,10 +18,10 @@ mod release;
 
 /// The vertical impact map of a disk with a constant restitution r on a [`Drive`].
 ///
-/// With a [compliant contact](Self::with_contact_time) it is the map from one release to the next, a release
-/// being the moment when the force falls to zero. A release at the speed v is represented by the impact with
-/// the velocity -v/r at the phase of the release, since a rigid impact would rebound in this way. Every fall
-/// of the force to zero counts, even if it sets in again before the spring is free.
+/// With a [compliant contact](Self::with_contact_time), this is the map from one release to the next, a
+/// release being the moment when the force falls to zero. A release at the speed v is represented by the
+/// impact with the velocity -v/r at the phase of the release, since a rigid impact would rebound in this way.
+/// Every fall of the force to zero counts, even if the force returns before the spring is free.
 ///
 /// ```
 /// use bouncing_disk_core::{ChatterPolicy, ImpactState, OrbitEvent};
@@ -107,8 +107,8 @@ impl DrivenMap {
         self.compliant.as_ref()
     }
 
-    /// The impact after the one in `state`, without any chattering policy. With a compliant contact its
-    /// duration includes the contact, and its error is infinite because no bound is known.
+    /// The impact after the one in `state`, without any chattering policy. With a compliant contact, the
+    /// duration includes the contact, and the stated error is infinite because no bound is known.
     ///
     /// # Errors
     /// [`Error::NoLiftOff`] if the disk stays on the platform, and errors of [`Drive::first_impact`].
@@ -173,7 +173,7 @@ impl DrivenMap {
     }
 
     /// The orbit of a disk in the air, `gap` >= 0 above the platform at `time`, with this velocity relative
-    /// to it. With zero gap it leaves the platform with this velocity, which must be >= 0.
+    /// to it. With zero gap, the disk leaves the platform with this velocity, which must be >= 0.
     ///
     /// # Errors
     /// Errors of [`Drive::first_impact_from`].
@@ -241,8 +241,8 @@ impl DrivenOrbit {
         &self.map
     }
 
-    /// Time and relative speed of the next launch: `None` if the disk is about to attach or rests, or the
-    /// orbit has ended.
+    /// Time and relative speed of the next launch; `None` if the disk is about to attach or is at rest, or if
+    /// the orbit has ended.
     #[must_use]
     pub const fn launch(&self) -> Option<(f64, f64)> {
         match self.next {
@@ -251,7 +251,7 @@ impl DrivenOrbit {
         }
     }
 
-    /// Sets the speed >= 0 of the next launch (a perturbation of a relaunch); ignored if none is due.
+    /// Sets the speed >= 0 of the next launch (a perturbation of a relaunch); ignored if no launch is due.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a negative or infinite speed.

@@ -1,4 +1,4 @@
-//! The closed sequences of flights on the maps of a drive that differ in one number or two.
+//! Closed sequences of flights in a family of driven maps that differ in one or two numbers.
 
 use core::f64::consts::TAU;
 use core::fmt::{self, Debug, Formatter};
@@ -13,18 +13,18 @@ use glam::{DMat2, DVec2};
 use crate::drive::Drive;
 use crate::driven_map::DrivenMap;
 
-/// The step, in units of the number, of the differences that give the derivative of the equations by the
-/// number. Their error slows Newton's method but does not move the solution. Near a point at which a force
-/// only touches zero, the map is as curved as a square root.
+/// The step, in units of the number, of the finite differences that approximate the derivative of the
+/// equations with respect to the number. Their error slows Newton's method but does not move the solution.
+/// Near a point at which a force just touches zero, the map varies like a square root.
 const DIFFERENCE: f64 = 1.0e-9;
 
-/// Ratio of two changes above which they do not belong to one curve.
+/// Two changes whose ratio is above this do not belong to one curve.
 const BROKEN: f64 = 10.0;
 
-/// Distance from a joint (rad) below which an impact counts as on it.
+/// An impact closer to a joint than this distance (rad) counts as on the joint.
 const ON_JOINT: f64 = 1.0e-9;
 
-/// Share of the bound on the acceleration below which a jump counts as none.
+/// A jump of the acceleration below this share of its bound is ignored.
 const JUMP: f64 = 1.0e-9;
 
 /// Size above which a derivative counts as infinite.
@@ -55,7 +55,7 @@ pub struct DrivenFamily {
     map: DrivenMap,
     numbers: [f64; 2],
     units: [f64; 2],
-    /// Whether the maps differ in the second number, too.
+    /// Whether the maps also differ in the second number.
     is_of_two: bool,
     maps: Arc<dyn Fn([f64; 2]) -> Option<DrivenMap> + Send + Sync>,
 }
@@ -70,7 +70,7 @@ impl Debug for DrivenFamily {
     }
 }
 
-/// Whether both have the same map now.
+/// Two families are equal if their present maps, numbers and units are.
 impl PartialEq for DrivenFamily {
     fn eq(&self, other: &Self) -> bool {
         (&self.map, self.numbers, self.units) == (&other.map, other.numbers, other.units)
@@ -78,9 +78,8 @@ impl PartialEq for DrivenFamily {
 }
 
 impl DrivenFamily {
-    /// The family of the maps for a number, whose present value is `number`; `maps` returns `None` if there
-    /// is no map. In the arclength of a branch a change of the number by `unit` > 0 counts as much as a
-    /// radian.
+    /// The family of maps over a number, whose present value is `number`; `maps` returns `None` if there is
+    /// no map. In the arclength of a branch, a change of the number by `unit` > 0 counts as much as a radian.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if there is no map now, or for a unit that is not positive and finite.
@@ -93,7 +92,7 @@ impl DrivenFamily {
         Ok(Self { is_of_two: false, ..family })
     }
 
-    /// The same with two numbers, for curves of bifurcations over both
+    /// A family over two numbers, for curves of bifurcations in their plane
     /// ([`Branch::curve`](bouncing_disk_core::orbits::Branch::curve)).
     ///
     /// ```
@@ -141,7 +140,7 @@ impl DrivenFamily {
         Self { units: [unit, self.units[1]], ..self }
     }
 
-    /// The numbers with another value of one.
+    /// The two numbers, with one of them replaced.
     fn numbers_with(&self, by: ContinuationParameter, value: f64) -> [f64; 2] {
         let [first, second] = self.numbers;
         if by == ContinuationParameter::SecondNumber { [first, value] } else { [value, second] }
@@ -163,8 +162,8 @@ impl DrivenFamily {
         DVec2::new(from.y - 0.5 * h - slope, law)
     }
 
-    /// The change of the residual with the number, from the maps below, at and above it. If the three do not
-    /// lie on one curve, as near a graze, the closer two are used.
+    /// The derivative of the residual with respect to the number, from the maps below, at and above its
+    /// value. If the three residuals do not lie on one curve, as near a graze, the two closer ones are used.
     fn by_number(maps: &[(f64, DrivenMap)], from: DVec2, to: DVec2, h: f64) -> DVec2 {
         let mut steps = maps.windows(2).map(|pair| {
             let change = Self::residual(&pair[1].1, from, to, h) - Self::residual(&pair[0].1, from, to, h);
@@ -200,8 +199,8 @@ fn mean_slope(drive: &Drive, from: f64, to: f64, h: f64) -> f64 {
     drive.velocity(from) + drive.change(from, h).1 / h
 }
 
-/// The distance by which the release after the one at `from` misses the one at `to`, and its derivative by
-/// the first.
+/// The distance by which the release after the one at `from` misses the one at `to`, and its derivative with
+/// respect to `from`.
 fn released(map: &DrivenMap, from: DVec2, to: DVec2, h: f64) -> Option<(DVec2, DMat2)> {
     let state = ImpactState::new(Phase::new(from.x).ok()?, from.y).ok()?;
     let (landing, derivative) = map.step_with_derivative(state).ok()?;
@@ -302,7 +301,7 @@ impl ClosingMap for DrivenFamily {
         (0..n).map(one).collect()
     }
 
-    /// True if the force of a compliant contact only touches zero.
+    /// True if the force of a compliant contact just touches zero.
     fn is_torn_after(&self, state: ImpactState) -> bool {
         let is_infinite = |derivative: DMat2| {
             let most = derivative.x_axis.abs().max_element().max(derivative.y_axis.abs().max_element());

@@ -1,11 +1,11 @@
 //! Platforms with arbitrary periodic motion, and compliant contacts, for the analyses of
 //! [`bouncing_disk_core`].
 //!
-//! A [`Drive`] is the height of a platform over one period: a Fourier sum, or pieces of polynomials. A
-//! [`DrivenMap`] is the impact map of a disk on it, with rigid impacts or a [compliant contact](compliance):
-//! verdicts, exponents, attractors, basins and diagrams accept it like the map of the sine. A
-//! [`DrivenFamily`] can be continued in any of its parameters. Lengths, times and speeds are dimensionless,
-//! as in the core.
+//! A [`Drive`] is the height of a platform over one period: a Fourier sum, or polynomial pieces. A
+//! [`DrivenMap`] is the impact map of a disk on it, with rigid impacts or a [compliant contact](compliance).
+//! The analyses of verdicts, exponents, attractors, basins and diagrams accept this map like the map of the
+//! sine. A [`DrivenFamily`] can be continued in any of its parameters. Lengths, times and speeds are
+//! dimensionless, as in the core.
 //!
 //! ```
 //! use bouncing_disk_core::attractors::{AttractorSearch, Attractors};
@@ -26,7 +26,7 @@
 //! | [`drive`] | the motions of a platform, and the first impact on them |
 //! | [`compliance`] | compliant contacts |
 //!
-//! The methods are in docs/numerics-impacts.md and docs/numerics-dynamics.md.
+//! The methods are described in docs/numerics-impacts.md and docs/numerics-dynamics.md.
 
 mod analyses;
 mod cascade;

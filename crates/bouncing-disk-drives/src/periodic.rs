@@ -1,4 +1,4 @@
-//! Periodic orbits on a drive: Newton's method by multiple shooting, and a search from a grid of starts
+//! Periodic orbits on a drive: Newton's method with multiple shooting, and a search from a grid of starts
 //! (docs/numerics-impacts.md, "Periodic orbits").
 
 use core::f64::consts::TAU;
@@ -20,26 +20,28 @@ use crate::driven_map::DrivenMap;
 mod fold;
 mod one_impact;
 
-/// A shooting residual (rad, relative speed) at which an orbit counts as found, if it no longer shrinks.
+/// The shooting residual (rad, relative speed) below which an orbit counts as found if the residual no longer
+/// shrinks.
 const SHOOTING_RESIDUAL: f64 = 1.0e-11;
 
-/// A generous bound on the error of one step of the map (rad, relative speed): the error of its phase.
+/// A generous bound on the error of one step of the map (rad, relative speed), which is the error of the
+/// phase.
 const MAP_ROUNDING: f64 = 1.0e-14;
 
 /// Largest distance (rad) between the end of an iteration and its one-impact orbit: near a fold it is the
 /// square root of the residual.
 const REACH: f64 = 1.0e-3;
 
-/// Distance (rad, and relative speed) within which an orbit repeats a shorter one near the doubling of its
-/// birth: the square root of |1 - T + D|.
+/// Distance (rad, and relative speed) within which an orbit near the doubling at which it is born repeats the
+/// shorter orbit: the square root of |1 - T + D|.
 const DOUBLED: f64 = 0.1;
 
-/// The position error (rad) up to which the end of an iteration is kept in spite of the exact phase.
+/// The position error (rad) up to which the end of an iteration is kept although the exact phase is known.
 const EXACT: f64 = 1.0e-12;
 
 impl DrivenMap {
     /// The periodic orbit near `guess` (its impacts in order), with its multipliers. Its errors are
-    /// estimates: the effects of a rounding of each impact on the orbit and on the trace.
+    /// estimates: the effects of rounding each impact on the orbit and on the trace.
     ///
     /// Near a fold an iteration may end where there is no orbit. An orbit is returned only if it exists
     /// beyond rounding, or as [`Marginal`](bouncing_disk_core::orbits::Stability::Marginal) if rounding
@@ -81,20 +83,19 @@ impl DrivenMap {
         orbit.check_motion().map(|()| orbit)
     }
 
-    /// The periodic orbits that Newton's method finds from the first impacts of the orbits of a grid of
-    /// starts: all of them only if the grid is fine enough. Orbits with an impact on a kink have no
-    /// multipliers and are omitted, and so are orbits that come to rest. With rigid impacts the one-impact
-    /// orbits follow from the phases at which the platform has the right velocity, and are complete. A
-    /// family, as on a triangle, is represented by one member, whose position error is the length of the
-    /// family.
+    /// The periodic orbits that Newton's method finds, starting from the first impacts of orbits on a grid of
+    /// starts. The list is complete only if the grid is fine enough. Orbits with an impact on a kink have no
+    /// multipliers and are omitted, as are orbits that come to rest. With rigid impacts, the one-impact
+    /// orbits follow from the phases at which the platform has the required velocity, and all of them are
+    /// found. A family, as on a triangle, is represented by one member, whose position error is the length of
+    /// the family.
     ///
     /// They are sorted like [`OrbitsFound`](bouncing_disk_core::orbits::OrbitsFound): by number of impacts,
-    /// then of platform periods, then by decreasing speed of their fastest impact, which is the first of
-    /// each.
+    /// then of platform periods, then by decreasing speed of the fastest impact. Each orbit begins with its
+    /// fastest impact.
     ///
-    /// Near a fold the result contains both orbits, or none, or one
-    /// [marginal](bouncing_disk_core::orbits::Stability::Marginal) orbit if rounding decides whether they
-    /// exist.
+    /// Near a fold the result contains both orbits or neither; if rounding decides whether they exist, it
+    /// contains one [marginal](bouncing_disk_core::orbits::Stability::Marginal) orbit.
     ///
     /// The items of `observer` are the starts.
     ///
@@ -132,14 +133,16 @@ impl DrivenMap {
         Ok(catalogue.into_sorted_with(of_one))
     }
 
-    /// The one-impact orbits by their phases; `None` for compliant contacts, for which these are unknown.
+    /// The one-impact orbits from their phases; `None` for compliant contacts, for which the phases are
+    /// unknown.
     fn one_impact(&self, platform_periods: RangeInclusive<u64>) -> Option<OneImpact> {
         self.compliant().is_none().then(|| OneImpact::of(self, platform_periods))
     }
 
-    /// No impact of a periodic orbit is faster: from w the disk rises with at most V + r w, falls by the
-    /// height of the platform more than it rises, and hits the platform moving at V. This holds for rigid
-    /// impacts; for a compliant contact it is the range of the starts of a search.
+    /// A bound on the impact speeds of periodic orbits. After an impact at the relative speed w the disk
+    /// rises at no more than V + r w, V the platform's largest speed. It then falls by at most the platform's
+    /// range of heights more than it rises, and hits the platform, which moves at no more than V. The bound
+    /// holds for rigid impacts; for a compliant contact it only limits the starts of a search.
     #[must_use]
     pub fn impact_speed_bound(&self) -> f64 {
         let (r, bounds) = (self.restitution(), self.drive().bounds());
@@ -148,7 +151,7 @@ impl DrivenMap {
         (speed + (speed * speed + 2.0 * fall * lost).sqrt()) / lost
     }
 
-    /// The orbits to which the first impacts of one orbit lead, each with its fastest impact first.
+    /// The orbits found from the first impacts of one orbit, each with its fastest impact first.
     fn orbits_from(
         &self,
         start: ImpactState,
@@ -173,7 +176,7 @@ impl DrivenMap {
         orbits
     }
 
-    /// The end of an iteration, or of the shorter orbit that it repeats.
+    /// The orbit at the end of an iteration, or the shorter orbit that it repeats.
     fn prime(&self, end: Result<PeriodicOrbit, Error>) -> Result<PeriodicOrbit, Error> {
         let end = end?;
         let prime = prime_period_of(&end);
@@ -192,8 +195,8 @@ impl DrivenMap {
         Some(orbit)
     }
 
-    /// The orbits that exist at the end of an iteration or near it at a fold, nearest first. Away from folds
-    /// this is the end itself.
+    /// The orbits that exist at the end of an iteration or, at a fold, near it; nearest first. Away from
+    /// folds this is the end itself.
     fn existing(&self, end: PeriodicOrbit, one_impact: Option<&OneImpact>) -> Vec<PeriodicOrbit> {
         if let Some(all) = one_impact.filter(|_| end.period() == 1) {
             if let Some(member) = all.member(self, &end) {
@@ -227,7 +230,7 @@ impl DrivenMap {
         }
     }
 
-    /// Whether an orbit nearly repeats its half, which is near its doubling.
+    /// Whether an orbit nearly repeats its first half, and the orbit of this half is near its doubling.
     fn is_beside_its_doubling(&self, end: &PeriodicOrbit) -> bool {
         let half = prime_period(&end.states, DOUBLED);
         2 * half == end.period()
@@ -236,7 +239,7 @@ impl DrivenMap {
                 .is_ok_and(|half| next_to_margin(half.monodromy, half.determinant()).1)
     }
 
-    /// An orbit near the doubling of its birth, which is not a member of a pair. Its weak direction has
+    /// An orbit near the doubling at which it is born; it is not a member of a pair. Its weak direction has
     /// opposite signs in both halves, so roundings of one sign do not move it.
     fn doubled(&self, end: PeriodicOrbit) -> PeriodicOrbit {
         let Ok(shooting) = self.shoot(&end.states) else { return end };
@@ -256,8 +259,9 @@ impl DrivenMap {
         PeriodicOrbit { position_error, trace_error, ..end }
     }
 
-    /// Whether the condition of Newton and Kantorovich holds: over twice the error of an orbit its trace
-    /// changes by less than half of 1 - T + D. Away from folds it can fail only if the acceleration may jump.
+    /// Whether the condition of Newton and Kantorovich holds: within twice the error of an orbit, the trace
+    /// changes by less than half of 1 - T + D. Away from folds the condition can fail only if the
+    /// acceleration may jump.
     fn keeps_its_derivative(&self, orbit: &PeriodicOrbit) -> bool {
         if self.drive().next_joint(0.0).is_none() {
             return true;

@@ -1,14 +1,15 @@
-//! The certain first root of a polynomial of degree at most 3 plus damped sines.
+//! The first root, proven to be the first, of a function that is a polynomial of degree at most 3 plus damped
+//! sines.
 //!
-//! A step from t is certain where the cubic Taylor polynomial less the largest remainder M4 h^4/24 stays
-//! above zero; a root is certain to be the first one where the cubic plus that remainder ends below zero on a
-//! stretch on which the function falls, or is concave, all the way (docs/numerics-impacts.md, "The first root of a
-//! polynomial and damped sines").
+//! Let G be the function, and M4 a bound on its fourth derivative. A step h from t is certain to pass no root
+//! if the cubic Taylor polynomial minus the largest remainder M4 h^4/24 stays above zero. A root is certain
+//! to be the first one if the cubic plus that remainder ends below zero, and the function falls or is concave
+//! over the whole step (docs/numerics-impacts.md, "The first root of a polynomial and damped sines").
 //!
-//! Next to a simple root a step leaves at most a fifth of the way. Next to a minimum of height m it leaves a tenth
-//! of the way until the way is of the order sqrt(m/G''), so that the rounding e bounds the number of steps by a
-//! multiple of log(1/e). Far from roots a step is at least (G/M4)^(1/4). The campaign on drives needed 880
-//! evaluations at most.
+//! Near a simple root a step leaves at most a fifth of the distance to it. Near a minimum of height m, a step
+//! leaves a tenth of the distance until this is of the order sqrt(m/G''), so that the rounding error e bounds
+//! the number of steps by a multiple of log(1/e). Far from roots a step is at least (G/M4)^(1/4). The
+//! campaign on drives needed 880 evaluations at most.
 
 use core::ops::{Add, Mul};
 
@@ -16,15 +17,15 @@ use bouncing_disk_core::Error;
 use bouncing_disk_core::numerics::elementary::{exp, sin_cos, sine_deficit_ratio, versine_ratio};
 use bouncing_disk_core::parts::{finite, within};
 
-/// Rounding of the terms of an evaluation, in units of their sizes: about 30 roundoffs, of which about 6 are
-/// used.
+/// Rounding of the terms of an evaluation, relative to their sizes: about 30 roundoffs, of which about 6 are
+/// needed.
 const ROUNDING: f64 = 32.0 * 1.110_223_024_625_156_5e-16;
 
 /// Evaluations after which a search reports [`Error::NoConvergence`].
 const MAX_EVALUATIONS: u32 = 100_000;
 
-/// Largest last correction of a root, by the Taylor cubic, as a share of the time; over it the slope may
-/// change by at most the same share.
+/// Largest last correction of a root, by the Taylor cubic, as a share of the time. Over this correction the
+/// slope may change by at most the same share.
 const LAST_STEP: f64 = 1.0e-2;
 
 /// exp(-d t) (c cos w t + s sin w t), or t times it.
@@ -57,7 +58,8 @@ impl DampedSine {
         Ok(())
     }
 
-    /// The real part of (c - i s) (re + i im): the term is that of (c - i s) exp(z), z = (i w - d) t.
+    /// The real part of (c - i s) (re + i im): the term is the real part of (c - i s) exp(z), z = (i w - d)
+    /// t.
     fn part(&self, (re, im): (f64, f64)) -> f64 {
         self.cosine * re + self.sine * im
     }
@@ -188,8 +190,8 @@ pub struct Jet {
 
 /// A polynomial of degree at most 3 plus damped sines.
 ///
-/// It is stored as its value and slope at t = 0, and its terms less their own value and slope there. So a
-/// function that starts at zero keeps its relative accuracy arbitrarily close to the start.
+/// The function is stored as its value and slope at t = 0, and its terms minus their own value and slope
+/// there. So a function that starts at zero keeps its relative accuracy arbitrarily close to the start.
 ///
 /// ```
 /// use bouncing_disk_core::numerics::elementary::{exp, sin};
@@ -214,9 +216,9 @@ pub struct QuasiPolynomial {
     sizes: [f64; 3],
     /// The fourth derivative of the undamped terms without t.
     steady_fourth: f64,
-    /// Constant and slope of the line, if the function is this line plus the terms. Far from the start it is
-    /// evaluated in this form, because the polynomial with the given value and slope at the start has a
-    /// larger rounding error.
+    /// Constant and slope of the line, if the function is this line plus the terms. Far from the start the
+    /// function is evaluated in this form, because the polynomial with the given value and slope at the start
+    /// has a larger rounding error.
     line: Option<[f64; 2]>,
 }
 
@@ -232,8 +234,8 @@ pub struct Root {
     pub error: f64,
     /// The slope at the root.
     pub slope: f64,
-    /// Zero; or a bound on the function's magnitude at the root, if within the error it may only touch zero
-    /// or miss it.
+    /// Zero; or a bound on the function's magnitude at the root, if within the error the function may just
+    /// touch or miss zero.
     pub doubt: f64,
     /// Evaluations of the function.
     pub evaluations: u32,
@@ -249,8 +251,8 @@ pub enum FirstRoot {
         /// Evaluations of the function.
         evaluations: u32,
     },
-    /// The function comes as near to zero as its rounding, and leaves again: rounding hides whether there is
-    /// a root.
+    /// The function comes within its rounding error of zero, and leaves again: rounding hides whether there
+    /// is a root.
     Undecided {
         /// The time at which it is lowest.
         at: f64,
@@ -310,8 +312,8 @@ impl QuasiPolynomial {
         Self { start, start_error, bend: 2.0 * c2, third: 6.0 * c3, terms, sizes, steady_fourth, line: None }
     }
 
-    /// The function with the same second derivative, from another value and slope at t = 0, known to these
-    /// errors.
+    /// The function with the same second derivative, but with another value and slope at t = 0, known to
+    /// these errors.
     #[must_use]
     pub fn starting_with(self, start: [f64; 2], start_error: [f64; 2]) -> Self {
         Self { start, start_error, line: None, ..self }
@@ -443,8 +445,8 @@ impl QuasiPolynomial {
         jet
     }
 
-    /// The integral from 0 to t of the product with another function, in closed form; `None` unless both are
-    /// a line and damped sines without a factor t.
+    /// The integral from 0 to t of the product with another function, in closed form; `None` unless each
+    /// function is a line plus damped sines without a factor t.
     #[must_use]
     pub fn product_integral(&self, other: &Self, t: f64) -> Option<f64> {
         let ([a0, a1], [b0, b1]) = (self.line?, other.line?);
@@ -602,7 +604,7 @@ fn all_negative<const N: usize>(bernstein: [f64; N], rounding: f64) -> bool {
     bernstein.iter().all(|&b| b < -rounding)
 }
 
-/// Rounding of the sums below, in units of their terms.
+/// Rounding of the sums in the conditions below, relative to their terms.
 const SUM_ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 impl Jet {
@@ -705,8 +707,8 @@ impl Jet {
         if next > 0.5 * h && next < 2.0 * h { next } else { h }
     }
 
-    /// Whether a function that starts at zero returns after `h` before its bend has changed by a rounding:
-    /// the products of a search would underflow.
+    /// Whether a function that starts at zero returns after `h`, before its second derivative has changed by
+    /// more than rounding; the products of a search would then underflow.
     fn is_brief(&self, h: f64) -> bool {
         let (change, rest) = (self.third.abs() * h, self.fourth * h * h);
         if self.slope > 0.0 {
@@ -716,8 +718,8 @@ impl Jet {
         }
     }
 
-    /// The error bound of the root near here. If the slope may vanish within this distance, also the bound on
-    /// the value: then there may be another root, or none.
+    /// The error bound of a nearby root, and a bound on the value: zero unless the slope may vanish within
+    /// this error, so that there may be another root or none.
     pub(crate) fn root_error(&self) -> (f64, f64) {
         let Self { error, slope, bend, third, fourth, .. } = *self;
         let steep = 2.0 * error / slope.abs();

@@ -1,13 +1,14 @@
-//! A disk in contact with a platform of arbitrary motion: when it leaves, and when a chatter brings it to
-//! rest.
+//! A disk in contact with a platform of arbitrary motion: when the disk leaves, and when chattering brings it
+//! to rest.
 //!
-//! If the flight from the end of a contact ended at once, the disk would rest at the same time, leave again, and
-//! alternate for ever: the end of the contact and the flight decide by different roundings. That can happen if the
-//! force comes down to zero within its rounding e = 1e-12 (1 + max|s''|) + 4 u (2 pi + t) max|s'''| and rises
-//! again. So a contact ends by the force only if the force gets below -e. It does if it is there already; if it
-//! falls at a rate c > sqrt(2 e M), M a bound on s'''', and so by c^2/(2 M) > e; or, in pieces, if the end of the
-//! piece is below -e. The flight then lasts for 4 c/M and more, far above a rounding of the time. A shallower dip
-//! presses on, up to a fall through -2 e.
+//! If the flight from the end of a contact ended at once, the disk would rest at the same time, leave again,
+//! and alternate for ever, because contact and flight are computed with different rounding errors. That can
+//! happen if the force falls to zero within its rounding error e = 1e-12 (1 + max|s''|) + 4 u (2 pi + t)
+//! max|s'''| and rises again. So the force ends a contact only if it certainly falls below -e. This is
+//! certain if the force is already below -e, or if it falls at a rate c > sqrt(2 e M), where M bounds s'''',
+//! and hence by at least c^2/(2 M) > e. On pieces it is also certain if the force at the end of the piece is
+//! below -e. The flight then lasts for at least 4 c/M, far longer than the rounding of the time. In a
+//! shallower dip the contact continues until the force falls through -2 e.
 
 use core::f64::consts::TAU;
 
@@ -19,7 +20,7 @@ use bouncing_disk_core::parts::{Surface, finite};
 use super::{Drive, DriveBounds, ROUNDING, Shape, TimeAhead};
 use crate::quasi_polynomial::{FirstRoot, QuasiPolynomial};
 
-/// Share of its terms below which a pull may be their rounding.
+/// A pull below this share of its terms may be rounding error.
 const DOUBTFUL_PULL: f64 = 1.0e-12;
 
 impl Drive {
@@ -48,8 +49,8 @@ impl Drive {
         self.acceleration(time) >= -1.0 || !self.leaves(time)
     }
 
-    /// Whether the force is below zero by more than a rounding, or will be. The flight then lasts longer than
-    /// a rounding of the time, so a contact and a flight cannot alternate at one instant.
+    /// Whether the force is, or will be, below zero by more than its rounding error. The flight then lasts
+    /// longer than the rounding of the time, so contact and flight cannot alternate at one instant.
     fn leaves(&self, time: f64) -> bool {
         let time = wrapped_angle(time);
         match &self.shape {
@@ -63,7 +64,7 @@ impl Drive {
         }
     }
 
-    /// The end, by its force, of a contact with a Fourier sum.
+    /// The end of a contact with a Fourier sum, at which the force falls to zero.
     fn separation(&self, time: f64, limit: f64) -> Result<Option<TimeAhead>, Error> {
         if self.bounds().acceleration <= 1.0 {
             return Ok(None);
@@ -84,11 +85,12 @@ impl Drive {
     }
 
     /// The time from a launch at `time` with relative `speed` to the rest after infinitely many impacts, if a
-    /// bound on the acceleration proves that the platform pulls the disk until then, and no kink hits it.
+    /// bound on the acceleration proves that the pull stays positive until then, and there is no kink before.
     ///
-    /// With the pull A = 1 + s'' and its derivative B the sum of the flights is 2 w/(A (1 - r)) [1 - (2/3) B
-    /// w/(A^2 (1 - r))] plus higher terms. For any pull between A1 and A2 a flight from w returns after 2
-    /// w/A2 to 2 w/A1 with a speed from w/q to w q, q = sqrt(A2/A1), which bounds the sum from both sides.
+    /// For a launch at w, with the pull A = 1 + s'' and its derivative B, the sum of the flights is 2 w/(A (1 -
+    /// r)) [1 - (2/3) B w/(A^2 (1 - r))] plus higher terms. If the pull is between A1 and A2, a flight
+    /// launched at w returns after 2 w/A2 to 2 w/A1 with a speed from w/q to w q, q = sqrt(A2/A1). This
+    /// bounds the sum from both sides.
     #[must_use]
     pub fn chatter_duration(&self, time: f64, speed: f64, restitution: f64) -> Option<ChatterDuration> {
         let here = self.at(time);
@@ -143,7 +145,7 @@ impl Surface for Drive {
 }
 
 impl DriveBounds {
-    /// The value below which a pull may be the rounding of its terms, or of the time.
+    /// The value below which a pull may be due to the rounding of its terms or of the time.
     pub(crate) fn doubtful_pull(&self, time: f64) -> f64 {
         DOUBTFUL_PULL * (1.0 + self.acceleration) + ROUNDING * (TAU + time.abs()) * self.jerk
     }

@@ -17,8 +17,8 @@ type Candidate = (f64, f64);
 
 impl Drive {
     /// The phase in [0, 2 pi) at which the platform is lowest: 3 pi/2 for a sine. If it is lowest more than
-    /// once in a period, the result is the first of these phases, which depends on the start of the period: a
-    /// recording of two equal minima that begins between them gives the other one. If the platform stays
+    /// once in a period, the result is the first of these phases, which depends on where the period starts:
+    /// for a recording that begins between two equal minima it is the other minimum. If the platform stays
     /// lowest for a while, the result is the start of this interval. Heights that differ by rounding count as
     /// equal. 0 for a platform that does not move.
     ///
@@ -105,7 +105,7 @@ impl Fourier {
         first_least(self.minima(|at| (at.height, at.velocity), self.bounds.acceleration), size, 0.0)
     }
 
-    /// The maxima of the velocity that may be the largest.
+    /// The maxima of the velocity that may be its largest value.
     fn rises(&self) -> Vec<Candidate> {
         if let [harmonic] = &self.harmonics[..] {
             let phase = wrapped_angle(self.lowest_phase() + FRAC_PI_2 / harmonic.number);
@@ -126,9 +126,9 @@ impl Fourier {
         }
     }
 
-    /// The minima of this value, given with its slope, that may be the smallest. If `bend` bounds its second
-    /// derivative, the value at a minimum is at most bend d^2/8 below the value at the nearest of samples d
-    /// apart.
+    /// The minima that may be the smallest value of a function, which `of` returns with its slope. If `bend`
+    /// bounds the second derivative, a minimum is at most bend d^2/8 below the nearest of samples a distance
+    /// d apart.
     fn minima(&self, of: impl Fn(&DriveState) -> (f64, f64), bend: f64) -> Vec<Candidate> {
         if self.harmonics.is_empty() {
             return Vec::new();
@@ -216,7 +216,7 @@ mod tests {
         drive.expect("legal")
     }
 
-    /// Of many phases none is lower or faster, and each extreme is attained.
+    /// At none of many phases is the platform lower or faster, and it attains each extreme.
     #[test]
     fn no_other_phase_is_lower_or_faster() {
         for k in 0..120 {

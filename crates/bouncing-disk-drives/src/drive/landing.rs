@@ -1,9 +1,9 @@
 //! The first impact of a disk on a platform of arbitrary motion.
 //!
-//! While the disk's parabola is above the highest point of the platform no search is needed. A flight has two
-//! windows, before it rises above that height and after it comes down to it. In each window the gap is
-//! counted from the start of the window, so a brief flight keeps its relative accuracy
-//! (docs/numerics-impacts.md).
+//! While the disk's parabola is above the highest point of the platform, no search is needed. That leaves two
+//! windows: before the disk rises above that height, and after it returns there. In each window the gap is
+//! computed from its value and slope at the start of the window, so a brief flight keeps its relative
+//! accuracy (docs/numerics-impacts.md).
 
 use core::f64::consts::TAU;
 
@@ -15,8 +15,8 @@ use bouncing_disk_core::{Error, Impact, Launch, Phase};
 use super::{Drive, DriveBounds, Fourier, ROUNDING, Shape};
 use crate::quasi_polynomial::{DampedSine, FirstRoot, QuasiPolynomial, Root};
 
-/// Time (rad) for the parabola's return to the platform's highest point below which a flight is searched as a
-/// whole: this avoids the initial errors of a second window and costs few more steps.
+/// If the parabola returns to the platform's highest point within this time (rad), the flight is searched as
+/// a whole: this avoids the initial errors of a second window and costs few more steps.
 const BRIEF: f64 = 2.0;
 
 /// The first impact on a [`Drive`].
@@ -27,7 +27,7 @@ pub struct DrivenImpact {
     pub impact: Impact,
     /// Bound on the error of the duration (rad) due to rounding.
     pub error: f64,
-    /// Whether the impact is on a kink of the drive, within its error: then it has no derivative.
+    /// Whether the impact is on a kink of the drive, within its error; the map then has no derivative there.
     pub on_kink: bool,
     /// An earlier touch or near miss of the platform that rounding cannot decide.
     pub doubt: Option<Doubt>,
@@ -54,7 +54,7 @@ pub(crate) struct Start {
 }
 
 impl Start {
-    /// A start from a user's numbers.
+    /// A start from a user's numbers, which are checked.
     pub(crate) fn new(time: f64, gap: f64, velocity: f64) -> Result<Self, Error> {
         finite("time", time)?;
         within("gap", gap, 0.0, 1.0e17, "[0, 1e17] (units of g/omega^2)")?;
@@ -65,8 +65,7 @@ impl Start {
         Ok(Self { time, gap, velocity, separates: false })
     }
 
-    /// The second derivative of the gap: at the end of a contact, a push by no more than a rounding counts as
-    /// none.
+    /// The second derivative of the gap: at the end of a contact, a push within rounding counts as zero.
     pub(super) fn bend(&self, bend: f64, bounds: &DriveBounds) -> f64 {
         if self.separates && bend < 0.0 && bend >= -bounds.doubtful_pull(self.time) { 0.0 } else { bend }
     }
@@ -216,8 +215,8 @@ impl Drive {
         Ok(found.root.map(|root| self.landed(start.time, (periods, rest), root, &found)))
     }
 
-    /// The first root of the gap within `to`; its value and slope at the start have these errors, and `terms`
-    /// are the drive's terms there.
+    /// The first root of the gap within `to`; the gap and its slope at the start have these errors, and
+    /// `terms` are the drive's terms there.
     fn window(&self, start: Start, error: [f64; 2], terms: Vec<DampedSine>, to: f64) -> Result<Found, Error> {
         match &self.shape {
             Shape::Fourier(fourier) => fourier.window(start, error, terms, to),

@@ -1,9 +1,9 @@
-//! A period as pieces of polynomials of degree at most 3: the first impact piece by piece, in closed form
-//! where the gap is of degree 2.
+//! A period of polynomial pieces of degree at most 3: the first impact is found piece by piece, in closed
+//! form if the gap is of degree 2.
 //!
-//! Gap, velocity and their errors are carried across a joint, so a flight of 1e-12 rad over a joint keeps its
-//! digits. After 0.05 rad whole blocks of pieces are passed over: a parabola is nowhere lower in an interval than
-//! at its lower end, and a tree holds the highest points of 1, 2, 4, ... pieces. From there on the gap is the
+//! Gap, velocity and their errors are carried across a joint, so a flight of 1e-12 rad across a joint keeps
+//! its digits. After 0.05 rad whole blocks of pieces may be skipped: the disk's parabola is lowest at one end
+//! of an interval, and a tree stores the highest points of 1, 2, 4, ... pieces. After a skip the gap is the
 //! difference of two heights.
 
 use core::f64::consts::TAU;
@@ -20,7 +20,7 @@ use crate::quasi_polynomial::{Jet, QuasiPolynomial, Root};
 /// Largest number of pieces of a drive.
 pub const MAX_PIECES: usize = 1 << 20;
 
-/// Share of the largest height or velocity below which a jump is rounding.
+/// A jump below this share of the largest height or velocity counts as rounding.
 const JOINT_ROUNDING: f64 = 1.0e-12;
 
 /// Time (rad) after the start of a search before which no pieces are skipped: skipping computes the gap from
@@ -39,8 +39,8 @@ pub(crate) struct Pieces {
     /// For each piece, the first piece (this or a later one) in which a contact that exists at its start
     /// ends; the number of pieces if it never ends.
     exits: Vec<u32>,
-    /// The sum over a period of the jumps of height and velocity that count as rounding: the difference
-    /// between the gap carried from joint to joint and the gap computed from the heights.
+    /// The sum over a period of the jumps of height and velocity that count as rounding. The gap carried from
+    /// joint to joint differs by this from the gap computed from the heights.
     pub(super) joint_rounding: [f64; 2],
     /// The highest point of each piece, of each pair, of each four, and so on.
     tops: Vec<Vec<f64>>,
@@ -64,7 +64,7 @@ impl Drive {
     ///
     /// # Errors
     /// [`Error::NotOfKind`] names a piece whose numbers are not finite or that has no duration;
-    /// [`Error::OutOfRange`] if the durations do not sum up to 2 pi, or for accelerations beyond
+    /// [`Error::OutOfRange`] if the durations do not add up to 2 pi, or for accelerations beyond
     /// [`Vibration::MAX_PEAK_ACCELERATION`]; [`Error::HeightJump`]; [`Error::TooLarge`] beyond
     /// [`MAX_PIECES`].
     pub fn pieces(pieces: &[(f64, [f64; 4])]) -> Result<Self, Error> {
@@ -123,8 +123,8 @@ impl Drive {
         Self::sawtooth(amplitude, 0.5)
     }
 
-    /// A sawtooth that rises for this share of the period, in [1e-9, 1 - 1e-9], and falls for the rest: from
-    /// 0 at time 0 to `amplitude`, to -`amplitude`, and back.
+    /// A sawtooth that rises for the share `rise` of the period, in [1e-9, 1 - 1e-9], and falls for the rest:
+    /// from 0 at time 0 to `amplitude`, down to -`amplitude`, and back to 0.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for numbers outside their range.
@@ -245,7 +245,8 @@ impl Pieces {
         TimeAhead { after, time: self.starts[next], velocity_jump: self.jumps[next] }
     }
 
-    /// The same period, begun at a phase in (0, 2 pi): the piece at this phase is cut in two.
+    /// The same motion, with the period beginning at a phase in (0, 2 pi): the piece at this phase is cut in
+    /// two.
     pub(super) fn earlier(&self, phase: f64) -> Result<Drive, Error> {
         let (cut, here) = (self.index(phase), self.at(phase));
         let first = [here.height, here.velocity, 0.5 * here.acceleration, here.jerk / 6.0];
@@ -328,8 +329,8 @@ impl Pieces {
         (1.0 + 2.0 * c2, 6.0 * c3)
     }
 
-    /// Whether the force, given its value `here`, is below zero by more than a rounding here or at the end of
-    /// the piece.
+    /// Whether the force, with its value `here` given, is below zero by more than rounding here or at the end
+    /// of the piece.
     fn falls_below(&self, piece: usize, here: f64) -> bool {
         let (force, change) = self.force(piece);
         here.min(force + change * self.length(piece)) < -self.bounds.doubtful_pull(TAU)
@@ -494,8 +495,8 @@ impl Pieces {
         Err(Error::NoConvergence { evaluations: found.evaluations, time: elapsed, gap })
     }
 
-    /// The piece up to which the disk is certainly above the platform, and its start: a parabola is lowest at
-    /// one of its ends.
+    /// The piece up to which the disk is certainly above the platform, and the start of this piece: over an
+    /// interval a falling disk's parabola is lowest at one end.
     fn pass(&self, from: usize, elapsed: f64, height: f64, speed: f64) -> Option<(usize, f64)> {
         let disk = |t: f64| height + t * (speed - 0.5 * t);
         let slack = 1.0e-9 * (self.bounds.highest - self.bounds.lowest);
@@ -586,7 +587,7 @@ impl Stretch {
     }
 
     /// The first root in (0, `to`] of c + b t + a t^2, which leaves zero or is positive at 0; `divided` means
-    /// that it is the gap over t.
+    /// that this is the gap divided by t.
     fn quadratic(&self, [c, b, a]: [f64; 3], to: f64, divided: bool) -> Found {
         let mut found = Found { evaluations: 1, ..Found::default() };
         let radicand = b * b - 4.0 * a * c;

@@ -9,8 +9,8 @@ use super::Drive;
 use super::pieces::MAX_PIECES;
 
 impl Drive {
-    /// The periodic cubic spline through the heights at equal distances over one period, the first one at
-    /// time 0 and again at 2 pi.
+    /// The periodic cubic spline through heights sampled at equal distances over one period; the first sample
+    /// is at time 0 and again at 2 pi.
     ///
     /// ```
     /// use std::f64::consts::TAU;
@@ -100,7 +100,7 @@ mod tests {
         }
     }
 
-    /// Through the zeros and the extremes of the sine it is [`Drive::cubics`].
+    /// The spline through the zeros and the extremes of the sine is [`Drive::cubics`].
     #[test]
     fn four_samples_make_the_cubic_approximation() {
         let (spline, cubics) =

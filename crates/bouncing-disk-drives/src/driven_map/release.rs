@@ -57,7 +57,7 @@ impl CompliantPlatform {
         RelativeState { time, gap: self.gap_by_speed() * velocity, velocity }
     }
 
-    /// The gap at a release over its speed.
+    /// The gap at a release divided by the release speed.
     fn gap_by_speed(&self) -> f64 {
         -self.compliance().damping() / self.compliance().stiffness()
     }
@@ -67,14 +67,15 @@ impl CompliantPlatform {
         force - 1.0 - self.drive().at(time).acceleration
     }
 
-    /// The effect of a change of phase and speed at a release on gap and velocity at a fixed time.
+    /// The matrix that maps a change of phase and speed at a release to the change of gap and velocity at a
+    /// fixed time.
     pub(crate) fn change_at_release(&self, state: RelativeState) -> DMat2 {
         let by_phase = DVec2::new(-state.velocity, -self.acceleration(0.0, state.time));
         DMat2::from_cols(by_phase, DVec2::new(self.gap_by_speed(), 1.0))
     }
 
     /// The flight from this state to the next touch, and the contact that follows; `change` is the change of
-    /// gap and velocity at a fixed time, and becomes the change of phase and speed at the release.
+    /// gap and velocity at a fixed time, and is replaced by the change of phase and speed at the release.
     pub(crate) fn fly_and_press(
         &self,
         from: RelativeState,
@@ -144,7 +145,8 @@ impl CompliantPlatform {
 }
 
 impl Pressed {
-    /// The effect of a change of gap and velocity at the start after `span`, both at fixed times.
+    /// The matrix that maps a change of gap and velocity at the start to their change after `span`, both at
+    /// fixed times.
     fn propagator(&self, span: f64) -> DMat2 {
         if self.spring_state() == SpringState::Held {
             return DMat2::from_diagonal(DVec2::new(1.0, 0.0));
@@ -158,8 +160,8 @@ impl Pressed {
         DMat2::from_cols(free(1.0, 0.0), free(0.0, 1.0))
     }
 
-    /// The effect of a change of gap and velocity at a fixed time on phase and speed at the release in
-    /// `state`.
+    /// The matrix that maps a change of gap and velocity at a fixed time to the change of phase and speed at
+    /// the release in `state`.
     fn change_to_release(&self, state: RelativeState) -> DMat2 {
         let spring = self.platform().compliance().on(self.spring_state());
         let (k, c) = (spring.stiffness(), spring.damping());

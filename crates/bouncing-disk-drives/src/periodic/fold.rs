@@ -1,15 +1,17 @@
-//! Orbits next to a fold of a drive's map: whether they exist, how many they are, and where
+//! Orbits near a fold of a drive's map: whether they exist, how many there are, and where they are
 //! (docs/numerics-impacts.md, "Periodic orbits").
 //!
-//! The end of an iteration proves an orbit only away from folds. If |1 - T + D| is below 1e-4 of the size of the
-//! derivative, or the trace changes by more than half of 1 - T + D within twice the error (where the
-//! acceleration jumps), the curve decides. It is followed to |t| = 7e-4, t the displacement of the first impact
-//! along the weak direction; the sign of the derivative of the push brackets its extremes, also at corners where
-//! the acceleration jumps. The sign of the push is certain beyond four times the response to 1e-14 in each
-//! flight. An extreme within the rounding is one marginal orbit, whose errors reach to the certain points on both
-//! sides. An orbit that repeats a shorter one within 0.1 rad is next to its birth in a doubling, not to a fold:
-//! its errors include roundings with opposite signs in both halves, the direction in which it is weak. If the
-//! curve cannot be followed, the orbit counts as marginal.
+//! The end of an iteration proves an orbit only away from folds. It does not if |1 - T + D| is below 1e-4 of
+//! the size of the derivative, or if the trace changes by more than half of 1 - T + D within twice the error,
+//! as where the acceleration jumps. Then a curve decides: all sequences of flights that close if the end of
+//! the last flight is pushed along the weak direction. This curve is followed to |t| = 7e-4, t the
+//! displacement of the first impact along the weak direction. The sign of the derivative of the push brackets
+//! the extremes of the push, including corners at which the acceleration jumps. The sign of the push is
+//! certain beyond four times the response to 1e-14 in each flight. An extreme within rounding is one marginal
+//! orbit, whose errors reach to the certain points on both sides. An orbit that repeats a shorter one within
+//! 0.1 rad is near the doubling at which it is born, not near a fold. Its errors include rounding errors with
+//! opposite signs in both halves, the direction in which it is weak. If the curve cannot be followed, the
+//! orbit counts as marginal.
 
 use core::f64::consts::TAU;
 
@@ -21,14 +23,14 @@ use glam::{DMat2, DVec2};
 use super::MAP_ROUNDING;
 use crate::driven_map::DrivenMap;
 
-/// The steps along the curve to either side: the first step, its growth, and the number of steps, which end
-/// at about 1e-3 rad. Orbits farther apart are found one by one.
+/// The steps along the curve to either side: the first step, the growth factor, and the number of steps,
+/// which reach about 1e-3 rad. Orbits farther apart are found one by one.
 const FIRST: f64 = 1.0e-8;
 const GROWTH: f64 = 4.0;
 const STEPS: usize = 9;
 
 /// Newton's method for a point of the curve: the largest number of steps, the step at which a point counts as
-/// found, and the step below which a lack of shrinking is rounding.
+/// found, and the step below which steps that no longer shrink are rounding.
 const MOST_CORRECTIONS: usize = 20;
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 const NEARLY: f64 = 1.0e-8;
@@ -36,14 +38,14 @@ const NEARLY: f64 = 1.0e-8;
 /// Largest number of steps to a zero or an extreme of the push.
 const MOST_STEPS: usize = 100;
 
-/// Ratio of a push to its rounding above which its sign is certain.
+/// Ratio of a push to its rounding error above which its sign is certain.
 const CERTAIN: f64 = 4.0;
 
 /// The curve of all sequences of flights that close if the end of the last flight is pushed along the weak
-/// direction, which a period of the orbit changes least.
+/// direction, the direction that a period of the orbit changes least.
 ///
-/// Its equations are regular at a fold, too, unlike the equations of the orbits, which are the zeros of the
-/// push.
+/// The orbits are the zeros of the push. Unlike their equations, the equations of the curve are also regular
+/// at a fold.
 struct Curve<'m> {
     map: &'m DrivenMap,
     base: ImpactState,
@@ -67,7 +69,7 @@ struct Point {
 pub(super) enum Beside {
     /// The orbits that exist, or may exist within rounding, nearest first.
     Orbits(Vec<PeriodicOrbit>),
-    /// The push is rounding everywhere: the orbit is a member of a family.
+    /// The push is within rounding of zero everywhere: the orbit is a member of a family.
     Family,
 }
 
@@ -134,7 +136,7 @@ impl<'m> Curve<'m> {
         weak.is_finite().then_some(Self { map, base: orbit.states[0], weak, scale })
     }
 
-    /// The condition on the first impact.
+    /// The coefficients of the condition on the first impact.
     fn first(&self) -> DVec2 {
         DVec2::new(self.weak.x, self.weak.y / (self.scale * self.scale))
     }
@@ -183,8 +185,8 @@ impl<'m> Curve<'m> {
         None
     }
 
-    /// The smallest push with a certain sign, and the displacement of the impacts across the weak direction
-    /// by the rounding of each flight.
+    /// The smallest push with a certain sign, and how far the rounding of each flight displaces the impacts
+    /// across the weak direction.
     fn rounding(&self, point: &Point) -> Option<(f64, f64)> {
         let equations = self.equations(self.map.shoot(&point.states).ok()?);
         let room = MAP_ROUNDING * self.scale;
@@ -227,7 +229,7 @@ impl<'m> Curve<'m> {
         if low.push.abs() <= high.push.abs() { low } else { high }
     }
 
-    /// The zero of the push between two points at which it has different signs, by Newton steps, and by
+    /// The zero of the push between two points with pushes of different signs, by Newton steps, or by
     /// bisection if these leave the interval.
     fn zero(&self, low: &Point, high: &Point) -> Point {
         let (mut low, mut high) = (low.clone(), high.clone());
@@ -247,7 +249,7 @@ impl<'m> Curve<'m> {
         if low.push.abs() <= high.push.abs() { low } else { high }
     }
 
-    /// The orbit at a point, and its displacement; it lies between these two sides.
+    /// The orbit at a point, and its displacement; the orbit lies between these two sides.
     fn orbit(&self, point: &Point, sides: [Option<Point>; 2], floor: f64) -> (f64, PeriodicOrbit) {
         let trace = |point: &Point| point.shooting.0.x_axis.x + point.shooting.0.y_axis.y;
         let own = trace(point);

@@ -1,5 +1,5 @@
-//! The one-impact orbits on a drive with rigid impacts: the phases at which the velocity of the platform has
-//! a certain value (docs/numerics-impacts.md, "Periodic orbits").
+//! The one-impact orbits on a drive with rigid impacts: they occur at the phases at which the platform has a
+//! certain velocity (docs/numerics-impacts.md, "Periodic orbits").
 
 use core::f64::consts::{PI, TAU};
 use core::ops::RangeInclusive;
@@ -16,14 +16,14 @@ use crate::driven_map::DrivenMap;
 /// The rounding of a velocity and of its required value, in units of the sizes of both.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
-/// Largest advance of the first impact, relative to the flight, at which it still counts as the orbit's.
+/// The first impact still counts as the orbit's if it comes earlier by at most this share of the flight.
 const SAME_IMPACT: f64 = 1.0e-9;
 
 /// The shortest cell (rad) searched for turning points of the velocity, and the largest number of cells.
 const SHORTEST_CELL: f64 = 1.0e-7;
 const MOST_CELLS: u32 = 1 << 18;
 
-/// A stretch of monotonic and continuous velocity of the platform.
+/// An interval in which the platform's velocity is monotonic and continuous.
 #[derive(Debug, Clone, Copy)]
 struct Stretch {
     from: End,
@@ -36,15 +36,15 @@ struct Stretch {
 /// An end of a stretch.
 #[derive(Debug, Clone, Copy)]
 struct End {
-    /// The time; for the later end perhaps beyond the period.
+    /// The time, which may be beyond the period for the later end.
     time: f64,
     velocity: f64,
-    /// The jump of the velocity at a joint that is not a kink: a rounding.
+    /// The jump of the velocity at a joint that is not a kink, within rounding.
     jump: f64,
     is_kink: bool,
 }
 
-/// The number of members of a family that are tried.
+/// Number of members of a family that are tried.
 const MEMBERS: u32 = 16;
 
 /// All one-impact orbits for a range of numbers of periods.
@@ -62,7 +62,7 @@ struct Found {
     families: Vec<Family>,
 }
 
-/// A stretch on which the velocity has the value at every phase.
+/// A stretch on which the velocity has the required value at every phase.
 #[derive(Debug)]
 struct Family {
     from: f64,
@@ -82,18 +82,18 @@ struct Stretches {
     speed: f64,
 }
 
-/// The phases at which the platform's velocity has a value.
+/// The phases at which the platform has a given velocity.
 #[derive(Debug, Clone, Default)]
 struct Phases {
     single: Vec<f64>,
-    /// Extremes of the velocity that equal the value within rounding.
+    /// Extremes of the velocity that equal this value to within rounding.
     touching: Vec<f64>,
-    /// Stretches on which the velocity equals the value throughout.
+    /// Stretches on which the velocity equals this value throughout.
     families: Vec<(f64, f64)>,
 }
 
 impl OneImpact {
-    /// The orbits with these numbers of periods, as far as the platform is fast enough.
+    /// The orbits with these numbers of periods, up to the largest for which the platform is fast enough.
     pub(super) fn of(map: &DrivenMap, platform_periods: RangeInclusive<u64>) -> Self {
         let stretches = Stretches::of(map.drive());
         let first = *platform_periods.start();
@@ -119,8 +119,8 @@ impl OneImpact {
         Self { first, found: found.collect() }
     }
 
-    /// All one-impact orbits, one for each family, except orbits that an earlier impact prevents and orbits
-    /// with the impact on a kink.
+    /// All one-impact orbits, with one orbit for each family. Orbits that an earlier impact prevents, and
+    /// orbits with their impact on a kink, are excluded.
     pub(super) fn orbits(&self) -> impl Iterator<Item = &PeriodicOrbit> {
         self.found.iter().flat_map(|found| &found.orbits)
     }
@@ -146,8 +146,8 @@ impl OneImpact {
         map.orbit_of_one_impact(phase, orbit.platform_periods, Some(family.to - family.from))
     }
 
-    /// All of [`Self::orbits`], however close to each other, replaced by orbits found from starts that agree
-    /// with them; and members of families that were found only from starts.
+    /// All of [`Self::orbits`], however close to each other, each replaced by an orbit found from a start if
+    /// the two agree. Members of families that were found only from starts are added.
     pub(super) fn with_found(&self, found: &[PeriodicOrbit]) -> Vec<PeriodicOrbit> {
         let mut all: Vec<PeriodicOrbit> = Vec::new();
         for own in self.orbits() {
@@ -285,10 +285,10 @@ fn turning_points(drive: &Drive) -> Vec<f64> {
     times
 }
 
-/// The zeros of the acceleration of a Fourier sum in [0, 2 pi), all of them, and perhaps other times.
+/// All zeros of the acceleration of a Fourier sum in [0, 2 pi), and perhaps some other times.
 ///
-/// A cell about m with the half width h contains none if |A(m)| > max|A'| h, and at most one, shown by the
-/// signs at its ends, if |A'(m)| > max|A''| h. All other cells are halved.
+/// A cell of half width h about m contains no zero if |A(m)| > max|A'| h. It contains at most one, which the
+/// signs at its ends show, if |A'(m)| > max|A''| h. All other cells are halved.
 fn zeros_of_acceleration(drive: &Drive, times: &mut Vec<f64>) {
     let (bounds, harmonic) = (drive.bounds(), drive.highest_harmonic());
     // Without acceleration every time is a zero.

@@ -20,12 +20,12 @@ fn guess(phase: f64, restitution: f64) -> [ImpactState; 1] {
     [ImpactState::new(phase.expect("legal"), -TAU / (1.0 + restitution)).expect("legal")]
 }
 
-/// Distances from a fold, relative.
+/// Relative distances from a fold.
 const OFFSETS: [f64; 5] = [1e-12, 1e-11, 1e-10, 1e-9, 1e-8];
 
-/// By hand: an orbit of one impact needs the velocity c = pi (1 - r)/(1 + r) of the platform. A smooth
-/// velocity with the maximum c (1 + d) and the curvature -q there reaches it at sqrt(2 c d/q) on both sides.
-/// The multiplier passes 1 with the acceleration: the later orbit is a node, the earlier a saddle.
+/// By hand: an orbit of one impact needs the platform velocity c = pi (1 - r)/(1 + r). A smooth velocity with
+/// the maximum c (1 + d) and the curvature -q there reaches it at sqrt(2 c d/q) on both sides. The multiplier
+/// passes 1 as the acceleration passes zero: the later orbit is a node, the earlier one a saddle.
 #[test]
 fn beside_a_smooth_fold_there_are_two_orbits_or_none() {
     const AHEAD: f64 = 0.7;
@@ -78,7 +78,7 @@ fn beside_a_smooth_fold_there_are_two_orbits_or_none() {
 }
 
 /// By hand: the velocity of the parabolas is 8 a/(2 pi) - B |t| about 0, B = 32 a/(2 pi)^2, and their fold
-/// has a corner: near it the orbits are c d/B away on both sides, with the traces 1 + r^2 -+ (1 + r)^2 B.
+/// has a corner. Near it the orbits are c d/B away on both sides, with the traces 1 + r^2 -+ (1 + r)^2 B.
 #[test]
 fn beside_the_fold_of_parabolas_there_are_two_orbits_or_none() {
     for restitution in [0.0, 0.5, 0.95] {
@@ -141,7 +141,7 @@ fn on_a_triangle_there_is_a_family_or_no_orbit() {
 }
 
 /// Pieces (duration, height and its derivatives) in units of the period, for which a slope of 1 is the
-/// velocity of an orbit with one impact every period under the restitution 0.5.
+/// velocity needed for an orbit with one impact per period at the restitution 0.5.
 fn in_periods(pieces: &[(f64, [f64; 3])]) -> DrivenMap {
     let own = pieces.iter().map(|&(duration, [c0, c1, c2])| {
         let height = 2.0 * PI * PI / 3.0;
