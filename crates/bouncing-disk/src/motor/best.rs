@@ -1,16 +1,16 @@
 //! Optimises a quantity over one or two fields of a data sheet, within bounds on other quantities.
 //!
 //! A grid of points is computed roughly; candidates for the best one are computed again with smaller errors,
-//! and finer grids surround the best one. Lines through it determine the position of the top and the width of
-//! the optimum. The value is measured there, with perturbations other than those that selected the point.
-//! docs/numerics-dynamics.md, "Optimisation of a quantity".
+//! and finer grids surround the best one. Lines of points through the best one determine the position and the
+//! width of the optimum. The value is measured there, with perturbations other than those that selected the
+//! point. docs/numerics-dynamics.md, "Optimisation of a quantity".
 //!
 //! Eight seeds alternate along a line, because points of one seed may share a vertical motion and its errors.
-//! Each end of the range within 1 % is moved inwards by its 95 % error: a jackknife over the seeds, with
+//! Each end of the range within 1 % is moved inwards by its 95 % error, from a jackknife over the seeds with
 //! Student's quantile. The stated error is enlarged by the possible misses of the search: 1.96 times the
-//! scatter of a line too rough for a cubic, and the height of a peak narrower than the grid. The latter is
-//! the excess of a point over its two neighbours, beyond errors and beyond their difference from the next
-//! ones. For two fields with rigid impacts on a sine, 400 points along each field that changes the vertical
+//! scatter of a line too rough for a cubic, and the height of a peak narrower than the grid. This height is
+//! the excess of a point over its two neighbours, beyond their errors and their difference from the next
+//! points. For two fields with rigid impacts on a sine, 400 points along each field that changes the vertical
 //! motion show such peaks.
 
 mod cubic;
@@ -36,9 +36,9 @@ use crate::motor::parameter_sweep::axis::{SweepAxis, check_axes};
 use crate::motor::parameter_sweep::quantity::SweepQuantity;
 use crate::motor::stator::Stator;
 
-/// Number of points along one field, and along each of two: for rigid impacts on a sine, which take
-/// milliseconds each; for other motors; and for compliant stators, which take a tenth of a second or more
-/// each.
+/// Number of points along a single field, and along each of two fields. The first pair is for rigid impacts
+/// on a sine, with milliseconds per point; then follow other motors, and compliant stators, with a tenth of a
+/// second or more per point.
 const CHEAP_PLACES: [usize; 2] = [400, 32];
 const PLACES: [usize; 2] = [200, 16];
 const DEAR_PLACES: [usize; 2] = [64, 8];
@@ -47,25 +47,26 @@ const DEAR_PLACES: [usize; 2] = [64, 8];
 /// locks between them.
 const SMOOTH_PLACES: usize = 64;
 
-/// Finer grids about the best point: the ratio of each step to the next, and the number of steps on either
-/// side; for a compliant stator the second grid has fewer.
+/// Finer grids about the best point: the ratio of each step to the next, and the numbers of steps on either
+/// side. For a compliant stator the second grid has fewer steps.
 const PARTS: f64 = 3.0;
 const STEPS: [i32; 2] = [2, 2];
 const DEAR_STEPS: [i32; 2] = [2, 1];
 
-/// Points on either side along a line, for a first pass and for the fit, and the factor by which its values
-/// are more accurate than requested.
+/// Number of points on either side along a line, for a first pass and for the fit, and the factor by which
+/// the fitted values are more accurate than requested.
 const LOOK: i32 = 4;
 const SIDE: i32 = 16;
 const DEAR_SIDE: i32 = 8;
 const SURER: f64 = 2.0;
 
 /// Seeds that alternate along a line, because points of one seed may share a vertical motion and its errors.
-/// In that case all seeds together use this many times the impacts of a point with its own motion.
+/// If they share one, all seeds together use `SHARED` times the impacts of a point with its own motion.
 const SEEDS: usize = 8;
 const SHARED: f64 = 2.0;
 
-/// Largest number of passes along one line, each with another length, and the factor between lengths.
+/// Largest number of passes along one line, each with a different length, and the ratio of successive
+/// lengths.
 const LOOKS: usize = 6;
 const LENGTHEN: f64 = 3.0;
 
@@ -75,7 +76,7 @@ const LENGTHEN: f64 = 3.0;
 pub struct SearchRange {
     /// The field of the data sheet.
     pub field: MotorField,
-    /// Its least value, in the unit of the field. A phase lag over a whole turn has no ends.
+    /// Its least value, in the unit of the field. A phase lag that varies over a whole turn has no ends.
     pub low: f64,
     /// Its largest value.
     pub high: f64,
@@ -103,7 +104,7 @@ pub struct QuantityBound {
 }
 
 impl QuantityBound {
-    /// Whether an operation satisfies the bound, as far as its quantity is known.
+    /// Whether an operation satisfies the bound; `None` if its quantity is unknown.
     #[must_use]
     pub fn is_kept(&self, operation: &Operation) -> Option<bool> {
         Some(self.margin(self.quantity.of(operation)?.value) >= 0.0)
@@ -160,7 +161,7 @@ pub struct BestValue {
     /// Its value, in the unit of the field, with its standard error.
     pub value: Estimate,
     /// The range around it, with the other field at its optimum, in which the quantity is at least 99 % of
-    /// its best value and the bounds are satisfied. `None` if the curve is too rough to tell, as next to a
+    /// its best value and the bounds are satisfied. `None` if the curve is too rough to tell, as near a
     /// locked motion. The range of a phase lag may extend beyond the circle.
     pub good_from_to: Option<[f64; 2]>,
     /// Whether the optimum lies at an end of the searched range.
@@ -171,15 +172,16 @@ pub struct BestValue {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Best {
-    /// The fields, in their order.
+    /// The fields, in the order of the ranges.
     pub values: Vec<BestValue>,
     /// The quantity, measured at this point. Its error includes the possible gain at a better point nearby.
     pub value: Estimate,
     /// The motor in operation there.
     pub row: OperatingRow,
-    /// The branch of the row to which the value refers. If motions coexist, another one may come first.
+    /// The branch of the row to which the value refers. If motions coexist, the branch of another motion may
+    /// come first.
     pub branch: usize,
-    /// The quantities of the bounds, in their order.
+    /// The quantities of the bounds, in the order of the bounds.
     pub bounds: Vec<Estimate>,
     /// Number of points that were computed.
     pub places: usize,
@@ -190,11 +192,11 @@ pub struct Best {
 struct Found {
     value: Estimate,
     bounds: Vec<Estimate>,
-    /// Whether it no longer drifts, so that its errors hold.
+    /// Whether the result no longer drifts, so that its errors are valid.
     is_settled: bool,
 }
 
-/// A point, with each coordinate in [0, 1], or anywhere on a circle.
+/// A point, with each coordinate in [0, 1], or unbounded for a whole turn.
 #[derive(Debug, Clone)]
 struct Place {
     at: Vec<f64>,
@@ -216,8 +218,9 @@ struct Search<'a> {
 }
 
 impl Motor {
-    /// The best of a quantity over one or two fields of the data sheet, under bounds on others. If motions
-    /// coexist, a point is judged by the first branch of its row; the value belongs to the same motion.
+    /// The best value of a quantity over one or two fields of the data sheet, under bounds on other
+    /// quantities. If motions coexist, a point is judged by the first branch of its row; the reported value
+    /// belongs to the same motion.
     ///
     /// The observer's items are the points that may be computed.
     ///
@@ -240,8 +243,8 @@ impl Motor {
     /// [`Error::OutOfRange`] for illegal ranges, bounds and settings, and the errors of
     /// [`MotorParameters::build`](crate::motor::MotorParameters::build) at the ends of the ranges;
     /// [`Error::NotKept`] if no point satisfies the bounds; [`Error::NotPositive`] if the quantity is nowhere
-    /// positive, or not with certainty; the errors of [`operations`](crate::motor::operations) if no motor
-    /// can be followed.
+    /// positive, or not certain to be positive; the errors of [`operations`](crate::motor::operations) if no
+    /// motor can be followed.
     pub fn best(
         &self,
         sought: &BestSearch,
@@ -334,7 +337,7 @@ impl SearchRange {
         self.low + (self.high - self.low) * at
     }
 
-    /// Whether it is a whole turn, which has no ends.
+    /// Whether the range is a whole turn, which has no ends.
     fn is_turn(&self) -> bool {
         self.field == MotorField::PhaseLag && self.high - self.low >= TAU * (1.0 - 1e-9)
     }
@@ -367,7 +370,7 @@ impl Found {
         margins.fold(f64::INFINITY, f64::min)
     }
 
-    /// The ends of its interval; infinite while it still drifts.
+    /// The lower end of the value's 95 % interval; infinite while the value still drifts.
     fn at_least(&self) -> f64 {
         if self.is_settled {
             self.value.value - NORMAL_975 * self.value.standard_error

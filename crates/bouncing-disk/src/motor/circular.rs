@@ -20,8 +20,8 @@ pub fn occupied_arc(phases: impl IntoIterator<Item = f64>) -> Option<f64> {
     Some(1.0 - largest)
 }
 
-/// The number of groups of `phases` that lie more than `apart` from the next group round the circle: the
-/// number of distinct phases at that resolution. 1 for phases without such a gap, 0 without phases.
+/// The number of groups of `phases` that are separated by gaps longer than `apart` round the circle: the
+/// number of distinct phases at that resolution. The result is 1 without such a gap, and 0 without phases.
 ///
 /// Phases are in periods; 0 and 1 are the same.
 ///
@@ -47,18 +47,18 @@ pub fn distance(one: f64, other: f64) -> f64 {
     apart.min(1.0 - apart)
 }
 
-/// First trigonometric moment of weights at phases: the position and the strength of their concentration.
+/// First trigonometric moment of weighted phases: the position and the strength of their concentration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedConcentration"))]
 pub struct Concentration {
     /// Mean direction (rad), from -pi to pi.
     pub mean_direction_rad: f64,
-    /// Mean resultant length: 0 if they are spread evenly, 1 if all have the same phase.
+    /// Mean resultant length: 0 if the weights are spread evenly, 1 if all have the same phase.
     pub resultant_length: f64,
 }
 
-/// Largest amount by which rounding may take the resultant length above 1, for about a million weights.
+/// Largest amount by which rounding may raise the resultant length above 1, for about a million weights.
 const LENGTH_ROUNDING: f64 = 1.0e-9;
 
 read_checked!(Concentration as UncheckedConcentration {

@@ -57,7 +57,7 @@ pub struct Motor {
 }
 
 impl Motor {
-    /// The platform and the disk, without the motion of a table `[drive]` and the law of a table `[load]`.
+    /// The platform and the disk, without the motion of a table `[drive]` or the law of a table `[load]`.
     #[must_use]
     pub const fn system(&self) -> &System {
         &self.system
@@ -84,7 +84,7 @@ impl Motor {
     }
 
     /// The same motor with another data sheet. To switch between alternatives, for example from a preload
-    /// acceleration to a force, set the first to `None`.
+    /// acceleration to a force, set the old one to `None`.
     ///
     /// # Errors
     /// The errors of [`MotorParameters::build`].
@@ -94,7 +94,7 @@ impl Motor {
         parameters.build()
     }
 
-    /// Mass m of the rotor (kg), given or from density and size.
+    /// Mass m of the rotor (kg), as given or computed from density and size.
     #[must_use]
     pub const fn mass(&self) -> f64 {
         self.mass
@@ -125,7 +125,7 @@ impl Motor {
         self.system.stator()
     }
 
-    /// The law of a varying load, if the sheet has one instead of a load torque.
+    /// The law of a varying load, if the sheet states one instead of a load torque.
     #[must_use]
     pub const fn load(&self) -> Option<LoadLaw> {
         self.parameters.load
@@ -137,8 +137,8 @@ impl Motor {
         self.parameters.load_torque
     }
 
-    /// mu m g a_e (N m): the torque if friction always pushed one way. The mean normal force equals the
-    /// preload, whatever the motion, so no motor delivers more.
+    /// mu m g a_e (N m): the mean torque if friction always acted in the same direction. The mean normal
+    /// force equals the preload, whatever the motion, so no motor delivers more.
     #[must_use]
     pub fn largest_torque(&self) -> f64 {
         let disk = self.system.disk();
@@ -170,7 +170,7 @@ impl Motor {
     }
 }
 
-/// The alternative that is given.
+/// Which alternative is given.
 enum Alternative {
     One(f64),
     Other(f64),
@@ -310,7 +310,7 @@ impl MotorParameters {
         Ok(())
     }
 
-    /// The mass (kg), given or computed for a solid disc. An unused thickness is an error.
+    /// The mass (kg), as given or computed for a solid disc. An unused thickness is an error.
     fn rotor_mass(&self) -> Result<f64, Error> {
         match one_of(("mass", self.mass), ("density", self.density))? {
             Alternative::One(_) if self.rotor_thickness.is_some() => {

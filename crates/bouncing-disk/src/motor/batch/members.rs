@@ -13,7 +13,7 @@ use crate::parameters::system::System;
 /// Largest number of members of an ensemble.
 pub const MAX_MEMBERS: usize = 1_000_000;
 
-/// Largest number of speeds of all members of an ensemble together; with their times they take a gigabyte.
+/// Largest number of speeds of all members of an ensemble together; they and their times fill a gigabyte.
 pub const MAX_SPEEDS: usize = 1 << 26;
 
 /// The arguments of one [`transient`](crate::motor::transient()).
@@ -57,16 +57,16 @@ impl TransientMember {
         Ok(starts)
     }
 
-    /// The transient of one member, as by [`transient`](crate::motor::transient()).
+    /// The transient of one member, as computed by [`transient`](crate::motor::transient()).
     pub(crate) fn alone(&self, work: &mut WorkCount<'_>) -> Result<SpeedCurve, Error> {
         SpeedCurve::alone(&self.system, self.phase, &self.settings, work)
     }
 }
 
-/// The starting phase of the member of this index. The phases are spread evenly over the cycle and rotated by
-/// an angle that the seed selects, because a few phases are only a sample. The seed 1 rotates by half a step,
-/// away from all special phases; each further seed adds the golden ratio of a step, so that a few seeds are
-/// spread evenly, too.
+/// The starting phase of the member with this index. The phases are spread evenly over the cycle and rotated
+/// by an angle that the seed selects, because a few phases are only a sample. The seed 1 rotates by half a
+/// step, away from all special phases. Each further seed adds the golden ratio times a step, so that a few
+/// seeds are also spread evenly.
 pub(crate) fn starting_phase(seed: u64, index: usize, members: usize) -> Result<Phase, Error> {
     /// 2^64 over the golden ratio.
     const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
@@ -77,7 +77,7 @@ pub(crate) fn starting_phase(seed: u64, index: usize, members: usize) -> Result<
 
 /// Rotation (turns) selected by the seed for phases spread by [`golden_share`], zero for the seed 1.
 pub(crate) fn turn_of_seed(seed: u64) -> f64 {
-    /// 2^64 (sqrt(2) - 1), which is no step of the golden ratio.
+    /// 2^64 (sqrt(2) - 1), which is unrelated to the golden ratio.
     const SILVER: u64 = 0x6a09_e667_f3bc_c908;
     (seed.wrapping_sub(1).wrapping_mul(SILVER) >> 11) as f64 / (1_u64 << 53) as f64
 }
@@ -91,7 +91,7 @@ pub(crate) fn golden_share(index: usize) -> f64 {
 mod tests {
     use super::*;
 
-    /// For each seed a single member starts at a different phase, and these phases are spread evenly.
+    /// A single member starts at a different phase for each seed, and these phases are spread evenly.
     #[test]
     fn the_starting_phase_is_one_of_the_seed() {
         let mut phases: Vec<f64> =

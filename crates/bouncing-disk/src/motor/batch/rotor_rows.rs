@@ -6,7 +6,7 @@ pub(crate) const WIDTH: usize = 8;
 /// One number per rotor.
 pub(crate) type Row = [f64; WIDTH];
 
-/// Eight rotors, and their accumulated sums. Unused ones have no friction, load or speed.
+/// Eight rotors, and their accumulated sums. Unused rotors have no friction, load or speed.
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(align(64))]
 pub(crate) struct RotorRows<T> {
@@ -35,7 +35,7 @@ impl<T> RotorRows<T> {
         self.twist_cosine[own] * cos - self.twist_sine[own] * sin
     }
 
-    /// The same under all of them.
+    /// Angular speeds of the stator under all rotors.
     #[inline(always)]
     pub(crate) fn twists(&self, sin: f64, cos: f64) -> Row {
         core::array::from_fn(|own| self.twist(own, sin, cos))

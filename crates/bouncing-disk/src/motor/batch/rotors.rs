@@ -32,7 +32,7 @@ pub(crate) struct Rotors {
     periods: Row,
     /// Angle turned in the last flight.
     turned: Row,
-    /// The present interval of the curve: its index and end (s), the angle turned in it, and its duration
+    /// The present interval of the curve: its index, its end (s), the angle turned in it, and its duration
     /// (s).
     index: [u64; LANES],
     end: Row,

@@ -3,8 +3,8 @@
 //! The rotary motion never acts back on the vertical one. Motors that differ only in load, friction, phase
 //! lag, twist amplitude, radii or mass share every flight, impact and rest: the orbit is computed once, and
 //! for each rotor an impact adds only a clamp and a few products. The rotors also share the perturbations of
-//! the relaunches (common random numbers). Hence differences between them are more precise than their own
-//! values, and their errors are not independent. See docs/numerics-dynamics.md.
+//! the relaunches (common random numbers). Hence the differences between their results are more precise than
+//! the results themselves, whose errors are not independent. See docs/numerics-dynamics.md.
 
 pub(crate) mod vertical;
 
@@ -12,7 +12,8 @@ use crate::error::Error;
 use crate::parameters::contact::ContactLaw;
 use crate::parameters::system::System;
 
-/// Checks that these motors share one vertical motion ([`is_shared`]). The first one represents all.
+/// Checks that these motors share one vertical motion ([`is_shared`]); returns the first, which represents
+/// all.
 ///
 /// # Errors
 /// [`Error::NotShared`] with the quantity that differs; [`Error::OutOfRange`] for no motor.

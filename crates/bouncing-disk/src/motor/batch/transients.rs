@@ -1,4 +1,4 @@
-//! Many speed transients at once: the flights and impacts of all in lockstep, their rests one by one.
+//! Many speed transients at once: all flights and impacts in lockstep, rests one by one.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -11,8 +11,8 @@ use crate::motor::batch::members::TransientMember;
 use crate::motor::batch::rotors::{Carry, Rotors};
 use crate::motor::rotor::transient::{FLIGHTS_OF_EVENT, SpeedCurve, TransientRun};
 
-/// With fewer transients under way they advance one by one: a step of the lanes costs as much as about this
-/// many single flights, however few lanes are in use; 24 motors take equally long either way.
+/// If fewer transients than this are under way, they advance one by one. A step of the lanes costs as much as
+/// about this many single flights, however few lanes are in use; 24 motors take equally long either way.
 const FEWEST: usize = 26;
 
 /// Batches of lanes per thread.
@@ -20,11 +20,11 @@ const BATCHES: usize = 8;
 
 /// The transient of each member, or the error that [`transient`](crate::motor::transient()) returns for it,
 /// in the order of the members. The results equal those of [`transient`](crate::motor::transient()) to the
-/// bit, and are several times faster for many members.
+/// bit; for many members they are computed several times faster.
 ///
-/// With the feature `parallel` they are distributed over the threads of rayon's pool. Neither the number of
-/// threads nor the processor's instruction set affects the results. Members under [`ChatterPolicy::Cut`] are
-/// computed one by one.
+/// With the feature `parallel`, the members are distributed over the threads of rayon's pool. Neither the
+/// number of threads nor the processor's instruction set affects the results. Members under
+/// [`ChatterPolicy::Cut`] are computed one by one.
 ///
 /// The observer's items are the members.
 ///
@@ -51,7 +51,7 @@ const BATCHES: usize = 8;
 /// ```
 ///
 /// # Errors
-/// Only the core's error if the observer stops the computation.
+/// The core's error if the observer stops the computation; no others.
 pub fn transients(
     members: &[TransientMember],
     observer: &dyn Observer,
@@ -142,7 +142,8 @@ impl<'a> Worker<'a> {
         Ok(())
     }
 
-    /// The next waiting member that is not done before its first flight, about to fly.
+    /// The next waiting member whose transient does not end before its first flight, at the start of this
+    /// flight.
     fn begun(&mut self) -> Result<Option<(usize, TransientRun, Launch)>, Error> {
         loop {
             self.work.spend(FLIGHTS_OF_EVENT)?;
@@ -244,7 +245,7 @@ impl<'a> Worker<'a> {
     }
 }
 
-/// Advances a transient to its next flight; `None` if it is done before.
+/// Advances a transient to its next flight; `None` if it ends before.
 fn fly_next(run: &mut TransientRun, work: &mut WorkCount<'_>) -> Result<Option<Launch>, Error> {
     while !run.is_done() {
         if let Some(launch) = run.rotor.launch() {

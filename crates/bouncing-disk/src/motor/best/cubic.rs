@@ -2,7 +2,7 @@
 
 /// A least-squares cubic through values.
 ///
-/// Its terms are made orthogonal on the points by their recurrence (Forsythe 1957), so that none depends on
+/// A recurrence makes its terms orthogonal on the points (Forsythe 1957), so that no coefficient depends on
 /// the others.
 #[derive(Debug)]
 pub(super) struct Cubic {
@@ -13,12 +13,12 @@ pub(super) struct Cubic {
     pub(super) largest: f64,
 }
 
-/// The next term is (x - `shift`) times this one, minus `back` times the previous one.
+/// The next term is (x - `shift`) times this term, minus `back` times the previous one.
 #[derive(Debug)]
 struct Term {
     shift: f64,
     back: f64,
-    /// Sum of its squares over the points.
+    /// Sum of the squares of this term over the points.
     square: f64,
     coefficient: f64,
 }
@@ -27,7 +27,7 @@ struct Term {
 const TERMS: usize = 4;
 
 impl Cubic {
-    /// The cubic through one value of each of several points.
+    /// The cubic through one value at each of several points.
     pub(super) fn of<'a, T: 'a>(
         places: impl Iterator<Item = (f64, &'a T)>,
         value: impl Fn(&T) -> f64,

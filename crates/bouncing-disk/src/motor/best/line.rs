@@ -1,4 +1,4 @@
-//! Lines through the best point, which determine the position and width of the top.
+//! Lines through the best point, which determine the position and width of the optimum.
 
 use bouncing_disk_core::numerics::statistics::NORMAL_975;
 
@@ -15,13 +15,13 @@ const LARGEST_ERROR: f64 = 0.5;
 /// Fewest points of a line.
 const LEAST: usize = 8;
 
-/// A value beyond this share of the best one is good.
+/// A value above this share of the best one is good.
 const GOOD: f64 = 0.99;
 
-/// The part of a line that determines the width of its top: values beyond this share of the best one.
+/// The part of a line that determines the width of its top: values above this share of the best one.
 const NEAR: f64 = 2.0 * GOOD - 1.0;
 
-/// Points of a cubic from which its top is chosen.
+/// Number of points of a cubic among which its top is sought.
 const FINE: i32 = 500;
 
 /// A line whose values scatter by more than this share of the best one, and by this many times their own
@@ -32,10 +32,10 @@ const EXPLAINED: f64 = 1.5;
 /// Values with errors below this share of the best one determine a range directly.
 const EXACT: f64 = 0.1 * (1.0 - GOOD);
 
-/// No value of a smooth line deviates by this many times the scatter.
+/// On a smooth line no value deviates by this many times the scatter.
 const OUTLIER: f64 = 4.0;
 
-/// A line through the best point, with the value and the bounded quantities along it, if they are smooth.
+/// The optimum along a line of points through the best one.
 pub(super) struct Line {
     pub(super) best: f64,
     /// Values of the field that bracket the optimum.
@@ -134,9 +134,9 @@ impl Search<'_> {
         Ok(self.rough_line(place, field, half, &known, all))
     }
 
-    /// The line through a point if values are so precise that they determine top and range directly, even
-    /// across a kink; moves the point to the best of them. `None` if bounds divide the line, because their
-    /// crossings lie between points.
+    /// The line through a point if its values are so precise that they determine top and range directly, even
+    /// across a kink; moves the point to the best value. `None` if bounds divide the line, because it then
+    /// crosses them between its points.
     fn exact_line(
         &self,
         place: &mut Place,
@@ -166,8 +166,8 @@ impl Search<'_> {
         Some(Line { best, top: [best - error, best + error], good, beside })
     }
 
-    /// The line through a point if a cubic explains its values at offsets in [-1, 1]; moves the point to its
-    /// top. The jackknife over the seeds gives the errors of the top and the ends.
+    /// The line through a point if a cubic explains the values at offsets in [-1, 1]; moves the point to the
+    /// cubic's top. The jackknife over the seeds gives the errors of the top and the ends.
     fn smooth_line(
         &self,
         place: &mut Place,
@@ -208,8 +208,9 @@ impl Search<'_> {
         Some(Line { best, top: [best - half * top, best + half * top], good, beside: 0.0 })
     }
 
-    /// The offset of the cubic's top within the bounds, and the range of offsets in which it is good. The
-    /// inner `None` means that it satisfies the bounds nowhere, the outer one that there are too few points.
+    /// The offset of the cubic's top within the bounds, and the range of offsets in which the value is good.
+    /// The inner `None` means that the bounds are satisfied nowhere, the outer one that there are too few
+    /// points.
     fn top_and_ends(
         &self,
         places: &[(usize, (f64, &Found))],
@@ -237,7 +238,7 @@ impl Search<'_> {
         }))
     }
 
-    /// The line through a point if values jump, from the points on it that may be as good.
+    /// The line through a point if values jump, from those of its points that may be as good as the best.
     fn rough_line(
         &self,
         place: &Place,
@@ -263,8 +264,8 @@ impl Search<'_> {
     }
 }
 
-/// The standard error of each of three numbers, computed without each of [`SEEDS`] in turn, widened for the
-/// small number of seeds.
+/// The standard error of one of three numbers, computed without each of the [`SEEDS`] in turn and widened for
+/// the small number of seeds.
 pub(super) fn jackknife(without: &[[f64; 3]], which: usize) -> f64 {
     let count = without.len() as f64;
     let mean = without.iter().map(|own| own[which]).sum::<f64>() / count;

@@ -19,16 +19,16 @@ use crate::motor::stator::Stator;
 /// Members per point on the first grid for compliant stators.
 const DEAR_MEMBERS: usize = 8;
 
-/// Largest accuracy of the first grid, and the factor by which each further pass over the candidates is more
-/// accurate.
+/// The relative error of the first grid is at least this; each further pass over the candidates divides it by
+/// the factor below.
 const ROUGH: f64 = 0.1;
 const FINER: f64 = 3.0;
 
-/// The share of the settings' most impacts that a point may use on the way to the optimum; otherwise a few
-/// points that do not settle would take most of the time.
+/// The share of the settings' `most_impacts` that a point may use before the optimum is found; otherwise a
+/// few points that do not settle would take most of the time.
 pub(super) const SHARE_OF_PLACE: f64 = 0.125;
 
-/// If more points than this are computed together, they share the impacts of this number.
+/// If more points than this are computed together, they share the impacts that this number of points may use.
 const CROWD: f64 = 32.0;
 
 /// Impacts that any point may use.
@@ -99,8 +99,8 @@ impl Search<'_> {
         all.into_iter().map(|at| Place { at, found: None }).collect()
     }
 
-    /// Scans a whole field through the best point: motions lock on cycles in windows that a grid over two
-    /// fields misses.
+    /// Scans the whole range of a field through the best point, because motions lock on cycles in windows
+    /// that a grid over two fields misses.
     fn scan(&mut self, field: usize, all: &mut Vec<Place>) -> Result<(), Error> {
         let (middle, side) = (all[self.best_of(all)?].at.clone(), CHEAP_PLACES[0]);
         let step = self.step(&self.sought.ranges[field], side);
@@ -276,7 +276,7 @@ impl OperatingSettings {
 }
 
 /// The amount by which a point certainly exceeds its two neighbours along a field, in addition to their own
-/// trend: the height of a peak that is narrower than the grid, as for a locked motion. Others like it may lie
+/// trend: the height of a peak that is narrower than the grid, as for a locked motion. Similar peaks may lie
 /// between the points.
 fn narrow_peak(all: &[Place], side: usize, fields: usize) -> f64 {
     let settled = |index: usize| all[index].found.as_ref().filter(|found| found.is_settled);
@@ -305,7 +305,7 @@ fn narrow_peak(all: &[Place], side: usize, fields: usize) -> f64 {
     highest
 }
 
-/// Number of passes after the first grid until its errors reach this value.
+/// Number of passes, including the first grid, until the errors reach this value.
 pub(super) fn passes(wanted: f64) -> usize {
     let mut error = wanted.max(ROUGH);
     let mut passes = 1;

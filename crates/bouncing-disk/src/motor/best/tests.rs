@@ -1,5 +1,5 @@
-//! Optima compared with independent grids: 400 points along one field, 20 by 20 over two. Of 60 ranges of
-//! random motors (25 points in each, three times as accurate), 59 contain only points within 1 % of their
+//! Optima compared with independent grids of 400 points along one field, or 20 by 20 over two. Of 60 ranges
+//! of random motors (25 points in each, three times as accurate), 59 contain only points within 1 % of their
 //! best, and one contains points up to 1.1 % below it.
 
 use std::f64::consts::PI;
@@ -21,8 +21,8 @@ fn sought(objective: SweepQuantity, ranges: &[SearchRange], bounds: &[&str]) -> 
     BestSearch { objective, ranges: ranges.to_vec(), bounds }
 }
 
-/// A motor of 40 kHz with contacts of 0.77 periods, which is tapped once per period, so that its curves are
-/// exact and smooth.
+/// A motor of 40 kHz whose rotor, with contacts of 0.77 periods, is tapped once per period, so that its
+/// curves are exact and smooth.
 fn tapped() -> Motor {
     let sheet = |sheet: &mut MotorParameters| {
         (sheet.drive_frequency, sheet.amplitude) = (40e3, Some(0.5e-6));
@@ -155,7 +155,7 @@ fn threads_change_no_bit_and_a_stop_is_told() {
     check_stops(None, |observer| motor.best(&sought, &quick(), observer));
 }
 
-/// Contacts of 0.28 periods whose motion is irregular. All seeds once gave the same bits.
+/// An irregular motion with contacts of 0.28 periods. All seeds once produced the same bits.
 #[test]
 fn seeds_tell_the_error_of_irregular_contacts() {
     let motor = tapped().with(|sheet| sheet.contact = Some(Contact::lasting(7e-6))).expect("legal");
@@ -194,7 +194,7 @@ fn of_coexisting_motions_the_one_that_was_found_is_stated() {
     assert!(found.value.value > 8.0 && found.row.branches.len() > 1 && found.branch > 0, "{found:?}");
 }
 
-/// Compared with the closed form for a mean: Student's error from the scatter of the values.
+/// Compared with the closed form for a mean, Student's error from the scatter of the values.
 #[test]
 fn the_jackknife_of_a_mean_is_its_error() {
     let values = [1.0, 4.0, 2.0, 8.0, 5.0, 7.0, 3.0, 6.0];

@@ -20,7 +20,8 @@ use crate::sheet_text::{self, SheetTextError, distance};
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MotorFileError {
-    /// The text is not of its format, has an unknown or repeated key, or a value that is not a number.
+    /// The text is not valid JSON or TOML, or it contains an unknown or repeated key, or a value that is not
+    /// a number.
     #[error("line {line}: {reason}")]
     Text {
         /// The line, from 1.
@@ -30,7 +31,7 @@ pub enum MotorFileError {
         /// The parser's message, without control characters that could disturb a terminal.
         reason: String,
     },
-    /// The data sheet can be read, but is not legal.
+    /// The data sheet can be read, but its values are not legal.
     #[error(transparent)]
     Illegal(#[from] Error),
 }
@@ -43,7 +44,7 @@ impl From<SheetTextError> for MotorFileError {
 
 impl Motor {
     /// Reads a data sheet: a JSON object with the fields of
-    /// [`MotorParameters`](crate::motor::MotorParameters), in SI units. `null` is the same as a missing
+    /// [`MotorParameters`](crate::motor::MotorParameters), in SI units. `null` means the same as a missing
     /// field; a byte-order mark before the text is accepted.
     ///
     /// ```
@@ -55,16 +56,17 @@ impl Motor {
     /// ```
     ///
     /// # Errors
-    /// [`MotorFileError`] for a text that is not such an object, unknown or repeated keys, values that are
-    /// not numbers, and anything that [`MotorParameters::build`](crate::motor::MotorParameters::build)
-    /// rejects.
+    /// [`MotorFileError`] for a text that is not such an object, for unknown or repeated keys, for values
+    /// that are not numbers, and for anything that
+    /// [`MotorParameters::build`](crate::motor::MotorParameters::build) rejects.
     #[cfg(feature = "json")]
     pub fn from_json(text: &str) -> Result<Self, MotorFileError> {
         Self::from_json_with(text, &[])
     }
 
-    /// [`Self::from_json`] with some values of the data sheet replaced; the replaced ones are neither checked
-    /// nor needed. A new value removes the alternatives that its field excludes ([`MotorField::set`]).
+    /// [`Self::from_json`] with some values of the data sheet replaced; the replaced values are neither
+    /// checked nor needed. A new value removes the alternatives that its field excludes
+    /// ([`MotorField::set`]).
     ///
     /// # Errors
     /// The errors of [`Self::from_json`].
@@ -73,8 +75,9 @@ impl Motor {
         Ok(motor_of(sheet_text::from_json(text)?, changes)?)
     }
 
-    /// The data sheet in the form that [`Self::from_json`] reads, one field per line, to the last bit. For
-    /// the units see [`MotorParameters`](crate::motor::MotorParameters), as JSON cannot state them.
+    /// The data sheet in the form that [`Self::from_json`] reads, one field per line and exact to the last
+    /// bit. For the units see [`MotorParameters`](crate::motor::MotorParameters), because JSON cannot state
+    /// them.
     #[cfg(feature = "json")]
     #[must_use]
     pub fn to_json(&self) -> String {
@@ -99,8 +102,9 @@ impl Motor {
         Self::from_toml_with(text, &[])
     }
 
-    /// [`Self::from_toml`] with some values of the data sheet replaced; the replaced ones are neither checked
-    /// nor needed. A new value removes the alternatives that its field excludes ([`MotorField::set`]).
+    /// [`Self::from_toml`] with some values of the data sheet replaced; the replaced values are neither
+    /// checked nor needed. A new value removes the alternatives that its field excludes
+    /// ([`MotorField::set`]).
     ///
     /// ```
     /// use bouncing_disk::Motor;
@@ -120,7 +124,7 @@ impl Motor {
         Ok(motor_of(sheet_text::from_toml(text)?, changes)?)
     }
 
-    /// The data sheet in the form that [`Self::from_toml`] reads, to the last bit, with the units as
+    /// The data sheet in the form that [`Self::from_toml`] reads, exact to the last bit, with the units as
     /// comments.
     #[cfg(feature = "toml")]
     #[must_use]
@@ -205,7 +209,7 @@ impl<'de> Visitor<'de> for Entries {
     }
 }
 
-/// The motor of a text and of the `changes`, which replace values of the text before any check.
+/// The motor described by a text and the `changes`, which replace values of the text before any check.
 fn motor_of(
     Given { mut fields, drive, contact, stator, load }: Given,
     changes: &[(MotorField, f64)],
@@ -259,14 +263,14 @@ fn tables(sheet: &MotorParameters) -> impl Iterator<Item = (&'static str, Vec<(S
 
 #[cfg(test)]
 mod tests {
-    //! Texts as people and programs write them, correct and incorrect.
+    //! Correct and incorrect texts, as people and programs write them.
 
     use super::*;
 
     type Read = fn(&str, &[(MotorField, f64)]) -> Result<Motor, MotorFileError>;
     type Write = fn(&[(&str, &str)]) -> String;
 
-    /// Both formats: how a text is read, and how lines are written.
+    /// For both formats: how a text is read, and how lines are written.
     fn formats() -> Vec<(Read, Write)> {
         vec![
             #[cfg(feature = "json")]

@@ -1,9 +1,9 @@
 //! The fields of a data sheet: their names, units and symbols, and their usual values for such motors.
 //!
 //! A number causes a warning (`MotorWarning`) if it is more than a factor 1000 outside these ranges, or if it
-//! is outside but would be inside in another unit. The ranges are orders of magnitude, not statistics of
-//! motors. Zeros are accepted. A number outside by less than a factor 1000 that fits no other unit causes no
-//! warning, like the paper's least preload, 80 mN.
+//! is outside but would be inside when read in another unit. The ranges are orders of magnitude, not
+//! statistics of motors. Zeros are accepted. A number that is outside by less than a factor 1000 and fits no
+//! other unit causes no warning; an example is the paper's smallest preload, 80 mN.
 //!
 //! | field | usual | why | other units |
 //! | --- | --- | --- | --- |
@@ -23,8 +23,8 @@
 //! | `friction` | 0.01 to 1 | lubricated to dry | |
 //!
 //! The paper's own scan of the preload, 0.1 to 10 m/s^2, causes a warning below 9.8, because 5 N entered as 5
-//! m/s^2 looks the same. A number that is also usual in the wrong unit goes undetected: 40 kHz for 40 000
-//! rad/s.
+//! m/s^2 looks the same. A mistake goes undetected if the number is also usual in the wrong unit, as when 40
+//! 000 rad/s is entered as 40 kHz.
 
 use std::f64::consts::{PI, TAU};
 use std::fmt::{self, Display, Formatter};
@@ -56,9 +56,9 @@ pub(crate) struct Field {
     /// Other units that may have been intended.
     pub(crate) readings: &'static [Reading],
     pub(crate) get: fn(&MotorParameters) -> Option<f64>,
-    /// `None` clears an optional field, and leaves another one as it is.
+    /// Sets the field; `None` clears an optional field, and leaves any other field unchanged.
     pub(crate) set: fn(&mut MotorParameters, Option<f64>),
-    /// Whether a file must contain it.
+    /// Whether a file must contain the field.
     #[cfg(any(feature = "json", feature = "toml"))]
     pub(crate) needed: bool,
     /// The paper's symbol, and other names under which a user may look for the field.
@@ -68,7 +68,7 @@ pub(crate) struct Field {
 const FREQUENCIES: (f64, f64) = (2.0e4, 2.0e5);
 const LENGTHS: (f64, f64) = (1.0e-4, 0.1);
 const FORCES: (f64, f64) = (0.1, 500.0);
-/// From the weight of a rotor that stands on its stator upwards.
+/// The lower end is that of a rotor that rests on its stator under its own weight.
 const ACCELERATIONS: (f64, f64) = (9.8, 1.0e5);
 const AMPLITUDES: (f64, f64) = (1.0e-9, 1.0e-5);
 const MASSES: (f64, f64) = (1.0e-4, 1.0);
@@ -82,12 +82,12 @@ const MILLIMETRES: &[Reading] = &[reading("a length in mm", 1.0e-3, LENGTHS)];
 
 /// A table of a data sheet, some of whose keys are fields.
 trait FieldTable: Copy + Default + PartialEq {
-    /// The part of the table that remains if such a key gets a new value.
+    /// The part of the table that remains if one of these keys is set to a new value.
     fn kept(self) -> Self;
 }
 
 impl FieldTable for Contact {
-    /// A time replaces materials.
+    /// A contact time replaces materials.
     fn kept(self) -> Self {
         Self { law: self.law, ..Self::default() }
     }
@@ -114,7 +114,7 @@ macro_rules! motor_fields {
     ($($(#[$doc:meta])* $variant:ident, $name:ident $(. $key:ident)?: $kind:ident, $unit:literal, $usual:expr, $readings:expr, $also:expr;)*) => {
         /// A numerical field of [`MotorParameters`].
         ///
-        /// It is printed, read and stored as the name of the field: `load_torque`.
+        /// It is printed, read and stored as the name of the field, for example `load_torque`.
         ///
         /// ```
         /// use bouncing_disk::motor::MotorField;
@@ -221,9 +221,9 @@ motor_fields! {
     /// [`MotorParameters::load_torque`] T_L (N m).
     LoadTorque, load_torque: optional_with_default, "N m", None, &[], &["T_L", "load", "torque"];
     /// [`Contact::time`] of [`MotorParameters::contact`] (s); replaces materials, geometry and sizes. In a
-    /// file it is in the table `[contact]`.
+    /// file the key is in the table `[contact]`.
     ContactTime, contact.time: optional, "s", None, &[], &["contact_duration"];
-    /// [`StatorParameters::mass`] M of [`MotorParameters::stator`] (kg). In a file it is in the table
+    /// [`StatorParameters::mass`] M of [`MotorParameters::stator`] (kg). In a file the key is in the table
     /// `[stator]`.
     StatorMass, stator.mass: optional, "kg", Some(MASSES), &[reading("a mass in g", 1.0e-3, MASSES)], &["M"];
     /// [`StatorParameters::quality`] Q.
@@ -241,30 +241,30 @@ motor_fields! {
 }
 
 impl MotorField {
-    /// Its row of the table, which has the same order.
+    /// The row of the table of fields, which has the same order.
     pub(crate) const fn field(self) -> &'static Field {
         &FIELDS[self as usize]
     }
 
-    /// The name of the field: `load_torque`.
+    /// The name of the field, for example `load_torque`.
     #[must_use]
     pub const fn name(self) -> &'static str {
         self.field().name
     }
 
-    /// Its unit in writing: `N m`; `1` for a dimensionless number.
+    /// The unit as text, for example `N m`; `1` for a dimensionless number.
     #[must_use]
     pub const fn unit(self) -> &'static str {
         self.field().unit
     }
 
-    /// Its value; `None` if the sheet has an alternative or no value.
+    /// The value in a data sheet; `None` if the sheet states an alternative or no value.
     #[must_use]
     pub fn value(self, sheet: &MotorParameters) -> Option<f64> {
         (self.field().get)(sheet)
     }
 
-    /// The fields that this one excludes: setting this one clears them.
+    /// The fields that this field excludes, and that are cleared when it is set.
     #[must_use]
     pub const fn excluded(self) -> &'static [Self] {
         match self {
@@ -281,13 +281,13 @@ impl MotorField {
         }
     }
 
-    /// Whether it is in a table of a file.
+    /// Whether the field is in a table of a file.
     #[must_use]
     pub fn in_table(self) -> bool {
         self.name().contains('.')
     }
 
-    /// Writes a value into a data sheet and clears the fields that it excludes ([`Self::excluded`]).
+    /// Writes a value into a data sheet and clears the fields that this field excludes ([`Self::excluded`]).
     /// [`MotorParameters::build`] checks the value.
     pub fn set(self, sheet: &mut MotorParameters, value: f64) {
         for field in self.excluded() {
@@ -303,8 +303,8 @@ impl Display for MotorField {
     }
 }
 
-/// A name that is not a field of a motor's data sheet. Its text is escaped as in Rust, so that it cannot
-/// disturb a terminal.
+/// A name that is not a field of a motor's data sheet. The name is printed with escapes as in Rust, so that
+/// it cannot disturb a terminal.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct UnknownMotorField(String);
 
@@ -345,7 +345,8 @@ impl From<MotorField> for &'static str {
     }
 }
 
-/// The known key most similar to this one: the one with this symbol or other name, otherwise by its letters.
+/// The known key most similar to this one: the key with this symbol or alternative name, otherwise the key
+/// with the most similar spelling.
 fn nearest_field(key: &str) -> Option<&'static str> {
     let named = FIELDS.iter().find(|field| field.also.contains(&key)).map(|field| field.name);
     named.or_else(|| nearest(key, &MotorField::ALL.map(MotorField::name)))

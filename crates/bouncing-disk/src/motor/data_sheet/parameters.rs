@@ -8,9 +8,9 @@ use crate::parameters::load::LoadLaw;
 use crate::parameters::stator::StatorParameters;
 use crate::parameters::system::System;
 
-/// The data sheet of a motor, not yet checked. Alternatives are optional; exactly one of each pair is given:
-/// [`Self::peak_angular_speed`] or [`Self::twist_amplitude`], [`Self::mass`] or [`Self::density`],
-/// [`Self::preload_force`] or [`Self::preload_acceleration`]. In a file `null` is the same as a missing
+/// The data sheet of a motor, not yet checked. Alternatives are optional, but exactly one of each pair must
+/// be given: [`Self::peak_angular_speed`] or [`Self::twist_amplitude`], [`Self::mass`] or [`Self::density`],
+/// [`Self::preload_force`] or [`Self::preload_acceleration`]. In a file `null` means the same as a missing
 /// field.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -18,14 +18,14 @@ use crate::parameters::system::System;
 pub struct MotorParameters {
     /// Drive frequency omega/(2 pi) (Hz), positive. Not the angular frequency in rad/s.
     pub drive_frequency: f64,
-    /// Axial amplitude A of the stator's height (m), not negative; of a compliant stator, the amplitude
-    /// without a rotor. Required unless force or volts of [`Self::stator`] determine it.
+    /// Axial amplitude A of the stator's height (m), not negative; for a compliant stator, the amplitude
+    /// without a rotor. Required unless `force` or `volts` of [`Self::stator`] determine it.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub amplitude: Option<f64>,
     /// Largest angular speed omega Phi of the stator (rad/s), not negative.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub peak_angular_speed: Option<f64>,
-    /// Twist amplitude Phi of the stator's angle (rad), not negative; instead of the speed.
+    /// Twist amplitude Phi of the stator's angle (rad), not negative; an alternative to the speed.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub twist_amplitude: Option<f64>,
     /// Phase lag theta of the twist (rad), any finite number. Default 0.
@@ -34,8 +34,8 @@ pub struct MotorParameters {
     /// Mass m of the rotor (kg), positive.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub mass: Option<f64>,
-    /// Density of the rotor (kg/m^3), positive; instead of the mass, with [`Self::rotor_radius`] and
-    /// [`Self::rotor_thickness`] of a solid disc.
+    /// Density of the rotor (kg/m^3), positive; an alternative to the mass, used with [`Self::rotor_radius`]
+    /// and [`Self::rotor_thickness`] of a solid disc.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub density: Option<f64>,
     /// Outer radius R of the rotor (m), positive.
@@ -54,11 +54,11 @@ pub struct MotorParameters {
     /// not added; include it if it contributes. The paper's g is F/m.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub preload_force: Option<f64>,
-    /// Preload acceleration g = F/m (m/s^2), positive; instead of the force.
+    /// Preload acceleration g = F/m (m/s^2), positive; an alternative to the force.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub preload_acceleration: Option<f64>,
-    /// Constant k of the spring that provides the preload (N/m), positive. Without it there is no static
-    /// deflection and no bound on the change of the preload. The motion does not depend on it.
+    /// Constant k of the spring that provides the preload (N/m), positive. Required for the static deflection
+    /// and the bound on the change of the preload; the motion does not depend on it.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub spring_constant: Option<f64>,
     /// Coefficient of friction mu, static and kinetic, not negative.
@@ -68,24 +68,25 @@ pub struct MotorParameters {
     /// Load torque T_L (N m), any finite number; a positive load decelerates a positive rotation. Default 0.
     #[cfg_attr(feature = "serde", serde(default))]
     pub load_torque: f64,
-    /// Duration of an impact, or materials and geometry; the mass is the rotor's. Without it a report cannot
-    /// tell whether rigid impacts are valid.
+    /// Duration of an impact, or materials and geometry; the mass is the rotor's. Without this table a report
+    /// cannot tell whether rigid impacts are valid.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub contact: Option<Contact>,
-    /// A compliant stator; without it the stator's motion is prescribed.
+    /// A compliant stator; without this table the stator's motion is prescribed.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub stator: Option<StatorParameters>,
-    /// A torque over speed and time, and an inertia on the shaft; instead of [`Self::load_torque`].
+    /// A torque that depends on speed and time, and an inertia on the shaft; an alternative to
+    /// [`Self::load_torque`].
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub load: Option<LoadLaw>,
     /// The motion of the stator, if it differs from the sines of Eq. (1). Its waveforms multiply the
-    /// amplitudes, and there is no `start_phase`. It excludes a [`Self::stator`] and a [`Self::load`].
+    /// amplitudes, and there is no `start_phase`. This table excludes [`Self::stator`] and [`Self::load`].
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "DriveParameters::is_sine"))]
     pub drive: DriveParameters,
 }
 
 impl MotorParameters {
-    /// A sheet without numbers. A required one that stays NaN is rejected before the sheet is used.
+    /// A sheet without numbers. A required number that remains NaN is rejected before the sheet is used.
     pub(crate) const EMPTY: Self = Self {
         drive_frequency: f64::NAN,
         amplitude: None,

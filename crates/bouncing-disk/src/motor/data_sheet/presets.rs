@@ -34,11 +34,12 @@ fn table_iii(drive_frequency: f64) -> Motor {
 }
 
 impl Motor {
-    /// The motor of Table III at 70 kHz: its system is [`System::motor`](crate::System::motor), to the last
-    /// bit.
+    /// The motor of Table III at 70 kHz: its system equals [`System::motor`](crate::System::motor) to the
+    /// last bit.
     ///
-    /// The paper does not print the mass. Here it is 33 g, for a solid steel ball of the printed 20 mm with a
-    /// handbook's 7850 kg/m^3. Speeds without a load do not depend on it; torques do.
+    /// The paper does not print the mass. The value used here, 33 g, is that of a solid steel ball with the
+    /// printed diameter of 20 mm and a handbook density of 7850 kg/m^3. No-load speeds do not depend on the
+    /// mass; torques do.
     #[must_use]
     pub fn paper_70_khz() -> Self {
         table_iii(DRIVE_FREQUENCY)
@@ -47,10 +48,10 @@ impl Motor {
     /// The motor of Table III at its second operating frequency, 184 kHz.
     ///
     /// For this frequency the paper states that the default values of omega Phi and theta were used, and
-    /// shows amplitudes of 1e-9, 1e-8 and 1e-7 m; the middle one, the default of Table III, is used here. The
-    /// true motion of the stator at 184 kHz is not printed: the measured rotor turns the other way, as it
-    /// does in the model with a phase lag of pi, while the printed default is 0. The mass is that of
-    /// [`Self::paper_70_khz`].
+    /// shows results for amplitudes of 1e-9, 1e-8 and 1e-7 m. The middle amplitude, the default of Table III,
+    /// is used here. The true motion of the stator at 184 kHz is not printed: the measured rotor turns the
+    /// other way, as it does in the model with a phase lag of pi, while the printed default is 0. The mass is
+    /// that of [`Self::paper_70_khz`].
     #[must_use]
     pub fn paper_184_khz() -> Self {
         table_iii(SECOND_DRIVE_FREQUENCY)

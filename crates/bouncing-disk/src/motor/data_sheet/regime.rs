@@ -1,12 +1,13 @@
 //! The vertical motion of the rotor: whether it lifts off, and whether its flights repeat.
 //!
-//! The verdict comes from motions, not from formulas: from the orbit that the unperturbed model repeats, and
-//! from a perturbed motion that shows whether this orbit survives (docs/numerics-dynamics.md, "Regime").
+//! The verdict comes from computed motions, not from formulas: from the orbit that the unperturbed model
+//! repeats, and from a perturbed motion, which shows whether this orbit survives (docs/numerics-dynamics.md,
+//! "Regime").
 //!
-//! At P <= 1 the rotor never lifts off. Otherwise `multi_toss` classifies the unperturbed motion over 2048
-//! impacts from rest, after 100,000 to settle if it never rests; a periodic orbit is refined by Newton's
-//! method. A motion without rest and with a positive Lyapunov exponent is chaotic. A flight is long if it
-//! exceeds half a period, because a chatter has infinitely many short ones.
+//! At P <= 1 the rotor never lifts off. Otherwise `multi_toss` classifies the unperturbed motion from rest
+//! over 2048 impacts; a motion that never rests first settles for 100,000 impacts. A periodic orbit is
+//! refined by Newton's method. A motion without rest and with a positive Lyapunov exponent is chaotic. A
+//! flight is long if it exceeds half a period, because a chatter has infinitely many short ones.
 
 use std::f64::consts::TAU;
 use std::fmt::{self, Display, Formatter};
@@ -28,7 +29,8 @@ use crate::toss::single::TOSS_START;
 /// Impacts over which the perturbed motion is followed.
 const FOLLOWED_IMPACTS: u64 = 20_000;
 
-/// Largest number of impacts over which it is followed, if it has rested less than [`FEW_RESTS`] times.
+/// Largest number of impacts over which the perturbed motion is followed, if it has rested fewer than
+/// [`FEW_RESTS`] times.
 const MOST_IMPACTS: u64 = 10 * FOLLOWED_IMPACTS;
 
 /// See [`MOST_IMPACTS`].
@@ -43,29 +45,29 @@ const PERTURBATION: f64 = 1.0e-3;
 /// Seed of the perturbations.
 const SEED: u64 = 1;
 
-/// The vertical motion of the rotor from rest on the stator. Other motions may coexist, for a rotor that is
-/// thrown.
+/// The vertical motion of the rotor from rest on the stator. Other motions may coexist, which a rotor that is
+/// thrown may reach.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum MotorRegime {
-    /// The stator never falls away under the rotor (P <= 1), which is carried and never thrown.
+    /// The stator never falls away under the rotor (P <= 1), so the rotor is carried and never thrown.
     NoLiftOff,
     /// The flights repeat, without rest.
     Periodic {
-        /// Impacts per round.
+        /// Impacts per cycle.
         impacts: usize,
-        /// Periods of the stator per round.
+        /// Periods of the stator per cycle.
         platform_periods: u64,
     },
-    /// The rotor comes to rest after few flights, and a perturbed one repeats the same cycle: a trap, in
-    /// which the speed rises along a ramp.
+    /// The rotor comes to rest after few flights, and repeats the same cycle when perturbed: a trap, in which
+    /// the speed rises along straight lines.
     LowPeriodChattering(ChatteringCycle),
     /// The rotor comes to rest now and then, after many flights, or after a number of flights that a small
     /// perturbation changes.
     LongChattering {
         /// Mean number of periods of the stator between two separations of the perturbed motion.
         platform_periods: f64,
-        /// The number of rests observed; the mean over a few is rough.
+        /// The number of rests observed; a mean over few rests is rough.
         rests: u64,
     },
     /// The flights do not repeat, the rotor does not rest, and small differences grow, all within 200 000
@@ -83,8 +85,8 @@ pub enum MotorRegime {
 }
 
 impl MotorRegime {
-    /// Whether the motion repeats a short cycle. Its speed then has almost no statistical error, however far
-    /// it is from the speeds of neighbouring motors.
+    /// Whether the motion repeats a short cycle. The rotor's speed then has almost no statistical error,
+    /// however far it is from the speeds of neighbouring motors.
     #[must_use]
     pub const fn is_locked(&self) -> bool {
         matches!(self, Self::NoLiftOff | Self::Periodic { .. } | Self::LowPeriodChattering(_))
@@ -115,12 +117,12 @@ impl Display for MotorRegime {
 #[derive(Debug, Clone, Copy, Default)]
 struct Seen {
     long_flights: u64,
-    /// Radians in long flights.
+    /// Total duration of the long flights (rad).
     flown: f64,
-    /// Sum of the speeds of the impacts that end them (g/omega).
+    /// Sum of the speeds of the impacts that end long flights (g/omega).
     speeds: f64,
     separations: u64,
-    /// Radians from the first separation to the last one.
+    /// Time from the first separation to the last one (rad).
     elapsed: f64,
 }
 
@@ -180,13 +182,13 @@ impl Seen {
 /// Means over the flights longer than half a period, as a chatter has infinitely many short ones.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct MeanFlight {
-    /// Periods of the stator.
+    /// Duration in periods of the stator.
     pub(crate) periods: f64,
-    /// Speed of the impact at its end (g/omega).
+    /// Speed of the impact that ends the flight (g/omega).
     pub(crate) impact_speed: f64,
 }
 
-/// The regime, and the long flights.
+/// The regime, and the means over the long flights.
 pub(crate) fn regime(
     system: &DimensionlessSystem,
     observer: &dyn Observer,
@@ -232,8 +234,8 @@ fn survives(cycle: ChatteringCycle, seen: &Seen) -> bool {
     cycle.long_flights <= LOCKED_FLIGHTS && seen.periods_between_rests().is_some_and(near)
 }
 
-/// The motion on which the unperturbed motion from rest settles, without its rotation, which never acts on
-/// it.
+/// The motion on which the unperturbed motion from rest settles, without the rotation, which never acts back
+/// on it.
 fn settled(
     system: &DimensionlessSystem,
     transient_impacts: usize,

@@ -1,4 +1,4 @@
-//! A check of a data sheet: its derived quantities, and the behaviour of the motor.
+//! A check of a data sheet: derived quantities, and the behaviour of the motor.
 
 use std::f64::consts::TAU;
 use std::fmt::{self, Display, Formatter};
@@ -13,8 +13,8 @@ use crate::motor::data_sheet::warning::MotorWarning;
 use crate::parameters::contact::estimate::ContactStatement;
 use crate::stator::StatorSystem;
 
-/// The derived quantities of a data sheet, and the behaviour of the motor ([`Motor::report`]). It prints as
-/// several lines.
+/// The derived quantities of a data sheet, and the behaviour of the motor ([`Motor::report`]). The report
+/// prints as several lines.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct MotorReport {
@@ -26,9 +26,9 @@ pub struct MotorReport {
     pub peak_acceleration: f64,
     /// The vertical motion of the rotor.
     pub regime: MotorRegime,
-    /// Mean duration of a flight in periods of the stator, over the flights longer than half a period, as a
-    /// chatter has infinitely many short ones. It is measured on a perturbed motion of 20 000 to 200 000 impacts. `None`
-    /// if no flight is that long.
+    /// Mean duration of the flights longer than half a period, in periods of the stator; a chatter has
+    /// infinitely many shorter flights. The mean is measured on a perturbed motion of 20 000 to 200 000
+    /// impacts. `None` if no flight is that long.
     pub periods_per_flight: Option<f64>,
     /// Mean speed of the impacts that end these flights (m/s).
     pub impact_speed: Option<f64>,
@@ -47,12 +47,12 @@ pub struct MotorReport {
 
 impl Motor {
     /// Follows the rotor for 20 000 to 300 000 impacts, which takes from a few to about 100 ms, and reports
-    /// its motion. Only the warning of an overload depends on the load.
+    /// its motion. Of all results, only the warning of an overload depends on the load.
     ///
     /// The observer's items are the impacts of up to three motions, each counted from 0.
     ///
     /// # Errors
-    /// [`Error::YieldingStator`], for which [`Self::stator_report`] states what is known;
+    /// [`Error::YieldingStator`] for a compliant stator, for which there is [`Self::stator_report`];
     /// [`Error::DriveNotSine`]; the core's error for a flight longer than it can count.
     pub fn report(&self, observer: &dyn Observer) -> Result<MotorReport, Error> {
         if self.stator().is_some() {
@@ -87,30 +87,31 @@ impl Motor {
 }
 
 /// Quantities that follow from the table `[stator]` of a data sheet without computing a motion
-/// ([`Motor::stator_report`]). It prints as several lines, the last ones of which are the motor's.
+/// ([`Motor::stator_report`]). The report prints as several lines, the last of which describe the motor.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct StatorReport {
     motor: Motor,
-    /// Effective mass M of the axial mode over the mass m of the rotor.
+    /// Effective mass M of the axial mode divided by the mass m of the rotor.
     pub mass_ratio: f64,
     /// Amplitude of the height without a rotor (m).
     pub amplitude: f64,
     /// Amplitude F_0 of the force that drives the axial mode (N).
     pub force: f64,
-    /// Amplitude of the voltage (V); like the next two, `None` without a circuit.
+    /// Amplitude of the voltage (V); `None` without a circuit, like `current` and `power`.
     pub volts: Option<f64>,
-    /// Amplitude of the current without a rotor (A); `None` also without a capacitance.
+    /// Amplitude of the current without a rotor (A); also `None` without a capacitance.
     pub current: Option<f64>,
     /// Power that the circuit draws without a rotor (W).
     pub power: Option<f64>,
     /// The preload (N) above which a rotor at rest is no longer lifted
-    /// ([`StatorModes::lift_off_preload`](crate::parameters::StatorModes::lift_off_preload)); `None` also for
+    /// ([`StatorModes::lift_off_preload`](crate::parameters::StatorModes::lift_off_preload)); also `None` for
     /// compliant contacts.
     pub lift_off_preload: Option<f64>,
-    /// The contact time of the sheet in periods of the drive, for a rigid platform.
+    /// The contact time of the sheet, which is for a rigid platform, in periods of the drive.
     pub contact_periods: Option<f64>,
-    /// The contact time on this stator, whose modes recoil, and the restitution there.
+    /// The contact time on this stator, whose modes recoil, in periods of the drive, and the restitution
+    /// there.
     pub isolated_contact: Option<[f64; 2]>,
 }
 

@@ -1,35 +1,37 @@
 //! How high a rotor can fly: a bound for all flights (docs/numerics-dynamics.md, "A bound on flight heights").
 //!
-//! In the model's units let V be the rotor's absolute upward velocity just after an impact, and U, |U| <= P, the
-//! platform's. Launch and impact are both on the platform, so their heights differ by at most 2 P, and the speed v at
-//! the next impact obeys v^2 <= V^2 + 4 P. The impact law gives V' = U + r (U - v^) = (1 + r) U - r v^ with the velocity
-//! v^ >= -v before the impact, so
+//! In the model's units, let V be the rotor's absolute upward velocity just after an impact, and U, |U| <= P,
+//! the platform's. Launch and impact are both on the platform, so their heights differ by at most 2 P, and
+//! the speed v at the next impact obeys v^2 <= V^2 + 4 P. The impact law gives V' = U + r (U - v^) = (1 + r)
+//! U - r v^ with the velocity v^ >= -v before the impact, so
 //!
 //! ```text
 //! V' <= (1 + r) P + r sqrt(V^2 + 4 P) = f(|V|).
 //! ```
 //!
-//! After an impact the rotor moves upwards relative to the platform, V' >= U >= -P, so a downward velocity is bounded
-//! by P <= f as well. The function f rises with a slope below r < 1 and has one fixed point V\*, the M of
-//! docs/numerics-dynamics.md, "Bounded speeds":
+//! After an impact the rotor moves upwards relative to the platform, V' >= U >= -P, so a downward velocity is
+//! bounded by P <= f as well. The function f rises with a slope below r < 1 and has a single fixed point V\*,
+//! called M in docs/numerics-dynamics.md, "Bounded speeds":
 //!
 //! ```text
 //! V* = (P + r sqrt(P^2 + 4 P (1 - r)/(1 + r)))/(1 - r).
 //! ```
 //!
-//! *From rest.* A separation has V <= P <= V\*, and |V| <= V\* implies |V'| <= f(V\*) = V\*: no impact of a motor that
-//! starts at rest exceeds V\*, however it chatters and rests. A relaunch perturbed by a relative speed s has
-//! V <= P + s, which is also below V\* for s <= V\* - P. A motor that lifts off has P > 1 and V\* - P > 2 r, so the
-//! default of 1e-3 is covered from r = 0.0005 on; below, V\* grows by at most s.
+//! *From rest.* A separation has V <= P <= V\*, and |V| <= V\* implies |V'| <= f(V\*) = V\*: no impact of a
+//! motor that starts at rest exceeds V\*, however it chatters and rests. A relaunch perturbed by a relative
+//! speed s has V <= P + s, which is also below V\* for s <= V\* - P. A motor that lifts off has P > 1 and V\* -
+//! P > 2 r, so the default of 1e-3 is covered for r >= 0.0005; for smaller r, V\* grows by at most s.
 //!
-//! *Attractors.* On a bounded set that the motion maps onto itself let M be the least upper bound of |V|. Each state has
-//! a predecessor in the set, so M <= f(M), hence M <= V\*. This covers attractors that no motor reaches from rest.
+//! *Attractors.* On a bounded set that the motion maps onto itself, let M be the least upper bound of |V|.
+//! Each state has a predecessor in the set, so M <= f(M), hence M <= V\*. This covers attractors that no
+//! motor reaches from rest.
 //!
 //! The height above the middle of the platform's motion is at most P at the launch, rises by at most V^2/2 and is never
 //! below -P: |z| <= P + V\*^2/2.
 //!
-//! At P = 200 and r = 0, 0.1 and 0.5 the fastest of 20,000 impacts reached little more than half of V\*, a quarter of
-//! the height. The tests follow orbits for forcings up to 1e5 and restitutions up to 1 - 1e-9.
+//! At P = 200 and r = 0, 0.1 and 0.5 the fastest of 20,000 impacts reached little more than half of V\*, and
+//! hence a quarter of the height. The tests follow orbits for forcings up to 1e5 and restitutions up to 1 -
+//! 1e-9.
 
 /// Relative increase of the bound to cover the rounding of its own few operations.
 const ROUNDING: f64 = 1.0e-12;
@@ -58,7 +60,8 @@ mod tests {
 
     const RESTITUTIONS: [f64; 6] = [0.0, 0.1, 0.5, 0.8, 0.95, 1.0 - 1e-9];
 
-    /// The bound is reached if the worst case repeats: its closed form solves the equation that defines it.
+    /// The bound is reached if the worst case repeats: the closed form solves the equation that defines the
+    /// bound.
     #[test]
     fn the_bound_is_the_fixed_point_of_the_worst_case() {
         for r in [0.0, 0.1, 0.5, 0.8, 0.95] {
@@ -107,7 +110,7 @@ mod tests {
         }
     }
 
-    /// The bound is useful: a lively orbit comes near it.
+    /// The bound is useful, because a lively orbit comes near it.
     #[test]
     fn some_orbits_come_near_the_bound() {
         for r in [0.0, 0.1, 0.5] {

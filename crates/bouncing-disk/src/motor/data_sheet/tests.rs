@@ -64,7 +64,7 @@ fn the_preset_is_the_motor_of_table_iii_to_the_last_bit() {
     assert_eq!(same, motor);
 }
 
-/// Whatever the values, exactly one of a pair of alternatives is required.
+/// Exactly one of a pair of alternatives is required, whatever their values.
 #[test]
 fn alternatives_are_given_once() {
     type Set = fn(&mut MotorParameters, Option<f64>);
@@ -139,7 +139,7 @@ fn force_speed_and_torque_become_those_of_the_system() {
     assert_eq!(motor.preload_change_bound(), None);
 }
 
-/// Every field at every limit of its range: an error that names it, or a motor without NaN.
+/// Every field at every limit of its range produces an error that names the field, or a motor without NaN.
 #[test]
 fn every_field_is_checked_at_every_seam() {
     // The quantities by which a combination is out of range.
@@ -190,8 +190,7 @@ fn every_field_is_checked_at_every_seam() {
     }
 }
 
-/// The warnings of each of these data sheets, as the names of fields, or of quantities that follow from
-/// several.
+/// The warnings of this data sheet, as text.
 fn told(sheet: MotorParameters) -> Vec<String> {
     sheet.build().expect("legal").warnings().iter().map(ToString::to_string).collect()
 }
@@ -235,7 +234,7 @@ fn the_traps_of_units_are_told() {
     }
 }
 
-/// The usual ranges end where documented, and so does the far range.
+/// The usual ranges end at the documented values, as does the range beyond which a value is far outside.
 #[test]
 fn warnings_begin_where_they_are_said_to() {
     let of = |constant: f64| {
@@ -423,8 +422,8 @@ fn a_report_can_be_stopped() {
     check_stops(None, |observer| motor.report(observer));
 }
 
-/// The report is the same each time: it has no state, and its perturbations have a fixed seed. It does not
-/// depend on the rotation.
+/// The report is the same each time, because it keeps no state and its perturbations have a fixed seed. It
+/// does not depend on the rotation.
 #[test]
 fn reports_do_not_depend_on_what_turns() {
     let motor = designers().build().expect("legal");
@@ -505,7 +504,7 @@ fn a_unit_in_a_data_sheet_is_refused_in_words_of_data_sheets() {
 }
 
 proptest! {
-    /// Written and read again, a data sheet has the same bits.
+    /// A data sheet that is written and read again has the same bits.
     #[test]
     fn files_are_exact(
         frequency in 1e3_f64..1e6, amplitude in 0.0_f64..1e-5, lag in -10.0_f64..10.0, mass in 1e-4_f64..1.0,
@@ -708,7 +707,7 @@ fn faults_of_a_table_stator_are_told() {
     assert_eq!(Motor::from_toml(&prescribed), Err(Error::NotGiven { field: "amplitude" }.into()));
 }
 
-/// A prescribed motion cannot be switched; the statements of a report do not depend on the load.
+/// A prescribed motion cannot be switched off; the statements of a report do not depend on the load.
 #[test]
 fn a_load_on_a_motion_that_is_prescribed() {
     let motor = Motor::paper_70_khz();
@@ -754,7 +753,7 @@ fn what_needs_a_prescribed_motion_refuses_a_stator_that_yields() {
     }
 }
 
-/// The engine shows the preload above which a rotor in steady contact is no longer lifted, also off
+/// The preload above which a rotor in steady contact is no longer lifted agrees with the engine, also off
 /// resonance.
 #[test]
 fn the_preload_that_is_not_lifted_is_that_of_the_engine() {
@@ -808,7 +807,7 @@ fn the_preload_that_is_not_lifted_is_that_of_the_engine() {
     }
 }
 
-/// Rigid impacts on modes are no valid model of contacts that last longer than a period.
+/// Rigid impacts on modes are not a valid model of contacts that last longer than a period.
 #[test]
 fn rigid_impacts_on_a_stator_that_yields_are_warned_of() {
     let warned = |contact: Option<Contact>| {

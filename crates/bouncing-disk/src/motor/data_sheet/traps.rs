@@ -1,27 +1,29 @@
 //! Low-period traps: values of preload, amplitude or frequency at which the rotor repeats a short cycle of
-//! flights and rest. Its speed there is that of the cycle: from zero (the holes of Fig. 11) to more than the
-//! speed next to the trap.
+//! flights and rest. There the rotor has the speed of the cycle, which may be anything from zero (the holes
+//! of Fig. 11) to more than the speed outside the trap.
 //!
-//! After every rest the rotor leaves the stator in the same state. Without perturbation the flights from one separation
-//! to the next are thus the whole cycle, which P and the restitution determine (docs/numerics-dynamics.md, "Low-period
-//! traps"). A motor is trapped if this excursion takes at most eight long flights and if 64 excursions with relaunches
-//! perturbed by up to 1e-3 g/omega have the same mean duration, within 5 %. Nearly all of the 64 then return to the same
-//! cycle.
+//! After every rest the rotor leaves the stator in the same state. Without perturbation the flights from one
+//! separation to the next are thus the whole cycle, which P and the restitution determine
+//! (docs/numerics-dynamics.md, "Low-period traps"). A motor is trapped if this excursion consists of at most
+//! eight long flights and if 64 excursions with relaunches perturbed by up to 1e-3 g/omega have the same mean
+//! duration, within 5 %. Nearly all of the 64 then return to the same cycle.
 //!
-//! **Soft landings.** A separation has sin tau = 1/P, the height 1 and the velocity v = sqrt(P^2 - 1) (units of
-//! g/omega^2 and g/omega). A rotor that meets the stator at its fastest receding velocity -P has flown h = v + P. Its
-//! height is 1 + h (v - h/2) = 1 + (v^2 - P^2)/2 = 1/2, which the stator has at sin tau = 1/(2 P), next to tau = pi. So
-//! v + P = pi - asin(1/P) - 1/(2 P) + 2 pi n + O(P^-3), and with P = pi Gamma the rotor lands without a shock at
+//! **Soft landings.** A separation occurs at sin tau = 1/P, at the height 1 and with the velocity v =
+//! sqrt(P^2 - 1) (units of g/omega^2 and g/omega). A rotor that meets the stator with the stator's fastest
+//! receding velocity -P has flown for h = v + P. Its height is then 1 + h (v - h/2) = 1 + (v^2 - P^2)/2 =
+//! 1/2, which the stator reaches at sin tau = 1/(2 P), near tau = pi. So v + P = pi - asin(1/P) - 1/(2 P) + 2
+//! pi n + O(P^-3), and with P = pi Gamma the rotor lands without a shock at
 //!
 //! ```text
 //! Gamma = n + 1/2 - 1/(2 pi P) + O(P^-3)
 //! ```
 //!
-//! At the restitution of Table III the trapping window begins 0.005 to 0.006 below this point and ends 0.05 above it,
-//! for n from 3 to 100 (a test); below it the stator would recede more slowly than the rotor falls.
+//! At the restitution of Table III the trapping window begins 0.005 to 0.006 below this point and ends 0.05
+//! above it, for n from 3 to 100 (a test); below the window the stator would recede more slowly than the
+//! rotor falls.
 //!
-//! For 72 motors with forcings near 3, 12 and 203 the verdict agrees with the report's regime in at least 71.
-//! The motors in the holes of Fig. 11 have forcings with fractions of 0.496 to 0.545.
+//! For at least 71 of 72 motors with forcings near 3, 12 and 203, the verdict agrees with the report's
+//! regime. The motors in the holes of Fig. 11 have forcings with fractions of 0.496 to 0.545.
 
 use std::f64::consts::{PI, TAU};
 
@@ -36,7 +38,7 @@ use crate::toss::chattering_cycle::{ChatteringCycle, LOCKED_FLIGHTS, LOCKED_WITH
 /// Number of perturbed relaunches for a rotor whose unperturbed cycle is short.
 const RELAUNCHES: u32 = 64;
 
-/// Impacts after which an excursion is abandoned: the unperturbed one, which must be short, and a perturbed
+/// Impacts after which an excursion is abandoned: an unperturbed one, which must be short, and a perturbed
 /// one.
 const MOST_IMPACTS: u64 = 400;
 const MOST_PERTURBED_IMPACTS: u64 = 4_000;
@@ -53,27 +55,27 @@ const SEED: u64 = 1;
 pub struct TrapVerdict {
     /// Preload as an acceleration g (m/s^2).
     pub preload_acceleration: f64,
-    /// Axial forcing parameter Gamma, which together with the restitution decides the verdict.
+    /// Axial forcing parameter Gamma, which determines the verdict together with the restitution.
     pub axial_forcing: f64,
-    /// Its fractional part, in [0, 1): traps of a single flight occur where it is about one half.
+    /// The fractional part of Gamma, in [0, 1): it is about one half in traps with a single flight per cycle.
     pub forcing_fraction: f64,
-    /// The unperturbed cycle from one separation to the next, if it takes at most eight long flights; `None`
-    /// if it takes more, or if the rotor is never thrown or never rests.
+    /// The unperturbed cycle from one separation to the next, if it consists of at most eight long flights;
+    /// `None` if there are more, or if the rotor is never thrown or never rests.
     pub cycle: Option<ChatteringCycle>,
     /// Perturbed relaunches that were tried: 64, or 0 without a cycle.
     pub relaunches: u32,
-    /// Number of these that took as many long flights and periods as the cycle.
+    /// Number of these relaunches that took as many long flights and periods as the cycle.
     pub returns: u32,
-    /// Mean number of the stator's periods from one perturbed relaunch to the next; a lower bound if one of
-    /// them had not come to rest within 4000 impacts. `None` without a cycle.
+    /// Mean number of the stator's periods from one perturbed relaunch to the next; a lower bound if a motion
+    /// had not come to rest within 4000 impacts. `None` without a cycle.
     pub mean_platform_periods: Option<f64>,
-    /// Whether the perturbed motor repeats the cycle: its mean is within 5 % of the cycle's, as for
-    /// [`MotorRegime::LowPeriodChattering`](crate::motor::MotorRegime::LowPeriodChattering).
+    /// Whether the perturbed motor repeats the cycle: its mean number of periods is within 5 % of the
+    /// cycle's, as for [`MotorRegime::LowPeriodChattering`](crate::motor::MotorRegime::LowPeriodChattering).
     pub is_trap: bool,
 }
 
 impl TrapVerdict {
-    /// The share of the perturbed relaunches that returned to the cycle; zero without one.
+    /// The share of the perturbed relaunches that returned to the cycle; zero without a cycle.
     #[must_use]
     pub fn return_share(&self) -> f64 {
         if self.relaunches == 0 { 0.0 } else { f64::from(self.returns) / f64::from(self.relaunches) }
@@ -123,12 +125,12 @@ impl TrapVerdict {
 /// Cost of a summed chatter, in flights.
 const FLIGHTS_OF_EXCURSION: u64 = 4;
 
-/// The motion from a separation to the next one, or to where it was abandoned.
+/// The motion from one separation to the next, or until it was abandoned.
 #[derive(Debug, Clone, Copy)]
 struct Excursion {
     /// Duration in radians.
     elapsed: f64,
-    /// The round; `None` if it was abandoned.
+    /// The cycle; `None` if the motion was abandoned.
     cycle: Option<ChatteringCycle>,
 }
 
@@ -181,8 +183,8 @@ fn short_cycle(map: &ImpactMap, work: &mut WorkCount<'_>) -> Result<Option<Chatt
 /// Cost of building a motor, in flights.
 const FLIGHTS_OF_BUILDING: u64 = 8;
 
-/// The verdicts for these preloads, as accelerations (m/s^2), in their order: which of them trap a motor. The
-/// acceleration replaces other alternatives in the data sheet.
+/// Which of these preloads, given as accelerations (m/s^2), trap a motor: a verdict for each, in the same
+/// order. The acceleration replaces a preload force in the data sheet.
 ///
 /// The observer's items are the preloads.
 ///
@@ -236,7 +238,7 @@ impl TrapVerdict {
 }
 
 impl Motor {
-    /// Whether the motor, as it is, is in a low-period trap.
+    /// Whether the motor with its own preload is in a low-period trap.
     ///
     /// # Errors
     /// The errors of [`Motor::rigid_sine`] and of the flights.

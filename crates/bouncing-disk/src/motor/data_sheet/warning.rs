@@ -7,10 +7,10 @@ use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::motor_field::{Field, MotorField};
 use crate::parameters::contact::estimate::{ContactStatement, ContactWarning};
 
-/// A value is far outside if it differs by this factor from the usual range.
+/// A value is far outside the usual range if it differs from it by this factor.
 const FAR: f64 = 1.0e3;
 
-/// Bound on the change of the preload above which there is a warning.
+/// A bound on the change of the preload above this value causes a warning.
 const LARGEST_CHANGE: f64 = 0.01;
 
 /// A value that is legal but unlikely to be intended, or violates an assumption of the model
@@ -31,7 +31,7 @@ pub enum MotorWarning {
         /// The reading that may have been intended: "a length in mm".
         meant: &'static str,
     },
-    /// A value is a factor 1000 outside the usual range of such motors.
+    /// A value is a factor 1000 or more outside the usual range of such motors.
     FarOutside {
         /// The field.
         field: &'static str,
@@ -51,14 +51,15 @@ pub enum MotorWarning {
         /// The radius of the rotor (m).
         rotor_radius: f64,
     },
-    /// The load exceeds the largest torque of the motor, so it drives the rotor.
+    /// The load exceeds the largest torque of the motor, so the load drives the rotor.
     Overload {
         /// The load torque (N m).
         load_torque: f64,
         /// mu m g a_e (N m).
         largest_torque: f64,
     },
-    /// The spring's force may change by more than 1 % while the rotor flies; the engine keeps it constant.
+    /// The spring's force may change by more than 1 % while the rotor flies; the engine keeps the force
+    /// constant.
     PreloadChanges {
         /// The bound on the relative change ([`Motor::preload_change_bound`]).
         bound: f64,
@@ -66,16 +67,16 @@ pub enum MotorWarning {
     /// A measured speed or rise time differs by a factor 100 from the drive's prediction
     /// ([`Motor::warnings_on`]).
     OtherScale {
-        /// The fastest speed, or the time to reach half of it.
+        /// The fastest measured speed, or the time to reach half of this speed.
         measured: f64,
         /// The stator's largest speed omega Phi, or the shortest time in which friction can accelerate a
-        /// rotor to it.
+        /// rotor to this speed.
         drive: f64,
-        /// The unit of both: rad/s or s.
+        /// The unit of both values: rad/s or s.
         unit: &'static str,
     },
     /// A warning about the duration of impacts; [`Motor::report`], which uses the impact speed, may add more
-    /// of these.
+    /// such warnings.
     Contact(ContactWarning),
     /// Impacts on a compliant stator are rigid, although they last longer than a period or their duration is
     /// unknown.
@@ -87,10 +88,11 @@ pub enum MotorWarning {
     NotLifted {
         /// The preload (N).
         preload_force: f64,
-        /// The preload below which it does ([`crate::parameters::StatorModes::lift_off_preload`]).
+        /// The preload (N) below which the stator lifts the rotor
+        /// ([`crate::parameters::StatorModes::lift_off_preload`]).
         lift_off_preload: f64,
     },
-    /// The contacts of the motor are compliant, but the regime of a report is for rigid impacts.
+    /// The contacts of the motor are compliant, but a report computes the regime for rigid impacts.
     RigidRegime,
 }
 
@@ -167,8 +169,8 @@ impl Motor {
     /// Warnings for legal values of the data sheet that are unlikely to be intended, in the order of the
     /// fields, followed by combinations of fields. Zeros are assumed to be intended.
     ///
-    /// A number that is also usual in the wrong unit cannot be detected: 40 kHz given as 40e3 where an
-    /// angular frequency of 40e3 rad/s was intended.
+    /// A mistake cannot be detected if the number is also usual in the wrong unit, as when a frequency of
+    /// 40e3 Hz is given but an angular frequency of 40e3 rad/s was intended.
     #[must_use]
     pub fn warnings(&self) -> Vec<MotorWarning> {
         let sheet = self.parameters();

@@ -35,7 +35,7 @@ fn the_verdict_is_that_of_the_report() {
     assert!(traps >= 3 && agree >= tried - 1, "{traps} {agree} {tried}");
 }
 
-/// A flight of n and a half periods lands when the stator recedes as fast as the rotor falls.
+/// A flight of n and a half periods ends when the stator recedes as fast as the rotor falls.
 #[test]
 fn traps_of_a_single_flight_are_at_half_a_forcing() {
     let motor = Motor::paper_70_khz();
