@@ -1,9 +1,9 @@
 //! The distribution of the rotor's normal impulse over the stator's cycle, and the resulting speed.
 //!
-//! Between two instants of equal vertical state the normal impulse, of impacts and contact together, equals
-//! the weight times the time between them. Friction transmits mu a_e of it, forwards while the stator turns
-//! faster than the rotor and backwards otherwise. For a rotor whose speed q changes little in one impact
-//! therefore
+//! Between two instants with the same vertical state, the total normal impulse of impacts and contact equals
+//! the weight times the time between them. Friction transmits mu a_e times this impulse to the rotor,
+//! forwards while the stator turns faster than the rotor and backwards otherwise. For a rotor whose speed q
+//! changes little in one impact, therefore,
 //!
 //! ```text
 //! dq/dt = (mu a_e g/a_g^2) S(q/(omega Phi)),
@@ -11,8 +11,8 @@
 //! ```
 //!
 //! The steady speed is omega Phi times the impulse-weighted median of cos(tau + theta). For a cycle of few
-//! impacts the speed rises along straight lines with a break whenever the rotor reaches the stator's speed at
-//! one of them.
+//! impacts the speed rises along straight lines, whose slope changes whenever the rotor reaches the stator's
+//! speed at one of the impacts.
 
 mod compliant;
 
@@ -33,7 +33,7 @@ const CONTACT_PARTS: u32 = 32;
 /// Impacts after which a motion that does not come to rest is abandoned.
 const LONGEST_CYCLE: usize = 10_000;
 
-/// A normal impulse, and the phase of the platform at which it acts.
+/// A normal impulse and the phase of the platform at which it acts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PhasedImpulse {
@@ -43,7 +43,7 @@ pub struct PhasedImpulse {
     pub impulse: f64,
 }
 
-/// The normal impulses of an orbit, of impacts and of contact.
+/// The normal impulses of impacts and of contact along an orbit.
 #[derive(Debug, Clone, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct NormalImpulses {
@@ -52,7 +52,7 @@ pub struct NormalImpulses {
     /// Phases (rad) of the impacts that end a flight longer than [`LONG_FLIGHT`], including those of a last,
     /// incomplete cycle, but not the infinitely many of a chattering sequence.
     pub landings: Vec<f64>,
-    /// Impulses of summed chattering and of contact, in parts.
+    /// Impulses of summed chattering and of contact, divided into parts.
     pub contact: Vec<PhasedImpulse>,
     /// Duration in radians, equal to the sum of all impulses between two separations.
     pub duration: f64,
@@ -171,7 +171,7 @@ impl NormalImpulses {
     }
 }
 
-/// Gives the next launch a relative speed from an evenly filling sequence.
+/// Sets the relative speed of the next launch, from a sequence that fills its range evenly.
 fn relaunch(orbit: &mut Orbit, perturbation: f64, index: u32) -> Result<(), Error> {
     if perturbation > 0.0 {
         let share = golden_share(index as usize);
@@ -183,8 +183,8 @@ fn relaunch(orbit: &mut Orbit, perturbation: f64, index: u32) -> Result<(), Erro
 /// The normal impulses from the last single impact before a rest to the separation after it.
 #[derive(Debug, Clone, Copy)]
 struct RestImpulses {
-    /// Impulse of the chattering sequence, treated as one at the attachment: change of velocity plus weight
-    /// times time.
+    /// Impulse of the chattering sequence, treated as a single impulse at the attachment: change of velocity
+    /// plus weight times time.
     chatter: PhasedImpulse,
     /// Angle of the separation, counted from the attachment without wrapping.
     until: f64,
@@ -192,8 +192,8 @@ struct RestImpulses {
 }
 
 impl RestImpulses {
-    /// The impulses of a rest whose last single impact, or separation, was at the angle `last`; `None` if it
-    /// lasts for ever.
+    /// The impulses of a rest whose last single impact, or separation, was at the angle `last`; `None` if the
+    /// rest lasts for ever.
     fn of(map: &ImpactMap, rest: &Attachment, last: f64) -> Option<Self> {
         let (leaves, turns) = rest.separation?;
         let peak_acceleration = map.vibration().peak_acceleration();
@@ -209,7 +209,7 @@ impl RestImpulses {
         self.until - self.chatter.phase
     }
 
-    /// Duration of one part of it.
+    /// Duration of one part of the contact.
     fn step(&self) -> f64 {
         self.lasts() / f64::from(CONTACT_PARTS)
     }
@@ -228,19 +228,19 @@ impl RestImpulses {
     }
 }
 
-/// A part of a segment of contact. The impulse of the normal force 1 - P sin tau in it is the duration plus
-/// the gain.
+/// A part of a segment of contact. The impulse of the normal force 1 - P sin tau over this part is the
+/// duration plus the gain.
 #[derive(Debug, Clone, Copy)]
 struct ContactPart {
     /// Angle of its midpoint, not wrapped.
     middle: f64,
     /// Duration (rad).
     duration: f64,
-    /// The change of the platform's axial velocity during it.
+    /// The change of the platform's axial velocity during the part.
     gain: f64,
 }
 
-/// The balance between impulses that drive a rotor forwards and those that brake it: [`NormalImpulses`]
+/// The balance between impulses that drive a rotor forwards and impulses that brake it: [`NormalImpulses`]
 /// ordered by cos(tau + theta), the speed of the stator.
 ///
 /// ```
@@ -266,8 +266,8 @@ pub struct ImpulseBalance {
 }
 
 impl ImpulseBalance {
-    /// S: the share of the impulse at which the stator turns faster than `speed` (in units of omega Phi)
-    /// minus the remaining share.
+    /// The net share S: the share of the impulse that acts while the stator turns faster than `speed` (in
+    /// units of omega Phi), minus the remaining share.
     #[must_use]
     pub fn net_share(&self, speed: f64) -> f64 {
         let slower = self.speeds.partition_point(|level| *level <= speed);
@@ -284,8 +284,9 @@ impl ImpulseBalance {
         self.speeds.get(index).or(self.speeds.last()).copied().unwrap_or(0.0)
     }
 
-    /// Times in units of the rise time omega Phi a_g^2/(mu a_e g) ([`crate::System::rise_time`]), and the
-    /// speed from rest at these times in units of omega Phi: `count` equal steps up to `rises`.
+    /// The run-up from rest, in `count` equal steps up to the time `rises`: times in units of the rise time
+    /// omega Phi a_g^2/(mu a_e g) ([`crate::System::rise_time`]), and the speeds at these times in units of
+    /// omega Phi.
     #[must_use]
     pub fn transient(&self, rises: f64, count: u32) -> (Vec<f64>, Vec<f64>) {
         let step = rises / f64::from(count);

@@ -2,8 +2,8 @@
 //! standard error.
 //!
 //! All numbers come from the same perturbed runs: an ensemble of vertical motions, each of which carries
-//! every requested rotor (see [`crate::motor::batch::shared_orbit`]). The spread over the members decides how
-//! long they run, which part counts as start-up, and when a number is known well enough. See
+//! every requested rotor (see [`crate::motor::batch::shared_orbit`]). The scatter of the members determines
+//! how long they run, which part counts as start-up, and when a number is known well enough. See
 //! docs/numerics-dynamics.md.
 
 mod averages;

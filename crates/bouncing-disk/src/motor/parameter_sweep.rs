@@ -25,19 +25,20 @@ use crate::motor::parameter_sweep::axis::{SweepAxis, cells, check_axes, sheet_of
 
 /// A motor in steady operation over one or two parameters: curves and maps of speed, power and efficiency.
 ///
-/// A sweep has a cell for each value of its axis, or for each pair of values of its two axes. The cells are
-/// numbered row by row; the first axis counts the rows. Each cell is the motor's data sheet with the values
-/// of the cell. A value of a parameter clears its alternative: in a sweep over `preload_force`, a motor with
-/// a `preload_acceleration` keeps only the force ([`Self::replaced`] lists such fields).
+/// A sweep consists of one cell for each value of its axis, or for each pair of values of its two axes. The
+/// cells are numbered row by row; the first axis counts the rows. Each cell is the motor's data sheet with
+/// the values of the cell. Setting a parameter clears its alternative: in a sweep over `preload_force`, a
+/// motor with a `preload_acceleration` keeps only the force ([`Self::replaced`] lists the cleared fields).
 ///
-/// Cells with one vertical motion (they differ only in load, friction, phase lag, twist, radii or mass) are
-/// computed on one orbit, wherever they lie: a map of load and phase lag has one, a map of amplitude and load
-/// one for each amplitude. (With a drive, a contact time, a compliant stator or a table `[load]` they are
-/// computed one by one.) Such a group, of 256 cells at most, runs until each of its cells is known well
-/// enough. A value in a cell therefore depends on the rest of its group, within its standard error. The cells
-/// of a group share their perturbations, so their differences are more precise than their values. A cell
-/// whose rotor acts back on its stator may use a hundredth of the impacts that the settings allow, because
-/// there an impact takes a hundred times as long.
+/// Cells with the same vertical motion (they differ only in load, friction, phase lag, twist, radii or mass)
+/// are computed on one orbit, wherever they lie. A map of load and phase lag needs a single orbit, a map of
+/// amplitude and load one for each amplitude. (On a compliant stator, cells with different masses have
+/// separate orbits; if a mode of the stator twists, each cell has its own.) Such a group, of 256 cells at
+/// most, runs until each of its cells is known well enough. A value in a cell therefore depends on the rest
+/// of its group, within its standard error. The cells of a group share their perturbations, so their
+/// differences are more precise than their values. A cell whose rotor acts back on its stator may use a
+/// hundredth of the impacts that the settings allow, because computing such an impact takes a hundred times
+/// as long.
 ///
 /// Groups depend on the sweep alone. The results have the same bits for any number of threads.
 ///
@@ -81,8 +82,8 @@ impl MotorSweep {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for an illegal number of axes, a value that is not finite and illegal settings;
-    /// [`Error::EmptyAxis`]; [`Error::RepeatedAxis`] and [`Error::BothGiven`] for two axes of one parameter,
-    /// or of two that exclude each other; an error of the core
+    /// [`Error::EmptyAxis`]; [`Error::RepeatedAxis`] and [`Error::BothGiven`] for two axes over one
+    /// parameter, or over two that exclude each other; an error of the core
     /// ([`TooLarge`](bouncing_disk_core::Error::TooLarge)) for more than
     /// [`MAX_SWEEP_CELLS`](crate::motor::MAX_SWEEP_CELLS) cells; the errors of
     /// [`MotorParameters::build`](crate::motor::MotorParameters::build) for the first cell whose motor is not
@@ -98,14 +99,15 @@ impl MotorSweep {
 
     /// This sweep over one axis as a continuation: the first cell starts from rest, and each further one from
     /// the final state of the previous cell, because amplitude and motion of a rotor on a compliant stator
-    /// may depend on its history. Let the values rise and fall again to see hysteresis. The cells form one
-    /// group. All other fields of the sheet are constant: over the drive frequency, these are the volts, the
-    /// force or the amplitude without a rotor (whichever the sheet states), the preload and the phase lag.
+    /// may depend on its history. To see hysteresis, let the values rise and fall again. The cells form one
+    /// group. All other fields of the sheet are constant. In a sweep over the drive frequency these include
+    /// the preload, the phase lag, and the volts, the force or the amplitude without a rotor, whichever the
+    /// sheet states.
     ///
-    /// Height and modes continue. The speeds of the rotors start again far below and far above, as in every
-    /// cell, which bounds the remaining dependence on the start. After a runaway, a cell continues from the
-    /// last one that had a speed. Members may end up in different steady states: the mean then belongs to no
-    /// state, and its error is their scatter.
+    /// The motions of disk and modes continue. The angular speeds of the rotors start again far below and far
+    /// above, as in every cell, which bounds the remaining dependence on the start. After a runaway, a cell
+    /// continues from the last cell with a mean speed. Members may end up in different steady states: the
+    /// mean then belongs to no state, and its error is their scatter.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for two axes; [`Error::NotGiven`] for a motor without a table `[stator]`.
@@ -116,7 +118,7 @@ impl MotorSweep {
         Ok(Self { continued: true, groups, ..self })
     }
 
-    /// The operations of a group, in its order.
+    /// The operations of a group, in the order of its cells.
     ///
     /// # Errors
     /// The errors of [`Self::motor_of`] and of [`operations`], which reports that there is no motor if the
@@ -161,14 +163,14 @@ impl MotorSweep {
         cells(&self.axes)
     }
 
-    /// The cells that are computed together, by their indices: each cell is in one group. The groups are in
-    /// the order of their first cells.
+    /// The groups of cells that are computed together, as cell indices. Each cell is in one group; the groups
+    /// are in the order of their first cells.
     #[must_use]
     pub fn groups(&self) -> &[Vec<usize>] {
         &self.groups
     }
 
-    /// Fields of the motor's data sheet that the axes replace by alternatives: they are cleared in every
+    /// Fields of the motor's data sheet that the axes replace by alternatives, and that are cleared in every
     /// cell.
     #[must_use]
     pub fn replaced(&self) -> Vec<MotorField> {

@@ -10,16 +10,16 @@ use crate::error::{Error, within_limit};
 /// Largest number of periods that are followed.
 const MAX_PERIODS: usize = 1_000_000;
 
-/// Parts per period, and at least per contact, into which the force is divided: the speed of the stator
-/// changes by less than 0.007 of its amplitude in half a part.
+/// Number of parts per period, and smallest number per contact, into which the force is divided. The speed of
+/// the stator changes by less than 0.007 of its amplitude in half a part.
 const PARTS: f64 = 512.0;
 const LEAST_PARTS: f64 = 8.0;
 
 impl NormalImpulses {
-    /// The impulses of a disk that lay on the platform at phase 0, over `periods` of the drive after the
-    /// first `settling` ones, or over one period if the disk follows the platform for ever. All impulses are
-    /// in [contacts](Self::contact), in parts; [`landings`](Self::landings) are the phases at which the force
-    /// begins.
+    /// The impulses of a disk that lies on the platform at phase 0, over `periods` of the drive after the
+    /// first `settling` periods, or over one period if the disk follows the platform for ever. All impulses
+    /// are listed under [`contact`](Self::contact), in parts; [`landings`](Self::landings) are the phases at
+    /// which the force begins.
     ///
     /// # Errors
     /// An error of the core for more than a million periods; the errors of the flights and of the contacts.
@@ -108,8 +108,8 @@ mod tests {
         }
     }
 
-    /// A rotor whose speed changes little in one contact settles at the median, although its own motion, with
-    /// all slips and reversals, is computed without medians.
+    /// A rotor whose speed changes little in one contact settles at the median. Its own motion, with all
+    /// slips and reversals, is computed without medians.
     #[test]
     fn the_median_is_the_speed_at_which_a_rotor_ends() {
         let frequency = 70e3;

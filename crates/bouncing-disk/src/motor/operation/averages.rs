@@ -1,5 +1,5 @@
-//! Means over the members of an ensemble, or over a cycle, with their errors, and the units of the windows'
-//! contents.
+//! Means over the members of an ensemble or over a cycle, with their errors, and the units of the sums in
+//! windows.
 
 use bouncing_disk_core::numerics::elementary::hypot;
 use bouncing_disk_core::numerics::statistics::{NORMAL_975, mean};
@@ -14,12 +14,12 @@ use crate::parameters::dimensionless::DimensionlessSystem;
 use crate::parameters::scales::Scales;
 use crate::stator::StatorLedger;
 
-/// The sums of each member, for its rotors from far below and from far above.
+/// The sums of each member, for the rotors that started far below and far above the steady speed.
 #[derive(Clone)]
 pub(super) struct Pairs {
     pub(super) below: Vec<Sum>,
     pub(super) above: Vec<Sum>,
-    /// The sums for rotors with half the inertia, if these have less than the motor's.
+    /// The sums for rotors with half of a reduced inertia; empty if the inertia is not reduced.
     pub(super) quickest: Vec<Sum>,
     /// Speeds of each member's two rotors at evenly spaced times.
     pub(super) samples: Vec<Vec<f64>>,
@@ -30,14 +30,15 @@ pub(super) struct Pairs {
 }
 
 impl Pairs {
-    /// Two values for each member: the mean over its two rotors, and the value of the rotor from above.
+    /// Two values for each member: the mean over its two rotors, and the value of the rotor that started from
+    /// above.
     pub(super) fn of(&self, value: &dyn Fn(&Sum) -> f64) -> [Vec<f64>; 2] {
         let middles =
             self.below.iter().zip(&self.above).map(|(one, other)| 0.5 * (value(one) + value(other)));
         [middles.collect(), self.above.iter().map(value).collect()]
     }
 
-    /// The mean of one value per member, with its scatter.
+    /// The mean of one value per member, with its error due to their scatter.
     pub(super) fn scatter(&self, values: &[f64]) -> Result<Estimate, Error> {
         if self.are_perturbed { Estimate::of_decade(values) } else { Estimate::of(values) }
     }
@@ -86,7 +87,7 @@ impl Averages<'_> {
         }
     }
 
-    /// The difference between a value for other rotors on the same motion and for these.
+    /// The difference between the value for other rotors on the same motion and the value for these rotors.
     pub(super) fn rise(&self, others: &Self, value: &dyn Fn(&Sum) -> f64) -> Result<Estimate, Error> {
         match (self, others) {
             (Self::Members(own), Self::Members(other)) => {
@@ -103,8 +104,8 @@ impl Averages<'_> {
         }
     }
 
-    /// The range of the speed: 95 % of the time, and all of it in a cycle. The rotors have `quicker` times
-    /// less inertia than their motor. `None` if too few speeds are known.
+    /// The range of the speed: that of the middle 95 % of the time, or the whole range in a cycle. The rotors
+    /// have `quicker` times less inertia than their motor. `None` if too few speeds are known.
     pub(super) fn speed_range(&self, quicker: f64) -> Option<[Estimate; 2]> {
         let pairs = match self {
             Self::Cycle { sums, .. } => {
@@ -171,7 +172,7 @@ impl Averages<'_> {
         }
     }
 
-    /// Averaged time (rad) and impacts of all members together.
+    /// Averaged time (rad) and number of impacts of all members together.
     pub(super) fn duration_and_impacts(&self) -> (f64, u64) {
         match self {
             Self::Members(pairs) => (
@@ -183,11 +184,11 @@ impl Averages<'_> {
     }
 }
 
-/// Fewest samples of a speed from which a range is determined by order.
+/// Fewest samples of a speed for which a range is read off the ordered samples.
 const LEAST_SAMPLES: usize = 160;
 
-/// The ends of the middle 95 % of ordered speeds, moved towards their mean because a rotor with its whole
-/// inertia swings less.
+/// The ends of the middle 95 % of ordered speeds, moved towards `about` because a rotor with its full inertia
+/// swings less.
 fn middle_of(speeds: &[f64], about: f64, quicker: f64) -> [f64; 2] {
     [0.025, 0.975].map(|share| {
         let place = share * (speeds.len() - 1) as f64;
@@ -197,14 +198,14 @@ fn middle_of(speeds: &[f64], about: f64, quicker: f64) -> [f64; 2] {
     })
 }
 
-/// SI units of the windows' contents.
+/// SI units of the sums in windows.
 pub(super) struct Units {
     pub(super) time: f64,
     pub(super) length: f64,
     pub(super) speed: f64,
     /// m g a_e (N m).
     pub(super) torque: f64,
-    /// Power (W) of one unit of axial and of rotary energy per radian.
+    /// Power (W) of one unit of energy per radian, axial and rotary.
     pub(super) axial: f64,
     pub(super) rotary: f64,
 }
@@ -223,7 +224,7 @@ impl Units {
     }
 }
 
-/// The sum of windows, of one member or of all.
+/// The sum over windows of one member or of all members.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Sum {
     pub(super) axial: AxialWindow,
@@ -249,8 +250,8 @@ impl Sum {
         self.rotor.stator.as_ref().map(|own| own.0).unwrap_or_default()
     }
 
-    /// The energy supplied; if it is less than the initial energy of all members' disks, that energy, because
-    /// only roundings remain then.
+    /// The energy supplied, but at least the energy of all members' disks at the start, below which only
+    /// rounding errors remain.
     pub(super) fn energy_scale(&self, units: &Units, system: &DimensionlessSystem, members: usize) -> f64 {
         let axial = self.axial.normal_work + self.axial.perturbation_work;
         // A load that drives the motor also supplies energy, as does a rotor that slows down.

@@ -1,4 +1,4 @@
-//! A rotor that acts back on its stator, followed by the engine of both.
+//! A rotor that acts back on its stator; one engine follows both.
 
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
@@ -25,10 +25,10 @@ pub(crate) struct Coupled {
     generator: SplitMix64,
     perturbation: f64,
     energies: Energies,
-    /// Energy supplied by the perturbations.
+    /// Energy that the perturbations have supplied.
     given: f64,
     impacts: u64,
-    /// Impacts, and the recurring events of a compliant contact without an impact.
+    /// Number of impacts, and of recurring events of a compliant contact without an impact.
     recurrences: u64,
     start: PhaseTime,
     /// The present time, and the end of the last window with the sums up to it.
@@ -54,8 +54,8 @@ struct Totals {
 }
 
 impl Coupled {
-    /// A rotor that lies on its stator at `phase` with an angular speed. If impacts are rigid, separations
-    /// are perturbed by speeds of this size from a stream with this seed.
+    /// A rotor that lies on its stator at `phase` with an angular speed. If impacts are rigid, each
+    /// separation is perturbed by a speed of up to `perturbation`, from a stream with this `seed`.
     pub(crate) fn new(
         system: &StatorSystem,
         phase: Phase,
@@ -85,7 +85,7 @@ impl Coupled {
         Ok(coupled)
     }
 
-    /// Continues from the state in which another one was left.
+    /// Continues from the state in which another motion was left.
     pub(crate) fn go_on_from(&mut self, time: PhaseTime, state: StatorState) -> Result<(), Error> {
         (self.start, self.reached, self.ended) = (time, time, time);
         self.engine = StatorEngine::of_state(self.engine.system().clone(), time, state)?;
@@ -94,12 +94,12 @@ impl Coupled {
         Ok(())
     }
 
-    /// The rotor's angular speed after the last event.
+    /// The angular speed of the rotor after the last event.
     pub(crate) fn angular_speed(&self) -> f64 {
         self.engine.disk().angular_speed
     }
 
-    /// Its state at the end of the last window.
+    /// The state at the end of the last window.
     pub(crate) fn left(&self) -> Left {
         Left::of(&self.engine, self.reached)
     }
@@ -113,7 +113,7 @@ impl Coupled {
         self.recurrence.know(cycles);
     }
 
-    /// The time (rad) for which it was followed.
+    /// The time (rad) for which the motion was followed.
     pub(crate) fn followed(&self) -> f64 {
         self.reached.since(&self.start).radians()
     }
@@ -137,8 +137,8 @@ impl Coupled {
         Ok(Some(Cycle::of_window(window, keys, Repeats { touches, ..repeats })))
     }
 
-    /// The next window: at least `duration` rad, and a number of impacts in a range whatever the duration, up
-    /// to the end of an event. It ends early if the motion is found to repeat.
+    /// The next window, up to the end of an event. It lasts for at least `duration` rad, but the number of
+    /// its impacts stays within `impacts`. The window ends early if the motion is found to repeat.
     pub(crate) fn next_window(
         &mut self,
         duration: f64,

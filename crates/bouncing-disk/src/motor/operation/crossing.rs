@@ -1,4 +1,4 @@
-//! The unstable speed of a rotor under a load that decreases with the speed.
+//! The unstable speed of a rotor under a load torque that decreases with the speed.
 
 use bouncing_disk_core::Observer;
 use bouncing_disk_core::numerics::statistics::NORMAL_975;
@@ -11,21 +11,21 @@ use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::operation::steady_run::operate_for;
 use crate::motor::tape::replay::torque;
 
-/// Share of the distance between two stable speeds within which no unstable one is sought, and over which the
-/// slope is taken.
+/// Share of the distance between two stable speeds: this close to them no unstable speed is sought, and the
+/// slope is computed over this distance.
 const MARGIN: f64 = 1.0 / 32.0;
 
-/// Share of its standard error within which a speed counts as found, and the largest number of speeds tried.
+/// A speed counts as found within this share of its standard error; and the largest number of speeds tried.
 const FOUND: f64 = 0.25;
 const MOST_STEPS: usize = 40;
 
-/// The speed (rad/s) between two stable ones, the slower first, from which a rotor moves to either of them.
-/// The motor's torque rises through the load's torque there. `None` if it is not found, or if its interval is
-/// wider than the distance of the two.
+/// The speed (rad/s) between two stable speeds, the slower first, from which a rotor may move to either of
+/// them. At this speed the motor's torque rises above the load's as the speed grows. `None` if no such speed
+/// is found, or if its 95 % interval is wider than the distance between the two.
 ///
 /// The motor's torque at a speed is defined as the constant load under which a rotor has this mean speed. The
-/// law of the load is evaluated at the mean speed. The rotor's swing is part of the error, because it can
-/// carry a rotor across.
+/// law of the load is evaluated at the mean speed. The swing of the rotor's speed is part of the error,
+/// because it can carry a rotor across.
 pub(super) fn unstable_speed(
     motor: &LoadedMotor<'_>,
     [slow, fast]: [f64; 2],

@@ -1,4 +1,4 @@
-//! A motor with its stator under a load torque.
+//! A motor and its stator under a load torque.
 
 use crate::driven::DrivenSystem;
 use bouncing_disk_core::run::Watch;
@@ -12,11 +12,11 @@ use crate::parameters::dimensionless::{DimensionlessParameters, DimensionlessSys
 use crate::parameters::system::System;
 use crate::stator::StatorSystem;
 
-/// Relative rounding of a load that was computed from the largest torque of friction in other units: about
-/// ten operations.
+/// Relative rounding error, from about ten operations, of a load that was computed from the largest torque of
+/// friction in other units.
 const LOAD_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// Members per motor in a search.
+/// Number of members per motor in a search.
 const FEWEST: usize = 4;
 
 /// A motor under a load, on a shared vertical motion.
@@ -26,13 +26,13 @@ pub(crate) struct LoadedMotor<'a> {
     pub(crate) system: System,
     /// The largest speeds of the stator.
     pub(crate) fastest: LargestSpeeds,
-    /// The stator, with load, friction and phase lag of `system`.
+    /// The stator, with the load, friction and phase lag of `system`.
     pub(crate) stator: &'a Stator,
     /// Mass m (kg).
     pub(crate) mass: f64,
     /// Load torque T_L (N m) as given, from which the system's load is computed.
     pub(crate) load_torque: f64,
-    /// The known vertical motions, which do not depend on load, friction and lag.
+    /// The known vertical motions, which do not depend on load, friction or lag.
     pub(crate) surveyed: Option<&'a Survey>,
     /// Whether only the motion that most rotors reach from rest is required.
     pub(crate) first_only: bool,
@@ -73,14 +73,14 @@ impl LargestSpeeds {
 }
 
 impl LoadedMotor<'_> {
-    /// Its dimensionless parameters, with the largest speeds of its stator in the place of the sine's.
+    /// The motor's dimensionless parameters, with the largest speeds of its stator instead of the sine's.
     pub(super) fn dimensionless(&self) -> Result<DimensionlessSystem, Error> {
         let LargestSpeeds { height, angle, .. } = self.fastest;
         let own = self.system.dimensionless().parameters();
         DimensionlessParameters { peak_acceleration: height, twist_speed: angle, ..own }.build()
     }
 
-    /// Its vertical motions; `None` under the same conditions as for [`Survey::of`].
+    /// The motor's vertical motions; `None` under the same conditions as for [`Survey::of`].
     pub(super) fn survey(&self, seed: u64, watch: &Watch<'_>) -> Result<Option<Survey>, Error> {
         if self.stator.acts_back() {
             return Ok(None);
@@ -99,7 +99,7 @@ impl LoadedMotor<'_> {
         self.system.dimensionless().load()
     }
 
-    /// Whether a mean speed differs from zero: by more than four standard errors, and by more than rounding.
+    /// Whether a mean speed differs from zero by more than four standard errors, and by more than rounding.
     pub(crate) fn turns(&self, speed: Estimate) -> bool {
         self.turns_by(4.0, speed)
     }
@@ -128,7 +128,7 @@ impl LoadedMotor<'_> {
         disk.friction() * self.mass * disk.preload_acceleration() * disk.contact_radius()
     }
 
-    /// Its stator, if it is compliant or the load has a law.
+    /// The stator's system, if the stator is compliant or the load follows a law.
     pub(super) fn yielding(&self) -> Option<&StatorSystem> {
         self.stator.yielded()
     }
@@ -138,7 +138,7 @@ impl LoadedMotor<'_> {
         self.yielding().map_or(0.0, |own| own.constant_law().unwrap_or(f64::INFINITY))
     }
 
-    /// The torque (N m) of load and law on a rotor that begins to turn forwards.
+    /// The torque (N m) of load and law together on a rotor that begins to turn forwards.
     pub(super) fn torque_at_rest(&self) -> f64 {
         let law = self.yielding().and_then(|own| own.lines.iter().find(|line| line.to > 0.0));
         law.map_or(self.load_torque, |line| line.torque * self.torque_unit())
@@ -149,10 +149,10 @@ impl LoadedMotor<'_> {
         self.load() == 0.0 && self.law() == 0.0
     }
 
-    /// Whether the load accelerates the rotor for ever: in units of m g a_e it exceeds the coefficient of
-    /// friction, or equals it up to the rounding of the torques in other units. The mean normal force is the
-    /// weight under preload, so friction cannot give more, whatever the motion. For a load that depends on
-    /// the speed this is not known.
+    /// Whether the load accelerates the rotor for ever: in units of m g a_e, the load exceeds the coefficient
+    /// of friction, or equals it up to the rounding of torques in other units. The mean normal force equals
+    /// the preload, so friction cannot supply more, whatever the motion. False for a load that depends on the
+    /// speed, for which this is not known.
     pub(super) fn runs_away(&self) -> bool {
         let system = self.system.dimensionless();
         let load = system.load() + self.law();

@@ -1,11 +1,12 @@
-//! One member of an ensemble: a vertical motion with all rotors on it, in windows of time.
+//! One member of an ensemble: a vertical motion and all rotors on it, in windows of time.
 //!
-//! A compliant stator has the mass M (in units of the disk's) and the quality Q. A quarter of the members starts
-//! from a stator at rest and decides the first branch, a quarter from its motion without a rotor, half from held
-//! amplitudes. If M Q exceeds 1e5, a stator at rest would ring for the whole run, and members from rest start on
-//! the lowest held amplitude; if Q also exceeds 5e4, all members start on held amplitudes. Windows last at least
-//! 1.5 Q radians, which makes the omitted start-up three times the slowest decay of an amplitude by a factor e;
-//! above Q = 5e4 they last 0.45 Q.
+//! Let a compliant stator have the mass M (in units of the disk's) and the quality Q. A quarter of the
+//! members start with the stator at rest; they decide the first branch. Another quarter start with the
+//! stator's motion without a rotor, and half start at held amplitudes. If M Q exceeds 1e5, a stator at rest
+//! would ring for the whole run, so members from rest start at the lowest held amplitude instead; if Q also
+//! exceeds 5e4, all members start at held amplitudes. Windows last at least 1.5 Q radians, which makes the
+//! omitted start-up three times as long as the slowest decay of an amplitude by a factor e; above Q = 5e4
+//! they last at least 0.45 Q.
 
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
@@ -32,8 +33,9 @@ use crate::motor::tape::window::Window;
 use crate::parameters::dimensionless::DimensionlessSystem;
 use crate::stator::{MODES, StatorState};
 
-/// An angular speed above which no rotor under a braking load stays or comes: the platform's, plus the
-/// deceleration by friction in a period. Without friction a rotor keeps its speed, and starts at rest.
+/// An angular speed above which no rotor under a braking load rises or remains: the platform's largest speed
+/// plus the loss of speed by friction in a period. Zero without friction, because a rotor then keeps the
+/// speed with which it starts.
 pub(crate) fn far_above(system: &DimensionlessSystem) -> f64 {
     far_from(system, 1.0)
 }
@@ -47,11 +49,11 @@ fn far_from(system: &DimensionlessSystem, quicker: f64) -> f64 {
 /// Ratio of inertias by which the effect of a reduced inertia is estimated.
 const TWICE: f64 = 2.0;
 
-/// Largest throw of members, in units of the platform's largest speed.
+/// Largest speed with which members are thrown, in units of the platform's largest speed.
 const MOST_THROWN: f64 = 3.0;
 
-/// Whether a member starts with a throw or at a held amplitude, as every second one does where that may
-/// decide the outcome; the others start from rest.
+/// Whether a member starts with a throw or at a held amplitude, as every second member does if this may
+/// affect the outcome; the others start from rest.
 pub(crate) const fn is_thrown(index: usize) -> bool {
     index % 2 == 1
 }
@@ -59,35 +61,36 @@ pub(crate) const fn is_thrown(index: usize) -> bool {
 /// The root of ten.
 const HALF_DECADE: f64 = 3.162_277_660_168_379_5;
 
-/// One of four members has a smaller and one a larger perturbation, at either end of a decade, which shows
-/// the effect of its size. Returns the size for this index: 0 for the settings' own, 1 and 2 for the others.
+/// Of every four members, one has a smaller and one a larger perturbation, at the two ends of a decade; this
+/// shows the effect of its size. Returns the number of the size for this index: 0 for the size in the
+/// settings, 1 for the smaller and 2 for the larger one.
 pub(crate) const fn size_of_perturbation(index: usize) -> usize {
     (index % 4).saturating_sub(1)
 }
 
-/// Smallest number of members for perturbations of several sizes; fewer members all use the perturbation of
-/// the settings, because the scatter at one size would be unknown.
+/// Smallest number of members for perturbations of several sizes; with fewer members, all use the
+/// perturbation of the settings, because the scatter at each size would be unknown.
 pub(crate) const LEAST_FOR_DECADE: usize = 8;
 
-/// The factor of the perturbation.
+/// The factor by which the perturbation differs from the settings.
 fn of_decade(index: usize) -> f64 {
     [1.0, 1.0 / HALF_DECADE, HALF_DECADE][size_of_perturbation(index)]
 }
 
-/// The throw of the disk of this index, in units of the platform's largest speed; `None` for a start from
-/// rest.
+/// The speed with which the disk of the member with this index is thrown, in units of the platform's largest
+/// speed; `None` for a start from rest.
 pub(crate) fn thrown(index: usize) -> Option<f64> {
     is_thrown(index).then(|| MOST_THROWN * golden_share(index))
 }
 
-/// Largest product of mass ratio and ringing time of a stator for a run from rest: beyond it, the run takes
-/// too long to settle.
+/// Largest product of mass ratio and ringing time of a stator at which runs start from rest; beyond it, a run
+/// takes too long to settle.
 const SLOWEST: f64 = 1.0e5;
 
 /// Longest decay time (rad, by a factor e) of an amplitude that is left to ring down.
 pub(crate) const LONGEST_DECAY: f64 = 1.0e5;
 
-/// Mass ratio of stator and disk from which a flight changes the amplitude by less than the stated error.
+/// Mass ratio of stator and disk above which a flight changes the amplitude by less than the stated error.
 const HEAVY: f64 = 100.0;
 
 /// The starts of members on a compliant stator.
@@ -99,15 +102,16 @@ pub(crate) struct Starts {
     /// Whether no member starts on a stator at rest or away from the motion of a held amplitude.
     slow: bool,
     rings: bool,
-    /// Whether no member starts with the stator's motion without a rotor, which it would take too long to
-    /// leave.
+    /// Whether no member starts with the stator's motion without a rotor, because leaving this motion would
+    /// take too long.
     slowest: bool,
     /// Indentation of a contact by the preload.
     compression: f64,
 }
 
 impl Starts {
-    /// The starts for this stator; empty if it is rigid. If friction acts back on it, no amplitude is held.
+    /// The starts for this stator; empty if the stator is rigid. If friction acts back on the stator, there
+    /// are no held amplitudes.
     pub(crate) fn new(
         stator: &Stator,
         settings: &OperatingSettings,
@@ -132,21 +136,22 @@ impl Starts {
         self.held.len() > 1
     }
 
-    /// The largest acceleration (g) at a held amplitude: a disk slows the stator down to these.
+    /// The largest acceleration (g) at a held amplitude: a disk slows the stator down to such an amplitude.
     pub(crate) fn largest(&self) -> Option<f64> {
         self.held.iter().map(|own| own.amplitude).reduce(f64::max)
     }
 
-    /// Whether the member of this index starts with rotor and stator at rest, or at the lowest held
-    /// amplitude, which such a start reaches.
+    /// Whether the member with this index starts with rotor and stator at rest, or at the lowest held
+    /// amplitude, which a start from rest reaches.
     pub(crate) const fn is_from_rest(&self, index: usize) -> bool {
         !is_thrown(index) && (index.is_multiple_of(4) || !self.yields || self.slowest)
     }
 
-    /// The start of the member with this index and phase. Every second one is at each held amplitude in turn,
-    /// on its motion or thrown up. Half of the others start with the stator at rest; if settling from there
-    /// takes too long, they start at the lowest amplitude, which a run from rest reaches as well. The other
-    /// half start with the stator's motion without a rotor, unless that takes too long to leave.
+    /// The start of the member with this index and phase. Every second member starts at one of the held
+    /// amplitudes in turn, on the motion that belongs to it or thrown up. Half of the others start with the
+    /// stator at rest; if settling from rest takes too long, they start at the lowest held amplitude, which a
+    /// run from rest also reaches. The other half start with the stator's motion without a rotor, unless that
+    /// takes too long to leave.
     pub(crate) fn of(&self, index: usize, phase: Phase) -> Option<(PhaseTime, StatorState)> {
         let (count, share) = (self.held.len(), golden_share(index));
         let (turn, disk) = match (is_thrown(index), index / 2 / count.max(1) % 2) {
@@ -178,11 +183,12 @@ pub(crate) enum Member {
 }
 
 impl Member {
-    /// The member of this `index` among the number that `settings` states. Each of the first `bracketed`
-    /// systems has two rotors: one from far below all steady speeds, and one from equally far above, listed
-    /// after the rotors of all systems. The other systems have one rotor, which starts at rest. Each system
-    /// has its stator, all of one kind. A rotor on a tape has `quicker` times less inertia than its motor; if
-    /// some do, a third rotor for each of the first systems has half of that.
+    /// The member with this `index` among the number of members in `settings`. Each of the first `bracketed`
+    /// systems has two rotors: one starts far below all steady speeds, and one equally far above. The rotors
+    /// from above are listed after the first rotors of all systems. Each of the other systems has one rotor,
+    /// which starts at rest. The stators of the systems are all of one kind. A rotor on a tape has `quicker`
+    /// times less inertia than its motor; if any inertia is reduced, each of the first systems has a third
+    /// rotor with half of its reduced inertia.
     pub(crate) fn new(
         systems: &[DimensionlessSystem],
         stators: &[Stator],
@@ -225,7 +231,7 @@ impl Member {
         ))))
     }
 
-    /// The same on a motion that is known to repeat.
+    /// The same member, on a motion that is known to repeat.
     pub(crate) fn on(self, repeats: Repeats) -> Self {
         match self {
             Self::Taped(member) => Self::Taped(Box::new(member.on(repeats))),
@@ -233,7 +239,7 @@ impl Member {
         }
     }
 
-    /// The motion that it was found to repeat.
+    /// The cycle that the member was found to repeat.
     pub(crate) const fn repeats(&self) -> Option<Repeats> {
         match self {
             Self::Taped(member) => member.repeats(),
@@ -249,7 +255,7 @@ impl Member {
         }
     }
 
-    /// The cycle that its motion repeats, if one was found.
+    /// The cycle that the motion repeats, if one was found.
     pub(crate) fn cycle(&mut self, work: &mut WorkCount<'_>) -> Result<Option<Cycle>, Error> {
         match self {
             Self::Taped(member) => member.cycle(work),
@@ -257,7 +263,8 @@ impl Member {
         }
     }
 
-    /// The rotors of a cycle in the order of this member's, whose speeds lie within these limits.
+    /// The motion of this member's rotors, in their order, in a cycle; their speeds lie within the limits
+    /// `largest`.
     pub(crate) fn on_cycle(&self, cycle: &Cycle, largest: &[f64]) -> [Window; 2] {
         match self {
             Self::Taped(member) => member.on_cycle(cycle, largest),
@@ -265,7 +272,7 @@ impl Member {
         }
     }
 
-    /// The time (rad) for which it was followed.
+    /// The time (rad) for which the member was followed.
     pub(crate) fn followed(&self) -> f64 {
         match self {
             Self::Taped(member) => member.followed,
@@ -290,7 +297,7 @@ impl Member {
         }
     }
 
-    /// Starts from a state of disk and stator, with its rotors at their present speeds.
+    /// Starts from a state of disk and stator, with the rotors at their present speeds.
     pub(crate) fn set_off(&mut self, (time, mut state): (PhaseTime, StatorState)) -> Result<(), Error> {
         if let Self::Coupled(member) = self {
             state.disk.angular_speed = member.angular_speed();
@@ -298,8 +305,8 @@ impl Member {
         self.go_on_from((time, state))
     }
 
-    /// The next window: at least `duration` rad, and a number of impacts in a range whatever the duration, up
-    /// to the end of an event. For rotors that never bounce periods count instead of impacts.
+    /// The next window, up to the end of an event. It lasts for at least `duration` rad, but the number of
+    /// its impacts stays within `impacts`. For rotors that never bounce, periods count instead of impacts.
     pub(crate) fn next_window(
         &mut self,
         duration: f64,

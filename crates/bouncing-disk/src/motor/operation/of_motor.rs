@@ -1,4 +1,4 @@
-//! A designer's questions about a motor in steady operation: operating point, torque-speed curve, stall load.
+//! Operating point, torque-speed curve and stall load of a motor in steady operation.
 
 use bouncing_disk_core::{Observer, Progress, Unobserved};
 
@@ -28,8 +28,8 @@ impl LoadedMotor<'static> {
 }
 
 impl Motor {
-    /// The motor in steady operation under a load torque (N m), which replaces its data sheet's or is added
-    /// to the law of its table `[load]`.
+    /// The motor in steady operation under a load torque (N m), which replaces the load torque of the data
+    /// sheet or is added to the law of its table `[load]`.
     ///
     /// The observer's items are the impacts that may be spent.
     ///
@@ -56,8 +56,8 @@ impl Motor {
     /// # Errors
     /// [`Error::OutOfRange`] for illegal settings and a load that is not finite; [`Error::LoadInTime`] for a
     /// time-dependent load; an error of the core for more than [`MAX_OPERATED_ROTORS`] rotors of all members
-    /// together; the errors of the flights. A motor that is not known well enough when all impacts are spent
-    /// is not an error but [`Operation::Unsettled`].
+    /// together; the errors of the flights. A motor whose speed is not known well enough when all impacts are
+    /// spent is not an error, but [`Operation::Unsettled`].
     pub fn operating_point(
         &self,
         load_torque: f64,
@@ -70,10 +70,10 @@ impl Motor {
     }
 
     /// The motor in steady operation under each of these load torques (N m), in their order, on one vertical
-    /// motion. A curve therefore costs little more than a point unless loads settle slowly. (On a compliant
-    /// stator or one that moves by waveforms each load has its own motion, unless the shape is a sine.) The
-    /// points share their perturbations: the curve is smooth, and the difference of two points is more
-    /// precise than either.
+    /// motion. A curve therefore costs little more than a point unless the motor settles slowly under some
+    /// loads. (Each load has its own motion only if friction acts back on the stator, because a mode of a
+    /// compliant stator twists.) The points share their perturbations, so the curve is smooth, and the
+    /// difference between two points is more precise than either.
     ///
     /// The observer's items are the impacts that may be spent.
     ///
@@ -91,8 +91,8 @@ impl Motor {
     /// The mean speed without load (rad/s). Its error may exceed the requested one.
     ///
     /// # Errors
-    /// The errors of [`Self::operating_point`]; [`Error::NotSettled`] if it still drifts or depends on the
-    /// start.
+    /// The errors of [`Self::operating_point`]; [`Error::NotSettled`] if the speed still drifts or depends on
+    /// the start.
     pub fn no_load_speed(&self, settings: &OperatingSettings) -> Result<Estimate, Error> {
         let bare = self.stator_motion().without_law()?;
         let unloaded = LoadedMotor { stator: &bare, ..self.loaded()? };
@@ -110,7 +110,8 @@ impl Motor {
         }
     }
 
-    /// The load torque that stops the motor, bracketed: the true stall, without the law of a table `[load]`.
+    /// The load torque that stops the motor, with a bracket: the true stall, without the law of a table
+    /// `[load]`.
     ///
     /// The observer's items are the impacts that its two searches may spend.
     ///
@@ -127,7 +128,8 @@ impl Motor {
         stall_load(&LoadedMotor { stator: &bare, ..self.loaded()? }, settings, observer)
     }
 
-    /// The operation under the sheet's load, from the final state of another motor, with its own final state.
+    /// The operation under the sheet's load, starting from the final state of another motor, and the final
+    /// state reached.
     pub(crate) fn continued(
         &self,
         from: Option<&Ends>,
@@ -139,7 +141,7 @@ impl Motor {
         Ok((found.rows.swap_remove(0), ends))
     }
 
-    /// For a steady operation, in which time plays no role.
+    /// The motor under the load of its sheet, which must not depend on time.
     pub(crate) fn loaded(&self) -> Result<LoadedMotor<'_>, Error> {
         if self.load().is_some_and(|load| load.next_change_after(f64::NEG_INFINITY).is_some()) {
             return Err(Error::LoadInTime);
@@ -160,7 +162,7 @@ impl Motor {
     }
 }
 
-/// Whether one vertical motion carries the rotors of both.
+/// Whether one vertical motion carries the rotors of both motors.
 fn share_height(one: &Motor, other: &Motor) -> bool {
     let (sheet, another) = (one.parameters(), other.parameters());
     is_shared(one.system(), other.system())
@@ -175,10 +177,10 @@ fn share_height(one: &Motor, other: &Motor) -> bool {
         }
 }
 
-/// The steady operation of many motors, each under the load of its data sheet, in their order, for example
-/// for maps of efficiency over lag and load, or preload and amplitude. Consecutive motors with the same
-/// vertical motion (they differ only in load, friction, lag, twist, radii or mass) share one orbit, so list
-/// them together. Rotors that act back on their stator are computed one by one.
+/// The steady operation of many motors, each under the load of its data sheet, in their order: for example
+/// for maps of efficiency over lag and load, or over preload and amplitude. Consecutive motors that differ
+/// only in load, friction, lag, twist, radii or mass share one vertical motion, so list such motors together.
+/// Rotors that act back on their stator are computed one by one.
 ///
 /// The observer's items are the motors.
 ///
@@ -241,9 +243,9 @@ mod tests {
         assert!((unloaded.value - speed(&curve[0]).expect("steady")).abs() < 4.0 * unloaded.standard_error);
     }
 
-    /// A motor of 40 kHz with contacts of 0.56 periods is either tapped in every period, or flies for
-    /// thousands of them first. Integration in small steps of fourth order gives 2.97 rad/s for the taps, and
-    /// 3.626 for those of 0.77 periods.
+    /// A motor of 40 kHz with contacts of 0.56 periods is either tapped in every period at once, or flies
+    /// irregularly for thousands of periods first. Fourth-order integration in small steps gives 2.97 rad/s
+    /// for the taps, and 3.626 rad/s for taps of 0.77 periods.
     #[test]
     fn coexisting_motions_are_branches_and_none_is_averaged() {
         use crate::motor::{AxialMotion, Life, MotorParameters};

@@ -13,15 +13,15 @@ use crate::statistics::student_quantile;
 pub struct Estimate {
     /// The estimate.
     pub value: f64,
-    /// Its standard error, defined as half of its 95 % interval divided by 1.96. It covers the scatter over a
+    /// Its standard error, defined as half of its 95 % interval divided by 1.96. It covers the scatter of a
     /// few members (Student's distribution) and, for a mean over time, a bound on the remainder of the
-    /// start-up. For the speed of a motor whose stator has kinks it also covers the differences between
-    /// members, because each start has its own speed there.
+    /// start-up. For the speed of a motor whose stator has kinks, the error also covers the differences
+    /// between members, because each start may then keep its own speed.
     pub standard_error: f64,
 }
 
 impl Estimate {
-    /// In another unit, `factor` of which make one of this unit.
+    /// This estimate in another unit, `factor` of which make one of the present unit.
     pub(crate) fn times(self, factor: f64) -> Self {
         Self { value: factor * self.value, standard_error: factor * self.standard_error }
     }
@@ -33,8 +33,8 @@ impl Estimate {
         Ok(Self { value, standard_error: not_negative("standard_error", standard_error)? })
     }
 
-    /// The mean of the values of members with perturbations of three sizes; the error is the scatter about
-    /// the mean of each size.
+    /// The mean of the values of members with perturbations of three sizes; the error follows from the
+    /// scatter about the mean at each size.
     pub(crate) fn of_decade(values: &[f64]) -> Result<Self, Error> {
         let sizes = by_perturbation(values);
         let (count, squares) = (values.len() as f64, sizes.iter().map(|own| squares_about_mean(own)));
@@ -43,7 +43,7 @@ impl Estimate {
         Ok(Self { value: finite("estimate", mean(values))?, standard_error })
     }
 
-    /// The mean of runs from two sides, with its distance from one of them as a bound on its bias.
+    /// The mean of runs from two sides, with its distance from `one` of the sides as a bound on its bias.
     pub(crate) fn bounded_by(self, one: Self) -> Self {
         let bias = (one.value - self.value).abs();
         Self { standard_error: self.standard_error + bias / NORMAL_975, ..self }
@@ -63,8 +63,8 @@ impl Estimate {
     }
 }
 
-/// The standard error of the mean of independent values, such that 1.96 times this is Student's 95 %
-/// interval.
+/// The standard error of the mean of independent values, defined such that 1.96 times this error is half of
+/// Student's 95 % interval.
 pub(crate) fn error_of_mean(values: &[f64]) -> f64 {
     let size = values.len() as f64;
     standard_deviation(values) / size.sqrt() * (student_quantile(size - 1.0) / NORMAL_975)
@@ -94,12 +94,12 @@ fn is_zero(value: &f64) -> bool {
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub enum AxialMotion {
-    /// It was not found to repeat: means are over time and over an ensemble.
+    /// The motion was not found to repeat: means are over time and over an ensemble.
     Irregular {
-        /// Its life.
+        /// The life of the motion.
         life: Life,
     },
-    /// It repeats, and so does the rotor: means are over one cycle.
+    /// The vertical motion repeats, as does the rotor: means are over one cycle.
     Periodic {
         /// Periods of the drive.
         periods: u64,
@@ -110,7 +110,7 @@ pub enum AxialMotion {
     Contact,
 }
 
-/// The time after which an irregular motion changes to another one.
+/// The time after which an irregular motion changes into another motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -118,7 +118,7 @@ pub enum AxialMotion {
 pub enum Life {
     /// The mean life (s), from motions that were seen to end.
     Mean(Estimate),
-    /// No motion was seen to end within this time (s), the longest for which one was observed.
+    /// No motion was seen to end; the longest observation lasted for this time (s).
     NoneEndedIn(f64),
 }
 
@@ -130,8 +130,8 @@ pub enum Life {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct OperatingPoint {
-    /// Load torque T_L (N m); a positive one decelerates a positive rotation. For a load that depends on the
-    /// speed it is the mean torque.
+    /// Load torque T_L (N m); a positive torque decelerates a positive rotation. For a load that depends on
+    /// the speed, this is the mean torque.
     pub load_torque: f64,
     /// Its standard error; `None` for a constant torque.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "is_zero"))]
@@ -148,13 +148,12 @@ pub struct OperatingPoint {
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub speed_range: Option<[Estimate; 2]>,
     /// Time constant (s) of the speed, from the slope of the torque-speed curve: the moment of inertia times
-    /// the change of the speed with the load, up to the nearest other load of the same run. `None` without
-    /// another load with a different speed, as for a locked motor, and for a rotor that acts back on its
-    /// stator.
+    /// the change of the speed with the load, up to the nearest other load of the same run. `None` if no
+    /// other load has a different speed, as for a locked motor, and for a rotor that acts back on its stator.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub time_constant: Option<Estimate>,
-    /// If the load decreases with the speed and the rotor keeps one of two speeds: the speed between them
-    /// (rad/s) beyond which it changes to the other.
+    /// The speed (rad/s) between two that the rotor may keep, if the load decreases with the speed; beyond it
+    /// the rotor changes to the other of the two.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub unstable_speed: Option<Estimate>,
     /// Mean torque (N m) of friction on a rotor that is held at rest; `None` for a rotor that acts back on
@@ -169,20 +168,21 @@ pub struct OperatingPoint {
     pub restitution_loss: Estimate,
     /// Power lost in friction (W).
     pub friction_loss: Estimate,
-    /// Mechanical power divided by the input power; `None` if there is no input power, or the load drives the
-    /// motor.
+    /// Mechanical power divided by the input power; `None` if there is no input power, or if the load drives
+    /// the motor.
     pub efficiency: Option<Estimate>,
-    /// Power supplied by the perturbations of the relaunches (W). It does not belong to the motor, and must
-    /// be small.
+    /// Power supplied by the perturbations of the relaunches (W). This power does not belong to the motor,
+    /// and must be small.
     pub perturbation_power: f64,
-    /// Residual of the energy balance of all runs, relative to the energy supplied, or to the energy of a
-    /// disk that moves with the platform if that is more: zero up to rounding.
+    /// Residual of the energy balance of all runs, relative to the larger of the energy supplied and the
+    /// energy of a disk that moves with the platform: zero up to rounding.
     pub energy_residual: f64,
-    /// Averaged time, of all members together (s).
+    /// Averaged time of all members together (s).
     pub averaged_time: f64,
     /// Time of each member that is omitted as start-up (s).
     pub start_up: f64,
-    /// Impacts of all members together, without those of summed chattering sequences and of the start-up.
+    /// Number of impacts of all members together, without those of summed chattering sequences and of the
+    /// start-up.
     pub impacts: u64,
     /// Additional quantities for a compliant stator.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
@@ -195,8 +195,8 @@ pub struct OperatingPoint {
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct StatorPoint {
     /// Amplitude of the axial mode under load (m): 2^(1/2) times the root mean square of its speed divided by
-    /// the angular frequency of the drive. A sine of this amplitude loses as much in its damping. A static
-    /// sag is not included; motions at other frequencies count by their speed.
+    /// the angular frequency of the drive. A sine of this amplitude loses the same power in the damping. A
+    /// static sag is not included; motions at other frequencies contribute through their speed.
     pub amplitude: Estimate,
     /// Power that the drive supplies to the modes, and to a prescribed twist (W): for a drive in volts, the
     /// real part of voltage times current.
@@ -220,11 +220,11 @@ pub enum Shortfall {
         /// The requested error (rad/s).
         wanted: f64,
     },
-    /// The speed, or the amplitude of a compliant stator, still drifts: the early part of the average differs
-    /// from the late one, or it depends on the initial speed.
+    /// The speed, or the amplitude of a compliant stator, still drifts: the early and the late part of the
+    /// average differ, or the average depends on the initial speed.
     Drift {
         /// The late mean minus the early one (rad/s), or the excess speed of rotors that started from far
-        /// above; for an amplitude, as if the speed were proportional to it.
+        /// above. A drift of the amplitude is converted as if the speed were proportional to it.
         drift: f64,
         /// The standard error of this difference (rad/s).
         standard_error: f64,
@@ -238,7 +238,7 @@ pub enum Shortfall {
     },
     /// The disk still stores energy: the input power does not equal output and losses.
     PowerBalance {
-        /// The power that is stored (W); negative if the disk returns it.
+        /// The stored power (W); negative if the disk releases energy.
         stored_power: f64,
         /// The input power (W).
         input_power: f64,
@@ -251,19 +251,19 @@ pub enum Shortfall {
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub enum Operation {
-    /// It turns steadily, and its speed is known to the requested accuracy.
+    /// The motor turns steadily, and its speed is known to the requested accuracy.
     Steady(OperatingPoint),
-    /// The motor was not followed for long enough: the operating point as far as it is known, and the
-    /// shortfall.
+    /// The motor was not followed for long enough. The values are the operating point as far as it is known,
+    /// and the shortfall.
     Unsettled(OperatingPoint, Shortfall),
-    /// The load overpowers the motor, which is accelerated for ever and has no mean speed.
+    /// The load overpowers the motor: it accelerates the rotor for ever, and there is no mean speed.
     Runaway {
         /// Load torque T_L (N m).
         load_torque: f64,
-        /// The largest torque mu m g a_e that friction can give on average (N m), whatever the motion.
+        /// The largest mean torque mu m g a_e of friction (N m), whatever the motion.
         largest_torque: f64,
-        /// The acceleration (rad/s^2) to which it tends, due to the part of the load that friction cannot
-        /// hold.
+        /// The acceleration (rad/s^2) to which the rotor tends, due to the part of the load that friction
+        /// cannot balance.
         acceleration: f64,
     },
 }
@@ -304,15 +304,16 @@ impl Operation {
     }
 }
 
-/// A motor under a load: its operation, and those that coexist with it.
+/// The coexisting operations of a motor under one load.
 ///
-/// Most motors have one. With contacts of about half a period, or on a compliant stator, the rotor may have
-/// several vertical motions, each with another speed; the start decides which one is reached.
+/// Most motors have a single operation. With contacts of about half a period, or on a compliant stator, the
+/// rotor may have several vertical motions, each with its own speed; the start decides which of them is
+/// reached.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct OperatingRow {
-    /// At least one; the first is the one that most rotors reach from rest.
+    /// At least one operation; the first is the operation that most rotors reach from rest.
     pub branches: Vec<Operation>,
 }
 
@@ -324,7 +325,7 @@ impl OperatingRow {
     }
 
     /// Whether a rotor that starts from rest finally turns against its load; without a load, whether it
-    /// turns. `None` if the errors do not decide it.
+    /// turns. `None` if the errors leave this open.
     #[must_use]
     pub fn starts(&self) -> Option<bool> {
         let Some(point) = self.point() else { return Some(false) };

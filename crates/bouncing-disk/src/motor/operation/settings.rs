@@ -4,8 +4,8 @@ use bouncing_disk_core::read_checked;
 
 use crate::error::{Error, check};
 
-/// Allowed numbers of members of an ensemble, each with its own vertical motion. With fewer than four the
-/// standard error itself would be too uncertain.
+/// Allowed numbers of members of an ensemble, each with its own vertical motion. With fewer than four members
+/// the standard error itself would be too uncertain.
 const MEMBERS: std::ops::RangeInclusive<usize> = 4..=4096;
 
 /// Settings for computing a steady operation.
@@ -13,21 +13,21 @@ const MEMBERS: std::ops::RangeInclusive<usize> = 4..=4096;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedSettings"))]
 pub struct OperatingSettings {
-    /// The requested standard error of the mean speed, as a share of the motor's speed without load, or of
-    /// its own if that is larger, in [1e-6, 0.5]. Default 0.01.
+    /// The requested standard error of the mean speed, in [1e-6, 0.5]: a share of the motor's speed without
+    /// load, or of the mean speed itself if that is larger. Default 0.01.
     ///
-    /// Motors that are computed together on one vertical motion have one reference speed: the largest speed
-    /// of the unloaded ones or, if all have a load, the speed of the first one without its load; a law of the
-    /// load (table `[load]`) counts as a load. The reference is never below a hundredth of the platform's
-    /// largest angular speed, nor below a hundredth of the change of speed that friction causes in a radian
-    /// of phase; otherwise a motor that hardly turns would never finish.
+    /// Motors that are computed together on one vertical motion share one reference speed: the largest speed
+    /// of the unloaded motors or, if all are loaded, the speed of the first motor without its load. A law of
+    /// the load (table `[load]`) counts as a load. The reference is at least a hundredth of the platform's
+    /// largest angular speed, and at least a hundredth of the change of speed that friction causes in a
+    /// radian of phase; otherwise the computation of a motor that hardly turns would never finish.
     pub relative_error: f64,
     /// Members of the ensemble, each with its own vertical motion, in [4, 4096]. Default 16.
     pub members: usize,
-    /// Largest number of impacts of all members together, in [1, 1e15]; for a rotor that never bounces, of
-    /// periods. If they are used up before the requested error is reached, the result is
-    /// [`Operation::Unsettled`](crate::motor::Operation::Unsettled). Each member takes at least a dozen in
-    /// any case. Default 20 million, which takes a few seconds.
+    /// Largest number of impacts of all members together, in [1, 1e15]; for a rotor that never bounces, the
+    /// largest number of periods. If they are used up before the requested error is reached, the result is
+    /// [`Operation::Unsettled`](crate::motor::Operation::Unsettled). Each member uses at least a dozen in any
+    /// case. Default 20 million, which takes a few seconds.
     pub most_impacts: u64,
     /// Size of the relaunch perturbation in units of g/omega, in (0, 1]. It cannot be zero: without it the
     /// motor locks on a cycle selected by rounding, whose speed may be wrong by a third. Default 1e-3.

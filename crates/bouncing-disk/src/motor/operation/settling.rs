@@ -1,4 +1,4 @@
-//! Judges whether a mean over windows is steady, and how well it is known, from the spread over independent
+//! Judges whether a mean over windows is steady, and how well it is known, from the scatter of independent
 //! members and the remaining dependence on the start.
 
 use bouncing_disk_core::numerics::statistics::{NORMAL_975, mean, standard_deviation};
@@ -7,8 +7,8 @@ use crate::motor::operation::point::{Estimate, Shortfall, error_of_mean};
 
 /// A drift is significant beyond this number of its standard errors, however large the requested error: no
 /// bound covers a vertical motion that still changes. A drift has about twice the standard error of the mean.
-/// With 15 degrees of freedom chance gives a significant drift in one of 20 tests; the motor is then only
-/// followed for longer.
+/// With 15 degrees of freedom a significant drift occurs by chance in one of 20 tests; the motor is then
+/// merely followed for longer.
 const DRIFT: f64 = NORMAL_975;
 
 /// Motors that lock on one motion have almost no scatter, and the remainder of their start-up decays for
@@ -19,8 +19,8 @@ const NEGLIGIBLE: f64 = 1e-3;
 const PARTS: usize = 3;
 
 /// If the means of members differ by this many times the amount that the scatter of their own windows
-/// explains, they depend on the start. Successive windows may be correlated, which that scatter does not
-/// show.
+/// explains, the means depend on the start. The factor is large because successive windows may be correlated,
+/// which that scatter does not show.
 const DECIDED: f64 = 5.0;
 
 /// The number of windows that are omitted from a total.
@@ -32,8 +32,8 @@ pub(crate) const fn left_out(windows: usize) -> usize {
 pub(crate) type Speeds = [Vec<f64>];
 
 /// The mean speed midway between rotors that started from far below and far above on the same vertical
-/// motions, with a bound of its bias from those above: rotors never overtake each other, so steady ones are
-/// between them. `None` if it is not finite.
+/// motions, with a bound on its bias from the rotors above. Rotors never overtake each other, so a steady
+/// rotor stays between the two. `None` if it is not finite.
 fn steady_speed(middle: &Speeds, above: &Speeds, are_perturbed: bool) -> Option<Estimate> {
     let of = |speeds: &Speeds| {
         let means: Vec<f64> = speeds.iter().map(|windows| mean(windows)).collect();
@@ -42,7 +42,7 @@ fn steady_speed(middle: &Speeds, above: &Speeds, are_perturbed: bool) -> Option<
     Some(of(middle).ok()?.bounded_by(of(above).ok()?))
 }
 
-/// The largest difference between the mean of a member and the overall mean, if it is decided by the start;
+/// The largest difference between the mean of a member and the overall mean, if the start decides the speed;
 /// `None` if the scatter in time explains the differences.
 pub(crate) fn decided_by_start(speeds: &Speeds) -> Option<f64> {
     let means: Vec<f64> = speeds.iter().map(|windows| mean(windows)).collect();
@@ -56,8 +56,8 @@ pub(crate) fn decided_by_start(speeds: &Speeds) -> Option<f64> {
     (between > DECIDED * explained).then_some(most)
 }
 
-/// The difference between the late and the early part of the windows' values, with its standard error, if it
-/// is significant: the value then still drifts.
+/// The late mean of the windows' values minus the early mean, with its standard error, if it is significant:
+/// the value then still drifts.
 pub(crate) fn drift(stated: &Speeds, wanted: f64) -> Option<(f64, f64)> {
     let drifts: Vec<f64> = stated
         .iter()
@@ -72,9 +72,9 @@ pub(crate) fn drift(stated: &Speeds, wanted: f64) -> Option<(f64, f64)> {
     is_significant.then_some((drift, standard_error))
 }
 
-/// Judges the mean speed of windows: `None` if it is steady, its standard error is at most `wanted`, and the
-/// bound of the start-up contributes no more to it than scatter. If members have perturbations of different
-/// sizes, the scatter is about the mean of each size.
+/// Judges the mean speed over windows. `None` if it is steady, if its standard error is at most `wanted`, and
+/// if the bound on the start-up contributes no more to this error than the scatter does. If members have
+/// perturbations of different sizes, the scatter is about the mean at each size.
 pub(crate) fn shortfall(
     middle: &Speeds,
     above: &Speeds,
@@ -114,7 +114,7 @@ mod tests {
             .collect()
     }
 
-    /// The shortfall for rotors that have met.
+    /// The shortfall if the rotors from below and from above have met.
     fn alone(speeds: &Speeds, wanted: f64) -> Option<Shortfall> {
         shortfall(speeds, speeds, false, wanted)
     }
@@ -141,8 +141,8 @@ mod tests {
         assert_eq!(alone(&noisy(16, 12, |window| 1e-4 * window), 0.1), None);
     }
 
-    /// The scatter does not contain the remainder of the start-up: if large, it must be awaited; if small, it
-    /// is added to the error.
+    /// The scatter does not contain the remainder of the start-up. While this is large, the run must
+    /// continue; a small remainder is added to the error.
     #[test]
     fn what_depends_on_the_start_is_no_part_of_a_steady_mean() {
         let (below, above) = (noisy(16, 12, |_| 5.0), noisy(16, 12, |_| 5.3));

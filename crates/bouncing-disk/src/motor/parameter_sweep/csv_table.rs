@@ -7,11 +7,11 @@ use crate::motor::parameter_sweep::result::MotorSweepResult;
 
 impl MotorSweepResult {
     /// The cells as comma-separated text: a header, then one line for each branch of each cell, row by row.
-    /// The header has units in the names; numbers are written so that reading them back is exact.
+    /// The names in the header include units; numbers are written so that reading them back is exact.
     ///
     /// The columns: the axes; `load_torque_n_m`, unless it is an axis; `way` of a continued sweep, `up` or
-    /// `down`; `branch`, 1 for the one that most rotors reach from rest; `motion`, which is `irregular`,
-    /// `periodic` or `contact`; `life_s`, the mean life of an irregular one, if some were seen to end;
+    /// `down`; `branch`, 1 for the branch that most rotors reach from rest; `motion`, which is `irregular`,
+    /// `periodic` or `contact`; `life_s`, the mean life of an irregular motion, if some were seen to end;
     /// `state`, which is `steady`, `unsettled` or `runaway`; `shortfall` of an unsettled cell: `error`,
     /// `drift` or `power-balance`; each [`SweepQuantity`] of the table ([`SweepQuantity::of_table`]) followed
     /// by its standard error (`speed_rad_s`, `speed_error_rad_s`); the other numbers of an
@@ -122,7 +122,7 @@ fn column(name: &str, unit: &str) -> String {
     }
 }
 
-/// A unit as a part of a name.
+/// A unit as part of a name.
 fn suffix(unit: &str) -> &'static str {
     match unit {
         "Hz" => "hz",

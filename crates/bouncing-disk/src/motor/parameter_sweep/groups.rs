@@ -15,16 +15,17 @@ use crate::motor::operation::of_motor::operations;
 use crate::motor::operation::point::OperatingRow;
 use crate::motor::operation::settings::OperatingSettings;
 
-/// Factor by which an impact of a rotor that acts back on its stator takes longer than one on a sine. A cell
-/// has this many times fewer impacts; otherwise a few cells that never settle would take most of an hour.
+/// Factor by which an impact of a rotor that acts back on its stator takes longer to compute than one on a
+/// sine. Such a cell may use this many times fewer impacts; otherwise a few cells that never settle would
+/// take most of an hour.
 const SHARE_OF_CELL: u64 = 100;
 
-/// Largest number of cells of a group. Far fewer would make poor use of a vertical motion; with far more,
-/// much would be lost when a run is stopped.
+/// Largest number of cells of a group. Far smaller groups would make poor use of a vertical motion; with far
+/// larger ones, much work would be lost when a run is stopped.
 const MOST_CELLS: usize = 256;
 
-/// Largest number of rotors of a group on all of its vertical motions together. Each has a few hundred
-/// windows of 40 bytes, so a group needs about 100 MB at most.
+/// Largest number of rotors of a group on all of its vertical motions together. Each rotor needs a few
+/// hundred windows of 40 bytes, so a group needs about 100 MB at most.
 const MOST_ROTORS: usize = 1 << 14;
 
 /// Largest number of cells of a group, so that its memory is bounded for any number of vertical motions.
@@ -65,8 +66,8 @@ pub(crate) fn settings_of_each(motors: &[Motor], settings: &OperatingSettings) -
     OperatingSettings { most_impacts, ..*settings }
 }
 
-/// The results for each of a number of groups, in their order; fewer if the watch stops. The items of the
-/// watch are the cells, `size` of each group.
+/// The results for `count` groups, in their order; fewer if the watch stops. The items of the watch are the
+/// cells, `size` in each group.
 pub(crate) fn over_groups<T: Send>(
     count: usize,
     size: impl Fn(usize) -> usize + Sync,
@@ -100,8 +101,8 @@ pub(crate) fn over_groups<T: Send>(
     outcomes
 }
 
-/// The operations of many motors in any order, with those of one vertical motion computed together; if a
-/// motor cannot be followed, its error applies to its whole group.
+/// The operations of many motors, listed in any order; motors with the same vertical motion are computed
+/// together. If a motor cannot be followed, its error applies to its whole group.
 pub(crate) fn operations_in_groups(
     motors: &[Motor],
     settings: &OperatingSettings,

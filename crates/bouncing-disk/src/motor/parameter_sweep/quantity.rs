@@ -11,7 +11,8 @@ use crate::motor::operation::point::{Estimate, OperatingRow, Operation};
 pub enum SweepQuantity {
     /// Mean angular speed (rad/s).
     Speed,
-    /// Mean load torque (N m). Tables state it for each row anyway, so it is not in [`Self::ALL`].
+    /// Mean load torque (N m). Tables state the load torque for each row anyway, so it is not in
+    /// [`Self::ALL`].
     Torque,
     /// Load torque times mean speed (W).
     MechanicalPower,
@@ -52,7 +53,8 @@ pub enum SweepQuantity {
 }
 
 impl SweepQuantity {
-    /// All quantities except those of a compliant stator, in the order of the columns of a table.
+    /// All quantities except `Torque` and those of a compliant stator, in the order of the columns of a
+    /// table.
     pub const ALL: [Self; 12] = {
         let [a, b, c, d, e, f, g, h, i, j, k, l, ..] = Self::WITH_STATOR;
         [a, b, c, d, e, f, g, h, i, j, k, l]
@@ -78,15 +80,15 @@ impl SweepQuantity {
         Self::ElectricalEfficiency,
     ];
 
-    /// The quantities of a table of these operations; those of a stator are included only if one operation
-    /// has them.
+    /// The quantities of a table of these operations; quantities of a stator are included only if an
+    /// operation states them.
     #[must_use]
     pub fn of_table(rows: &[OperatingRow]) -> &'static [Self] {
         let yields = |row: &OperatingRow| row.point().is_some_and(|point| point.stator.is_some());
         if rows.iter().any(yields) { &Self::WITH_STATOR } else { &Self::ALL }
     }
 
-    /// Its name: `mechanical_power`.
+    /// The name of the quantity, for example `mechanical_power`.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -110,7 +112,7 @@ impl SweepQuantity {
         }
     }
 
-    /// Its unit: `rad/s`, `N m`, `W`, `m`, or `1` for a dimensionless number.
+    /// The unit of the quantity: `rad/s`, `N m`, `s`, `W`, `m`, or `1` for a dimensionless number.
     #[must_use]
     pub const fn unit(self) -> &'static str {
         match self {
@@ -125,9 +127,9 @@ impl SweepQuantity {
         }
     }
 
-    /// Its value, however well it is known. `None` for a runaway, for an undefined efficiency, for quantities
-    /// of a compliant stator on a rigid one, and for deviation, range, time constant and blocked torque of a
-    /// rotor that acts back on its stator.
+    /// The value of the quantity, however well it is known. `None` for a runaway, for an undefined
+    /// efficiency, and for quantities of a compliant stator on a rigid one; also for deviation, range, time
+    /// constant and blocked torque of a rotor that acts back on its stator.
     #[must_use]
     pub fn of(self, operation: &Operation) -> Option<Estimate> {
         let point = operation.point()?;
@@ -158,7 +160,7 @@ impl SweepQuantity {
 impl FromStr for SweepQuantity {
     type Err = String;
 
-    /// Parses the name, also with hyphens (`mechanical-power`); `power` is an alias of it.
+    /// Parses the name, also with hyphens (`mechanical-power`); `power` is an alias of `mechanical_power`.
     fn from_str(name: &str) -> Result<Self, String> {
         let plain = name.trim().replace('-', "_");
         let plain = if plain == "power" { "mechanical_power" } else { &plain };

@@ -58,8 +58,8 @@ impl MotorSweepResult {
         &self.axes
     }
 
-    /// The operation of each cell, row by row: the first axis counts the rows, and with a single axis each
-    /// row has one cell.
+    /// The operation of each cell, row by row: the first axis counts the rows. With a single axis each row
+    /// contains one cell.
     #[must_use]
     pub fn cells(&self) -> &[OperatingRow] {
         &self.cells
@@ -80,8 +80,8 @@ impl MotorSweepResult {
         self.cells.chunks(columns.max(1))
     }
 
-    /// A quantity as a matrix, `[row][column]` as in [`Self::rows`]: its values, however well they are known.
-    /// `None` for a runaway and for an undefined efficiency.
+    /// The values of a quantity, however well they are known, as a matrix `[row][column]` like
+    /// [`Self::rows`]. `None` for a runaway and for an undefined efficiency.
     #[must_use]
     pub fn matrix(&self, quantity: SweepQuantity) -> Vec<Vec<Option<f64>>> {
         let of = |row: &OperatingRow| quantity.of(row.operation()).map(|estimate| estimate.value);

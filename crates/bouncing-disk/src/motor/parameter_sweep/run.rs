@@ -11,7 +11,7 @@ use crate::motor::parameter_sweep::groups::over_groups;
 use crate::motor::parameter_sweep::result::MotorSweepResult;
 
 impl MotorSweep {
-    /// Computes all cells, on the threads of rayon's pool with the feature `parallel`.
+    /// Computes all cells; with the feature `parallel`, on the threads of rayon's pool.
     ///
     /// The observer's items are the cells. To keep finished work if a computation ends early, store the
     /// [operations](Self::operations) of single groups; [`Self::result`] combines them.
@@ -40,7 +40,7 @@ impl MotorSweep {
     ///
     /// # Errors
     /// An error of the core ([`Unfitting`](bouncing_disk_core::Error::Unfitting)) if the number of groups, or
-    /// of operations in one, is wrong.
+    /// of operations in a group, is wrong.
     pub fn result(&self, groups: &[Vec<OperatingRow>]) -> Result<MotorSweepResult, Error> {
         let fits = |what, found: usize, expected: usize| {
             let (found, expected) = (found as u64, expected as u64);

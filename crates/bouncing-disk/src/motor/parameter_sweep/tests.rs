@@ -39,8 +39,8 @@ fn mixed() -> MotorSweep {
     sweep(&[axis(MotorField::Amplitude, &amplitudes), loads(&[0.0, 0.5, 1.2])]).expect("legal")
 }
 
-/// Each row of a map of amplitude and load is the torque-speed curve of its amplitude, whichever axis is the
-/// load's.
+/// Each row of a map of amplitude and load is the torque-speed curve at its amplitude, whichever of the two
+/// axes is the load.
 #[test]
 fn the_rows_of_a_map_are_curves() {
     let (amplitudes, shares) = ([1e-8, 1.7e-8], [0.0, 0.3, 0.6, -0.2, 1.1]);
@@ -66,7 +66,7 @@ fn the_rows_of_a_map_are_curves() {
     }
 }
 
-/// If everything shares one motion, a map is one call for all of its motors.
+/// If all motors share one motion, a map is computed by a single call.
 #[test]
 fn a_map_of_one_motion_is_one_group() {
     let axes = [axis(MotorField::PhaseLag, &[0.0, 0.4, 3.5]), axis(MotorField::Friction, &[0.05, 0.1, 0.0])];
@@ -204,9 +204,9 @@ fn the_operations_of_another_sweep_are_refused() {
     assert_eq!(sweep.result(&[Vec::new()]), Err(unfitting("cells of a group of a sweep", 0, 1)));
 }
 
-/// While the preload rises and falls, a hard rotor on a heavy stator keeps its motion: tapped once per
-/// period, or at rest, where both are steady. A single point from rest agrees with the way down; from a
-/// launch the engine keeps the taps.
+/// While the preload rises and falls, a hard rotor on a heavy stator keeps its motion (tapped once per
+/// period, or at rest) where both motions are steady. A single point from rest agrees with the way down; from
+/// a launch, the engine keeps the taps.
 #[test]
 fn a_continued_sweep_keeps_what_the_rotor_does() {
     use crate::driven::DrivenStart;

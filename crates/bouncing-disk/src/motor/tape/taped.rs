@@ -247,8 +247,8 @@ impl Taped {
         self.runner.run(Replay { tape, steps: start..tape.knots.len(), rotors });
     }
 
-    /// The next window: at least `duration` rad, and a number of impacts in a range whatever the duration, up
-    /// to the end of an event. It ends early if the motion is found to repeat.
+    /// The next window, up to the end of an event. It lasts for at least `duration` rad, but the number of
+    /// its impacts stays within `impacts`. The window ends early if the motion is found to repeat.
     pub(crate) fn next_window(
         &mut self,
         duration: f64,

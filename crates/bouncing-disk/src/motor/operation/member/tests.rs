@@ -21,7 +21,7 @@ fn member(systems: &[DimensionlessSystem], stators: &[Stator], index: usize) -> 
 }
 
 /// The engine of each rotor alone, perturbed by the same stream, has impacts at the same times. Its speed
-/// agrees within the error of the steps of a rest.
+/// agrees within the error due to the steps of a rest.
 #[test]
 fn a_rotor_on_a_tape_of_rigid_impacts_is_that_of_its_engine() {
     for amplitude in [1e-8, 2e-9, 6e-11] {
@@ -77,8 +77,8 @@ fn a_rotor_on_a_tape_of_rigid_impacts_is_that_of_its_engine() {
     }
 }
 
-/// The same for compliant contacts and waveforms, over a few flights, because chaos amplifies the rounding
-/// differences of the two motions.
+/// The same for compliant contacts and waveforms, but only over a few flights, because chaos amplifies the
+/// rounding differences of the two motions.
 #[test]
 fn a_rotor_on_any_tape_is_that_of_its_engine() {
     let sheet = Motor::paper_70_khz().with(|sheet| sheet.friction = 1.0).expect("legal");
