@@ -1,12 +1,13 @@
 //! The spread of a speed or a stall load over the tolerances of the inputs.
 //!
-//! Preload and amplitude of a motor are known to about one per cent, and its response to them is rough: it is
-//! trapped at one value and free at the next. Random samples show this, derivatives do not
-//! (docs/numerics-dynamics.md, "The spread over the tolerances of the inputs").
+//! Preload and amplitude of a motor are known to about one per cent, and the speed is a rough function of
+//! both: a motor may be trapped at one value and free at the next. Random samples show this; derivatives do
+//! not (docs/numerics-dynamics.md, "The spread over the tolerances of the inputs").
 //!
-//! With 16 members of the motor itself, the 39 samples make a run as long as six operating points. The stall
-//! load of a sample is the zero of a straight line between two of 31 loads from -15/16 to 15/16 of mu m g
-//! a_e, because nearer to the full torque rotors settle slowly; the line is off by a thousandth of the load.
+//! If the motor itself is run with 16 members, the 39 samples together cost as much as six operating points.
+//! The stall load of a sample is the zero of a straight line between two of 31 loads from -15/16 to 15/16 of
+//! mu m g a_e, because rotors settle slowly closer to the full torque. The error of the line is a thousandth
+//! of the load.
 
 use std::f64::consts::LN_10;
 
@@ -23,16 +24,16 @@ use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::operation::stall_load::stall_share;
 use crate::motor::operation::steady_run::{Operations, operate, operate_for};
 
-/// Members of a sampled motor: the fewest that have a scatter, which is then pooled over all samples. Each
-/// member runs as long as one of the motor itself. No run ends because its own error looks small, so the
-/// errors are unbiased.
+/// Members of a sampled motor: the smallest number with a scatter, which is then pooled over all samples.
+/// Each member runs as long as a member of the motor itself. No run ends because its own error looks small,
+/// so the errors are unbiased.
 const MEMBERS_OF_DRAW: usize = 2;
 
 /// Steps of the load from zero to the largest mean torque of friction, for the stall of a sampled motor.
 const STALL_STEPS: usize = 16;
 
-/// Loads as shares of that torque. A run in which the motor itself becomes steady under these is long enough
-/// to find the stall of a sampled one.
+/// Loads as shares of the largest mean torque of friction. A run in which the motor itself becomes steady
+/// under these loads is long enough to find the stall load of a sampled motor.
 const STEADY_UNDER: [f64; 3] = [-0.5, 0.0, 0.5];
 
 /// Index of the first stream of random numbers for the samples, beyond the streams of any members.
@@ -42,16 +43,16 @@ const FIRST_STREAM: u64 = 1 << 32;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct InputTolerance {
-    /// Relative tolerance of the preload, in [0, 0.5]: the samples are spread evenly within it on either
-    /// side. Default 0.01.
+    /// Relative tolerance of the preload, in [0, 0.5]: the samples are distributed uniformly within this
+    /// tolerance on either side. Default 0.01.
     pub preload: f64,
-    /// Relative tolerance of the axial amplitude, in [0, 0.5], likewise. Default 0.01.
+    /// Relative tolerance of the axial amplitude, in [0, 0.5], used in the same way. Default 0.01.
     pub amplitude: f64,
-    /// Decades of the relaunch perturbation, whose true size is unknown, in [0, 6]: it is sampled uniformly
-    /// in its logarithm, centred on the settings' value. Default 1.
+    /// Range, in decades, of the relaunch perturbation, whose true size is unknown; in [0, 6]. The logarithm
+    /// of the size is sampled uniformly about that of the settings. Default 1.
     pub perturbation_decades: f64,
-    /// Number of sampled motors, in [8, 10000]. Default 39: a further sample then lies in their range with a
-    /// probability of 38/40.
+    /// Number of sampled motors, in [8, 10000]. Default 39: a further sample then lies within the range of
+    /// these with a probability of 38/40.
     pub draws: usize,
 }
 
@@ -110,24 +111,26 @@ impl InputTolerance {
 pub struct InputSpread {
     /// The mean over the samples, with its standard error.
     pub mean: Estimate,
-    /// The standard deviation over the samples, with their statistical errors subtracted in quadrature, and
-    /// its own standard error. It is zero if those errors explain all of the scatter.
+    /// The standard deviation over the samples, after subtracting their statistical errors in quadrature,
+    /// with its own standard error. The deviation is zero if those errors explain all of the scatter.
     pub standard_deviation: Estimate,
     /// The smallest and the largest value of the samples, moved towards the mean to remove the widening by
-    /// statistical errors. With n samples, a further one lies between them with the probability (n - 1)/(n +
-    /// 1), 95 % for 39.
+    /// statistical errors. With n samples, a further sample lies between these limits with the probability (n -
+    /// 1)/(n + 1), 95 % for n = 39.
     pub from_to: [f64; 2],
-    /// The same without the smallest and the largest sample, so that one locked motor does not stretch it: a
-    /// further sample lies between them with the probability (n - 3)/(n + 1), 90 % for 39.
+    /// The same limits without the smallest and the largest sample, so that one locked motor does not widen
+    /// the range. A further sample lies between these limits with the probability (n - 3)/(n + 1), 90 % for n
+    /// = 39.
     pub most_from_to: [f64; 2],
-    /// Number of samples that have a value, over which these statistics are taken.
+    /// Number of samples with a value, over which these statistics are computed.
     pub draws: usize,
     /// Number of samples without a value, because the load overpowers the motor.
     pub without: usize,
-    /// Number of samples with a value whose runs may still contain more of the start-up than the standard
-    /// deviation. They are included unchanged.
+    /// Number of samples in which the remainder of the start-up may exceed the standard deviation. They are
+    /// included unchanged.
     pub unsettled: usize,
-    /// Number of all samples in a low-period trap ([`TrapVerdict`](crate::motor::TrapVerdict)).
+    /// Number of samples in a low-period trap, with or without a value
+    /// ([`TrapVerdict`](crate::motor::TrapVerdict)).
     pub trapped: usize,
 }
 
@@ -135,14 +138,14 @@ pub struct InputSpread {
 #[derive(Debug, Clone, Copy)]
 struct Drawn {
     value: f64,
-    /// The variance of its statistical error.
+    /// The variance of the statistical error.
     variance: f64,
     /// Bound on the remainder of the start-up.
     start_up: f64,
 }
 
 impl Drawn {
-    /// The value from the members, and from their rotors from above.
+    /// The value from the members, with a bound on the start-up from the rotors that started from above.
     fn of(members: &[f64], above: &[f64]) -> Self {
         let (value, deviation) = (mean(members), standard_deviation(members));
         Self {
@@ -201,9 +204,9 @@ impl InputSpread {
 
 impl Motor {
     /// The spread of the mean speed (rad/s) under each of these load torques (N m) over the tolerances of the
-    /// inputs, to be stated together with the errors of [`Self::torque_speed_curve`] with the same settings.
+    /// inputs, to be stated together with the errors of [`Self::torque_speed_curve`] under the same settings.
     /// `None` if fewer than four samples have a speed. All loads of a sample share one vertical motion. A
-    /// sample costs an eighth of a curve of 16 members, and all together cost about six curves.
+    /// sample costs an eighth of a curve with 16 members, and all samples together cost about six curves.
     ///
     /// The observer's items are the samples.
     ///
@@ -221,8 +224,8 @@ impl Motor {
     /// ```
     ///
     /// # Errors
-    /// The errors of [`Self::torque_speed_curve`]; [`Error::OutOfRange`] for the tolerances, and for a motor
-    /// that leaves its legal ranges within them.
+    /// The errors of [`Self::torque_speed_curve`]; [`Error::OutOfRange`] for illegal tolerances, and for a
+    /// motor whose inputs leave their legal ranges within the tolerances.
     pub fn speed_spreads(
         &self,
         load_torques: &[f64],
@@ -249,8 +252,8 @@ impl Motor {
     }
 
     /// The spread of the stall load (N m) over the tolerances of the inputs, to be stated together with the
-    /// error of [`Self::stall_load`] with the same settings; it costs up to nine times as much. The stall
-    /// load of a sample may be below zero.
+    /// error of [`Self::stall_load`] under the same settings; computing the spread costs up to nine times as
+    /// much. The stall load of a sample may be below zero.
     ///
     /// The observer's items are the samples.
     ///
@@ -284,8 +287,8 @@ impl Motor {
         InputSpread::of(&draws, trapped)
     }
 
-    /// Operates each sampled motor under loads for as long as this one needs under the first ones, and counts
-    /// those in a trap.
+    /// Operates each sampled motor under the loads `loaded` for as long as this motor needs under the loads
+    /// `first`, and counts the sampled motors in a trap.
     fn draw(
         &self,
         settings: &OperatingSettings,

@@ -1,10 +1,11 @@
-//! The load that stops a motor, bracketed, and its torque at rest.
+//! The load that stops a motor, with a bracket, and the motor's torque at rest.
 //!
-//! For slow rotors both agree.
+//! For slow rotors the two agree.
 //!
-//! The bracket reaches from the last load at which the motor turns forwards by more than three standard errors to
-//! the first at which it is driven back by as much. Loads within 1/64 of mu m g a_e are not tried, because friction
-//! there settles a speed too slowly; a motor that still turns stalls between the last load and mu m g a_e.
+//! The bracket extends from the last load at which the motor turns forwards to the first load at which it is
+//! driven back, in both cases at more than three standard errors. Loads closer than 1/64 to mu m g a_e,
+//! relative to it, are not tried, because speeds settle too slowly there; a motor that still turns under the
+//! last load stalls between this load and mu m g a_e.
 
 use bouncing_disk_core::Observer;
 use bouncing_disk_core::numerics::elementary::hypot;
@@ -28,19 +29,18 @@ const MOST_SEARCHES: u32 = 12;
 /// Loads on either side of the torque at rest in the first search.
 const NEIGHBOURS: i32 = 4;
 
-/// Factor by which the first search is less accurate than requested, and its largest value.
+/// Factor by which the first search is less accurate than requested, and the largest error of this search.
 const COARSER: f64 = 4.0;
 const COARSEST: f64 = 0.05;
 
-/// The largest load tried, as a share of the largest torque: closer to it the remaining friction settles a
-/// speed too slowly.
+/// The largest load tried, as a share of the largest torque: under larger loads, speeds settle too slowly.
 const NEAREST: f64 = 1.0 - 1.0 / 64.0;
 
-/// A stall load below this share of the largest torque counts as zero, because the ripple of a speed within a
-/// period is as large. Steps need not be smaller either.
+/// A stall load below this share of the largest torque counts as zero, because the ripple of the speed within
+/// a period is as large. Steps need not be smaller than this either.
 const LEAST: f64 = 1e-5;
 
-/// The width of a uniform distribution over its standard deviation, the root of 12.
+/// The width of a uniform distribution divided by its standard deviation, the root of 12.
 const EVEN: f64 = 3.464_101_615_137_754_5;
 
 /// A speed differs from zero if it exceeds this number of its standard errors.
@@ -55,22 +55,22 @@ const SIGNIFICANT: f64 = 3.0;
 pub struct StallLoad {
     /// The vertical motion of the rotor.
     pub motion: AxialMotion,
-    /// The torque (N m), with the sign of a load: a positive one stops a positive rotation. Its error holds
-    /// at exactly these inputs; [`Motor::stall_spread`](crate::Motor::stall_spread) gives its spread over
-    /// their tolerances.
+    /// The stall torque (N m), with the sign of a load: a positive torque stops a positive rotation. Its
+    /// error holds at exactly these inputs; [`Motor::stall_spread`](crate::Motor::stall_spread) computes the
+    /// spread over their tolerances.
     pub torque: Estimate,
-    /// The torque as a share of mu m g a_e, the largest mean torque of friction; in [-1, 1].
+    /// The stall torque as a share of mu m g a_e, the largest mean torque of friction; in [-1, 1].
     pub share: f64,
     /// Two load torques (N m): under the first the motor keeps turning, under the second it is driven back,
     /// each at a speed more than three standard errors from zero. The second is mu m g a_e if no smaller load
     /// is certain to drive it back.
     pub bracket: [f64; 2],
-    /// The mean torque (N m) on a rotor that is held at rest. A free rotor swings about its mean speed and
-    /// stops under another load. `None` for a rotor that acts back on its stator.
+    /// The mean torque (N m) on a rotor that is held at rest. A free rotor, whose speed swings about its
+    /// mean, stops under a different load. `None` for a rotor that acts back on its stator.
     pub blocked_torque: Option<Estimate>,
     /// The mean speed without load (rad/s).
     pub no_load_speed: Estimate,
-    /// The same for coexisting motions.
+    /// The stall loads of coexisting motions.
     pub others: Vec<Self>,
 }
 
@@ -113,7 +113,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// The operation of the branch in a row; the first one if it has no such branch.
+    /// The operation of the branch in a row; the first operation if the row has no such branch.
     fn of<'a>(&self, row: &'a OperatingRow) -> &'a Operation {
         row.branches.get(self.branch).unwrap_or_else(|| row.operation())
     }
@@ -232,8 +232,8 @@ impl Search<'_> {
         })
     }
 
-    /// No load that was tried certainly drives the rotor back, but every load beyond the largest torque does.
-    /// A motor that still gains speed at the last load counts as turning.
+    /// The stall load if no load that was tried certainly drives the rotor back; every load beyond the
+    /// largest torque does. A motor that still gains speed under the last load counts as turning.
     fn beyond(
         &self,
         shares: &[f64],
@@ -264,9 +264,9 @@ impl Search<'_> {
     }
 }
 
-/// The error of the straight line between two neighbouring loads, as a share of their distance: nearly zero
-/// if the neighbouring speeds continue the line, and the deviation of a uniform distribution between the two
-/// loads if a locked motor jumps.
+/// The error of the straight line between two neighbouring loads, as a share of their distance. This is
+/// nearly zero if the neighbouring speeds continue the line, and the deviation of a uniform distribution
+/// between the two loads if the speed of a locked motor jumps.
 fn unresolved(value: impl Fn(usize) -> f64, loads: usize, below: usize) -> f64 {
     let bends = [below.checked_sub(1), Some(below)].into_iter().flatten().filter(|first| first + 2 < loads);
     let bend = bends.map(|first| (value(first) - 2.0 * value(first + 1) + value(first + 2)).abs());
@@ -274,9 +274,9 @@ fn unresolved(value: impl Fn(usize) -> f64, loads: usize, below: usize) -> f64 {
     (bend.fold(0.0, f64::max) / jump).min(1.0) / EVEN
 }
 
-/// The load, between these shares of the largest torque, at which speeds that fall over them vanish, and the
-/// error of the straight line there; if they do not vanish, the middle of the remaining range up to the
-/// largest torque.
+/// The share of the largest torque at which the speed vanishes, between those `shares` at which it changes
+/// sign, and the error of the straight line there. If the speed does not vanish, the middle of the remaining
+/// range up to the largest torque.
 pub(crate) fn stall_share(shares: &[f64], speed: impl Fn(usize) -> f64) -> (f64, f64) {
     let above = (0..shares.len()).find(|&k| speed(k) <= 0.0);
     match above {
@@ -294,7 +294,7 @@ pub(crate) fn stall_share(shares: &[f64], speed: impl Fn(usize) -> f64) -> (f64,
 }
 
 /// Rejects a speed that still drifts: no standard error contains the remainder of a start-up, so the error of
-/// a load from such speeds would be too small.
+/// a load found from such speeds would be too small.
 fn check_settled(operation: &Operation) -> Result<(), Error> {
     match operation {
         Operation::Unsettled(point, Shortfall::Drift { .. }) => {

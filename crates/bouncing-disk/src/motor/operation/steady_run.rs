@@ -1,19 +1,22 @@
 //! An ensemble of vertical motions that runs until the speeds of all rotors are known well enough.
 //!
-//! If recording a vertical motion takes longer than replaying it, slow rotors have less inertia: so much less that
-//! they rise in 0.3 P/e periods, or in 0.02 P/e for rigid impacts on a compliant stator, with the requested error e,
-//! at most 1 %, and the platform's largest speed P, on the largest held amplitude. The standard deviation of the
-//! speed is scaled back by the root of the inertia; on a cycle each rotor has its own. Members on a compliant stator
-//! are split at the largest ratio of neighbouring amplitudes, if these differ by more than the requested error and
-//! by five times the part that scatter in time explains, and if no group drifts.
+//! If recording a vertical motion takes longer than replaying it, the inertia of slow rotors is reduced. They
+//! then rise in 0.3 P/e periods, or in 0.02 P/e for rigid impacts on a compliant stator; e is the requested
+//! error, at most 1 %, and P the platform's largest speed, at the largest held amplitude. The standard
+//! deviation of the speed is scaled back by the root of the inertia; on a cycle each rotor moves at its own
+//! inertia. Members on a compliant stator are split at the largest ratio of neighbouring amplitudes. The
+//! condition is that these differ by more than the requested error and by five times the part that scatter in
+//! time explains, and that no group drifts.
 //!
-//! A rotor whose speed changes little in a flight has nearly the same mean speed at any inertia, but needs a run of
-//! several time constants. A third rotor with half of the reduced inertia shows the effect: the difference over
-//! 1.96 is added to the error, and above 0.6 of the requested error the run restarts with four times the inertia.
+//! A rotor whose speed changes little in a flight has nearly the same mean speed at any inertia, but needs a
+//! run of several time constants. A third rotor with half of the reduced inertia shows the effect of the
+//! reduction. The difference over 1.96 is added to the error; if the difference exceeds 0.6 of the requested
+//! error, the run restarts with four times the inertia.
 //!
-//! A stator that moves along straight lines can carry a family of vertical motions, each with its own phase and
-//! speed. More than six cycles count as a family, reported by its mean and `Shortfall::Start`; the largest
-//! difference from it, over 1.96, is part of the error. Kicks at upward kinks are perturbed like separations.
+//! A stator with piecewise linear motion can carry a family of vertical motions, each with its own phase and
+//! speed. More than six cycles count as a family, which is reported as its mean with `Shortfall::Start`; the
+//! largest difference from the mean, over 1.96, is part of the error. Kicks at upward kinks are perturbed
+//! like separations.
 
 use std::f64::consts::TAU;
 
@@ -41,7 +44,7 @@ use crate::parameters::dimensionless::DimensionlessSystem;
 use crate::parameters::system::System;
 use crate::stator::StatorSystem;
 
-/// Windows of the first round, and windows in the time in which friction can accelerate a rotor to the
+/// Number of windows in the first round, and in the time in which friction can accelerate a rotor to the
 /// platform's largest speed.
 const FIRST_WINDOWS: usize = 12;
 const WINDOWS_OF_RISE: f64 = 2.0;
@@ -49,33 +52,33 @@ const WINDOWS_OF_RISE: f64 = 2.0;
 /// The least length of a window relative to the time in which an amplitude of the stator falls by a factor e.
 const WINDOW_OF_DECAY: f64 = 0.75;
 
-/// The same, as a share, for a stator whose members start at held amplitudes.
+/// Factor by which this length is reduced for a stator whose members all start at held amplitudes.
 const HELD_SHARE: f64 = 0.3;
 
 /// A slow rotor has less inertia than its motor, so that its rise takes at most this number times P/e
-/// periods. P is the platform's largest speed, which sets the length of flights, and e the requested error or
-/// this limit, whichever is smaller. The speed is then off by a third of the requested error.
+/// periods. P is the platform's largest speed, which sets the length of flights; e is the requested error,
+/// but at most `LOOSE`. The error of the speed is then a third of the requested one.
 const PERIODS_OF_RISE: f64 = 0.3;
 
-/// The same for rigid impacts on a compliant stator, whose long flights take longest to record; if the speed
-/// is then off by too much, the rotors get more inertia.
+/// The same for rigid impacts on a compliant stator, whose long flights take longest to record; if the error
+/// of the speed is then too large, the inertia is increased.
 const QUICK_SHARE: f64 = 0.02;
 const LOOSE: f64 = 0.01;
 
-/// The length of the shortest run, and the inertia of its rotors.
+/// The length of the shortest run, and the factor by which the inertia of its rotors is increased.
 const SHORTEST: (f64, f64) = (1.0, 1.0);
 
-/// A run whose rotors have too little inertia begins again with this many times more.
+/// A run whose rotors have too little inertia begins again with this many times the inertia.
 const SLOWER: f64 = 4.0;
 
 /// Largest factor by which the inertia is reduced.
 const QUICKEST: f64 = 1.0e6;
 
-/// If there are more windows than this, pairs are merged.
+/// If there are more windows than this, pairs of windows are merged.
 const MOST_WINDOWS: usize = 128;
 
-/// Largest number of rotors of all members of one ensemble together: half a gigabyte with their windows,
-/// including those of the second start of each.
+/// Largest number of rotors of all members of one ensemble together. With their windows, including those of a
+/// second start of each rotor, they fill half a gigabyte.
 pub const MAX_OPERATED_ROTORS: usize = 1 << 16;
 
 /// Fewest impacts of a window, and fewest periods of the platform.
@@ -85,20 +88,19 @@ const LEAST_PERIODS: f64 = 10.0;
 /// A round is at most this many times as long as all previous rounds together, whatever the estimate.
 const GROWTH: f64 = 3.0;
 
-/// The factor by which the estimated number of windows is increased, so that a further round is seldom
-/// needed.
+/// Factor by which the estimated number of windows is increased, so that a further round is seldom needed.
 const MARGIN: f64 = 1.15;
 
-/// The members that run first. The others join their cycles.
+/// Number of members that run first. The others may join the cycles that these reach.
 const PILOTS: usize = 2;
 
-/// New members replace others that repeat, until there have been this many times the number in the settings.
+/// New members replace members that repeat, until this many times the number in the settings have begun.
 const MOST_STARTS: usize = 3;
 
-/// More cycles than this on a stator with kinks form a family, in which each start keeps its own.
+/// More cycles than this on a stator with kinks form a family, in which each start keeps its own cycle.
 const MOST_CYCLES: usize = 6;
 
-/// Windows that each member omits as its start-up if some members end.
+/// Number of windows that each member omits as its start-up if the motions of some members end.
 const START_UP: usize = FIRST_WINDOWS / 2;
 
 /// Fewest windows per member from which an irregular motion is reported.
@@ -112,16 +114,16 @@ pub(crate) struct Operations {
     /// `speeds[rotor][member]`, mean angular speeds (rad/s) of the first branch after the start-up, averaged
     /// over the rotors from far below and from far above; empty for a runaway.
     pub(crate) speeds: Vec<Vec<f64>>,
-    /// The same for rotors from far above, and for a cycle with coarser steps. The difference bounds the
-    /// error due to the start-up and the steps.
+    /// The same for rotors from far above; for a cycle, with coarser steps. The difference bounds the error
+    /// due to the start-up and the steps.
     pub(crate) speeds_from_above: Vec<Vec<f64>>,
-    /// How long each member was followed, in units of the shortest run, and the factor by which the rotors
-    /// had more inertia than in the first run.
+    /// How long each member was followed, in units of the shortest run, and the factor by which the inertia
+    /// was increased relative to the first run.
     pub(crate) length: (f64, f64),
 }
 
 /// The steady operation of motors that share one vertical motion. The errors are relative to the largest
-/// speed of the unloaded ones; if all are loaded, the first motor is also computed without its load.
+/// speed of the unloaded motors; if all motors are loaded, the first motor is also computed without its load.
 pub(crate) fn operate(
     motors: &[LoadedMotor<'_>],
     settings: &OperatingSettings,
@@ -149,8 +151,8 @@ pub(crate) fn curve_of(
 /// The final states of the members of an ensemble of one motor (SI).
 pub(crate) type Ends = Vec<Left>;
 
-/// The steady operation of a motor from the final state of another one, with its own final state; no final
-/// state for a runaway or a rigid stator.
+/// The steady operation of a motor, starting from the final state of another motor, and the final state
+/// reached; `None` for a runaway or a rigid stator.
 pub(crate) fn continued(
     motor: LoadedMotor<'_>,
     from: Option<&Ends>,
@@ -275,8 +277,8 @@ fn operate_from(
     Ok((results, ends))
 }
 
-/// If a row has two irregular motions, of rotors from below and from above that stay apart, adds the speed
-/// between them.
+/// If a row contains two irregular motions, of rotors from below and from above that stay apart, adds the
+/// unstable speed between them.
 fn add_unstable_speed(
     motor: &LoadedMotor<'_>,
     row: &mut OperatingRow,
@@ -297,19 +299,19 @@ fn add_unstable_speed(
     Ok(())
 }
 
-/// The operations of a motor, and the speeds of the first one's members as in [`Operations`].
+/// The operations of a motor, and the members' speeds in the first operation, as in [`Operations`].
 type MotorResult = (OperatingRow, Vec<f64>, Vec<f64>);
 
 /// The number of members that reached an operation from rest, the operation, and the mean speeds (rad/s) of
-/// its two rotors in each member.
+/// the two rotors in each member.
 type Branch = (usize, Operation, [Vec<f64>; 2]);
 
 /// A motion that repeats, and the rotors that repeat with it.
 struct Repeated {
     cycle: Cycle,
-    /// The motion of all rotors of a member in it, with fine and with coarse steps.
+    /// The motion of all rotors of a member in the cycle, with fine and with coarse steps.
     windows: [Window; 2],
-    /// Number of the members started from rest that reached it.
+    /// Number of members started from rest that reached this motion.
     from_rest: usize,
 }
 
@@ -317,7 +319,7 @@ struct Repeated {
 struct Carried {
     index: usize,
     member: Member,
-    /// Number of starts from rest that it represents.
+    /// Number of starts from rest that the member represents.
     from_rest: usize,
     windows: Vec<Window>,
 }
@@ -327,18 +329,18 @@ struct SteadyRun<'a> {
     motors: Vec<LoadedMotor<'a>>,
     /// The [`LoadedMotor::dimensionless`] of each motor.
     systems: Vec<DimensionlessSystem>,
-    /// Number of motors that the caller requested: each of these is carried twice, from far below and from
+    /// Number of motors that the caller requested: each of these has two rotors, which start far below and
     /// far above all steady speeds.
     asked: usize,
     members: Vec<Carried>,
     repeated: Vec<Repeated>,
-    /// The windows of irregular motions that have ended, without their start-up.
+    /// The windows, after the start-up, of irregular motions that have ended.
     ended_windows: Vec<Vec<Window>>,
     /// How long irregular motions lasted before they ended, including those of a survey.
     life: Lived,
     /// The final states of the first members that repeat.
     left: Vec<(usize, Left)>,
-    /// Members begun so far, and the largest number.
+    /// Number of members begun so far, and its limit.
     begun: usize,
     most_begun: usize,
     stators: Vec<Stator>,
@@ -347,7 +349,7 @@ struct SteadyRun<'a> {
     /// Factor by which each rotor has less inertia than its motor.
     quicker: Vec<f64>,
     settings: OperatingSettings,
-    /// Duration of a window (rad) and its fewest impacts.
+    /// Duration of a window (rad), and its smallest number of impacts.
     duration: f64,
     least_impacts: u64,
     /// Largest number of impacts of a window.
@@ -487,8 +489,9 @@ impl<'a> SteadyRun<'a> {
         self.members.first().map_or(0, |own| own.windows.len())
     }
 
-    /// The windows of irregular motions after their start-up, for each member; if some have ended, all
-    /// windows one after the other, in as many groups as there are members. Empty if they are too few.
+    /// The windows of irregular motions after their start-up, for each member. If some motions have ended,
+    /// all windows one after the other, divided into as many groups as there are members; empty if there are
+    /// too few windows.
     fn averaged(&self) -> Vec<Vec<&Window>> {
         if self.ended_windows.is_empty() {
             let after = left_out(self.windows());
@@ -539,7 +542,7 @@ impl<'a> SteadyRun<'a> {
     }
 
     /// Follows the members until the speeds are known, or until they are seen to keep separate amplitudes;
-    /// then returns the indices of the members at each.
+    /// returns the indices of the members at each amplitude.
     fn compute(&mut self, watch: &Watch<'_>) -> Result<Vec<Vec<usize>>, Error> {
         let mut target = FIRST_WINDOWS;
         loop {
@@ -595,7 +598,7 @@ impl<'a> SteadyRun<'a> {
         }
     }
 
-    /// Removes the members that repeat from the irregular ones; returns whether others replaced them.
+    /// Removes the members that repeat; returns whether new members replaced them.
     fn take_repeated(&mut self, watch: &Watch<'_>) -> Result<bool, Error> {
         let mut begins = false;
         let largest: Vec<f64> = {
@@ -642,7 +645,7 @@ impl<'a> SteadyRun<'a> {
         Ok(begins)
     }
 
-    /// The index of the cycle that a member repeats, if any; a new one if it is not yet known.
+    /// The index of the cycle that a member repeats, if any; a cycle that is not yet known is added.
     fn place_of(
         &mut self,
         member: &mut Member,
@@ -666,13 +669,13 @@ impl<'a> SteadyRun<'a> {
         Ok(Some(known))
     }
 
-    /// Whether all required results are known: irregular motions end, so most rotors from rest finally reach
-    /// a cycle.
+    /// Whether all required results are known because irregular motions end, so that most rotors from rest
+    /// finally reach a cycle.
     fn knows_first(&self) -> bool {
         self.motors[0].first_only && self.life.ended > 0 && !self.repeated.is_empty()
     }
 
-    /// The factor by which a run has to be longer.
+    /// The factor by which a run must be extended.
     fn hoped_for(&self, shortfall: &Shortfall) -> f64 {
         match *shortfall {
             Shortfall::Error { standard_error, wanted } => {
@@ -683,7 +686,7 @@ impl<'a> SteadyRun<'a> {
         }
     }
 
-    /// Impacts of all members.
+    /// Number of impacts of all members.
     fn spent(&self) -> u64 {
         let windows = self.members.iter().map(|own| &own.windows).chain(&self.ended_windows);
         windows.flatten().map(|window| window.axial.impacts).sum()
@@ -730,15 +733,15 @@ impl<'a> SteadyRun<'a> {
         self.most_impacts = self.most_impacts.saturating_mul(2);
     }
 
-    /// Index of a motor's rotor that started from far above; for a motor that the caller did not request, of
-    /// its only rotor.
+    /// Index of a motor's rotor that started from far above, or of the only rotor of a motor that the caller
+    /// did not request.
     fn rotor_from_above(&self, motor: usize) -> usize {
         let bracketed = motor < self.asked && !self.stators[0].acts_back();
         if bracketed { self.motors.len() + motor } else { motor }
     }
 
     /// Mean speeds (rad/s) of each member in the windows after the start-up: averaged over a motor's two
-    /// rotors, and for the one from far above.
+    /// rotors, and for the rotor from far above.
     fn speeds(&self, motor: usize) -> [Vec<Vec<f64>>; 2] {
         let unit = self.motors[motor].system.scales().angular_speed;
         let above = self.rotor_from_above(motor);

@@ -1,12 +1,13 @@
 //! The vertical motions that coexist on a rigid stator, and how long irregular ones last.
 //!
-//! Only the disk is followed, so a thousand contacts take a millisecond: from rest and from throws, until the
-//! motion repeats or the longest run ends. Loads, lags and rotors share the result. Compliant contacts have 8
-//! starts from rest and 8 throws of up to three times the platform's largest speed; rigid impacts have 16
-//! throws, because a disk that rests continues as from rest. A run has at most 20,000 touches on a sine with
-//! compliant contacts, which are in closed form, and 2,000 otherwise. The life of an irregular motion is
-//! counted from touch 256 to the last touch more than 5 % away from the final cycle. Throws with compliant
-//! contacts continue, 16 at a time, until one of these conditions holds: 64 irregular motions have ended,
+//! Only the disk is followed, so a thousand contacts take a millisecond. It starts from rest or from throws,
+//! and is followed until the motion repeats or the longest run ends. All loads, lags and rotors share the
+//! result. For compliant contacts there are 8 starts from rest and 8 throws with up to three times the
+//! platform's largest speed. For rigid impacts there are 16 throws, because a disk that comes to rest
+//! continues like one that starts from rest. A run is limited to 20,000 touches on a sine with compliant
+//! contacts, which are computed in closed form, and to 2,000 otherwise. The life of an irregular motion is
+//! counted from touch 256 to the last touch more than 5 % away from the final cycle. With compliant contacts
+//! further throws follow, 16 at a time, until one of these conditions holds: 64 irregular motions have ended,
 //! none of at least 16 has, or 600,000 touches or 256 starts are spent. Rigid impacts on a stator with kinks
 //! are not surveyed.
 
@@ -25,12 +26,12 @@ use crate::motor::tape::recurrence::{Key, Recurrence, Repeats, Touch};
 use crate::motor::tape::source::Source;
 use crate::parameters::dimensionless::DimensionlessSystem;
 
-/// Starts that are followed together, and largest total number.
+/// Number of starts that are followed together, and their largest total number.
 const STARTS: usize = 16;
 const MOST_STARTS: usize = 16 * STARTS;
 
 /// Number of ended irregular motions after which their mean life is known well enough. Until then further
-/// starts follow, as long as all together have had fewer touches than this.
+/// starts follow, as long as all starts together have had fewer touches than the second number.
 const ENOUGH_ENDS: u64 = 64;
 const MOST_TOUCHES: u64 = 600_000;
 
@@ -46,8 +47,8 @@ const MARK: u64 = 16;
 /// Largest number of states per start from which a rotor may continue.
 const MOST_STATES: usize = 16;
 
-/// Largest number of touches of a start recorded in closed form, and of one that an engine follows or that
-/// has rigid impacts.
+/// Largest number of touches after a start that is followed in closed form, and after a start that an engine
+/// follows or that leads to rigid impacts.
 const LONGEST: u64 = 20_000;
 const SHORTEST: u64 = 2_000;
 
@@ -55,15 +56,15 @@ const SHORTEST: u64 = 2_000;
 #[derive(Debug)]
 pub(crate) struct Survey {
     pub(crate) cycles: Vec<Surveyed>,
-    /// States in irregular motions, one of each first; `None` for rigid impacts, for which rotors start from
-    /// rest.
+    /// States in irregular motions, beginning with one of each; `None` for rigid impacts, for which rotors
+    /// start from rest.
     pub(crate) irregular: Option<Vec<Source>>,
     /// Number of starts from rest that were irregular to the last.
     pub(crate) from_rest: usize,
     pub(crate) life: Lived,
 }
 
-/// A cycle, how often it was reached from rest, and a disk on it.
+/// A cycle, the number of starts from rest that reached it, and a disk on it.
 #[derive(Debug)]
 pub(crate) struct Surveyed {
     pub(crate) source: Source,
@@ -72,7 +73,7 @@ pub(crate) struct Surveyed {
     cycle: Cycle,
 }
 
-/// How long irregular motions were observed (rad), in total and at most, and how many ended.
+/// For how long irregular motions were observed (rad), in total and at most, and how many of them ended.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Lived {
     pub(crate) total: f64,
@@ -91,7 +92,7 @@ impl Lived {
 
 impl Survey {
     /// The motions of a disk of this system, from phases that the seed rotates; `None` for a compliant
-    /// stator, and for rigid impacts on one with kinks.
+    /// stator, and for rigid impacts on a stator with kinks.
     pub(crate) fn of(
         stator: &Stator,
         system: &DimensionlessSystem,
@@ -150,8 +151,8 @@ impl Survey {
         Ok(Some(found))
     }
 
-    /// Adds the cycle of a motion that repeats; returns how long (rad) it lasted before it was on its way to
-    /// the cycle.
+    /// Adds the cycle of a motion that repeats; returns how long (rad) the motion lasted before it was on its
+    /// way to the cycle.
     fn add_cycle(
         &mut self,
         followed: Followed,

@@ -1,11 +1,11 @@
 //! Ranges of the preload that trap a motor, and the nearest one.
 //!
-//! A scan judges preloads spaced evenly in the logarithm by half of the least width, and bisects to the edges of each
-//! trap. It finds every trap of at least that width, unless the trap has a hole at such a preload. The speeds inside a
-//! trap come from operating points near both edges and in the middle.
+//! A scan judges preloads whose logarithms are half of the least width apart, and bisects to the edges of
+//! each trap. The scan finds every trap of at least that width, unless the trap has a hole at one of these
+//! preloads. The speeds inside a trap come from operating points near both edges and in the middle.
 //!
-//! From 4 to 6 N the motor of 40 kHz and 0.5 um has 17 traps of at least [`LEAST_TRAP_WIDTH`], each 0.11 to 0.16 % wide,
-//! with 8.35 rad/s inside and about 7.5 outside.
+//! From 4 to 6 N the motor of 40 kHz and 0.5 um has 17 traps of at least [`LEAST_TRAP_WIDTH`], each 0.11 to
+//! 0.16 % wide, with a speed of 8.35 rad/s inside and about 7.5 rad/s outside.
 
 use std::f64::consts::PI;
 
@@ -42,7 +42,7 @@ pub struct TrapRange {
     pub preload_from_to: [f64; 2],
     /// The width w of the range relative to the preload. If the preload of a motor is known to within a
     /// relative tolerance t on either side, and the trap lies inside this interval, the motor is trapped with
-    /// the probability w/(2 t).
+    /// a probability of w/(2 t).
     pub relative_width: f64,
     /// The same range in the axial forcing parameter Gamma.
     pub forcing_from_to: [f64; 2],
@@ -57,15 +57,15 @@ pub struct TrapRange {
 /// The low-period trap nearest to a motor.
 ///
 /// A trap is a range of Gamma at the motor's restitution. A change of preload, amplitude or frequency can
-/// take the motor into it; for each of them, a field gives the value at the near edge, with the others
-/// unchanged.
+/// move the motor into the trap. For each of the three, a field states the value at the near edge, with the
+/// other two unchanged.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct NearestTrap {
-    /// The relative change of preload or amplitude, whichever is smaller, that takes the motor to the near
+    /// The relative change of preload or amplitude, whichever is smaller, that moves the motor to the near
     /// edge; zero for a motor in the trap.
     pub relative_distance: f64,
-    /// Preload (m/s^2) at the near edge; the motor's own if it is in the trap.
+    /// Preload (m/s^2) at the near edge; the motor's own preload if the motor is in the trap.
     pub preload_acceleration: f64,
     /// Amplitude (m) at the near edge.
     pub amplitude: f64,
@@ -81,8 +81,8 @@ pub struct NearestTrap {
 
 impl Motor {
     /// The ranges between two preloads (accelerations in m/s^2, the first one lower) that trap the motor and
-    /// are at least `least_relative_width` wide, in (0, 0.1]; [`LEAST_TRAP_WIDTH`] is a good choice. They are
-    /// in rising order, each with its speeds inside, computed to the accuracy of `settings`.
+    /// are at least `least_relative_width` wide, in (0, 0.1]; [`LEAST_TRAP_WIDTH`] is a good choice. The
+    /// ranges are in rising order, each with the speeds inside it, computed to the accuracy of `settings`.
     ///
     /// The observer's items are the steps of the scan, then the ranges.
     ///
@@ -155,7 +155,7 @@ impl Motor {
     /// The nearest low-period trap that is at least [`LEAST_TRAP_WIDTH`] wide, if one lies within a relative
     /// change of preload or amplitude of `relative_range`, in (0, 1]. Use
     /// [`MotorRegime::is_locked`](crate::motor::MotorRegime::is_locked) to check whether the motor itself is
-    /// locked, in however narrow a trap.
+    /// locked, however narrow its trap.
     ///
     /// The observer's items are the steps of the scan.
     ///
@@ -191,7 +191,7 @@ impl Motor {
     }
 }
 
-/// A scan over the logarithm of the forcing, relative to the motor's own.
+/// A scan over the logarithm of the forcing, relative to the motor's own forcing.
 struct Scan<'a> {
     motor: &'a Motor,
     step: f64,

@@ -1,10 +1,10 @@
 //! The spread over the tolerances of the inputs.
 //!
-//! At zero tolerances 16 runs gave no spread in 7 cases, a spread within its error of zero in 5 more, and one
-//! beyond two errors in 2. If samples stopped when their own error is small, those that agree by luck would
-//! show spreads of up to 1.6 errors, in each of eight seeds. At 5 N the 40 kHz motor (12 rad/s, radii of 12.5
-//! and 10 mm) stalls at 3.715(21) mN m; the samples give 3.94(2) with a deviation of 0.08(1), from 3.72 to
-//! 4.09.
+//! At zero tolerances, the spread of 16 runs was zero in 7 cases, within one error of zero in 5 more, and
+//! beyond two errors in 2. If each sample stopped when its own error was small, samples that agree by chance
+//! would show spreads of up to 1.6 errors, at each of eight seeds. At 5 N the 40 kHz motor (12 rad/s, radii
+//! of 12.5 and 10 mm) stalls at 3.715(21) mN m; the mean over the samples is 3.94(2) mN m, their deviation
+//! 0.08(1), and their range 3.72 to 4.09.
 
 use super::*;
 use crate::testing::{check_stops, refused};
@@ -42,7 +42,7 @@ fn the_spread_of_known_draws_is_found() {
     assert_eq!(InputSpread::of(&[None; 30], 3).expect("finite"), None);
 }
 
-/// Motors that are exactly known have no spread, whatever their statistical errors.
+/// A motor whose inputs are exactly known has no spread, whatever its statistical errors.
 #[test]
 fn a_motor_that_is_exactly_known_has_no_spread() {
     let exact = InputTolerance { preload: 0.0, amplitude: 0.0, perturbation_decades: 0.0, draws: 16 };
@@ -83,8 +83,8 @@ fn small_motor(preload: f64) -> Motor {
         .expect("legal")
 }
 
-/// At 6 N it locks: its speed has almost no error, but differs for its neighbours. At 2 N its stall load is
-/// practically the largest torque.
+/// At 6 N the motor locks: its speed has almost no error, but differs from that of neighbouring motors. At 2
+/// N its stall load is practically the largest torque.
 #[test]
 fn a_locked_motor_has_a_spread_and_a_stall_at_the_limit_an_error() {
     let motor = small_motor(6.0);
@@ -124,8 +124,8 @@ fn a_spread_can_be_stopped() {
     check_stops(None, |observer| motor.speed_spreads(&[0.0], &quick(), &tolerance, observer));
 }
 
-/// A rotor that never leaves the stator has an exact operation at once, due to friction and lag; it does not
-/// turn without lag.
+/// The operation of a rotor that never leaves the stator, which friction and lag turn, is exact and known at
+/// once; without lag the rotor does not turn.
 #[test]
 fn a_motor_that_is_never_thrown_is_answered_at_once() {
     let began = std::time::Instant::now();

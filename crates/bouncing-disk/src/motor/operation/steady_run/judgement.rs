@@ -10,11 +10,11 @@ use crate::motor::operation::settling::{decided_by_start, drift, shortfall};
 use crate::motor::tape::taped::{error_of_steps, resolution};
 use crate::motor::tape::window::Window;
 
-/// Largest difference, as a share of the requested error, of rotors with half the inertia.
+/// Largest difference in speed, as a share of the requested error, due to halving the inertia of the rotors.
 const INERTIA_SHARE: f64 = 0.6;
 
-/// If the scatter is less than this share of the requested error, a longer run does not help: the rest is due
-/// to the perturbation.
+/// If the scatter is less than this share of the requested error, a longer run does not help: the rest of the
+/// error is due to the perturbation.
 const SCATTER_SHARE: f64 = 0.5;
 
 /// Rotors from below and from above that differ by more than this number of requested errors stay apart.
@@ -79,8 +79,8 @@ impl SteadyRun<'_> {
             .collect();
     }
 
-    /// Whether rotors from far below and from far above stay apart: under a load that decreases with the
-    /// speed both may be steady, and no rotor passes from one to the other.
+    /// Whether rotors from far below and from far above stay apart. Under a load that decreases with the
+    /// speed, both may be steady, and no rotor passes from one speed to the other.
     pub(super) fn is_parted(&self, motor: usize) -> bool {
         if self.motors[motor].law().is_finite() {
             return false;
@@ -121,8 +121,8 @@ impl SteadyRun<'_> {
         Some(self.averaged().iter().map(|windows| windows.iter().map(amplitude).collect()).collect())
     }
 
-    /// The members at each of the amplitudes that a stator keeps in irregular motions without drift; all
-    /// members if there is only one amplitude. A group that splits again does so later.
+    /// The members at each of the two amplitudes that a stator keeps in irregular motions without drift;
+    /// empty if there is only one amplitude. Each group may be split again later.
     pub(super) fn groups(&self) -> Vec<Vec<usize>> {
         let amplitudes =
             (self.held.has_many() && self.ended_windows.is_empty()).then(|| self.amplitudes(0)).flatten();
@@ -149,8 +149,8 @@ impl SteadyRun<'_> {
     }
 
     /// The dependence (rad/s) of the speed on the start, for a motor whose stator has kinks or is compliant.
-    /// Between two kinks a stator may carry a whole family of motions, each of which keeps its own speed; a
-    /// compliant one may keep two amplitudes, with an irregular motion at each.
+    /// Between two kinks a stator may carry a whole family of motions, each of which keeps its own speed. A
+    /// compliant stator may keep two amplitudes, with an irregular motion at each.
     pub(super) fn apart(&self, motor: usize, speeds: &[Vec<f64>]) -> f64 {
         if self.motors[motor].stator.has_kinks() || self.held.has_many() {
             decided_by_start(speeds).unwrap_or(0.0)
@@ -168,8 +168,8 @@ impl SteadyRun<'_> {
             .then_some(Shortfall::Start { spread, standard_error })
     }
 
-    /// The energy that the disk still stores, if it is too large a part of the supplied energy. For a disk
-    /// that settles this part falls inversely with the time for which it is followed.
+    /// The energy that the disk still stores, if it is too large a part of the supplied energy. If the disk
+    /// settles, this part is inversely proportional to the time for which it is followed.
     fn unbalanced(&self, motor: usize) -> Option<Shortfall> {
         let units = Units::of(&self.motors[motor]);
         let sum = self.total(motor);
@@ -223,7 +223,7 @@ impl SteadyRun<'_> {
         self.averaged().iter().map(samples).collect()
     }
 
-    /// Whether members have perturbations of different sizes, each at its index.
+    /// Whether members have perturbations of different sizes, determined by their indices.
     fn are_perturbed(&self) -> bool {
         let count = self.members.len();
         !self.stators[0].takes_time()
@@ -237,8 +237,8 @@ impl SteadyRun<'_> {
         self.quicker.iter().any(|quicker| *quicker > 1.0)
     }
 
-    /// The mean speed (rad/s) of a motor, and its difference for rotors with half the inertia if rotors have
-    /// less than their motors; `None` if no motion is irregular.
+    /// The mean speed (rad/s) of a motor, and its changes due to halving the inertia, if this is reduced, and
+    /// due to the size of the perturbation; `None` if no motion is irregular.
     fn with_bias(&self, index: usize) -> Option<(Estimate, [f64; 2])> {
         let unit = self.motors[index].system.scales().angular_speed;
         let speed = |sum: &Sum| sum.rotor.angle / sum.axial.duration * unit;
@@ -255,8 +255,8 @@ impl SteadyRun<'_> {
         self.is_quicker() && (0..self.asked).any(|index| bias(index) > INERTIA_SHARE * self.wanted[index])
     }
 
-    /// An error, including the effects of the reduced inertia and of the perturbation, that is too large, if
-    /// a longer run can help.
+    /// An error that is too large, including the effects of the reduced inertia and of the perturbation, if a
+    /// longer run can reduce it.
     fn inaccurate(&self, index: usize) -> Option<Shortfall> {
         let (known, [bias, change]) = self.with_bias(index)?;
         let (standard_error, wanted) = (known.standard_error, self.wanted[index]);

@@ -1,4 +1,4 @@
-//! The results for each motor: its operations, from the members and from the cycles that they reached.
+//! The results for each motor: its operations, from the members and from the cycles that these reached.
 
 use bouncing_disk_core::numerics::statistics::NORMAL_975;
 
@@ -12,7 +12,7 @@ use crate::motor::operation::point::{
 use crate::motor::operation::settling::left_out;
 use crate::motor::tape::window::RotorWindow;
 
-/// A speed below this share of the stator's counts as rounding.
+/// A speed below this share of the stator's largest speed counts as rounding.
 const LEAST_SPEED: f64 = 1.0e-12;
 
 /// The operations of each motor, of all parts.
@@ -97,8 +97,8 @@ impl SteadyRun<'_> {
         Ok(branches)
     }
 
-    /// The motor that differs least from this one in its constant load, and in nothing else; `None` if each
-    /// has its own vertical motion.
+    /// The motor that differs from this one in its constant load only, and by the least amount; `None` if
+    /// each motor has its own vertical motion.
     fn beside(&self, index: usize) -> Option<usize> {
         let motor = &self.motors[index];
         if motor.stator.acts_back() {
@@ -117,7 +117,7 @@ impl SteadyRun<'_> {
         (0..self.motors.len()).filter(differs).min_by(|one, other| apart(one).total_cmp(&apart(other)))
     }
 
-    /// The time constant (s) of a motor's speed, from its change with the load.
+    /// The time constant (s) of a motor's speed, from the change of the speed with the load.
     fn time_constant(
         &self,
         index: usize,
@@ -271,7 +271,7 @@ impl SteadyRun<'_> {
     }
 
     /// The life of an irregular motion, with `unit` as the time per radian. The start-up is left out, because
-    /// a member may then still be on its way to a cycle; after it, motions end at a constant rate.
+    /// a member may then still be on its way to a cycle; after the start-up, motions end at a constant rate.
     fn life(&self, unit: f64) -> Life {
         let mut life = self.life;
         for own in &self.members {

@@ -1,8 +1,8 @@
 //! Steady runs: energies, limits, shortfalls, and the validity of the stated errors.
 //!
-//! Coverage: of 100 ensembles with other seeds, the number whose 95 % intervals contain the mean of three
-//! long ones (64 members, 0.2 %), whose own error is added (16 members and 1 % unless stated). Scatter and
-//! stated error in rad/s; the load over the largest torque.
+//! Coverage: of 100 ensembles with other seeds (16 members and 1 % unless stated), the number whose 95 %
+//! intervals contain the mean of three long ensembles (64 members, 0.2 %), whose own error is added. The
+//! scatter and the stated error are in rad/s; the load is divided by the largest torque.
 //!
 //! | motor | load | scatter | stated | hold |
 //! | --- | --- | --- | --- | --- |
@@ -14,8 +14,8 @@
 //! | 40 kHz, 0.5 um, 5 N, 12 rad/s, lag 30 degrees | 0.5 | 0.055 | 0.054 | 92 |
 //! | | 0.8 | 0.069 | 0.059 | 91 |
 //!
-//! Stall loads: for 40 kHz, compared with four runs of 64 members at 0.2 %, 99 of 100 at 5 %, 95 at 2 %, 92
-//! at 1 %; for Table III at 5 %, compared with three runs at 0.3 %, 39 of 40.
+//! For stall loads, the numbers at 40 kHz, compared with four runs of 64 members at 0.2 %, are 99 of 100 at 5
+//! %, 95 at 2 % and 92 at 1 %. For Table III at 5 %, compared with three runs at 0.3 %, the number is 39 of 40.
 
 use std::f64::consts::{PI, TAU};
 
@@ -50,9 +50,9 @@ fn operated(motors: &[LoadedMotor<'_>], settings: &OperatingSettings) -> Vec<Ope
         .collect()
 }
 
-/// The energy supplied equals the work done, the losses and the stored energy: over whole runs, with loads
-/// that brake, drive and nearly run away, on platforms of every strength, with and without twist, friction
-/// and rebound.
+/// Over whole runs the energy supplied equals the sum of the work done, the losses and the stored energy:
+/// with loads that brake, that drive, and that nearly cause a runaway, on platforms of every strength, with
+/// and without twist, friction and rebound.
 #[test]
 fn energy_is_balanced() {
     let settings = OperatingSettings {
@@ -95,7 +95,7 @@ fn energy_is_balanced() {
     }
 }
 
-/// Seen from below, a motor turns the other way.
+/// Half a turn of lag reverses the motor, as if it were seen from below.
 #[test]
 fn half_a_circle_of_lag_turns_the_motor_round() {
     let settings = OperatingSettings { relative_error: 0.1, members: 4, ..OperatingSettings::default() };
@@ -115,7 +115,7 @@ fn half_a_circle_of_lag_turns_the_motor_round() {
     }
 }
 
-/// Friction gives at most mu m g a_e on average: the limit lies there, to the last bit.
+/// The mean torque of friction is at most mu m g a_e: a larger load runs away, to the last bit.
 #[test]
 fn a_load_above_the_largest_torque_of_friction_runs_away() {
     let settings = OperatingSettings { relative_error: 0.5, members: 4, ..OperatingSettings::default() };
@@ -204,7 +204,7 @@ fn the_cycle_of_the_rounding_is_not_mistaken_for_the_motor() {
     assert!(deviations.iter().all(|deviation| deviation.abs() < 4.0), "{deviations:?}");
 }
 
-/// The end of the curve without load is the speed to which the transients rise.
+/// The no-load end of the curve is the speed to which the transients rise.
 #[test]
 fn the_speed_without_load_is_that_of_the_transients() {
     let system = motor(1e-8, 0.0);
@@ -277,8 +277,8 @@ fn illegal_settings_are_named() {
     assert!(matches!(error, Error::NotShared { .. }), "{error}");
 }
 
-/// If the platform hardly falls away, or the disk never comes to rest: a number with its error, or a
-/// shortfall.
+/// If the platform hardly falls away, or the disk never comes to rest, the result is a number with its error,
+/// or a shortfall.
 #[test]
 fn platforms_of_every_strength_are_judged() {
     let settings = OperatingSettings {
@@ -351,8 +351,8 @@ mod searches {
         }
     }
 
-    /// The many small impacts of a motor at 1 nm do not suffice to complete the start-up: the loads at which
-    /// its speeds appeared to vanish once had stated errors of a ten-thousandth.
+    /// At 1 nm the allowed impacts do not suffice to complete the start-up of a motor, because they are
+    /// small. The loads at which its speeds appeared to vanish once had stated errors of a ten-thousandth.
     #[test]
     fn a_stall_is_refused_where_speeds_still_drift() {
         let motor = loaded(&motor(1e-9, 0.0), 0.0);
@@ -375,9 +375,9 @@ mod searches {
     }
 }
 
-/// However loose the requested error, the stated one is true: the speeds differ from those of long runs with
-/// other seeds by as much as both errors allow. A start-up taken for a steady state once made them wrong by
-/// five errors.
+/// However loose the requested error, the stated error is true: the speeds differ from those of long runs
+/// with other seeds by no more than both errors allow. A start-up taken for a steady state once made them
+/// wrong by five errors.
 #[test]
 fn stated_errors_hold_where_loose_ones_are_asked_for() {
     let mut random = SplitMix64::new(7);
@@ -411,9 +411,9 @@ fn stated_errors_hold_where_loose_ones_are_asked_for() {
 }
 
 /// The motor of Table III with a lag of 0.5 and a preload for a forcing of 3, under half of the largest
-/// torque: 5.482(12) rad/s by `experiments/judge`, which shares nothing with this crate. The load slows the
-/// rise. After a quarter of the unloaded rise time, speeds were once as low as 4.9 with a stated error of
-/// 0.09.
+/// torque: 5.482(12) rad/s by `experiments/judge`, which shares no code with this crate. The load slows the
+/// rise: when runs ended after a quarter of the unloaded rise time, speeds were once as low as 4.9 with a
+/// stated error of 0.09.
 #[test]
 fn speeds_under_a_load_that_slows_the_rise_have_true_errors() {
     let peak = System::motor().peak_acceleration() * System::motor().disk().preload_acceleration();
@@ -431,9 +431,9 @@ fn speeds_under_a_load_that_slows_the_rise_have_true_errors() {
     assert!(within + 1 >= tries, "{within} of {tries}");
 }
 
-/// A rotor that is hit once in each period has the stator's speed after each impact, and its load slows it in
-/// flight. So the range is the loss in one flight, and the mean falls with the load as if the time constant
-/// were half a period.
+/// A rotor that is hit once in each period has the stator's speed after each impact, and the load slows the
+/// rotor in flight. So the speed range is the loss in one flight, and the mean falls with the load as if the
+/// time constant were half a period.
 #[test]
 fn a_locked_motor_has_the_range_and_the_time_constant_of_its_flights() {
     let base = System::motor();
@@ -475,8 +475,8 @@ fn the_range_of_an_irregular_motion_has_its_deviation() {
     assert!(((high.value - low.value) / (2.0 * NORMAL_975 * deviation) - 1.0).abs() < 0.2, "{point:?}");
 }
 
-/// Two rotors near the steady speed, on one vertical motion, approach each other by a factor e in the time
-/// constant given by the slope of the torque-speed curve.
+/// Two rotors near the steady speed, on one vertical motion, approach each other by a factor e within the
+/// time constant that follows from the slope of the torque-speed curve.
 #[test]
 fn the_time_constant_is_that_of_the_approach() {
     let system = motor(1e-8, 0.0);
