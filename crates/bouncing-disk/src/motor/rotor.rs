@@ -1,8 +1,8 @@
 //! The rotary motion alone, carried along an orbit of the core without records or energy balance.
 //!
-//! Its contact motion is the [`crate::Engine`]'s own ([`crate::motion::contact_motion`]). Only the sum over a
-//! chattering sequence is shorter if every one of its impacts slides the same way, because the total impulse
-//! is then known in closed form.
+//! The contact motion is the same as that of [`crate::Engine`] ([`crate::motion::contact_motion`]). Only the
+//! sum over a chattering sequence is simpler: if all of its impacts slide the same way, the total impulse is
+//! known in closed form.
 
 pub(crate) mod transient;
 
@@ -27,7 +27,7 @@ pub(crate) enum RotorStep {
     Contact,
     /// The disk has separated from rest: the next flight starts here.
     Separation,
-    /// No further event: the disk stays on the platform, at rest on it, sliding or turning with it.
+    /// No further event: the disk stays on the platform for ever, at rest, sliding or turning with it.
     Ended,
 }
 
@@ -38,7 +38,7 @@ pub(crate) struct Bounce {
     pub(crate) duration: f64,
     /// Angular speed of the platform at the impact.
     pub(crate) platform_speed: f64,
-    /// Relative axial velocity before it.
+    /// Relative axial velocity before the impact.
     pub(crate) velocity: f64,
     pub(crate) restitution: f64,
     pub(crate) friction: f64,
@@ -83,8 +83,8 @@ pub(crate) struct Rotor {
 }
 
 impl Rotor {
-    /// A disk that lies on the platform at `phase` with angular `speed`; if the platform falls away, it is in
-    /// flight.
+    /// A disk that lies on the platform at `phase` with angular `speed`; the disk is in flight if the
+    /// platform falls away there.
     pub(crate) fn at_rest(
         system: &DimensionlessSystem,
         phase: Phase,
@@ -147,7 +147,7 @@ impl Rotor {
         Ok(())
     }
 
-    /// Gives the flight that starts now another relative launch speed.
+    /// Sets the relative launch speed of the flight that starts now.
     pub(crate) fn perturb_launch(&mut self, relative_speed: f64) -> Result<(), Error> {
         if let Some(orbit) = &mut self.orbit {
             orbit.perturb_launch(relative_speed)?;
@@ -201,11 +201,11 @@ impl Rotor {
         self.contact = Some(contact);
     }
 
-    /// The speed after a chattering sequence all of whose impacts slide the same way; `None` if that is not
+    /// The speed after a chattering sequence in which all impacts slide the same way; `None` if this is not
     /// certain.
     ///
-    /// The impulses of the impacts sum to the integral of the platform's pull up to the accumulation point
-    /// minus the launch speed: in relative velocity, 0 = w - integral of N + sum.
+    /// The sum of the impulses of the impacts is the integral of the normal force N up to the accumulation
+    /// point minus the launch speed w, because the relative velocity ends at 0 = w - integral of N + sum.
     fn slide_throughout(&self, rest: &Attachment) -> Option<f64> {
         let duration = rest.accumulation.duration;
         let vibration = self.system.vibration();
@@ -239,8 +239,8 @@ impl Rotor {
         }
     }
 
-    /// Angle turned within `span` after the last step by a rotor that stays on the stator in its mode; zero
-    /// in flight.
+    /// Angle turned within `span` after the last step by a rotor that stays on the stator without a change of
+    /// mode; zero in flight.
     pub(crate) fn turned_since_event(&self, span: PhaseSpan) -> f64 {
         let Some(contact) = self.contact else { return 0.0 };
         let phases = (self.now.phase, self.now.after(span).phase);

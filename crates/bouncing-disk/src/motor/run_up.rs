@@ -56,8 +56,8 @@ impl Motor {
 
     /// Like [`Self::transient`], with the amplitude (m) of the axial mode at the end of each interval,
     /// defined as in [`MotorOutputs::amplitude`](crate::motor::MotorOutputs::amplitude); empty for a rigid
-    /// stator. On a compliant one the chatter policy of the settings has no effect: impacts are followed down
-    /// to a chatter of 1e-7 rad.
+    /// stator. On a compliant stator the chatter policy of the settings has no effect: impacts are followed
+    /// until the remaining chatter lasts 1e-7 rad.
     ///
     /// # Errors
     /// The errors of [`Self::transient`].
@@ -77,8 +77,8 @@ impl Motor {
         }
     }
 
-    /// The transients of these members by their phases and settings, on threads if available. With rigid
-    /// impacts on a sine they are computed in lockstep, as by [`transients`].
+    /// The transients of members with these phases and settings, computed on several threads if available.
+    /// With rigid impacts on a sine, the members are computed in lockstep, as in [`transients`].
     ///
     /// The observer's items are the members.
     ///
@@ -250,13 +250,13 @@ impl<'a> RunUp<'a> {
         time.since(&self.began).radians()
     }
 
-    /// The next relative speed of a relaunch, if relaunches are perturbed.
+    /// The relative speed of the next relaunch, if relaunches are perturbed.
     fn perturbation(&mut self) -> Option<f64> {
         let size = self.settings.relaunch_perturbation;
         (size > 0.0).then(|| size * self.generator.unit())
     }
 
-    /// Counts an event; the rotor has turned from this `angle` since the previous one.
+    /// Counts an event; since the previous event the rotor has turned from this `angle`.
     fn count(&mut self, engine: &mut impl SteeredMotion, event: &Event, angle: f64) {
         match event {
             Event::Impact { .. } | Event::Kick { .. } | Event::Recontact => self.impacts += 1,
@@ -271,7 +271,7 @@ impl<'a> RunUp<'a> {
         self.bins.add(self.passed(&engine.time()) * self.unit.time, engine.disk().angle - angle);
     }
 
-    /// No event is left: the motion continues through the rest of the intervals.
+    /// Continues the motion through the remaining intervals when no event is left.
     fn coast(&mut self, engine: &impl SteeredMotion) {
         let (angle, now) = (engine.disk().angle, self.passed(&engine.time()));
         let mut turned = 0.0;

@@ -3,9 +3,9 @@
 //! For slow rotors the two agree.
 //!
 //! The bracket extends from the last load at which the motor turns forwards to the first load at which it is
-//! driven back, in both cases at more than three standard errors. Loads closer than 1/64 to mu m g a_e,
-//! relative to it, are not tried, because speeds settle too slowly there; a motor that still turns under the
-//! last load stalls between this load and mu m g a_e.
+//! driven back, in both cases at more than three standard errors. Loads above 63/64 of mu m g a_e are not
+//! tried, because speeds settle too slowly there; a motor that still turns under the last load stalls between
+//! this load and mu m g a_e.
 
 use bouncing_disk_core::Observer;
 use bouncing_disk_core::numerics::elementary::hypot;

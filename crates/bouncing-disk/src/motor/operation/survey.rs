@@ -48,7 +48,7 @@ const MARK: u64 = 16;
 const MOST_STATES: usize = 16;
 
 /// Largest number of touches after a start that is followed in closed form, and after a start that an engine
-/// follows or that leads to rigid impacts.
+/// follows or with rigid impacts.
 const LONGEST: u64 = 20_000;
 const SHORTEST: u64 = 2_000;
 

@@ -7,7 +7,7 @@ use crate::motion::initial_condition::InitialCondition;
 use crate::parameters::dimensionless::DimensionlessParameters;
 use crate::testing::golden_spread;
 
-/// A motor's chatter ends with the same angular speed as the engine's, also near restitution 1.
+/// A chatter ends with the same angular speed as in the engine, also for restitutions near 1.
 #[test]
 fn a_long_chatter_ends_as_in_the_engine() {
     let mut count = 0;

@@ -24,7 +24,7 @@ const SHORTEST_INTERVAL: f64 = 1.0e-15;
 /// Largest number of intervals of a curve.
 pub(crate) const MAX_INTERVALS: usize = 1_000_000;
 
-/// The cost of an event, in flights: one that ends a chatter takes longer than a flight.
+/// The cost of an event, in flights: the end of a chatter takes longer to compute than a flight.
 pub(crate) const FLIGHTS_OF_EVENT: u64 = 4;
 
 /// Events after which the work is counted.
@@ -37,16 +37,16 @@ const EVENTS_BETWEEN_COUNTS: u64 = 64;
 pub struct TransientSettings {
     /// Duration (s), positive: at most 2^53 periods of the platform. Default 3.
     pub duration: f64,
-    /// Number of equal intervals over which the speed is averaged, in [3, 1000000]. None may be shorter than
-    /// 1e-15 rad of the platform's motion. Default 600.
+    /// Number of equal intervals over which the speed is averaged, in [3, 1000000]. No interval may be
+    /// shorter than 1e-15 rad of the platform's motion. Default 600.
     pub intervals: usize,
     /// Size of the relaunch perturbation in units of g/omega, in [0, 1e100]: each launch from rest, by a
-    /// separation or a kick, gets a relative velocity sampled uniformly from [0, size). Zero gives the cycle
-    /// selected by rounding. Default 1e-3.
+    /// separation or a kick, has a relative velocity sampled uniformly from [0, size). With zero, rounding
+    /// selects a cycle. Default 1e-3.
     pub relaunch_perturbation: f64,
     /// Seed of the perturbations and of the starting phases. Default 1.
     pub seed: u64,
-    /// How a chattering sequence ends. Default [`ChatterPolicy::Complete`].
+    /// How chattering sequences end. Default [`ChatterPolicy::Complete`].
     pub policy: ChatterPolicy,
 }
 
@@ -99,10 +99,10 @@ read_checked!(TransientSettings as UncheckedSettings {
     policy: ChatterPolicy,
 });
 
-/// Angular speed against time, from rest.
+/// Angular speed as a function of time, from rest.
 ///
-/// Deserialising checks that a curve can be fitted: at least three points, as many speeds as times, rising
-/// times.
+/// Deserialisation checks that the curve can be fitted: at least three points, as many speeds as times, and
+/// rising times.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedCurve"))]
@@ -134,7 +134,7 @@ impl SpeedCurve {
         run.finished()
     }
 
-    /// Mean speed (rad/s) over the last `fraction` in (0, 1] of the curve, at least over its last point.
+    /// Mean speed (rad/s) over the last `fraction`, in (0, 1], of the curve's points, at least one.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a fraction outside (0, 1], for a curve without speeds, and for speeds that
@@ -245,8 +245,8 @@ impl TransientRun {
         self.bins.present.reached >= self.duration
     }
 
-    /// Accumulates the motion of several events, unless it is complete; returns whether there is more. The
-    /// work is counted for an observer.
+    /// Accumulates the motion over several events, unless the transient is complete; returns whether events
+    /// are left. The work is counted for an observer.
     pub(crate) fn advance(&mut self, work: &mut WorkCount<'_>) -> Result<bool, Error> {
         let mut events = 0;
         while events < EVENTS_BETWEEN_COUNTS && !self.is_done() {
@@ -281,7 +281,7 @@ impl TransientRun {
     }
 
     /// Accumulates the rest of the present interval for a rotor that stays on the stator and no longer
-    /// changes its mode: it swings with the stator, or continues to slide.
+    /// changes its mode: the rotor swings with the stator, or continues to slide.
     fn add_interval_of_contact(&mut self) {
         let now = self.rotor.time();
         let began = seconds(now.periods as f64, now.phase.angle() - self.start, self.unit.time);
@@ -297,7 +297,7 @@ impl TransientRun {
         self.bins.add(to, angle);
     }
 
-    /// The curve of a transient that is done.
+    /// The curve of a completed transient.
     pub(crate) fn finished(self) -> Result<SpeedCurve, Error> {
         curve(self.bins, &self.unit, (self.impacts, self.separations))
     }
@@ -341,9 +341,9 @@ pub(crate) struct Bins {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Interval {
     pub(crate) index: usize,
-    /// Its end (s).
+    /// The end of the interval (s).
     pub(crate) end: f64,
-    /// The angle turned in it so far.
+    /// The angle turned in the interval so far.
     pub(crate) turned: f64,
     /// Time up to which the motion has been added (s).
     pub(crate) reached: f64,
@@ -377,7 +377,7 @@ impl Bins {
 }
 
 impl Interval {
-    /// Adds as [`Bins::add`] does, for a time after the end of the interval.
+    /// Like [`Bins::add`], for a time after the end of the interval.
     #[inline]
     pub(crate) fn pass(&mut self, passed: &mut [f64], width: f64, to: f64, angle: f64) {
         let rate = angle / (to - self.reached);
@@ -405,8 +405,8 @@ mod tests {
     use super::*;
     use crate::testing::{self, refused};
 
-    /// With a wrong sign a curve would be off by up to a period of its platform, which no other test would
-    /// detect.
+    /// With a wrong sign, a curve would be displaced by up to a period of the platform, which no other test
+    /// would detect.
     #[test]
     fn the_angle_turned_in_a_period_adds_to_the_whole_ones() {
         let time = seconds(2.0, 0.5, 3.0);
@@ -429,8 +429,8 @@ mod tests {
         }
     }
 
-    /// A motion that turns uniformly between events, compared with the angle reached at the ends of the
-    /// intervals.
+    /// The angles turned in the intervals, for a uniform rotation between events, compared with the angle
+    /// reached at the ends of the intervals.
     #[test]
     fn intervals_hold_what_was_turned_in_them() {
         let events: Vec<(f64, f64)> = (1..=40_u32)
@@ -481,7 +481,7 @@ mod tests {
         assert!((bins.finished()[9] - 0.5).abs() < 1e-13, "what lies beyond the end is dropped");
     }
 
-    /// A subnormal duration once gave NaN as speeds, and a huge one an endless transient.
+    /// A subnormal duration once led to NaN as speeds, and a huge duration to an endless transient.
     #[test]
     fn durations_that_periods_cannot_count_are_refused() {
         let phase = Phase::new(4.0).expect("finite");
@@ -525,7 +525,8 @@ mod tests {
         SpeedCurve { times, speeds: speeds.to_vec(), impacts: 0, separations: 0 }
     }
 
-    /// An empty curve once caused a panic, 7 gave the mean of the whole curve and NaN its last point.
+    /// Once an empty curve caused a panic, the fraction 7 returned the mean of the whole curve, and NaN
+    /// returned its last point.
     #[test]
     fn the_mean_of_a_part_that_is_none_is_refused() {
         let mean = |(speeds, share): (&[f64], f64)| curve(speeds).mean_over_last(share);
@@ -559,8 +560,8 @@ mod tests {
         }
     }
 
-    /// A rotor that never leaves the stator and sticks to it swings to and fro, and one whose load exceeds
-    /// the friction slides ever faster: neither keeps the speed of the last event.
+    /// A rotor that never leaves the stator and sticks to it swings to and fro, and a rotor whose load
+    /// exceeds friction slides ever faster: neither keeps the speed of its last event.
     #[test]
     fn a_rotor_on_a_calm_stator_sticks_or_slides_on() {
         let motor = |friction: f64, load_acceleration: f64| {

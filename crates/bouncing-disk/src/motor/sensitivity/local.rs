@@ -1,30 +1,30 @@
 //! Local sensitivities: the exponent of the power law that relates the steady speed or the stall torque to a
 //! parameter, for small changes (Fig. 13).
 //!
-//! **On one vertical motion.** Friction, twist, lag, radii and load do not affect the vertical motion, so all
-//! steps use the same perturbed orbits. For a member's values q± at ±s, (q₊ − q₋)/2 is odd in s. A
+//! **On one vertical motion.** Friction, twist, lag, radii and load do not affect the vertical motion, so the
+//! same perturbed orbits serve for all steps. If q± are a member's values at ±s, (q₊ − q₋)/2 is odd in s. A
 //! least-squares cubic a s + b s³ through s = 0.04, 0.08, 0.12 and 0.16 gives the member's slope a. The
 //! derivative is the mean slope over the mean of q, with the standard error of a ratio of means. If the slope
-//! of a polynomial with a third term c s⁵ differs by more than 1.96 errors of the difference, the excess is
-//! added in quadrature (`curvature`). Lags vary by radians and loads by shares of μ m g a_e, because both may
-//! be zero. A member's stall torque is the zero of the straight line through its speeds under five loads, up
-//! to 0.06 μ m g a_e from the stall load.
+//! of a polynomial with a third term c s⁵ differs from a by more than 1.96 errors of the difference, the
+//! excess is added to the error in quadrature (`curvature`). Lags vary by radians and loads by shares of μ m
+//! g a_e, because both may be zero. A member's stall torque is the zero of the straight line through its
+//! speeds under five loads, up to 0.06 μ m g a_e from the stall load.
 //!
-//! *Test.* The rotary motion depends on friction, twist and radii only through μ and Q = a_g² Φ ω²/(a_e g): a
-//! no-load speed is ω Φ times a function of Q/μ, and the stall torque μ m g a_e times such a function. If the
-//! speed has the exponent x in friction, its exponents in twist, contact radius and radius of gyration are 1
-//! − x, x and −2 x; if the stall torque has the exponent y in twist, the other exponents are 1 − y, 1 − y and
-//! 2 y.
+//! *Test.* The rotary motion depends on friction, twist and radii only through μ and Q = a_g² Φ ω²/(a_e g).
+//! Hence the no-load speed is ω Φ times a function of Q/μ, and the stall torque is μ m g a_e times another
+//! function of Q/μ. If the speed has the exponent x in friction, its exponents in twist, contact radius and
+//! radius of gyration are 1 − x, x and −2 x; if the stall torque has the exponent y in twist, the other
+//! exponents are 1 − y, 1 − y and 2 y.
 //!
 //! **The vertical motion.** Speeds as functions of amplitude, preload, restitution and frequency are rough at
 //! every scale: only trends are meaningful. Motors are sampled, one in each equal part of a stated range,
-//! because a grid could hit or miss the traps; those in a low-period trap are excluded and counted. A
-//! straight line through the rest over the logarithm of the parameter gives the exponent, which depends on
-//! the range, and the scatter about it the standard error. The frequency is varied at a fixed largest angular
-//! speed of the stator.
+//! because a grid could hit or miss the traps; motors in a low-period trap are counted and excluded. The
+//! exponent, which depends on the range, is the slope of a straight line through the rest over the logarithm
+//! of the parameter. Its standard error follows from the scatter about the line. The frequency is varied at a
+//! fixed largest angular speed of the stator.
 //!
-//! *Coverage.* For each parameter of two motors, 92 to 98 of 100 intervals of 95 % for the steady speed
-//! contain the mean (`motor/sensitivity/local/tests.rs`).
+//! *Coverage.* For each parameter of two motors, 92 to 98 of 100 intervals at the 95 % level contain the mean
+//! exponent of the steady speed (`motor/sensitivity/local/tests.rs`).
 
 use bouncing_disk_core::numerics::elementary::{exp, hypot, ln};
 use bouncing_disk_core::numerics::random::SplitMix64;
@@ -41,7 +41,7 @@ use crate::motor::sensitivity::parameter::{SensitivityParameter, SensitivityQuan
 use crate::statistics::student_quantile;
 
 /// Steps of the central differences: changes of the logarithm of a parameter, of the phase lag in radians, or
-/// of the load in units of mu m g a_e. Up and down they need eight rotors, one full row.
+/// of the load in units of mu m g a_e. Upwards and downwards they need eight rotors, one full row.
 const STEPS: [f64; 4] = [0.16, 0.12, 0.08, 0.04];
 
 /// Loads relative to the stall load, as shares of mu m g a_e, at which the speeds are computed. The stall
@@ -57,8 +57,8 @@ const LEAST_POINTS: usize = 5;
 pub struct SensitivitySettings {
     /// Settings for the operation of each motor.
     pub operating: OperatingSettings,
-    /// Half the range, in the logarithm of a parameter of the vertical motion, over which motors are sampled,
-    /// in (0, 2]. Default 0.2: from 82 % to 122 % of the motor's own value.
+    /// Half of the range over which motors are sampled, in the logarithm of a parameter of the vertical
+    /// motion; in (0, 2]. Default 0.2: from 82 % to 122 % of the motor's own value.
     pub half_range: f64,
     /// The number of motors sampled over this range, in [5, 10000]. Default 24.
     pub points: usize,
@@ -91,16 +91,16 @@ pub enum SensitivityMethod {
     SharedMotion {
         /// The standard error due to the scatter of the members.
         scatter: f64,
-        /// The error of fitting a cubic to the differences, estimated by adding a fifth-order term. It is
-        /// zero if the scatter alone explains the change of the slope.
+        /// The error of fitting a cubic to the differences, estimated by adding a fifth-order term. This
+        /// error is zero if the scatter alone explains the change of the slope.
         curvature: f64,
     },
     /// A straight line through motors with different vertical motions, sampled over the range in the
     /// settings.
     Regression {
-        /// Motors on the line.
+        /// Number of motors to which the line is fitted.
         points: usize,
-        /// Motors omitted because they are in a low-period trap.
+        /// Number of motors omitted because they are in a low-period trap.
         traps: usize,
         /// Standard deviation of the motors about the line, relative to their mean.
         scatter: f64,
@@ -116,7 +116,7 @@ pub struct LocalSensitivity {
     /// d ln(quantity)/d ln(parameter); for the phase lag, d ln(quantity)/d theta (1/rad); for the load
     /// torque, the derivative of ln(quantity) with respect to the torque in units of mu m g a_e.
     pub derivative: Estimate,
-    /// How it was computed.
+    /// How the derivative was computed.
     pub method: SensitivityMethod,
 }
 
@@ -142,8 +142,8 @@ impl Motor {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for illegal settings, for a parameter of zero, which has no logarithm, and for
-    /// one that leaves its range; [`Error::DoesNotTurn`] for a motor that does not turn;
+    /// [`Error::OutOfRange`] for illegal settings, for a parameter of zero, which has no logarithm, and for a
+    /// parameter that leaves its range; [`Error::DoesNotTurn`] for a motor that does not turn;
     /// [`Error::Overpowered`] for a load larger than friction can hold; [`Error::TooFewMotors`] if too few
     /// motors are outside traps; the errors of [`Motor::rigid_sine`] and [`Motor::operating_point`].
     pub fn local_sensitivities(
@@ -205,7 +205,7 @@ pub(crate) fn quantity_of(
     }
 }
 
-/// A step in the logarithm, or in the parameter itself if it has none.
+/// The motor after a step in the logarithm of a parameter, or in the parameter itself if it may be zero.
 fn moved(motor: &Motor, parameter: SensitivityParameter, step: f64) -> Result<Motor, Error> {
     let value = parameter.of(motor);
     let value = match parameter {
@@ -216,8 +216,8 @@ fn moved(motor: &Motor, parameter: SensitivityParameter, step: f64) -> Result<Mo
     parameter.set(motor, value)
 }
 
-/// All parameters that do not affect the vertical motion: all their rotors, with all steps, on one ensemble
-/// of orbits.
+/// The sensitivities to all parameters that do not affect the vertical motion: the rotors for all parameters
+/// and steps run on one ensemble of orbits.
 fn by_differences(
     motor: &Motor,
     quantity: SensitivityQuantity,
@@ -267,8 +267,8 @@ fn by_differences(
     Ok(results)
 }
 
-/// The weights by which values at the steps give the slope at zero of the least-squares odd polynomial with
-/// this number of terms, which are made orthogonal one by one.
+/// The weights of the values at the steps in the slope at zero of the least-squares odd polynomial with this
+/// number of terms, which are made orthogonal one by one.
 fn slope_weights(terms: usize) -> [f64; STEPS.len()] {
     let dot = |one: &[f64; STEPS.len()], other: &[f64; STEPS.len()]| {
         one.iter().zip(other).map(|(one, other)| one * other).sum::<f64>()
@@ -290,8 +290,8 @@ fn slope_weights(terms: usize) -> [f64; STEPS.len()] {
     weights
 }
 
-/// The quantity for each motor and member, all on the same vertical motions: averaged over rotors from far
-/// below and far above all steady speeds, and for those from above.
+/// The quantity for each motor and member, all on the same vertical motions: averaged over the rotors from
+/// far below and far above all steady speeds, and for the rotor from above.
 fn member_values(
     motors: &[Motor],
     nominal: &Motor,
@@ -332,8 +332,8 @@ fn member_values(
     }
 }
 
-/// The straight line through motors sampled over a range. There is one in each of its equal parts, at random
-/// because a grid could systematically meet or miss the values that trap a motor.
+/// The straight line through motors sampled over a range: one at random in each of its equal parts, because a
+/// grid could systematically hit or miss the values that trap a motor.
 fn by_regression(
     motor: &Motor,
     parameter: SensitivityParameter,
@@ -378,7 +378,7 @@ fn by_regression(
 
 /// A least-squares line.
 struct RegressionLine {
-    /// Its value at offset zero.
+    /// The value of the line at offset zero.
     centre: f64,
     slope: f64,
     slope_error: f64,

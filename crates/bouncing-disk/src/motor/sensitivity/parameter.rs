@@ -12,8 +12,7 @@ use crate::motor::data_sheet::motor_field::MotorField;
 pub enum SensitivityQuantity {
     /// The mean speed under the load of the data sheet (rad/s).
     SteadySpeed,
-    /// The load torque that stops the motor (N m): the true stall. The load of the data sheet does not
-    /// matter.
+    /// The load torque (N m) that stops the motor: the true stall. The load of the data sheet has no effect.
     StallTorque,
 }
 
@@ -46,7 +45,7 @@ pub enum SensitivityParameter {
 }
 
 impl SensitivityParameter {
-    /// All of them.
+    /// All parameters.
     pub const ALL: [Self; 10] = [
         Self::Friction,
         Self::PeakAngularSpeed,
@@ -82,13 +81,13 @@ impl SensitivityParameter {
         if matches!(self, Self::Preload) { "preload" } else { self.field().name() }
     }
 
-    /// Whether the vertical motion is independent of it, so that all its values share one orbit.
+    /// Whether the vertical motion is independent of the parameter, so that all its values share one orbit.
     #[must_use]
     pub const fn shares_vertical_motion(self) -> bool {
         !matches!(self, Self::Amplitude | Self::Preload | Self::Restitution | Self::DriveFrequency)
     }
 
-    /// Its value for a motor.
+    /// The value of the parameter for a motor.
     #[must_use]
     pub fn of(self, motor: &Motor) -> f64 {
         let (platform, disk) = (motor.system().platform(), motor.system().disk());

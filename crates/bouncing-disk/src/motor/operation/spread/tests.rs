@@ -1,10 +1,10 @@
 //! The spread over the tolerances of the inputs.
 //!
-//! At zero tolerances, the spread of 16 runs was zero in 7 cases, within one error of zero in 5 more, and
-//! beyond two errors in 2. If each sample stopped when its own error was small, samples that agree by chance
-//! would show spreads of up to 1.6 errors, at each of eight seeds. At 5 N the 40 kHz motor (12 rad/s, radii
-//! of 12.5 and 10 mm) stalls at 3.715(21) mN m; the mean over the samples is 3.94(2) mN m, their deviation
-//! 0.08(1), and their range 3.72 to 4.09.
+//! In 16 runs at zero tolerances, the spread was zero in 7 cases, within one error of zero in 5 more, and
+//! more than two errors from zero in 2. If each sample stopped when its own error was small, samples that
+//! agree by chance would show spreads of up to 1.6 errors, at each of eight seeds. At 5 N the 40 kHz motor
+//! (12 rad/s, radii of 12.5 and 10 mm) stalls at 3.715(21) mN m; the mean over the samples is 3.94(2) mN m,
+//! their deviation 0.08(1), and their range 3.72 to 4.09.
 
 use super::*;
 use crate::testing::{check_stops, refused};

@@ -351,8 +351,8 @@ mod searches {
         }
     }
 
-    /// At 1 nm the allowed impacts do not suffice to complete the start-up of a motor, because they are
-    /// small. The loads at which its speeds appeared to vanish once had stated errors of a ten-thousandth.
+    /// A motor at 1 nm has so many small impacts that the allowed number does not suffice to complete the
+    /// start-up. The loads at which its speeds appeared to vanish once had stated errors of a ten-thousandth.
     #[test]
     fn a_stall_is_refused_where_speeds_still_drift() {
         let motor = loaded(&motor(1e-9, 0.0), 0.0);
@@ -376,8 +376,8 @@ mod searches {
 }
 
 /// However loose the requested error, the stated error is true: the speeds differ from those of long runs
-/// with other seeds by no more than both errors allow. A start-up taken for a steady state once made them
-/// wrong by five errors.
+/// with other seeds by no more than both errors allow. A start-up that was taken for a steady state once made
+/// the speeds wrong by five errors.
 #[test]
 fn stated_errors_hold_where_loose_ones_are_asked_for() {
     let mut random = SplitMix64::new(7);

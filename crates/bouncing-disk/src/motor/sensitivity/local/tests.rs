@@ -1,10 +1,11 @@
 //! Local sensitivities.
 //!
-//! Coverage: of 100 runs with other seeds, the number whose 95 % intervals contain the mean of all, for the steady
-//! speed at the default settings. Contact radius behaves like friction, and twist inversely. For the motor of Table
-//! III: friction 96, lag 92, radius of gyration 98, load 95. For 40 kHz, 0.5 um, 5 N, radii of 12.5 and 10 mm:
-//! friction 92, lag 94, radius of gyration 92, load 94, amplitude 96, preload 94, restitution 92, frequency 97. If the
-//! step with the least error was selected, intervals held in 11 of 14 runs.
+//! Coverage: of 100 runs with other seeds, the number whose 95 % intervals contain the mean over all runs,
+//! for the steady speed at the default settings. The contact radius behaves like friction, and twist
+//! inversely. For the motor of Table III: friction 96, lag 92, radius of gyration 98, load 95. For 40 kHz,
+//! 0.5 um, 5 N, radii of 12.5 and 10 mm: friction 92, lag 94, radius of gyration 92, load 94, amplitude 96,
+//! preload 94, restitution 92, frequency 97. When the step with the least error was selected instead, the
+//! intervals contained the mean in only 11 of 14 runs.
 
 use SensitivityParameter as P;
 use bouncing_disk_core::Unobserved;
@@ -21,12 +22,12 @@ fn near(one: &LocalSensitivity, truth: f64) -> bool {
     (one.derivative.value - truth).abs() <= 4.0 * one.derivative.standard_error + 1e-6
 }
 
-/// Parameters that the units relate.
+/// Parameters whose exponents dimensional analysis relates.
 const RELATED: [P; 5] =
     [P::Friction, P::PeakAngularSpeed, P::ContactRadius, P::GyrationRadius, P::LoadTorque];
 
-/// Consequences of the units: the rotary motion depends on friction, twist and radii only through mu and Q =
-/// a_g^2 Phi omega^2 /(a_e g), and without load a speed is Q times a function of Q/mu.
+/// Consequences of dimensional analysis: the rotary motion depends on friction, twist and radii only through
+/// mu and Q = a_g^2 Phi omega^2 /(a_e g), and the speed without load is Q times a function of Q/mu.
 #[test]
 fn exponents_of_the_speed_obey_the_units() {
     let motor = Motor::paper_70_khz();
@@ -49,7 +50,7 @@ fn exponents_of_the_speed_obey_the_units() {
     }
 }
 
-/// The stall torque is mu m g a_e times a function of the same Q/mu.
+/// The stall torque is mu m g a_e times a function of Q/mu.
 #[test]
 fn exponents_of_the_stall_obey_the_units() {
     let motor = Motor::paper_70_khz();
@@ -132,8 +133,8 @@ fn lines_have_the_errors_of_textbooks() {
     );
 }
 
-/// Odd polynomials with this number of terms have exact slopes, and least squares give those with more terms
-/// nearly.
+/// The slopes of odd polynomials with this number of terms are exact, and least squares approximate those of
+/// polynomials with more terms.
 #[test]
 fn slopes_are_those_of_odd_polynomials() {
     let slope = |terms: usize, fifth: f64| {
