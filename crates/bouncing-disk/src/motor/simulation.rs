@@ -1,4 +1,4 @@
-//! A motor as a part of a drive train, advanced step by step under inputs that may change between steps.
+//! A motor as part of a drive train, advanced step by step under inputs that may change between steps.
 
 use std::f64::consts::TAU;
 
@@ -21,15 +21,15 @@ use crate::parameters::scales::Scales;
 use crate::parameters::stator::StatorKind;
 use crate::stator::{StatorEngine, StatorLedger, StatorSystem};
 
-/// If nothing has happened for this long (rad), a contact is followed from a new origin, so that evaluating
-/// it at any time costs no more than this.
+/// If nothing has happened for this time (rad), a contact is followed from a new origin, so that evaluating
+/// the motion at any time costs no more than following it for this time.
 const REST: f64 = 64.0 * TAU;
 
-/// The drive and the load of a motor, until they change.
+/// The drive and the load of a motor between two changes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MotorInputs {
-    /// Torque on the shaft (N m), in addition to a table `[load]`; a positive one decelerates a positive
+    /// Torque on the shaft (N m), in addition to a table `[load]`; a positive torque decelerates a positive
     /// rotation.
     pub load_torque: f64,
     /// Amplitude of the drive, in the unit of [`MotorInputs::drive_field`]; not negative.
@@ -83,30 +83,31 @@ impl Default for SimulationSettings {
     }
 }
 
-/// The state of a motor at an instant, and its means since the previous one.
+/// The state of a motor at an instant, and means since the previous instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MotorOutputs {
     /// Angle of the rotor (rad) since the start.
     pub angle: f64,
-    /// Its angular speed (rad/s).
+    /// Angular speed of the rotor (rad/s).
     pub speed: f64,
     /// Mean torque of the stator on rotor and shaft (N m) since the last call, or during the previous step if
     /// no time has passed: the load plus the torque that accelerates their inertia.
     pub shaft_torque: f64,
-    /// Amplitude of the stator's height (m) about its mean position: of the sine at the drive frequency that
-    /// has the present height and velocity. The mean position is the static one under the preload and
-    /// friction; in a flight of more than a period it is the free stator's. The amplitude is constant in a
-    /// steady motion without a rotor or under one that lies; a bouncing rotor adds the harmonics of its
-    /// impacts. With the drive off the frequency is the resonance of the mode. A prescribed motion has its
-    /// own amplitude.
+    /// Amplitude of the stator's height (m): that of the sine about the mean position, at the drive
+    /// frequency, with the present height and velocity. The mean position is the static one under the preload
+    /// and friction; in a flight of more than a period it is that of the free stator. The amplitude is
+    /// constant in a steady motion without a rotor or under a rotor that lies on the stator; a bouncing rotor
+    /// adds the harmonics of its impacts. With the drive off, the resonance of the mode replaces the drive
+    /// frequency. For a prescribed motion, the prescribed amplitude.
     pub amplitude: f64,
-    /// Amplitude of the current (A), with each mode represented by such a sine; `None` without a capacitance.
+    /// Amplitude of the current (A), with each mode represented by a sine as for [`Self::amplitude`]; `None`
+    /// without a capacitance.
     pub current: Option<f64>,
-    /// Mean power (W) of the drive in the modes and in a prescribed motion since the last call. Without a
-    /// prescribed motion it is the real part of voltage times current.
+    /// Mean power (W) since the last call that the drive supplies to the modes and to a prescribed motion.
+    /// Without a prescribed motion, this is the real part of voltage times current.
     pub power: f64,
-    /// Impacts since the start.
+    /// Number of impacts since the start.
     pub impacts: u64,
 }
 
@@ -123,8 +124,8 @@ struct Totals {
     impacts: u64,
 }
 
-/// The motion just after an event. The next one is found in advance, and so does not depend on the requested
-/// times.
+/// The motion just after an event. The next event is found in advance, so that it does not depend on the
+/// requested times.
 #[derive(Debug, Clone)]
 struct Ahead {
     engine: StatorEngine,
@@ -132,13 +133,14 @@ struct Ahead {
     totals: Totals,
 }
 
-/// A motor that is advanced step by step. For constant inputs its motion does not depend on the steps, to the
-/// last bit; a clone is a stored state.
+/// A motor that is advanced step by step. For constant inputs the motion does not depend on the steps, to the
+/// last bit. A clone stores the state.
 ///
-/// A change of the inputs takes effect at once. Modes are continuous; a prescribed motion jumps, and the
-/// rotor keeps its distance from it and its relative speed. A change of the frequency keeps the phase of the
-/// motion without a rotor, so the phase of the voltage jumps. A twist that the sheet prescribes has its full
-/// amplitude whenever the drive is on, whatever its strength.
+/// A change of the inputs takes effect at once. The motion of modes is continuous. A prescribed motion jumps,
+/// and the rotor keeps its distance from the stator and its relative speed. A change of the frequency keeps
+/// the phase that the stator's motion would have without a rotor, so the phase of the voltage jumps. A twist
+/// that the sheet prescribes has its full amplitude whenever the drive is on, whatever the amplitude of the
+/// drive.
 ///
 /// ```
 /// use bouncing_disk::Motor;
@@ -176,11 +178,12 @@ pub struct MotorSimulation {
 
 impl MotorSimulation {
     /// A motor whose rotor lies at rest at time 0. Its stator has long moved under these inputs without the
-    /// rotor; with the drive off, it is at rest under the rotor.
+    /// rotor; with the drive off, the stator is at rest under the rotor.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for illegal inputs and settings; [`Error::LoadInTime`] for a table `[load]` that
-    /// depends on time, which the inputs replace; [`Error::BothGiven`] for a contact with hysteresis.
+    /// depends on time, for which the inputs serve instead; [`Error::BothGiven`] for a contact with
+    /// hysteresis.
     pub fn new(motor: &Motor, inputs: MotorInputs, settings: SimulationSettings) -> Result<Self, Error> {
         let perturbation = moderate_not_negative("relaunch_perturbation", settings.relaunch_perturbation)?;
         motor.parameters().drive.sine()?;
@@ -241,7 +244,7 @@ impl MotorSimulation {
         self.last.time
     }
 
-    /// Changes the inputs from now on; equal inputs change nothing. After an error the inputs are as before.
+    /// Changes the inputs from now on; equal inputs change nothing. After an error the inputs are unchanged.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for illegal inputs, and the errors of [`Motor::with`].
@@ -259,11 +262,11 @@ impl MotorSimulation {
         Ok(())
     }
 
-    /// Advances to a time (s) after the start, not before the last one.
+    /// Advances to a time (s) after the start, which must not be before that of the last call.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a time before the last one; the errors of [`StatorEngine::advance`]. After
-    /// an error the motor is in the state after the last call.
+    /// [`Error::OutOfRange`] for a time before that of the last call; the errors of
+    /// [`StatorEngine::advance`]. After an error the motor is in the state after the last call.
     pub fn advance(&mut self, time: f64, observer: &dyn Observer) -> Result<MotorOutputs, Error> {
         let watch = Watch::begin(observer, 0, 1)?;
         let mut work = watch.work();
@@ -359,8 +362,8 @@ impl MotorSimulation {
         }
     }
 
-    /// The amplitude of C_0 dV/dt plus each mode's force per volt times its speed; each is a sine given by
-    /// its value now and a quarter of a period later.
+    /// The amplitude of C_0 dV/dt plus each mode's force per volt times its speed; each term is a sine, given
+    /// by its values now and a quarter of a period later.
     fn current(&self, engine: &StatorEngine) -> Option<f64> {
         let stator = self.motor.stator()?;
         let circuit = stator.circuit()?;

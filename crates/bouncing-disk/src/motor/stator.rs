@@ -12,7 +12,7 @@ use crate::parameters::load::LoadLaw;
 use crate::parameters::system::System;
 use crate::stator::{LoadLine, StatorSystem};
 
-/// The motion of a motor's stator, and its system, chosen once when the sheet is built.
+/// The kind of motion of a motor's stator, with its system, chosen once when the sheet is built.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Stator {
     /// The prescribed sine of Eq. (1), with rigid impacts and a constant load.
@@ -99,17 +99,17 @@ impl Stator {
         }
     }
 
-    /// Whether the disk affects its motion.
+    /// Whether the disk affects the stator's motion.
     pub(crate) fn yields(&self) -> bool {
         matches!(self, Self::Yielding(system) if system.yields())
     }
 
-    /// Whether its speed jumps.
+    /// Whether the velocity of the stator jumps.
     pub(crate) fn has_kinks(&self) -> bool {
         self.driven().is_some_and(|system| system.height().kinks().next().is_some())
     }
 
-    /// Whether contacts on it are compliant.
+    /// Whether contacts on the stator are compliant.
     pub(crate) fn takes_time(&self) -> bool {
         match self {
             Self::Sine => false,
@@ -126,7 +126,7 @@ impl Stator {
         }
     }
 
-    /// The system of a compliant stator, or of a load that follows a law.
+    /// The system of a compliant stator, or of a stator under a load that follows a law.
     pub(crate) fn yielded(&self) -> Option<&StatorSystem> {
         match self {
             Self::Yielding(system) => Some(system),
@@ -135,7 +135,7 @@ impl Stator {
     }
 }
 
-/// A system whose disk includes the inertia of the load on its shaft.
+/// The system with the inertia of the load on the shaft included in the disk.
 pub(crate) fn on_shaft(system: &System, load: Option<LoadLaw>, mass: f64) -> Result<System, Error> {
     let shaft = load.map_or(0.0, |load| load.inertia()) / mass;
     system.with_disk(|disk| {

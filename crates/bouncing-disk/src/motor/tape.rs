@@ -1,11 +1,11 @@
 //! A tape of the normal force: the vertical motion of a disk, recorded once and replayed by any number of rotors.
 //!
 //! If friction does not act back on the height, the vertical motion affects a rotor only through the time and
-//! strength of the normal force. A tape stores this as [`Knot`]s. Each has the phase of the drive, the
-//! impulse of contact over the step that ends there, and the impulse of an impact at its end; within the step
-//! the force and the stator's angular acceleration are assumed constant. A [`replay`] carries rotors of any
-//! inertia, friction, load, phase lag and twist along it (docs/numerics-dynamics.md, "The tape of the
-//! force").
+//! strength of the normal force. A tape stores this as [`Knot`]s. Each knot contains the phase of the drive,
+//! the impulse of contact over the step that ends at the knot, and the impulse of an impact at the end of
+//! this step; within the step the force and the stator's angular acceleration are assumed constant. A
+//! [`replay`] carries rotors of any inertia, friction, load, phase lag and twist along the tape
+//! (docs/numerics-dynamics.md, "The tape of the force").
 
 pub(crate) mod cycle;
 mod engine;
@@ -38,19 +38,19 @@ const LEAST_STEPS: f64 = 6.0;
 pub(crate) struct Knot {
     /// Duration of the step.
     pub(crate) duration: f64,
-    /// Sine and cosine of the phase at its end.
+    /// Sine and cosine of the phase at the end of the step.
     pub(crate) sin: f64,
     pub(crate) cos: f64,
     /// Impulse of the contact over the step; zero in flight.
     pub(crate) pressed: f64,
-    /// Impulse of an impact at its end.
+    /// Impulse of an impact at the end of the step.
     pub(crate) hit: f64,
 }
 
 /// A recorded part of a vertical motion.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Tape {
-    /// The first knot is the start.
+    /// The knots; the first is the start.
     pub(crate) knots: Vec<Knot>,
     /// The stator's angular speed at the knots, for each non-sinusoidal twist.
     pub(crate) speeds: Vec<Vec<f64>>,
@@ -76,7 +76,7 @@ impl Tape {
         self.twists.clone()
     }
 
-    /// Begins at this phase (rad), with an empty tape.
+    /// Empties the tape, which then begins at this phase (rad).
     pub(crate) fn begin(&mut self, phase: f64) {
         self.knots.clear();
         self.speeds.iter_mut().for_each(Vec::clear);
@@ -85,7 +85,7 @@ impl Tape {
         self.push(Knot { sin, cos, ..Knot::default() }, phase);
     }
 
-    /// Continues from its end, with an empty tape.
+    /// Empties the tape, which then continues from its last knot.
     pub(crate) fn restart(&mut self) {
         let last = self.knots.len() - 1;
         self.knots.drain(..last);
@@ -101,7 +101,7 @@ impl Tape {
         (duration * (self.resolution / TAU)).ceil().clamp(LEAST_STEPS, f64::from(u32::MAX)) as u32
     }
 
-    /// Adds a knot at this phase (rad, in any turn). The second of two knots at one instant is after a kink
+    /// Adds a knot at this phase (rad, in any turn). Of two knots at one instant, the second is after a kink
     /// of the twist.
     pub(crate) fn push(&mut self, knot: Knot, phase: f64) {
         let after_kink = knot.duration == 0.0 && !self.knots.is_empty() && knot.hit == 0.0;
@@ -123,8 +123,8 @@ impl Tape {
         kinks.map(|kink| kink.after).filter(|after| *after > 0.0 && *after < within).reduce(f64::min)
     }
 
-    /// Adds a contact of this duration from this phase (rad) on; the impulse is given as a function of the
-    /// time after its start.
+    /// Adds a contact of this duration from this phase (rad) on; `impulse` returns the impulse up to a time
+    /// after the start of the contact.
     pub(crate) fn press(&mut self, phase: f64, duration: f64, mut impulse: impl FnMut(f64) -> f64) {
         self.axial.pressed += duration;
         let steps = self.steps(duration);

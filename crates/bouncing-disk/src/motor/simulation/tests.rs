@@ -10,7 +10,8 @@ fn begun(motor: &Motor) -> Result<MotorSimulation, Error> {
     MotorSimulation::new(motor, MotorInputs::of(motor), SimulationSettings::default())
 }
 
-/// The same on one mode that also twists, without a separate value of its twist, and on two modes.
+/// A motor whose stator has one mode that also twists, without a separate value for its twist, and a motor
+/// whose stator has two modes.
 fn twisting() -> [Motor; 2] {
     let change = |change: fn(&mut StatorParameters)| {
         in_volts().with(|sheet| sheet.stator.iter_mut().for_each(change)).expect("legal")
@@ -23,8 +24,8 @@ fn twisting() -> [Motor; 2] {
     [one, two]
 }
 
-/// Rigid contact, compliant contact, and both with a compliant stator; one mode that twists under a load with
-/// a slope, and two modes.
+/// Motors with rigid contacts, with compliant contacts, and with each on a compliant stator; with one mode
+/// that twists, under a load that depends on the speed, and with two modes.
 fn motors() -> Vec<Motor> {
     let soft =
         |motor: &Motor| motor.with(|sheet| sheet.contact = Some(Contact::lasting(1e-5))).expect("legal");
@@ -77,7 +78,7 @@ fn constant_inputs_give_the_same_bits_in_steps_of_any_length() {
     }
 }
 
-/// The power of the drive minus the losses, over a long time, agrees with an operating point; so do speed and
+/// The power of the drive minus the losses, over a long time, agrees with an operating point, as do speed and
 /// amplitude.
 #[test]
 fn long_runs_have_the_means_of_operating_points() {
@@ -99,7 +100,7 @@ fn long_runs_have_the_means_of_operating_points() {
     }
 }
 
-/// Under the same schedule of load and drive as a run-up.
+/// A simulation agrees with a run-up under the same schedule of load and drive.
 #[test]
 fn inputs_act_as_the_table_of_a_load() {
     let law = LoadLaw::constant(-1e-5).expect("legal").with_inertia(1e-8).expect("legal");
@@ -164,7 +165,8 @@ fn illegal_inputs_are_refused_and_change_nothing() {
     assert_eq!(other.advance(0.002, &Unobserved), simulation.advance(0.002, &Unobserved));
 }
 
-/// A rotor that lies on a stator that is off, and one that a load turns there: no event for a long time.
+/// A rotor that lies on a stator whose drive is off, and one that a load turns there, for a long time without
+/// events.
 #[test]
 fn a_rest_of_an_hour_costs_little() {
     // A load with a slope is followed step by step.
@@ -193,7 +195,8 @@ fn a_rest_of_an_hour_costs_little() {
     }
 }
 
-/// On a stator too slow to throw it: on average friction supplies the load, and the drive supplies the power.
+/// On a stator too slow to throw the rotor, friction on average balances the load, and the drive supplies the
+/// power.
 #[test]
 fn a_rotor_that_creeps_has_the_power_of_its_operating_point() {
     let creeping = Motor::paper_70_khz().with(|sheet| {
@@ -215,7 +218,7 @@ fn a_rotor_that_creeps_has_the_power_of_its_operating_point() {
     assert!((end.shaft_torque - 4e-5).abs() < 1e-7, "{end:?}");
 }
 
-/// One mode does both: at half the volts it has half the twist, and nothing jumps.
+/// If one mode also twists, half the voltage produces half the twist, and nothing jumps.
 #[test]
 fn the_twist_of_a_mode_follows_the_drive() {
     let [one, _] = twisting();
@@ -229,8 +232,8 @@ fn the_twist_of_a_mode_follows_the_drive() {
     assert!(twist(MotorInputs { drive: 0.0, ..start }).abs() < 1e-12 * whole);
 }
 
-/// Switched on from rest, a mode rings up; for a step of zero duration the means are those of the previous
-/// step.
+/// A mode that is switched on from rest rings up; for a step of zero duration the means are those of the
+/// previous step.
 #[test]
 fn a_drive_that_is_off_at_the_start_rings_up() {
     let motor = in_volts();
@@ -257,7 +260,7 @@ fn sampled(simulation: &mut MotorSimulation, steps: u32) -> Vec<[f64; 2]> {
     (1..=steps).map(&mut at).collect()
 }
 
-/// Also off resonance: without a rotor they agree with the closed form.
+/// Without a rotor, amplitude and current agree with the closed form, also off resonance.
 #[test]
 fn amplitude_and_current_are_constant_at_any_frequency_of_the_drive() {
     let motor = in_volts().with(|sheet| (sheet.mass, sheet.preload_force) = (Some(1e-14), Some(1e-13)));
@@ -279,7 +282,8 @@ fn amplitude_and_current_are_constant_at_any_frequency_of_the_drive() {
     }
 }
 
-/// At rest under 100 N, on one mode and on two, with a load that friction holds; and when the rotor coasts.
+/// The amplitude is zero at rest under 100 N, on one mode and on two, under a load that friction balances,
+/// and while the rotor coasts.
 #[test]
 fn a_static_sag_is_no_vibration() {
     let pressed = |motor: &Motor| motor.with(|sheet| sheet.preload_force = Some(100.0)).expect("legal");
@@ -324,8 +328,8 @@ fn fitted(samples: &[(f64, f64)]) -> f64 {
     hypot(part(|(sin, _)| sin), part(|(_, cos)| cos))
 }
 
-/// Under a rotor they agree with a least-squares fit to each period of the motion: to rounding if the rotor
-/// lies on the stator, and up to its harmonics if it taps in each period.
+/// Under a rotor, amplitude and current agree with a least-squares fit to each period of the motion: to
+/// rounding if the rotor lies on the stator, and up to harmonics if it is tapped in each period.
 #[test]
 fn amplitude_and_current_are_those_of_a_fit_to_the_motion() {
     const SAMPLES: u32 = 64;

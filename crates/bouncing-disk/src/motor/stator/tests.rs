@@ -36,7 +36,7 @@ fn touching(motor: &Motor, time: f64) -> Motor {
     motor.with(|sheet| sheet.contact = Some(Contact::lasting(time))).expect("legal")
 }
 
-/// One motor on both engines: the orbits are chaotic, so the means agree, but not the impacts.
+/// One motor on both engines. The orbits are chaotic, so only the means agree, not the impacts.
 #[test]
 fn a_sine_as_a_waveform_turns_the_motor_as_the_sine_does() {
     let motor = Motor::paper_70_khz();
@@ -77,7 +77,7 @@ fn a_sine_as_a_waveform_turns_the_motor_as_the_sine_does() {
     }
 }
 
-/// A stator with a sawtooth: its kinks end each rest by a kick, and never by a separation.
+/// A stator that moves as a sawtooth, whose kinks end each rest by a kick, never by a separation.
 fn sawing(amplitude: f64) -> Motor {
     let sheet = Motor::paper_70_khz().with(|sheet| sheet.amplitude = Some(amplitude)).expect("legal");
     let shape = Waveform::Sawtooth(0.7);
@@ -105,7 +105,7 @@ fn relaunches_by_kicks_are_perturbed_as_separations_are() {
     assert!(known.speeds != calm.speeds && run(1e-3, 2).speeds != known.speeds, "{known:?}");
 }
 
-/// Amplitudes that differ by a billionth give the same speed within the stated errors, whatever cycle their
+/// Amplitudes that differ by a billionth lead to the same speed within the stated errors, whatever cycle
 /// rounding would select.
 #[test]
 fn a_stator_with_kinks_does_not_lock_the_motor_on_a_rounded_cycle() {
@@ -121,8 +121,8 @@ fn a_stator_with_kinks_does_not_lock_the_motor_on_a_rounded_cycle() {
     assert!(points.iter().all(|point| point.perturbation_power > 0.0), "{points:?}");
 }
 
-/// A triangle at 1 nm kicks the rotor once, and then carries it in flights that keep their phase, so each
-/// start has its own speed.
+/// A triangle at 1 nm kicks the rotor once, and then keeps it in flights of constant phase, so each start
+/// leads to its own speed.
 #[test]
 fn a_neutral_family_of_motions_is_said_to_depend_on_the_start() {
     let sheet = Motor::paper_70_khz().with(|sheet| sheet.amplitude = Some(1e-9)).expect("legal");
@@ -144,8 +144,8 @@ fn a_neutral_family_of_motions_is_said_to_depend_on_the_start() {
     }
 }
 
-/// A short contact gives the speed for rigid impacts; one of a period taps the rotor in every period at the
-/// crest, so that the lag of its predecessors is better than the paper's.
+/// A short contact leads to the speed for rigid impacts. A contact of one period taps the rotor in every
+/// period at the crest, so that the lag of its predecessors is better than the paper's.
 #[test]
 fn the_contact_time_decides_on_the_best_lag() {
     let period = 1.0 / 70e3;
@@ -171,7 +171,7 @@ fn the_contact_time_decides_on_the_best_lag() {
 }
 
 /// Without amplitude the stator turns the rotor forwards as much as backwards: its speed is exactly zero, not
-/// a rounding of it.
+/// a rounding error.
 #[test]
 fn a_stator_that_only_turns_leaves_the_rotor_at_rest() {
     let motor = Motor::paper_70_khz().with(|sheet| sheet.amplitude = Some(0.0)).expect("legal");
@@ -184,8 +184,8 @@ fn a_stator_that_only_turns_leaves_the_rotor_at_rest() {
     }
 }
 
-/// A slow rotor has less inertia if the tape takes long to record; at its own inertia it has the same speed
-/// within the errors, which include the bias. The time constants are 10,000 to 60,000 periods.
+/// The inertia of a slow rotor is reduced if the tape takes long to record. At its own inertia the rotor has
+/// the same speed within the errors, which include the bias. The time constants are 10,000 to 60,000 periods.
 #[test]
 fn slow_rotors_turn_as_fast_at_their_own_inertia() {
     let mut within = 0;
@@ -217,8 +217,8 @@ fn slow_rotors_turn_as_fast_at_their_own_inertia() {
     assert!(within >= 9, "{within} of 10");
 }
 
-/// Taps in closed form give the same run-up as the engine, which handles an angle with a second harmonic,
-/// however small.
+/// Taps in closed form lead to the same run-up as the engine, which is used as soon as the angle has a second
+/// harmonic, however small.
 #[test]
 fn run_ups_by_taps_are_those_of_the_engine() {
     let speeds = |angle: Waveform, lag: f64| {
@@ -237,7 +237,7 @@ fn run_ups_by_taps_are_those_of_the_engine() {
     }
 }
 
-/// The no-load speed is the bare motor's, as is the stall load.
+/// The no-load speed and the stall load are those of the motor without the law.
 #[test]
 fn a_speed_without_load_is_without_the_law_of_the_load() {
     let paper = Motor::paper_70_khz();
@@ -275,7 +275,7 @@ fn calls_of_the_sine_say_what_a_sheet_has_instead() {
     assert!(stiff.warnings().iter().any(|warning| warning.to_string().ends_with("computed as rigid")));
 }
 
-/// On a stator too slow to throw it the rotor creeps under a load, as on the sine.
+/// On a stator too slow to throw the rotor, it creeps under a load, as on the sine.
 #[test]
 fn a_rotor_that_never_leaves_the_stator_has_its_steady_speed() {
     let calm = Motor::paper_70_khz().with(|sheet| sheet.amplitude = Some(4e-11)).expect("legal");
@@ -302,8 +302,8 @@ fn on_stator(mass: f64, quality: f64, change: impl FnOnce(&mut MotorParameters))
     motor.expect("legal")
 }
 
-/// A stator of a thousand tonnes is effectively prescribed; one of 10 g is damped by the rotor, and does not
-/// lift a rotor with too large a preload, but an operation is still found.
+/// The motion of a stator of a thousand tonnes is effectively prescribed. A stator of 10 g is damped by the
+/// rotor, and does not lift it under too large a preload, but an operation is still found.
 #[test]
 fn a_stator_yields_by_its_mass() {
     let point = |motor: &Motor| {
@@ -337,9 +337,9 @@ fn a_stator_yields_by_its_mass() {
     assert!(weighed.stator.expect("yields").amplitude.value < 1e-9, "{weighed:?}");
 }
 
-/// Under a load that decreases with the speed a slow rotor has two stable speeds: one at which it is driven
-/// back through the steep part below zero, and one beyond the fall. A load above the torque at rest keeps a
-/// rotor from rest at the former.
+/// Under a load that decreases with the speed, a slow rotor has two stable speeds: in the first state it is
+/// driven back, on the steep part of the load below zero speed; the second is beyond the decrease. Under a
+/// load above the torque at rest, a rotor that starts from rest stays in the first state.
 #[test]
 fn a_load_that_falls_with_the_speed_leaves_two_operations() {
     let sheet = |inertia: f64, most: f64| {
@@ -391,8 +391,9 @@ fn a_load_that_falls_with_the_speed_leaves_two_operations() {
     assert_eq!(operated(&sheet(10e-3, 5.2e-3)).branches.len(), 1);
 }
 
-/// A load over the speed: its mean torque is the torque at the mean speed on one piece, with or without a
-/// node on it, and the requested torque is added. A time-dependent load is an error.
+/// The mean torque of a load that depends on the speed is the torque at the mean speed if this stays on one
+/// straight line, with or without a node on it; the requested torque is added. A time-dependent load is an
+/// error.
 #[test]
 fn operating_points_are_under_the_law_of_the_load() {
     let motor = |load: LoadLaw| Motor::paper_70_khz().with(|sheet| sheet.load = Some(load)).expect("legal");
@@ -430,7 +431,7 @@ fn operating_points_are_under_the_law_of_the_load() {
 }
 
 /// Requested errors are relative to the speed without load or law, both for a fan that nearly stalls the
-/// motor and for a load that friction alone does not hold.
+/// motor and for a load that friction alone does not balance.
 #[test]
 fn errors_are_relative_to_the_speed_without_the_law_of_the_load() {
     let wanted = |load: Result<LoadLaw, Error>, torque: f64| {
@@ -465,8 +466,7 @@ fn a_stall_is_that_of_the_motor_without_the_law_of_its_load() {
     assert_eq!(stall(LoadLaw::constant(10e-6)), stall(LoadLaw::constant(0.0)));
 }
 
-/// The drive is switched off in the middle of a run-up: the modes ring down within 2 Q/omega, and the rotor
-/// stops.
+/// When the drive is switched off during a run-up, the modes ring down within 2 Q/omega, and the rotor stops.
 #[test]
 fn a_run_up_ends_when_the_drive_is_switched_off() {
     let motor = on_stator(1.0, 300.0, |sheet| {

@@ -18,7 +18,7 @@ use crate::stator::StatorLedger;
 /// Bisections that find the speed of a rotor that repeats with a cycle, to rounding.
 const HALVINGS: u32 = 60;
 
-/// Steps per period during a contact, in a cycle and in a coarser copy that shows the error of the steps.
+/// Steps per period during a contact, in a cycle and in a coarser copy that shows the error due to the steps.
 const RESOLUTIONS: [f64; 2] = [2048.0, 1024.0];
 
 /// Largest number of knots of a cycle of any length.
@@ -27,9 +27,9 @@ const MOST_KNOTS: f64 = 65_536.0;
 /// The record of a cycle.
 #[derive(Debug, Clone)]
 enum Recorded {
-    /// Finely and coarsely recorded.
+    /// The cycle, recorded finely and coarsely.
     Tapes(Box<[Tape; 2]>),
-    /// The rotor's motion in the cycle as it was found.
+    /// The rotor's motion in the cycle, as it was found.
     Window(Window),
 }
 
@@ -81,8 +81,8 @@ impl Cycle {
         Self { recorded: Recorded::Window(window), touches, repeats, periods }
     }
 
-    /// The least number of touches after which everything repeats: a motion that approaches its cycle
-    /// alternately from both sides is first seen to repeat several cycles.
+    /// The least number of touches after which the motion repeats. A motion that approaches its cycle
+    /// alternately from both sides is at first seen to repeat after several cycles.
     pub(crate) fn least_touches(keys: &[Key]) -> u64 {
         let count = keys.len();
         let repeats = |period: &usize| count.is_multiple_of(*period) && are_same(keys, keys, *period, ONE);
@@ -99,12 +99,12 @@ impl Cycle {
             && (0..self.touches.len()).any(is_same)
     }
 
-    /// Its touches.
+    /// The touches of the cycle.
     pub(crate) fn touches(&self) -> &[Key] {
         &self.touches
     }
 
-    /// Whether a touch is near one of its touches.
+    /// Whether a touch is near one of the cycle's touches.
     pub(crate) fn is_near(&self, key: &Key) -> bool {
         is_near(&self.touches, key)
     }
@@ -118,8 +118,8 @@ impl Cycle {
         }
     }
 
-    /// The motion of rotors in a cycle after which each has its initial speed, on the fine and on the coarse
-    /// tape, in the order of these places. Their speeds lie within these limits.
+    /// The motion of rotors that have their initial speeds again after the cycle, on the fine and on the
+    /// coarse tape, in the order of `places`. Their speeds lie within the limits `largest`.
     pub(crate) fn windows(
         &self,
         rotors: &[Rotors],

@@ -55,7 +55,7 @@ impl<E: SteeredMotion + Clone> EngineTape<E> {
         self.perturbation * self.generator.unit()
     }
 
-    /// Kinetic energy, height and the energy of a spring, just after the last event.
+    /// Sum of kinetic energy, height and energy of a spring, just after the last event.
     pub(crate) fn energy_now(&self) -> f64 {
         let state = self.engine.disk();
         0.5 * state.axial_velocity * state.axial_velocity
@@ -74,8 +74,8 @@ impl<E: SteeredMotion + Clone> EngineTape<E> {
         self.energy = energy;
     }
 
-    /// Records up to the next event, or a period for a disk that lies for ever. Returns the touch, if the
-    /// event is one.
+    /// Records the motion up to the next event, or for a period if the disk lies for ever. Returns the touch,
+    /// if the event is one.
     pub(crate) fn record(&mut self, tape: &mut Tape, work: &mut WorkCount<'_>) -> Result<Touch, Error> {
         work.spend(FLIGHTS_OF_EVENT)?;
         let before = self.engine.clone();
@@ -141,7 +141,7 @@ impl<E: SteeredMotion + Clone> EngineTape<E> {
         Ok(Touch::At(Key::new(phase, [disk.axial_velocity, disk.height, 0.0], self.engine.modes())))
     }
 
-    /// A disk that lies on the platform for ever advances by a period of the drive; a compliant stator may
+    /// Records a period of the drive for a disk that lies on the platform for ever; a compliant stator may
     /// take many periods to settle.
     fn record_period(&mut self, tape: &mut Tape, lying: &E) -> Result<Touch, Error> {
         let period = TAU;

@@ -1,23 +1,27 @@
-//! Held amplitudes: motions of a stator with a compliant height at which a run may start.
+//! Held amplitudes: amplitudes of a stator with a compliant height at which a run may start.
 //!
-//! Let the stator move as a sine of an amplitude A, whatever the disk does. The first harmonic of the contact force says
-//! which drive would keep it. Those amplitudes that ask for the drive that there is are nearly the steady ones, unstable
-//! ones and those that no run from rest comes to included (docs/numerics-dynamics.md, "The tape of the force").
+//! Let the stator move as a sine of amplitude A, whatever the disk does. The first harmonic of the contact
+//! force then determines the drive that would maintain this motion. Amplitudes at which the required drive
+//! equals the available one are close to the steady amplitudes, including unstable ones and those that no run
+//! from rest reaches (docs/numerics-dynamics.md, "The tape of the force").
 //!
-//! The contact force under s = A sin sigma has the first harmonic N1 = <2 N sin sigma> + i <2 N cos sigma>. Let f
-//! be the resonance of the mode, and psi the stator's phase ahead of the drive. The drive that keeps this motion is
-//! (D A + N1) exp(i psi), D = M (f^2 - 1 + i f/Q). At a held amplitude its size |D A + N1| equals the available
-//! drive, and the phase of the equation gives psi. An amplitude is stable if a larger one needs a larger drive.
+//! The contact force under s = A sin sigma has the first harmonic N1 = <2 N sin sigma> + i <2 N cos sigma>.
+//! Let f be the resonance of the mode relative to the drive, and psi the phase by which the stator leads the
+//! drive. The drive that maintains this motion is (D A + N1) exp(i psi), D = M (f^2 - 1 + i f/Q). At a held
+//! amplitude the magnitude |D A + N1| equals the available drive, and the phase of the equation determines
+//! psi. An amplitude is stable if a larger one needs a larger drive.
 //!
-//! - N is never negative and has the mean 1, so |N1| <= 2, and A is within 2/|D| of the free amplitude. N supplies
-//!   no power to the stator, so A <= |drive|/Im D.
-//! - A disk that never leaves the stator follows it linearly: N1 = -kappa A, with kappa = 1 in a rigid contact and
-//!   kappa = (k + i c)/(k + i c - 1) in a compliant one, while |kappa| A <= 1. This state is exact.
-//! - Otherwise the disk is followed from amplitude to amplitude, upwards and downwards, and regula falsi narrows a
-//!   change of sign (`held/branch.rs`). A jump across the drive has no root.
+//! - N is never negative and has the mean 1, so |N1| <= 2. Hence A is within 2/|D| of the free amplitude. N
+//!   supplies no power to the stator, so A <= |drive|/Im D.
+//! - A disk that never leaves the stator follows it linearly: N1 = -kappa A, with kappa = 1 in a rigid
+//!   contact and kappa = (k + i c)/(k + i c - 1) in a compliant one, as long as |kappa| A <= 1. This state is
+//!   exact.
+//! - Otherwise the disk is followed from amplitude to amplitude, upwards and downwards, and regula falsi
+//!   narrows a change of sign (`held/branch.rs`). If the required drive jumps across the available one, there
+//!   is no root.
 //!
-//! Held amplitudes neglect the recoil of the stator: at M = 3 the amplitude of a tapped motion is off by 0.1 %, of
-//! a chaotic one by up to a third.
+//! Held amplitudes neglect the recoil of the stator: at M = 3 the error of the amplitude is 0.1 % for a
+//! tapped motion, and up to a third for a chaotic motion.
 
 mod branch;
 
@@ -31,11 +35,12 @@ use crate::motion::state::{DiskState, Mode};
 use crate::motor::tape::held::branch::Search;
 use crate::stator::{StatorState, StatorSystem};
 
-/// Ratio of neighbouring amplitudes of a branch, and the least number of them.
+/// Ratio of neighbouring amplitudes of a branch, and the smallest number of amplitudes.
 const RATIO: f64 = 1.18;
 const LEAST_AMPLITUDES: f64 = 6.0;
 
-/// Two held amplitudes that differ by less than this share are the same, found on two branches or by scatter.
+/// Two held amplitudes that differ by less than this share are the same amplitude, found twice on two
+/// branches or because of scatter.
 const ONE: f64 = 0.05;
 
 /// Largest difference of the starts of two members at one held amplitude, as a share of the stator's speed.
@@ -48,8 +53,8 @@ pub(crate) struct Held {
     pub(crate) amplitude: f64,
     /// Whether a larger amplitude needs a larger drive.
     pub(crate) is_stable: bool,
-    /// The lead (rad) of the stator's phase over its phase without a disk, and its deflection by the disk's
-    /// weight.
+    /// The lead (rad) of the stator's phase over its phase without a disk, and the stator's deflection by the
+    /// disk's weight.
     ahead: f64,
     sag: f64,
     /// Indentation of a contact by the preload.
@@ -62,12 +67,14 @@ pub(crate) struct Held {
 /// The start of a disk on a stator that moves with a held amplitude.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum DiskStart {
-    /// The motion that belongs to the amplitude; a start in flight is perturbed by a tiny amount in proportion
-    /// to this share.
+    /// On the motion that belongs to the amplitude; a start in flight is perturbed by a tiny amount,
+    /// proportional to this share.
     OnMotion(f64),
-    /// Rest on the stator at this phase of the drive; if the disk lies there for ever, it is on that motion.
+    /// At rest on the stator at this phase of the drive; a disk that lies there for ever starts on its linear
+    /// motion.
     AtRest(Phase),
-    /// Thrown up at this phase, with this multiple of the stator's speed, unless it lies there for ever.
+    /// Thrown up at this phase with this multiple of the stator's speed, unless the disk lies on the stator
+    /// for ever.
     Thrown(Phase, f64),
 }
 

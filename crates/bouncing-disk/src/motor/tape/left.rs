@@ -20,8 +20,8 @@ impl Left {
         Self { time, state, rises: engine.system().modes.map(|mode| mode.height != 0.0) }
     }
 
-    /// The state in SI units, or converted from them if `of` is `f64::recip`; time and angle start again at
-    /// zero.
+    /// The state converted to SI units, or from SI units if `of` is `f64::recip`; time and angle start again
+    /// at zero.
     pub(crate) fn scaled(self, unit: &Scales, of: fn(f64) -> f64) -> Self {
         let (mut state, time) = (self.state, PhaseTime::in_first_period(self.time.phase));
         state.disk.height *= of(unit.length);

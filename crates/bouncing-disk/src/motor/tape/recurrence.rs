@@ -6,20 +6,20 @@ use bouncing_disk_core::Phase;
 
 use crate::stator::MODES;
 
-/// A state repeats an earlier one if the difference is below this share of the largest state seen. Two cycles
-/// must do so.
+/// A state repeats an earlier one if they differ by less than this share of the largest state seen. A motion
+/// must repeat its states over two cycles.
 const SAME: f64 = 1.0e-11;
 
 /// A motion that comes this close to a known stable cycle stays on it.
 const JOINS: f64 = 1.0e-5;
 
-/// A motion approaches its cycle by at least the remainder of this factor.
+/// A motion is assumed to approach its cycle by at least this factor per cycle.
 const SLOWEST: f64 = 1.0 - 1.0e-5;
 
-/// A component of a state counts as at least this share of the largest.
+/// The size of a component of a state counts as at least this share of the largest size.
 const SMALL: f64 = 1.0e-3;
 
-/// A cycle takes at least a period of the drive.
+/// A repetition within this time (rad) is not a cycle, which takes at least a period of the drive.
 const LEAST_CYCLE: f64 = PI;
 
 /// Touches separated by less than this time (rad) count as one.
@@ -38,7 +38,7 @@ const PARTS: usize = 9;
 const SPEED: usize = 4;
 
 impl Key {
-    /// The key of a disk that never touches and repeats in each period.
+    /// The key of a disk that lies on the platform for ever and repeats its motion in each period.
     pub(crate) const LYING: Self = Self([0.0; PARTS]);
 
     /// The key of a disk with this velocity and height and, if it acts back, angular speed, and the modes of
@@ -48,8 +48,8 @@ impl Key {
         Self([phase.sin(), phase.cos(), disk[0], disk[1], disk[2], a, b, c, d])
     }
 
-    /// Its distance from another one, as the largest share of these sizes; a component that stays small
-    /// counts as a share of the others.
+    /// The distance from another key: the largest difference of a component as a share of its size. For a
+    /// component that stays small, the share of the other sizes counts.
     fn distance(&self, other: &Self, sizes: [f64; PARTS]) -> f64 {
         // The angular speed has a unit of its own.
         let others = sizes.into_iter().enumerate().filter(|(part, _)| *part != SPEED);
@@ -78,7 +78,8 @@ pub(crate) struct Recurrence {
     /// Time (rad) since the reference.
     elapsed: f64,
     renewal: u64,
-    /// Number of touches of the cycle that was seen last, and the distance by which it failed to close.
+    /// Number of touches of the cycle that was seen last, and the distance by which this cycle failed to
+    /// close.
     seen: Option<(u64, f64)>,
     /// The touches of cycles that other members have reached.
     known: Vec<Vec<Key>>,
@@ -137,8 +138,8 @@ impl Recurrence {
         self.known = cycles.iter().map(|touches| touches.to_vec()).collect();
     }
 
-    /// The known cycle that is very close to a touch at which the motion nearly repeats, and closer than a
-    /// cycle before.
+    /// The known cycle that is very close to a touch at which the motion nearly repeats, and closer than one
+    /// cycle earlier.
     fn joined(&self, key: &Key) -> Option<Repeats> {
         let reference = self.reference?;
         let distance = |own: &Key| own.distance(key, self.largest);
@@ -154,22 +155,22 @@ impl Recurrence {
 /// Touches of one motion that differ by less than this share of the largest are the same.
 pub(crate) const ONE: f64 = 1.0e-7;
 
-/// The same for two motions that were found to repeat: if the contact force just touches zero, touches differ
-/// like the root of [`SAME`].
+/// The same for touches of two motions that were found to repeat: if the contact force just touches zero,
+/// they differ by about the root of [`SAME`].
 pub(crate) const ONE_OF_TWO: f64 = 1.0e-5;
 
-/// Whether two cycles have the same touches, shifted by this number of touches, within this share of the
-/// largest.
+/// Whether two cycles consist of the same touches, shifted by `apart` touches, to within the share `within`
+/// of the largest.
 pub(crate) fn are_same(one: &[Key], other: &[Key], apart: usize, within: f64) -> bool {
     let sizes = one.iter().fold([0.0; PARTS], |most, key| most_of(most, key.0));
     let other = other.iter().cycle().skip(apart);
     one.iter().zip(other).all(|(one, other)| one.distance(other, sizes) < within)
 }
 
-/// A motion that touches closer to a cycle than this share of the largest is on its way to it.
+/// A motion whose touch is closer to a cycle than this share of the largest is on its way to the cycle.
 const NEAR: f64 = 0.05;
 
-/// Whether a touch is near one of a cycle's.
+/// Whether a touch is near one of a cycle's touches.
 pub(crate) fn is_near(cycle: &[Key], key: &Key) -> bool {
     let sizes = cycle.iter().fold([0.0; PARTS], |most, key| most_of(most, key.0));
     cycle.iter().any(|own| own.distance(key, sizes) < NEAR)

@@ -1,7 +1,7 @@
 //! Rotors that are carried along a tape.
 //!
-//! In a step of contact the force is constant and the stator's angular speed linear, so the slip is linear,
-//! too, with at most one end: rotor, angle and energies follow exactly.
+//! In a contact step the force is constant and the stator's angular speed is linear in time. The slip is
+//! therefore also linear and ends at most once, so speed, angle and energies follow exactly.
 
 use std::ops::Range;
 
@@ -23,7 +23,7 @@ pub(crate) struct Done {
     /// Work of the stator by friction, and loss in friction.
     pub(crate) work: Row,
     pub(crate) loss: Row,
-    /// Impulse, divided by the coefficient of friction, that would act on a rotor held at rest.
+    /// Friction impulse on a rotor held at rest, divided by the coefficient of friction.
     pub(crate) held: Row,
     /// Impulse of the load's law, and work done against it.
     pub(crate) law_impulse: Row,
@@ -46,7 +46,7 @@ impl Done {
 pub(crate) struct Rotors {
     pub(crate) rows: RotorRows<Done>,
     pub(crate) count: usize,
-    /// Factor by which each has less inertia than the motor's rotor.
+    /// Factor by which each rotor has less inertia than its motor's rotor.
     pub(crate) quicker: Row,
     /// The law, in addition to the constant loads of the rows.
     pub(crate) law: Vec<LoadLine>,
@@ -69,7 +69,7 @@ impl Rotors {
         rotors
     }
 
-    /// The motion of the rotor in this place over a time (rad), from this speed on.
+    /// The motion of the rotor in this place over a time (rad), starting at this speed.
     pub(crate) fn done(
         &self,
         own: usize,
@@ -94,8 +94,8 @@ impl Rotors {
         }
     }
 
-    /// The speed of the rotor in this place at this share of a step, given its speed at the start of the
-    /// step, whose contact has ended.
+    /// The speed of the rotor in this place at this share of a step that has just been replayed, given its
+    /// speed at the start of the step.
     pub(crate) fn within(&self, own: usize, knot: &Knot, share: f64, before: f64) -> f64 {
         if knot.pressed > 0.0 {
             return before + share * (self.rows.speed[own] - before);
@@ -289,7 +289,7 @@ pub(crate) fn torque(law: &[LoadLine], speed: f64) -> f64 {
     line.torque + line.slope * speed
 }
 
-/// The piece of a law at a speed; at a node, the one that a rotor enters if braked in this direction.
+/// The piece of a law at a speed; at a node, the piece that a rotor enters if `braking` acts on it.
 fn line_of(law: &[LoadLine], speed: f64, braking: f64) -> &LoadLine {
     let index = if braking > 0.0 {
         law.partition_point(|line| line.to < speed)
@@ -303,7 +303,7 @@ fn line_of(law: &[LoadLine], speed: f64, braking: f64) -> &LoadLine {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Step {
     pub(crate) span: f64,
-    /// The stator's angular speed at its start and its end.
+    /// The stator's angular speed at the start and at the end of the step.
     pub(crate) from: f64,
     pub(crate) to: f64,
     /// Changes of the rotor's speed by friction and by load over the whole step.
@@ -311,7 +311,7 @@ pub(crate) struct Step {
     pub(crate) load: f64,
 }
 
-/// A rotor after a step, and its motion during it.
+/// A rotor after a step, and its motion during the step.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Slid {
     pub(crate) speed: f64,
@@ -322,8 +322,8 @@ pub(crate) struct Slid {
 }
 
 impl Step {
-    /// A rotor with this speed at the start: it slides, and if its slip ends within the step it then sticks
-    /// or slides the other way.
+    /// The step of a rotor with this speed at the start: the rotor slides, and if its slip ends within the
+    /// step, it then sticks or slides the other way.
     #[inline(always)]
     pub(crate) fn slide(self, speed: f64) -> Slid {
         let Self { span, from, to, friction, load } = self;

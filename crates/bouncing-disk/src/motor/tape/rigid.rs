@@ -29,7 +29,7 @@ pub(crate) struct RigidTape {
     vertical: Option<VerticalMotion>,
     /// The disk while it lies on the platform, without friction.
     engine: Engine,
-    /// Whether it lies there.
+    /// Whether the disk lies on the platform.
     rests: bool,
     /// Kinetic and potential energy after the last event.
     energy: f64,
@@ -65,7 +65,8 @@ impl RigidTape {
         self.vertical.as_ref().map_or_else(|| self.engine.time(), VerticalMotion::now)
     }
 
-    /// Records up to the next impact or the end of a rest, or a period for a disk that lies for ever.
+    /// Records the motion up to the next impact or the end of a rest, or for a period if the disk lies for
+    /// ever.
     pub(crate) fn record(&mut self, tape: &mut Tape, work: &mut WorkCount<'_>) -> Result<Touch, Error> {
         let Some(vertical) = &mut self.vertical else {
             work.spend(FLIGHTS_OF_EVENT)?;
@@ -114,7 +115,7 @@ impl RigidTape {
     }
 
     /// Records a rest of the disk up to its separation, with the preceding chatter; without an attachment,
-    /// the first rest.
+    /// this is the first rest.
     fn rest(&mut self, rest: Option<&Attachment>, tape: &mut Tape) -> Result<(), Error> {
         let Some(vertical) = &self.vertical else { return Ok(()) };
         let began = vertical.now();

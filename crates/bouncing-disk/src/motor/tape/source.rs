@@ -33,9 +33,8 @@ pub(crate) enum Source {
 }
 
 impl Source {
-    /// The source for a disk that lies at a phase on this stator, or is thrown up from it with this multiple
-    /// of the platform's largest speed (not from a compliant stator). Friction must not act back on the
-    /// height.
+    /// The source for a disk that lies on this stator at a phase, or is thrown up from it with a multiple of
+    /// the platform's largest speed (not from a compliant stator). Friction must not act back on the height.
     pub(crate) fn new(
         stator: &Stator,
         system: &DimensionlessSystem,
@@ -99,7 +98,7 @@ impl Source {
         Ok(Self::Yielding(Box::new(EngineTape::new(engine, system.takes_time(), perturbation))))
     }
 
-    /// Continues with another motion of the disk on a compliant stator.
+    /// Continues from another state of the disk and its compliant stator.
     pub(crate) fn go_on_from(&mut self, time: PhaseTime, state: StatorState) -> Result<(), Error> {
         let Self::Yielding(source) = self else { return Ok(()) };
         let mut engine = StatorEngine::of_state(source.engine.system().clone(), time, state)?;
@@ -108,7 +107,7 @@ impl Source {
         Ok(())
     }
 
-    /// Records a step: up to the next event, or further.
+    /// Records a step, which lasts until the next event or longer.
     pub(crate) fn record(&mut self, tape: &mut Tape, work: &mut WorkCount<'_>) -> Result<Touch, Error> {
         match self {
             Self::Rigid(source) => source.record(tape, work),
@@ -133,7 +132,7 @@ impl Source {
         self.time().phase.angle()
     }
 
-    /// Whether its contacts are compliant; unspecified for a compliant stator.
+    /// Whether the contacts are compliant; unspecified for a compliant stator.
     pub(crate) const fn takes_time(&self) -> bool {
         match self {
             Self::Taps(_) => true,
@@ -142,7 +141,7 @@ impl Source {
         }
     }
 
-    /// The disk at the end, for a prescribed motion by the general engine or in taps.
+    /// The disk at the end; `None` for rigid impacts on a sine, and for a compliant stator.
     pub(crate) fn disk(&self) -> Option<DiskState> {
         match self {
             Self::Taps(source) => Some(source.disk()),

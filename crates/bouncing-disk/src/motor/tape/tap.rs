@@ -1,33 +1,36 @@
-//! Taps: a flight and a compliant contact, one after the other on a sine, without a search.
+//! Taps on a sine: a flight and a compliant contact in succession, computed without a search.
 //!
-//! The certificates below decide on signs and roots. [`CompliantPlatform`] computes the taps that they leave undecided,
-//! one in 300 for the motor of Table III.
+//! The tests below decide on signs and roots. [`CompliantPlatform`] computes the taps that they leave
+//! undecided, one in 300 for the motor of Table III.
 //!
-//! **Closed form.** Let D = (k - 1)^2 + c^2. The gap is y = -1/k + (P/D) ((k - 1) sin t - c cos t) + h, with the free
-//! oscillation h'' + c h' + k h = 0. So F = 1 + p1 sin t + p2 cos t + h''. The integral of F is t - p1 cos t +
-//! p2 sin t + h', and the next one t^2/2 - p1 sin t - p2 cos t + h. The integrals of F cos t, F sin t and y'^2 are
-//! combinations of the derivatives of h cos t, h sin t, h' cos t, h' sin t, h^2 and h'^2. So these numbers at the ends
-//! of a piece give all its works and losses.
+//! **Closed form.** Let D = (k - 1)^2 + c^2. The gap is y = -1/k + (P/D) ((k - 1) sin t - c cos t) + h, with
+//! the free oscillation h'' + c h' + k h = 0. So the force is F = 1 + p1 sin t + p2 cos t + h''. The integral
+//! of F is t - p1 cos t + p2 sin t + h', and the integral of this is t^2/2 - p1 sin t - p2 cos t + h. The
+//! integrals of F cos t, F sin t and y'^2 are combinations of the derivatives of h cos t, h sin t, h' cos t,
+//! h' sin t, h^2 and h'^2. So the values of these functions at the ends of a piece determine all works and
+//! losses in it.
 //!
-//! **Signs by tables.** cos t, sin t and the two free oscillations u1, u2 since the touch are stored as polynomials of
-//! degree 9. Pieces have a length of l = 1.5 radians of the fastest change (1, sqrt(k) or c). Each polynomial matches
-//! value and four derivatives at both ends, so its error is at most M10 (l/2)^10/10!, 1.6e-8 M10 at l = 1.5. M10 follows
-//! from the recursion h^(n+2) = -c h^(n+1) - k h^(n) of derivatives and from the energy of h, which falls. On a piece
-//! F is a combination of the four, with coefficients in Bernstein's form:
+//! **Signs by tables.** cos t, sin t and the two free oscillations u1, u2 since the touch are stored as
+//! polynomials of degree 9. The pieces have a length of l = 1.5 radians of the fastest rate (1, sqrt(k) or
+//! c). Each polynomial matches value and four derivatives at both ends, so its error is at most M10
+//! (l/2)^10/10!, 1.6e-8 M10 at l = 1.5. The bound M10 on the tenth derivative follows from the recursion
+//! h^(n+2) = -c h^(n+1) - k h^(n) of derivatives and from the energy of h, which falls. On a piece F is a
+//! combination of the four functions, with coefficients in Bernstein's form:
 //!
 //! - If all coefficients are above the error, F > 0.
-//! - If their signs change once, also with the error added or subtracted, there is one root, unless |F'|^2 is within
-//!   eight times the error times the largest second derivative.
+//! - If their signs change once, also with the error added or subtracted, there is one root, unless |F'|^2 is
+//!   below eight times the error times the largest second derivative.
 //! - Otherwise the piece is halved, up to six times, and then left undecided.
 //!
-//! Steps of fourth order on the closed form polish a root.
+//! Fourth-order steps on the closed form then polish the root.
 //!
-//! **The flight.** Let z = k y + c y', minus the force without its cut-off. z = 0 at the release, and the disk is free
-//! as long as z > 0. While y < 0 it then rises, because y' > -(k/c) y > 0. y exp(k t/c) rises while z > 0 and falls while
-//! z < 0. Suppose z certainly stays negative once it has fallen below zero. Then y has at most one zero after that, with
-//! y' < 0: the touch. If y is negative as z falls through zero, the force returns there. The tables give the signs of z.
-//! If z > 0 up to a time with y > 0, the spring is free as soon as y vanishes, and the first impact of the sine may take
-//! over. Both z and F start at zero, and the error of the first piece is of fifth order in time, so all coefficients
+//! **The flight.** Let z = k y + c y', which is minus the force without its cut-off. At the release z = 0,
+//! and the disk is free as long as z > 0. While y < 0 it then rises, because y' > -(k/c) y > 0. The product y
+//! exp(k t/c) rises while z > 0 and falls while z < 0. Suppose that z certainly stays negative once it has
+//! fallen below zero. Then y has at most one zero after that, with y' < 0: the touch. If y is negative as z
+//! falls through zero, the force returns there. The tables determine the signs of z. If z > 0 up to a time
+//! with y > 0, the spring is free as soon as y vanishes, and the first impact of the sine may take over. Both
+//! z and F start at zero, and the error of the first piece is of fifth order in time, so all coefficients
 //! except the first need only exceed four times the bound.
 
 use core::f64::consts::TAU;
@@ -61,8 +64,8 @@ const PIECE: f64 = 1.5;
 /// Largest number of pieces of a table; longer contacts are left to the general solver.
 const MOST_PIECES: f64 = 256.0;
 
-/// A step in radians of the fastest change for which Taylor series hold: their first omitted terms are below
-/// 3e-17. [`Anchor`]s are twice as far apart.
+/// Longest step, in radians of the fastest change, for which Taylor series are used: their first omitted
+/// terms are below 3e-17. [`Anchor`]s are twice as far apart.
 const NEAR: f64 = 0.05;
 
 /// Rounding of the coefficients of a piece, relative to their terms.
@@ -77,8 +80,8 @@ const START: f64 = 0.125;
 /// Bisections of a piece whose coefficients do not decide.
 const HALVINGS: u32 = 6;
 
-/// Largest number of fourth-order steps to a root; after one smaller than [`LAST_STEP`], in radians of the
-/// fastest change, only rounding is left.
+/// Largest number of fourth-order steps to a root; after a step smaller than [`LAST_STEP`], in radians of the
+/// fastest change, only rounding error is left.
 const STEPS: u32 = 12;
 const LAST_STEP: f64 = 5.0e-5;
 
@@ -106,10 +109,10 @@ pub(crate) struct TapSolver {
     rate: f64,
     /// cos t, sin t, u1 and u2 over the time since the touch.
     pieces: Vec<[Piece; 4]>,
-    /// Their largest errors, including those of their coefficients.
+    /// The largest errors of the four functions, including those of their coefficients.
     errors: [f64; 4],
-    /// The four functions at the starts of the pieces and at equidistant points within the first, and the
-    /// Taylor series of u1 and u2 at zero.
+    /// The four functions at the starts of the pieces and at equidistant points within the first piece, and
+    /// the Taylor series of u1 and u2 at zero.
     starts: Vec<Anchor>,
     anchors: [Anchor; ANCHORS],
     spacing: f64,
@@ -125,12 +128,12 @@ pub(crate) struct TapInstant {
     pub(crate) sin: f64,
     /// See [`Self::sin`].
     pub(crate) cos: f64,
-    /// The gap minus its steady part, and its derivative.
+    /// The gap minus its steady part, and the derivative of this difference.
     free: f64,
     free_slope: f64,
 }
 
-/// Integrals of a contact, each up to a constant.
+/// Integrals over a contact, each up to a constant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct TapIntegrals {
     /// Integral of the force.
@@ -271,7 +274,7 @@ impl TapSolver {
         Some(solver)
     }
 
-    /// u1, which starts with value 1 and slope 0, and u2, with 0 and 1.
+    /// u1, which starts with value 1 and slope 0, and u2, which starts with value 0 and slope 1.
     fn oscillations(&self, t: f64) -> [f64; 2] {
         if self.over {
             let slow = self.stiffness / (self.decay + self.frequency);
@@ -331,7 +334,7 @@ impl TapSolver {
         Some(self.moved(&anchor, after - (begun + passed)))
     }
 
-    /// A root near an instant of the function with this value and these three derivatives; `None` if the
+    /// A root, near an instant, of the function with this value and these three derivatives; `None` if the
     /// steps do not converge.
     pub(crate) fn polished(
         &self,
@@ -503,8 +506,8 @@ impl TapSolver {
     /// The flight from a release with this `gap` < 0 and `velocity` to the next touch, if it can be decided.
     ///
     /// Let z = k y + c y', the force by which spring and damper would pull at the gap y. y exp(k t/c) rises
-    /// while z > 0 and falls while z < 0. So y vanishes at most once after z has fallen below zero for good;
-    /// at the release z is zero and rises.
+    /// while z > 0 and falls while z < 0. So y vanishes at most once after z has fallen below zero for good.
+    /// At the release z is zero and rises.
     #[must_use]
     pub(crate) fn flight(&self, phase: Phase, gap: f64, velocity: f64) -> Option<TapTouch> {
         let (sin, cos) = (phase.sin(), phase.cos());
@@ -620,8 +623,8 @@ fn step_of([value, slope, bend, third]: [f64; 4]) -> f64 {
         / (slope * (square - value * bend) + value * value * third * (1.0 / 6.0))
 }
 
-/// A root in this range of the function whose value and three derivatives are computed from the gap's, and
-/// the disk there.
+/// A root in this range, and the disk there, of the function whose value and three derivatives are computed
+/// from those of the gap.
 fn newton(
     from: f64,
     range: &RangeInclusive<f64>,
@@ -641,7 +644,7 @@ fn newton(
     None
 }
 
-/// A disk without force: sine and cosine of the phase, gap and relative velocity.
+/// A disk in free flight: sine and cosine of the phase, gap and relative velocity.
 #[derive(Debug, Clone, Copy)]
 struct Fall {
     sin: f64,
@@ -694,7 +697,7 @@ struct NearSine {
 }
 
 impl NearSine {
-    /// The result for a short step, by series up to the ninth power.
+    /// The values for a short step, by series up to the ninth power.
     fn of(t: f64) -> Self {
         let s = t * t;
         let versine = s * (0.5 - s * (1.0 / 24.0 - s * (1.0 / 720.0 - s * (1.0 / 40_320.0))));
@@ -753,8 +756,8 @@ fn split(piece: &Piece, share: f64) -> (Piece, Piece) {
     (left, right)
 }
 
-/// The time of [`first_fall`] for a function that may rise from zero at the start of its piece: the errors of the
-/// table vanish there with the fifth power of the time.
+/// [`first_fall`] for a function that may rise from zero at the start of its piece, where the errors of the
+/// table vanish with the fifth power of the time.
 #[allow(clippy::option_option, reason = "not decided, and no root")]
 fn first_fall_after(piece: &Piece, margin: f64, [from_zero, for_good]: [bool; 2]) -> Option<Option<f64>> {
     if !from_zero {
@@ -770,9 +773,9 @@ fn first_fall_after(piece: &Piece, margin: f64, [from_zero, for_good]: [bool; 2]
     Some(first_fall(&far, margin, for_good, HALVINGS)?.map(|share| START + (1.0 - START) * share))
 }
 
-/// The approximate share of the piece at which a function that starts above zero first falls below it, if it
-/// does. With `for_good`, it must also stay below up to the end of the piece. `None` if values within the
-/// margin of zero may decide.
+/// The approximate share of the piece at which a function that starts above zero first falls below zero, if
+/// it does. With `for_good`, the function must also stay below zero up to the end of the piece. `None` if
+/// values within the margin of zero may decide.
 #[allow(clippy::option_option, reason = "not decided, and no root")]
 fn first_fall(piece: &Piece, margin: f64, for_good: bool, halvings: u32) -> Option<Option<f64>> {
     let falls = piece.iter().position(|&value| value <= margin);

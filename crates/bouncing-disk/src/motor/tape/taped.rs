@@ -25,21 +25,21 @@ use crate::motor::tape::left::Left;
 use crate::parameters::dimensionless::DimensionlessSystem;
 use crate::stator::{LoadLine, StatorState};
 
-/// Knots after which a tape is replayed, few enough for the cache.
+/// Number of knots after which a tape is replayed, small enough for the cache.
 const BLOCK: usize = 4096;
 
-/// Steps per period during a contact if speeds are required to a share of [`COARSE`] or more; their error is
-/// of second order in their length.
+/// Steps per period during a contact if the requested relative error of speeds is [`COARSE`] or more; the
+/// error due to the steps is of second order in their length.
 const RESOLUTION: f64 = 128.0;
 const COARSE: f64 = 2.0e-3;
 
-/// Steps per period during a contact for a speed that is required to this share.
+/// Steps per period during a contact for this requested relative error of speeds.
 pub(crate) fn resolution(relative_error: f64) -> f64 {
     RESOLUTION * (COARSE / relative_error).max(1.0).sqrt()
 }
 
-/// Relative error of a speed that was computed with this number of steps: a chord of the stator's speed is
-/// off by the square of its length over 8, and by 2/3 of this on average.
+/// Relative error of a speed that was computed with this number of steps per period: a chord differs from the
+/// stator's speed by the square of its length over 8, and by 2/3 of this on average.
 pub(crate) fn error_of_steps(resolution: f64) -> f64 {
     let step = TAU / resolution;
     step * step * (1.0 / 12.0)
@@ -49,7 +49,7 @@ pub(crate) fn error_of_steps(resolution: f64) -> f64 {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct TapedRotor {
     pub(crate) friction: f64,
-    /// The constant load, and the addition by the load's law.
+    /// The constant load; the law of the load, if any, is added to it.
     pub(crate) load: f64,
     pub(crate) law: Vec<LoadLine>,
     pub(crate) twist: Twist,
@@ -64,7 +64,7 @@ pub(crate) enum Twist {
 }
 
 impl DrivenSystem {
-    /// The rotary parameters of its rotor.
+    /// The rotary parameters of the system's rotor.
     pub(crate) fn rotor(&self) -> TapedRotor {
         let (angle, start) = (&self.angle, self.angle.at(0.0));
         let is_sine = angle.next_joint(0.0).is_none() && angle.highest_harmonic() <= 1.0;
@@ -103,14 +103,14 @@ pub(crate) struct Taped {
     recurrence: Recurrence,
     /// The cycle that the motion was found to repeat, after which no window is complete.
     repeats: Option<Repeats>,
-    /// The time (rad) for which it was followed.
+    /// The time (rad) for which the motion was followed.
     pub(crate) followed: f64,
-    /// Windows begun.
+    /// Number of windows begun.
     begun: usize,
 }
 
-/// The times, after its start, at which speeds are sampled in the window of this number: one in each part of
-/// it, at positions that fill the part evenly over many windows.
+/// The times, after its start, at which speeds are sampled in the window with this number: one in each part
+/// of the window, at positions that fill the part evenly over many windows.
 pub(crate) fn sampled_at(window: usize, duration: f64) -> [f64; SAMPLES] {
     let share = golden_share(window);
     array::from_fn(|part| duration * ((part as f64 + share) / SAMPLES as f64))
@@ -168,7 +168,7 @@ impl Taped {
         Self { source, tape, rotors, places, runner, recurrence, repeats: None, followed: 0.0, begun: 0 }
     }
 
-    /// The same on a motion that is known to repeat.
+    /// The same rotors, on a motion that is known to repeat.
     pub(crate) fn on(self, repeats: Repeats) -> Self {
         Self { repeats: Some(repeats), ..self }
     }
@@ -211,12 +211,12 @@ impl Taped {
         self.recurrence.know(cycles);
     }
 
-    /// The rotors of this cycle in the order of this member's, at the speeds that they repeat.
+    /// The motion of this member's rotors, in their order, in a cycle, at the speeds that repeat.
     pub(crate) fn on_cycle(&self, cycle: &Cycle, largest: &[f64]) -> [Window; 2] {
         cycle.windows(&self.rotors, &self.places, largest, &self.runner)
     }
 
-    /// Carries all rotors along the tape, which begins at this time in its window, and samples their speeds
+    /// Carries all rotors along the tape, which begins at this time in the window, and samples their speeds
     /// when due.
     fn replay(
         &mut self,

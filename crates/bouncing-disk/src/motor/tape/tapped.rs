@@ -1,12 +1,13 @@
-//! Rotors on a sine with a compliant contact, from release to release: one vertical motion carries them all, in
-//! closed form.
+//! Rotors on a sine with a compliant contact, from release to release: one vertical motion carries all
+//! rotors, in closed form.
 //!
-//! The slip q - beta' changes by the platform's beta' = Q cos(t + theta), up to the effect of friction and load in the
-//! contact, d = mu (integral of F) + |l| t. With n = (mu max F + |l|)/Q, beta'' exceeds friction and load if
-//! |sin(t + theta)| > n: there the slip is monotone, and friction cannot hold the rotor. Elsewhere beta' is within Q n^2
-//! of an extreme. So if ||q| - Q| > d + Q n^2, the slip reverses once at each crossing of q and beta', and nowhere else.
-//! The closed form with q fixed gives the order of the reversals. If friction may hold the rotor, or change the number
-//! of its reversals, the general engine decides.
+//! The slip q - beta' changes with the platform's speed beta' = Q cos(t + theta), up to the effect of
+//! friction and load in the contact, at most d = mu (integral of F) + |l| t. With n = (mu max F + |l|)/Q,
+//! beta'' exceeds friction and load if |sin(t + theta)| > n: there the slip is monotonic, and friction cannot
+//! hold the rotor. Elsewhere beta' is within Q n^2 of an extreme. So if ||q| - Q| > d + Q n^2, the slip
+//! reverses once at each crossing of q and beta', and at no other time. The closed form with q fixed
+//! determines the order of the reversals. If friction may hold the rotor, or change the number of its
+//! reversals, the general engine decides.
 
 use std::f64::consts::TAU;
 
@@ -38,20 +39,20 @@ pub(crate) struct Tapped {
 struct TappedRotor {
     friction: f64,
     load: f64,
-    /// Largest angular speed of the platform, the lead of its angle over its height, and the coefficients of
-    /// that speed for cosine and sine of the phase.
+    /// Largest angular speed of the platform, the lead of the angle over the height, and the coefficients of
+    /// the angular speed for the cosine and the sine of the phase.
     twist: f64,
     lag: f64,
     parts: [f64; 2],
     speed: f64,
-    /// Its value after the tap that is being computed.
+    /// The speed after the tap that is being computed.
     next: f64,
     done: RotorWindow,
 }
 
 impl Tapped {
-    /// The rotors of these systems, which share the height, if the height and the angles are sines; without a
-    /// state.
+    /// The rotors of these systems, which share the height, if the height and the angles are sines; their
+    /// state is set by [`Self::begin`].
     pub(crate) fn new<'a>(systems: impl Iterator<Item = &'a DrivenSystem>) -> Option<Self> {
         let mut solver = None;
         let mut rotors = Vec::new();
@@ -99,8 +100,8 @@ impl Tapped {
         Some(self.rotors[0].done.angle)
     }
 
-    /// Advances to the next release, and adds the motion up to it to a window; if it cannot be decided here,
-    /// nothing changes.
+    /// Advances to the next release, and adds the motion up to it to a window. If the tap cannot be decided
+    /// here, nothing changes.
     pub(crate) fn tap(&mut self, axial: &mut AxialWindow) -> Option<()> {
         let [gap, velocity] = self.launch;
         let touch = self.solver.flight(self.time.phase, gap, velocity)?;

@@ -1,4 +1,5 @@
-//! A tape of taps, for a sine and compliant contacts with a damper, from release to release in closed form.
+//! A tape of taps, recorded from release to release in closed form, for a sine and compliant contacts with a
+//! damper.
 
 use bouncing_disk_core::run::WorkCount;
 
@@ -41,7 +42,7 @@ impl TapTape {
         DiskState::flying(height + gap, speed + velocity, 0.0)
     }
 
-    /// Records a tap, or up to the engine's next event.
+    /// Records a tap, or the motion up to the engine's next event.
     pub(crate) fn record(&mut self, tape: &mut Tape, work: &mut WorkCount<'_>) -> Result<Touch, Error> {
         if self.release.is_none() {
             self.release = self.engine.engine.flight().map(|launch| (self.engine.engine.time(), launch));

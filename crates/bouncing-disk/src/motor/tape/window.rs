@@ -1,11 +1,11 @@
-//! The motion of rotors in a window of time, dimensionless.
+//! The motion of rotors in a window of time, in dimensionless form.
 
 use crate::stator::StatorLedger;
 
-/// Times in a window at which the speed is sampled.
+/// Number of times in a window at which the speed is sampled.
 pub(crate) const SAMPLES: usize = 4;
 
-/// What is known of a rotor's speeds in a window.
+/// The known speeds of a rotor in a window.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) enum Speeds {
     /// Nothing, as for a rotor that acts back.
@@ -34,14 +34,15 @@ impl Speeds {
     }
 }
 
-/// The motion of a rotor in a window of time, without units.
+/// The motion of a rotor in a window of time, in dimensionless form.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct RotorWindow {
     /// Angle turned.
     pub(crate) angle: f64,
     /// Integral of the square of the speed.
     pub(crate) square: f64,
-    /// Impulse of friction, divided by its coefficient, on a rotor held at rest; NaN for one that acts back.
+    /// Impulse of friction, divided by its coefficient, on a rotor held at rest; NaN for a rotor that acts
+    /// back.
     pub(crate) held: f64,
     /// Work of the platform by friction, and loss in friction.
     pub(crate) friction_work: f64,
@@ -58,7 +59,7 @@ pub(crate) struct RotorWindow {
     pub(crate) stator: Option<Box<(StatorLedger, AxialWindow)>>,
 }
 
-/// The vertical motion that all rotors share in a window of time, without units.
+/// The vertical motion that all rotors share in a window of time, in dimensionless form.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct AxialWindow {
     /// Duration (rad).
@@ -72,7 +73,7 @@ pub(crate) struct AxialWindow {
     pub(crate) energy_change: f64,
     /// Time (rad) in contact.
     pub(crate) pressed: f64,
-    /// Impacts; for rotors that never bounce, periods.
+    /// Number of impacts; for rotors that never bounce, of periods.
     pub(crate) impacts: u64,
 }
 
@@ -108,7 +109,7 @@ impl AxialWindow {
         [self.restitution_loss / self.duration, self.impacts as f64 / self.duration]
     }
 
-    /// Whether its rates agree with these, within the drift of a motion on its way to them.
+    /// Whether the rates of this window agree with these, within the drift of a motion on its way to them.
     pub(crate) fn is_like(&self, rates: [f64; 2]) -> bool {
         self.rates().into_iter().zip(rates).all(|(own, other)| (own - other).abs() <= 0.02 * other.abs())
     }
@@ -128,8 +129,8 @@ impl AxialWindow {
 const ALIKE: f64 = 1.0e-5;
 
 impl Window {
-    /// Whether a cycle has the rates of another one and moves its rotors, whose speeds lie within these
-    /// limits, in the same way.
+    /// Whether a cycle has the loss per radian of another cycle and moves the rotors, whose speeds lie within
+    /// these limits, in the same way.
     pub(crate) fn is_like(&self, other: &Self, largest: &[f64]) -> bool {
         let loses = |window: &Self| window.axial.restitution_loss / window.axial.duration;
         let speed = |window: &Self, rotor: usize| window.rotors[rotor].angle / window.axial.duration;

@@ -1,8 +1,7 @@
-//! Branches of the vertical motion on a stator whose amplitude is held, followed from one amplitude to the
-//! next.
+//! Branches of the vertical motion on a stator of held amplitude, followed from one amplitude to the next.
 //!
 //! An irregular motion also counts if the minimum of its required drive exceeds the available drive by less
-//! than 10 % of 2/drive, which the recoil of the real stator within a period can supply.
+//! than 10 % of 2/drive, because the recoil of the real stator within a period can make up for this excess.
 
 use std::cell::Cell;
 
@@ -25,28 +24,29 @@ use crate::stator::{MODES, ModeLaw, StatorState, StatorSystem};
 /// Steps per period during a contact, for a motion that does not repeat and for a cycle.
 const RESOLUTIONS: [f64; 2] = [64.0, 1024.0];
 
-/// Events during which a motion may settle, and touches over which the force of one that does not repeat is
-/// averaged.
+/// Number of events during which a motion may settle, and number of touches over which the force is averaged
+/// if the motion does not repeat.
 const SETTLING: u64 = 300;
 const AVERAGED: u64 = 400;
 
-/// Number of times that steps along a branch are halved if the drive changes by more than this share of the
-/// force, because a motion may be lost there.
+/// Largest number of times that a step along a branch is halved while the required drive changes by more than
+/// the share `JUMP` of the force, because a motion may be lost there.
 const HALVINGS: u32 = 3;
 const JUMP: f64 = 0.1;
 
-/// After this number of partial steps the remainder is one step.
+/// After this number of partial steps, the remainder is taken in one step.
 const MOST_PARTS: u32 = 6;
 
-/// The required drive for an amplitude counts as known if it is off by less than this share of the force, for
-/// a motion that repeats and for one that scatters. The amplitude is known if the ends of its bracket differ
-/// by less than these shares.
+/// The required drive equals the available one if they differ by less than the share `FOUND` of the force,
+/// for a motion that repeats and for a motion that scatters. The amplitude is also known if the ends of its
+/// bracket differ by less than the shares `SAME`.
 const FOUND: [f64; 2] = [1.0e-7, 1.0e-3];
 const SAME: [f64; 2] = [1.0e-9, 1.0e-3];
 const MOST_STEPS: usize = 60;
 
-/// A drive found at a jump is off by more than this share of the force. If the available drive is nowhere
-/// reached but missed by no more than this, the motor may still reach it, because the stator gives way, too.
+/// A drive that differs from the available one by more than this share of the force was found at a jump. If
+/// the required drive never falls to the available one, but misses it by less than this, the motor may still
+/// reach the motion, because the real stator recoils.
 const NEAR: f64 = 0.1;
 
 /// A vertical motion on a sine, and the drive that maintains the sine.
@@ -57,7 +57,7 @@ struct Motion {
     disk: DiskState,
     /// The required drive: the components with the sine and the cosine of the stator's phase.
     asked: [f64; 2],
-    /// Whether it was found to repeat.
+    /// Whether the motion was found to repeat.
     repeats: bool,
 }
 
@@ -72,7 +72,7 @@ pub(super) struct Branch {
 pub(super) struct Search<'a, 'w> {
     system: &'a StatorSystem,
     mode: ModeLaw,
-    /// M (f^2 - 1) and M d, and the drive with its magnitude.
+    /// M (f^2 - 1) and M d; the drive and its magnitude follow.
     pub(super) stiffness: [f64; 2],
     drive: [f64; 2],
     pub(super) force: f64,
@@ -98,8 +98,8 @@ impl<'a, 'w> Search<'a, 'w> {
         Ok(Self { system, mode, stiffness, drive, force, share, compliance, perturbation, work })
     }
 
-    /// The response of a disk that never leaves the stator, relative to the stator: 1 in a rigid contact,
-    /// (k + ic)/(k + ic - 1) in a compliant one.
+    /// The response of a disk that never leaves the stator, divided by the motion of the stator: 1 in a rigid
+    /// contact, (k + ic)/(k + ic - 1) in a compliant one.
     pub(super) fn follows(&self) -> [f64; 2] {
         self.compliance.map_or([1.0, 0.0], |own| {
             let (k, c) = (own.stiffness(), own.damping());
@@ -158,7 +158,7 @@ impl<'a, 'w> Search<'a, 'w> {
         Ok(Branch { amplitude, motion: self.settled(amplitude, engine)? })
     }
 
-    /// The motion that a disk reaches at an amplitude from its motion at another one.
+    /// The motion that a disk reaches at an amplitude from its motion at another amplitude.
     fn carried(&mut self, amplitude: f64, from: &Motion) -> Result<Motion, Error> {
         let phase = from.time.phase;
         let mut disk = from.disk;
@@ -209,12 +209,13 @@ impl<'a, 'w> Search<'a, 'w> {
         Ok(Motion { time, disk, asked, repeats: repeats.is_some() })
     }
 
-    /// The excess of the required drive over the available one, as a share of the latter.
+    /// The excess of the required drive over the available drive, as a share of the available drive.
     fn excess(&self, motion: &Motion) -> f64 {
         hypot(motion.asked[0], motion.asked[1]) / self.force - 1.0
     }
 
-    /// Follows a branch over these amplitudes, and adds those that are held, or the one that comes nearest.
+    /// Follows a branch over these amplitudes, and adds the held amplitudes, and the one at which the drive
+    /// comes nearest without reaching the available one.
     pub(super) fn follow(
         &mut self,
         branch: &mut Branch,
@@ -249,7 +250,8 @@ impl<'a, 'w> Search<'a, 'w> {
         Ok(())
     }
 
-    /// The next point of a branch on the way to an amplitude, closer if the drive would change by much.
+    /// The next point of a branch on the way to an amplitude; the step is shortened if the drive would change
+    /// by much.
     fn next(&mut self, branch: &Branch, target: f64, halvings: u32) -> Result<Branch, Error> {
         let (mut amplitude, known) = (target, self.excess(&branch.motion));
         let mut motion = self.carried(amplitude, &branch.motion)?;
@@ -263,8 +265,8 @@ impl<'a, 'w> Search<'a, 'w> {
         Ok(Branch { amplitude, motion })
     }
 
-    /// The amplitude between two at which the required drive equals the available one; `None` if it jumps
-    /// over that.
+    /// The amplitude between two at which the required drive equals the available one; `None` if the required
+    /// drive jumps over it.
     fn root(&mut self, [from, to]: [&Branch; 2], ends: [f64; 2]) -> Result<Option<Branch>, Error> {
         let at = |place: f64| from.amplitude + (to.amplitude - from.amplitude) * place;
         let share = self.share;
@@ -295,7 +297,7 @@ impl<'a, 'w> Search<'a, 'w> {
     }
 }
 
-/// The criterion for a known held amplitude.
+/// The criterion by which a held amplitude counts as known.
 struct Bracket<'a> {
     /// Whether the last motion repeats.
     repeats: &'a Cell<bool>,

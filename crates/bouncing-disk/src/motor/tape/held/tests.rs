@@ -7,8 +7,8 @@
 //! | 8 N | 6.35 | 6.3423, 13.366 (unstable) | 6.3458, 16.27 |
 //! | 7 N | 7.33, 11.14 (unstable) | 7.2946, 11.161 (unstable) | |
 //!
-//! At 8 N the branch with the unstable amplitude is lost on the way up; the run from the nearby minimum of the drive
-//! (13.1 nm) reaches the state of 16.3 nm.
+//! At 8 N the branch with the unstable amplitude is lost on the way up; the run from the nearby minimum of
+//! the drive (13.1 nm) reaches the state at 16.3 nm.
 
 use bouncing_disk_core::Unobserved;
 use bouncing_disk_core::run::Watch;
@@ -49,12 +49,12 @@ fn rigid(sheet: &mut MotorParameters, _: &mut StatorParameters) {
     sheet.contact = None;
 }
 
-/// So sharp that it rings for 32,000 periods, with the same amplitude without a rotor.
+/// A resonance so sharp that the stator rings for 32,000 periods, with the same amplitude without a rotor.
 fn sharp(_: &mut MotorParameters, table: &mut StatorParameters) {
     (table.quality, table.volts) = (Some(1e5), Some(0.04));
 }
 
-/// 2000 times as heavy as the rotor, with the same amplitude without it.
+/// A stator 2000 times as heavy as the rotor, with the same amplitude without the rotor.
 fn heavy(_: &mut MotorParameters, table: &mut StatorParameters) {
     (table.mass, table.volts) = (Some(40.0), Some(20.0 * (40.0_f64 / 0.06).sqrt()));
 }
@@ -121,8 +121,8 @@ fn a_disk_that_lies_on_the_stator_starts_on_its_steady_motion() {
     }
 }
 
-/// On a heavy stator the amplitude stays at the held value only with the right phase of the drive: within 40
-/// periods a wrong one would be half corrected.
+/// On a heavy stator the amplitude stays at the held value only with the right phase of the drive; a wrong
+/// phase would be half corrected within 40 periods.
 #[test]
 fn a_run_on_a_held_amplitude_keeps_it() {
     let (found, _, system) = held(&in_volts(5.0, heavy));
@@ -163,7 +163,7 @@ fn operations_on_a_stator_that_yields_are_those_of_small_steps() {
     assert_eq!(points.len(), 2);
 }
 
-/// From rest, integration in small steps reaches these only after hundreds of thousands of periods.
+/// Integration in small steps, from rest, reaches these states only after hundreds of thousands of periods.
 #[test]
 fn stators_that_ring_for_long_settle() {
     let row = operated(&in_volts(5.0, sharp), 0.0);
@@ -175,9 +175,9 @@ fn stators_that_ring_for_long_settle() {
     assert!(points.iter().any(|own| is_at(own, [8.4, 0.2], [504.73, 0.03])), "{row:?}");
 }
 
-/// With rigid impacts on a stator of 20 rotor masses and quality 1000 the motion is irregular at either of
-/// two amplitudes: 4.977 nm from rest, and 45.8(1.1) nm, at 9.140 and 8.75(4) rad/s by integration in small
-/// steps.
+/// With rigid impacts on a stator of 20 rotor masses and quality 1000, the motion is irregular at either of
+/// two amplitudes. By integration in small steps these are 4.977 nm (from rest) and 45.8(1.1) nm, with speeds
+/// of 9.140 and 8.75(4) rad/s.
 #[test]
 fn irregular_motions_on_two_amplitudes_are_two_branches() {
     let motor = in_volts(5.0, |sheet, table| {

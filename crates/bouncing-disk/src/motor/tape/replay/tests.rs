@@ -3,8 +3,8 @@ use bouncing_disk_core::sweep::LaneRunner;
 
 use super::*;
 
-/// A step divided into many small ones without closed forms: friction acts against the slip, and holds if the
-/// pull is weaker.
+/// A step divided into many small steps without closed forms: friction acts against the slip, and holds the
+/// rotor if the other torques are weaker.
 fn small_steps(step: Step, mut speed: f64) -> Slid {
     const COUNT: usize = 200_000;
     let (mut slid, share) =
@@ -61,8 +61,8 @@ fn a_step_is_what_small_steps_make_of_it() {
     }
 }
 
-/// In flight the exact decay on each piece agrees with small steps, across nodes of the law and where it
-/// drives.
+/// In flight, the exact decay on each piece agrees with small steps, also across nodes of the law and where
+/// the law drives the rotor.
 #[test]
 fn a_flight_under_a_law_is_what_small_steps_make_of_it() {
     let law = [
@@ -106,7 +106,8 @@ fn a_flight_under_a_law_is_what_small_steps_make_of_it() {
     }
 }
 
-/// A rotor held at rest gets the impulse of the time during which the stator turns forwards minus the rest.
+/// A rotor held at rest receives the impulse from the time in which the stator turns forwards, minus the
+/// rest.
 #[test]
 fn a_held_rotor_gets_the_difference_of_both_directions() {
     let held = |from: f64, to: f64| {
@@ -121,8 +122,8 @@ fn a_held_rotor_gets_the_difference_of_both_directions() {
     }
 }
 
-/// On a rotor that slides throughout, a constant force does the work that the exact sine implies: on average
-/// a chord is as long as the arc.
+/// On a rotor that slides throughout, a constant force does the same work as for the exact sine: on average
+/// the chord used in a step equals the arc.
 #[test]
 fn a_slide_on_a_sine_takes_its_mean_speed() {
     use std::f64::consts::FRAC_PI_2;

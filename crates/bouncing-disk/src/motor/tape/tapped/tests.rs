@@ -1,5 +1,5 @@
-//! Taps against the engine, each from the same state: motors at 0.01 to 18 periods, random systems, and releases and rotors
-//! on seams.
+//! Taps compared with the engine, each from the same state: motors with contact times of 0.01 to 18 periods,
+//! random systems, and releases and rotors in borderline cases.
 
 use bouncing_disk_core::ChatterPolicy;
 use bouncing_disk_core::numerics::elementary::{cos, exp, ln, sin};
@@ -13,10 +13,10 @@ use crate::motion::event::{Event, Motion, SteeredMotion};
 use crate::motion::phase_time::phase_at;
 
 /// Times, speeds and energies of a tap agree to this share of their magnitudes (for energies, of the engine's
-/// terms); each balance closes to a tenth of it.
+/// terms); each balance closes to a tenth of this share.
 const AGREEMENT: f64 = 1.0e-11;
 
-/// A system; its contact time is in periods.
+/// A system, with its contact time in periods.
 #[derive(Debug, Clone, Copy)]
 struct Case {
     peak: f64,
@@ -32,7 +32,7 @@ struct Case {
 const MOTOR: Case =
     Case { peak: 197.4, twist: 4.27e5, lag: 0.0, load: 0.0, friction: 1.0, restitution: 0.5, periods: 1.0 };
 
-/// A rotor in both, and the number of taps that were decided.
+/// A rotor in the engine and in closed form, and the number of taps that were decided.
 struct Pair {
     case: Case,
     engine: DrivenEngine,
@@ -110,7 +110,7 @@ impl Pair {
         engine.flight().map(|_| ())
     }
 
-    /// This number of consecutive taps, with perturbations.
+    /// Follows this number of consecutive taps, with perturbations.
     fn follow(&mut self, taps: u64) {
         let mut random = SplitMix64::new(7);
         while self.engine.flight().is_none() {
@@ -128,7 +128,7 @@ impl Pair {
     }
 }
 
-/// Uniformly distributed logarithms.
+/// A random number whose logarithm is uniformly distributed.
 fn between(random: &mut SplitMix64, low: f64, high: f64) -> f64 {
     low * exp(random.unit() * ln(high / low))
 }
@@ -173,8 +173,8 @@ fn taps_of_any_system_are_those_of_the_engine() {
     assert!(taps > 5_000 && decided > taps / 2, "{decided} {taps}");
 }
 
-/// Releases with almost no speed, rotors at the extremes of the platform's speed, and at its speed at touch
-/// or release.
+/// Releases with almost no speed, and rotors at the extremes of the platform's speed or at its speed at the
+/// touch or the release.
 #[test]
 fn taps_on_seams_are_those_of_the_engine_or_left_to_it() {
     let mut random = SplitMix64::new(5);
@@ -215,8 +215,8 @@ fn taps_on_seams_are_those_of_the_engine_or_left_to_it() {
     assert!(decided > taps / 2, "{decided} {taps}");
 }
 
-/// Both compared with steps of 1/2000 of a period that use only the law of the force, sliding friction and
-/// flight.
+/// The closed form and the engine compared with steps of 1/2000 of a period that use only the law of the
+/// force, sliding friction and flight.
 #[test]
 fn a_motor_turns_as_small_steps_say() {
     for periods in [0.8, 2.0, 5.0] {
@@ -253,8 +253,8 @@ fn a_motor_turns_as_small_steps_say() {
     }
 }
 
-/// Releases after which the force nearly or actually returns and ends again within a radian, next to one
-/// after which it does so before the touch.
+/// Releases after which the force nearly or actually returns and ends again within a radian, near a release
+/// after which this happens before the touch.
 #[test]
 fn the_force_may_set_in_again_and_end_before_the_touch() {
     let mut random = SplitMix64::new(11);
