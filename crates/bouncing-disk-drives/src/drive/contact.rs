@@ -1,14 +1,14 @@
 //! A disk in contact with a platform of arbitrary motion: when the disk leaves, and when chattering brings it
 //! to rest.
 //!
-//! If the flight from the end of a contact ended at once, the disk would rest at the same time, leave again,
-//! and alternate for ever, because contact and flight are computed with different rounding errors. That can
-//! happen if the force falls to zero within its rounding error e = 1e-12 (1 + max|s''|) + 4 u (2 pi + t)
-//! max|s'''| and rises again. So the force ends a contact only if it certainly falls below -e. This is
-//! certain if the force is already below -e, or if it falls at a rate c > sqrt(2 e M), where M bounds s'''',
-//! and hence by at least c^2/(2 M) > e. On pieces it is also certain if the force at the end of the piece is
-//! below -e. The flight then lasts for at least 4 c/M, far longer than the rounding of the time. In a
-//! shallower dip the contact continues until the force falls through -2 e.
+//! Contact and flight are computed with different rounding errors. If the flight from the end of a contact
+//! ended at once, the disk would rest at the same time, leave again, and alternate for ever. That can happen
+//! if the force falls to zero within its rounding error e = 1e-12 (1 + max|s''|) + 4 u (2 pi + t) max|s'''|
+//! and rises again. So the force ends a contact only if it certainly falls below -e. This is certain if the
+//! force is already below -e, or if it falls at a rate c > sqrt(2 e M), where M bounds s'''', and hence by at
+//! least c^2/(2 M) > e. On pieces it is also certain if the force at the end of the piece is below -e. The
+//! flight then lasts for at least 4 c/M, far longer than the rounding of the time. In a shallower dip the
+//! contact continues until the force falls through -2 e.
 
 use core::f64::consts::TAU;
 
@@ -84,8 +84,9 @@ impl Drive {
         Ok(end.map(|after| TimeAhead { after, time: time + after, velocity_jump: 0.0 }))
     }
 
-    /// The time from a launch at `time` with relative `speed` to the rest after infinitely many impacts, if a
-    /// bound on the acceleration proves that the pull stays positive until then, and there is no kink before.
+    /// The time from a launch at `time` with relative `speed` to the rest after infinitely many impacts,
+    /// provided that a bound on the acceleration proves the pull to stay positive until then and that no kink
+    /// comes before.
     ///
     /// For a launch at w, with the pull A = 1 + s'' and its derivative B, the sum of the flights is 2 w/(A (1 -
     /// r)) [1 - (2/3) B w/(A^2 (1 - r))] plus higher terms. If the pull is between A1 and A2, a flight

@@ -17,10 +17,10 @@ type Candidate = (f64, f64);
 
 impl Drive {
     /// The phase in [0, 2 pi) at which the platform is lowest: 3 pi/2 for a sine. If it is lowest more than
-    /// once in a period, the result is the first of these phases, which depends on where the period starts:
-    /// for a recording that begins between two equal minima it is the other minimum. If the platform stays
-    /// lowest for a while, the result is the start of this interval. Heights that differ by rounding count as
-    /// equal. 0 for a platform that does not move.
+    /// once in a period, the result is the first of these phases. Which phase is first depends on where the
+    /// period starts, for example where a recording begins. If the platform stays lowest for a while, the
+    /// result is the start of this interval. Heights that differ by rounding count as equal. 0 for a platform
+    /// that does not move.
     ///
     /// ```
     /// use std::f64::consts::PI;

@@ -94,7 +94,7 @@ impl Drive {
     }
 
     /// The first impact of a disk that is `gap` >= 0 above the platform at `time`, with this velocity
-    /// relative to it; on the platform (`gap` = 0) the disk leaves with this velocity, which must be >= 0.
+    /// relative to it. On the platform (`gap` = 0) the disk leaves with this velocity, which must be >= 0.
     ///
     /// # Errors
     /// Errors of [`Self::first_impact`]; [`Error::OutOfRange`] for numbers outside their range.

@@ -97,9 +97,9 @@ impl MotorSweep {
         Ok(Self { motor, axes, settings, continued: false, groups })
     }
 
-    /// This sweep over one axis as a continuation: the first cell starts from rest, and each further one from
-    /// the final state of the previous cell, because amplitude and motion of a rotor on a compliant stator
-    /// may depend on its history. To see hysteresis, let the values rise and fall again. The cells form one
+    /// This sweep over one axis as a continuation. The first cell starts from rest, and each further cell
+    /// from the final state of the previous one, because the motion of a compliant stator and its rotor may
+    /// depend on the history. To see hysteresis, let the values rise and fall again. The cells form one
     /// group. All other fields of the sheet are constant. In a sweep over the drive frequency these include
     /// the preload, the phase lag, and the volts, the force or the amplitude without a rotor, whichever the
     /// sheet states.

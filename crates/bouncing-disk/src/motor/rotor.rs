@@ -204,8 +204,8 @@ impl Rotor {
     /// The speed after a chattering sequence in which all impacts slide the same way; `None` if this is not
     /// certain.
     ///
-    /// The sum of the impulses of the impacts is the integral of the normal force N up to the accumulation
-    /// point minus the launch speed w, because the relative velocity ends at 0 = w - integral of N + sum.
+    /// The relative velocity ends at zero, 0 = w - integral of N + sum. So the sum of the impulses is the
+    /// integral of the normal force N up to the accumulation point minus the launch speed w.
     fn slide_throughout(&self, rest: &Attachment) -> Option<f64> {
         let duration = rest.accumulation.duration;
         let vibration = self.system.vibration();

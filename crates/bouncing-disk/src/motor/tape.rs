@@ -3,7 +3,7 @@
 //! If friction does not act back on the height, the vertical motion affects a rotor only through the time and
 //! strength of the normal force. A tape stores this as [`Knot`]s. Each knot contains the phase of the drive,
 //! the impulse of contact over the step that ends at the knot, and the impulse of an impact at the end of
-//! this step; within the step the force and the stator's angular acceleration are assumed constant. A
+//! this step. Within the step the force and the stator's angular acceleration are assumed constant. A
 //! [`replay`] carries rotors of any inertia, friction, load, phase lag and twist along the tape
 //! (docs/numerics-dynamics.md, "The tape of the force").
 

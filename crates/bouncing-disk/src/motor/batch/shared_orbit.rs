@@ -1,10 +1,10 @@
 //! One vertical motion that carries many rotors.
 //!
 //! The rotary motion never acts back on the vertical one. Motors that differ only in load, friction, phase
-//! lag, twist amplitude, radii or mass share every flight, impact and rest: the orbit is computed once, and
-//! for each rotor an impact adds only a clamp and a few products. The rotors also share the perturbations of
-//! the relaunches (common random numbers). Hence the differences between their results are more precise than
-//! the results themselves, whose errors are not independent. See docs/numerics-dynamics.md.
+//! lag, twist amplitude, radii or mass share every flight, impact and rest. The orbit is computed once; for
+//! each rotor an impact adds only a clamp and a few products. The rotors also share the perturbations of the
+//! relaunches (common random numbers). Hence the differences between their results are more precise than the
+//! results themselves, whose errors are not independent. See docs/numerics-dynamics.md.
 
 pub(crate) mod vertical;
 

@@ -275,9 +275,9 @@ impl OperatingSettings {
     }
 }
 
-/// The amount by which a point certainly exceeds its two neighbours along a field, in addition to their own
-/// trend: the height of a peak that is narrower than the grid, as for a locked motion. Similar peaks may lie
-/// between the points.
+/// The height of a peak that is narrower than the grid, as for a locked motion: the amount by which a point
+/// certainly exceeds its two neighbours along a field and their own trend. Similar peaks may lie between the
+/// points.
 fn narrow_peak(all: &[Place], side: usize, fields: usize) -> f64 {
     let settled = |index: usize| all[index].found.as_ref().filter(|found| found.is_settled);
     let value = |index: usize| settled(index).map(|found| found.value);

@@ -49,9 +49,9 @@ impl Motor {
     ///
     /// For this frequency the paper states that the default values of omega Phi and theta were used, and
     /// shows results for amplitudes of 1e-9, 1e-8 and 1e-7 m. The middle amplitude, the default of Table III,
-    /// is used here. The true motion of the stator at 184 kHz is not printed: the measured rotor turns the
-    /// other way, as it does in the model with a phase lag of pi, while the printed default is 0. The mass is
-    /// that of [`Self::paper_70_khz`].
+    /// is used here. The true motion of the stator at 184 kHz is not printed. The measured rotor turns the
+    /// other way, as it does in the model with a phase lag of pi; the printed default is 0. The mass is that
+    /// of [`Self::paper_70_khz`].
     #[must_use]
     pub fn paper_184_khz() -> Self {
         table_iii(SECOND_DRIVE_FREQUENCY)

@@ -19,7 +19,7 @@
 //! ```
 //!
 //! At the restitution of Table III the trapping window begins 0.005 to 0.006 below this point and ends 0.05
-//! above it, for n from 3 to 100 (a test); below the window the stator would recede more slowly than the
+//! above it, for n from 3 to 100 (a test). Below the window the stator would recede more slowly than the
 //! rotor falls.
 //!
 //! For at least 71 of 72 motors with forcings near 3, 12 and 203, the verdict agrees with the report's

@@ -3,10 +3,10 @@
 //! Let a compliant stator have the mass M (in units of the disk's) and the quality Q. A quarter of the
 //! members start with the stator at rest; they decide the first branch. Another quarter start with the
 //! stator's motion without a rotor, and half start at held amplitudes. If M Q exceeds 1e5, a stator at rest
-//! would ring for the whole run, so members from rest start at the lowest held amplitude instead; if Q also
-//! exceeds 5e4, all members start at held amplitudes. Windows last at least 1.5 Q radians, which makes the
-//! omitted start-up three times as long as the slowest decay of an amplitude by a factor e; above Q = 5e4
-//! they last at least 0.45 Q.
+//! would ring for the whole run, so members from rest start at the lowest held amplitude instead. If Q also
+//! exceeds 5e4, all members start at held amplitudes. Windows last at least 1.5 Q radians, and above Q = 5e4
+//! at least 0.45 Q. With the former length, the omitted start-up is three times as long as the slowest decay
+//! of an amplitude by a factor e.
 
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;

@@ -20,7 +20,7 @@ pub struct OperatingSettings {
     /// of the unloaded motors or, if all are loaded, the speed of the first motor without its load. A law of
     /// the load (table `[load]`) counts as a load. The reference is at least a hundredth of the platform's
     /// largest angular speed, and at least a hundredth of the change of speed that friction causes in a
-    /// radian of phase; otherwise the computation of a motor that hardly turns would never finish.
+    /// radian of phase. Otherwise the computation of a motor that hardly turns would never finish.
     pub relative_error: f64,
     /// Members of the ensemble, each with its own vertical motion, in [4, 4096]. Default 16.
     pub members: usize,

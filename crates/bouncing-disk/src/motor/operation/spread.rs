@@ -1,7 +1,7 @@
 //! The spread of a speed or a stall load over the tolerances of the inputs.
 //!
 //! Preload and amplitude of a motor are known to about one per cent, and the speed is a rough function of
-//! both: a motor may be trapped at one value and free at the next. Random samples show this; derivatives do
+//! both. A motor may be trapped at one value and free at the next. Random samples show this; derivatives do
 //! not (docs/numerics-dynamics.md, "The spread over the tolerances of the inputs").
 //!
 //! If the motor itself is run with 16 members, the 39 samples together cost as much as six operating points.
@@ -252,7 +252,7 @@ impl Motor {
     }
 
     /// The spread of the stall load (N m) over the tolerances of the inputs, to be stated together with the
-    /// error of [`Self::stall_load`] under the same settings; computing the spread costs up to nine times as
+    /// error of [`Self::stall_load`] under the same settings. Computing the spread costs up to nine times as
     /// much. The stall load of a sample may be below zero.
     ///
     /// The observer's items are the samples.

@@ -1,12 +1,12 @@
 //! An ensemble of vertical motions that runs until the speeds of all rotors are known well enough.
 //!
 //! If recording a vertical motion takes longer than replaying it, the inertia of slow rotors is reduced. They
-//! then rise in 0.3 P/e periods, or in 0.02 P/e for rigid impacts on a compliant stator; e is the requested
-//! error, at most 1 %, and P the platform's largest speed, at the largest held amplitude. The standard
-//! deviation of the speed is scaled back by the root of the inertia; on a cycle each rotor moves at its own
-//! inertia. Members on a compliant stator are split at the largest ratio of neighbouring amplitudes. They are
-//! split only if these amplitudes differ by more than the requested error and by five times the part that
-//! scatter in time explains, and if no group drifts.
+//! then rise in 0.3 P/e periods, or in 0.02 P/e for rigid impacts on a compliant stator. Here e is the
+//! requested error, at most 1 %, and P the platform's largest speed, at the largest held amplitude. The
+//! standard deviation of the speed is scaled back by the root of the inertia; on a cycle each rotor moves at
+//! its own inertia. Members on a compliant stator are split at the largest ratio of neighbouring amplitudes.
+//! They are split only if these amplitudes differ by more than the requested error and by five times the part
+//! that scatter in time explains, and if no group drifts.
 //!
 //! A rotor whose speed changes little in a flight has nearly the same mean speed at any inertia, but needs a
 //! run of several time constants. A third rotor with half of the reduced inertia shows the effect of the

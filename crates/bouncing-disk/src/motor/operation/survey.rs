@@ -7,9 +7,8 @@
 //! continues like one that starts from rest. A run is limited to 20,000 touches on a sine with compliant
 //! contacts, which are computed in closed form, and to 2,000 otherwise. The life of an irregular motion is
 //! counted from touch 256 to the last touch more than 5 % away from the final cycle. With compliant contacts
-//! further throws follow, 16 at a time, until one of these conditions holds: 64 irregular motions have ended,
-//! none of at least 16 has, or 600,000 touches or 256 starts are spent. Rigid impacts on a stator with kinks
-//! are not surveyed.
+//! further throws follow, 16 at a time, until 64 irregular motions have ended, none of at least 16 has ended,
+//! or 600,000 touches or 256 starts are spent. Rigid impacts on a stator with kinks are not surveyed.
 
 use std::f64::consts::TAU;
 

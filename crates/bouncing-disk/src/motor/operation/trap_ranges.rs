@@ -5,7 +5,7 @@
 //! preloads. The speeds inside a trap come from operating points near both edges and in the middle.
 //!
 //! From 4 to 6 N the motor of 40 kHz and 0.5 um has 17 traps of at least [`LEAST_TRAP_WIDTH`], each 0.11 to
-//! 0.16 % wide, with a speed of 8.35 rad/s inside and about 7.5 rad/s outside.
+//! 0.16 % wide. The speed is 8.35 rad/s inside and about 7.5 rad/s outside.
 
 use std::f64::consts::PI;
 

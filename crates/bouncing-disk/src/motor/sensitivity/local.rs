@@ -13,7 +13,7 @@
 //! *Test.* The rotary motion depends on friction, twist and radii only through μ and Q = a_g² Φ ω²/(a_e g).
 //! Hence the no-load speed is ω Φ times a function of Q/μ, and the stall torque is μ m g a_e times another
 //! function of Q/μ. If the speed has the exponent x in friction, its exponents in twist, contact radius and
-//! radius of gyration are 1 − x, x and −2 x; if the stall torque has the exponent y in twist, the other
+//! radius of gyration are 1 − x, x and −2 x. If the stall torque has the exponent y in twist, the other
 //! exponents are 1 − y, 1 − y and 2 y.
 //!
 //! **The vertical motion.** Speeds as functions of amplitude, preload, restitution and frequency are rough at

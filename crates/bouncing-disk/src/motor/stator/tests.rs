@@ -337,9 +337,9 @@ fn a_stator_yields_by_its_mass() {
     assert!(weighed.stator.expect("yields").amplitude.value < 1e-9, "{weighed:?}");
 }
 
-/// Under a load that decreases with the speed, a slow rotor has two stable speeds: in the first state it is
-/// driven back, on the steep part of the load below zero speed; the second is beyond the decrease. Under a
-/// load above the torque at rest, a rotor that starts from rest stays in the first state.
+/// Under a load that decreases with the speed, a slow rotor has two stable speeds. In the first state it is
+/// driven back, on the steep part of the load below zero speed; the second state is beyond the decrease.
+/// Under a load above the torque at rest, a rotor that starts from rest stays in the first state.
 #[test]
 fn a_load_that_falls_with_the_speed_leaves_two_operations() {
     let sheet = |inertia: f64, most: f64| {
@@ -392,7 +392,7 @@ fn a_load_that_falls_with_the_speed_leaves_two_operations() {
 }
 
 /// The mean torque of a load that depends on the speed is the torque at the mean speed if this stays on one
-/// straight line, with or without a node on it; the requested torque is added. A time-dependent load is an
+/// straight line, with or without a node on it. The requested torque is added. A time-dependent load is an
 /// error.
 #[test]
 fn operating_points_are_under_the_law_of_the_load() {

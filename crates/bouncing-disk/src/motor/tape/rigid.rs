@@ -37,7 +37,7 @@ pub(crate) struct RigidTape {
 
 impl RigidTape {
     /// A disk that lies on the platform at `phase`, or is thrown up from it with this multiple of the
-    /// platform's largest speed; each separation is perturbed by a speed of up to this size from a stream
+    /// platform's largest speed. Each separation is perturbed by a speed of up to this size from a stream
     /// with this seed.
     pub(crate) fn new(
         system: &DimensionlessSystem,

@@ -505,9 +505,9 @@ impl TapSolver {
 
     /// The flight from a release with this `gap` < 0 and `velocity` to the next touch, if it can be decided.
     ///
-    /// Let z = k y + c y', the force by which spring and damper would pull at the gap y. y exp(k t/c) rises
-    /// while z > 0 and falls while z < 0. So y vanishes at most once after z has fallen below zero for good.
-    /// At the release z is zero and rises.
+    /// Let z = k y + c y', the force by which spring and damper would pull at the gap y. The product y exp(k
+    /// t/c) rises while z > 0 and falls while z < 0. So y vanishes at most once after z has fallen below zero
+    /// for good. At the release z is zero and rises.
     #[must_use]
     pub(crate) fn flight(&self, phase: Phase, gap: f64, velocity: f64) -> Option<TapTouch> {
         let (sin, cos) = (phase.sin(), phase.cos());

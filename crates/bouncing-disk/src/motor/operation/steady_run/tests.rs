@@ -50,9 +50,9 @@ fn operated(motors: &[LoadedMotor<'_>], settings: &OperatingSettings) -> Vec<Ope
         .collect()
 }
 
-/// Over whole runs the energy supplied equals the sum of the work done, the losses and the stored energy:
-/// with loads that brake, that drive, and that nearly cause a runaway, on platforms of every strength, with
-/// and without twist, friction and rebound.
+/// Over whole runs the energy supplied equals the sum of the work done, the losses and the stored energy. The
+/// cases are loads that brake, that drive, and that nearly cause a runaway, on platforms of every strength,
+/// with and without twist, friction and rebound.
 #[test]
 fn energy_is_balanced() {
     let settings = OperatingSettings {
