@@ -105,7 +105,7 @@ pub(crate) struct Fourier {
     harmonics: Vec<Harmonic>,
     /// The bounds except for the height: [`Self::bounds`].
     bounds: DriveBounds,
-    /// The bounds of the height, computed on first use because they take far longer than all else.
+    /// The bounds of the height, computed on first use because this takes far longer than everything else.
     heights: OnceLock<(f64, f64)>,
 }
 
@@ -187,7 +187,7 @@ impl Drive {
     }
 
     /// The derivative of this order (0 to 2; 0 is the height) from `time` on, as a function of the time
-    /// elapsed; it holds up to the next joint.
+    /// elapsed; valid up to the next joint.
     #[must_use]
     pub fn derivative(&self, order: u32, time: f64) -> QuasiPolynomial {
         let bounds = self.bounds();

@@ -1,17 +1,17 @@
 //! Orbits near a fold of a drive's map: whether they exist, how many there are, and where they are
 //! (docs/numerics-impacts.md, "Periodic orbits").
 //!
-//! The end of an iteration proves an orbit only away from folds. Near folds, |1 - T + D| is below 1e-4 of the
-//! size of the derivative, or the trace changes by more than half of 1 - T + D within twice the error (where
-//! the acceleration jumps). Then a curve decides: all sequences of flights that close if the end of the last
-//! flight is pushed along the weak direction. This curve is followed to |t| = 7e-4, t the displacement of the
-//! first impact along the weak direction. The sign of the derivative of the push brackets the extremes of the
-//! push, including corners at which the acceleration jumps. The sign of the push is certain beyond four times
-//! the response to 1e-14 in each flight. An extreme within rounding is one marginal orbit, whose errors reach
-//! to the certain points on both sides. An orbit that repeats a shorter one within 0.1 rad is near the
-//! doubling at which it is born, not near a fold. Its errors include rounding errors with opposite signs in
-//! both halves, the direction in which it is weak. If the curve cannot be followed, the orbit counts as
-//! marginal.
+//! The end of an iteration proves an orbit only away from folds. An orbit counts as near a fold if |1 - T +
+//! D| is below 1e-4 of the size of the derivative, or if the trace changes by more than half of 1 - T + D
+//! within twice the error (where the acceleration jumps). Then a curve decides: all sequences of flights that
+//! close if the end of the last flight is pushed along the weak direction. This curve is followed to |t| =
+//! 7e-4, t the displacement of the first impact along the weak direction. The sign of the derivative of the
+//! push brackets the extremes of the push, including corners at which the acceleration jumps. The sign of the
+//! push is certain beyond four times the response to 1e-14 in each flight. An extreme within rounding is one
+//! marginal orbit, whose errors reach to the certain points on both sides. An orbit that repeats a shorter
+//! one within 0.1 rad is near the doubling at which it is born, not near a fold. Its errors include rounding
+//! errors with opposite signs in both halves, the direction in which it is weak. If the curve cannot be
+//! followed, the orbit counts as marginal.
 
 use core::f64::consts::TAU;
 

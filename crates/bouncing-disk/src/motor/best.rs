@@ -3,7 +3,7 @@
 //! A grid of points is computed roughly; candidates for the best one are computed again with smaller errors,
 //! and finer grids surround the best one. Lines of points through the best one determine the position and the
 //! width of the optimum. The value is measured there, with perturbations other than those that selected the
-//! point. docs/numerics-dynamics.md, "Optimisation of a quantity".
+//! point. See docs/numerics-dynamics.md, "Optimisation of a quantity".
 //!
 //! Eight seeds alternate along a line, because points of one seed may share a vertical motion and its errors.
 //! Each end of the range within 1 % is moved inwards by its 95 % error, from a jackknife over the seeds with
@@ -61,7 +61,7 @@ const DEAR_SIDE: i32 = 8;
 const SURER: f64 = 2.0;
 
 /// Seeds that alternate along a line, because points of one seed may share a vertical motion and its errors.
-/// If they share one, all seeds together use `SHARED` times the impacts of a point with its own motion.
+/// If they do, all seeds together use `SHARED` times the impacts of a point with its own motion.
 const SEEDS: usize = 8;
 const SHARED: f64 = 2.0;
 

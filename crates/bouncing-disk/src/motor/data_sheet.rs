@@ -151,9 +151,9 @@ impl Motor {
         self.parameters.spring_constant.map(|constant| self.preload_force() / constant)
     }
 
-    /// A bound on the height of the rotor (m) above its position on the stator at mid-height. It holds for
-    /// all flights of a motor that starts from rest and of every attractor, for a sinusoidal stator
-    /// (docs/numerics-dynamics.md, "A bound on flight heights").
+    /// A bound on the height of the rotor (m) above its position on the stator at mid-height. For a
+    /// sinusoidal stator, the bound holds for all flights of a motor that starts from rest, and of every
+    /// attractor (docs/numerics-dynamics.md, "A bound on flight heights").
     #[must_use]
     pub fn highest_rise(&self) -> f64 {
         let system = &self.system;

@@ -68,7 +68,7 @@ pub(crate) struct Field {
 const FREQUENCIES: (f64, f64) = (2.0e4, 2.0e5);
 const LENGTHS: (f64, f64) = (1.0e-4, 0.1);
 const FORCES: (f64, f64) = (0.1, 500.0);
-/// The lower end is that of a rotor that rests on its stator under its own weight.
+/// The lower end is for a rotor that rests on its stator under its own weight.
 const ACCELERATIONS: (f64, f64) = (9.8, 1.0e5);
 const AMPLITUDES: (f64, f64) = (1.0e-9, 1.0e-5);
 const MASSES: (f64, f64) = (1.0e-4, 1.0);

@@ -2,8 +2,8 @@
 //!
 //! In the model's units, let V be the rotor's absolute upward velocity just after an impact, and U, |U| <= P,
 //! the platform's. Launch and impact are both on the platform, so their heights differ by at most 2 P, and
-//! the speed v at the next impact obeys v^2 <= V^2 + 4 P. The impact law gives V' = U + r (U - v^) = (1 + r)
-//! U - r v^ with the velocity v^ >= -v before the impact, so
+//! the speed v at the next impact obeys v^2 <= V^2 + 4 P. By the impact law, V' = U + r (U - v^) = (1 + r) U -
+//! r v^ with the velocity v^ >= -v before the impact, so
 //!
 //! ```text
 //! V' <= (1 + r) P + r sqrt(V^2 + 4 P) = f(|V|).

@@ -104,8 +104,8 @@ impl Averages<'_> {
         }
     }
 
-    /// The range of the speed: that of the middle 95 % of the time, or the whole range in a cycle. The rotors
-    /// have `quicker` times less inertia than their motor. `None` if too few speeds are known.
+    /// The range of the speed during 95 % of the time, or over a whole cycle. The rotors have `quicker` times
+    /// less inertia than their motor. `None` if too few speeds are known.
     pub(super) fn speed_range(&self, quicker: f64) -> Option<[Estimate; 2]> {
         let pairs = match self {
             Self::Cycle { sums, .. } => {

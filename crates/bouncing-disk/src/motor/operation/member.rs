@@ -4,9 +4,9 @@
 //! members start with the stator at rest; they decide the first branch. Another quarter start with the
 //! stator's motion without a rotor, and half start at held amplitudes. If M Q exceeds 1e5, a stator at rest
 //! would ring for the whole run, so members from rest start at the lowest held amplitude instead. If Q also
-//! exceeds 5e4, all members start at held amplitudes. Windows last at least 1.5 Q radians, and above Q = 5e4
-//! at least 0.45 Q. With the former length, the omitted start-up is three times as long as the slowest decay
-//! of an amplitude by a factor e.
+//! exceeds 5e4, all members start at held amplitudes. Windows last at least 1.5 Q radians, so that the
+//! omitted start-up is three times as long as the slowest decay of an amplitude by a factor e. Above Q = 5e4
+//! they last at least 0.45 Q.
 
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
@@ -150,8 +150,8 @@ impl Starts {
     /// The start of the member with this index and phase. Every second member starts at one of the held
     /// amplitudes in turn, on the motion that belongs to it or thrown up. Half of the others start with the
     /// stator at rest; if settling from rest takes too long, they start at the lowest held amplitude, which a
-    /// run from rest also reaches. The other half start with the stator's motion without a rotor, unless that
-    /// takes too long to leave.
+    /// run from rest also reaches. The other half start with the stator's motion without a rotor, unless
+    /// leaving this motion takes too long.
     pub(crate) fn of(&self, index: usize, phase: Phase) -> Option<(PhaseTime, StatorState)> {
         let (count, share) = (self.held.len(), golden_share(index));
         let (turn, disk) = match (is_thrown(index), index / 2 / count.max(1) % 2) {
