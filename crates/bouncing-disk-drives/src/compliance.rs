@@ -87,7 +87,7 @@ pub enum SpringState {
 }
 
 impl Compliance {
-    /// Least and largest restitution of a compliant contact. Closer to 1 too many digits would be lost at a
+    /// Least and largest restitution of a compliant contact. Closer to 1, too many digits would be lost at a
     /// resonance, where free and forced oscillations 1/(1 - e) times as large as the platform's cancel.
     pub const RESTITUTIONS: [f64; 2] = [0.001, 1.0 - 1.0e-6];
 

@@ -70,7 +70,7 @@ pub struct DriveState {
 pub struct DriveBounds {
     /// Lower bound on the height.
     pub lowest: f64,
-    /// Upper bound on the height, at most 1e-4 of the amplitudes above the highest point.
+    /// Upper bound on the height, at most 1e-4 of the sum of the amplitudes above the highest point.
     pub highest: f64,
     /// Bound on the speed.
     pub speed: f64,
@@ -322,7 +322,7 @@ impl Drive {
         self.as_pieces().map(|pieces| pieces.next_joint(wrapped_angle(time)))
     }
 
-    /// The sine for closed forms, if this drive is one.
+    /// This drive as a sine with closed forms, if it is one.
     #[must_use]
     pub fn as_vibration(&self) -> Option<Vibration> {
         let Shape::Fourier(fourier) = &self.shape else { return None };

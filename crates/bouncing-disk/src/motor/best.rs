@@ -160,8 +160,8 @@ pub struct BestValue {
     pub field: MotorField,
     /// Its value, in the unit of the field, with its standard error.
     pub value: Estimate,
-    /// The range around it, with the other field at its optimum, in which the quantity is at least 99 % of
-    /// its best value and the bounds are satisfied. `None` if the curve is too rough to tell, as near a
+    /// The range around this value, with the other field at its optimum, in which the quantity is at least 99
+    /// % of its best value and the bounds are satisfied. `None` if the curve is too rough to tell, as near a
     /// locked motion. The range of a phase lag may extend beyond the circle.
     pub good_from_to: Option<[f64; 2]>,
     /// Whether the optimum lies at an end of the searched range.

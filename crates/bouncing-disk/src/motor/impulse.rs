@@ -60,8 +60,9 @@ pub struct NormalImpulses {
 
 impl NormalImpulses {
     /// The impulses of at least `impacts` impacts from one separation to a later one; empty if the platform
-    /// never falls away. Each separation gets a relative speed, uniformly distributed below `perturbation`
-    /// (in units of g/omega, in [0, 1e100]). The last, incomplete cycle is omitted unless it is the only one.
+    /// never falls away. Each separation is perturbed by a relative speed, uniformly distributed below
+    /// `perturbation` (in units of g/omega, in [0, 1e100]). The last, incomplete cycle is omitted unless it
+    /// is the only one.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for the perturbation; an error of the core for more than [`MAX_EXAMINED`]

@@ -33,12 +33,12 @@ use crate::motor::parameter_sweep::axis::{SweepAxis, cells, check_axes, sheet_of
 /// Cells with the same vertical motion (they differ only in load, friction, phase lag, twist, radii or mass)
 /// are computed on one orbit, wherever they lie. A map of load and phase lag needs a single orbit, a map of
 /// amplitude and load one for each amplitude. (On a compliant stator, cells with different masses have
-/// separate orbits; if a mode of the stator twists, each cell has its own.) Such a group, of 256 cells at
-/// most, runs until each of its cells is known well enough. A value in a cell therefore depends on the rest
-/// of its group, within its standard error. The cells of a group share their perturbations, so their
-/// differences are more precise than their values. A cell whose rotor acts back on its stator may use a
-/// hundredth of the impacts that the settings allow, because computing such an impact takes a hundred times
-/// as long.
+/// separate orbits; if a mode of the stator twists, each cell has its own.) Cells on one orbit form a group,
+/// of 256 cells at most, which runs until each of its cells is known well enough. A value in a cell therefore
+/// depends on the rest of the group, within its standard error. The cells of a group share their
+/// perturbations, so their differences are more precise than their values. A cell whose rotor acts back on
+/// its stator may use a hundredth of the impacts that the settings allow, because computing such an impact
+/// takes a hundred times as long.
 ///
 /// Groups depend on the sweep alone. The results have the same bits for any number of threads.
 ///

@@ -182,8 +182,7 @@ impl MotorSimulation {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for illegal inputs and settings; [`Error::LoadInTime`] for a table `[load]` that
-    /// depends on time, for which the inputs serve instead; [`Error::BothGiven`] for a contact with
-    /// hysteresis.
+    /// depends on time (change the inputs instead); [`Error::BothGiven`] for a contact with hysteresis.
     pub fn new(motor: &Motor, inputs: MotorInputs, settings: SimulationSettings) -> Result<Self, Error> {
         let perturbation = moderate_not_negative("relaunch_perturbation", settings.relaunch_perturbation)?;
         motor.parameters().drive.sine()?;

@@ -88,7 +88,7 @@ impl Motor {
         curve_of(self.loaded()?, load_torques, settings, observer)
     }
 
-    /// The mean speed without load (rad/s). Its error may exceed the requested one.
+    /// The mean speed without load (rad/s). Its error may exceed the requested error.
     ///
     /// # Errors
     /// The errors of [`Self::operating_point`]; [`Error::NotSettled`] if the speed still drifts or depends on

@@ -143,8 +143,8 @@ pub struct OperatingPoint {
     /// Standard deviation of the speed over time (rad/s); `None` for a rotor that acts back on its stator.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub speed_deviation: Option<Estimate>,
-    /// The speed range (rad/s) of the rotor: 95 % of the time, or all of it if its motion repeats; `None` for
-    /// a rotor that acts back on its stator.
+    /// The range (rad/s) of the rotor's speed during 95 % of the time, or over a whole cycle if the motion
+    /// repeats; `None` for a rotor that acts back on its stator.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub speed_range: Option<[Estimate; 2]>,
     /// Time constant (s) of the speed, from the slope of the torque-speed curve: the moment of inertia times
@@ -152,8 +152,8 @@ pub struct OperatingPoint {
     /// other load has a different speed, as for a locked motor, and for a rotor that acts back on its stator.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub time_constant: Option<Estimate>,
-    /// The speed (rad/s) between two that the rotor may keep, if the load decreases with the speed; beyond it
-    /// the rotor changes to the other of the two.
+    /// The speed (rad/s) between the two that the rotor may keep if the load decreases with the speed; a
+    /// rotor that passes this speed changes to the other one.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub unstable_speed: Option<Estimate>,
     /// Mean torque (N m) of friction on a rotor that is held at rest; `None` for a rotor that acts back on
@@ -162,7 +162,7 @@ pub struct OperatingPoint {
     pub blocked_torque: Option<Estimate>,
     /// Mechanical power, the mean of load torque times speed (W); negative if the load drives the motor.
     pub mechanical_power: Estimate,
-    /// Power that the platform puts in by normal forces and by friction (W).
+    /// Power (W) that the platform supplies by normal forces and by friction.
     pub input_power: Estimate,
     /// Power lost in the restitution of impacts (W).
     pub restitution_loss: Estimate,

@@ -1,4 +1,4 @@
-//! Ranges of the preload that trap a motor, and the nearest one.
+//! Ranges of the preload that trap a motor, and the nearest trap.
 //!
 //! A scan judges preloads whose logarithms are half of the least width apart, and bisects to the edges of
 //! each trap. The scan finds every trap of at least that width, unless the trap has a hole at one of these
@@ -75,7 +75,7 @@ pub struct NearestTrap {
     pub forcing_from_to: [f64; 2],
     /// The motion of the rotor in the middle of this range.
     pub verdict: TrapVerdict,
-    /// Step of the scan in Gamma: it may have missed traps narrower than two steps.
+    /// Step of the scan in Gamma; traps narrower than two steps may have been missed.
     pub forcing_step: f64,
 }
 

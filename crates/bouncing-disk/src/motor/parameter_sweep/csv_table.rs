@@ -13,8 +13,8 @@ impl MotorSweepResult {
     /// `down`; `branch`, 1 for the branch that most rotors reach from rest; `motion`, which is `irregular`,
     /// `periodic` or `contact`; `life_s`, the mean life of an irregular motion, if some were seen to end;
     /// `state`, which is `steady`, `unsettled` or `runaway`; `shortfall` of an unsettled cell: `error`,
-    /// `drift` or `power-balance`; each [`SweepQuantity`] of the table ([`SweepQuantity::of_table`]) followed
-    /// by its standard error (`speed_rad_s`, `speed_error_rad_s`); the other numbers of an
+    /// `drift`, `start` or `power-balance`; each [`SweepQuantity`] of the table ([`SweepQuantity::of_table`])
+    /// followed by its standard error (`speed_rad_s`, `speed_error_rad_s`); the other numbers of an
     /// [`OperatingPoint`]; `largest_torque_n_m` and `acceleration_rad_s2` of a runaway. Missing values are
     /// empty.
     #[must_use]
