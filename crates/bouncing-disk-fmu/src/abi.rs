@@ -1,7 +1,7 @@
 //! The functions of FMI 3.0, as a master calls them.
 //!
-//! A master passes the handles that it was given, and arrays as long as it says: that is what the standard
-//! demands of it, and nothing here can check it. Null pointers are errors.
+//! The standard obliges a master to pass the handles that it was given, and arrays of the stated length;
+//! nothing here can check this. Null pointers are errors.
 
 #![allow(unsafe_code, reason = "the interface is one of C")]
 #![allow(non_snake_case, reason = "the names are those of the standard")]
@@ -44,13 +44,13 @@ impl Logger {
     }
 }
 
-/// The error of a panic, which must not leave through C.
+/// Turns a panic, which must not unwind into C, into an error.
 fn caught<T>(call: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(call))
         .unwrap_or_else(|_| Err("an internal error; please report it".to_owned()))
 }
 
-/// Calls an instance; an error goes into its log.
+/// Calls a method of an instance and writes an error to its log.
 unsafe fn with(handle: *mut Handle, call: impl FnOnce(&mut Instance) -> Result<(), String>) -> i32 {
     // SAFETY: null, or a handle of this library that lives.
     let Some(handle) = (unsafe { handle.as_mut() }) else { return ERROR };
@@ -63,7 +63,7 @@ unsafe fn with(handle: *mut Handle, call: impl FnOnce(&mut Instance) -> Result<(
     }
 }
 
-/// An array of the master.
+/// An array passed by the master.
 unsafe fn array<'a, T>(start: *const T, count: usize) -> Result<&'a [T], String> {
     match (count, start.is_null()) {
         (0, _) => Ok(&[]),
@@ -89,7 +89,7 @@ unsafe fn write<T>(to: *mut T, value: T) {
     }
 }
 
-/// A folder on this machine: a path or, as FMI 2.0 had it and some masters still pass it, an address by RFC 8089.
+/// A folder on this machine, given as a path or, as in FMI 2.0 and by some masters still, as a URI of RFC 8089.
 fn folder_of(text: &str) -> Result<PathBuf, String> {
     let Some(address) =
         text.get(..5).filter(|scheme| scheme.eq_ignore_ascii_case("file:")).map(|_| &text[5..])
@@ -115,8 +115,8 @@ fn folder_of(text: &str) -> Result<PathBuf, String> {
     Ok(PathBuf::from(if is_drive { &decoded[1..] } else { &decoded }))
 }
 
-/// The text with %20 and the like decoded; a percent sign that begins no such code stays. `None` if the
-/// result is not UTF-8.
+/// The text with codes such as %20 decoded; a percent sign that begins no code stays. `None` if the result is
+/// not UTF-8.
 fn decoded(text: &str) -> Option<String> {
     let (bytes, mut decoded, mut at) = (text.as_bytes(), Vec::new(), 0);
     while let Some(&byte) = bytes.get(at) {
@@ -182,7 +182,7 @@ unsafe extern "C" fn fmi3FreeInstance(handle: *mut Handle) {
     }
 }
 
-/// Errors are reported whatever the master asks for; there is nothing else to say.
+/// Does nothing: errors are always reported, and there are no other messages.
 #[unsafe(no_mangle)]
 extern "C" fn fmi3SetDebugLogging(
     _handle: *mut Handle,
@@ -335,7 +335,7 @@ unsafe extern "C" fn fmi3FreeFMUState(_handle: *mut Handle, state: *mut *mut Ins
     OK
 }
 
-/// Functions of types that no variable has: for no variables they do nothing.
+/// Functions for types that no variable has; for an empty list of variables they do nothing.
 macro_rules! of_no_variable {
     ($($name:ident)*) => {$(
         #[unsafe(no_mangle)]
@@ -355,8 +355,8 @@ of_no_variable! {
     fmi3SetUInt64 fmi3SetBoolean fmi3SetString fmi3SetBinary fmi3SetClock
 }
 
-/// Functions for features that this unit lacks by its description, which masters look for all the same; the
-/// caller removes the other arguments.
+/// Functions for features that this unit lacks, as its description states; masters look for them nevertheless.
+/// The caller removes the other arguments.
 macro_rules! not_there {
     ($($name:ident)*) => {$(
         #[unsafe(no_mangle)]
@@ -381,7 +381,7 @@ not_there! {
     fmi3ActivateModelPartition
 }
 
-/// No instances of the other kinds of units.
+/// Functions that create other kinds of units; they return no instance.
 macro_rules! of_another_kind {
     ($($name:ident)*) => {$(
         #[unsafe(no_mangle)]

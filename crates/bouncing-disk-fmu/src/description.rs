@@ -28,8 +28,8 @@ const UNITS: &[(&str, &str)] = &[
     ("W", "kg=\"1\" m=\"2\" s=\"-3\""),
 ];
 
-/// The token that an instance must be given to show that it belongs to this description: a hash (FNV-1a) of the data sheet and of
-/// the version.
+/// The token by which an instance checks that it was made for this description: a hash (FNV-1a) of the data
+/// sheet and the version.
 pub(crate) fn token(sheet: &str) -> String {
     let hash = |basis: u64| {
         let bytes = sheet.bytes().chain(env!("CARGO_PKG_VERSION").bytes());

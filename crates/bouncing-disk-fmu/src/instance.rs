@@ -1,4 +1,4 @@
-//! An instance of the unit: which calls are legal in which state, and their actions.
+//! An instance of the unit: the calls that are legal in each state, and their actions.
 
 use bouncing_disk::Motor;
 use bouncing_disk::core::Unobserved;
@@ -6,10 +6,11 @@ use bouncing_disk::motor::{MotorInputs, MotorOutputs, MotorSimulation, Simulatio
 
 use crate::variables::{Role, Variable, variables};
 
-/// A communication point is where the last step ended, within this share of the step and the rounding of the times.
+/// A communication point must equal the end of the last step within this share of the step and the rounding of
+/// the times.
 const SAME_POINT: f64 = 1.0e-9;
 
-/// 2^53: a double holds no larger numbers one by one.
+/// 2^53: above it, a double cannot represent every whole number.
 const MOST_SEED: f64 = 9_007_199_254_740_992.0;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,12 +21,12 @@ enum Mode {
     Terminated,
 }
 
-/// A motor of its own; a clone is a stored state.
+/// An independent motor; its clone serves as a stored state.
 #[derive(Debug, Clone)]
 pub(crate) struct Instance {
     motor: Motor,
     variables: Vec<Variable>,
-    /// The values of the variables; those of outputs have no meaning.
+    /// The values of the variables; entries for outputs have no meaning.
     values: Vec<f64>,
     mode: Mode,
     start: f64,
@@ -125,7 +126,7 @@ impl Instance {
         inputs
     }
 
-    /// The motion, which begins here if it has not.
+    /// The motion, which starts here if it has not started yet.
     fn started(&mut self) -> Result<&mut (MotorSimulation, MotorOutputs), String> {
         if self.running.is_none() {
             let mut settings = SimulationSettings::default();
@@ -153,7 +154,7 @@ impl Instance {
         self.running.as_mut().ok_or_else(|| "the motor has not started".to_owned())
     }
 
-    /// Goes on from a communication point by a step; how far it came.
+    /// Advances from a communication point by a step and returns the time reached.
     pub(crate) fn step(&mut self, point: f64, step: f64) -> Result<f64, String> {
         self.to(&[Mode::Step], Mode::Step)?;
         let (start, reached) = (self.start, self.get(0)?);

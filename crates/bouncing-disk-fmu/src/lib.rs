@@ -1,14 +1,15 @@
 //! An ultrasonic motor as a functional mock-up unit (FMU) of [FMI 3.0](https://fmi-standard.org), for co-simulation with
 //! the drive train around it.
 //!
-//! This library is the binary of the unit, and [`packed`] makes the unit of a data sheet from it. The motor is a
-//! [`MotorSimulation`](bouncing_disk::motor::MotorSimulation): impacts are exact inside of a step, and for constant
-//! inputs the motion does not depend on the steps, to the last bit.
+//! This library is the binary of the unit; [`packed`] adds a data sheet and makes the unit. The motor is a
+//! [`MotorSimulation`](bouncing_disk::motor::MotorSimulation): impacts within a step are exact, and for
+//! constant inputs the motion does not depend on the steps, to the last bit.
 //!
-//! All variables are of the type Float64, because some masters know no other. Every instance is independent of the
-//! others, states can be stored and restored, and the log names each error.
+//! All variables are of the type Float64, because some masters support no other. Instances are independent of
+//! each other, states can be stored and restored, and the log names each error.
 //!
-//! No crate writes this interface here: the one there is (`fmi-export`) has no stored states, and brings 150 others.
+//! The interface is written by hand: the existing crate for it (`fmi-export`) cannot store states and depends
+//! on 150 others.
 
 #![deny(unsafe_op_in_unsafe_fn)]
 

@@ -13,15 +13,15 @@ use crate::description::{IDENTIFIER, description};
 /// The data sheet among the resources.
 pub(crate) const SHEET: &str = "motor.json";
 
-/// Why a motor gives no unit.
+/// Why a unit cannot be made of a motor.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum PackageError {
-    /// The motor cannot go on from step to step.
+    /// The motor cannot be simulated step by step.
     Motor(bouncing_disk::Error),
-    /// The library is not one of this version.
+    /// The library is not of this version.
     Library,
-    /// The standard has no name for this machine.
+    /// The standard has no name for machines of this kind.
     Machine,
     /// The archive cannot be written.
     Archive(String),
@@ -49,11 +49,11 @@ pub fn library_name() -> String {
     format!("{DLL_PREFIX}bouncing_disk_fmu{DLL_SUFFIX}")
 }
 
-/// What every library of this version holds: an end of one of its messages.
+/// A text that every library of this version contains: the end of one of its messages.
 const MARK: &str = concat!("made by bouncing-disk ", env!("CARGO_PKG_VERSION"));
 
-/// The unit of a motor as the bytes of an archive, with this library as its binary; the same motor and library give the
-/// same bytes.
+/// The unit of a motor as the bytes of an archive, with this library as its binary; equal motors and libraries
+/// give equal bytes.
 ///
 /// # Errors
 /// [`PackageError`].

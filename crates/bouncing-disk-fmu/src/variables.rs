@@ -1,9 +1,9 @@
-//! What a unit shows of its motor.
+//! The variables of a unit.
 
 use bouncing_disk::Motor;
 use bouncing_disk::motor::{MotorField, MotorInputs, MotorOutputs, SimulationSettings};
 
-/// What may be done with a variable.
+/// The use of a variable.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Role {
     Time,
@@ -14,7 +14,7 @@ pub(crate) enum Role {
     Output(fn(&MotorOutputs) -> f64),
 }
 
-/// A variable; its reference is its place.
+/// A variable; its index is its value reference.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Variable {
     pub(crate) name: &'static str,

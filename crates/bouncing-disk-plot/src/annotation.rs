@@ -97,7 +97,7 @@ impl Arrow {
     }
 }
 
-/// A line through points on the page and the head at its last point; nothing where the head has no direction.
+/// A line through points on the page with a head at the last one; empty if the head has no direction.
 pub(crate) fn arrow(points: &[Point], stroke: Stroke, head: f64) -> Vec<(BezPath, Style)> {
     let [start @ .., tip] = points else { return Vec::new() };
     let Some(before) = start.last() else { return Vec::new() };

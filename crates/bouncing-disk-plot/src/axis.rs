@@ -7,7 +7,7 @@ use crate::label::Label;
 use crate::numbers::extent;
 use crate::ticks::{self, PlacedTicks, Ticks};
 
-/// Range, scale, label and ticks of one axis. The first end of the range is at the left or below; an axis may
+/// Range, scale, label and ticks of one axis. The first end of the range is on the left or at the bottom; an axis may
 /// run backwards.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
@@ -22,15 +22,15 @@ pub struct Axis {
 }
 
 builders!(Axis {
-    /// What the axis shows, with its unit.
+    /// Sets the label: the quantity that the axis shows, with its unit.
     label(label: impl Into<Label>) |own| own.label = label.into();
     /// Chooses the ticks.
     ticks(ticks: Ticks) |own| own.ticks = ticks;
-    /// Keeps the ticks and leaves out their numbers, where a neighbouring panel shows them.
+    /// Keeps the ticks but omits their numbers, which a neighbouring panel shows.
     without_numbers() |own| own.shows_numbers = false;
-    /// The distance in points from the frame to the label, to align the labels of several panels.
+    /// Sets the distance in points from the frame to the label, to align the labels of several panels.
     label_distance(points: f64) |own| own.label_distance = Some(points);
-    /// The colour of its numbers and its label, where two axes belong to two quantities.
+    /// Sets the colour of the numbers and the label, to distinguish the axes of two quantities.
     colour(colour: Colour) |own| own.colour = colour;
 });
 
@@ -60,13 +60,13 @@ impl Axis {
         Self { logarithmic: true, ..Self::linear(first, last) }
     }
 
-    /// A linear axis that holds all finite values, with a margin on both sides and three to five labels.
+    /// A linear axis that contains all finite values, with a margin on both sides and three to five labels.
     pub(crate) fn around(values: impl IntoIterator<Item = f64>) -> Self {
         let (low, high) = Self::ends_around(values);
         Self::spanned(low, high)
     }
 
-    /// The ends of such an axis.
+    /// The ends of the axis of [`Self::around`].
     pub(crate) fn ends_around(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
         let (low, high) = extent(values);
         let (low, high) = if low <= high { (low, high) } else { (0.0, 1.0) };

@@ -3,7 +3,7 @@
 /// Writes builder methods, each from its name, its arguments and its action on the value: `/// Doc.`,
 /// `name(argument: Type) |own| own.field = argument;`.
 ///
-/// Those that layers share need only their names. They set parts of the field `style` of a layer (a
+/// Methods that several layers share need only their names. They set parts of a layer's field `style` (a
 /// [`Style`](crate::style::Style) or a [`TextStyle`](crate::style::TextStyle)) or its field `name`.
 macro_rules! builders {
     ($type:ident {

@@ -9,7 +9,7 @@ use glam::{DAffine3, DMat3, DVec3};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     eye: DVec3,
-    /// Space as the eye has it: x to the right, y upwards, the target on the negative z axis.
+    /// Space as seen from the eye: x to the right, y upwards, the target on the negative z axis.
     view: DAffine3,
     distance: f64,
 }
@@ -23,19 +23,19 @@ impl Camera {
         Self { eye, view: look_at_affine3(eye, target, DVec3::Z), distance }
     }
 
-    /// Where the eye is.
+    /// The position of the eye.
     pub fn eye(&self) -> DVec3 {
         self.eye
     }
 
-    /// A point as it appears, the target at the origin, `y` upwards.
+    /// The position of a point in the picture, with the target at the origin and `y` upwards.
     pub fn project(&self, point: DVec3) -> (f64, f64) {
         let seen = self.view.transform_point3(point);
         let scale = -self.distance / seen.z;
         (scale * seen.x, scale * seen.y)
     }
 
-    /// Whether a surface at `point` with this outward normal turns its front to the eye.
+    /// Whether a surface at `point` with this outward normal faces the eye.
     pub fn faces(&self, point: DVec3, normal: DVec3) -> bool {
         normal.dot(self.eye - point) > 0.0
     }

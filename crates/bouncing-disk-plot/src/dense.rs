@@ -55,7 +55,7 @@ impl DensePoints {
 /// Rows per pixel on which the chord of a disc is measured.
 const ROWS: usize = 4;
 
-/// How much discs cover each pixel of an image, from 0 to 255. Lengths are pixels.
+/// The share of each pixel of an image that discs cover, from 0 to 255. Lengths are in pixels.
 fn paint(
     width: usize,
     height: usize,

@@ -41,7 +41,7 @@ builders!(Drawing {
         let circle = Circle::new(Point::ZERO, 1.0).to_path(1e-3);
         own.shape(own.to_page() * place * circle, style)
     };
-    /// Adds a text; an [`Anchor`] alone is a style, too.
+    /// Adds a text; an [`Anchor`] alone also serves as a style.
     text(at: (f64, f64), style: impl Into<TextStyle>, label: impl Into<Label>) |own|
         own.items.push(Item::Text(own.to_page() * Point::from(at), label.into(), style.into()));
     /// Adds a line through points with a head of 5 points at the last one.
@@ -62,7 +62,7 @@ impl Drawing {
         Self { area, x, y, items: Vec::new() }
     }
 
-    /// A drawing with the same scale in both directions: the local range is widened in the direction that has
+    /// A drawing with the same scale in both directions: the local range is widened in the direction with spare
     /// room.
     pub fn with_equal_scales(area: Rect, x: (f64, f64), y: (f64, f64)) -> Self {
         let (per_x, per_y) = (area.width / (x.1 - x.0).abs(), area.height / (y.1 - y.0).abs());
@@ -108,7 +108,7 @@ impl Drawing {
         arrow(&points, stroke, head).into_iter().for_each(|(path, style)| self.shape(path, style));
     }
 
-    /// The local coordinates of a place on the page, for letters in the corner of a drawing with widened
+    /// The local coordinates of a point on the page, for letters in the corner of a drawing with widened
     /// ranges.
     pub fn local(&self, place: (f64, f64)) -> (f64, f64) {
         (self.to_page().inverse() * Point::from(place)).into()

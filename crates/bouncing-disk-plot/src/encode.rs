@@ -2,7 +2,7 @@
 
 use crate::error::DrawError;
 
-/// An image of eight bits per sample; `settings` choose its colours and how hard it is compressed.
+/// An image of eight bits per sample; `settings` choose its colours and its compression.
 pub(crate) fn png<'a>(
     [width, height]: [usize; 2],
     pixels: &[u8],

@@ -28,7 +28,7 @@ pub enum DrawError {
         /// The source of the label.
         label: String,
     },
-    /// The ends of an axis coincide or are not finite, or a logarithmic one reaches zero or below.
+    /// The ends of an axis coincide or are not finite, or a logarithmic axis includes zero or negative values.
     #[error(
         "axis \"{axis}\": the range {low} to {high} is empty, not finite, or below zero on a logarithmic scale"
     )]
@@ -40,7 +40,7 @@ pub enum DrawError {
         /// The other end.
         high: f64,
     },
-    /// The step between ticks is not a positive number, or gives too many ticks.
+    /// The step between ticks is not a positive number, or causes too many ticks.
     #[error("axis \"{axis}\": ticks every {step} from {low} to {high} cannot be drawn")]
     TickStep {
         /// The label of the axis.
@@ -66,7 +66,7 @@ pub enum DrawError {
         /// The size of the palette.
         colours: usize,
     },
-    /// A list does not have a value for each point or cell, or it is empty.
+    /// A list is empty or does not have one value for each point or cell.
     #[error("{what}: {given} values for {needed} points or cells")]
     Length {
         /// Which list.

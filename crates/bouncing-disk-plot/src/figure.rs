@@ -15,7 +15,7 @@ pub const SINGLE_COLUMN: f64 = 246.0;
 /// The width of both columns, 17.8 cm, in points.
 pub const DOUBLE_COLUMN: f64 = 510.0;
 
-/// The largest side of a figure in points; beyond, its picture would not fit in memory.
+/// The largest side of a figure in points; the picture of a larger one would not fit in memory.
 pub(crate) const LARGEST_SIDE: f64 = 4000.0;
 
 /// Panels and drawings on a white page, in points.
@@ -48,11 +48,11 @@ impl Figure {
         Self { width, height, parts: Vec::new() }
     }
 
-    /// The figure as SVG: the same text whenever the figure is the same.
+    /// The figure as SVG; equal figures have equal texts.
     ///
     /// # Errors
     ///
-    /// When a label, an axis, a size or a layer is malformed.
+    /// If a label, an axis, a size or a layer is malformed.
     pub fn to_svg(&self) -> Result<String, DrawError> {
         let sizes = [self.width, self.height];
         if !sizes.iter().all(|size| (1.0..=LARGEST_SIDE).contains(size)) {
@@ -90,7 +90,7 @@ impl Figure {
 /// Pixels of a PNG per point.
 const SCALE: f32 = 4.0;
 
-/// The picture of an SVG text with the bundled fonts only, as wide as `most_pixels` at most.
+/// The picture of an SVG text with the bundled fonts only, at most `most_pixels` wide.
 fn rendered(svg: &str, most_pixels: f32) -> Result<Vec<u8>, DrawError> {
     let options = usvg::Options {
         font_family: font::FAMILY.to_owned(),

@@ -1,5 +1,5 @@
-//! The bundled fonts: STIX Two, which resembles the journal's typeface. No font of the system is ever used,
-//! so that a picture is the same on every machine.
+//! The bundled fonts: STIX Two, which resembles the journal's typeface. System fonts are never used, so a
+//! picture is the same on every machine.
 
 use std::sync::{Arc, OnceLock};
 
@@ -41,7 +41,7 @@ pub(crate) fn database() -> Arc<fontdb::Database> {
     Arc::clone(database)
 }
 
-/// The width of a character in units of the font size; `None` when no bundled font has it.
+/// The width of a character in units of the font size; `None` if no bundled font has it.
 pub(crate) fn advance(character: char, style: FontStyle) -> Option<f64> {
     let font = match style {
         FontStyle::Roman => REGULAR,

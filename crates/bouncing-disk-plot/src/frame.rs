@@ -109,7 +109,7 @@ impl Grid {
         }
     }
 
-    /// The frame in a row and column, counted from 0 at the upper left; a cell outside the grid is the last
+    /// The frame in a row and column, counted from 0 at the upper left; for a cell outside the grid, the last
     /// one.
     pub fn cell(&self, row: usize, column: usize) -> Rect {
         let across = self.width - self.margins.left - self.margins.right;
@@ -139,7 +139,7 @@ pub(crate) struct Frame<'a> {
 }
 
 impl Frame<'_> {
-    /// The point on the page of a point in data coordinates; not finite where an axis cannot show it.
+    /// The point on the page of a point in data coordinates; not finite if an axis cannot show it.
     pub(crate) fn point(&self, (x, y): (f64, f64)) -> Point {
         self.area.fractions() * Point::new(self.x.fraction(x), self.y.fraction(y))
     }

@@ -1,14 +1,14 @@
 //! Labels: text with mathematics in a small subset of TeX.
 //!
-//! Between dollar signs, Latin and lower-case Greek letters are italic, upper-case Greek, digits and
-//! operators upright, as the journal sets them; `_` and `^` make scripts, `\dot` and `\ddot` accents. Two or
-//! more Latin letters in a script are a word and upright (`$\tau_{imp}$`), unless `\mathit` is used. Greek
+//! Between dollar signs, Latin and lower-case Greek letters are italic; upper-case Greek letters, digits and
+//! operators are upright, as in the journal. `_` and `^` set scripts, `\dot` and `\ddot` accents. Two or more
+//! Latin letters in a script form a word and are upright (`$\tau_{imp}$`), unless `\mathit` is used. Greek
 //! letters may be written as such (`$τ_{imp}$`) or as commands.
 
 use crate::error::DrawError;
 use crate::font::{self, FontStyle};
 
-/// Where letters stand.
+/// The level of letters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Level {
     Base,
@@ -148,7 +148,7 @@ impl Parser<'_> {
         Some(character)
     }
 
-    /// Everything up to the closing brace (when `in_group`) or the end.
+    /// Everything up to the closing brace (if `in_group`) or the end.
     fn list(&mut self, level: Level, in_group: bool) -> Result<Vec<Span>, DrawError> {
         let mut spans = Vec::new();
         while let Some(character) = self.next() {

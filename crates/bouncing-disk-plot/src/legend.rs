@@ -13,7 +13,7 @@ use crate::path::polyline;
 use crate::style::{Anchor, Stroke, Style, TextStyle};
 use crate::svg::{NUMBER_SIZE, Svg};
 
-/// The diameter in points of the dot that stands for points too small to be seen alone.
+/// The diameter in points of the dot that represents points too small to be seen alone.
 const DENSE_SAMPLE: f64 = 3.0;
 
 /// A corner of a panel.
@@ -30,7 +30,7 @@ pub enum Corner {
 }
 
 impl Corner {
-    /// The upper left corner of a box of this size that sits in the corner of an area.
+    /// The upper left corner of a box of this size in this corner of an area.
     pub(crate) fn place(self, area: Rect, (width, height): (f64, f64), inset: f64) -> (f64, f64) {
         let left = match self {
             Self::TopLeft | Self::BottomLeft => area.left + inset,
@@ -44,7 +44,7 @@ impl Corner {
     }
 }
 
-/// Where the legend sits. It lists the layers that have a name, in their order.
+/// A legend in a corner of a panel. It lists the layers that have a name, in their order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Legend {
     corner: Corner,

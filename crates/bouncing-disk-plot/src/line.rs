@@ -12,7 +12,7 @@ use crate::svg::Svg;
 
 /// Points closer than this, in points of the page, are drawn as one.
 const RESOLUTION: f64 = 0.04;
-/// A curve is drawn this far beyond the frame, where it is clipped, and not further.
+/// A curve is clipped at this distance beyond the frame (points).
 const OVERHANG: f64 = 20.0;
 
 /// A curve through points, broken at points with a coordinate that is NaN or cannot be shown.
@@ -75,7 +75,7 @@ fn curve(frame: Rect, points: impl Iterator<Item = Point>) -> BezPath {
     path
 }
 
-/// The part of a segment within a window; none of one with an end that is not finite.
+/// The part of a segment within a window; `None` if there is none or an end is not finite.
 fn clip(segment: Segment, window: Rect) -> Option<Segment> {
     let inside = (window.contains(segment.p0), window.contains(segment.p1));
     if inside == (true, true) {

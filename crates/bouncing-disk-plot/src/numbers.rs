@@ -1,4 +1,4 @@
-//! Numbers as people read them, and their extent.
+//! Numbers in readable form, and the extent of a list of numbers.
 
 /// A number with at most `digits` significant digits, without trailing zeros; powers of ten only if they
 /// are needed.
@@ -19,7 +19,7 @@ pub fn in_math(value: f64) -> String {
     }
 }
 
-/// The least and the largest of the finite values; infinite and reversed if there is none.
+/// The least and the largest of the finite values; infinite and in reverse order if no value is finite.
 pub(crate) fn extent(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
     let finite = values.into_iter().filter(|value| value.is_finite());
     finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))

@@ -43,7 +43,7 @@ struct Side<'a> {
     edge: Edge,
     axis: &'a Axis,
     placed: PlacedTicks,
-    /// Whether numbers and label stand at this edge; the edge opposite to a lone axis has only its ticks.
+    /// Whether numbers and label are at this edge; the edge opposite a single axis has ticks only.
     labelled: bool,
 }
 
@@ -56,7 +56,7 @@ enum Edge {
 }
 
 impl Edge {
-    /// The place of a fraction of the axis, on the page.
+    /// The point on the page at a fraction of the axis.
     fn place(self, area: Rect, fraction: f64) -> Point {
         area.fractions()
             * match self {
@@ -85,7 +85,8 @@ builders!(Panel {
     y(axis: Axis) |own| own.y = axis;
     /// Adds a second vertical axis, on the right.
     right(axis: Axis) |own| own.right = Some(axis);
-    /// Adds a second horizontal axis, above: another unit of the same quantity. Layers keep to the lower one.
+    /// Adds a second horizontal axis at the top, for another unit of the same quantity; layers use the lower
+    /// axis.
     top(axis: Axis) |own| own.top = Some(axis);
     /// Adds a layer.
     layer(layer: impl Into<Layer>) |own| own.layers.push((layer.into(), false));
@@ -103,7 +104,7 @@ builders!(Panel {
     /// Lists the named layers.
     legend(legend: Legend) |own| own.legend = Some(legend);
     /// Draws the markers of [`Scatter`](super::Scatter) layers above the frame and its ticks instead of
-    /// below, so that those at an edge are seen whole; the labels of the right axis stay below.
+    /// below, so that markers at an edge are drawn whole; the labels of the right axis stay below.
     markers_on_top() |own| own.markers_on_top = true;
 });
 
@@ -219,7 +220,7 @@ impl<'a> Side<'a> {
         Ok(Self { edge, axis, placed: axis.choose_ticks(length, spacing)?, labelled })
     }
 
-    /// The marks of the ticks, into the frame.
+    /// The tick marks, which point into the frame.
     fn marks(&self, area: Rect) -> BezPath {
         let marks = self.placed.ticks.iter().flat_map(|tick| {
             let length = if tick.label.is_some() { MAJOR_TICK } else { MINOR_TICK };
@@ -265,7 +266,7 @@ impl<'a> Side<'a> {
         svg.label(&label, Point::new(x, y), TextStyle::new(anchor).size(size))
     }
 
-    /// The label of the axis beyond its numbers, of which the widest is given.
+    /// The label of the axis outside its numbers, whose largest width is given.
     fn render_label(&self, area: Rect, widest: f64, svg: &mut Svg) -> Result<(), DrawError> {
         let level = matches!(self.edge, Edge::Bottom | Edge::Top);
         let extent = if level { 0.7 * NUMBER_SIZE } else { widest };

@@ -1,4 +1,4 @@
-//! Whole pictures of results, each from plain numbers alone: slices, ends of axes, words.
+//! Complete pictures of results, each computed from plain numbers: slices, axis ends, words.
 
 mod diagram;
 mod impact_plane;

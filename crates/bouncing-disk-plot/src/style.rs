@@ -59,7 +59,7 @@ impl Stroke {
         Self { colour, width, ..Self::default() }
     }
 
-    /// An area like the line, for the heads of arrows and for dots.
+    /// An area in the colour and opacity of the line, for the heads of arrows and for dots.
     pub(crate) fn solid(&self) -> Fill {
         Fill::new(self.colour, self.opacity)
     }
@@ -106,19 +106,19 @@ pub struct Style {
 }
 
 builders!(Style {
-    /// Sets the colour of the line, or of the area where there is no line.
+    /// Sets the colour of the line, or of the area if there is no line.
     colour(colour: Colour) |own| match own {
         Self { stroke: None, fill: Some(fill) } => fill.colour = colour,
         Self { stroke, .. } => stroke.get_or_insert_default().colour = colour,
     };
-    /// Sets the opacity, 0 to 1, of the line, or of the area where there is no line.
+    /// Sets the opacity, 0 to 1, of the line, or of the area if there is no line.
     opacity(opacity: f64) |own| match own {
         Self { stroke: None, fill: Some(fill) } => fill.opacity = opacity,
         Self { stroke, .. } => stroke.get_or_insert_default().opacity = opacity,
     };
-    /// Sets the width of the line in points; there is a line from then on.
+    /// Sets the width of the line in points and adds a line if there is none.
     width(points: f64) |own| own.stroke.get_or_insert_default().width = points;
-    /// Sets the dashes of the line; there is a line from then on.
+    /// Sets the dashes of the line and adds a line if there is none.
     dash(dash: Dash) |own| own.stroke.get_or_insert_default().dash = dash;
     /// Sets the whole line.
     stroke(stroke: Stroke) |own| own.stroke = Some(stroke);
@@ -127,7 +127,7 @@ builders!(Style {
 });
 
 impl Style {
-    /// What [`colour`](Self::colour) and [`opacity`](Self::opacity) set, as an area.
+    /// The colour and opacity that [`colour`](Self::colour) and [`opacity`](Self::opacity) set, as an area.
     pub(crate) fn solid(&self) -> Fill {
         match (self.stroke, self.fill) {
             (None, Some(fill)) => fill,

@@ -17,13 +17,13 @@ use crate::style::{Anchor, Dash, Fill, Stroke, Style, TextStyle};
 /// Largest distance of a curve from the circle that it approximates, in points.
 pub(crate) const TOLERANCE: f64 = 0.01;
 
-/// The size in points of axis labels and of text that has no other.
+/// The size in points of axis labels and of other text without a given size.
 pub(crate) const TEXT_SIZE: f64 = 9.0;
 
 /// The size in points of the numbers at ticks and of legends.
 pub(crate) const NUMBER_SIZE: f64 = 0.92 * TEXT_SIZE;
 
-/// An SVG document being written. Lengths are points.
+/// An SVG document being written. Lengths are in points.
 #[derive(Debug)]
 pub(crate) struct Svg {
     text: String,
@@ -55,7 +55,7 @@ impl Svg {
         self.text
     }
 
-    /// Everything until [`Svg::end_clip`] shows only inside the rectangle.
+    /// Clips everything until [`Svg::end_clip`] to the rectangle.
     pub(crate) fn begin_clip(&mut self, area: Rect) {
         self.clips += 1;
         let number = self.clips;
@@ -75,8 +75,8 @@ impl Svg {
         self.path_with("", path, style);
     }
 
-    /// Discs about points: lines of no length with round ends, which take a fifth of the text of their
-    /// outlines.
+    /// Discs about points, drawn as lines of zero length with round ends; outlines would need five times as
+    /// much text.
     pub(crate) fn dots(&mut self, centres: impl IntoIterator<Item = Point>, diameter: f64, fill: Fill) {
         let dots = centres.into_iter().flat_map(|centre| polyline([centre; 2])).collect();
         let stroke =
@@ -113,7 +113,7 @@ impl Svg {
         self.path(&area.outline().to_path(TOLERANCE), style);
     }
 
-    /// An image stretched over a rectangle, of which `sharp` shows the cells as squares; see [`indexed`].
+    /// An image stretched over a rectangle; if `sharp`, its cells are shown as squares; see [`indexed`].
     pub(crate) fn image(
         &mut self,
         area: kurbo::Rect,
@@ -211,7 +211,7 @@ fn attributes(area: kurbo::Rect) -> String {
     format!("x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\"")
 }
 
-/// A path whose coordinates have three decimals at most.
+/// A path whose coordinates have at most three decimals.
 pub(crate) fn rounded(path: &BezPath) -> BezPath {
     // Adding zero turns a negative zero into a plain one.
     let round = |length: f64| (length * 1000.0).round() / 1000.0 + 0.0;
@@ -227,7 +227,7 @@ pub(crate) fn rounded(path: &BezPath) -> BezPath {
         .collect()
 }
 
-/// A length with at most three decimals: a thousandth of a point is far below any printer.
+/// A length with at most three decimals: no printer resolves a thousandth of a point.
 pub(crate) fn short(length: f64) -> String {
     let text = format!("{length:.3}");
     let text = text.trim_end_matches('0').trim_end_matches('.');

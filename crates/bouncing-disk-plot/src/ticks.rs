@@ -5,14 +5,14 @@ use std::f64::consts::PI;
 use crate::builders::builders;
 use crate::label::Label;
 
-/// Largest number of ticks that an axis can show; more is a wrong step.
+/// Largest number of ticks that an axis can show; a step that needs more is an error.
 const MOST_TICKS: f64 = 400.0;
 
-/// The choice of ticks of an axis: round steps with about five labels unless another is made.
+/// The choice of ticks of an axis; by default round steps with about five labels.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Ticks {
     pub(crate) choice: Choice,
-    /// Parts into which minor ticks divide the distance of major ones.
+    /// Number of parts into which minor ticks divide the distance between major ones.
     pub(crate) parts: Option<u32>,
 }
 
@@ -29,7 +29,7 @@ pub(crate) enum Choice {
 }
 
 builders!(Ticks {
-    /// Divides the distance of labelled ticks into `parts` by minor ticks; 1 for none.
+    /// Divides the distance between labelled ticks into `parts` by minor ticks; 1 for none.
     minor(parts: u32) |own| own.parts = Some(parts);
 });
 
@@ -39,7 +39,7 @@ impl Ticks {
         Choice::At(Vec::new()).into()
     }
 
-    /// Round steps that divide a span at most five times.
+    /// Round steps, at most five over a span.
     pub(crate) fn few(span: f64) -> Self {
         let (step, parts) = round_step(span / 5.0);
         Self::every(step).minor(parts)
@@ -86,7 +86,7 @@ pub(crate) struct PlacedTicks {
     pub(crate) power: Option<i32>,
 }
 
-/// The ticks of a linear axis; `Err` holds the step that does not work.
+/// The ticks of a linear axis; `Err` contains the invalid step.
 pub(crate) fn linear(ticks: &Ticks, low: f64, high: f64, room: usize) -> Result<PlacedTicks, f64> {
     let (low, high) = if low < high { (low, high) } else { (high, low) };
     let (step, parts) = match ticks.choice {
@@ -167,7 +167,8 @@ fn power_of_ten(exponent: i32) -> f64 {
     format!("1e{exponent}").parse().unwrap_or(f64::NAN)
 }
 
-/// The round number (1, 2 or 5 times a power of ten) at or above `raw`, and the parts its minor ticks make.
+/// The round number (1, 2 or 5 times a power of ten) at or above `raw`, and the number of parts between minor
+/// ticks.
 fn round_step(raw: f64) -> (f64, u32) {
     let exponent = libm::floor(libm::log10(raw) + 1e-9) as i32;
     let unit = power_of_ten(exponent);
@@ -185,14 +186,14 @@ fn round_step(raw: f64) -> (f64, u32) {
     (format!("{digit}e{exponent}").parse().unwrap_or(f64::NAN), parts)
 }
 
-/// A round step for so many labels; a finer one where it would leave one label or none, which is no scale.
+/// A round step for this number of labels, or a finer one if it would leave fewer than two labels.
 fn automatic_step(low: f64, high: f64, room: usize) -> (f64, u32) {
     let choice = round_step((high - low) / room.max(1) as f64);
     let labels = |step: f64| libm::floor(high / step) - libm::ceil(low / step) + 1.0;
     if labels(choice.0) >= 2.0 { choice } else { round_step(0.5 * choice.0) }
 }
 
-/// The power of ten to leave out of the numbers, when they are very large or small.
+/// The power of ten to omit from the numbers, if they are very large or small.
 fn common_power(largest: f64) -> Option<i32> {
     let plain = (1e-3..1e5).contains(&largest) || largest == 0.0;
     (!plain).then(|| libm::floor(libm::log10(largest) + 1e-9) as i32)
@@ -204,7 +205,7 @@ fn number(value: f64, step: f64, power: Option<i32>) -> String {
     decimal(value / unit, decimals(step / unit))
 }
 
-/// Decimals that write multiples of `step` exactly, at most six.
+/// The number of decimals, at most six, with which multiples of `step` are exact.
 fn decimals(step: f64) -> usize {
     let mut scaled = step.abs();
     for count in 0..6 {
@@ -276,7 +277,7 @@ mod tests {
         assert_eq!(ticks.power, Some(-8));
     }
 
-    /// Room for three labels asks for a step of 2, of which only 0 lies on the axis.
+    /// With room for three labels the step would be 2, of whose multiples only 0 lies on the axis.
     #[test]
     fn no_automatic_scale_has_a_single_label() {
         let ticks = linear(&Ticks::default(), -1.575, 1.575, 3).expect("ticks");

@@ -28,7 +28,7 @@ pub enum RecordFault {
 ///
 /// # Errors
 ///
-/// [`RecordFault::NotText`] gives the position of the first byte that is not UTF-8.
+/// [`RecordFault::NotText`] states the position of the first byte that is not UTF-8.
 pub fn text(bytes: &[u8]) -> Result<&str, RecordFault> {
     let text = std::str::from_utf8(bytes).map_err(|error| {
         let before = &bytes[..error.valid_up_to()];
@@ -49,8 +49,8 @@ pub fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     (1..).zip(text.lines()).filter(move |(_, line)| !is_blank(line) && !is_remark(line))
 }
 
-/// The [`plain`] fields of a line; a quotation mark at the beginning of a field protects separators up to the
-/// next one.
+/// The [`plain`] fields of a line; separators between a quotation mark at the beginning of a field and the next
+/// quotation mark do not count.
 ///
 /// # Errors
 ///
@@ -88,13 +88,13 @@ pub fn plain(field: &str) -> &str {
     unquoted.unwrap_or(field).trim()
 }
 
-/// Why a field does not hold a usable number.
+/// Why a field does not contain a usable number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NumberFault {
-    /// It is not written as a number; "inf" and "NaN" are not.
+    /// The field is not a number; "inf" and "NaN" are not accepted.
     #[error("not a number")]
     NotANumber,
-    /// It is written as one, but too large for a finite double, or so small that 0 is the nearest.
+    /// The number is too large for a finite double, or so small that the nearest double is 0.
     #[error("a number that is too large or too small for a double")]
     NoSuchDouble,
 }

@@ -49,9 +49,9 @@ pub use crate::motion::initial_condition::InitialCondition as DrivenStart;
 pub use ground::{DrivenEngine, DrivenGround};
 pub use toss::{multi_toss, single_toss};
 
-/// A disk on a platform with any drives of height and angle, without units; [`DimensionlessSystem`] is its
-/// counterpart for the sine. Time is in radians of the fundamental, length in g/omega^2, angle in g a_e/(a_g
-/// omega)^2.
+/// A disk on a platform with any drives of height and angle, in dimensionless form; [`DimensionlessSystem`] is
+/// its counterpart for the sine. Time is in radians of the fundamental, length in g/omega^2, angle in g
+/// a_e/(a_g omega)^2.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DrivenSystem {
     pub(crate) height: Drive,
@@ -64,7 +64,7 @@ pub struct DrivenSystem {
 }
 
 impl DrivenSystem {
-    /// The system of this platform and this disk; [`DrivenPlatform::scales`] gives its units.
+    /// The system of this platform and this disk; [`DrivenPlatform::scales`] states its units.
     ///
     /// # Errors
     /// [`Error::Waveform`] for accelerations beyond 1e8 preloads; [`Error::OutOfRange`] if a unit is too

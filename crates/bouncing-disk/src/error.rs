@@ -32,7 +32,7 @@ pub enum Error {
     SlipTooLong {
         /// Estimated duration in radians.
         duration: f64,
-        /// The largest duration in radians.
+        /// The largest duration that can be resolved, in radians.
         limit: f64,
     },
     /// Rotors that are to share one vertical motion differ in a quantity that affects it.
@@ -55,7 +55,7 @@ pub enum Error {
         /// Its standard error (rad/s).
         standard_error: f64,
     },
-    /// A mean speed did not reach the requested accuracy within the allowed impacts.
+    /// A mean speed did not reach the requested accuracy within the allowed number of impacts.
     #[error(
         "the mean speed, {speed:?} rad/s with a standard error of {standard_error:?} rad/s, has not reached the requested error: allow more impacts, or a larger error"
     )]
@@ -85,12 +85,12 @@ pub enum Error {
         /// The quantity's value at that point.
         nearest: f64,
     },
-    /// A quantity to be maximised is positive nowhere, as far as it is known.
+    /// A quantity to be maximised is not known to be positive anywhere.
     #[error("{quantity} is not certain to be positive anywhere in the ranges: its best value is {value:?}")]
     NotPositive {
         /// The quantity.
         quantity: &'static str,
-        /// Its best value; NaN if there is none, as for a runaway.
+        /// Its best value; NaN if it has none, as for a runaway.
         value: f64,
     },
     /// The given orbit is not a periodic orbit of this system.
@@ -98,8 +98,8 @@ pub enum Error {
     NotAnOrbit {
         /// The impact, from 0 on.
         impact: usize,
-        /// Distance between the next impact and the next one of the orbit (rad, or relative to 1 + the
-        /// largest impact speed of the orbit); infinite if the disk stays on the platform.
+        /// Distance between the computed next impact and the next impact of the given orbit (rad, or relative
+        /// to 1 + the largest impact speed of the orbit); infinite if the disk stays on the platform.
         distance: f64,
     },
     /// So many motors of a range are in low-period traps that too few are left to fit a straight line.
@@ -112,7 +112,7 @@ pub enum Error {
         left: usize,
         /// Motors in traps.
         traps: usize,
-        /// How many are needed.
+        /// Number of motors that are needed.
         needed: usize,
     },
     /// A required parameter without a default is missing.
@@ -197,7 +197,7 @@ pub enum Error {
         /// Size of the jump, in amplitudes.
         jump: f64,
     },
-    /// A file with another drive, for an analysis that needs the sine.
+    /// A drive other than the sine, for an analysis that needs the sine.
     #[error(
         "this analysis holds only for the sine of Eq. (1), but the table [drive] gives another motion; remove the \
          table, or use an analysis that accepts any drive: tosses, orbit diagrams, periodic orbits, doublings, \
@@ -251,7 +251,7 @@ impl From<std::convert::Infallible> for Error {
     }
 }
 
-/// Largest size of a dimensionless rotary number: its square is far from overflow.
+/// Largest size of a dimensionless rotary number: its square is far below overflow.
 const LARGEST: f64 = 1.0e100;
 
 /// Checks that `value` is finite and greater than zero.
@@ -289,8 +289,8 @@ pub(crate) fn moderate(field: &'static str, value: f64) -> Result<f64, Error> {
     check(value.abs() <= LARGEST, field, value, "[-1e100, 1e100] (dimensionless)")
 }
 
-/// An empty vector with room for `count` <= `limit` items. Memory is reserved now, so that a lack of it is an
-/// error. The limit is needed because some systems promise memory that they do not have.
+/// An empty vector with room for `count` <= `limit` items. Memory is reserved at once, so that a shortage is an
+/// error. The limit is needed because some systems grant memory that they do not have.
 pub(crate) fn room_for<T>(what: &'static str, count: usize, limit: usize) -> Result<Vec<T>, Error> {
     within_limit(what, count, limit)?;
     let mut room = Vec::new();

@@ -1,9 +1,9 @@
 //! Estimates from computed or measured speeds of a rotor, with intervals, or the reason why a fit was
 //! rejected.
 //!
-//! A run-up gives the steady speed and the time constant of alpha_ss (1 - exp(-t/t_c)), by least squares over
-//! its mean curve, with 95 % intervals by resampling. A braking curve with the angular acceleration alpha
-//! gives the friction mu = -m a_g^2 alpha/(a_e N) (Eq. 17 of Liu, Friend and Yeo).
+//! A run-up determines the steady speed and the time constant of alpha_ss (1 - exp(-t/t_c)), by least squares
+//! over its mean curve, with 95 % intervals by resampling. A braking curve with the angular acceleration alpha
+//! determines the friction mu = -m a_g^2 alpha/(a_e N) (Eq. 17 of Liu, Friend and Yeo).
 //!
 //! ```
 //! use bouncing_disk::estimate::BrakingRotor;
@@ -14,10 +14,10 @@
 //! # Ok::<(), bouncing_disk::estimate::FitError>(())
 //! ```
 //!
-//! [`TransientFit`] fits run-ups, `MotorFit` (feature `fit`) finds the motor parameters that explain run-ups,
-//! braking tails and catalogue points, and [`MeasuredSpeeds`] holds measurements, read from files with the
-//! feature `csv`. Run-ups of the model are in [`motor`](crate::motor). The derivation of the intervals:
-//! docs/numerics-dynamics.md.
+//! [`TransientFit`] fits run-ups, and `MotorFit` (feature `fit`) finds the motor parameters that explain
+//! run-ups, braking tails and catalogue points. [`MeasuredSpeeds`] contains measurements, which the feature
+//! `csv` reads from files. Run-ups of the model are in [`motor`](crate::motor). docs/numerics-dynamics.md
+//! derives the intervals.
 
 pub(crate) mod braking_rotor;
 pub(crate) mod ensemble;

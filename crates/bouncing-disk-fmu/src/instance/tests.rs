@@ -98,7 +98,7 @@ fn a_description_has_each_variable_once_with_its_unit() {
     );
 }
 
-/// A late start shifts the times, and nothing else; nor does it let a step be left out.
+/// A late start shifts the times and nothing else; still no step may be skipped or repeated.
 #[test]
 fn a_run_may_begin_at_any_time() {
     let mut late = Instance::new(&Motor::paper_70_khz());

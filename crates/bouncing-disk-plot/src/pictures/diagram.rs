@@ -1,4 +1,4 @@
-//! The orbit diagram, and how fast the distances between its doublings shrink.
+//! The orbit diagram, and a figure of the shrinking distances between doublings.
 
 use super::impact_plane::{IMPACT_SPEED, all_phases, fastest};
 use crate::annotation::Text;
@@ -14,13 +14,13 @@ use crate::scatter::Scatter;
 use crate::style::Anchor;
 use crate::ticks::Ticks;
 
-/// Colours of starts before they come again in a darker shade.
+/// Number of colours for starts; further starts repeat them in a darker shade.
 const COLOURS: usize = 8;
 
-/// Starts whose names fit next to the letter of the panel.
+/// Number of starts whose names fit next to the letter of the panel.
 const BESIDE: usize = 2;
 
-/// Names in a row of their own, and the height of such a row (pt).
+/// Number of names in a separate row, and the height of such a row (pt).
 const IN_A_ROW: usize = 4;
 const ROW: f64 = 11.0;
 
@@ -41,12 +41,12 @@ pub struct OrbitDiagram<'a> {
 }
 
 impl OrbitDiagram<'_> {
-    /// The colour of a start that is alone.
+    /// The colour of a single start.
     pub const ALONE: Colour = Colour::rgb(40, 40, 40);
 
-    /// The colour of a start; beyond the eighth the same in a darker shade, and again. The first start lies on
-    /// top of the others: beyond the crisis a start at rest and one near the period-1 orbit are on the same
-    /// attractor, which light points show.
+    /// The colour of a start; further starts repeat the eight colours in ever darker shades. The first start is
+    /// drawn in light points on top of the others: beyond the crisis they show that a start at rest and one
+    /// near the period-1 orbit end on the same attractor.
     fn colour(index: usize, starts: usize) -> Colour {
         if starts == 1 {
             return Self::ALONE;

@@ -36,8 +36,8 @@ pub fn crosses(impacts: impl IntoIterator<Item = (f64, f64)>, colour: Colour) ->
     Scatter::new(impacts).marker(Marker::Cross).size(5.5).width(1.1).colour(colour)
 }
 
-/// Impacts (phase in periods, normalised speed) of periodic orbits, each orbit with whether it attracts.
-/// Attracting orbits are filled, others open, with a colour for each number of impacts.
+/// Impacts (phase in periods, normalised speed) of periodic orbits, and whether each orbit attracts. Markers
+/// are filled for attracting orbits and open for others, with a colour for each number of impacts.
 pub fn periodic_orbits(title: &str, orbits: &[(bool, Vec<(f64, f64)>)]) -> Figure {
     const HEIGHT: f64 = 230.0;
     let most = orbits.iter().map(|orbit| orbit.1.len()).max().unwrap_or(0);

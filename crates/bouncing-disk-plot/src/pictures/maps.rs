@@ -14,7 +14,7 @@ use crate::panel::Panel;
 use crate::raster::Raster;
 use crate::ticks::Ticks;
 
-/// A key: squares of these colours of a palette below each other, with their words at the right.
+/// A key: a column of squares in these colours of a palette, with their words on the right.
 pub fn key<L: Into<Label>>(
     area: Rect,
     palette: &[Colour],
@@ -41,8 +41,8 @@ pub struct Basins<'a> {
     pub phases: [f64; 2],
     /// See [`phases`](Self::phases).
     pub speeds: [f64; 2],
-    /// The labels of the cells, as many along each axis, row by row from the lowest speed: 0 is undecided,
-    /// 1 rest, 2 the first orbit.
+    /// The labels of a square grid of cells, row by row from the lowest speed: 0 is undecided, 1 rest, 2 the
+    /// first orbit.
     pub labels: &'a [u8],
     /// The words of the labels.
     pub legend: &'a [(u8, String)],
@@ -102,7 +102,7 @@ fn short(words: &str) -> &str {
     words.split(" and ").next().unwrap_or(words)
 }
 
-/// The long-term motions of a disk: short words and colours, by the numbers of the cells of [`Regimes`].
+/// Short names and colours of the long-term motions of a disk, in the order of their numbers in [`Regimes`].
 pub const REGIMES: [(&str, Colour); 10] = [
     ("at rest", Colour::PALE_GREY),
     ("cycle with rest", Colour::WHITE),
@@ -127,7 +127,7 @@ pub struct Regimes<'a> {
     pub only: Option<f64>,
     /// Number of rows, one for each restitution.
     pub rows: usize,
-    /// Places in [`REGIMES`], row by row.
+    /// Indices into [`REGIMES`], row by row.
     pub cells: &'a [u8],
 }
 
@@ -158,7 +158,7 @@ impl Regimes<'_> {
     }
 }
 
-/// Colours of a map, between the least and the largest value.
+/// Number of colours of a map, between the least and the largest value.
 const LEVELS: usize = 24;
 
 /// A quantity over two evenly spaced parameters, row by row, as a map with a bar of its colours; a cell that
@@ -226,7 +226,7 @@ pub fn heat_map(
     Figure::new(SINGLE_COLUMN + 30.0, height).panels([map, bar]).panels(key.map(|(key, _)| key))
 }
 
-/// The lines between the cells of a map that keep a bound and those that do not, with gaps between them.
+/// The lines between the cells of a map that satisfy a bound and the others, with gaps between them.
 fn edges(
     keeps: &[bool],
     (columns, rows): (usize, usize),

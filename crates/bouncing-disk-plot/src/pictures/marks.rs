@@ -24,8 +24,9 @@ pub struct CellMarks {
     pub keeps: Option<bool>,
 }
 
-/// A mark: its words in the key, its marker, its place in the cell of a map, in shares of the cell from the
-/// middle, its size around the point of a curve (points), and whether a cell has it. No mark covers another.
+/// A mark: its words in the key, its marker, its offset from the middle of a cell of a map (in shares of the
+/// cell), its size around a point of a curve (points), and a test for cells that have it. No mark covers
+/// another.
 struct Mark {
     words: &'static str,
     marker: Marker,
@@ -83,8 +84,8 @@ fn scatter(points: impl IntoIterator<Item = (f64, f64)>, mark: &Mark, size: f64)
     Scatter::new(points).marker(mark.marker).size(size).width(0.5)
 }
 
-/// The marks of the cells of a map, row by row, whose middles are at `x` and `y`; `sides` are the sides of a
-/// cell, in the units of the axes and in points.
+/// The marks of the cells of a map, row by row. The cells are centred at `x` and `y`; `sides` are the sides of
+/// a cell, in the units of the axes and in points.
 pub(super) fn of_map(
     (x, y): (&[f64], &[f64]),
     cells: &[CellMarks],
@@ -108,7 +109,7 @@ pub(super) fn of_curve(points: &[(f64, f64)], cells: &[CellMarks]) -> impl Itera
     })
 }
 
-/// The key of the marks that some cell has, below each other from `top` on, and its height; `None` without marks.
+/// The key of the marks that occur, one below the other from `top` on, and its height; `None` without marks.
 pub(super) fn key(cells: &[CellMarks], left: f64, top: f64) -> Option<(Panel, f64)> {
     let there: Vec<&Mark> = MARKS.iter().filter(|mark| cells.iter().any(mark.of)).collect();
     if there.is_empty() {

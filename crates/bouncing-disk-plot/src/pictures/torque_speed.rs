@@ -14,7 +14,7 @@ use crate::panel::Panel;
 use crate::scatter::{Marker, Scatter};
 use crate::style::{Anchor, Fill, Stroke};
 
-/// Values of one quantity in its plain unit.
+/// Values of one quantity in its unit without a prefix.
 #[derive(Debug)]
 pub struct Quantity<'a> {
     /// Its name; `_` stands for a space.
@@ -26,7 +26,7 @@ pub struct Quantity<'a> {
 }
 
 impl Quantity<'_> {
-    /// The factor that makes the values of the size of 1, and the unit with its prefix.
+    /// The factor that scales the values to the order of 1, and the unit with its prefix.
     fn prefixed(&self) -> (f64, String) {
         let finite = self.values.iter().filter(|value| value.is_finite());
         let size = finite.fold(0.0_f64, |most, value| most.max(value.abs()));
@@ -44,7 +44,7 @@ impl Quantity<'_> {
         }
     }
 
-    /// The values as they are drawn, and the label of their axis.
+    /// The values as drawn, and the label of their axis.
     pub(super) fn shown(&self) -> (Vec<f64>, String) {
         let (scale, unit) = self.prefixed();
         let name = self.name.replace('_', " ");
@@ -69,7 +69,8 @@ pub fn interval_curve(points: &[Point], colour: Colour, band: Fill, name: Option
 /// half widths of further motions with their marks; they are not finite if there is no such motion. If there
 /// are several motions, their points are not joined. A key below the curve explains the marks.
 ///
-/// If the values of a sweep go up to the cell `turns_at` and down again, each way is a separate curve.
+/// If the values of a sweep go up to the cell `turns_at` and down again, the two directions are separate
+/// curves.
 pub fn swept_curve(
     along: &Quantity<'_>,
     quantity: &Quantity<'_>,
@@ -139,8 +140,8 @@ pub fn swept_curve(
     Figure::new(SINGLE_COLUMN, height).panel(panel).panels(key.map(|(key, _)| key))
 }
 
-/// The behaviour of a motor under a load (N m): values with the half widths of their intervals, if it has a
-/// steady speed.
+/// The behaviour of a motor under a load (N m): values with the half widths of their intervals, if the motor
+/// has a steady speed.
 #[derive(Clone, Copy, Debug)]
 pub struct LoadPoint {
     /// The load torque (N m).
@@ -149,7 +150,7 @@ pub struct LoadPoint {
     pub speed: Option<(f64, f64)>,
     /// The ends of the range of the speed (rad/s) over motors within the tolerance of their inputs.
     pub spread: Option<[f64; 2]>,
-    /// The same without the slowest and the fastest of these motors.
+    /// The same range without the slowest and the fastest of these motors.
     pub most: Option<[f64; 2]>,
     /// The power that the stator puts in (W).
     pub input_power: Option<(f64, f64)>,
@@ -166,13 +167,12 @@ pub struct LoadPoint {
 /// The share of the lower panel that the legend leaves to the curves.
 const UNDER_LEGEND: f64 = 0.68;
 
-/// The distance of the foot of a rotated name from its rule (points): room for text below its line.
+/// The distance of the foot of a rotated name from its rule (points), with room for text below the baseline.
 const NEXT_TO_RULE: f64 = 3.0;
 
-/// Two panels over the load: speed with its spread over motors, and powers with the efficiency; for a
-/// compliant stator a third panel with its amplitude. Beyond `largest_torque` (N m) the load overpowers the
-/// motor. The upper panel also shows the speeds of motions that coexist with these, each as a separate
-/// curve.
+/// Two panels over the load: the speed with its spread over motors, and the powers with the efficiency. A
+/// compliant stator has a third panel with its amplitude. Beyond `largest_torque` (N m) the load overpowers the
+/// motor. The upper panel also shows the speeds of coexisting motions, each as a separate curve.
 pub fn torque_speed(largest_torque: f64, found: &[LoadPoint], coexisting: &[Vec<LoadPoint>]) -> Figure {
     let yields = found.iter().any(|own| own.amplitude.is_some());
     let (height, panels) = if yields { (490.0, 3) } else { (338.0, 2) };
@@ -305,9 +305,9 @@ pub fn torque_speed(largest_torque: f64, found: &[LoadPoint], coexisting: &[Vec<
     Figure::new(SINGLE_COLUMN + 30.0, height).panels([upper, lower]).panels(third)
 }
 
-/// The load at which the motor stops, on the straight line between the two loads (each with its speed and the
-/// half width of an interval) at which it turns to opposite sides; `None` where nothing tells the two speeds
-/// apart.
+/// The load at which the motor stops, interpolated linearly between two neighbouring loads (each with its speed
+/// and the half width of an interval) at which the motor turns in opposite directions; `None` if all such
+/// intervals overlap.
 fn stall(speeds: &[Point]) -> Option<f64> {
     speeds.windows(2).find_map(|pair| {
         let [(load, speed, bar), (next_load, next, next_bar)] = *pair else { return None };
@@ -316,7 +316,7 @@ fn stall(speeds: &[Point]) -> Option<f64> {
     })
 }
 
-/// The largest value of an axis; where nothing is above zero, one.
+/// The largest value of an axis, or 1 if no value is above zero.
 fn or_one(largest: f64) -> f64 {
     if largest > 0.0 { largest } else { 1.0 }
 }

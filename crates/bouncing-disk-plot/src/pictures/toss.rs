@@ -27,11 +27,11 @@ pub struct TossInstant {
 /// A quantity of disk and platform.
 type Of = fn(&TossInstant) -> [f64; 2];
 
-/// Largest number of periods of the platform in a picture: more of them would be a mat without lines.
+/// Largest number of periods of the platform in a picture: with more, the lines would merge.
 pub const LONGEST_MOTION: u64 = 20;
 
-/// The last instants of a motion, for [`LONGEST_MOTION`] periods, and its number of periods, rounded, if
-/// larger; all of a motion that is shorter, or of which there are too few instants for a line.
+/// The last [`LONGEST_MOTION`] periods of a motion, and its rounded number of periods if it is longer; the
+/// whole motion if it is shorter, or if too few instants remain for a line.
 fn last(motion: &[TossInstant], period: f64) -> (&[TossInstant], Option<u64>) {
     let end = motion.last().map_or(0.0, |instant| instant.time);
     let begin = end - LONGEST_MOTION as f64 * period;
@@ -41,8 +41,8 @@ fn last(motion: &[TossInstant], period: f64) -> (&[TossInstant], Option<u64>) {
     if first == 0 || shown.len() < 2 { (motion, None) } else { (shown, Some((end / period).round() as u64)) }
 }
 
-/// Three panels over the same time. For a long motion on a platform with this period (s) the last
-/// part is shown; without a period it is one toss, which is shown as a whole.
+/// Three panels over the same time. Of a long motion on a platform with this period (s), the last part is
+/// shown; without a period, the motion is one toss and is shown whole.
 pub fn toss(motion: &[TossInstant], period: Option<f64>) -> Figure {
     const HEIGHT: f64 = 190.0;
     let margins = Margins { left: 46.0, right: 10.0, top: 24.0, bottom: 34.0 };

@@ -62,7 +62,7 @@ pub struct RunUp<'a> {
 }
 
 impl RunUp<'_> {
-    /// The first run, the range of all, if there are several, and the fit with its numbers.
+    /// The first run, the range of all runs, if there are several, and the fit with its numbers.
     pub fn draw(&self) -> Figure {
         let fit = self.fit.as_ref().map(|(fit, _)| fit);
         let at_end = fit.and_then(|fit| fit.points.last()).map_or(0.0, |last| last.1);

@@ -1,15 +1,15 @@
 //! The end of a chatter of known duration: the remaining impacts one by one, with each flight computed from
 //! the pull and its derivative at its start.
 //!
-//! A chatter is completed once the first terms of its sum have an error below 1e-14 rad, that is, once it
-//! lasts about 1e-7 rad; the neglected terms change a flight by the same order.
+//! A chatter is completed once the first terms of its sum have an error below 1e-14 rad, that is, once about
+//! 1e-7 rad of it remain; the neglected terms change a flight by the same order.
 
 use bouncing_disk_core::Phase;
 
 use super::DrivenSystem;
 use crate::motion::chatter::Chatter;
 
-/// Largest number of impacts that are followed; the rest of a chatter then counts as one.
+/// Largest number of impacts that are followed; the rest of a chatter then counts as one impact.
 const MOST_IMPACTS: u64 = 100_000;
 
 /// A launch slower than this share of the first one belongs to the last impact.

@@ -27,8 +27,9 @@ use crate::motion::state::{DiskState, SlipDirection};
 /// Rounding of a rate, relative to its terms.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// Radians of the fastest change above which integrals are taken in closed form. Below it, the sines that
-/// make up force and slip are much larger than their sums, and so is their rounding.
+/// Integrals over at least this many radians of the fastest oscillation are evaluated in closed form. Over
+/// shorter spans, the sines that make up force and slip are much larger than their sums, and so is their
+/// rounding.
 const LONG: f64 = 4.0;
 
 /// The integrals that the energy of a slide needs: of N beta' and of N U, with the magnitudes of their terms.
@@ -71,7 +72,7 @@ impl Ride<'_> {
         }
     }
 
-    /// The change of the motion as by [`Drive::change`].
+    /// The change of the motion as from [`Drive::change`].
     pub(super) fn change(&self, at: f64, span: f64) -> (f64, f64) {
         match self {
             Self::Platform(drive) => drive.change(at, span),
@@ -88,7 +89,7 @@ impl Ride<'_> {
         }
     }
 
-    /// The fastest change, in radians of the drive.
+    /// Radians of the fastest oscillation per radian of the drive.
     fn rate(&self) -> f64 {
         match self {
             Self::Platform(drive) => drive.highest_harmonic(),
@@ -131,7 +132,7 @@ impl Touching<'_> {
             })
     }
 
-    /// Nothing turns the disk: friction holds it to the end of the contact.
+    /// Whether no torque acts, so that friction holds the disk to the end of the contact.
     fn is_unloaded(&self) -> bool {
         self.system.angle.bounds().speed == 0.0 && self.system.load == 0.0
     }
@@ -247,7 +248,8 @@ impl Touching<'_> {
             + self.system.angle.derivative(order, here) * direction.sign()
     }
 
-    /// The slip speed after a time, from the `last` position, the time passed by then, and the speed there.
+    /// The slip speed when the time `passed` has passed, from the `last` position, the time passed by then, and
+    /// the speed there.
     fn carried(&self, direction: SlipDirection, last: (f64, f64, f64), passed: f64) -> f64 {
         let (at, then, speed) = last;
         let span = passed - then;

@@ -22,8 +22,8 @@ use crate::motion::rotary_change::RotaryChange;
 use crate::motion::state::{DiskState, LongSum, Mode, SlipDirection};
 use crate::motion::stator_ledger::StatorLedger;
 
-/// A resumed disk whose height or velocity agrees with the platform's to this share takes the platform's
-/// value: the change of units and the evaluation of the drive each leave a few rounding errors.
+/// A resumed disk whose height or velocity agrees with the platform's within this share is given the platform's
+/// value: the change of units and the evaluation of the drive each cause a few rounding errors.
 const SAME_PLACE: f64 = 1.0e-12;
 
 impl OnGround for DrivenSystem {
@@ -48,8 +48,8 @@ impl OnGround for DrivenSystem {
 
 impl DrivenEngine {
     /// An engine that continues a motion with the disk in `state`, as returned by [`Self::state_after`]. In
-    /// contact its height and axial velocity are set to the platform's, whatever `state` contains. A state
-    /// includes neither the number of short flights that a cut has counted nor a chatter that is being
+    /// contact, the disk's height and axial velocity are set to the platform's, whatever `state` contains. A
+    /// state includes neither the number of short flights that a cut has counted nor a chatter that is being
     /// summed.
     ///
     /// # Errors
@@ -253,14 +253,14 @@ impl DrivenEngine {
         self.now.phase.angle()
     }
 
-    /// The step to an event `duration` later, at which the drive is at `at`, for the next time or after whole
-    /// periods.
+    /// The step to an event `duration` later, at the time `at` of the drive; the number of periods passed
+    /// follows from both.
     pub(super) fn step(&self, duration: f64, at: f64) -> Step {
         self.step_over(duration, at, ((self.at() + duration - at) / TAU + 0.5) as u64)
     }
 
-    /// The step to an event `duration` later, at which the drive is at `at` and has passed zero `turns`
-    /// times.
+    /// The step to an event `duration` later, at the time `at` of the drive, which has passed zero `turns`
+    /// times by then.
     pub(super) fn step_over(&self, duration: f64, at: f64, turns: u64) -> Step {
         let time = PhaseTime { periods: self.now.periods.saturating_add(turns), phase: phase_at(at) };
         Step { time, span: PhaseSpan::from_radians(duration), duration }
@@ -291,7 +291,7 @@ impl DrivenEngine {
         Passed { change, ledger: self.ledger_of(span, at, &before, change), before }
     }
 
-    /// The disk at that time, without its angle.
+    /// The disk at the end of the `span`, without its angle.
     fn drifted(&self, span: f64, at: f64, change: RotaryChange) -> DiskState {
         let (state, height) = (&self.state, &self.system.height);
         let (height, axial_velocity) = match (state.mode, self.stage) {
@@ -363,7 +363,8 @@ impl DrivenEngine {
         ledger
     }
 
-    /// The change of the spring's energy between two gaps, lost in the damper if no force acts.
+    /// Records the change of the spring's energy between two gaps; if `lost`, no force acts and the damper
+    /// absorbs it.
     pub(super) fn record_spring(&self, ledger: &mut EnergyLedger, from: f64, to: f64, lost: bool) {
         let Some(compliant) = &self.system.compliance else { return };
         let energy = |gap| compliant.spring_energy(gap);

@@ -22,8 +22,8 @@ use crate::motion::phase_time::PhaseSpan;
 use crate::motion::rotary_change::RotaryChange;
 use crate::motion::state::{DiskState, Mode, PlatformState, SlipDirection};
 
-/// Friction events this close before the end of a contact, relative to its time, coincide with the end: both
-/// times are roots, each with an error of a few roundings of the time.
+/// A friction event that precedes the end of a contact by less than this share of the end's time coincides with
+/// the end: both times are roots, each with an error of a few roundings of the time.
 pub(super) const JOINT: f64 = 16.0 * f64::EPSILON;
 
 /// A platform with any drives of height and angle.
@@ -46,8 +46,7 @@ pub enum DrivenFlight {
     Separated,
     /// Many short flights, from this launch speed to rest.
     Chatter { speed: f64, chatter: ChatterDuration },
-    /// A flight that ends before it begins: a cut removes this launch speed, with this bound on the error of
-    /// the phase.
+    /// A flight of no duration: a cut removes this launch speed, with this bound on the error of the phase.
     Cut { speed: f64, error: f64 },
 }
 

@@ -14,12 +14,12 @@ use crate::toss::collisions::Collisions;
 use crate::toss::multiple::settle;
 use crate::toss::{InitialSpin, MultiTossSettings, TossOrbit, TossPerformance};
 
-/// Number of events without a separation after which a disk counts as never leaving: without restitution it
-/// may be hit at each kink for ever.
+/// Number of events without a separation after which a disk counts as never leaving; without restitution, a
+/// disk may be hit at each kink for ever.
 const MOST_CONTACT_EVENTS: usize = 10_000;
 
 /// The toss of a disk that lies on the hand at `phase`, until the hand falls away from it or a kink throws
-/// it. If `phase` is `None`, it starts at the hand's [lowest
+/// it. If `phase` is `None`, the toss starts at the hand's [lowest
 /// point](bouncing_disk_drives::Drive::lowest_phase), as in the paper. A hand that moves at `phase` has
 /// already given the disk its velocity: a disk that starts on a kink moves with the hand after the kink, and
 /// is not hit. The speed ratio uses the hand's largest rotary speed with this waveform.
@@ -146,8 +146,8 @@ mod tests {
         assert!(matches!(refused, Err(Error::OutOfRange { field: "contact time", .. })), "{refused:?}");
     }
 
-    /// Derived by hand for straight lines: 2 omega Phi/pi and 2 omega A/pi, from the work of friction and of
-    /// the lift.
+    /// Derived by hand for triangle waves: the speeds 2 omega Phi/pi and 2 omega A/pi, and the efficiency from
+    /// the work of friction and the lift.
     #[test]
     fn the_toss_of_a_triangle_is_as_derived_by_hand() {
         let system = System::pizza_toss();
@@ -190,8 +190,9 @@ mod tests {
         near(toss.speed_ratio.expect("turns"), toss.airborne_speed / turns);
     }
 
-    /// With little friction the dough slides all the way up, and its speed is the impulse of friction: from
-    /// the weight between the lowest point and the separation, and from the vertical momentum.
+    /// With little friction the dough slides all the way up. The impulse of friction is proportional to the
+    /// normal impulse: the weight over the time from the lowest point to the separation, plus the vertical
+    /// momentum.
     #[test]
     fn a_hand_with_two_harmonics_throws_from_its_lowest_point() {
         let toss = thrown(Waveform::Fourier(vec![(1.0, 0.0), (0.15, 0.5)]), Waveform::Sine, 0.05);
@@ -280,7 +281,8 @@ mod tests {
         }
     }
 
-    /// cos t and 2 cos t by another amplitude, cos t + 0.6 cos(2 t), and straight lines of the slope 2/pi.
+    /// Rotary speeds cos t, 2 cos t from a doubled amplitude, cos t + 0.6 cos(2 t), and the constant 2/pi of
+    /// straight lines.
     #[test]
     fn speed_ratios_are_to_the_largest_rotary_speed_of_the_hand() {
         let sine = Waveform::Sine;
@@ -359,7 +361,7 @@ mod tests {
         assert!(periodic > 2 && chattering > 2, "{periodic} {chattering}");
     }
 
-    /// On a second harmonic alone the disk leaves the hand twice per period, at two phases.
+    /// With a second harmonic alone the disk leaves the hand twice per period, at two phases.
     #[test]
     fn a_cycle_is_from_a_separation_to_the_next_one_at_its_phase() {
         let settings = MultiTossSettings {

@@ -18,10 +18,10 @@ pub struct BrakingRotor {
 
 impl BrakingRotor {
     /// The coefficient of friction mu = -m a_g^2 alpha_brake/(a_e N) of a disk that brakes with this angular
-    /// acceleration alpha_brake (rad/s^2), Eq. (17). The acceleration is not positive if the angular speed
-    /// is, since the disk slows down. The caption of Fig. 9 uses the same letter for its absolute value.
+    /// acceleration alpha_brake (rad/s^2), Eq. (17). For a positive angular speed the acceleration is negative
+    /// or zero, since the disk slows down. The caption of Fig. 9 uses the same letter for its absolute value.
     ///
-    /// It is Eq. (12) of a sliding disk, solved for mu.
+    /// This is Eq. (12) for a sliding disk, solved for mu.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] with the field, its value and its legal range.

@@ -1,7 +1,7 @@
 //! The ultrasonic motor: ensembles of speed transients, and their fits (Sec. V).
 //!
 //! After every rest the disk leaves the platform in exactly the same vertical state, so the computed orbit of
-//! an ideal motor falls onto a cycle chosen by the program's rounding. A speed, a torque or a time constant
+//! an ideal motor falls onto a cycle selected by rounding. A speed, a torque or a time constant
 //! is therefore a mean over an ensemble: each relaunch is perturbed by a small random relative velocity from
 //! a seeded stream, and the members start at different phases. A single transient is one random sample.
 
@@ -94,8 +94,8 @@ impl TransientEnsemble {
     /// The observer's items are the fits.
     ///
     /// # Errors
-    /// The first error of a member, in their order; [`Error::OutOfRange`] if there are no members; the errors of
-    /// [`ExponentialFit::new`].
+    /// The first error in the order of the members; [`Error::OutOfRange`] if there are no members; the errors
+    /// of [`ExponentialFit::new`].
     pub fn of_results(
         results: Vec<Result<SpeedCurve, Error>>,
         observer: &dyn Observer,
@@ -191,8 +191,8 @@ mod tests {
         assert!((TransientSettings::default().relaunch_perturbation - 1e-3).abs() < 1e-18);
     }
 
-    /// Evenly spaced phases over the cycle, half a step off zero, and a stream of random numbers for each
-    /// member.
+    /// Evenly spaced phases over the cycle, the first half a step after zero, and a stream of random numbers
+    /// for each member.
     #[test]
     fn members_are_the_transients_of_their_phases_and_seeds() {
         let system = motor(1e-8, 0.0);
@@ -246,8 +246,8 @@ mod tests {
         }
     }
 
-    /// At its lowest point the stator turns at the speed of the resting rotor, up to rounding. Friction
-    /// cannot hold the rotor there, and must not appear to.
+    /// At its lowest point the stator turns at the speed of the resting rotor, up to rounding. Friction cannot
+    /// hold the rotor there, and rounding must not make it seem to.
     #[test]
     fn rotor_starts_as_the_engine_at_the_lowest_point() {
         let system = motor(1e-8, 0.0);
@@ -271,8 +271,8 @@ mod tests {
     }
 
     /// Perturbations from 1e-5 to 1e-1 agree within 3 %. Smaller ones do not: the first impacts after a
-    /// relaunch are then always the same, and the smaller the perturbation, the more of them
-    /// (docs/numerics-impacts.md, "Motors remember the rounding").
+    /// relaunch are then always the same, and more of them for smaller perturbations (docs/numerics-impacts.md,
+    /// "Motors remember the rounding").
     #[test]
     fn steady_speed_does_not_depend_on_the_size_of_the_perturbation() {
         let system = motor(1e-8, 0.0);

@@ -15,8 +15,8 @@ use crate::motor::rotor::transient::{SpeedCurve, check_curve};
 /// constant; near its minimum the residual is so flat that rounding hides smaller steps.
 const GOLDEN_STEPS: u32 = 42;
 
-/// Trial time constants that bracket the best one: at least this number, and no two further apart than the
-/// logarithm of this ratio.
+/// Trial time constants that bracket the best one: at least this number, with logarithms at most this far
+/// apart.
 const TRIALS: u32 = 40;
 const WIDEST_STEP: f64 = 1.0;
 
@@ -25,7 +25,7 @@ const POINTS_OF_FLIGHT: usize = 2;
 
 /// The fit of alpha_ss (1 - exp(-t/t_c)) to a speed curve (Fig. 10, Fig. 11).
 ///
-/// It fits any curve and states no error. A [`TransientFit`](crate::estimate::TransientFit) has intervals,
+/// It accepts any curve and states no error. A [`TransientFit`](crate::estimate::TransientFit) states intervals
 /// and rejects curves that determine no time constant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -54,7 +54,7 @@ impl ExponentialFit {
         observed(observer, |work| Self::counted(times, speeds, work))
     }
 
-    /// [`Self::new`] as a part of a longer call.
+    /// [`Self::new`] as part of a longer call.
     pub(crate) fn counted(times: &[f64], speeds: &[f64], work: &mut WorkCount<'_>) -> Result<Self, Error> {
         check_curve(times, speeds)?;
         let Saturation { steady, constant, residual, .. } =
@@ -111,7 +111,7 @@ impl RampFit {
         observed(&Unobserved, |work| Self::counted(times, speeds, work))
     }
 
-    /// [`Self::new`] as a part of a longer call.
+    /// [`Self::new`] as part of a longer call.
     pub(crate) fn counted(times: &[f64], speeds: &[f64], work: &mut WorkCount<'_>) -> Result<Self, Error> {
         check_curve(times, speeds)?;
         let Saturation { steady, constant, residual, .. } =
@@ -143,7 +143,7 @@ fn exponential(x: f64) -> f64 {
     -exp_m1(-x)
 }
 
-/// What is known of a motor's state at the start of its rise.
+/// The known part of a motor's state at the start of its rise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Start {
     /// Speed zero at time zero.
@@ -164,7 +164,7 @@ pub(crate) struct Saturation {
 }
 
 impl Saturation {
-    /// The fit of a legal curve, with its units.
+    /// The fit of a legal curve, in its units.
     pub(crate) fn of(
         times: &[f64],
         speeds: &[f64],
@@ -405,8 +405,8 @@ mod tests {
         times.iter().map(|&time| truth.speed(time)).collect()
     }
 
-    /// Squares of speeds and a hundred times the longest time once overflowed, a tenth of the shortest
-    /// vanished: the fit was `Ok` and NaN.
+    /// Squares of speeds and a hundred times the longest time once overflowed, and a tenth of the shortest time
+    /// vanished; the fit was then `Ok` and NaN.
     #[test]
     fn curves_of_any_size_are_fitted() {
         let ordinary: Vec<f64> = (1..=200).map(|i| f64::from(i) * 0.02).collect();

@@ -19,7 +19,7 @@ use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::warning::MotorWarning;
 use crate::motor::rotor::transient::check_rows;
 
-/// A measurement this many times above or below the drive's prediction is in another unit.
+/// A measurement this many times above or below the drive's prediction seems to be in another unit.
 const OTHER_SCALE: f64 = 100.0;
 
 /// One run: angular speed against time.
@@ -58,10 +58,10 @@ pub struct MeasuredSpeeds {
 }
 
 impl MeasuredSpeeds {
-    /// The speeds of at least one run, with increasing numbers.
+    /// The speeds of at least one run, with increasing run numbers.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if there are no runs, for numbers that do not rise, fewer than three points in a run,
+    /// [`Error::OutOfRange`] if there are no runs, for run numbers that do not rise, fewer than three points in a run,
     /// lists of different lengths, times that do not rise, and numbers that are not finite; an error of the
     /// core for more than [`MAX_SPEEDS`] speeds.
     pub fn new(runs: Vec<MeasuredRun>) -> Result<Self, Error> {
@@ -102,9 +102,9 @@ impl MeasuredSpeeds {
 }
 
 impl Motor {
-    /// Warnings if measured run-ups are a factor 100 faster or slower than the drive allows. The fastest
+    /// Warnings if measured run-ups are faster or slower than the drive allows by a factor of 100. The fastest
     /// speed is compared with omega Phi, and the time from the first row to half that speed with the shortest
-    /// rise ([`System::rise_time`](crate::System::rise_time)).
+    /// rise time ([`System::rise_time`](crate::System::rise_time)).
     #[must_use]
     pub fn warnings_on(&self, speeds: &MeasuredSpeeds) -> Vec<MotorWarning> {
         let system = self.system();

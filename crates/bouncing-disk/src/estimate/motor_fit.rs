@@ -1,15 +1,16 @@
 //! Fits of unknown motor parameters to measured run-ups, braking tails and the few points in a maker's
 //! catalogue (rated torque and speed, no-load speed, stall torque), each under its own conditions.
 //!
-//! A smooth stand-in for the motor is computed at some hundred places of the ranges; what the measurements exclude by it, and
-//! by its own errors, is excluded. docs/numerics-dynamics.md, "Parameters from measurements".
+//! A smooth emulator of the motor is fitted to computed points of the ranges. Parameters are excluded if their
+//! emulated speeds differ from the measurements by more than the errors of both allow
+//! (docs/numerics-dynamics.md, "Parameters from measurements").
 //!
-//! With C the covariance of the W means over M members and n measured runs, Sigma = C/n (M - 1)/(M - W - 2) at the
-//! parameters nearest to the measurement; the factor makes the inverse of an estimated covariance unbiased. In the
-//! basis of the root of Sigma the means of a run are independent with variance one. It is turned so that the
-//! differences that no smooth response explains are independent too: a motion that locks is faster or slower in all
-//! windows and must count once. No mean counts as known better than 1e-3 of the largest. Elsewhere variances come
-//! from the members there.
+//! Let C be the covariance of a transient's W means over M members, and n the number of measured runs. At the
+//! parameters nearest to the measurement Sigma = C/n (M - 1)/(M - W - 2); the factor makes the inverse of an
+//! estimated covariance unbiased. In the basis of the root of Sigma the means of a run are independent with
+//! variance one. The basis is rotated so that the differences that no smooth response explains are independent
+//! too: a motion that locks is faster or slower in all windows and must count once. No mean counts as known to
+//! better than 1e-3 of the largest. At other parameters, the variances come from the members computed there.
 
 mod display;
 mod emulator;
@@ -41,7 +42,7 @@ use crate::motor::operation::of_motor::operations;
 use crate::motor::operation::point::{Estimate, Operation, Shortfall};
 use crate::motor::operation::settings::OperatingSettings;
 
-/// Points computed at once, for any number of threads, because the result depends on it.
+/// Number of points computed at once, the same for any number of threads, because the result depends on it.
 const BATCH: usize = 2;
 
 /// The same for transients.
@@ -50,21 +51,21 @@ const BATCH_OF_TRANSIENTS: usize = 20;
 /// Largest number of measured points of a fit.
 const MOST_POINTS: usize = 100;
 
-/// Largest number of fitted parameters and uncertain conditions together; more dimensions would need more
-/// motors than anybody computes.
+/// Largest number of fitted parameters and uncertain conditions together; more dimensions would need too many
+/// computed motors.
 const MOST_COORDINATES: usize = 16;
 
 /// Range of an uncertain condition, in standard errors.
 pub(crate) const ERRORS: f64 = 3.0;
 
-/// No speed counts as known better than this share of the stator's largest speed.
+/// No speed counts as known to better than this share of the stator's largest speed.
 const RESOLUTION: f64 = 1e-3;
 
 /// Largest number of transients of a fit.
 const MOST_TRANSIENTS: usize = 100;
 
-/// The interpolation error of a computed curve, as a share of the largest mean: no mean counts as known
-/// better.
+/// The interpolation error of a computed curve, as a share of the largest mean: no mean counts as known to
+/// better than this.
 const CURVE_RESOLUTION: f64 = 1e-3;
 
 /// Points within this distance, as a share of half the ranges, are used to estimate the deviations from a
@@ -197,11 +198,11 @@ struct Model<'a> {
     points: &'a [RatedPoint],
     transients: &'a [MeasuredTransient],
     observed: Vec<Observed>,
-    /// The transformations that make their means independent.
+    /// The transformations that make the means of each transient independent.
     bases: Vec<Basis>,
     ranges: &'a [FitRange],
     settings: &'a MotorFitSettings,
-    /// Point and condition of each coordinate in addition to the ranges.
+    /// Point and condition of each coordinate that follows the ranges.
     uncertain: Vec<(usize, usize)>,
     /// The speed (rad/s) at which the scale of each point saturates.
     bends: Vec<f64>,
@@ -387,7 +388,7 @@ impl<'a> Model<'a> {
         (0..self.ranges.len()).chain(own.map(|(index, _)| self.ranges.len() + index)).collect()
     }
 
-    /// The predicted measurements at these points; `before` others have been computed.
+    /// The predicted measurements at these points, after `before` other points.
     fn compute(&self, places: &[DVector<f64>], before: usize, watch: &Watch<'_>) -> Result<Vec<Node>, Error> {
         let of_place = |index: usize| {
             let seed = SplitMix64::seed_of_stream(self.settings.operating.seed, (before + index) as u64);
@@ -500,8 +501,8 @@ impl<'a> Model<'a> {
         surface.ok_or(Error::OutOfRange { field: "measured speeds", value: f64::NAN, legal: "finite" })
     }
 
-    /// Rejects transients with an offset or a drift of their speeds that explains too much of the squares:
-    /// otherwise the fitted parameters would explain part of it.
+    /// Rejects transients in which an offset or a drift of the speeds explains too much of the squares; the
+    /// fitted parameters would otherwise explain part of it.
     fn check_speeds(&self, surface: &Surface, least: f64) -> Result<(), FitError> {
         let mut first = self.points.len();
         for (transient, ((own, observed), basis)) in
@@ -652,7 +653,7 @@ impl Computed {
             + DMatrix::identity(size, size) * (resolution * resolution)
     }
 
-    /// Its means as independent numbers of variance one near the truth.
+    /// The means, transformed to independent numbers whose variance is one near the truth.
     fn responses(&self, observed: &Observed, basis: &Basis) -> Vec<Response> {
         let members: Vec<DVector<f64>> = self.means.iter().map(|means| basis.of(means)).collect();
         let (mean, count) = (basis.of(&self.mean()), members.len() as f64);
@@ -712,7 +713,7 @@ fn named(ranges: &[FitRange], direction: &DVector<f64>, standard_error: f64) -> 
     }
 }
 
-/// The misfit exceeded by one fit in 10,000 whose expected misfit is `expected`, by Wilson and Hilferty's
+/// The misfit that one fit in 10,000 exceeds if its expectation is `expected`, by Wilson and Hilferty's
 /// approximation of the chi-squared quantile.
 fn rare_misfit(expected: f64) -> f64 {
     let spread = 2.0 / (9.0 * expected);
@@ -720,7 +721,7 @@ fn rare_misfit(expected: f64) -> f64 {
     expected * root * root * root
 }
 
-/// The bounded speed of an operation. The bias from its start-up has a sign, which other points share.
+/// The bounded speed of an operation. The bias from its start-up has the same sign at other points.
 fn response_of(operation: &Operation, bend: f64) -> Response {
     let Some(point) = operation.point() else {
         return Response {

@@ -12,7 +12,8 @@ use crate::testing::{self, refused};
 /// Largest rounding difference, relative to the magnitudes compared.
 const ROUNDING: f64 = 1e-12;
 
-/// Compares each event of the sine's engine with the Fourier sum's next event from the same previous state.
+/// Compares each event of the sine's engine with the event that the engine of the Fourier sum finds from the
+/// same state.
 fn compare(
     system: crate::parameters::DimensionlessSystem,
     start: DrivenStart,
@@ -142,7 +143,7 @@ proptest! {
     }
 
     /// On platforms of all kinds, each ledger closes and agrees with the change of the states, and a motion
-    /// resumed between two events has the same next one.
+    /// resumed between two events meets the same next event.
     #[test]
     fn energy_is_balanced_on_every_platform(
         system in systems(), phase in testing::phase(), speed in 0.0..3.0_f64, spin in -2.0..2.0_f64,
@@ -225,7 +226,7 @@ fn systems() -> impl Strategy<Value = DrivenSystem> {
     )
 }
 
-/// Each kind of event that occurs on a sine is part of the comparison.
+/// The comparison includes each kind of event that occurs on a sine.
 #[test]
 fn the_comparison_meets_every_event() {
     let mut counts = [0; 7];
@@ -248,9 +249,9 @@ fn the_comparison_meets_every_event() {
     assert!(counts[..6].iter().all(|&count| count > 10), "{counts:?}");
 }
 
-/// A disk on a triangle of speed u and angular speed b, derived by hand. It is left behind at the crest and
-/// returns after 4 u with -2 u; at the trough it is hit with 2 u; after the angular speed drops by 2 b it
-/// slides for 2 b/mu and loses 2 b^2.
+/// A disk on a platform whose height and angle are triangle waves, of speed u and angular speed b. Derived by
+/// hand: the platform leaves the disk behind at the crest, and the disk returns after 4 u with -2 u; at the
+/// trough it is hit with 2 u; after the angular speed drops by 2 b it slides for 2 b/mu and loses 2 b^2.
 #[test]
 fn kinks_leave_hit_and_turn_as_derived_by_hand() {
     let (u, b, quarter) = (0.3, 0.2, 0.25 * std::f64::consts::TAU);
@@ -319,8 +320,8 @@ fn bad_starts_and_states_are_refused_by_name() {
     refused("angle", [f64::INFINITY], |angle| go_on(DiskState { angle, ..state }));
 }
 
-/// Such a slip once led to a search for the final period among numbers too large for doubles to count one by
-/// one.
+/// The search for the last period of such a slip once ran among numbers so large that doubles skip whole
+/// numbers.
 #[test]
 fn a_slip_that_friction_hardly_ends_is_too_long() {
     let system = DrivenSystem {
@@ -340,8 +341,8 @@ fn a_slip_that_friction_hardly_ends_is_too_long() {
     assert!(matches!(engine.advance(), Ok(None)));
 }
 
-/// An engine for a disk in flight at the lowest point of a platform without a twist, at zero distance and
-/// with this velocity relative to it; and the velocity of the platform there.
+/// An engine for a disk in flight at the lowest point of a platform without a twist, at zero distance and with
+/// this relative velocity; and the platform's velocity there.
 fn flying_at_the_platform(height: Drive, relative: f64) -> (DrivenEngine, f64) {
     let system = DrivenSystem {
         angle: Drive::fourier(&[]).expect("legal"),
@@ -365,7 +366,7 @@ fn flying_at_the_platform(height: Drive, relative: f64) -> (DrivenEngine, f64) {
     (engine, at.velocity)
 }
 
-/// If the platform presses, a disk that moves with it lies on it, whatever its state says.
+/// A disk that moves with a platform pressing against it is in contact, even if its state says flight.
 #[test]
 fn a_state_of_flight_at_the_platform_is_one_of_contact() {
     for height in [Waveform::Parabolas, Waveform::Sine] {
@@ -381,8 +382,8 @@ fn a_state_of_flight_at_the_platform_is_one_of_contact() {
     }
 }
 
-/// A platform that changes its velocity under a disk, between two engines, hits it at once or leaves it
-/// behind.
+/// If the platform's velocity changes under a disk from one engine to the next, the disk is hit or left behind
+/// at once.
 #[test]
 fn a_state_that_moves_against_the_platform_is_hit_or_leaves() {
     let next = |relative| {

@@ -14,7 +14,7 @@ use crate::estimate::measured_speeds::units::{SpeedUnit, TimeUnit};
 use crate::estimate::measured_speeds::{MeasuredRun, MeasuredSpeeds};
 use crate::regular_file;
 
-/// The names of columns without their units, in small letters.
+/// The names of columns without their units, in lower case.
 pub(crate) const NAMES: [&[&str]; 3] =
     [&["time", "t"], &["speed", "angular speed", "angular_speed", "omega", "n"], &["member", "run", "trial"]];
 
@@ -70,7 +70,7 @@ impl MeasuredSpeeds {
     ///
     /// # Errors
     /// [`MeasuredSpeedsError`](crate::estimate::MeasuredSpeedsError) states file, line and field, and how to
-    /// correct the error. Folders, named pipes, sockets and devices are rejected before they are opened.
+    /// correct the fault. Folders, named pipes, sockets and devices are rejected before they are opened.
     pub fn from_csv(path: impl AsRef<Path>) -> Result<Self, MeasuredSpeedsError> {
         Self::from_csv_with(path, &CsvColumns::default())
     }
@@ -282,7 +282,7 @@ impl<'a> Header<'a> {
         })
     }
 
-    /// Takes the units from a row below the header, for columns without units in their names.
+    /// Reads the units from a row below the header, for columns without units in their names.
     fn units_below(&mut self, line: usize, row: &[&'a str]) -> Result<(), Located> {
         for index in 0..2 {
             let Some(field) = row.get(self.places[index]).filter(|field| !field.is_empty()) else { continue };

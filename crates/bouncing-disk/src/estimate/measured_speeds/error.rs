@@ -6,7 +6,7 @@ use crate::error::Error;
 /// The columns, the last of which is optional.
 pub(crate) const HEADER: &str = "time_s, speed_rad_s and, for repeated runs, member, or time and speed with other units, such as t (ms) and n (rpm)";
 
-/// Why a file gives no measured speeds.
+/// Why measured speeds cannot be read from a file.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum MeasuredSpeedsError {
@@ -46,7 +46,7 @@ fn located(file: &str, line: Option<usize>, field: Option<usize>, fault: &CsvFau
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CsvFault {
-    /// A byte is not text in UTF-8.
+    /// A byte is not valid UTF-8.
     #[error("byte {0} is not text in UTF-8; save the file as UTF-8")]
     NotText(usize),
     /// A line is longer than this number of bytes.
@@ -76,19 +76,19 @@ pub enum CsvFault {
     /// A quotation mark that begins a field is not closed on the line.
     #[error("a quotation mark is not closed on its line; close or remove it")]
     OpenQuote,
-    /// The first line has numbers instead of the names of columns.
+    /// The first line contains numbers instead of the names of columns.
     #[error(
         "the header line is missing, because this line has numbers; add a line before it that names the columns, for \
          instance time_s,speed_rad_s"
     )]
     NoHeader,
-    /// The header has an unknown name.
+    /// The header contains an unknown name.
     #[error(
         "the column {0:?} is unknown; legal columns are {HEADER}. Remove the column, begin a remark with #, or \
          name the columns of times and speeds when you read the file"
     )]
     UnknownColumn(String),
-    /// The header of a table of points has an unknown name or lacks the speed, or a field below it is not a
+    /// The header of a table of points contains an unknown name or lacks the speed, or a field below it is not a
     /// number.
     #[error(
         "{0}; a table of points has the columns speed_rad_s (or speed (rpm), ...), speed_error, and fields of the \
@@ -96,7 +96,7 @@ pub enum CsvFault {
          error, such as load_torque_error"
     )]
     Points(String),
-    /// The header has a name twice.
+    /// The header contains a name twice.
     #[error("the column {0:?} occurs twice; remove one of the two")]
     RepeatedColumn(&'static str),
     /// The header lacks a name.

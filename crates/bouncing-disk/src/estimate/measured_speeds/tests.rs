@@ -32,7 +32,7 @@ fn one_run_is_fitted_by_its_residuals_and_several_by_their_scatter() {
     assert_eq!(few, Err(FitError::Refused(reason)));
 }
 
-/// The same rise, sampled at other instants and for another time in each run.
+/// The same rise, sampled at different instants and for a different duration in each run.
 #[test]
 fn repeats_with_times_and_lengths_of_their_own_are_fitted_together() {
     let mut covered = [0; 2];

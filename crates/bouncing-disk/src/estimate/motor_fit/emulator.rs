@@ -1,5 +1,5 @@
-//! Emulates a smooth response, known with errors at some points, by a Gaussian process with a linear trend.
-//! Far from these points it states by how much it may be wrong.
+//! Emulates a smooth response, known with errors at some points, by a Gaussian process with a linear trend. Its
+//! variance v states the possible error far from these points.
 //!
 //! The errors of the computed values are known, the covariance is Matern's of order 5/2 with a length along
 //! each coordinate, and a rough variance represents motions that lock on a cycle. Lengths and variances
@@ -36,7 +36,7 @@ pub(crate) struct Response {
     pub(crate) error: f64,
     /// Its possible systematic error, perhaps in the same direction at other points.
     pub(crate) bias: f64,
-    /// The variance of a measurement of a motor at this point, without its errors.
+    /// The variance of a measurement of a motor at this point, without the error of the computed value.
     pub(crate) scatter: f64,
 }
 
@@ -59,8 +59,8 @@ pub(crate) struct Emulator {
     trend: f64,
     root: Cholesky<f64, Dyn>,
     weights: DVector<f64>,
-    /// For each value, its deviation from the prediction by all others, and the variance of that deviation;
-    /// its square over this.
+    /// For each value, its deviation from the prediction by all others and the variance of that deviation; then
+    /// the ratio of the squared deviation to this variance.
     pub(crate) left_out: Vec<(f64, f64)>,
     surprises: Vec<f64>,
 }
@@ -124,9 +124,9 @@ impl Emulator {
         Some(best)
     }
 
-    /// The factor of the variances at a point: if values near it are further from their predictions than
+    /// The factor of the variances at a point. If values near it are further from their predictions than
     /// expected, the response is rougher there than elsewhere (motions lock on a cycle only in part of the
-    /// ranges). A few values alone do not determine the scales.
+    /// ranges). Student's factor allows for scales determined by few values.
     fn inflation(&self, place: &DVector<f64>) -> f64 {
         let (mut sum, mut weights) = (0.0, 0.0);
         for (node, surprise) in self.places.iter().zip(&self.surprises) {

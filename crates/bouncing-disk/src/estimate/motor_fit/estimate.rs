@@ -20,7 +20,7 @@ pub struct AcceptedRange {
 }
 
 impl AcceptedRange {
-    /// Whether it contains a value within the searched range.
+    /// Whether the range contains a value that lies within the searched range.
     #[must_use]
     pub fn contains(&self, value: f64) -> bool {
         self.low.is_none_or(|low| low <= value) && self.high.is_none_or(|high| value <= high)
@@ -39,15 +39,15 @@ impl Display for AcceptedRange {
     }
 }
 
-/// A direction in the space of the fitted parameters along which the measurements hardly change, so that they
-/// do not determine the motor's position on it.
+/// A direction in the space of the fitted parameters along which the measurements hardly change, so that the
+/// motor's position along it remains unknown.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct UndeterminedDirection {
     /// The direction as a change of each fitted parameter's coordinate ([`FitParameter`]): the logarithm of a
     /// size, the restitution, or the phase lag (rad). The largest change is 1; each parameter appears once.
     pub direction: Vec<(FitParameter, f64)>,
-    /// The standard error along it, in multiples of the direction as given, positive; infinite if the
+    /// The standard error along the direction, in multiples of `direction`, positive; infinite if the
     /// measurements do not change at all.
     pub standard_error: f64,
 }

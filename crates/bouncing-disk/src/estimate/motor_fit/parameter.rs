@@ -11,8 +11,8 @@ use crate::motor::data_sheet::parameters::MotorParameters;
 
 /// A motor parameter that transients or catalogue points may determine.
 ///
-/// Its coordinate is its natural logarithm if it is positive, and the parameter itself if it may be zero or
-/// negative.
+/// Its coordinate is its natural logarithm for a positive parameter, and the parameter itself if that may be
+/// zero or negative.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]

@@ -15,7 +15,7 @@ use crate::estimate::motor_fit::parameter::FitRange;
 use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::motor_field::MotorField;
 
-/// A field with a value at a point that differs from the data sheet.
+/// A field whose value at a point differs from the data sheet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RatedCondition {
@@ -97,10 +97,10 @@ impl RatedPoint {
 #[cfg(feature = "csv")]
 impl RatedPoint {
     /// The points of a file of separated values. Its columns are `speed_rad_s` (or another unit, such as
-    /// `speed (rpm)`), optionally `speed_error` in that unit, and fields of the data sheet by their names, in
-    /// its units, each optionally with its standard error (`load_torque_error`). Decimal commas are read as
-    /// in run-ups. An empty field means the data sheet's value, or no error. `None` if the file is not a
-    /// table of points: no column is a field of the data sheet, or one has times. Feature `csv`.
+    /// `speed (rpm)`), optionally `speed_error` in that unit, and fields of the data sheet by their names and
+    /// in its units, each optionally with a standard error (`load_torque_error`). Decimal commas are read as in
+    /// run-ups. An empty field means the data sheet's value, or no error. The result is `None` if the file is
+    /// not a table of points: no column is a field of the data sheet, or one contains times. Feature `csv`.
     ///
     /// # Errors
     /// [`MeasuredSpeedsError`] with file, line and field.
@@ -127,7 +127,7 @@ enum Column {
 
 #[cfg(feature = "csv")]
 impl Column {
-    /// `None` for an unknown name; for a known one whose unit differs, that unit and the column's.
+    /// `None` for an unknown name; for a field in a wrong unit, that unit and the field's own.
     fn of(name: &str, said: Option<SpeedUnit>) -> Option<Result<Self, (String, &'static str)>> {
         if name == "speed_error" {
             return Some(Ok(Self::SpeedError));

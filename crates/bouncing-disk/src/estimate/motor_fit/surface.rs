@@ -1,16 +1,17 @@
 //! Emulators of all measured points over the parameter ranges, and the values that the measurements exclude.
 //!
-//! Along each parameter the deviance is minimised over all others by damped Gauss-Newton steps in the box, at 21 even
-//! places and more closely about the minima. Accepted ranges nearer than a twentieth of half the range are one. The
-//! first places are a lattice of the powers of the generalised golden ratio. Further places are profile points within
-//! 1.5 times the threshold at which v exceeds a quarter of the known variance and the rough one, chosen one after the
-//! other as if the one before were known (kriging believer). With few places the rough variance is left out, because
-//! steepness may look rough.
+//! Along each parameter the deviance is minimised over all others by damped Gauss-Newton steps within the
+//! ranges, at 21 evenly spaced points and more closely about the minima. Accepted ranges closer to each other
+//! than a twentieth of half the range are merged. The first computed points are a lattice of powers of the
+//! generalised golden ratio. Further points are profile points within 1.5 times the threshold at which the
+//! emulator's variance v exceeds a quarter of the sum of the known and the rough variance. They are chosen one
+//! after the other, as if the previous ones were known (kriging believer). With few points the rough variance
+//! is left out, because a steep response may look rough.
 //!
-//! Roughness q: each computed sample is left out in turn, and its differences from the prediction of the others are
-//! treated as measured. The part of their squares that the parameters imitate is how far such a motor would move
-//! the fit. q is the value that one sample of twenty exceeds. It is taken over samples within half of half the
-//! ranges of the best if at least 12 lie there, and otherwise over all.
+//! For the roughness q, each computed point is left out in turn, and its differences from the prediction by the
+//! others are treated as measured. The part of their squares that the parameters imitate is the amount by which
+//! such a motor would move the fit. One point in twenty exceeds q. The points are those within half of half the
+//! ranges of the best one if there are at least 12, and otherwise all.
 
 use bouncing_disk_core::numerics::elementary::ln;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
@@ -21,7 +22,7 @@ use crate::estimate::motor_fit::{ERRORS, SETTLED};
 /// The 95 % quantile of chi-squared with one degree of freedom.
 pub(crate) const THRESHOLD: f64 = 3.841_458_820_694_124;
 
-/// Evenly spaced points of a profile, and bisections between them and the best point.
+/// Number of evenly spaced points of a profile, and of bisections between them and the best point.
 const EVEN: usize = 21;
 const HALVINGS: i32 = 9;
 
@@ -30,7 +31,7 @@ const HALVINGS: i32 = 9;
 const NEAR: f64 = 0.5;
 const LEAST_NEAR: usize = 12;
 
-/// Points per coordinate, plus one, that determine the roughness of the responses.
+/// The roughness of the responses is known from this number of points times one plus the number of coordinates.
 const ENOUGH: usize = 20;
 
 /// Accepted ranges closer to each other than this share of half the range are merged.
@@ -101,7 +102,8 @@ impl Surface {
         Some(surface)
     }
 
-    /// Value and variance of each measured point at a point of the ranges: measured, emulated, and rough.
+    /// The emulated value of each measured point at a point of the ranges, and its variance: measured,
+    /// emulated, and rough.
     pub(crate) fn fitted(&self, place: &DVector<f64>) -> Vec<(f64, f64)> {
         let points = self.emulators.iter().zip(&self.own).zip(&self.measured);
         points
@@ -114,7 +116,8 @@ impl Surface {
             .collect()
     }
 
-    /// Weighted differences from the measurements, and of the conditions from their given values.
+    /// Weighted differences of the speeds from the measurements and of the conditions from their given values,
+    /// and the weights.
     fn residuals(&self, place: &DVector<f64>) -> (DVector<f64>, Vec<f64>) {
         let fitted = self.fitted(place);
         let weights: Vec<f64> = fitted.iter().map(|(_, variance)| 1.0 / variance.sqrt()).collect();
@@ -136,14 +139,14 @@ impl Surface {
     }
 
     /// The excess of the deviance over its value at the best point, or the drop of the likelihood if that is
-    /// less: a point is not excluded because another one is less well known.
+    /// less: a point is not excluded merely because the best one is less well known.
     pub(crate) fn excess(&self, place: &DVector<f64>) -> f64 {
         let ((own, doubt), (least, known)) =
             (self.deviance_and_doubt(place), self.deviance_and_doubt(&self.best));
         own - least + (doubt - known).min(0.0)
     }
 
-    /// The most likely of the points; without the variances it would be the least well-known one.
+    /// The most likely of the points; the deviance alone would select the least well-known one.
     fn likeliest(&self, places: Vec<DVector<f64>>) -> Option<DVector<f64>> {
         let all = places.into_iter().map(|place| {
             let (deviance, doubt) = self.deviance_and_doubt(&place);
@@ -220,7 +223,7 @@ impl Surface {
         best
     }
 
-    /// Incomplete if `goes_on` returns false.
+    /// The profiles along all parameters; incomplete if `goes_on` returns false.
     pub(crate) fn profiles(&mut self, goes_on: &(dyn Fn() -> bool + Sync)) -> Vec<Profile> {
         let all = bouncing_disk_core::run::in_parallel(self.parameters, |index| self.profile(index, goes_on));
         // A profile may find a more likely one.
@@ -239,8 +242,8 @@ impl Surface {
         all.into_iter().enumerate().map(of).collect()
     }
 
-    /// Adds a point that is not excluded, and bisections of the interval from it, unless both neighbours show
-    /// it.
+    /// Adds a point that is not excluded, and bisections of the interval about it, unless both neighbours are
+    /// accepted.
     fn add(&self, index: usize, nodes: &mut Vec<(f64, f64, DVector<f64>)>, place: &DVector<f64>) {
         let at = place[index];
         let after = nodes.partition_point(|node| node.0 < at);
@@ -335,7 +338,8 @@ impl Surface {
         profile
     }
 
-    /// The crossing of the threshold by the least deviance, between an accepted node and one that is not.
+    /// The place at which the least deviance crosses the threshold, between an accepted node and an excluded
+    /// one.
     fn crossing(&self, index: usize, [inside, outside]: [&(f64, f64, DVector<f64>); 2]) -> f64 {
         let (mut near, mut far, mut start) = (inside.0, outside.0, inside.2.clone());
         for _ in 0..5 {
@@ -410,10 +414,10 @@ impl Surface {
         chosen
     }
 
-    /// How far deviations from a smooth response may move the parameters. Computed points near the best one
-    /// are treated as if they had been measured; the result is the deviance that parameters can imitate and
-    /// that one of twenty exceeds. If a response is rough (motions lock on cycles), measured motors deviate
-    /// from it as much as these do, and not normally distributed.
+    /// How far deviations from a smooth response may move the parameters. Computed points near the best one are
+    /// treated as if they had been measured; the result is the deviance that parameters can imitate and that
+    /// one point in twenty exceeds. If a response is rough (motions lock on cycles), a measured motor deviates
+    /// from it as much as these points do, and the deviations are not normally distributed.
     fn roughest(&self) -> f64 {
         let is_near = |node: &&DVector<f64>| (*node - &self.best).amax() <= NEAR;
         let near = self.nodes.iter().filter(is_near).count();
@@ -447,8 +451,8 @@ impl Surface {
         DVector::from_iterator(self.emulators.len(), self.emulators.iter().map(|own| own.left_out[node].0))
     }
 
-    /// The estimated amount of an effect in the measured values, which change by `along` per unit of it,
-    /// beyond what the fitted parameters can imitate, and its standard error.
+    /// The estimated amount of an effect, beyond the part that the fitted parameters can imitate, and its
+    /// standard error. A unit of the effect changes the measured values by `along`.
     pub(crate) fn amount(&self, along: &DVector<f64>) -> (f64, f64) {
         let (rest, weights) = self.residuals(&self.best);
         let jacobian = self.jacobian(&self.best, &weights);
@@ -483,7 +487,7 @@ impl Surface {
 }
 
 /// The largest standard error of a determined direction, as a share of half the ranges: its 95 % interval is
-/// then as wide as they are.
+/// then as wide as the ranges.
 const LARGEST_ERROR: f64 = 0.5;
 
 /// An undetermined direction and its standard error.
