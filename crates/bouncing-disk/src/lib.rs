@@ -33,7 +33,7 @@
 //!
 //! | feature | default | effect |
 //! | --- | --- | --- |
-//! | `parallel` | yes | ensembles, grids and sweeps use the threads of rayon's pool, with the same bits |
+//! | `parallel` | yes | ensembles, grids and sweeps use the threads of rayon's pool, with identical results |
 //! | `serde` | yes | `Serialize` for results; `Deserialize` for users' input |
 //! | `json` | yes | a motor's data sheet as JSON |
 //! | `toml` | no | a motor's data sheet as TOML |
@@ -46,7 +46,7 @@
 //! efficiency is `null`. The feature `json` enables `float_roundtrip` of `serde_json`, without which a third
 //! of all numbers change in the last bit when read from JSON.
 //!
-//! Everything is deterministic to the last bit: the same parameters and start give the same events on every
+//! Everything is deterministic to the last bit: the same parameters and start produce the same events on every
 //! machine.
 
 // Public because the experiments of the workspace read such files, too. Not part of the documented interface;

@@ -20,8 +20,8 @@
 //! # Ok::<(), bouncing_disk::Error>(())
 //! ```
 //!
-//! [`SiState`] and [`SiEnergy`] are in SI units; [`Transition`] lists which event may follow which. Tosses
-//! are in [`toss`](crate::toss). How chattering is summed: docs/numerics-impacts.md.
+//! [`SiState`] and [`SiEnergy`] are in SI units; [`Transition`] lists which event may follow which. Tosses are
+//! in [`toss`](crate::toss). docs/numerics-impacts.md explains how chattering is summed.
 
 pub(crate) mod arc;
 pub(crate) mod chatter;

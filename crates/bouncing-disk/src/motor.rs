@@ -23,9 +23,10 @@
 //! ```
 //!
 //! [`Motor::transient`](crate::Motor::transient) computes the run-up of one rotor,
-//! [`Motor::transients`](crate::Motor::transients) of many; [`MotorSweep`] varies the data sheet. All accept
-//! any sheet, including waveforms, compliant stators and compliant contacts. Fits of computed or measured
-//! run-ups are in [`estimate`](crate::estimate). How far to trust the speeds: docs/numerics-dynamics.md.
+//! [`Motor::transients`](crate::Motor::transients) the run-ups of many; [`MotorSweep`] varies the data sheet.
+//! All accept any sheet, including waveforms, compliant stators and compliant contacts. Fits of computed or
+//! measured run-ups are in [`estimate`](crate::estimate). docs/numerics-dynamics.md states how far the speeds
+//! can be trusted.
 
 pub(crate) mod batch;
 pub(crate) mod best;

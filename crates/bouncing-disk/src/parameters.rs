@@ -1,9 +1,9 @@
 //! The parameters of a disk and its platform in SI units, and the six dimensionless numbers that determine
 //! the motion.
 //!
-//! The platform moves by s = A sin(omega t) and turns by beta = Phi sin(omega t + theta) (Eq. 1 of Liu,
-//! Friend and Yeo); a [`Stroke`] gives A and Phi from the path of a hand (Eqs. 13 and 14). In the units
-//! 1/omega and g/omega^2 only the [`DimensionlessParameters`] remain. The first is pi Gamma, with the axial
+//! The platform moves by s = A sin(omega t) and turns by beta = Phi sin(omega t + theta) (Eq. 1 of Liu, Friend
+//! and Yeo); a [`Stroke`] determines A and Phi from the path of a hand (Eqs. 13 and 14). In the units 1/omega
+//! and g/omega^2 only the [`DimensionlessParameters`] remain. The first of them is pi Gamma, with the axial
 //! forcing Gamma = A omega^2/(pi g): the disk leaves the platform if Gamma > 1/pi.
 //!
 //! ```
@@ -19,7 +19,7 @@
 //! ```
 //!
 //! [`Scales`] converts dimensionless results to SI. The resulting motion is in [`motion`](crate::motion).
-//! Equations and units: docs/model.md.
+//! Equations and units are in docs/model.md.
 
 pub(crate) mod contact;
 pub(crate) mod dimensionless;

@@ -27,7 +27,7 @@ pub(crate) const fn refused<T>(reason: FitRefusal) -> Result<T, FitError> {
     Err(FitError::Refused(reason))
 }
 
-/// Why a curve does not allow a trustworthy fit. Every reason carries the numbers by which it was judged.
+/// Why a curve does not allow a trustworthy fit. Every reason states the numbers on which it is based.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
@@ -109,8 +109,8 @@ pub enum FitRefusal {
         /// The fewest points.
         least: usize,
     },
-    /// The members make too few flights within the time constant: an apparent plateau is a flight, during
-    /// which no speed changes.
+    /// The members make too few flights within the time constant: an apparent plateau is a flight, during which
+    /// the speed does not change.
     #[error(
         "it has {flights:?} flights within the time constant {time_constant:?} s, but {least:?} are needed: the \
          apparent plateau is a flight, so take a longer duration"

@@ -1,8 +1,8 @@
-//! Fits of speed transients that state how far they can be trusted, or why not.
+//! Fits of speed transients that state how far they can be trusted, or why they cannot.
 //!
 //! The fit is to the mean curve of an ensemble rather than to each member, because the mean of fits to
-//! scattered curves is not the fit to their mean. Errors come from resampling. Derived in
-//! docs/numerics-dynamics.md, "Fits with intervals".
+//! scattered curves is not the fit to their mean. Errors come from resampling. docs/numerics-dynamics.md, "Fits
+//! with intervals", derives the method.
 
 mod blocks;
 mod members;
@@ -32,7 +32,7 @@ use crate::statistics::group_means;
 /// Fewest members whose scatter is resampled; with fewer, Student's quantile makes any interval useless.
 pub const LEAST_MEMBERS: usize = 5;
 
-/// Fewest points up to the time constant; averaging over intervals of a fourth of it loses 0.3 % of the rise.
+/// Fewest points up to the time constant; averages over a quarter of the time constant lose 0.3 % of the rise.
 const LEAST_POINTS_OF_RISE: usize = 4;
 
 /// Fewest flights within the time constant: a flying rotor has a constant speed, which looks settled.
@@ -55,10 +55,10 @@ const DENIED: f64 = 1.5;
 /// standard error.
 const LARGEST_MISFIT: f64 = 2.0;
 
-/// Distance from an end of the search within which a time constant counts as lying at it.
+/// Distance from an end of the search within which a time constant counts as lying at that end.
 const AT_LIMIT: f64 = 0.01;
 
-/// Requirements of a fit with intervals on a curve, and the resampling of the curve.
+/// Requirements on a curve for a fit with intervals, and the settings of the resampling.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FitSettings {
@@ -73,7 +73,7 @@ pub struct FitSettings {
     /// Largest root mean square of the residuals, as a share of the steady speed alpha_ss, in (0, 1]. Default
     /// 0.1. Measurement noise counts, too: raise the limit if the noise is known to be larger.
     pub largest_residual: f64,
-    /// Whether the times of a measurement count from the instant at which the motor begins to rise from rest.
+    /// Whether the times of a measurement count from the instant at which the speed begins to rise from rest.
     /// Default false: time zero, a dead time and the speed at the start are estimated from the record, and
     /// the intervals are wider. A record that contradicts `true` is rejected.
     pub from_rest: bool,
@@ -111,7 +111,7 @@ pub struct RiseEstimate {
     /// duration.
     pub constant: IntervalEstimate,
     /// The paper's stall acceleration alpha_ss/t_c (rad/s^2): an estimate from the run-up without load, not
-    /// the load that stops the motor. It depends on the duration, as do both of its factors.
+    /// the load that stops the motor. It depends on the duration, as do alpha_ss and t_c.
     pub stall_acceleration: IntervalEstimate,
     /// Speed (rad/s) at the start time of the fit; `None` if the motor starts from rest at time zero.
     pub start_speed: Option<IntervalEstimate>,
@@ -266,9 +266,9 @@ impl TransientFit {
         rows.fit(Start::FromRest, settings, &mut watch.work())
     }
 
-    /// The fit of measured runs, each with its times (s, rising, possibly below zero) and speeds (rad/s). A
-    /// single run has intervals from its residuals, whose noise may be correlated and vary along the curve;
-    /// at least [`LEAST_MEMBERS`] runs have intervals from their scatter.
+    /// The fit of measured runs, each with its times (s, rising, possibly below zero) and speeds (rad/s). The
+    /// intervals of a single run come from its residuals, whose noise may be correlated and vary along the
+    /// curve; those of at least [`LEAST_MEMBERS`] runs come from their scatter.
     ///
     /// The observer's items are the resampled curves, once for each form.
     ///
@@ -332,8 +332,8 @@ fn better_form(exponential: &RiseEstimate, ramp: Option<&RiseEstimate>) -> RiseF
 /// The fitted runs and their mean; speeds are multiplied by `scale`.
 struct Rows {
     runs: Vec<RunSpeeds>,
-    /// The mean over the runs: over as many neighbouring rows as there are runs, which have the same time if
-    /// the runs have equal times.
+    /// Means over groups of neighbouring rows, as many per group as there are runs. If the runs have equal
+    /// times, the rows of a group have the same time.
     times: Vec<f64>,
     speeds: Vec<f64>,
     have_same_times: bool,
@@ -345,7 +345,7 @@ struct Rows {
 }
 
 impl Rows {
-    /// The rows of legal curves, which are computed ones if the number of flights is known.
+    /// The rows of legal curves. If the number of flights is known, the curves are computed ones.
     fn of(
         curves: &[(&[f64], &[f64])],
         flights: Option<f64>,
@@ -418,8 +418,8 @@ impl Rows {
         }
     }
 
-    /// The ratio of the residual of the mean curve to its standard error, if it is so large that the curve
-    /// has another form.
+    /// The ratio of the residual of the mean curve to its standard error if it is so large that the curve has
+    /// another form, otherwise 1.
     fn misfit(&self, of: impl Fn(f64) -> f64, from: f64, parameters: usize) -> f64 {
         let (mut residual, mut expected, mut points) = (0.0, 0.0, 0.0);
         let runs = self.runs.len();

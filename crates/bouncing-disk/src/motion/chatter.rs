@@ -1,5 +1,5 @@
-//! The rotary motion and the energy of a complete chatter: infinitely many impacts, summed one by one until
-//! they no longer count, or in closed form if there are too many.
+//! The rotary motion and the energy of a complete chatter: infinitely many impacts, summed one by one until the
+//! rest is negligible, or in closed form if there are too many.
 
 use bouncing_disk_core::chatter::{ChatterImpact, ChatterSeries};
 use bouncing_disk_core::{Launch, Phase};
@@ -12,7 +12,7 @@ use crate::parameters::dimensionless::DimensionlessSystem;
 
 mod summed;
 
-/// A chattering sequence followed up to some time, with the state just after the last impact by then.
+/// A chattering sequence followed up to some time, with the state just after the last impact before that time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Chatter {
     /// Time of the last impact since the start (rad).
@@ -113,7 +113,7 @@ impl Chatter {
     }
 
     /// An impact at this time after the start, which ends a flight of this duration, with this relative
-    /// velocity and these velocity and angular speed of the platform.
+    /// velocity, on a platform with this velocity and angular speed.
     pub(crate) fn strike(
         &mut self,
         [friction, load, restitution]: [f64; 3],

@@ -63,7 +63,7 @@ pub(crate) struct ContactStep {
     pub(crate) span: PhaseSpan,
     /// The disk that remains in contact; `None` if the platform falls away.
     pub(crate) next: Option<Lying>,
-    /// The change over the segment by the closed forms. At the end of a slip, its speed differs from
+    /// The change over the segment from the closed forms. At the end of a slip, its speed differs from
     /// [`Self::speed`] by rounding.
     pub(crate) change: RotaryChange,
     /// Angular speed at the event: the platform's if friction ends a slip.

@@ -1,5 +1,5 @@
-//! The event engine: the motion of a disk from event to event, on a platform that moves as a sine or
-//! otherwise.
+//! The event engine: the motion of a disk from event to event, on a platform that moves as a sine or with any
+//! periodic motion.
 //!
 //! A [`Ground`] finds the next event, in closed form or as a first root. The effect of an event on the disk,
 //! and its record with the energy, are the same on every ground and implemented here.
@@ -28,14 +28,14 @@ pub(crate) use sine::chatter_speed;
 
 /// A kind of platform under the disk, which determines its motion and the next event.
 ///
-/// Sealed: [`SineGround`], and [`DrivenGround`](crate::driven::DrivenGround) for platforms with any periodic
-/// motion.
+/// The trait is sealed; it is implemented by [`SineGround`] and, for platforms with any periodic motion, by
+/// [`DrivenGround`](crate::driven::DrivenGround).
 pub trait Ground: Debug + Clone {
     /// Disk and platform.
     type System: Debug + Clone;
     /// The data of a flight beyond the state of the disk.
     type Flight: Debug + Clone + Copy + PartialEq;
-    /// The end of a contact that does end.
+    /// The end of a contact, if it ends.
     type ContactEnd: Debug + Clone + Copy + PartialEq;
 
     /// The platform at a phase.
@@ -140,7 +140,7 @@ pub(crate) struct Hit<S> {
 ///
 /// The sequence ends when no further event is possible (a disk rests and sticks for ever) and after an error.
 /// A disk that rests for ever may alternate between sticking and sliding for ever. Two engines with the same
-/// arguments give the same bits.
+/// arguments produce the same bits.
 ///
 /// On the sine the restitution is the system's constant, or follows a law ([`Self::with_law`]).
 /// [`DrivenEngine`](crate::driven::DrivenEngine) is the engine on a platform with any periodic motion.

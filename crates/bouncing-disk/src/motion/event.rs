@@ -17,8 +17,8 @@ use std::ops::AddAssign;
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub enum Event {
-    /// The disk hits the platform. In a compliant contact this is the start of the contact: its impulses are
-    /// distributed until the separation.
+    /// The disk hits the platform. In a compliant contact this is the start of the contact, whose impulses are
+    /// distributed over the time until the separation.
     Impact {
         /// Relative axial velocity w_A (disk minus platform) just before it, <= 0, in units of g/omega.
         axial_impact_velocity: f64,
@@ -162,7 +162,7 @@ pub trait Motion {
 }
 
 /// A motion that can be followed to any time and perturbed, as needed by a motor. All spans are in radians
-/// since the last event, and hold if no event comes before their end.
+/// since the last event and are valid if no event comes before their end.
 pub(crate) trait SteeredMotion: Motion + Send {
     /// The next event if it comes within `limit`. Otherwise the motion stays at its last event.
     fn advance_within(&mut self, limit: f64) -> Result<Option<Self::Record>, Error>;
@@ -170,7 +170,7 @@ pub(crate) trait SteeredMotion: Motion + Send {
     /// The disk `span` later.
     fn disk_after(&self, span: f64) -> DiskState;
 
-    /// The axial velocity of the disk at increasing times `span` later.
+    /// The axial velocity of the disk as a function of the `span`, called with increasing spans.
     fn velocities(&self) -> Box<dyn FnMut(f64) -> f64 + '_> {
         Box::new(|span| self.disk_after(span).axial_velocity)
     }
@@ -194,7 +194,7 @@ pub(crate) trait SteeredMotion: Motion + Send {
         None
     }
 
-    /// Coordinates and speeds of the modes of a compliant stator at the last event; zero on any other.
+    /// Coordinates and speeds of the modes of a compliant stator at the last event; zero on any other platform.
     fn modes(&self) -> [[f64; 2]; MODES] {
         [[0.0; 2]; MODES]
     }

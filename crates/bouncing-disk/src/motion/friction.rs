@@ -7,12 +7,12 @@
 //! dU/dtau = -(mu + s l) + mu P sin tau + s Q sin(tau + theta) = -decay + amplitude sin(tau + lead)
 //! ```
 //!
-//! A disk at the platform's speed begins to slip in direction s exactly when this is positive, and sticks
-//! when it is positive for neither direction. The two add up to -2 mu N, so in contact they are never both
-//! positive. Each is positive over one interval of the period, known in closed form. The position of the
-//! phase relative to these intervals (the *windows*) decides whether friction holds and when a slip ends; the
-//! sign of a rounded force never does. The event that follows, and the state after it, are decided in
-//! `contact_motion.rs`.
+//! A disk at the platform's speed begins to slip in direction s exactly when this rate is positive, and sticks
+//! when it is positive for neither direction. The rates of the two directions add up to -2 mu N, so in contact
+//! they are never both positive. Each is positive over one interval of the period, known in closed form. The
+//! position of the phase relative to these intervals (the *windows*) decides whether friction holds and when a
+//! slip ends; the sign of a rounded force never does. The event that follows, and the state after it, are
+//! decided in `contact_motion.rs`.
 
 use std::cmp::Ordering;
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -31,8 +31,8 @@ use crate::parameters::dimensionless::DimensionlessSystem;
 /// Relative accuracy to which the end of a slip is located.
 const ROOT_ACCURACY: f64 = 2.0 * f64::EPSILON;
 
-/// A slip speed this small, relative to the terms of its computation, may have the wrong sign; far above its
-/// rounding.
+/// A slip speed this small, relative to the terms of its computation, may have the wrong sign; the limit is far
+/// above the rounding of the speed.
 const DOUBTFUL_SPEED: f64 = 1.0e-12;
 
 /// The part of the period in which a slip speed grows.
@@ -81,13 +81,13 @@ impl Spent {
     }
 }
 
-/// Coulomb friction in contact (Eq. 4, with the closed envelope read as holding).
+/// Coulomb friction in contact (Eq. 4, with the closed envelope counted as holding).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Friction {
     forward: Slip,
     backward: Slip,
     /// Neither twist nor load: nothing pulls at the disk, and friction holds it up to the separation. Without
-    /// this flag rounding would let it slip an instant before.
+    /// this flag rounding would let it slip an instant earlier.
     unloaded: bool,
     /// Without friction, but with a relative acceleration, the disk is never held.
     slippery: bool,
@@ -204,7 +204,8 @@ impl Slip {
         }
     }
 
-    /// The sign of a slip speed that was `start` within the last period; `Equal` if it may be rounding.
+    /// The sign of a slip speed that was `start` within the last period; `Equal` if the sign may be due to
+    /// rounding.
     fn certain_sign(&self, start: f64, value: f64) -> Ordering {
         let doubt = DOUBTFUL_SPEED * (start.abs() + self.decay.abs() + self.amplitude);
         if value > doubt {
@@ -360,8 +361,8 @@ impl SlipPath {
 /// Largest number of contact events (slips that begin, end or reverse) in one segment of contact of at most
 /// one period.
 ///
-/// A slip that begins at the platform's speed begins inside its direction's window and ends after it. A
-/// segment this short meets each of the two windows at most twice (once cut in two by its ends). That makes
+/// A slip that begins at the platform's speed begins inside its direction's window and ends after it. A segment
+/// this short contains at most two parts of each of the two windows (its ends may cut one in two). That makes
 /// four slips, each with a beginning and an end, and the end of a slip with which the segment began.
 pub const MAX_CONTACT_EVENTS: usize = 9;
 
@@ -399,9 +400,9 @@ mod tests {
         assert!((time - PI / 6.0).abs() < 4e-15 && direction == SlipDirection::Backward);
     }
 
-    /// With P = 2 both windows begin at the separation if the twist reverses there (theta = -pi/6). It is the
-    /// only instant at which they can, as the two forces on the disk add up to -2 mu N. If rounding leaves
-    /// them equal, the disk slips forward.
+    /// With P = 2 both windows begin at the separation if the twist reverses there (theta = -pi/6). Only at
+    /// this instant can they begin together, as the rates of the two directions add up to -2 mu N. If rounding
+    /// leaves the rates equal, the disk slips forward.
     #[test]
     fn a_tie_of_both_directions_goes_forward() {
         let mut ties = 0;
@@ -459,7 +460,7 @@ mod tests {
         assert!(left.abs() < 1e-14, "{left}");
     }
 
-    /// A long slip that oscillates: the first root, after many periods, is the one of a scan.
+    /// A long slip that oscillates: the first root, after many periods, agrees with a scan.
     #[test]
     fn a_long_slip_ends_at_its_first_root() {
         let slow = friction(DimensionlessParameters { friction: 1e-3, ..GENTLE });
@@ -473,7 +474,7 @@ mod tests {
         }
     }
 
-    /// A limit only drops slips that last longer: it may decide early, but never otherwise.
+    /// A limit only excludes slips that last longer: it may end the search early, but never changes the result.
     #[test]
     fn a_limit_changes_no_slip_within_it() {
         let (mut ended, mut dropped) = (0, 0);

@@ -1,7 +1,7 @@
 //! Integrals over a short time.
 
-/// Nodes and weights of the eight-point Gauss-Legendre rule on [-1, 1]; each entry stands for the nodes of
-/// both signs.
+/// Nodes and weights of the eight-point Gauss-Legendre rule on [-1, 1]; each entry represents the nodes of both
+/// signs.
 pub(crate) const EIGHT_POINTS: [(f64, f64); 4] = [
     (0.183_434_642_495_649_8, 0.362_683_783_378_362),
     (0.525_532_409_916_329, 0.313_706_645_877_887_3),

@@ -12,7 +12,7 @@ pub(crate) fn rebound_velocity(restitution: f64, velocity: f64) -> f64 {
     -restitution * velocity
 }
 
-/// Magnitude of the angular impulse that friction would give if the disk slid throughout the impact (Eq. 8).
+/// Magnitude of the angular impulse that friction would exert if the disk slid throughout the impact (Eq. 8).
 #[inline(always)]
 pub(crate) fn available_impulse(friction: f64, axial_impulse: f64) -> f64 {
     friction * axial_impulse

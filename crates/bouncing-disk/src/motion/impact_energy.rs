@@ -19,8 +19,8 @@ pub(crate) struct Impulses {
     pub(crate) speed: f64,
 }
 
-/// The impulses of an impact; the ledger records the platform's work and the losses. The relative velocity
-/// and the disk's angular speed are each followed by the platform's own.
+/// The impulses of an impact; the ledger records the platform's work and the losses. The platform's velocity
+/// and angular speed follow the relative velocity and the disk's angular speed.
 pub(crate) fn impact(
     ledger: &mut EnergyLedger,
     (friction, restitution): (f64, f64),
@@ -49,7 +49,7 @@ pub(crate) fn record_friction_impulse(
     ledger.record_friction(work, loss, work.abs() + (impulse * slip).abs());
 }
 
-/// Records that a disk with angular `speed` takes the platform's speed at the end of a slip, of which
+/// Records that a disk with angular `speed` is set to the platform's speed at the end of a slip, of which
 /// rounding has left this `slip`.
 pub(crate) fn record_slip_end(ledger: &mut EnergyLedger, speed: f64, slip: f64, platform_speed: f64) {
     let (work, loss) = (-slip * platform_speed, 0.5 * slip * slip);

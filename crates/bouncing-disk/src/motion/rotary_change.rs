@@ -1,6 +1,5 @@
-//! The rotary half of Eq. (2), integrated in closed form over a flight or a segment of contact, and the
-//! energy balance of both; sliding contact, Eq. (12). The vertical half is the core's (`flight/gap.rs`
-//! there).
+//! The rotary half of Eq. (2), integrated in closed form over a flight or a segment of contact, and the energy
+//! balance of both; sliding contact, Eq. (12). The vertical half is in the core (`flight/gap.rs`).
 
 use bouncing_disk_core::Phase;
 

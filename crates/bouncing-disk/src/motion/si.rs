@@ -19,7 +19,7 @@ pub struct SiState {
     pub angular_speed: f64,
 }
 
-/// An [`EnergyLedger`] in SI units per unit mass (J/kg); axial and rotary parts are added where both exist.
+/// An [`EnergyLedger`] in SI units per unit mass (J/kg), with axial and rotary parts added if both exist.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SiEnergy {
@@ -84,8 +84,9 @@ impl Scales {
 impl SiEnergy {
     /// The efficiency of a toss (Sec. III A): eta = (dE + E_0)/(W + E_0), the rotary kinetic energy gained by
     /// the disk divided by the energy put in by the platform. dE is [`Self::rotary_kinetic_change`] and W is
-    /// [`Self::platform_work`]. E_0 (J/kg, not negative) is the rotary kinetic energy of the disk at the
-    /// start, also given by the platform; zero for a disk at rest. NaN if no energy was put in.
+    /// [`Self::platform_work`]. E_0 (J/kg, not negative) is the rotary kinetic energy of the disk at the start,
+    /// which the platform supplied as well; it is zero for a disk at rest. The efficiency is NaN if no energy
+    /// was put in.
     #[must_use]
     pub fn efficiency(&self, initial_rotary_energy: f64) -> f64 {
         (self.rotary_kinetic_change + initial_rotary_energy) / (self.platform_work() + initial_rotary_energy)

@@ -64,8 +64,8 @@ impl Trajectory {
         Self::record_until(engine, now, last)
     }
 
-    /// [`Self::record`], which then follows the disk until `end` if it sticks or slides for ever, or for
-    /// longer than an event can be located.
+    /// [`Self::record`], which then follows the disk until `end` if it sticks or slides for ever, or for so
+    /// long that the next event cannot be located.
     ///
     /// # Errors
     /// The errors of [`Self::record`].
@@ -219,9 +219,9 @@ mod tests {
         assert!(trajectory.ledger().relative_closure() < 1e-14);
     }
 
-    /// Loads, frictions and twists for which no further event happens. The speeds follow from Eq. (4): with
-    /// the load l and the friction k (rad/s^2) a disk slides at l -+ k, and without friction only the load
-    /// acts.
+    /// Loads, frictions and twists for which no further event happens. The speeds follow from Eq. (4): with the
+    /// load l and the friction k (rad/s^2) a sliding disk decelerates at l -+ k, and without friction only the
+    /// load acts.
     #[test]
     fn motions_without_events_are_followed_to_their_end() {
         let of = |amplitude: f64, twist_amplitude: f64, friction: f64, load: f64, speed: f64, end: f64| {

@@ -81,7 +81,8 @@ pub struct Transition {
 }
 
 impl Transition {
-    /// The transitions that the equations of motion allow on the platform of Eq. (1); every other combination is a programming error.
+    /// The transitions that the equations of motion allow on the platform of Eq. (1); every other combination
+    /// is a programming error.
     pub const LEGAL: [Self; 8] = [
         Self::new(ModeKind::Flight, EventKind::Impact, ModeKind::Flight),
         Self::new(ModeKind::Flight, EventKind::Attachment, ModeKind::Sticking),

@@ -87,14 +87,14 @@ pub enum ContactLaw {
     /// A damper parallel to the spring.
     #[default]
     Damper,
-    /// The spring unloads at the square of the restitution times its stiffness.
+    /// The spring unloads with its stiffness times the square of the restitution.
     Hysteresis,
 }
 
 /// The table `[contact]` of a file. With a time, contacts are compliant in all computations that support them
-/// (tosses, motors); the others return an error. Materials, geometry and sizes give a range instead of a
-/// time: impacts stay rigid, and a report compares the range with the period. A system and a data sheet check
-/// the table.
+/// (tosses, motors); the others return an error. From materials, geometry and sizes, a range is estimated
+/// instead: impacts stay rigid, and a report compares the range with the period. A system and a data sheet
+/// check the table.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields, default, expecting = "the table contact"))]
@@ -157,7 +157,7 @@ impl Contact {
         Self { time: Some(time), ..Self::default() }
     }
 
-    /// Checks the numbers, and that everything needed is given and nothing else. The mass comes later.
+    /// Checks the numbers, and that everything needed is given and nothing else. The mass is checked later.
     pub(crate) fn check(&self) -> Result<(), Error> {
         use Geometry::{Layer, Plane, Ring};
         let geometry = ("contact.geometry", self.geometry.is_some());

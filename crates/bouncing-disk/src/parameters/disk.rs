@@ -28,8 +28,8 @@ pub struct DiskParameters {
 }
 
 impl DiskParameters {
-    /// The same disk with a load `torque` T_L (N m) on a disk of `mass` m (kg): the load T_L/(m a_g^2). The
-    /// mass is not needed elsewhere.
+    /// The same disk, of `mass` m (kg), with a load `torque` T_L (N m), which decelerates it by T_L/(m a_g^2).
+    /// The mass is not needed elsewhere.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a torque that is not finite, a mass that is not positive, and a moment of

@@ -15,15 +15,15 @@ use crate::parameters::disk::Disk;
 use crate::parameters::platform::Platform;
 use crate::parameters::scales::Scales;
 
-/// Largest accepted [`Waveform::acceleration_change`]: 6 samples of a sine give 0.25, a corner 0.5, pure
-/// noise 0.8.
+/// Largest accepted [`Waveform::acceleration_change`]: it is 0.25 for 6 samples of a sine, 0.5 for a corner and
+/// 0.8 for pure noise.
 const LARGEST_CHANGE: f64 = 0.3;
 
 /// Largest difference between two samples of the same instant, as a share of the range of all samples.
 const SAME_INSTANT: f64 = 1.0e-3;
 
-/// The least ratios of the fourth difference with a duplicated last sample to the one without it, and to the
-/// usual one. Smooth shapes of 16 samples reach 2 and 4 at their turning points, and more elsewhere.
+/// The least ratios of the fourth difference with a duplicated last sample to the difference without it, and to
+/// the usual difference. Smooth shapes of 16 samples reach 2 and 4 at their turning points, and more elsewhere.
 const STANDS_OUT: [f64; 2] = [1.5, 3.0];
 
 /// The shape of a motion over one period tau = 0 to 2 pi: the height or the angle, divided by its amplitude.
@@ -52,9 +52,9 @@ pub enum Waveform {
     /// Straight lines from 0 at tau = 0 to 1, to -1 and back to 0. They rise for the given share of the
     /// period, in [1e-9, 1 - 1e-9], and fall for the rest.
     Sawtooth(f64),
-    /// One parabola for each half-period of the sine.
+    /// One parabola in each half-period of the sine.
     Parabolas,
-    /// One cubic for each quarter-period: the spline through the zeros and extremes of the sine.
+    /// One cubic in each quarter-period: the spline through the zeros and extremes of the sine.
     Cubics,
 }
 
@@ -173,7 +173,7 @@ impl Waveform {
     }
 
     /// The impact map for a height of this shape, with the amplitude and the restitution of `sine`. If an
-    /// impact lasts `contact_periods` (periods), the map is from release to release
+    /// impact lasts `contact_periods` (periods), the map leads from one release to the next
     /// ([`DrivenMap::with_contact_time`]).
     ///
     /// # Errors
@@ -422,10 +422,10 @@ impl DrivenPlatform {
         Ok(Self { platform, height, angle, contact: None })
     }
 
-    /// This platform with the motion that the table `[drive]` of a file gives.
+    /// This platform with the motion that the table `[drive]` of a file specifies.
     ///
     /// # Errors
-    /// The errors of [`Self::new`]; [`Error::StartPhase`] if the table has a start phase.
+    /// The errors of [`Self::new`]; [`Error::StartPhase`] if the table contains a start phase.
     pub fn of_drive(platform: Platform, drive: &DriveParameters) -> Result<Self, Error> {
         if drive.start_phase.is_some() {
             return Err(Error::StartPhase);

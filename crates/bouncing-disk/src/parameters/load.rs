@@ -49,15 +49,15 @@ pub struct LoadSegment {
     pub from: f64,
     /// The upper speed (rad/s), or infinity.
     pub to: f64,
-    /// The torque extrapolated to speed 0 (N m), even if the piece does not reach it.
+    /// The torque extrapolated to speed 0 (N m), even if the piece does not reach that speed.
     pub torque: f64,
     /// Its slope (N m s/rad).
     pub slope: f64,
 }
 
-/// A load law and a schedule of the drive: a torque over the speed, a factor over the time, an inertia, and
-/// when the drive is on. A positive torque decelerates a positive rotation. Times count from the start of a
-/// run-up.
+/// A load law and a schedule of the drive: a torque over the speed, a factor over the time, an inertia, and the
+/// time for which the drive is on. A positive torque decelerates a positive rotation. Times count from the
+/// start of a run-up.
 ///
 /// ```
 /// use bouncing_disk::parameters::LoadLaw;
@@ -107,7 +107,7 @@ impl LoadLaw {
     }
 
     /// A fan, T |w| w/w_r^2 with the torque T (N m) at the rated speed w_r (rad/s), as `pieces` linear pieces
-    /// in each direction. Up to the rated speed they exceed the exact torque by up to T/(4 `pieces`^2); above
+    /// in each direction. Up to the rated speed the pieces exceed the exact torque by up to T/(4 `pieces`^2); above
     /// it, the last line is extrapolated.
     ///
     /// # Errors
@@ -140,10 +140,10 @@ impl LoadLaw {
         Ok(Self { inertia: not_negative("load.inertia", inertia)?, ..self })
     }
 
-    /// Limits the drive to the time from `on` to `off` (s), which may be infinite.
+    /// Limits the drive to the time from `on` to `off` (s); both may be infinite.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] unless the first comes before the second.
+    /// [`Error::OutOfRange`] unless `on` comes before `off`.
     pub fn with_drive(self, on: f64, off: f64) -> Result<Self, Error> {
         check(on < f64::INFINITY, "load.on", on, "[-inf, inf) (s)")?;
         check(on < off, "load.off", off, "after load.on (s)")?;

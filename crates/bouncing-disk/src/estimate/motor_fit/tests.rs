@@ -1,9 +1,10 @@
 //! Fits of motors with known parameters. Coverage, as the number of accepted ranges that contain the truth:
 //!
-//! Run-ups of a motor of 40 kHz with a gyration radius of 71 mm and rigid impacts, 1.5 s, 150 points with
-//! errors of 0.05 rad/s, one run each; friction 0.13 in [0.05, 0.5] and restitution in [0.1, 0.9]; 20 sets
-//! from this library and 20 from an independent program. In brackets the number of determined ranges (a
-//! single one with two ends), and how many of these contain the truth:
+//! Each fit uses one run-up of 1.5 s with 150 points and errors of 0.05 rad/s, of a motor of 40 kHz with a
+//! gyration radius of 71 mm and rigid impacts. The friction is 0.13, with the range [0.05, 0.5]; the range of
+//! the restitution is [0.1, 0.9]. There are 20 sets from this library and 20 from an independent program.
+//! Brackets contain the number of determined ranges (a single one with two ends), and how many of these contain
+//! the truth:
 //!
 //! | restitution | friction, library | independent | restitution, library | independent |
 //! | --- | --- | --- | --- | --- |
@@ -12,16 +13,16 @@
 //! | 0.45 | 20 (1, 1) | 20 (0) | 20 (0) | 20 (1, 1) |
 //! | 0.60 | 20 (1, 1) | 20 (2, 2) | 20 (9, 9) | 20 (5, 5) |
 //!
-//! One run gives little information here; with a known restitution the friction is determined to about 20 %.
-//! For friction alone, 0.2 (the motor of Table III, one run-up of 1.2 s with a clock error, a dead time or an
-//! initial speed), a test requires 8 of 9, all determined.
+//! One run gives little information here; with a known restitution the friction is determined to about 20 %. If
+//! only the friction, 0.2, is fitted (the motor of Table III, one run-up of 1.2 s with a clock error, a dead
+//! time or an initial speed), a test requires that all 9 ranges are determined and 8 contain the truth.
 //!
-//! Rated points, with the threshold 3.84, which accepts less than with the roughness added. For the
-//! prescribed motor of Table III and three points (no load, 10 uN m, 20 uN m, known to 1 and 2 %): friction
-//! 97 and twist 96 of 100. For restitution from the no-load speed alone, with motions that lock in half of
-//! the range: 95. For friction and restitution from three points of a motor on a stator of 50 g in volts: 95
-//! and 99 of 100. A test requires 4 of 5 on the prescribed motor. Not measured: mass and quality of the
-//! stator, more than two parameters.
+//! Rated points are fitted with the threshold 3.84, which accepts less than with the roughness added. For the
+//! prescribed motor of Table III and three points (no load, 10 uN m, 20 uN m, known to 1 and 2 %), 97 ranges of
+//! the friction and 96 of the twist out of 100 contain the truth. For restitution from the no-load speed alone,
+//! with motions that lock in half of the range, 95 do. For friction and restitution from three points of a
+//! motor on a stator of 50 g in volts, 95 and 99 of 100 do. A test requires 4 of 5 on the prescribed motor.
+//! Mass and quality of the stator, and fits of more than two parameters, were not measured.
 //!
 //! Measured motors deviate from a smooth response as much as computed ones, some by three or four standard
 //! deviations.
@@ -55,8 +56,8 @@ fn prescribed_points() -> Vec<RatedPoint> {
     vec![under(0.0, 0.0, 0.3), under(1e-5, 1e-7, 0.3), under(2e-5, 4e-7, 0.5)]
 }
 
-/// Catalogue points of this motor, computed from other starts, with errors of speeds and loads. If it does
-/// not hold a load, there is no speed to print, and the point is sampled again.
+/// Catalogue points of this motor, computed from other starts, with errors of speeds and loads. If the motor
+/// cannot carry a load, there is no speed to print, and the point is sampled again.
 fn printed(motor: &Motor, points: &[RatedPoint], seed: u64) -> Vec<RatedPoint> {
     let mut noise = Noise::new(seed.wrapping_mul(7919));
     let mut of = |(index, point): (usize, &RatedPoint)| {
@@ -86,8 +87,8 @@ fn fit(motor: &Motor, points: &[RatedPoint], ranges: &[FitRange], seed: u64) -> 
     MotorFit::new(motor, points, &[], ranges, &settings(seed), &Unobserved)
 }
 
-/// How many of the accepted ranges of each parameter contain the truth, and how many exclude any value; a
-/// rejected fit is a miss.
+/// The number of fits whose accepted ranges of each parameter contain the truth, and the number whose ranges
+/// exclude any value; a rejected fit is a miss.
 fn covered(
     motor: &Motor,
     points: &[RatedPoint],
@@ -198,7 +199,7 @@ fn illegal_points_are_refused_by_name() {
     assert!(both(good.at(MotorField::LoadTorque, 0.0), &[FRICTION]));
 }
 
-/// Compared with a known response that is bent like a collapse.
+/// A comparison with a known response that bends like the collapse of a speed.
 #[test]
 fn an_emulator_knows_how_well_it_knows() {
     let response =
@@ -249,7 +250,7 @@ fn surface_of(response: fn(f64) -> f64, points: [[f64; 2]; 3], bias: &dyn Fn(f64
     Surface::new(1, measured, vec![vec![0]; 3], &nodes, &values, None, &|| true).expect("finite")
 }
 
-/// Between two points of the profile the deviance falls from 100 to 0 and rises again, on both sides.
+/// On both sides the deviance falls from 100 to 0 and rises again between two points of the profile.
 #[test]
 fn a_second_narrow_solution_is_found() {
     let mut surface = surface_of(|x| 10.0 * x * x, [[10.0 * 0.53 * 0.53, 0.05]; 3], &|_| 0.0);
@@ -381,7 +382,7 @@ mod transients {
         fitted(&Motor::paper_70_khz(), &[of_run(TransientKind::RunUp, run.0, run.1)], &[WIDE])
     }
 
-    /// Whatever the clock error, the dead time and the speed at the first row.
+    /// The ranges contain the truth whatever the clock error, the dead time and the speed at the first row.
     #[test]
     fn ranges_of_the_friction_hold_the_truth() {
         let mut held = 0;

@@ -5,10 +5,11 @@
 //! value. A clock error, a dead time and an initial speed then have no effect. The compared quantities are
 //! means over time windows on either side of that instant.
 //!
-//! There are two windows before it and five after, each later one twice as long as the one before. The half-way
-//! instant is that of the least integral of the distance from the level. Computed members are sampled at the measured
-//! instants, shifted by a random part of half a step, with the measured errors. The error of a point, if not given,
-//! comes from deviations from the line between its neighbours. A braking tail is compared in the same windows.
+//! There are two windows before the half-way instant and five after it, each later one twice as long as the
+//! previous one. At that instant the integral of the distance from the half-way level is least. Computed
+//! members are sampled at the measured instants, shifted by a random part of half a step, with the measured
+//! errors. If the error of a point is not given, it is estimated from the deviations of points from the line
+//! between their neighbours. A braking tail is compared in the same windows.
 
 use std::f64::consts::TAU;
 
@@ -227,8 +228,8 @@ impl Observed {
         self.patterns.len()
     }
 
-    /// The change of the means per unit of an amount added to the speeds, given as a function of the time
-    /// from the half-way instant.
+    /// The change of the means per unit of a multiple of `added` in the speeds, a function of the time from the
+    /// half-way instant.
     pub(super) fn change(&self, transient: &MeasuredTransient, added: impl Fn(f64) -> f64) -> DVector<f64> {
         let size = 1e-3 * self.fastest;
         let of = |run: &MeasuredRun, at: f64| {
@@ -251,7 +252,8 @@ impl Observed {
         (DVector::from_iterator(self.bounds.len() - 1, means), at)
     }
 
-    /// The same for computed members of a motor, at the measured instants and with the measured errors.
+    /// The means and half-way instants of computed members, at the measured instants and with the measured
+    /// errors.
     pub(super) fn compute(
         &self,
         motor: &Motor,
@@ -335,9 +337,9 @@ fn step(run: &MeasuredRun) -> f64 {
     (run.times[run.times.len() - 1] - run.times[0]) / (run.times.len() - 1) as f64
 }
 
-/// The time at which a curve rises (or falls) through a level for good: before it the curve is on one side
-/// and after it on the other, judged by the integral of its distance. Between two points it lies on the line
-/// that joins them.
+/// The time at which a curve rises (or falls) through a level for good: judged by the integral of its distance
+/// from the level, the curve is on one side before this time and on the other afterwards. Points are joined by
+/// straight lines.
 fn crossing(times: &[f64], speeds: &[f64], level: f64, sign: f64) -> f64 {
     let above = |index: usize| sign * (speeds[index] - level);
     let (mut sum, mut least, mut best) = (0.0, 0.0, 0);

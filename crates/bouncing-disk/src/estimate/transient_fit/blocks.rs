@@ -8,10 +8,10 @@
 //! determines t_c and the plateau alpha_ss.
 //!
 //! If each residual retains the share phi of the one before, the correlation time is tau = (1 + phi)/(1 - phi)
-//! points. The variance of the sum of a block of l points is then sigma^2 l tau less the part 2 phi/((1 - phi^2) l)
-//! = (tau - 1/tau)/(2 l), the covariance of neighbouring blocks. Blocks have l >= 2.5 (tau - 1/tau) points, at
-//! least a 64th of the curve; at most 20 % is missing, and the factor 1/sqrt(1 - (tau - 1/tau)/(2 l)) compensates
-//! it.
+//! points. The variance of the sum of a block of l points is then sigma^2 l tau, reduced by the share 2
+//! phi/((1 - phi^2) l) = (tau - 1/tau)/(2 l), the covariance of neighbouring blocks. Blocks have l >= 2.5
+//! (tau - 1/tau) points, at least a 64th of the curve. At most 20 % is missing, for which the factor 1/sqrt(1 -
+//! (tau - 1/tau)/(2 l)) compensates.
 
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::run::WorkCount;
@@ -23,7 +23,7 @@ use crate::estimate::transient_fit::shape_grid::{MOMENTS, OF_SPEEDS, RunSpeeds, 
 use crate::statistics::correlation_time;
 use crate::statistics::small_sample_widening;
 
-/// Fewest blocks; fewer would give too little information about each other.
+/// Fewest blocks; fewer would contain too little information about each other.
 const LEAST_BLOCKS: usize = 8;
 
 /// About a quarter of the blocks determine a parameter, as the blocks of the rise determine the time
@@ -37,8 +37,8 @@ const MOST_BLOCKS: usize = 64;
 /// intervals").
 const BLOCK_TIMES: f64 = 2.5;
 
-/// Residuals below this share of the steady speed come from the search, which ends about this near the best
-/// constant.
+/// Residuals below this share of the steady speed are errors of the search, which ends about this close to the
+/// best constant.
 const EXACT: f64 = 1.0e-6;
 
 /// Neighbouring blocks on either side that are assumed to have equally large noise.

@@ -1,13 +1,13 @@
-//! Fits of a motor whose short and coarse transients once gave speeds far above its stator's.
+//! Fits of a motor whose short and coarse transients once resulted in speeds far above its stator's.
 //!
-//! Coverage for this motor (40 kHz, 0.5 um, 12 rad/s, a lag of 30 degrees, 250 m/s^2) with members of 100 ms:
-//! steady speed 97 and time constant 95 of 100 with 16 members, 97 and 97 with 32; with 8 members, and so too
-//! few starting phases, 93 to 96 and 89 to 93 % (200 trials of 60 to 800 ms each). The time constant of the
-//! mean over 100 ensembles is 11.1 ms with 8 phases, 15.1 ms with 16, and 13.6 ms with 4000. An interval does
-//! not cover a wrong form: the motor approaches its steady speed more slowly than an exponential, and 4000
-//! members of 60, 100, 400 and 800 ms give 7.76, 7.62, 7.53 and 7.52 rad/s. The mean over the fits of 32
-//! members of 5 ms is 63 rad/s. The motor flies for 1 ms at a time, and fits of its first 0.1 ms gave 0.3
-//! rad/s with a narrow interval.
+//! Coverage of steady speed and time constant for this motor (40 kHz, 0.5 um, 12 rad/s, a lag of 30 degrees,
+//! 250 m/s^2) with members of 100 ms: 97 and 95 of 100 with 16 members, 97 and 97 with 32. With 8 members,
+//! which have too few starting phases, it is 93 to 96 % and 89 to 93 % (200 trials of 60 to 800 ms each). The
+//! time constant of the mean over 100 ensembles is 11.1 ms with 8 phases, 15.1 ms with 16, and 13.6 ms
+//! with 4000. An interval does not cover the error of a wrong form: the motor approaches its steady speed more
+//! slowly than an exponential, and the fits to 4000 members of 60, 100, 400 and 800 ms are 7.76, 7.62, 7.53 and
+//! 7.52 rad/s. The mean over the fits of 32 members of 5 ms is 63 rad/s. The motor flies for 1 ms at a time,
+//! and fits of its first 0.1 ms once found 0.3 rad/s with a narrow interval.
 
 use super::*;
 use crate::estimate::ensemble::TransientEnsemble;
@@ -43,8 +43,8 @@ fn a_duration_that_is_too_short_is_refused_where_members_alone_give_nonsense() {
     assert!(matches!(refused, Err(FitError::Refused(FitRefusal::TooCoarse { .. }))), "{refused:?}");
 }
 
-/// Every duration gives the same answer, that of the longest runs of all trials together. Intervals of 95 %
-/// miss occasionally, so not all of them can contain it.
+/// Fits of every duration agree with the fit to the longest runs of all trials together. Intervals of 95 % miss
+/// occasionally, so not all of them can contain its values.
 #[test]
 fn fits_that_are_accepted_agree_whatever_the_duration() {
     let durations = [(0.06, 100), (0.1, 100), (0.2, 200), (0.4, 400)];
@@ -69,8 +69,8 @@ fn fits_that_are_accepted_agree_whatever_the_duration() {
     assert!(fits.iter().all(|fit| fit.steady_speed().high < STATOR_SPEED));
 }
 
-/// The truth is the fit of the mean over very many starting phases and perturbations. A rejected trial covers
-/// nothing.
+/// The truth is the fit of the mean over very many starting phases and perturbations. A rejected trial counts
+/// as a miss.
 #[test]
 fn intervals_of_motor_transients_cover_the_fit_of_a_huge_ensemble() {
     let truth = TransientFit::new(&curves(0.1, 80, 1_600, 900_000), &FitSettings::default()).expect("fitted");

@@ -12,17 +12,17 @@ pub(crate) const LEAST_POINTS: usize = 8;
 /// Step of the trial time constants, in their logarithm.
 const STEP: f64 = 0.05;
 
-/// The fit omits initial rows if this lowers the logarithm of the sum of squares, over all independent rows,
-/// by more than this number, half of Akaike's penalty for the two added parameters. A cut too many costs
-/// rows; one too few causes a bias.
+/// The fit omits initial rows if this lowers the logarithm of the sum of squares, over all independent rows, by
+/// more than this number, half of Akaike's penalty for the two added parameters. An unnecessary cut costs rows;
+/// a missing one causes a bias.
 const PRICE: f64 = 2.0;
 
-/// Sums of squares below this share of the speeds' own are rounding.
+/// Sums of squared residuals below this share of the sum of squared speeds are rounding.
 const EXACT: f64 = 1.0e-13;
 
 /// The number of rows before the rise. The record is cut so that a constant speed before the cut and a
-/// saturating exponential after it leave the smallest squares, if that describes the record better than no
-/// cut.
+/// saturating exponential after it leave the smallest sum of squares. It stays whole if the cut does not
+/// describe it better.
 pub(crate) fn rows_before_rise(
     times: &[f64],
     speeds: &[f64],

@@ -69,7 +69,7 @@ impl Resamples {
         (value + self.widening * (low - centre), value + self.widening * (high - centre))
     }
 
-    /// The values below and above which a fortieth of the fits lie.
+    /// The values below and above which one fit in forty lies.
     fn percentiles(&self, of: &dyn Fn(&Rise) -> f64) -> (f64, f64) {
         let mut values: Vec<f64> = self.fits.iter().map(of).collect();
         values.sort_by(f64::total_cmp);

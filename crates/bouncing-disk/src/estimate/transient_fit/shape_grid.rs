@@ -21,9 +21,9 @@ const STEPS: i32 = 80;
 /// Number of constants of the grid.
 const CONSTANTS: usize = 2 * STEPS as usize + 1;
 
-/// Numbers of a curve that its fit needs: its weight, for each constant the sums of the shapes f and of their
-/// squares, then the sum of its speeds, and for each constant the sum of their products with the shapes. The
-/// numbers of several curves add up.
+/// Number of moments of a curve, the sums that its fit needs: its weight; for each constant, the sums of the
+/// shapes f and of their squares; the sum of its speeds; and, for each constant, the sum of the products of
+/// speeds and shapes. The moments of several curves add up.
 pub(crate) const MOMENTS: usize = SPEEDS + OF_SPEEDS;
 
 /// Index of the first moment that depends on the speeds.

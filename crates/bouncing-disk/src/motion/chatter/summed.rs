@@ -1,11 +1,12 @@
 //! A chatter in closed form: pieces of many impacts in which the disk slides one way or follows the platform.
 //!
-//! The reserve of friction for either direction, divided by y, is a polynomial of sixth order
-//! (docs/numerics-impacts.md, "The rotary motion of a chatter"). Its first zero is found on the monotonic
-//! stretches between the zeros of its derivative; ln y/ln r gives the index, which is checked against its
-//! neighbours. The reserve changes its sign at most five times, and a slip that began must see two changes before
-//! it ends. So there are at most three slips in either direction and one from the start, hence at most 16 pieces.
-//! If friction only just holds, rounding decides at each impact about a share of 1e-16 of the impulses. From the
+//! With y = r^n at impact n, friction's margin for either direction, divided by y, is a polynomial of sixth
+//! order (docs/numerics-impacts.md, "The rotary motion of a chatter"). Its first zero is found on the monotonic
+//! stretches between the zeros of its derivative; the index of the impact is ln y/ln r, checked against its
+//! neighbours. The margin changes its sign at most five times, at least twice between the start and the end of
+//! a slip. So there are at most three slips in either direction and one from the start, hence at most 16
+//! pieces. If friction only just holds, rounding decides at each impact on about 1e-16 of the impulses. From
+//! the sixteenth on, each piece therefore covers at least twice as many impacts as the previous one.
 //! sixteenth on, each piece therefore covers at least twice as many impacts as the one before.
 
 use bouncing_disk_core::chatter::{ChatterSeries, ImpactRange, PowerSeries};
@@ -24,8 +25,8 @@ use crate::parameters::dimensionless::DimensionlessSystem;
 /// impact whether friction holds; each of them is then twice as long as the previous one.
 const USUAL_PIECES: u32 = 16;
 
-/// Pieces after which that has led to the end: 2^64 impacts. The largest numbers seen are 5 pieces by the signs,
-/// and 22 with rounding, at r = 1 - 2^-53.
+/// Number of pieces with which this doubling reaches 2^64 impacts, the end. The largest numbers seen are 5
+/// pieces by the signs, and 22 with rounding, at r = 1 - 2^-53.
 const MAX_PIECES: u32 = USUAL_PIECES + 64;
 
 impl Chatter {
@@ -79,18 +80,19 @@ struct Rotation<'a> {
     system: &'a DimensionlessSystem,
     series: &'a ChatterSeries,
     chatter: &'a mut Chatter,
-    /// Axial impulse of an impact per 1 - r, and the total impulse still to come.
+    /// Axial impulse of an impact divided by 1 - r, and the total impulse still to come.
     impulse: PowerSeries,
     impulses: PowerSeries,
     flight: PowerSeries,
     /// Angular speed of the platform minus a constant.
     platform: PowerSeries,
-    /// The increase of the slip by the platform and the load, until the end and during a flight (per 1 - r).
+    /// The increase of the slip by the platform and the load, until the end and during a flight (divided by 1 -
+    /// r).
     gain: PowerSeries,
     flight_gain: PowerSeries,
     /// Angular speed of the platform at the start.
     platform_start: f64,
-    /// Impacts done.
+    /// Number of impacts so far.
     impacts: u64,
     /// Angular speed relative to the platform after them.
     slip: f64,
@@ -164,7 +166,8 @@ impl<'a> Rotation<'a> {
         self.slip = 0.0;
     }
 
-    /// The last launch before the impact that fails to hold a disk that follows the platform.
+    /// The last launch before the first impact in which friction fails to hold a disk that follows the
+    /// platform.
     fn first_slip(&self) -> Option<u64> {
         let share = self.series.share(Some(self.impacts));
         [1.0, -1.0]
@@ -196,7 +199,7 @@ impl<'a> Rotation<'a> {
         self.platform_start - self.series.range(0, impacts).change(&self.platform)
     }
 
-    /// The next impact by itself, as in [`Chatter::advance`].
+    /// The next impact as a single one, as in [`Chatter::advance`].
     fn strike(&mut self) {
         let range = self.series.range(self.impacts, Some(self.impacts + 1));
         let duration = range.change(self.series.remaining());

@@ -9,8 +9,8 @@ use super::*;
 use crate::parameters::dimensionless::DimensionlessParameters;
 use crate::testing::golden_spread;
 
-/// Pieces that a chatter needs, and the number that rounding may add near restitution 1, where 50 impacts
-/// change a share by as much as rounding does.
+/// Largest number of pieces of a chatter, and the number with rounding near restitution 1, where 50 impacts
+/// change a share by as little as rounding does.
 const MOST_PIECES: u32 = 6;
 const MOST_ROUNDED_PIECES: u32 = 32;
 
@@ -46,8 +46,8 @@ impl Case {
     }
 }
 
-/// The closure of the rotary energy is relative to the terms that balance: work, and the loss of the whole
-/// slip.
+/// The rotary closure is relative to the magnitudes of the terms that balance: the work, and the loss that the
+/// whole slip would cause.
 #[test]
 fn an_impact_adds_its_work_and_its_slip_to_the_terms_that_balance() {
     let mut ledger = EnergyLedger::default();
@@ -182,7 +182,7 @@ fn sums_in_closed_form_are_those_of_the_impacts_one_by_one() {
     }
 }
 
-/// Also in the middle of a chatter: the state after the last impact by then.
+/// The two also agree in the middle of a chatter, in the state after the last impact before that time.
 #[test]
 fn the_middle_of_a_chatter_is_that_of_the_impacts_one_by_one() {
     for restitution in [0.5, 0.9, 0.99, 0.999] {
@@ -223,8 +223,8 @@ fn millions_of_impacts_agree_with_the_closed_form() {
     }
 }
 
-/// A load that friction just holds in every impact, to the last bit: rounding may decide at each of them, and
-/// the pieces are few nevertheless.
+/// Friction just holds a load in every impact, to the last bit. Rounding may decide at each of these impacts,
+/// but the pieces remain few.
 #[test]
 fn friction_at_its_limit_takes_few_pieces() {
     for restitution in [0.9, 0.999, 1.0 - 1e-7, 1.0 - f64::EPSILON / 2.0] {
@@ -264,7 +264,7 @@ fn friction_at_its_limit_takes_few_pieces() {
     }
 }
 
-/// A slip that ends in a given impact, exactly or nearly, ends there or in the next one.
+/// A slip that should end in a given impact, exactly or nearly, ends there or in the next one.
 #[test]
 fn a_slip_that_ends_in_an_impact_ends_there() {
     for restitution in [0.9, 0.999] {
@@ -291,8 +291,8 @@ fn a_slip_that_ends_in_an_impact_ends_there() {
     }
 }
 
-/// A chatter consists of its flights and impacts one by one, here from the first impacts of single launches.
-/// Against a load, friction slides throughout in the first impacts and stops the slip in later ones.
+/// A chatter equals its flights and impacts one by one, here computed as the first impacts of single launches.
+/// Against a load, the disk slides throughout in the first impacts, and friction stops the slip in later ones.
 #[test]
 fn a_chatter_is_its_impacts_one_by_one() {
     let system = DimensionlessParameters {

@@ -15,7 +15,7 @@ use crate::motion::state::Snapshot;
 pub const MAX_SAMPLES: usize = 1 << 24;
 
 /// Largest number of periods of the platform for which [`Engine::sample`] follows a motion. With an impact in
-/// each they take many minutes, and no instant is rounded by more than a millionth of a period.
+/// each period this takes many minutes; no instant is rounded by more than a millionth of a period.
 pub const MAX_SAMPLED_PERIODS: u64 = 1 << 30;
 
 /// The cost of an event, in flights: one that ends a chatter takes longer than a flight.
@@ -23,7 +23,7 @@ const FLIGHTS_OF_EVENT: u64 = 4;
 
 impl<L: RestitutionLaw> Engine<SineGround<L>> {
     /// Disk and platform at `count` equidistant instants, from now to `span` later inclusive. Events are not
-    /// stored, so a long motion takes no more memory than a short one. Afterwards the engine stands just
+    /// stored, so a long motion takes no more memory than a short one. Afterwards the engine is just
     /// after the first event at or after the last instant.
     ///
     /// At an event, the state is the one just after it, as in [`Trajectory::at`](crate::Trajectory::at). A

@@ -43,10 +43,10 @@ impl<S: TryInto<DimensionlessSystem, Error: Into<Error>>> OnGround for S {
 
 impl<L: RestitutionLaw> Engine<SineGround<L>> {
     /// An engine for a system whose restitution follows a `law`; the system's constant one is ignored. A
-    /// chatter ends by a `cut`, whose error (rad) is reported in [`Event::Attachment`]; infinite if no bound
-    /// is known.
+    /// chatter ends by a `cut`, whose error (rad) is reported in [`Event::Attachment`]; the error is infinite
+    /// if no bound is known.
     ///
-    /// The law takes dimensionless speeds, in g/omega: divide a speed in m/s by
+    /// The law's speeds are dimensionless, in units of g/omega: divide a speed in m/s by
     /// [`Scales::velocity`](crate::parameters::Scales::velocity).
     ///
     /// ```
@@ -120,7 +120,7 @@ impl<L: RestitutionLaw> Engine<SineGround<L>> {
     }
 
     /// The energy balance of an unfinished or endless segment: from the last event, or the start, to `span`
-    /// later, assuming that no event comes before. Added to the ledgers of the previous events, it gives the
+    /// later, assuming that no event comes before. Together with the ledgers of the previous events, it is the
     /// balance up to any instant.
     ///
     /// ```
@@ -149,7 +149,7 @@ impl<L: RestitutionLaw> Engine<SineGround<L>> {
         matches!(self.stage, Stage::Flight(())) && orbit.is_some_and(|orbit| orbit.launch().is_some())
     }
 
-    /// Gives a flight that starts now ([`Self::launches`]) another relative speed >= 0, in units of g/omega;
+    /// Sets the relative speed >= 0, in units of g/omega, of a flight that starts now ([`Self::launches`]);
     /// does nothing at any other time. No ledger includes the energy of this kick.
     ///
     /// # Errors
@@ -164,7 +164,7 @@ impl<L: RestitutionLaw> Engine<SineGround<L>> {
         Ok(())
     }
 
-    /// Comes to rest after an impact at `now` which left the disk in `state`, with the chatter and the
+    /// Brings the disk to rest after an impact at `now` that left it in `state`, with the chatter and the
     /// attachment that ends it, for a vertical motion computed elsewhere. The angle is counted from `state`.
     pub(crate) fn rest_after(
         &mut self,
@@ -179,8 +179,8 @@ impl<L: RestitutionLaw> Engine<SineGround<L>> {
         self.attach(rest, chatter)
     }
 
-    /// The next event with the segment that it ends. Without a next event, the segment that lasts until
-    /// `end`: for ever, or by a slip whose end is too far away for its phase to be resolved.
+    /// The next event and the segment that it ends. Without a next event, the segment lasts until `end`: for
+    /// ever, or in a slip whose end is too far away for its phase to be resolved.
     pub(crate) fn advance_towards(
         &mut self,
         end: &PhaseTime,
@@ -325,12 +325,12 @@ impl<L: RestitutionLaw> Ground for SineGround<L> {
     }
 }
 
-/// Whether the chatter is cut: one that is summed has a duration, one that is cut leaves a speed.
+/// Whether the chatter is cut: a summed chatter has a duration, a cut one leaves a speed.
 fn is_cut(rest: &Attachment) -> bool {
     rest.accumulation.duration <= 0.0 && rest.last_speed > 0.0
 }
 
-/// The launch speed of a summed chatter; the paper's cut removes the last one by a separate impulse.
+/// The launch speed of a summed chatter; the paper's cut removes the last speed by a separate impulse.
 pub(crate) fn chatter_speed(rest: &Attachment) -> f64 {
     if is_cut(rest) { 0.0 } else { rest.last_speed }
 }

@@ -1,5 +1,5 @@
-//! Estimates the duration of an impact and the indentation under the weight, to judge whether rigid impacts
-//! are a valid model. Derived in docs/numerics-dynamics.md, "Estimates of the contact time".
+//! Estimates the duration of an impact and the indentation under the weight, to judge whether rigid impacts are
+//! a valid model (docs/numerics-dynamics.md, "Estimates of the contact time").
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 use std::fmt::{self, Display, Formatter};
@@ -60,7 +60,7 @@ pub struct ContactStatement {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum ContactWarning {
-    /// Impacts last longer than a tenth of a period, by the upper end of the range.
+    /// Impacts last longer than a tenth of a period, at the upper end of the range.
     LongContact {
         /// The range of the contact time over the period.
         periods: [f64; 2],
@@ -252,8 +252,8 @@ fn transmissibility(squares: [f64; 2], damping: f64) -> [f64; 2] {
 }
 
 impl System {
-    /// The estimated duration of impacts at this speed (m/s), from the table `[contact]`; `None` without a
-    /// table. The speed is the one of the motion under study; a speed in the table overrides it. If it is
+    /// The estimated duration of impacts at this `speed` (m/s), from the table `[contact]`; `None` without a
+    /// table. The speed is the one of the motion under study; a speed in the table overrides it. If `speed` is
     /// `None`, there are no impacts.
     ///
     /// ```

@@ -120,8 +120,8 @@ fn the_middle_of_every_chatter_is_known() {
     }
 }
 
-/// A launch whose speed once stayed at the smallest number for ever, and a restitution near 1: one event
-/// each.
+/// A launch whose speed once stayed at the smallest double for ever, and a restitution near 1: the attachment
+/// is one event.
 #[test]
 fn chatters_that_never_ended_are_one_event() {
     let peak = 1.000_000_267_196_965_4;

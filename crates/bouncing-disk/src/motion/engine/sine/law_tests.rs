@@ -48,8 +48,8 @@ fn law() -> impl Strategy<Value = KuwabaraKono> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 1000, ..ProptestConfig::default() })]
 
-    /// Energy is balanced in every event and in total; the loss in restitution and the axial impulse follow
-    /// the law at that speed, and friction stays within the cone of that impulse.
+    /// Energy is balanced in every event and in total; the loss in restitution and the axial impulse follow the
+    /// law at the speed of the impact, and friction stays within the cone of that impulse.
     #[test]
     fn every_ledger_closes_under_a_law((system, start, _) in testing::motion(), law in law()) {
         let engine = Engine::with_law(system, law, start, PAPER_CUT).unwrap();

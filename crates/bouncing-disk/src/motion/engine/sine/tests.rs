@@ -39,7 +39,7 @@ fn energy(state: &DiskState) -> (f64, f64) {
     )
 }
 
-/// Friction that nearly holds the load lets the disk slide for thousands of periods, and the angle is a small
+/// Friction that nearly holds the load lets the disk slide for thousands of periods. The angle is then a small
 /// difference of the angles that the two would cause alone. The balance accounts for its rounding, and the
 /// angle is v^2/(2 (mu - l)) to the accuracy of mu and l.
 #[test]
@@ -273,7 +273,7 @@ proptest! {
         }
     }
 
-    /// The same arguments give the same bits.
+    /// The same arguments produce the same bits.
     #[test]
     fn the_engine_is_deterministic((system, start, policy) in testing::motion()) {
         prop_assert_eq!(records(&system, start, policy, 50), records(&system, start, policy, 50));
