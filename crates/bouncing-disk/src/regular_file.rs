@@ -4,7 +4,7 @@ use std::fs::{self, File, FileType};
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 
-/// Not a regular file. Opening a named pipe waits for a writer, and a device may never end.
+/// Not a regular file. Opening a named pipe waits for a writer, and reading a device may never end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("it is {found}, not a regular file")]
 pub struct NotRegular {
@@ -29,7 +29,7 @@ pub struct TooLarge {
 ///
 /// # Errors
 ///
-/// Errors of the operating system, with [`NotRegular`] or [`TooLarge`] inside if the file is one of these.
+/// Errors of the operating system, which contain [`NotRegular`] or [`TooLarge`] if the file is one of these.
 pub fn read(path: &Path, largest: u64) -> io::Result<Vec<u8>> {
     must_be_regular(fs::metadata(path)?.file_type())?;
     let file = File::open(path)?;
@@ -45,7 +45,7 @@ pub fn read(path: &Path, largest: u64) -> io::Result<Vec<u8>> {
 ///
 /// # Errors
 ///
-/// Errors of the reader, with [`TooLarge`] inside if it returns more.
+/// Errors of the reader, which contain [`TooLarge`] if it returns more.
 pub fn limited(reader: impl Read, largest: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     // A file may grow while it is read, and some file systems state no length.

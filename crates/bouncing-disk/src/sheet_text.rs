@@ -73,13 +73,13 @@ fn without_mark(text: &str) -> &str {
     text.strip_prefix('\u{feff}').unwrap_or(text)
 }
 
-/// The message that there is no such key, and which known one may be meant.
+/// The message for an unknown key, with the known one that may be meant.
 #[must_use]
 pub fn unknown_key(key: &str, known: &[&str]) -> String {
     format!("the key {}", unknown(key, nearest(key, known), known))
 }
 
-/// The message that there is no such name, escaped as in Rust, and which one may be meant.
+/// The message for an unknown name, escaped as in Rust, with the one that may be meant.
 pub(crate) fn unknown(name: &str, nearest: Option<&str>, known: &[&str]) -> String {
     let hint = match nearest {
         Some(nearest) => format!("did you mean \"{nearest}\"?"),
@@ -105,9 +105,10 @@ fn excerpt(text: &str) -> String {
     }
 }
 
-/// The known name most similar to this one. In this order: the one with the fewest changed letters, if at
-/// most a third of its letters differ; one that contains the name or is contained in it; one that is as near
-/// without its table; the one with the fewest changes, if fewer than half of its letters differ.
+/// The known name most similar to this one, by the first rule that applies: the name with the fewest changed
+/// letters, if at most a third of its letters differ; one that contains this name or is contained in it; one
+/// that is as similar without its table; the name with the fewest changes, if fewer than half of its letters
+/// differ.
 pub(crate) fn nearest<'k>(name: &str, known: &[&'k str]) -> Option<&'k str> {
     if name.is_empty() || name.len() > LONGEST_NAME {
         return None;

@@ -23,11 +23,11 @@ const WINDOW: f64 = 5.0;
 /// The integrated correlation time of residuals, 1 + 2 (rho_1 + rho_2 + ...), in points: at least 1, and 1
 /// for independent ones.
 ///
-/// `parameters` have been fitted. It is the larger of two estimates. The first, without a model, is the sum
-/// of the autocorrelations up to five times their sum so far. The second, with a smaller error, is (1 +
-/// rho_1)/(1 - rho_1) for residuals each of which depends only on the previous one
-/// (docs/numerics-dynamics.md, "Fits with intervals"). `None` if the window does not end within a fourth of
-/// the residuals: they are correlated for too long.
+/// `parameters` is the number of fitted parameters. The result is the larger of two estimates. The first,
+/// without a model, is the sum of the autocorrelations up to five times their sum so far. The second, with a
+/// smaller error, is (1 + rho_1)/(1 - rho_1) for residuals each of which depends only on the previous one
+/// (docs/numerics-dynamics.md, "Fits with intervals"). `None` if the window does not end within a fourth of the
+/// residuals, which are then correlated for too long.
 pub(crate) fn correlation_time(residuals: &[f64], parameters: usize) -> Option<f64> {
     let n = residuals.len();
     let variance: f64 = residuals.iter().map(|value| value * value).sum();
@@ -64,8 +64,9 @@ pub(crate) fn correlation_time(residuals: &[f64], parameters: usize) -> Option<f
 
 /// The 97.5 % quantile of Student's distribution for the integer part of the degrees of freedom, at least 1.
 ///
-/// Fewer degrees of freedom have a larger quantile, so truncation makes an interval wider. Beyond ten it is
-/// the expansion in the inverse degrees of freedom (Abramowitz and Stegun 26.7.5), with an error below 1e-6.
+/// Fewer degrees of freedom have a larger quantile, so truncation makes an interval wider. Beyond ten, the
+/// quantile is computed from the expansion in the inverse degrees of freedom (Abramowitz and Stegun 26.7.5),
+/// with an error below 1e-6.
 pub(crate) fn student_quantile(degrees: f64) -> f64 {
     let whole = (degrees as u64).max(1);
     if let Some(quantile) = usize::try_from(whole - 1).ok().and_then(|index| STUDENT_QUANTILES.get(index)) {
@@ -83,7 +84,7 @@ pub(crate) fn student_quantile(degrees: f64) -> f64 {
     terms.iter().rev().fold(0.0, |sum, term| sum * inverse + term)
 }
 
-/// The factor by which an interval must be wider than the bootstrap's to hold for a sample of `size`
+/// The factor by which an interval must be wider than the bootstrap's to be valid for a sample of `size`
 /// independent values. The resampled variance lacks the factor size/(size - 1), and the rest has Student's
 /// distribution (docs/numerics-dynamics.md, "Fits with intervals").
 pub(crate) fn small_sample_widening(size: usize) -> f64 {

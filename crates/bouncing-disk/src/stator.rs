@@ -60,7 +60,7 @@ use regime::{COS, ContactStiffness, DISPLACEMENTS, Regime, SIN, State, VELOCITIE
 /// Least and largest duration (rad) of an isolated impact on a compliant stator.
 pub const CONTACT_TIMES: [f64; 2] = [1.0e-2, 1.0e4];
 
-/// The largest share of the jamming friction that is accepted; closer to a jam a disk moves too fast for the
+/// The largest share of the jamming friction that is accepted; closer to a jam, the motion is too fast for the
 /// steps.
 const NEAREST_JAM: f64 = 0.99;
 
@@ -75,7 +75,7 @@ const REGIMES: [Mode; 4] = [
 /// Range of mode frequencies, in units of the drive frequency.
 const FREQUENCIES: [f64; 2] = [1.0e-3, 1.0e3];
 
-/// A mode of the compliant stator, without units.
+/// A mode of the compliant stator, in dimensionless form.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct YieldingMode {
     /// Effective mass at the tip over the mass of the disk; for a mode that only twists, its inertia over the
@@ -113,7 +113,7 @@ pub struct LoadLine {
     pub from: f64,
     /// Upper end; infinity for the last line.
     pub to: f64,
-    /// Torque at speed 0, even if the piece does not reach it.
+    /// Torque at speed 0, even if the piece does not reach that speed.
     pub torque: f64,
     /// Change of the torque per unit of speed.
     pub slope: f64,
@@ -133,12 +133,13 @@ pub(crate) struct ModeLaw {
     pub(crate) by_torque: f64,
     /// Mass in the units of axial energy.
     pub(crate) weight: f64,
-    /// Sine and cosine of the phase in the steady motion of the coordinate without a disk.
+    /// Coefficients of the sine and the cosine of the phase in the steady motion of the coordinate without a
+    /// disk.
     pub(crate) steady: [f64; 2],
 }
 
-/// A disk on a compliant stator, without units; [`DimensionlessSystem`] is its counterpart on a prescribed
-/// platform.
+/// A disk on a compliant stator, in dimensionless form; [`DimensionlessSystem`] is its counterpart on a
+/// prescribed platform.
 #[derive(Debug, Clone)]
 pub struct StatorSystem {
     pub(crate) base: DimensionlessSystem,
@@ -327,7 +328,7 @@ impl StatorSystem {
         (!varies).then(|| first.torque - self.base.load())
     }
 
-    /// Whether it has modes.
+    /// Whether the stator has modes.
     pub(crate) const fn yields(&self) -> bool {
         !self.given.is_empty()
     }

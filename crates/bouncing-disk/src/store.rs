@@ -1,9 +1,9 @@
 //! Files: their origin, and the journal from which a long computation resumes.
 //!
-//! A [`Provenance`] states program, version, format, parameters, seed and chatter policy, but neither time
-//! nor machine, so that the same computation writes the same bytes. A [`Journal`] starts with a line of
-//! provenance, followed by one result per line, each with a digest. A killed computation loses only the line
-//! being written and resumes to the same bits.
+//! A [`Provenance`] states program, version, format, parameters, seed and chatter policy, but neither time nor
+//! machine, so that the same computation writes the same bytes. A [`Journal`] starts with a line of provenance,
+//! followed by one result per line, each with a digest. A killed computation loses only the line being written;
+//! resumed, it ends with the same bits.
 //!
 //! ```
 //! use bouncing_disk::System;
@@ -16,7 +16,7 @@
 //! # Ok::<(), bouncing_disk::store::StorageError>(())
 //! ```
 //!
-//! Files that the command line writes: docs/command-line.md.
+//! docs/command-line.md describes the files that the command line writes.
 
 pub(crate) mod error;
 pub(crate) mod journal;

@@ -1,4 +1,4 @@
-//! Systems for tests: the motor of the paper, and random ones for property tests, biased to the legal limits.
+//! Systems for tests: the motor of the paper, and random ones for property tests, biased towards the legal limits.
 
 pub(crate) mod small_steps;
 
@@ -64,7 +64,7 @@ pub(crate) trait Told: Debug {
     fn is_told_by(&self, error: &FitError) -> bool;
 }
 
-/// The field of a number that is out of range, or a part of another message; with the value, a part of any
+/// The field of a number that is out of range, or part of another message; a text with " = " is part of any
 /// message.
 impl Told for &str {
     fn is_told_by(&self, error: &FitError) -> bool {
@@ -87,7 +87,7 @@ impl Told for FitRefusal {
     }
 }
 
-/// A row of a table of rejected calls: each of these arguments must give the error `told`.
+/// A row of a table of rejected calls: each of these arguments must return the error `told`.
 pub(crate) fn refused<A, T: Debug, E: Into<FitError>>(
     told: impl Told,
     arguments: impl IntoIterator<Item = A>,
@@ -104,7 +104,7 @@ pub(crate) fn refused<A, T: Debug, E: Into<FitError>>(
 /// Stops a computation at the nth call of the observer and after it.
 struct StopAfter {
     calls: u64,
-    /// The number of items it must be given, if known.
+    /// The number of items that each call must report, if known.
     items: Option<u64>,
     /// The number of calls so far, and the last progress reported.
     seen: Mutex<(u64, Progress)>,
@@ -144,8 +144,8 @@ fn stopped<T>(result: &Result<T, FitError>) -> Option<Progress> {
     }
 }
 
-/// Checks a call with this many items, on 1, 2 and 7 threads (if it is not one of several parts), stopped at
-/// observer calls from the first to the last: it must report how far it was, or return the same result as
+/// Checks a call with this many items on 1, 2 and 7 threads (if it is not one of several parts), stopped at
+/// observer calls from the first to the last. The call must report how far it was, or return the same result as
 /// without an observer. Returns how often one thread calls the observer, and its progress.
 pub(crate) fn check_stops<T: PartialEq + Debug + Send + Sync, E: Into<FitError>>(
     items: impl Into<Option<u64>>,

@@ -1,8 +1,8 @@
 //! Tosses: a single one, and many in a row.
 //!
 //! A single toss starts at rest at the lowest point of the hand (Sec. III of Liu, Friend and Yeo). Its
-//! efficiency is the rotary energy divided by the work of the hand; its speed ratio is the spin divided by
-//! the hand's largest angular speed. Many tosses (Sec. IV) settle on an orbit. If it has one impact per
+//! efficiency is the rotary energy divided by the work of the hand; its speed ratio is the spin divided by the
+//! hand's largest angular speed. Many tosses (Sec. IV) settle on an orbit. On an orbit with one impact per
 //! period, the disk turns with the hand at the impact (Eq. 16), at omega Phi cos(tau + theta) with cos tau =
 //! (1 - r)/((1 + r) Gamma).
 //!

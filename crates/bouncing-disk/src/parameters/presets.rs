@@ -50,7 +50,7 @@ pub(crate) const ROTOR: DiskParameters = DiskParameters {
 };
 
 impl Stroke {
-    /// The hand of Table I ([`System::pizza_toss`]), which can be changed and made a platform
+    /// The hand of Table I ([`System::pizza_toss`]), which can be changed and turned into a platform
     /// ([`Platform::from_stroke`]).
     #[must_use]
     pub const fn pizza_toss() -> Self {
@@ -125,7 +125,8 @@ impl System {
         self.with_parts(*self.platform(), parameters.build()?)
     }
 
-    /// The same system with the amplitude that gives this axial forcing parameter Gamma = A omega^2/(pi g).
+    /// The same system with the amplitude that corresponds to this axial forcing parameter Gamma = A
+    /// omega^2/(pi g).
     ///
     /// # Errors
     /// [`Error::OutOfRange`] names the parameter, its value and its legal range.
@@ -135,8 +136,8 @@ impl System {
         self.with_platform(|platform| platform.amplitude = peak_acceleration * preload / (omega * omega))
     }
 
-    /// The same system with the twist amplitude that gives this angular forcing parameter Gamma_T = a_g^2
-    /// Phi omega^2/(a_e pi g mu); none without friction.
+    /// The same system with the twist amplitude that corresponds to this angular forcing parameter Gamma_T =
+    /// a_g^2 Phi omega^2/(a_e pi g mu); without friction there is none.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] names the parameter, its value and its legal range.
@@ -149,8 +150,8 @@ impl System {
         self.with_platform(|platform| platform.twist_amplitude = angular_forcing * unit)
     }
 
-    /// The same system with the amplitudes that give this stroke (m) and amplitude angle (rad) at the disk's
-    /// contact radius (Eq. 13).
+    /// The same system with the amplitudes that correspond to this stroke (m) and amplitude angle (rad) at the
+    /// disk's contact radius (Eq. 13).
     ///
     /// # Errors
     /// The errors of [`Platform::from_stroke`] and of [`Self::new`].

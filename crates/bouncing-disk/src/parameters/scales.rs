@@ -51,8 +51,8 @@ impl Scales {
         }
     }
 
-    /// Checks that no unit is negative, zero, subnormal or infinite: SI numbers would lose their digits, and
-    /// times would stand still.
+    /// Checks that no unit is negative, zero, subnormal or infinite: otherwise SI numbers would lose digits,
+    /// and times would not advance.
     pub(crate) fn check(&self) -> Result<(), Error> {
         let units = [
             ("unit of time (s)", self.time),

@@ -21,7 +21,7 @@ pub enum StatorKind {
     /// The height, in one mode; the twist is prescribed.
     #[default]
     Axial,
-    /// Both, in one mode whose tip turns as it rises: beta = kappa s, as for a pretwisted beam.
+    /// Both, in one mode that turns the tip as it rises: beta = kappa s, as for a pretwisted beam.
     AxialTwist,
     /// Both, each in a mode with its own resonance.
     AxialAndTorsional,
@@ -86,8 +86,8 @@ pub struct StatorParameters {
     pub capacitance: Option<f64>,
 }
 
-/// A mode of a stator: M (q'' + (omega_1/Q) q' + omega_1^2 q) = F sin(omega t + phase) plus the reaction of
-/// the rotor. The tip's height is the sum of `height` q, its angle the sum of `angle` q.
+/// A mode of a stator: M (q'' + (omega_1/Q) q' + omega_1^2 q) = F sin(omega t + phase) plus the reaction of the
+/// rotor. The tip's height is the sum of `height` q over the modes, its angle the sum of `angle` q.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct VibrationMode {

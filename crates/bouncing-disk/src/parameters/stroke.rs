@@ -18,9 +18,8 @@ pub struct Stroke {
     pub stroke: f64,
     /// Amplitude angle phi_L (rad) in [0, pi/2]: 0 is a purely vertical motion, pi/2 a purely rotary one.
     pub amplitude_angle: f64,
-    /// Effective contact radius a_e (m), positive, at which the stroke is measured: the disk's
-    /// ([`DiskParameters::contact_radius`](crate::DiskParameters::contact_radius)). Nothing checks that the
-    /// two agree.
+    /// Effective contact radius a_e (m), positive, at which the stroke is measured. It should equal the disk's
+    /// ([`DiskParameters::contact_radius`](crate::DiskParameters::contact_radius)), which is not checked.
     pub contact_radius: f64,
     /// Angular frequency omega (rad/s), positive.
     pub angular_frequency: f64,
@@ -47,8 +46,9 @@ impl Stroke {
     /// (Eq. 14): omega^2 = (v/c)^2 + (a_e w/c)^2 and phi_L = arctan(a_e w/v) for axial and angular speeds v
     /// and w.
     ///
-    /// The disk leaves after the platform's speed has passed its maximum, and both components are smaller by
-    /// the factor cos tau_sep. Eq. (14) neglects this, which makes omega too small but does not affect phi_L.
+    /// The disk leaves after the platform's speed has passed its maximum, and both components are smaller than
+    /// their maxima by the factor cos tau_sep. Eq. (14) neglects this, which makes omega too small but does not
+    /// affect phi_L.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] with the field, its value and its legal range.

@@ -43,7 +43,7 @@ pub(crate) enum Beyond {
 }
 
 impl System {
-    /// The system of these two.
+    /// The system of this platform and this disk.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if a dimensionless parameter of the combination is outside its range, for
@@ -102,7 +102,7 @@ impl System {
         &self.disk
     }
 
-    /// The same system without units.
+    /// The same system in dimensionless form.
     #[must_use]
     pub const fn dimensionless(&self) -> &DimensionlessSystem {
         &self.dimensionless
@@ -121,7 +121,7 @@ impl System {
     }
 
     /// The law and the duration (s) of compliant contacts. `None` if impacts are rigid, because no time is
-    /// given or it is below 1e-6 rad of the vibration.
+    /// given or the time is below 1e-6 rad of the vibration.
     #[must_use]
     pub fn soft_contact(&self) -> Option<(ContactLaw, f64)> {
         let contact = self.contact.as_ref()?;
@@ -198,8 +198,8 @@ impl System {
         self.dimensionless.peak_acceleration()
     }
 
-    /// omega Phi a_g^2/(mu a_e g) (s): the time in which [`Disk::friction_acceleration`] gives the platform's
-    /// largest angular speed; infinite without friction, zero without twist, NaN without either.
+    /// omega Phi a_g^2/(mu a_e g) (s): the time in which a disk with [`Disk::friction_acceleration`] reaches
+    /// the platform's largest angular speed; infinite without friction, zero without twist, NaN without either.
     #[must_use]
     pub fn rise_time(&self) -> f64 {
         self.platform.peak_angular_speed() / self.disk.friction_acceleration()
@@ -222,7 +222,7 @@ impl System {
 impl TryFrom<System> for DimensionlessSystem {
     type Error = Error;
 
-    /// The same as for a reference.
+    /// As for a reference.
     fn try_from(system: System) -> Result<Self, Error> {
         Self::try_from(&system)
     }
@@ -398,7 +398,7 @@ mod tests {
         refused("unit of length (m)", [fast(1e-160), still], moved);
     }
 
-    /// Nothing moves, nothing rubs, nothing rebounds: all legal.
+    /// A platform at rest, no friction and no rebound are legal.
     #[test]
     fn zeros_are_legal() {
         let platform = PlatformParameters { amplitude: 0.0, twist_amplitude: 0.0, ..PLATFORM };

@@ -123,8 +123,8 @@ impl StatorEngine {
         }
     }
 
-    /// Whether the force of a rigid contact is below zero for less time than a truncated chatter: a flight no
-    /// higher than its rounding.
+    /// Whether the force of a rigid contact would be below zero for less time than a truncated chatter lasts,
+    /// in a flight no higher than its rounding.
     fn touches(&self, state: &State) -> bool {
         let flow = &self.regime().flow;
         let slope = flow.derivative(self.regime().force.now());
@@ -134,7 +134,7 @@ impl StatorEngine {
             && dot(&slope, state) > -0.5 * CHATTER * bend
     }
 
-    /// Disk minus stator, angular speeds.
+    /// Angular speed of the disk minus the stator's.
     pub(super) fn slip(&self) -> f64 {
         self.state[SPEED] - self.system.twist(&self.state)[1]
     }

@@ -35,8 +35,8 @@ impl StatorEngine {
         Self::begin(system, PhaseTime::in_first_period(phase), state, parted.is_none())
     }
 
-    /// An engine that continues a motion from [`Self::state_after`]. In contact on a rigid stator, the disk
-    /// takes the stator's height and velocity.
+    /// An engine that continues a motion from [`Self::state_after`]. In contact on a rigid stator, the disk is
+    /// given the stator's height and velocity.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for numbers that are not finite, and for a disk more than rounding below a rigid
@@ -186,7 +186,7 @@ impl StatorEngine {
         }
     }
 
-    /// Moves a disk that lies for ever by whole periods, in which everything repeats except the angle and a
+    /// Advances a disk that lies for ever by whole periods, in which everything repeats except the angle and a
     /// drifting speed; returns the energies of one period. `None` if it does not lie for ever or has not
     /// settled yet, or if a load depends on a drifting speed.
     pub(crate) fn skip_periods(&mut self, periods: u64) -> Option<StatorRecord> {
@@ -217,7 +217,7 @@ impl StatorEngine {
     }
 
     /// [`Self::switch`] to a system whose drive is `faster` times as fast; the record states the values after
-    /// it in that system's units.
+    /// the switch in that system's units.
     pub(crate) fn switch_units(&mut self, span: f64, to: StatorSystem, faster: f64) -> StatorRecord {
         let mut record = self.pause(span);
         let phase = (self.state[SIN], self.state[COS]);

@@ -1,16 +1,18 @@
 //! A flight over a compliant stator, in closed form, and its end.
 //!
-//! No search is needed while the parabola of the disk is above |u| + sum of R, the highest the tip can rise, with
-//! the steady motion u and R = (r^2 + r'^2/f^2)^(1/2) of each ringing mode, which never grows. Nor is one needed
-//! until the gap g, g' = w, closes with the acceleration b = 1 + a, a = |u| + sum of R (f^2 + d f): a time of (w +
-//! (w^2 + 2 b g)^(1/2))/b. After that time both bounds are computed again from the remaining ringing, until they
-//! skip less than a step, whose polynomial is then searched.
+//! Let u be the steady motion of the tip and R = (r^2 + r'^2/f^2)^(1/2) the amplitude of each ringing mode,
+//! which never grows. No search is needed while the parabola of the disk is above |u| + sum of R, the highest
+//! the tip can rise. Nor is a search needed until the gap g, g' = w, closes with the acceleration b = 1 + a,
+//! a = |u| + sum of R (f^2 + d f): a time of (w + (w^2 + 2 b g)^(1/2))/b. After that time both bounds are
+//! computed again from the remaining ringing, until they skip less than a step, whose polynomial is then
+//! searched.
 //!
-//! On a stator slowed down by the disk steady motion and ringing nearly cancel. Tapes of operating points therefore
-//! also use the sum C = S + sum of h R of the complex amplitudes, of the tip u = Re S e^(i tau) and of the modes r
-//! = Re R e^(z tau), z = -d/2 + i (f^2 - d^2/4)^(1/2). Turned back by e^(i tau), R changes over a time t by at most
-//! |R| |z - i| t. So the tip stays below |C| + t sum of |h R (z - i)| for a time t, here the time of a fall to the
-//! mean height. The acceleration is bounded likewise, with -S and z^2 R for S and R.
+//! On a stator slowed down by the disk, steady motion and ringing nearly cancel. Tapes of operating points
+//! therefore also use the sum C = S + sum of h R of the complex amplitudes S of the tip, u = Re S e^(i tau),
+//! and R of the modes, r = Re R e^(z tau), z = -d/2 + i (f^2 - d^2/4)^(1/2). Relative to e^(i tau), R changes
+//! over a time t by at most |R| |z - i| t. So the tip stays below |C| + t sum of |h R (z - i)| for a time t,
+//! here the time of a fall to the mean height. The acceleration is bounded likewise, with -S and z^2 R instead
+//! of S and R.
 
 use bouncing_disk_core::flight::MAX_FLIGHT_DURATION;
 use bouncing_disk_core::numerics::elementary::{exp, exp_m1, hypot, ln_1p, sin_cos};
@@ -143,8 +145,8 @@ impl StatorEngine {
         bounds
     }
 
-    /// The same for a limited time (rad), with steady motion and ringing taken together. On a stator that a
-    /// disk has slowed down they nearly cancel, and keep doing so while their phases hardly part.
+    /// The bounds for a limited time (rad), with steady motion and ringing taken together. On a stator that a
+    /// disk has slowed down, the two nearly cancel as long as their relative phases hardly change.
     fn bounds_within(&self, state: &State, time: f64) -> Bounds {
         let always = self.bounds(state);
         if !self.bounds_closely {
@@ -178,8 +180,8 @@ impl StatorEngine {
         }
     }
 
-    /// The time from which on a disk that has flown for `passed` since the last event may touch the stator
-    /// again, and the state then. Before it, the disk is higher than the stator's maximum, or even the
+    /// The earliest time at which a disk that has flown for `passed` since the last event may touch the stator
+    /// again, and the state at that time. Until then, the disk is higher than the stator's maximum, or even the
     /// largest acceleration cannot close the gap.
     fn cleared(&self, mut passed: f64, mut state: State) -> (f64, State) {
         let step = self.regime().flow.step();
@@ -254,7 +256,8 @@ impl StatorEngine {
     }
 
     /// Sine and cosine of the phase at this time after the last event. Adding a short time to the phase would
-    /// round by more than an energy ledger allows at a mode's turning point, so the pair is rotated instead.
+    /// cause more rounding than an energy ledger allows at a mode's turning point, so the pair is rotated
+    /// instead.
     pub(super) fn phase_after(&self, time: f64) -> (f64, f64) {
         if time > 1.0 {
             return sin_cos(self.now.phase.angle() + time);

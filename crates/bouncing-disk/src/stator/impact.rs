@@ -1,11 +1,11 @@
 //! The impact of a disk on a compliant stator, where friction and normal force may act on the same mode.
 //!
-//! Routh's method: the normal impulse p grows from 0. The disk slides by Coulomb's law until its slip ends,
-//! and then sticks if friction holds it, or slides the other way. Between these changes the relative speeds
-//! are linear in p. The impact ends when the normal force has returned the share e^2 of the work it took
-//! during compression (Stronge's energetic restitution). It cannot create energy, because the normal force
-//! loses the share 1 - e^2 and friction always opposes the slip. If no mode couples the two, this is Newton's
-//! law, w' = -e w.
+//! Routh's method: the normal impulse p grows from 0. The disk slides by Coulomb's law until its slip ends, and
+//! then sticks if friction holds it, or slides the other way. Between these changes the relative speeds are
+//! linear in p. The impact ends when the normal force has returned the share e^2 of its work during compression
+//! (Stronge's energetic restitution). An impact cannot create energy, because the normal force loses the share
+//! 1 - e^2 and friction always opposes the slip. If no mode couples normal motion and rotation, this is
+//! Newton's law, w' = -e w.
 
 /// The result of an impact, for unit mass and moment of inertia of the disk.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -59,7 +59,7 @@ pub(crate) struct TaylorStep {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct StateStep<const N: usize> {
     terms: [Vector<N>; DEGREE + 1],
-    /// The degree.
+    /// The degree of the polynomial.
     last: usize,
     length: f64,
 }
@@ -173,7 +173,7 @@ impl<const N: usize> LinearFlow<N> {
 }
 
 impl<const N: usize> StateStep<N> {
-    /// The state after a time within it.
+    /// The state after a time within the part.
     #[must_use]
     pub(crate) fn at(&self, time: f64) -> Vector<N> {
         let share = time / self.length;
@@ -186,7 +186,7 @@ impl<const N: usize> StateStep<N> {
         state
     }
 
-    /// The state at the end.
+    /// The state at the end of the part.
     fn at_end(&self) -> Vector<N> {
         let mut state = self.terms[self.last];
         for row in self.terms[..self.last].iter().rev() {
@@ -243,7 +243,7 @@ impl TaylorStep {
     }
 
     /// This function, which starts with the given number of zero derivatives, divided by that power of the
-    /// normalised time. It has the same roots, and keeps their digits near the start.
+    /// normalised time. The quotient has the same roots and preserves their digits near the start.
     #[must_use]
     pub(crate) fn deflated(mut self, zeros: usize) -> Self {
         self.coefficients[..zeros].fill(0.0);

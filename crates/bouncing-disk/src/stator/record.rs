@@ -12,7 +12,7 @@ use crate::motion::state::{DiskState, LongSum, SlipDirection};
 use crate::motion::stator_ledger::StatorLedger;
 
 /// A chatter that would last less than this (rad) ends at once, with its momentum kept. During that time the
-/// positions are off by its square, and afterwards the states by its third power.
+/// positions are wrong by its square, and afterwards the states by its cube.
 pub(super) const CHATTER: f64 = 1.0e-7;
 
 /// Rounding of a functional at an event, relative to the magnitudes of its terms.
@@ -37,7 +37,7 @@ pub struct StatorState {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct StatorRecord {
-    /// When it happened.
+    /// Time of the event.
     pub time: PhaseTime,
     /// The event.
     pub event: Event,
@@ -45,9 +45,9 @@ pub struct StatorRecord {
     pub before: StatorState,
     /// State just after.
     pub after: StatorState,
-    /// Axial impulse per unit mass, and angular impulse per moment of inertia; zero without an impact.
+    /// Axial impulse per unit mass; zero without an impact.
     pub axial_impulse: f64,
-    /// The part caused by friction.
+    /// Angular impulse of friction per moment of inertia; zero without an impact.
     pub angular_impulse: f64,
     /// Energy balance of the disk.
     pub ledger: EnergyLedger,
@@ -94,7 +94,7 @@ pub struct StatorEngine {
     pub(super) angle: LongSum,
     /// The piece of the load.
     pub(super) line: usize,
-    /// Changes between stick and slide at the same instant.
+    /// Number of changes between stick and slide at the same instant.
     pub(super) ties: u32,
     /// Time after the last event up to which the flight is known to have no event.
     pub(super) searched: f64,

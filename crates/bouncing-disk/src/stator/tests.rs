@@ -75,7 +75,7 @@ fn energy_is_balanced_in_every_event() {
     }
 }
 
-/// Compares each event of the engine on a rigid stator, from the same state.
+/// Compares each event with the one that the engine on a rigid stator finds from the same state.
 #[test]
 fn an_infinite_mass_gives_the_events_of_the_engine() {
     for (peak, twist, lag) in [(1.2, 3.0, 0.4), (4.0, 2.0, -1.0), (30.0, 50.0, 0.0), (197.0, 4e3, 0.2)] {
@@ -219,8 +219,8 @@ fn a_load_of_lines_brakes_as_exponentials_and_balances_its_energy() {
     }
 }
 
-/// Free ringing after the drive is switched off, and from rest after it is switched on: the closed form of a
-/// circuit.
+/// Ringing after the drive is switched off, and the rise from rest after it is switched on, follow the closed
+/// form of a circuit.
 #[test]
 fn a_stator_rings_down_and_up_as_its_circuit() {
     use bouncing_disk_core::numerics::elementary::exp;
@@ -270,8 +270,8 @@ fn short_flights_keep_their_digits() {
     }
 }
 
-/// At P = 1 exactly the force touches zero at the crest, with a rounded phase: an apparent flight of 1e-10
-/// rad must not occur. At P = 1 + 1e-11 one of 1.8e-5 rad ends at the right time.
+/// At P = 1 exactly the force touches zero at the crest, with a rounded phase: an apparent flight of 1e-10 rad
+/// must not occur. At P = 1 + 1e-11 a flight of 1.8e-5 rad ends at the right time.
 #[test]
 fn a_release_at_the_crest_ends_at_once() {
     let disk = |mode: crate::motion::state::Mode| crate::motion::state::DiskState {
@@ -300,8 +300,8 @@ fn a_release_at_the_crest_ends_at_once() {
     }
 }
 
-/// Between two events the gap stays open, the contact pressed, the slip in its direction and the grip within
-/// friction, so no event is missed, for systems at the limits and in between.
+/// Tests systems at the limits and in between. Between two events the gap stays open, the contact stays
+/// pressed, the slip keeps its direction and the grip stays within friction, so no event is missed.
 fn attack_seams(count: usize, events: usize) -> usize {
     let mut random = SplitMix64::new(11);
     let mut done = 0;
@@ -492,7 +492,8 @@ fn a_stored_motion_goes_on() {
     }
 }
 
-/// A fan has a node at rest: a rotor that rests there, on a still stator or after a slip, continues in time.
+/// A fan has a node at rest: the motion of a rotor that rests there, on a still stator or after a slip,
+/// continues.
 #[test]
 fn a_load_with_a_node_at_rest_does_not_stop_the_time() {
     let base = base(3.0, 5.0, 0.3, 0.2, 0.5, 0.0);

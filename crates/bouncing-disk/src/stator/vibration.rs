@@ -53,7 +53,7 @@ impl StatorEngine {
         }
     }
 
-    /// The load on a disk, as far as friction holds it.
+    /// The load on a disk, up to the largest torque that friction can hold.
     fn held_load(&self, state: &State) -> f64 {
         let LoadLine { torque, slope, .. } = self.system.lines[self.line];
         let friction = self.system.base.friction();

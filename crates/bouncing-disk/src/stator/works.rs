@@ -1,9 +1,9 @@
 //! Works and losses in a contact: integrals of products of two linear functionals of the state, by the
 //! eight-point rule.
 //!
-//! On a whole step the functionals at the points are functionals of the state at its start, computed once.
-//! (The integral is a quadratic form of that state, but in a product of two small differences of components a
-//! form would lose the digits of both.)
+//! On a whole step the functionals at the points are functionals of the state at its start, computed once. (The
+//! integral is a quadratic form of that state, but a form would lose the digits of a product of two small
+//! differences of components.)
 
 use std::array;
 use std::sync::OnceLock;
@@ -54,7 +54,7 @@ pub(super) struct Works {
 
 impl Works {
     /// The works of a regime, with its functionals of the force, the friction torque and the slip. The load
-    /// is a fourth one if it changes with the speed.
+    /// is a fourth functional if it changes with the speed.
     pub(super) fn new(
         system: &StatorSystem,
         mode: Mode,

@@ -103,7 +103,7 @@ pub enum StorageError {
         /// The line, from 1.
         line: u64,
     },
-    /// A line holds no result of the requested kind.
+    /// A line contains no result of the requested kind.
     #[error("line {line} of {path:?} is not a result of this computation")]
     Result {
         /// The file.

@@ -178,7 +178,7 @@ impl<T: Serialize + DeserializeOwned> Journal<T> {
 
     /// Appends the result of an item. An existing result is kept.
     ///
-    /// A number that is not finite is an error, except in an `Option`, which becomes `None` in JSON.
+    /// A number that is not finite is an error, except in an `Option`, where JSON turns it into `None`.
     ///
     /// # Errors
     /// [`StorageError::NoSuchItem`]; [`StorageError::NotStorable`] for a result that could not be read back;
@@ -243,8 +243,8 @@ impl<T: Serialize + DeserializeOwned> Journal<T> {
         }
     }
 
-    /// Waits until everything appended is on the disk, safe from a power cut. This is not needed against a
-    /// killed process.
+    /// Waits until everything appended is on the disk, safe from a power cut. A journal survives a killed
+    /// process without this.
     ///
     /// # Errors
     /// [`StorageError::Io`] for errors of the operating system.

@@ -26,7 +26,7 @@ pub struct Format {
 /// The origin of a stored file: the program and its version, the format and its version, and the computation
 /// (parameters, seed and chatter policy).
 ///
-/// It contains no time, user or machine, so the same computation gives the same bytes. Inapplicable fields
+/// It contains no time, user or machine, so the same computation writes the same bytes. Inapplicable fields
 /// are stored as `null`.
 ///
 /// ```
@@ -74,7 +74,7 @@ fn first_not_finite(tree: &Tree) -> Option<f64> {
     }
 }
 
-/// The part of a provenance that every format version has; without it nothing is known about a file.
+/// The part of a provenance common to all format versions; without it nothing is known about a file.
 struct Stamp {
     program: String,
     version: String,
@@ -104,7 +104,8 @@ impl Provenance {
         self
     }
 
-    /// Adds a parameter, or replaces one of the same name. Its numbers must be finite, as JSON has no others.
+    /// Adds a parameter, or replaces one of the same name. Its numbers must be finite, as JSON represents no
+    /// others.
     ///
     /// # Errors
     /// [`StorageError::NotStorable`] if JSON cannot represent it, as for a number that is not finite.
@@ -257,7 +258,7 @@ mod tests {
         );
     }
 
-    /// Such numbers would all be `null`, and different computations would have the same parameters.
+    /// Such numbers would all be `null`, so that different computations would have the same parameters.
     #[test]
     fn numbers_that_are_not_finite_are_no_parameters() {
         for number in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {

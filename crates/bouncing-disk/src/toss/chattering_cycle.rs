@@ -3,16 +3,16 @@
 use std::f64::consts::PI;
 use std::fmt;
 
-/// A flight is long if it lasts longer than this (rad), half a period of the platform. The short ones of a
-/// chattering sequence get shorter without end, so their number depends on how the sequence was truncated
-/// rather than on the motion.
+/// A flight is long if it lasts longer than this (rad), half a period of the platform. The short flights of a
+/// chattering sequence become ever shorter, so their number depends on how the sequence was truncated rather
+/// than on the motion.
 pub const LONG_FLIGHT: f64 = PI;
 
 /// Largest relative difference between the mean time between separations and the unperturbed cycle for which
-/// the cycle is judged to survive the perturbation. Cycles longer than [`LOCKED_FLIGHTS`] approach the mean
-/// by chance.
+/// the cycle is judged to survive the perturbation. Cycles of more long flights than [`LOCKED_FLIGHTS`]
+/// approach the mean by chance.
 pub const LOCKED_WITHIN: f64 = 0.05;
-/// See [`LOCKED_WITHIN`].
+/// Largest number of long flights of a cycle to which [`LOCKED_WITHIN`] applies.
 pub const LOCKED_FLIGHTS: usize = 8;
 
 /// Impacts searched for an unperturbed cycle; a cycle of up to half of them is found.

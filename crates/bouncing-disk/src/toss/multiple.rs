@@ -36,8 +36,8 @@ pub struct MultiTossSettings {
     /// The longest period (in impacts) that is recognised, up to [`MAX_PERIOD`]; at most half of the impacts
     /// examined are compared. Default 128.
     pub longest_period: usize,
-    /// Largest difference of phases (rad) and speeds (relative to 1 + the speed, for rotary ones to 1 + Q)
-    /// that count as equal. Default 1e-9.
+    /// Largest difference of phases (rad) and speeds (relative to 1 + the speed, for rotary ones to 1 + Q) that
+    /// counts as equality. Default 1e-9.
     pub tolerance: f64,
 }
 
@@ -228,7 +228,8 @@ impl Examined {
         periodic.map_or_else(|| self.without_period(map, settings, work), Ok)
     }
 
-    /// The last separation, and the previous one at the same phase; on a drive others may come between.
+    /// The last separation, and the previous one at the same phase; on a drive other separations may come
+    /// between.
     fn cycle(&self, tolerance: f64) -> Option<(Leaving, Leaving)> {
         let (to, before) = self.leavings.split_last()?;
         let same = |from: &&Leaving| {

@@ -16,7 +16,7 @@ use crate::parameters::dimensionless::DimensionlessSystem;
 pub enum RotaryOutcome {
     /// From any spin the disk reaches this steady one in finitely many impacts: the rotary multiplier is 0.
     Steady(RotaryResponse),
-    /// The load exactly balances the largest impulse that friction can give in a period of the orbit. A disk
+    /// The load exactly balances the largest impulse that friction can exert in a period of the orbit. A disk
     /// that slides through every impact in the direction in which the load drives it keeps its spin: such
     /// spins form a continuum, and the rotary multiplier is 1.
     Kept {
@@ -54,7 +54,7 @@ impl RotaryOutcome {
     }
 }
 
-/// The steady spin on a periodic orbit; lists run over its impacts.
+/// The steady spin on a periodic orbit; each list has one entry per impact.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RotaryResponse {
@@ -86,8 +86,8 @@ impl RotaryResponse {
 pub struct RotaryRound {
     /// The angular speed before the first impact of the next period, in units of g a_e/(a_g^2 omega).
     pub angular_speed: f64,
-    /// The number of impacts that end the slip. The derivative of this angular speed with respect to the one
-    /// a period before is 1 if there are none, otherwise 0.
+    /// The number of impacts that end the slip. If there are none, the derivative of this angular speed with
+    /// respect to the speed one period earlier is 1, otherwise 0.
     pub sticking_impacts: usize,
 }
 
@@ -207,9 +207,9 @@ impl SpinMap {
         (speed - direction.sign() * available, Some(direction))
     }
 
-    /// If the disk turns with the platform after the impact `stuck` and goes around the orbit once, the
-    /// amount by which the impulse needed to end the slip at this impact exceeds the available one. For the
-    /// steady spin it is zero or negative.
+    /// The amount by which the impulse needed to end the slip at the impact `stuck` exceeds the available one,
+    /// after the disk has turned with the platform there and gone around the orbit once. For the steady spin it
+    /// is zero or negative.
     fn excess(&self, stuck: usize) -> f64 {
         let mut speed = self.platform_speeds[stuck];
         let mut index = stuck;
@@ -224,7 +224,7 @@ impl SpinMap {
     }
 
     /// An impact that ends the slip in the steady spin, for a load below friction. At least one does; if
-    /// rounding denies it for all of them, this is the closest one.
+    /// rounding denies this for all of them, the closest one.
     fn sticking(&self) -> usize {
         let mut best = (f64::INFINITY, self.order[0]);
         for index in self.order.iter().copied() {

@@ -142,7 +142,7 @@ fn at_resonance_at_rest_and_at_the_anti_resonance_it_is_the_textbook() {
     assert_eq!(same.build(TWISTING).expect("legal").modes(), open.modes());
 }
 
-/// Equivalent force, volts and amplitude give the same stator.
+/// Equivalent values of force, volts and amplitude describe the same stator.
 #[test]
 fn every_drive_gives_the_same_modes() {
     let stator = torsional().build(GIVEN).expect("legal");

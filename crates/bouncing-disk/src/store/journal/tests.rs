@@ -272,7 +272,7 @@ fn a_process_that_is_killed_goes_on_where_it_was() {
     assert!(finished.iter().map(|(index, own)| (index, own.clone())).eq(expected));
 }
 
-/// 0 and -0 are equal numbers but different parameters, as are `None` and an absent one.
+/// 0 and -0 are equal numbers but different parameters, as are `None` and an absent parameter.
 #[test]
 fn parameters_that_look_alike_are_others() {
     let scratch = Scratch::new("alike");

@@ -88,7 +88,7 @@ fn the_engine_keeps_the_steady_spin_on_every_orbit() {
     assert!(unstable > 50 && sliding > 50, "{unstable} {sliding}");
 }
 
-/// On an attracting orbit the engine reaches the steady spin from another one.
+/// On an attracting orbit the engine reaches the steady spin from a different spin.
 #[test]
 fn the_engine_settles_on_the_steady_spin() {
     let mut random = SplitMix64::new(2);
@@ -122,7 +122,7 @@ fn the_engine_settles_on_the_steady_spin() {
     assert!(tried > 30, "{tried}");
 }
 
-/// From any spin, by single rounds: at first none of the impacts sticks, and finally one always does.
+/// Single rounds from any spin: at first no impact ends the slip, and finally at least one always does.
 #[test]
 fn every_spin_is_forgotten_in_finitely_many_rounds() {
     let mut random = SplitMix64::new(3);
@@ -153,8 +153,8 @@ fn every_spin_is_forgotten_in_finitely_many_rounds() {
     assert!(slid > 20 && rounds_of_all > 100, "{slid} {rounds_of_all}");
 }
 
-/// Over a period friction supplies the load, and its capacity is friction times the time, because the mean
-/// normal force is the weight.
+/// Over a period friction balances the load; its capacity is mu times the time, because the mean normal force
+/// is the weight.
 #[test]
 fn impulses_balance_the_load_and_the_weight() {
     let mut random = SplitMix64::new(4);
