@@ -1,7 +1,7 @@
 //! An ultrasonic motor as a functional mock-up unit (FMU) of [FMI 3.0](https://fmi-standard.org), for co-simulation with
 //! the drive train around it.
 //!
-//! This library is the binary of the unit; [`packed`] adds a data sheet and makes the unit. The motor is a
+//! This library is the binary of the unit; [`packed`] makes a unit of it and a data sheet. The motor is a
 //! [`MotorSimulation`](bouncing_disk::motor::MotorSimulation): impacts within a step are exact, and for
 //! constant inputs the motion does not depend on the steps, to the last bit.
 //!

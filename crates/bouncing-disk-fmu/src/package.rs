@@ -53,7 +53,7 @@ pub fn library_name() -> String {
 const MARK: &str = concat!("made by bouncing-disk ", env!("CARGO_PKG_VERSION"));
 
 /// The unit of a motor as the bytes of an archive, with this library as its binary; equal motors and libraries
-/// give equal bytes.
+/// produce equal bytes.
 ///
 /// # Errors
 /// [`PackageError`].

@@ -7,8 +7,8 @@ use crate::label::Label;
 use crate::numbers::extent;
 use crate::ticks::{self, PlacedTicks, Ticks};
 
-/// Range, scale, label and ticks of one axis. The first end of the range is on the left or at the bottom; an axis may
-/// run backwards.
+/// Range, scale, label and ticks of one axis. The first end of the range is on the left or at the bottom; an
+/// axis may run backwards.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
     first: f64,

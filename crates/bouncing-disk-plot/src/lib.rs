@@ -19,7 +19,7 @@
 //! | what can go wrong | [`DrawError`] |
 //!
 //! Labels are a small subset of TeX between dollar signs: see [`Label::new`]. A [`Figure`] has a size in points
-//! (1/72 inch) and holds [`Panel`]s (axes with layers) and [`Drawing`]s (free sketches) at given rectangles;
+//! (1/72 inch) and contains [`Panel`]s (axes with layers) and [`Drawing`]s (free sketches) at given rectangles;
 //! a [`Grid`] computes these rectangles.
 
 mod annotation;

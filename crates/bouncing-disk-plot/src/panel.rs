@@ -230,7 +230,7 @@ impl<'a> Side<'a> {
         marks.collect()
     }
 
-    /// The numbers at the ticks, the power of ten that they leave out, and the label of the axis.
+    /// The numbers at the ticks, the power of ten omitted from them, and the label of the axis.
     fn render(&self, area: Rect, svg: &mut Svg) -> Result<(), DrawError> {
         let size = NUMBER_SIZE;
         let mut widest: f64 = 0.0;

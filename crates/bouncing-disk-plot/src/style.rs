@@ -183,7 +183,7 @@ pub enum Anchor {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TextStyle {
     pub(crate) anchor: Anchor,
-    /// The font size in points; by default that of the figure.
+    /// The font size in points; by default the figure's.
     pub(crate) size: Option<f64>,
     pub(crate) colour: Colour,
     /// Degrees, anticlockwise.

@@ -79,7 +79,7 @@ pub(crate) struct Tick {
     pub(crate) label: Option<Label>,
 }
 
-/// The ticks of an axis, and the power of ten that their numbers leave out.
+/// The ticks of an axis, and the power of ten omitted from their numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PlacedTicks {
     pub(crate) ticks: Vec<Tick>,
@@ -167,8 +167,8 @@ fn power_of_ten(exponent: i32) -> f64 {
     format!("1e{exponent}").parse().unwrap_or(f64::NAN)
 }
 
-/// The round number (1, 2 or 5 times a power of ten) at or above `raw`, and the number of parts between minor
-/// ticks.
+/// The round number (1, 2 or 5 times a power of ten) at or above `raw`, and the number of parts into which minor
+/// ticks divide it.
 fn round_step(raw: f64) -> (f64, u32) {
     let exponent = libm::floor(libm::log10(raw) + 1e-9) as i32;
     let unit = power_of_ten(exponent);

@@ -15,9 +15,9 @@
 //! ```
 //!
 //! [`TransientFit`] fits run-ups, and `MotorFit` (feature `fit`) finds the motor parameters that explain
-//! run-ups, braking tails and catalogue points. [`MeasuredSpeeds`] contains measurements, which the feature
-//! `csv` reads from files. Run-ups of the model are in [`motor`](crate::motor). docs/numerics-dynamics.md
-//! derives the intervals.
+//! run-ups, braking tails and catalogue points. [`MeasuredSpeeds`] contains measurements, which can be
+//! read from files with the feature `csv`. Run-ups of the model are in [`motor`](crate::motor).
+//! docs/numerics-dynamics.md derives the intervals.
 
 pub(crate) mod braking_rotor;
 pub(crate) mod ensemble;

@@ -64,8 +64,8 @@ pub(crate) trait Told: Debug {
     fn is_told_by(&self, error: &FitError) -> bool;
 }
 
-/// The field of a number that is out of range, or part of another message; a text with " = " is part of any
-/// message.
+/// The field of a number that is out of range, or part of another message; a text that contains " = " may be
+/// part of any message.
 impl Told for &str {
     fn is_told_by(&self, error: &FitError) -> bool {
         match error {

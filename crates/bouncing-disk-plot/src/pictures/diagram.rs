@@ -36,7 +36,7 @@ pub struct OrbitDiagram<'a> {
     pub restitution: f64,
     /// Words to print after the restitution, such as the shape of a drive: ", parabolas".
     pub shape: &'a str,
-    /// The orbits, by where they start.
+    /// The orbits, grouped by their start.
     pub starts: &'a [OrbitsFrom],
 }
 

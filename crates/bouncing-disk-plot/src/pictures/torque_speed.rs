@@ -66,7 +66,7 @@ pub fn interval_curve(points: &[Point], colour: Colour, band: Fill, name: Option
 }
 
 /// A quantity, with the half widths of its intervals, over one parameter. `coexisting` contains values and
-/// half widths of further motions with their marks; they are not finite if there is no such motion. If there
+/// half widths of further motions with their marks; the values are not finite if there is no such motion. If there
 /// are several motions, their points are not joined. A key below the curve explains the marks.
 ///
 /// If the values of a sweep go up to the cell `turns_at` and down again, the two directions are separate
@@ -306,8 +306,8 @@ pub fn torque_speed(largest_torque: f64, found: &[LoadPoint], coexisting: &[Vec<
 }
 
 /// The load at which the motor stops, interpolated linearly between two neighbouring loads (each with its speed
-/// and the half width of an interval) at which the motor turns in opposite directions; `None` if all such
-/// intervals overlap.
+/// and the half width of an interval) at which the motor turns in opposite directions; `None` if there is
+/// no such pair with disjoint intervals.
 fn stall(speeds: &[Point]) -> Option<f64> {
     speeds.windows(2).find_map(|pair| {
         let [(load, speed, bar), (next_load, next, next_bar)] = *pair else { return None };

@@ -71,7 +71,7 @@ pub(super) enum Then {
 /// The motion of a disk on a driven platform, as a lazy sequence of [`EventRecord`]s.
 ///
 /// The sequence ends when no further event is possible, and after an error. A disk that rests for ever on a
-/// moving platform may alternate between sticking and sliding for ever.
+/// moving platform may alternate between sticking and sliding without end.
 pub type DrivenEngine = Engine<DrivenGround>;
 
 impl DrivenGround {

@@ -139,7 +139,7 @@ pub(crate) struct Hit<S> {
 /// The motion of a disk as a lazy sequence of [`EventRecord`]s.
 ///
 /// The sequence ends when no further event is possible (a disk rests and sticks for ever) and after an error.
-/// A disk that rests for ever may alternate between sticking and sliding for ever. Two engines with the same
+/// A disk that rests for ever may alternate between sticking and sliding without end. Two engines with the same
 /// arguments produce the same bits.
 ///
 /// On the sine the restitution is the system's constant, or follows a law ([`Self::with_law`]).

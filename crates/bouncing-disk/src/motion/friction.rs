@@ -86,7 +86,7 @@ impl Spent {
 pub(crate) struct Friction {
     forward: Slip,
     backward: Slip,
-    /// Neither twist nor load: nothing pulls at the disk, and friction holds it up to the separation. Without
+    /// Neither twist nor load: no torque acts on the disk, and friction holds it up to the separation. Without
     /// this flag rounding would let it slip an instant earlier.
     unloaded: bool,
     /// Without friction, but with a relative acceleration, the disk is never held.

@@ -197,7 +197,7 @@ mod tests {
         assert!(flights > 10 && chatters > 10 && contacts > 10, "{flights} {chatters} {contacts}");
     }
 
-    /// Such a sequence once never came to an end.
+    /// Such a sequence once never ended.
     #[test]
     fn a_chatter_speed_that_starts_no_chatter_counts_as_none() {
         let phase = Phase::new(1.0).expect("finite");

@@ -3,7 +3,7 @@
 //! Let u be the steady motion of the tip and R = (r^2 + r'^2/f^2)^(1/2) the amplitude of each ringing mode,
 //! which never grows. No search is needed while the parabola of the disk is above |u| + sum of R, the highest
 //! the tip can rise. Nor is a search needed until the gap g, g' = w, closes with the acceleration b = 1 + a,
-//! a = |u| + sum of R (f^2 + d f): a time of (w + (w^2 + 2 b g)^(1/2))/b. After that time both bounds are
+//! where a = |u| + sum of R (f^2 + d f): a time of (w + (w^2 + 2 b g)^(1/2))/b. After that time both bounds are
 //! computed again from the remaining ringing, until they skip less than a step, whose polynomial is then
 //! searched.
 //!

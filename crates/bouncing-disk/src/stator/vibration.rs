@@ -41,7 +41,7 @@ impl StatorEngine {
     }
 
     /// The mean normal force and the mean friction torque on a disk in this state that is `aloft` for this
-    /// time: its weight, and the torque that holds against the load or results from slip; zero in a flight
+    /// time: its weight, and the torque that balances the load or results from slip; zero in a flight
     /// longer than a period.
     fn mean_forces(&self, state: &State, aloft: f64) -> [f64; 2] {
         match self.stage {

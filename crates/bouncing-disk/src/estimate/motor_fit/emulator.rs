@@ -25,7 +25,7 @@ const VARIANCES: [f64; 2] = [1e-8, 100.0];
 const LENGTH: f64 = 1.5;
 const SPREAD: f64 = 3.0;
 
-/// Distance within which values give evidence of roughness, as a share of half the ranges.
+/// Distance within which values are evidence of roughness, as a share of half the ranges.
 const NEAR: f64 = 0.3;
 
 /// A response computed at a point.

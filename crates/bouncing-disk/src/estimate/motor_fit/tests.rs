@@ -131,8 +131,8 @@ fn ninety_of_a_hundred_ranges_hold_the_truth() {
     }
 }
 
-/// A stator of ten times the mass changes the no-load speed by 4 rad/s, so a speed with an error of 3 gives
-/// no information.
+/// A stator of ten times the mass changes the no-load speed by 4 rad/s, so a speed with an error of 3
+/// contains no information.
 #[test]
 fn a_speed_that_is_badly_known_leaves_the_mass_of_a_stator_open() {
     let motor = settled_soon().with(|sheet| {
@@ -261,7 +261,7 @@ fn a_second_narrow_solution_is_found() {
 }
 
 /// The deviance at the truth is 8, and less at points where the speeds are uncertain: slightly, or so much
-/// that they give no information.
+/// that they contain no information.
 #[test]
 fn a_place_is_not_excluded_because_another_one_is_less_known() {
     for bias in [0.3, 1.0, 30.0] {

@@ -228,8 +228,8 @@ impl Observed {
         self.patterns.len()
     }
 
-    /// The change of the means per unit of a multiple of `added` in the speeds, a function of the time from the
-    /// half-way instant.
+    /// The derivative of the means with respect to a multiple of `added`, a function of the time from the
+    /// half-way instant, that is added to the speeds.
     pub(super) fn change(&self, transient: &MeasuredTransient, added: impl Fn(f64) -> f64) -> DVector<f64> {
         let size = 1e-3 * self.fastest;
         let of = |run: &MeasuredRun, at: f64| {

@@ -25,8 +25,8 @@ use crate::parameters::dimensionless::DimensionlessSystem;
 /// impact whether friction holds; each of them is then twice as long as the previous one.
 const USUAL_PIECES: u32 = 16;
 
-/// Number of pieces with which this doubling reaches 2^64 impacts, the end. The largest numbers seen are 5
-/// pieces by the signs, and 22 with rounding, at r = 1 - 2^-53.
+/// Largest number of pieces with rounding: 64 doublings reach 2^64 impacts, the end. The largest numbers seen
+/// are 5 pieces by the signs, and 22 with rounding, at r = 1 - 2^-53.
 const MAX_PIECES: u32 = USUAL_PIECES + 64;
 
 impl Chatter {

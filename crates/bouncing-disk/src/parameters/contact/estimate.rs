@@ -32,11 +32,11 @@ const SHARPEST: f64 = 1.0e-6;
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum LiftOff {
-    /// It leaves, whatever the unknown values.
+    /// The disk can leave, whatever the unknown values.
     Yes,
-    /// It depends on the unknown values.
+    /// This depends on the unknown values.
     Unknown,
-    /// It stays, whatever the unknown values.
+    /// The disk stays, whatever the unknown values.
     No,
 }
 

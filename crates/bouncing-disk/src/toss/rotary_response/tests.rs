@@ -273,7 +273,7 @@ fn what_is_no_orbit_of_the_system_is_refused() {
     assert!(matches!(rotary_response(&here, &orbit), Err(Error::OutOfRange { .. })));
 }
 
-/// Without twist the disk stands still, and everything sticks.
+/// Without twist the disk does not turn, and every impact sticks.
 #[test]
 fn without_twist_and_load_the_disk_stands_still() {
     for (forcing, restitution, orbit) in orbits() {

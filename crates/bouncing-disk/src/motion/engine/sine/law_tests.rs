@@ -108,7 +108,7 @@ proptest! {
         }
     }
 
-    /// A law that is constant, but not known to be so, gives the same records as the system's own constant.
+    /// A law that is constant, but not known to be so, produces the same records as the system's own constant.
     #[test]
     fn a_constant_law_gives_the_bits_of_the_systems_restitution((system, start, _) in testing::motion()) {
         let policy = ChatterPolicy::Cut(PAPER_CUT);

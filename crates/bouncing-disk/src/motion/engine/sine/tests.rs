@@ -257,7 +257,7 @@ proptest! {
         }
     }
 
-    /// A disk without friction is never held, unless nothing moves it either.
+    /// A disk without friction is never held, unless nothing accelerates it.
     #[test]
     fn nothing_holds_a_disk_without_friction((system, start, policy) in testing::motion()) {
         let twist_speed = system.twist_speed() + 0.1;
