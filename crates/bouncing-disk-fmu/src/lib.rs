@@ -1,5 +1,5 @@
-//! An ultrasonic motor as a functional mock-up unit (FMU) of [FMI 3.0](https://fmi-standard.org), for co-simulation with
-//! the drive train around it.
+//! An ultrasonic motor as a functional mock-up unit (FMU) of [FMI 3.0](https://fmi-standard.org), for
+//! co-simulation with the drive train around it.
 //!
 //! This library is the binary of the unit; [`packed`] makes a unit of it and a data sheet. The motor is a
 //! [`MotorSimulation`](bouncing_disk::motor::MotorSimulation): impacts within a step are exact, and for

@@ -6,8 +6,8 @@
 //! time constant of the mean over 100 ensembles is 11.1 ms with 8 phases, 15.1 ms with 16, and 13.6 ms
 //! with 4000. An interval does not cover the error of a wrong form: the motor approaches its steady speed more
 //! slowly than an exponential, and the steady speeds from 4000 members of 60, 100, 400 and 800 ms are 7.76,
-//! 7.62, 7.53 and 7.52 rad/s. The mean over the fits of 32 members of 5 ms is 63 rad/s. The motor flies for 1 ms at a time,
-//! and fits of its first 0.1 ms once found 0.3 rad/s with a narrow interval.
+//! 7.62, 7.53 and 7.52 rad/s. The mean over the fits of 32 members of 5 ms is 63 rad/s. The motor flies for 1
+//! ms at a time, and fits of its first 0.1 ms once found 0.3 rad/s with a narrow interval.
 
 use super::*;
 use crate::estimate::ensemble::TransientEnsemble;
