@@ -31,8 +31,8 @@ use crate::failure::Result;
     version,
     after_help = "\
 Exit status: 0 done; 1 a failure of the computation or the system; 2 an illegal command line or input file; 130 \
-interrupted by Ctrl-C; 143 terminated. A first signal ends the computation and keeps finished rows, a second one ends \
-the program at once. Results are the same to the last bit for any number of threads.
+interrupted by Ctrl-C; 143 terminated. The first signal ends the computation and keeps finished rows; a second one \
+ends the program at once. Results are the same to the last bit for any number of threads.
 
 Examples:
   bouncing-disk toss

@@ -129,7 +129,7 @@ const DRIVE: &str = "# Motion of the platform other than the sine, for toss, dia
 # Duration of an impact (s), \
                      for toss and motor transient, curve, stall, best and sweep; or data from which reports
 # \
-                     estimate it, while impacts are rigid: geometries plane, ring, layer.
+                     estimate it while impacts stay rigid; the geometries are plane, ring and layer.
 # [contact]
 # time = \
                      1e-5
@@ -145,7 +145,7 @@ const DRIVE: &str = "# Motion of the platform other than the sine, for toss, dia
 /// The end of a motor's template.
 const LOAD: &str = "
 # A load that depends on the speed, instead of load_torque: torques (N m) at rising speeds (rad/s), interpolated
-# and extrapolated by lines. This is a fan of 18e-6 N m at 20 rad/s, to 1 % of that.
+# and extrapolated by lines. The values describe a fan of 18e-6 N m at 20 rad/s, within 1 % of this torque.
 # [load]
 # speeds = [-20, -16, -12, -8, -4, 0, 4, 8, 12, 16, 20]
 # torques = [-18e-6, -11.52e-6, -6.48e-6, -2.88e-6, -0.72e-6, 0, 0.72e-6, 2.88e-6, 6.48e-6, 11.52e-6, 18e-6]

@@ -135,7 +135,7 @@ fn periodic_orbits() {
         &[
             ("/states", json!([]), "impacts of a periodic orbit"),
             ("/states/0/velocity", json!(0.0), "impact 0 of the solution has no speed"),
-            ("/platform_periods", json!(0), "lasts no period of the platform"),
+            ("/platform_periods", json!(0), "lasts less than one period of the platform"),
             ("/monodromy", json!([1.0]), "4"),
         ],
     );

@@ -259,7 +259,8 @@ unsafe extern "C" fn fmi3GetFloat64(
     let read = |instance: &mut Instance| {
         if value_count != count || (values.is_null() && count > 0) {
             return Err(format!(
-                "{value_count} values for {count} variables: all variables are scalars, so the numbers must be equal"
+                "{value_count} values for {count} variables: all variables are scalars, so the two counts must be \
+                 equal"
             ));
         }
         // SAFETY: arrays of the master, of these lengths.
@@ -287,7 +288,8 @@ unsafe extern "C" fn fmi3SetFloat64(
         let (references, values) = unsafe { (array(references, count)?, array(values, value_count)?) };
         if value_count != count {
             return Err(format!(
-                "{value_count} values for {count} variables: all variables are scalars, so the numbers must be equal"
+                "{value_count} values for {count} variables: all variables are scalars, so the two counts must be \
+                 equal"
             ));
         }
         references.iter().zip(values).try_for_each(|(reference, value)| instance.set(*reference, *value))
@@ -300,7 +302,7 @@ unsafe extern "C" fn fmi3SetFloat64(
 unsafe extern "C" fn fmi3GetFMUState(handle: *mut Handle, state: *mut *mut Instance) -> i32 {
     let store = |instance: &mut Instance| {
         // SAFETY: null, or where the master keeps a state: a null pointer, or one of these.
-        let place = unsafe { state.as_mut() }.ok_or("the place of the state is a null pointer")?;
+        let place = unsafe { state.as_mut() }.ok_or("the pointer to the state is null")?;
         match unsafe { place.as_mut() } {
             Some(old) => *old = instance.clone(),
             None => *place = Box::into_raw(Box::new(instance.clone())),

@@ -34,7 +34,7 @@ pub(crate) fn variables(motor: &Motor) -> Vec<Variable> {
         of(
             MotorField::LoadTorque.name(),
             "N m",
-            "Torque that the load takes; a positive one decelerates a positive rotation",
+            "Torque of the load; a positive torque decelerates a positive rotation",
             inputs.load_torque,
             Role::Input(|inputs, value| inputs.load_torque = value),
         ),
@@ -71,7 +71,7 @@ pub(crate) fn variables(motor: &Motor) -> Vec<Variable> {
         of(
             "vibration_amplitude",
             "m",
-            "Amplitude of the stator's height about its mean place, at the frequency of the drive",
+            "Amplitude of the stator's height about its mean, at the frequency of the drive",
             0.0,
             Role::Output(|at| at.amplitude),
         ),
@@ -87,7 +87,7 @@ pub(crate) fn variables(motor: &Motor) -> Vec<Variable> {
         MotorField::ALL.into_iter().filter_map(|field| Some((field, field.value(motor.parameters())?)));
     let inputs: Vec<_> = all.iter().map(|known| known.name).collect();
     for (field, value) in given.filter(|(field, _)| !inputs.contains(&field.name())) {
-        all.push(of(field.name(), field.unit(), "Of the data sheet", value, Role::Sheet(field)));
+        all.push(of(field.name(), field.unit(), "Parameter of the data sheet", value, Role::Sheet(field)));
     }
     let phase = Role::Setting(|settings, value| settings.phase = value);
     all.push(of("start_phase", "rad", "Phase of the stator at the start", settings.phase, phase));

@@ -217,7 +217,7 @@ impl Parser<'_> {
         if let Some(accent) = accent {
             let mut accented = self.argument(level)?;
             let Some(first) = accented.first_mut() else {
-                return Err(malformed(self.source, "an accent has no letter to stand on"));
+                return Err(malformed(self.source, "an accent has no letter"));
             };
             let after = first.text.chars().next().map_or(0, char::len_utf8);
             first.text.insert(after, accent);

@@ -150,7 +150,7 @@ def test_searches_that_are_none_are_refused_by_name(wrong: dict[str, Any], told:
 
 
 def test_a_bound_that_nothing_keeps_is_told() -> None:
-    with pytest.raises(bd.ComputationError, match="keeps the bound speed >= 1000"):
+    with pytest.raises(bd.ComputationError, match="satisfy the bound speed >= 1000"):
         bd.best(MOTOR, over={"friction": (0.1, 0.2)}, where=["speed >= 1e3"], relative_error=0.2)
 
 

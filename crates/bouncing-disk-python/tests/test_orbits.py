@@ -431,7 +431,7 @@ def test_curves_are_those_by_hand_and_name_their_points() -> None:
     # Towards restitution 0 the flight of the fold grazes the platform.
     assert [found.kind for curve in fold for found in curve.special] == ["grazing-fold"]
     assert fold[1].special[0].flight == 0 and fold[1].end == "flight 0 touches the platform"
-    with pytest.raises(bd.InvalidError, match="another than the branch's"):
+    with pytest.raises(bd.InvalidError, match="a parameter other than that of the branch"):
         bd.curves(bouncing, down, parameter="axial_forcing", **ranges)
 
 

@@ -57,7 +57,8 @@ pub enum Error {
     },
     /// A mean speed did not reach the requested accuracy within the allowed number of impacts.
     #[error(
-        "the mean speed, {speed:?} rad/s with a standard error of {standard_error:?} rad/s, has not reached the requested error: allow more impacts, or a larger error"
+        "the mean speed, {speed:?} rad/s, has a standard error of {standard_error:?} rad/s, more than requested: \
+         allow more impacts, or a larger error"
     )]
     NotSettled {
         /// Mean speed (rad/s).
@@ -72,7 +73,7 @@ pub enum Error {
         load: f64,
     },
     /// No point of the searched ranges satisfies the bounds.
-    #[error("no place in the ranges keeps the bound {quantity} {} {bound:?} with certainty: the nearest value is \
+    #[error("no point of the ranges is certain to satisfy the bound {quantity} {} {bound:?}: the nearest value is \
              {nearest:?}", if *is_least { ">=" } else { "<=" })]
     NotKept {
         /// The quantity that violates its bound most at the point that comes closest to satisfying all
@@ -163,8 +164,8 @@ pub enum Error {
     },
     /// A load switches the drive, but the motion is prescribed.
     #[error(
-        "load.on and load.off switch the drive, which needs a table [stator]: a prescribed motion would stop with \
-         a jump"
+        "load.on and load.off switch the drive and need a table [stator]: a prescribed motion would stop with a \
+         jump"
     )]
     SwitchedMotion,
     /// An axis of a sweep has no values.
@@ -227,18 +228,20 @@ pub enum Error {
     LoadLaw,
     /// A time-dependent load, for an analysis of steady operation.
     #[error(
-        "a steady operation has no time axis, but the table [load] has times, on or off; leave them out, or \
+        "a steady operation has no time axis, but load.times, load.on or load.off is given; leave such keys out, or \
          compute a run-up (`motor transient`)"
     )]
     LoadInTime,
     /// A map has no parameter of this name.
     #[error(
-        "the platform has no number of this name; it may be axial_forcing, restitution, contact_periods (if a \
-         contact time is given), or a number of the shape such as sawtooth or fourier[1][0], counted from 0"
+        "the platform has no number of this name; legal names are axial_forcing, restitution, contact_periods (if a \
+         contact time is given), and numbers of the shape, such as sawtooth or fourier[1][0], counted from 0"
     )]
     NoSuchNumber,
     /// A start phase of a toss, for an analysis without tosses.
-    #[error("start_phase is the start of a toss, and this analysis has none; leave it out")]
+    #[error(
+        "start_phase is the phase at which a toss starts, but this analysis computes no toss; leave it out"
+    )]
     StartPhase,
     /// An error of the math core.
     #[error(transparent)]

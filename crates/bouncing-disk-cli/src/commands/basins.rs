@@ -21,8 +21,8 @@ const FORCING: f64 = 0.486;
 #[command(after_help = "\
 First the attractors are found, without hints. Then each cell of the window shows the attractor that an impact at its \
 centre reaches, as in Fig. 7 of the paper: phases in periods (tau_imp/2pi), speeds normalised, |w_A Gamma/(omega A)|. \
-Labels in files: 0 undecided, 1 rest, 2 and more the other attractors in the order of the table; in .json two \
-hexadecimal digits a cell. A [drive] that is not a sine and --contact-periods take longer. See \
+Labels in files: 0 undecided, 1 rest, 2 and more the other attractors in the order of the table; in .json each is \
+two hexadecimal digits. A [drive] that is not a sine and --contact-periods take longer. See \
 docs/studying-the-dynamics.md.
 
 Examples:
@@ -128,7 +128,8 @@ impl BasinsJob {
             }
             let cells = self.cells;
             Err(Failure::Usage(format!(
-                "{option}: {cells} cells from {low:?} to {high:?} have no distinct middles; widen the range or take fewer cells"
+                "{option}: {cells} cells from {low:?} to {high:?} have no distinct centres; widen the range or take \
+                 fewer cells"
             )))
         };
         Ok(Grid::new(

@@ -19,10 +19,11 @@ const SAME: f64 = 1.0e-9;
 /// Curves of folds, doublings and grazes over forcing and restitution
 #[derive(Debug, Args)]
 #[command(after_help = "\
-The periodic orbits at the forcing and the restitution are followed over the forcing, and each fold, doubling and graze \
-on the way over both. Rows with a special point name where the bifurcation changes: a cusp, a doubling that turns from \
-supercritical to subcritical, or a graze in a fold or doubling. The error is how far rounding may have moved the curve \
-along the forcing. See docs/studying-the-dynamics.md, \"Curves in two parameters\".
+The periodic orbits at the given forcing and restitution are followed over the forcing. Each fold, doubling and \
+graze on the way is then followed over both. A row with a special point names the change of the bifurcation there: a \
+cusp, a doubling that turns from supercritical to subcritical, or a graze in a fold or doubling. The error states \
+how far rounding may have moved the curve along the forcing. See docs/studying-the-dynamics.md, \"Curves in two \
+parameters\".
 
 Examples:
   bouncing-disk curves
@@ -45,7 +46,7 @@ pub(crate) struct CurvesArgs {
     /// Largest number of impacts of an orbit, in [1, 64]
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = 1)]
     max_impacts: usize,
-    /// Largest number of periods of the platform that an orbit takes, in [1, 10000]
+    /// Largest number of periods of the platform in an orbit, in [1, 10000]
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = 1)]
     max_platform_periods: u64,
     /// Largest number of points of a curve, in [2, 1000000]

@@ -13,12 +13,13 @@ use super::prelude::*;
 /// The period-doubling cascade, forcing by forcing, with Feigenbaum's constants
 #[derive(Debug, Args)]
 #[command(after_help = "\
-The cascade starts from the orbit with one impact in each period of the platform, at the paper's Gamma_1, Gamma_2, \
-... From the seventh doubling on the table includes estimates of Feigenbaum's constants. The error is a bound on the \
-effect of rounding on a forcing. If the cascade ends early, the doublings found so far are printed with the reason. \
-The command finds the forcings, so there is no --axial-forcing; from a system it takes the restitution and the shape \
-of the drive. With another drive or --contact-periods it begins with the attracting orbit of one impact per period at \
-the lowest forcing, and the error is that of the trace. See docs/numerics-dynamics.md.
+The cascade starts from the orbit with one impact in each period of the platform; its doublings are the paper's \
+Gamma_1, Gamma_2, ... From the seventh doubling on the table includes estimates of Feigenbaum's constants. The error \
+is a bound on the effect of rounding on a forcing. If the cascade ends early, the doublings found so far are printed \
+with the reason. The command finds the forcings, so there is no --axial-forcing; from a system it takes the \
+restitution and the shape of the drive. With another drive or --contact-periods the cascade begins with the \
+attracting orbit of one impact per period at the lowest forcing, and the error follows from the rounding error of \
+the trace. See docs/numerics-dynamics.md.
 
 Examples:
   bouncing-disk doublings

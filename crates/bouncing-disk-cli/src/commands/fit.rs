@@ -18,19 +18,20 @@ use crate::parameters::{Described as _, Setting, setting};
 /// Fits measured run-ups: steady speed and time constant, or parameters of a motor
 #[derive(Debug, Args)]
 #[command(after_help = "\
-The file has the columns time_s, speed_rad_s and, for repeated runs, member, or times and speeds in units that it \
+The file has the columns time_s, speed_rad_s and, for repeated runs, member, or times and speeds with units in their \
 names, such as \"t (ms)\" and \"n (rpm)\"; commas, semicolons or tabs separate them. Without --parameter, alpha_ss - \
-b exp(-t/t_c) is fitted to their mean, with 95 % intervals; time zero, dead time and initial speed need not be known. \
---from-rest fits alpha_ss (1 - exp(-t/t_c)) to times that count from the start of the rise, with narrower intervals. \
-With --parameter FIELD=LOW:HIGH, parameters of a motor are fitted: friction, restitution, phase_lag (rad), amplitude \
-(m), twist_amplitude (rad), contact.time (s), stator.mass (kg), stator.quality, stator.twist_per_height (rad/m), each \
-within its range; all others are taken from the motor of --motor or --preset. Runs whose speeds rise are run-ups; \
-those whose speeds fall are braking tails with the drive off. The switching time and the speed in the first row need \
-not be known.
+b exp(-t/t_c) is fitted to their mean, with 95 % intervals; time zero, dead time and initial speed need not be \
+known. --from-rest fits alpha_ss (1 - exp(-t/t_c)) to times that count from the start of the rise, with narrower \
+intervals. With --parameter FIELD=LOW:HIGH, parameters of a motor are fitted: friction, restitution, phase_lag \
+(rad), amplitude (m), twist_amplitude (rad), contact.time (s), stator.mass (kg), stator.quality, \
+stator.twist_per_height (rad/m), each within its range; all others are taken from the motor of --motor or --preset. \
+Runs whose speeds rise are run-ups; those whose speeds fall are braking tails with the drive off. The switching time \
+and the speed in the first row need not be known.
 
-A table of a maker's rated points has no times: columns speed_rad_s (or \"speed (rpm)\"), speed_error, and fields of \
-the data sheet such as load_torque (0 without load), stator.volts or preload_force, each optionally with its error \
-(load_torque_error); one line per point, with speed 0 at the stall torque. See docs/designing-a-motor.md.
+A table of a maker's rated points has no times. Its columns are speed_rad_s (or \"speed (rpm)\"), speed_error, and \
+fields of the data sheet such as load_torque (0 without load), stator.volts or preload_force, each optionally with \
+its error (load_torque_error); each line is a point, with speed 0 at the stall torque. See \
+docs/designing-a-motor.md.
 
 Examples:
   bouncing-disk fit run-up.csv --out fit.png

@@ -140,10 +140,10 @@ pub(crate) enum Start {
 }
 
 /// The possible starts, for the help.
-pub(crate) const STARTS: &str = "`rest` on the platform or `rise`, an impact with the speed of the period-1 \
-                                 orbit, both when the platform rises fastest; `period-1`, 1 % faster than the \
-                                 impact of the period-1 orbit, if that exists; or PHASE,SPEED, the impact phase \
-                                 in periods (tau/2pi) and the normalised impact speed |w_A Gamma/(omega A)|";
+pub(crate) const STARTS: &str = "`rest`, at rest on the platform when it rises fastest; `rise`, an impact at the \
+                                 same phase with the speed of the period-1 orbit; `period-1`, 1 % faster than the \
+                                 impact of the period-1 orbit, if that orbit exists; or PHASE,SPEED, the impact \
+                                 phase in periods (tau/2pi) and the normalised impact speed |w_A Gamma/(omega A)|";
 
 impl Start {
     /// The impact in a map, on a platform that rises fastest at the phase `rise` (0 for the sine); `None` if the

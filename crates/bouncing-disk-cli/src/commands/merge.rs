@@ -13,9 +13,9 @@ use crate::grid::computation_of;
 /// Joins the chunks of a computation
 #[derive(Debug, Args)]
 #[command(after_help = "\
-The result equals that of the command without --chunk byte for byte. A part is a journal of some rows, so journals \
-can be merged, too. Missing rows, and files that are damaged or belong to another computation or version of the \
-program, are rejected by name. See docs/command-line.md, \"On a cluster\".
+The result is byte for byte the same as without --chunk. A part is a journal of some rows, so journals can be \
+merged, too. An error names missing rows, and files that are damaged or belong to another computation or version of \
+the program. See docs/command-line.md, \"On a cluster\".
 
 Example:
   bouncing-disk merge part-*.json --out diagram.png")]

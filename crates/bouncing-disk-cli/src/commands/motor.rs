@@ -42,9 +42,9 @@ pub(super) fn run(command: MotorCommand, context: Context) -> Result<()> {
 /// Forcing, regime, largest torque and warnings that follow from the data sheet
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Forcing parameters, the regime of the vertical motion, the largest torque, and warnings of unlikely values; for a \
-compliant [stator] also its circuit and the preload that it no longer lifts. The load affects only the warning of an \
-overload. See docs/designing-a-motor.md.
+Prints the forcing parameters, the regime of the vertical motion, the largest torque, and warnings of unlikely \
+values; for a compliant [stator] also its circuit and the preload above which it does not lift a rotor at rest. The \
+load affects only the warning of an overload. See docs/designing-a-motor.md.
 
 Examples:
   bouncing-disk motor report --template > motor.toml

@@ -14,9 +14,9 @@ const FORCING: f64 = 0.535;
 #[command(after_help = "\
 Orbits of one impact have a closed form; all others come from Newton's method on a grid of starts, and the result \
 states whether half the resolution finds the same. An orbit attracts if its largest multiplier is below 1 in modulus \
-by more than rounding errors, and is marginal within them, as in a fold. Phases are in periods (tau_imp/2pi), speeds \
-normalised, |w_A Gamma/(omega A)|. In .csv each impact is a row. See docs/studying-the-dynamics.md, \"All periodic \
-orbits\".
+by more than rounding errors, and is marginal if it equals 1 within rounding, as at a fold. Phases are in periods \
+(tau_imp/2pi), speeds normalised, |w_A Gamma/(omega A)|. In .csv each impact is a row. See \
+docs/studying-the-dynamics.md, \"All periodic orbits\".
 
 Examples:
   bouncing-disk orbits --axial-forcing 0.535

@@ -41,9 +41,9 @@ pub(super) fn instants(given: Option<u32>, periods: u64) -> u32 {
 #[command(after_help = "\
 The first toss from rest is the toss of Sec. III of the paper. A contact.time (soft hands) makes the contacts of a \
 single toss compliant. With --many the disk is followed through all later tosses (Sec. IV). A [drive] that gives only \
-the height leaves the angle a sine, and vice versa; its start_phase (rad) is the phase at the start. .csv and \
-pictures show the motion, .json contains the motion and the numbers; with --many a picture of more than 20 periods of \
-the platform shows the last 20. Units are SI; energies are per unit mass (J/kg). See docs/model.md and \
+the height leaves the angle a sine, and vice versa; its start_phase (rad) is the phase at the start. A .csv file or \
+a picture shows the motion; a .json file contains the motion and the numbers. With --many a picture of more than 20 \
+periods of the platform shows the last 20. Units are SI; energies are per unit mass (J/kg). See docs/model.md and \
 docs/tutorial.md.
 
 Examples:

@@ -26,10 +26,10 @@ const PLAIN: u64 = 4;
 /// Verdicts on the long-term motion of the disk, over forcing and restitution
 #[derive(Debug, Args)]
 #[command(after_help = "\
-A verdict names the long-term motion from the start, with its evidence: rest, a cycle with rest, a period proved by \
-Newton's method, chaos by growth over --impacts impacts beyond neutral motion and the error, or undecided. A range of \
-restitutions makes a map of regimes, with one row for each. The terminal shows the number of each verdict in a map. \
-See docs/studying-the-dynamics.md.
+A verdict names the long-term motion from the start, with its evidence: rest; a cycle with rest; a period proved by \
+Newton's method; chaos, if perturbations grow over --impacts impacts faster than in neutral motion by more than the \
+error; or undecided. A range of restitutions makes a map of regimes, with a row for each restitution. The terminal \
+shows the number of each verdict in a map. See docs/studying-the-dynamics.md.
 
 Examples:
   bouncing-disk verdicts --axial-forcing 0.3:0.6:7

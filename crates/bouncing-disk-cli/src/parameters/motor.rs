@@ -51,7 +51,7 @@ impl Described for Motor {
                 text += &format!("{field} = {value:?} # {}\n", described(field));
             }
         }
-        text += "\n# Other fields; of fields that state the same quantity, give only one.\n";
+        text += "\n# Other fields; give only one of the fields that state the same quantity.\n";
         let outside = |field: &MotorField| !field.in_table() && field.value(sheet).is_none();
         for field in MotorField::ALL.into_iter().filter(outside) {
             let excluded: Vec<&str> = field.excluded().iter().map(|other| other.name()).collect();

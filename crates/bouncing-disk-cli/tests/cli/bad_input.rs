@@ -94,7 +94,8 @@ fn drives() {
                 let line = format!("{command} triangle.toml --start period-1");
                 folder.all_refused(2, &[(&line, "give rest, rise or")]);
             }
-            folder.all_refused(2, &[("orbits start.toml", "start_phase is the start of a toss")]);
+            folder
+                .all_refused(2, &[("orbits start.toml", "start_phase is the phase at which a toss starts")]);
         }
         for (name, told) in [
             ("key", "\"hight\" is unknown; did you mean \"height\"?"),
@@ -356,7 +357,7 @@ fn words_of_the_line_that_are_not_legal() {
         ("basins --phase 1:0", "reversed"),
         ("basins --phase 0.5:0.5", "axis"),
         ("basins --phase 0.5:0.5000000000000002", "--phase-range: 300 cells from 0.5 to 0.5000000000000002"),
-        ("basins --speed 1:1.0000000000000002 --cells 9", "have no distinct middles"),
+        ("basins --speed 1:1.0000000000000002 --cells 9", "have no distinct centres"),
         ("orbits --impacts 0", "impacts"),
         ("doublings --count 99", "count"),
         ("doublings --count 0", "count"),

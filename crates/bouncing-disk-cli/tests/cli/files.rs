@@ -399,7 +399,7 @@ fn a_unit_is_packed_whole_or_not_at_all() {
             ("motor fmu --out c.fmu --library no.so", "not the library of a functional mock-up unit"),
             ("motor fmu --out c.fmu --library none.so", "cannot be read"),
             ("motor fmu drive.toml --out c.fmu", "[drive]"),
-            ("motor fmu timed.toml --out c.fmu", "which needs a table [stator]"),
+            ("motor fmu timed.toml --out c.fmu", "need a table [stator]"),
             ("toss --out a.fmu", ".fmu needs motor fmu"),
         ],
     );

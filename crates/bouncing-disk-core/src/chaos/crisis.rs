@@ -216,7 +216,7 @@ impl Crisis {
 pub enum NoTangency {
     /// The orbits that came to rest had not passed a common saddle of few impacts.
     #[error(
-        "the {orbits} orbits that came to rest just above the crisis passed no common saddle of at most 12 impacts"
+        "the {orbits} orbits that came to rest just above the crisis passed no saddle of at most 12 impacts in common"
     )]
     NoSaddle {
         /// The number of orbits examined.

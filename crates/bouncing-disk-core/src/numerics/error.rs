@@ -122,11 +122,11 @@ pub enum Error {
         /// Its phase in radians.
         phase: f64,
     },
-    /// The solution of an iteration lasts no period of the platform: its impacts repeat one instant within
-    /// rounding and are not a periodic orbit.
+    /// The solution of an iteration lasts less than one period of the platform: its impacts repeat one instant
+    /// within rounding and are not a periodic orbit.
     #[error(
-        "the solution of {impacts} impacts lasts no period of the platform, so it is not an orbit (fastest impact \
-         {speed:?} g/omega)"
+        "the solution of {impacts} impacts lasts less than one period of the platform, so it is not an orbit \
+         (fastest impact {speed:?} g/omega)"
     )]
     NoPlatformPeriods {
         /// Impacts of the solution.

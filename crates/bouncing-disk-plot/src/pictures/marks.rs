@@ -37,7 +37,7 @@ struct Mark {
 
 const MARKS: [Mark; 5] = [
     Mark {
-        words: "several motions, value of the one from rest",
+        words: "several motions; value of the motion from rest",
         marker: Marker::Diamond,
         place: (0.0, 0.0),
         around_point: 7.0,
@@ -58,7 +58,7 @@ const MARKS: [Mark; 5] = [
         of: |cell| cell.periodic,
     },
     Mark {
-        words: "locked on a short cycle: holds at exactly these inputs",
+        words: "locked on a short cycle at exactly these inputs",
         marker: Marker::Square,
         place: (0.3, -0.3),
         around_point: 8.4,

@@ -216,7 +216,8 @@ pub fn torque_speed(largest_torque: f64, found: &[LoadPoint], coexisting: &[Vec<
         let line = Line::new(spread.iter().map(|point| (point.0, end(point)))).width(0.4);
         name.map_or_else(|| line.clone(), |name| line.clone().name(name)).colour(Colour::BLUE)
     };
-    let extremes = [extreme(|point| point.1, Some("slowest, fastest drawn")), extreme(|point| point.2, None)];
+    let extremes =
+        [extreme(|point| point.1, Some("slowest, fastest sample")), extreme(|point| point.2, None)];
     let extremes = extremes.into_iter().filter(|_| has_spread);
     // To the left of a rule, where nothing but the curve is: at the upper end, or in the middle of the part
     // below zero.
@@ -282,7 +283,7 @@ pub fn torque_speed(largest_torque: f64, found: &[LoadPoint], coexisting: &[Vec<
         .right(Axis::spanned(low / high * best, best).label("efficiency (%)"))
         .title("(b)")
         .layers(rules.clone())
-        .layers(curve(&input, Colour::GREY, Some("put in")))
+        .layers(curve(&input, Colour::GREY, Some("supplied")))
         .layers(curve(&output, Colour::BLUE, Some("mechanical")));
     let efficiency = curve(&efficiency, Colour::VERMILION, Some("efficiency"));
     let lower = efficiency.into_iter().fold(lower, Panel::layer_right);

@@ -139,8 +139,8 @@ pub enum FitRefusal {
     /// The residuals are correlated over so many points that too few are independent.
     #[error(
         "its residuals are correlated over {correlated_points:?} of its {points} points, too many to estimate the \
-         error. Either the drive or the load changes, so that the curve has another form: leave out those rows. Or \
-         the noise is slow: repeat the measurement"
+         error. Either the drive or the load changes, so that the curve has another form: leave out the rows \
+         measured during the change. Or the noise is slow: repeat the measurement"
     )]
     Correlated {
         /// Integrated correlation time of the residuals, in points.

@@ -566,7 +566,7 @@ impl DriveParameters {
             let percent = rough(100.0 * change);
             Some(format!(
                 "the {of}: without every second sample its acceleration changes by {percent} % of the peak; smooth \
-                 noisy samples, take more if they are few, and write corners as pieces"
+                 noisy samples, add samples if there are few, and write corners as pieces"
             ))
         })
     }

@@ -96,7 +96,7 @@ pub enum StorageError {
         expected: String,
     },
     /// A line was changed after it was written.
-    #[error("line {line} of {path:?} was changed after it was written; delete it to read the others")]
+    #[error("line {line} of {path:?} was changed after it was written; delete this line to read the others")]
     Damaged {
         /// The file.
         path: PathBuf,

@@ -356,11 +356,12 @@ impl OrbitClass {
         Some(match lyapunov_exponent {
             Some(exponent) if exponent.grows() => "perturbations grow, but the transient may not be over",
             Some(_) => {
-                "neither certain growth nor a period was found: a long period, a slow approach or neutral motion"
+                "neither certain growth nor a period was found: the period may be long, the approach slow, or the \
+                 motion neutral"
             }
             None => {
-                "neither a period nor an exponent was found: a rest, a graze, an impact on a kink, or fewer than \
-                 17 impacts"
+                "neither a period nor an exponent was found, because of a rest, a graze, an impact on a kink, or \
+                 fewer than 17 impacts"
             }
         })
     }

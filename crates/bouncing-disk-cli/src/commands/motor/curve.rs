@@ -14,12 +14,12 @@ use crate::commands::prelude::*;
 #[derive(Debug, Args)]
 #[command(after_help = "\
 All loads share one vertical motion, so a curve costs little more than a point, unless loads settle slowly. Errors \
-are standard errors at exactly these inputs; the spread is over motors whose preload and amplitude lie within the \
-tolerance, and the relaunch perturbation within a decade: of 39 samples or more, at least 95 of 100 further ones lie \
-between its ends. A load beyond the largest torque mu m g a_e overpowers the motor, which then has no mean speed. A \
-picture marks the stall by linear interpolation of the speed between two loads; `motor stall` computes it. With a \
-[drive] that is not a sine, or a compliant [stator], each load has its own vertical motion; with either, or with a \
-contact.time, no spread is computed. See docs/designing-a-motor.md.
+are standard errors at exactly these inputs. The spread is computed over motors whose preload and amplitude lie \
+within the tolerance, with a relaunch perturbation within a decade; with 39 samples or more, at least 95 of 100 \
+further motors lie between its ends. A load beyond the largest torque mu m g a_e overpowers the motor, which then \
+has no mean speed. A picture marks the stall by linear interpolation of the speed between two loads; `motor stall` \
+computes it. With a [drive] that is not a sine, or a compliant [stator], each load has its own vertical motion; with \
+either, or with a contact.time, no spread is computed. See docs/designing-a-motor.md.
 
 Examples:
   bouncing-disk motor curve

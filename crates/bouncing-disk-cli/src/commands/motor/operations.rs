@@ -38,12 +38,12 @@ impl OperationArgs {
 /// The load torque that stops the motor
 #[derive(Debug, Args)]
 #[command(after_help = "\
-The true stall: the load torque at which the mean speed of the free rotor vanishes, not the paper's estimate from the \
-run-up without load (see `bouncing-disk fit`). The blocked torque is the mean torque on a rotor held at rest; a free \
-rotor oscillates about its mean speed and stops under another load. With the drive off, friction holds the rotor up \
-to the holding torque mu m g a_e. Errors are standard errors at exactly these inputs; the spread is over motors whose \
-preload and amplitude lie within the tolerance, and the relaunch perturbation within a decade. See \
-docs/designing-a-motor.md.
+The true stall load is the torque at which the mean speed of the free rotor vanishes, not the paper's estimate from \
+the run-up without load (see `bouncing-disk fit`). The blocked torque is the mean torque on a rotor held at rest; a \
+free rotor oscillates about its mean speed and stops under another load. With the drive off, friction holds the \
+rotor up to the holding torque mu m g a_e. Errors are standard errors at exactly these inputs. The spread is \
+computed over motors whose preload and amplitude lie within the tolerance, with a relaunch perturbation within a \
+decade. See docs/designing-a-motor.md.
 
 Example:
   bouncing-disk motor stall motor.toml")]
@@ -110,8 +110,9 @@ fn push_stall(list: &mut Quantities, prefix: &str, stall: &StallLoad) {
 #[command(after_help = "\
 All other fields, including the load, are taken from the data sheet: for the largest torque at a speed, vary \
 load_torque and bound the speed. If motions coexist, quantities refer to the motion that most rotors reach from rest. \
-The value is measured at the optimum; its error includes a possible gain nearby. In the range within 1 % the curve \
-itself is within 1 % of its best; the range is omitted if the curve is too rough. See docs/designing-a-motor.md.
+The value is measured at the optimum; its error includes a possible gain nearby. The range \"within 1 %\" is the \
+range of a field over which the curve itself stays within 1 % of its best value; it is omitted if the curve is too \
+rough. See docs/designing-a-motor.md.
 
 Examples:
   bouncing-disk motor best motor.toml --of speed --over preload_force=2:10 --over phase_lag
@@ -122,7 +123,7 @@ pub(crate) struct BestArgs {
     /// The quantity to maximise: speed, torque, power, efficiency, or another of `motor sweep`
     #[arg(help_heading = OWN, long, value_name = "NAME", default_value = "speed")]
     of: SweepQuantity,
-    /// A field of the data sheet and its range, FIELD=LOW:HIGH, at most two; phase_lag without a range is a
+    /// A field of the data sheet and its range, FIELD=LOW:HIGH, at most two; phase_lag without a range covers a
     /// whole turn
     #[arg(help_heading = OWN, long, value_name = "FIELD=RANGE", required_unless_present = "template", value_parser = search_range)]
     over: Vec<SearchRange>,
@@ -183,7 +184,7 @@ pub(super) fn best(args: &BestArgs, context: Context) -> Result<()> {
     }
     if let Some(share) = trap_beside(&motor, &best)? {
         note += &format!(
-            "a preload or amplitude {:.2} % away locks the motor on a short cycle; `motor traps` lists these\n",
+            "a preload or amplitude {:.2} % away locks the motor on a short cycle; `motor traps` lists such values\n",
             100.0 * share
         );
     }

@@ -14,7 +14,7 @@ use bouncing_disk_plot::rounded;
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Accuracy")]
 pub(super) struct SettingsArgs {
-    /// Requested standard error of the mean speed, relative to the larger of the no-load speed and itself
+    /// Requested standard error of the mean speed, relative to this speed or, if it is larger, the no-load speed
     #[arg(long, allow_hyphen_values = true, value_name = "SHARE", default_value_t = OperatingSettings::default().relative_error)]
     relative_error: f64,
     /// Number of vertical motions to average over
@@ -53,7 +53,7 @@ pub(super) struct SpreadArgs {
     /// Motors sampled within the tolerance
     #[arg(long, allow_negative_numbers = true, value_name = "N", default_value_t = InputTolerance::default().draws)]
     draws: usize,
-    /// Omits the spread, which costs up to ten times the rest
+    /// Omits the spread, which takes up to ten times as long as the rest
     #[arg(long)]
     no_spread: bool,
 }

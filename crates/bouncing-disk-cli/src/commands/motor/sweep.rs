@@ -16,13 +16,13 @@ use crate::commands::prelude::*;
 /// A motor over one or two fields of its data sheet
 #[derive(Debug, Args)]
 #[command(after_help = "\
-One --over makes a curve, two make a map whose rows are the first. Cells that share a vertical motion (they differ \
-only in load, friction, phase lag, twist, radii or mass) are computed on one orbit, as one row for --chunk and \
---journal. Fields are named as in the data sheet, in its units; contact.time makes contacts compliant, cell by cell. \
-A cell has one line for each coexisting motion. A map shows the first, which most rotors reach from rest, and marks \
-cells with several motions, with a periodic one, and unsettled cells. With --up-and-down all fields except that of \
---over are held, and the first line of the output names the drive, the preload and the phase lag. See \
-docs/designing-a-motor.md.
+One --over makes a curve; two make a map with a row for each value of the first field. Cells that share a vertical \
+motion (they differ only in load, friction, phase lag, twist, radii or mass) are computed on one orbit, as one row \
+for --chunk and --journal. Fields are named as in the data sheet, in its units; contact.time makes contacts \
+compliant, cell by cell. A cell has one line for each coexisting motion. A map shows the first motion, which most \
+rotors reach from rest, and marks cells with several motions, with a periodic one, and unsettled cells. With \
+--up-and-down all fields except the one of --over are held, and the first line of the output names the drive, the \
+preload and the phase lag. See docs/designing-a-motor.md.
 
 Examples:
   bouncing-disk motor sweep --over load_torque=0:30e-6:7 --out curve.csv
@@ -34,15 +34,14 @@ pub(crate) struct SweepArgs {
     /// A field of the data sheet and its values, FIELD=FIRST:LAST:POINTS; at most two
     #[arg(help_heading = OWN, long, value_name = "FIELD=RANGE", required_unless_present = "template", value_parser = over)]
     over: Vec<Over>,
-    /// The values go up and down again, each cell from the final state of its predecessor: for a compliant
-    /// [stator], over one field
+    /// Runs through the values up and down again, each cell starting from the final state of its predecessor; for a
+    /// compliant [stator], over one field
     #[arg(help_heading = OWN, long)]
     up_and_down: bool,
     /// The quantity of a picture
     #[arg(help_heading = OWN, long, value_name = "QUANTITY", default_value = "speed", value_parser = one_of(PICTURES))]
     picture: SweepQuantity,
-    /// A bound as in `motor best`, drawn in a map as a line between the cells that keep it and the
-    /// others
+    /// A bound as in `motor best`, drawn in a map as a line between cells that satisfy it and cells that do not
     #[arg(help_heading = OWN, long = "where", value_name = "BOUND")]
     bound: Option<QuantityBound>,
     #[command(flatten)]

@@ -72,7 +72,7 @@ impl BasinFractions {
         for (index, at) in self.at.iter().enumerate() {
             if *at.attractors.map() != map(at.axial_forcing)? {
                 return unfitting(
-                    "forcings before one whose attractors are of another map",
+                    "forcings before one whose attractors belong to another map",
                     index,
                     self.at.len(),
                 );

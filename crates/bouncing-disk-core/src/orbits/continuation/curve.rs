@@ -282,19 +282,26 @@ impl<M: ContinuedMap> Branch<M> {
         second: ContinuationParameter,
     ) -> Result<(BifurcationKind, Closing<M>, Closed), Error> {
         if second == self.parameter {
-            let (what, index, expected) = ("second parameter", second as usize, "another than the branch's");
+            let (what, index, expected) =
+                ("second parameter", second as usize, "a parameter other than that of the branch");
             return Err(Error::NotOfKind { what, index, count: 2, expected });
         }
         let (least, most) = self.parameter.legal();
-        within("low end of a curve", low, least, most, "the range of its parameter")?;
-        within("high end of a curve", high, low.next_up(), most, "(low end, that of its parameter]")?;
+        within("low end of a curve", low, least, most, "within the legal range of the parameter")?;
+        within(
+            "high end of a curve",
+            high,
+            low.next_up(),
+            most,
+            "(low end, largest legal value of the parameter]",
+        )?;
         let found = self.bifurcations.get(index).filter(|found| has_curve(found.kind));
         let Some(found) = found else {
             let (what, count) = ("bifurcation", self.bifurcations.len());
             return Err(Error::NotOfKind { what, index, count, expected: "a fold, doubling or graze" });
         };
         let parameter = found.point.parameter;
-        within("parameter at the start of a curve", parameter, low, high, "the range of the curve")?;
+        within("parameter at the start of a curve", parameter, low, high, "within the range of the curve")?;
         let lost = Error::NoBranch { what: "the start of a curve", parameter };
         // At a graze rounding decides which impact the map finds, but not at the point of the branch before.
         let before = self.points.partition_point(|point| point.arclength <= found.point.arclength);

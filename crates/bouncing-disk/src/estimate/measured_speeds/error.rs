@@ -78,8 +78,8 @@ pub enum CsvFault {
     OpenQuote,
     /// The first line contains numbers instead of the names of columns.
     #[error(
-        "the header line is missing, because this line has numbers; add a line before it that names the columns, for \
-         instance time_s,speed_rad_s"
+        "the header line is missing: this line already contains numbers; add a line before it that names the \
+         columns, for instance time_s,speed_rad_s"
     )]
     NoHeader,
     /// The header contains an unknown name.
@@ -92,8 +92,8 @@ pub enum CsvFault {
     /// number.
     #[error(
         "{0}; a table of points has the columns speed_rad_s (or speed (rpm), ...), speed_error, and fields of the \
-         data sheet in its units, such as load_torque, stator.volts or preload_force, each optionally with its \
-         error, such as load_torque_error"
+         data sheet in its units, such as load_torque, stator.volts or preload_force; each may have an error, such \
+         as load_torque_error"
     )]
     Points(String),
     /// The header contains a name twice.

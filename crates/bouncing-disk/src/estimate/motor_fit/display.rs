@@ -34,7 +34,7 @@ impl Display for UndeterminedDirection {
         write!(f, "a change of {}", steps.join(" and "))?;
         if self.standard_error.is_finite() {
             let error = n(self.standard_error);
-            write!(f, " hardly affects the measured speeds: its standard error is {error} such changes")
+            write!(f, " hardly affects the measured speeds: its standard error is {error} times this change")
         } else {
             f.write_str(" does not affect the measured speeds at all")
         }
@@ -101,7 +101,7 @@ mod tests {
         assert_eq!(
             format!("{direction:.3}"),
             "a change of ln(friction) by -0.0521 and ln(amplitude) by 0 and phase_lag by 1 rad hardly affects the \
-             measured speeds: its standard error is 2.13 such changes"
+             measured speeds: its standard error is 2.13 times this change"
         );
         let blind = UndeterminedDirection {
             direction: vec![(FitParameter::Restitution, 1.0)],

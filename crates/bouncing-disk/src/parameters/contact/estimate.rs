@@ -83,7 +83,7 @@ impl Display for ContactWarning {
             }
             Self::StaysInContact { certain } => {
                 let never = if *certain { "never leaves" } else { "may never leave" };
-                write!(f, "a disk at rest {never} the platform in a contact this soft")
+                write!(f, "a disk at rest {never} the platform with a contact this soft")
             }
             Self::Stiff => f.write_str(
                 "contact.time is below 1e-6 rad of the vibration, so impacts are computed as rigid",
