@@ -210,7 +210,7 @@ pub(crate) fn held<'py, T: PyClass<Frozen = True>>(
     let inner = object.getattr(intern!(object.py(), "_native")).ok().and_then(|own| own.cast_into().ok());
     inner.ok_or_else(|| {
         let own = T::NAME;
-        PyTypeError::new_err(format!("argument '{name}' must be a {own}, and is {}", object.get_type()))
+        PyTypeError::new_err(format!("argument '{name}' must be a {own}, not {}", object.get_type()))
     })
 }
 
@@ -220,7 +220,7 @@ pub(crate) fn choice<T: Copy>(given: &Bound<'_, PyAny>, name: &str, choices: &[(
     let found = choices.iter().find(|(word, _)| *word == given).map(|(_, choice)| *choice);
     found.ok_or_else(|| {
         let words: Vec<_> = choices.iter().map(|(word, _)| format!("{word:?}")).collect();
-        PyValueError::new_err(format!("{name} must be {}, and is {given:?}", words.join(" or ")))
+        PyValueError::new_err(format!("{name} must be {}, not {given:?}", words.join(" or ")))
     })
 }
 
@@ -244,9 +244,7 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Real {
             let dimensions: usize = object.getattr(intern!(object.py(), "ndim"))?.extract()?;
             if !["i", "u", "f"].contains(&kind.as_str()) || dimensions > 0 {
                 let what = if dimensions > 0 { "an array" } else { "a number" };
-                return Err(PyTypeError::new_err(format!(
-                    "must be one real number, and is {what} of {dtype}"
-                )));
+                return Err(PyTypeError::new_err(format!("must be one real number, not {what} of {dtype}")));
             }
             refuse_masked(&object)?;
         }
@@ -327,7 +325,7 @@ impl Place<'_> {
     fn wrong(&self, value: &Bound<'_, PyAny>, expected: &str) -> PyErr {
         let found =
             value.get_type().name().map_or_else(|_| "something else".to_owned(), |name| name.to_string());
-        PyTypeError::new_err(format!("argument '{self}': must be {expected}, and is {found}"))
+        PyTypeError::new_err(format!("argument '{self}': must be {expected}, not {found}"))
     }
 }
 
@@ -411,7 +409,7 @@ pub(crate) fn entries<'py>(
 pub(crate) fn pair(value: &Bound<'_, PyAny>, place: &Place<'_>) -> PyResult<[f64; 2]> {
     let items = items(value, place)?.ok_or_else(|| place.wrong(value, "two numbers"))?;
     let [low, high] = items.as_slice() else {
-        return Err(PyValueError::new_err(format!("{place} must be two numbers, and has {}", items.len())));
+        return Err(PyValueError::new_err(format!("{place} must be two numbers, but has {}", items.len())));
     };
     let number = |value, index| extracted::<Real>(value, Place::Item(place, index));
     Ok([number(low, 0)?.0, number(high, 1)?.0])
@@ -420,7 +418,7 @@ pub(crate) fn pair(value: &Bound<'_, PyAny>, place: &Place<'_>) -> PyResult<[f64
 /// Rejects True and False, which Python takes for 1 and 0.
 fn refuse_truth(object: &Bound<'_, PyAny>) -> PyResult<()> {
     if object.is_instance_of::<PyBool>() {
-        return Err(PyTypeError::new_err("must be a number, and is a bool"));
+        return Err(PyTypeError::new_err("must be a number, not a bool"));
     }
     Ok(())
 }
@@ -516,12 +514,12 @@ fn doubles<'py>(
     let kind: String = untyped.dtype().as_any().getattr(intern!(py, "kind"))?.extract()?;
     if !["i", "u", "f"].contains(&kind.as_str()) {
         let dtype = untyped.dtype();
-        return Err(PyTypeError::new_err(format!("{name} must hold real numbers, and holds {dtype}")));
+        return Err(PyTypeError::new_err(format!("{name} must contain real numbers, not {dtype}")));
     }
     if !dimensions.contains(&untyped.ndim()) {
         let shape = untyped.shape();
         let wanted = if dimensions == [2] { "a 2-d array" } else { "a number or a 1-d array" };
-        return Err(PyValueError::new_err(format!("{name} must be {wanted}, and has the shape {shape:?}")));
+        return Err(PyValueError::new_err(format!("{name} must be {wanted}, but has the shape {shape:?}")));
     }
     Ok(array.call_method1(intern!(py, "astype"), ("float64",))?.cast_into()?)
 }
@@ -536,7 +534,7 @@ fn numbers(object: &Bound<'_, PyAny>, name: &str) -> PyResult<Numbers> {
 pub(crate) fn row(object: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<f64>> {
     let numbers = numbers(object, name)?;
     if numbers.scalar {
-        return Err(PyValueError::new_err(format!("{name} must be a 1-d array, and is a number")));
+        return Err(PyValueError::new_err(format!("{name} must be a 1-d array, not a number")));
     }
     Ok(numbers.values)
 }
@@ -562,7 +560,7 @@ pub(crate) fn common_length(all: &[(&str, Option<usize>)]) -> PyResult<usize> {
         match found {
             Some((other, expected)) if expected != length => {
                 return Err(PyValueError::new_err(format!(
-                    "{other} and {name} must have the same length, and have {expected} and {length}"
+                    "{other} and {name} must have the same length, but have {expected} and {length}"
                 )));
             }
             _ => found = Some((name, length)),

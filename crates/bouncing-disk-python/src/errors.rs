@@ -257,8 +257,8 @@ pub(crate) fn of_measured(py: Python<'_>, error: &MeasuredSpeedsError) -> PyErr 
 
 /// A motion without events that was given no duration, and has no samples.
 pub(crate) fn no_events(py: Python<'_>) -> PyErr {
-    let message = "the trajectory has no events, because the disk stays on its platform for ever: it ends where it \
-                   begins, and there is nothing to sample; give simulate() a duration";
+    let message = "the disk stays on its platform for ever, so the trajectory has no events, ends where it begins \
+                   and cannot be sampled; give simulate() a duration";
     raise(py, "ComputationError", (message, "no-events", PyDict::new(py)))
 }
 

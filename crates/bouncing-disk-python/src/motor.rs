@@ -271,7 +271,7 @@ pub(crate) fn best(a: Arguments<'_>) -> Made<'_> {
             name.parse().map_err(|unknown: UnknownMotorField| refused("over", unknown.to_string()))?;
         let ends = row(&given, &name)?;
         let &[low, high] = &ends[..] else {
-            return Err(refused("over", format!("{name} has {} ends, and needs two", ends.len())));
+            return Err(refused("over", format!("{name} has {} ends, but needs two", ends.len())));
         };
         ranges.push(SearchRange { field, low, high });
     }
@@ -403,7 +403,7 @@ fn parameters(a: &Arguments<'_>) -> PyResult<Vec<SensitivityParameter>> {
         return Ok(all.filter(|parameter| parameter.shares_vertical_motion()).collect());
     };
     if names.is_instance_of::<PyString>() {
-        return Err(PyTypeError::new_err("parameters must be names, and is one text"));
+        return Err(PyTypeError::new_err("parameters must be a list of names, not one text"));
     }
     names.try_iter()?.map(|one| parameter(&one?.extract::<String>()?)).collect()
 }

@@ -50,7 +50,7 @@ class Attractor(Result):
     Attributes:
         kind: ``"rest"``, ``"periodic"``, ``"marginal"``, ``"chaotic"`` or ``"transient"``.
         label: its label in :attr:`Basins.labels`; the words of `meaning` use these labels.
-        orbit: the orbit of a periodic or marginal one.
+        orbit: the orbit of a periodic or marginal attractor.
         radius: the radius (rad) within which a start counts as caught by that orbit, else NaN.
         exponent, standard_error: the largest Lyapunov exponent per impact of a chaotic motion or transient
             and its standard error, else NaN.
@@ -145,7 +145,7 @@ class Attractors(Stored):
         chatter: ChatterCut | None = None,
         progress: Progress = None,
     ) -> Basins:
-        """Their basins on a grid of impacts.
+        """The basins of the attractors on a grid of impacts.
 
         Args:
             phases, phase_range, speeds, speed_range, max_impacts, chatter: as for :func:`basins`.
@@ -245,7 +245,7 @@ def basins(
 
 @dataclass(frozen=True, eq=False)
 class BasinEntropy(Result):
-    """How uncertain the fate of a start known only up to a box of cells is; in natural units.
+    """The uncertainty of the fate of a start that is known only to within a box of cells, in natural units.
 
     Attributes:
         box_side: cells along each side of a box.
@@ -268,7 +268,7 @@ class BasinEntropy(Result):
 
 
 def basin_entropy(basins: Basins, *, box_side: Int = 5) -> BasinEntropy:
-    """The entropy of basins: how uncertain the fate of a start known only up to a box of cells is.
+    """The entropy of basins: the uncertainty of the fate of a start that is known only to within a box of cells.
 
     A. Daza and others, Sci. Rep. 6, 31416 (2016). A boundary entropy above ln 2 shows that the boundary is
     not smooth, if boxes are small compared with the basins; a smaller one proves nothing.
@@ -288,12 +288,11 @@ def basin_entropy(basins: Basins, *, box_side: Int = 5) -> BasinEntropy:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class BoundaryScaling(Result):
-    """How the share of uncertain cells grows with their distance, at n distances.
+    """The growth of the share of uncertain cells with the distance, at n distances.
 
     Attributes:
         distance: the distances, in cells, shape (n,).
-        uncertain: cells with another label than their own in the square up to this distance along both axes,
-            shape (n,).
+        uncertain: cells that have another label within the square up to this distance along both axes, shape (n,).
         cells: examined cells, the same at each distance.
         fit: ``"power-law"``; ``"no-power-law"``, if the slopes between neighbouring distances differ
             by more than 0.05 and a fifth of their mean, as on too coarse a grid; or ``"too-few"``, if
@@ -302,8 +301,7 @@ class BoundaryScaling(Result):
             without a power law.
         dimension: dimension of the boundary, 2 minus the exponent: 1 for a smooth curve, at most 2; NaN
             without a power law.
-        slopes: smallest and largest logarithmic slope between neighbouring distances; NaN
-            with too few.
+        slopes: smallest and largest logarithmic slope between neighbouring distances; NaN if `fit` is ``"too-few"``.
     """
 
     distance: IntArray
@@ -325,7 +323,7 @@ class BoundaryScaling(Result):
 def boundary_scaling(
     basins: Basins, *, distances: Iterable[Int] = (1, 2, 4, 8), progress: Progress = None
 ) -> BoundaryScaling:
-    """How the share of uncertain cells grows with their distance: the dimension of a boundary of basins.
+    """The growth of the share of uncertain cells with the distance: the dimension of a boundary of basins.
 
     S. W. McDonald and others, Physica D 17, 125 (1985). A cell is uncertain if the square up to a
     distance along both axes contains another label. Only cells farther from the edges of the
@@ -357,7 +355,7 @@ class BasinFractions(Result):
 
     Attributes:
         restitution: coefficient of restitution.
-        axial_forcing: axial forcing parameter Gamma, in the order in which they were followed, shape (n,).
+        axial_forcing: axial forcing parameter Gamma, in the order in which attractors were followed, shape (n,).
         attractors: the attractors at each forcing: a tuple of n :class:`Attractors`.
         followed: for each attractor at a forcing, its index among the m attractors: a tuple of n int64 arrays.
         appears: the first forcing at which each attractor was found, by its index, shape (m,): it appears

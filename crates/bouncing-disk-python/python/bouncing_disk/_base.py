@@ -98,7 +98,7 @@ class Parameters:
         return made
 
     def replace(self: Own, **changes: Any) -> Own:
-        """The same with other arguments of the constructor."""
+        """The same object with other arguments of the constructor."""
         return _of(type(self), {**self._given, **changes})
 
     def to_dict(self) -> dict[str, Any]:
@@ -108,7 +108,7 @@ class Parameters:
 
     @classmethod
     def from_dict(cls: type[Own], parameters: dict[str, Any]) -> Own:
-        """The object of such a dictionary."""
+        """The object from a dictionary as returned by :meth:`to_dict`."""
         return _of(cls, parameters)
 
     def to_json(self) -> str:
@@ -117,7 +117,7 @@ class Parameters:
 
     @classmethod
     def from_json(cls: type[Own], json: str) -> Own:
-        """The object of such a text."""
+        """The object from a text as returned by :meth:`to_json`."""
         text = readable(json)
         try:
             return cls.from_dict(json_module.loads(text, parse_constant=_refused))
@@ -133,13 +133,13 @@ def _unreadable(error: Exception, **where: float | int | str) -> InvalidError:
 
 def _refused(constant: str) -> float:
     """JSON has no NaN and no infinity."""
-    raise _unreadable(ValueError(f"{constant} is no number"))
+    raise _unreadable(ValueError(f"{constant} is not a number"))
 
 
 def readable(text: str) -> str:
     """The text, unless it contains half of a pair of surrogates, which no reader accepts."""
     if not isinstance(text, str):
-        raise TypeError(f"must be a text, and is {type(text).__name__}")
+        raise TypeError(f"must be a text, not {type(text).__name__}")
     try:
         text.encode()
     except UnicodeEncodeError as error:
@@ -276,7 +276,7 @@ class Stored(Result):
     _native: Any
 
     def __eq__(self, other: object) -> bool:
-        """Whether the library holds the same."""
+        """Whether the library's objects are equal."""
         return self._native == other._native if isinstance(other, type(self)) else NotImplemented
 
     __hash__: ClassVar[None]
@@ -289,7 +289,7 @@ class Stored(Result):
 
     @classmethod
     def from_json(cls: type[Kept], json: str) -> Kept:
-        """The result of such a text."""
+        """The result from a text as returned by :meth:`to_json`."""
         return getattr(native, cls.__name__).from_json(readable(json))
 
     def __reduce__(self) -> tuple[Any, ...]:

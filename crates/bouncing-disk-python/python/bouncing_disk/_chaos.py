@@ -61,7 +61,7 @@ class OrbitDiagram(_Impacts, Result):
         offsets: index of the first impact of each orbit; the last entry is the number of impacts, m, shape (n +
             1,).
         impact_phase: phase of each impact (rad), in [0, 2 pi), shape (m,).
-        axial_impact_velocity: velocity of the disk relative to the platform just before, not positive, in
+        axial_impact_velocity: velocity of the disk relative to the platform just before each impact, not positive, in
             units of g/omega, shape (m,).
 
     >>> import bouncing_disk as bd
@@ -164,8 +164,8 @@ class LyapunovSpectra(Result):
         outcome: An index into :attr:`OUTCOMES`, shape (n,).
         largest, standard_error: the largest exponent, and its standard error by batch means, shape (n,).
         second: the other exponent; minus infinity for restitution 0, shape (n,).
-        exact_sum: exact sum of both over these impacts; minus infinity for restitution 0, NaN for
-            a compliant contact, shape (n,).
+        exact_sum: exact sum of both exponents over these impacts; minus infinity for restitution 0, NaN for a
+            compliant contact, shape (n,).
         impacts: measured impacts; after a rest or a graze, all impacts before it, including the transient,
             shape (n,).
         phase: phase (rad) of the impact that grazes the platform, shape (n,).
@@ -227,15 +227,15 @@ class Verdicts(Result):
         kind: the verdict, an index into :attr:`KINDS`, shape (n,).
         reason: why an orbit is undecided, an index into :attr:`REASONS`, shape (n,).
         period: impacts of one period of a periodic orbit or of one cycle of a chattering one, shape (n,).
-        platform_periods: periods of the platform in it, shape (n,).
+        platform_periods: periods of the platform in that period or cycle, shape (n,).
         after: impacts before the verdict, shape (n,).
-        rests: 1 if the disk came to rest before, shape (n,).
+        rests: 1 if the disk came to rest before the verdict, shape (n,).
         exponent, standard_error: the largest Lyapunov exponent per impact and its standard error, if
             measured, shape (n,).
         rounding_error: bound on the rounding error of the impacts of a chattering cycle (rad and g/omega),
             shape (n,).
-        multipliers: Floquet multipliers of a periodic orbit, also of a neutral or repelling one
-            that the orbit follows, shape (n, 2).
+        multipliers: Floquet multipliers of a periodic orbit, also of a neutral or repelling periodic orbit that the
+            orbit follows, shape (n, 2).
     """
 
     KINDS: ClassVar[tuple[str, ...]] = ("periodic", "chaotic", "chattering", "at-rest", "undecided")
@@ -314,19 +314,19 @@ class Manifold(_Impacts, Result):
 
     Attributes:
         kind: ``"stable"`` or ``"unstable"``.
-        multiplier: its Floquet multiplier.
+        multiplier: Floquet multiplier of the saddle along the manifold.
         offsets: index of the first impact of each piece; the last entry is m, shape (p + 1,).
         impact_phase: phase of each impact (rad), in [0, 2 pi): between neighbours it may pass 2 pi, shape
             (m,).
-        axial_impact_velocity: its relative velocity, not positive, in units of g/omega, shape (m,).
+        axial_impact_velocity: relative velocity of each impact, not positive, in units of g/omega, shape (m,).
         piece_branch: the branch of each piece, shape (p,).
-        piece_start, piece_end: why it begins and ends there, indices into :attr:`PIECE_ENDS`,
-            shape (p,).
+        piece_start, piece_end: why each piece begins and ends where it does, indices into :attr:`PIECE_ENDS`, shape
+            (p,).
         branch_impact: impact of the saddle at which each branch begins, shape (b,).
         branch_side: side of that impact, an index into :attr:`SIDES`, shape (b,).
-        branch_arclength: its length (rad, and speeds in units of 1 + P), shape (b,).
-        branch_generations: number of times its first piece was mapped, shape (b,).
-        branch_end: why it is not longer, an index into :attr:`BRANCH_ENDS`, shape (b,).
+        branch_arclength: length of each branch (rad, and speeds in units of 1 + P), shape (b,).
+        branch_generations: number of times the first piece of each branch was mapped, shape (b,).
+        branch_end: why each branch is not longer, an index into :attr:`BRANCH_ENDS`, shape (b,).
     """
 
     PIECE_ENDS: ClassVar[tuple[str, ...]] = ("saddle", "graze", "rest", "too-fast", "cut")
@@ -400,7 +400,7 @@ class CrisisLives(Result):
     Attributes:
         beyond: Gamma minus its value at the crisis, shape (n,).
         impacts: mean lifetime in impacts; infinity if no orbit ended, shape (n,).
-        relative_error: relative standard error of it; infinity if no orbit ended, shape (n,).
+        relative_error: relative standard error of the mean lifetime; infinity if no orbit ended, shape (n,).
         ended, orbits: orbits that came to rest, and all orbits, shape (n,).
         exponent, exponent_error: the mean lifetime varies as ``beyond**exponent``; NaN without a power law.
         no_power_law: the reason if there is no power law.
@@ -428,11 +428,10 @@ class Crisis(Stored):
         forcing_error: its error: half of the bracket, or the part below the tangency.
         bracket: the values of Gamma between which lifetimes place the crisis; the lower bound holds in 95
             of 100 searches.
-        is_boundary_crisis: whether the attractor is lost: a disk that came to rest soon rests for ever.
-            Otherwise it bounces on after a rest, which is now part of the attractor. None if
-            this depends on the forcing.
+        is_boundary_crisis: true if the attractor is lost: a disk that came to rest soon rests for ever. False if the
+            disk bounces on after a rest, which is now part of the attractor. None if this depends on the forcing.
         no_tangency: why no tangency is known as the cause; None if one is.
-        inside: the saddle on the attractor, at the crisis; None without a tangency, like all below.
+        inside: the saddle on the attractor, at the crisis; None without a tangency, like all attributes below.
         touched: the saddle whose stable manifold is touched, at the crisis.
         impact_phase: phases of the impacts of the orbit of tangency (rad), shape (n,).
         axial_impact_velocity: their relative velocities, not positive, in units of g/omega, shape (n,).
@@ -490,11 +489,11 @@ def crisis(
     Args:
         inside: A saddle on the attractor, or at its edge. By default the attractor is the one to which
             the period-1 orbit leads, and the saddles are searched for.
-        touched: the saddle whose stable manifold is touched; by default the same.
+        touched: the saddle whose stable manifold is touched; by default the saddle `inside`.
         restitution: coefficient of restitution, in (0, 1).
         axial_forcing: Gamma below the crisis and beyond it.
         samples: orbits followed at each forcing, in [16, 1e6].
-        impacts: impacts of all orbits together, in [1e4, 1e12]; at least 200 each. More impacts narrow the
+        impacts: impacts of all orbits together, in [1e4, 1e12]; at least 200 per orbit. More impacts narrow the
             bracket.
 
     Raises:
@@ -518,12 +517,12 @@ def crises(
     impacts: Int = 2_000_000,
     progress: Progress = None,
 ) -> list[Crisis | None]:
-    """The curve of crises over the restitution: :func:`crisis` at each of them.
+    """The curve of crises over the restitution: :func:`crisis` at each restitution.
 
     The first is sought in the given range, each later one around the forcing extrapolated from the crises before.
 
     Args:
-        restitution: coefficients of restitution, in (0, 1), neighbours next to each other, shape (n,).
+        restitution: coefficients of restitution, in (0, 1), each close to the one before, shape (n,).
         axial_forcing: Gamma below the first crisis and beyond it.
         samples, impacts: as for :func:`crisis`.
 

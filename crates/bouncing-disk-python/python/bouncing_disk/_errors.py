@@ -1,4 +1,4 @@
-"""The exceptions. Each carries the numbers needed to see why, and can be pickled."""
+"""The exceptions. Each carries the numbers that explain it, and can be pickled."""
 
 from __future__ import annotations
 
@@ -89,11 +89,11 @@ class InvalidError(BouncingDiskError, ValueError):
 
 
 class FitRefusedError(BouncingDiskError, ValueError):
-    """A curve gives no trustworthy fit; the message says why."""
+    """A curve allows no trustworthy fit; the message states why."""
 
 
 class ComputationError(BouncingDiskError, RuntimeError):
-    """The computation of legal arguments has no result.
+    """A computation with legal arguments has no result.
 
     Attributes:
         kind: why, such as ``"never-leaves"`` or ``"not-settled"``.

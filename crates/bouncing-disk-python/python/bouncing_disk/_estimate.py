@@ -133,8 +133,8 @@ class TransientFit:
         ramp: the ramp, if one fits.
         form: the better fit, ``"exponential"`` or ``"ramp"``.
         start_time: first fitted time (s); the speed is constant before it. 0 for a start from rest.
-        zero_time: time at which the fitted exponential is at rest (s): the switch-on and its dead time, if
-            the motor rises from rest.
+        zero_time: time at which the fitted exponential starts from rest (s): the switch-on plus the dead time, if the
+            motor rises from rest.
         duration: last time (s).
         points, members: points of a run, and number of runs.
     """
@@ -190,13 +190,13 @@ class RatedFit(Result):
     """Parameters of a motor estimated from rated points.
 
     Attributes:
-        accepted: for each parameter the ranges not excluded with 95 % confidence, as (low, high), with None
-            for an end that reaches the end of the search.
+        accepted: for each parameter the ranges not excluded with 95 % confidence, as (low, high), with None for an
+            end that reaches the end of the searched range.
         fitted, standard_errors: the speed of the best motor at each point, and the standard error of its
             difference from the rated speed (rad/s).
         misfit, degrees_of_freedom: the remaining sum of weighted squares, and its expectation.
         evaluations: number of parameter sets at which all points were computed.
-        settled: whether these were enough; otherwise more evaluations or impacts would narrow the ranges.
+        settled: whether these evaluations were enough; otherwise more evaluations or impacts would narrow the ranges.
         text: everything in words, with the undetermined directions.
     """
 
@@ -224,9 +224,9 @@ def fit_rated_points(
 
     Args:
         motor: the data sheet, with all other values.
-        points: for each the ``speed`` (rad/s; 0 at the stall torque), optionally its ``speed_error``, and the
-            fields that differ from the data sheet, such as ``load_torque`` or ``stator.volts``, optionally
-            with their standard errors (``load_torque_error``).
+        points: for each point the ``speed`` (rad/s; 0 at the stall torque), optionally its ``speed_error``, and the
+            fields that differ from the data sheet, such as ``load_torque`` or ``stator.volts``, optionally with their
+            standard errors (``load_torque_error``).
         ranges: range of each fitted parameter: friction, restitution, phase_lag, amplitude, twist_amplitude,
             contact.time, stator.mass, stator.quality, stator.twist_per_height.
         most_evaluations: largest number of parameter sets at which all points are computed, in [8, 400].

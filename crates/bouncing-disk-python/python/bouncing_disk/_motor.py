@@ -99,8 +99,8 @@ class Motor(Parameters):
             solid disc.
         rotor_radius, rotor_thickness: outer radius and thickness of the rotor (m), positive.
         contact_radius: effective contact radius a_e (m), positive.
-        gyration_radius: radius of gyration a_g (m), positive; by default of a solid disc if a rotor radius is
-            given.
+        gyration_radius: radius of gyration a_g (m), positive; by default the value of a solid disc if a rotor radius
+            is given.
         preload_force: the total force that presses the rotor onto the stator (N), positive.
         preload_acceleration: this force over the mass (m/s^2), positive.
         spring_constant: constant of the preload spring (N/m), positive.
@@ -110,8 +110,8 @@ class Motor(Parameters):
         contact: the table ``[contact]`` of a file: ``time`` (s) and ``law`` of compliant contacts, or the
             ``materials`` (two names), the ``geometry`` and its sizes, from which a report estimates the time.
         stator: the table ``[stator]`` of a file for a compliant stator, by field names (SI): ``mass`` and
-            ``quality``, and, instead of ``amplitude``, ``force``, or ``volts`` with ``force_per_volt`` or
-            with ``anti_resonance`` and ``capacitance``; docs/designing-a-motor.md lists all fields.
+            ``quality``; instead of ``amplitude`` also ``force``, or ``volts`` with ``force_per_volt`` or with
+            ``anti_resonance`` and ``capacitance``; docs/designing-a-motor.md lists all fields.
         load: the table ``[load]`` of a file for a varying load: the lists ``torques`` (N m) and ``speeds``
             (rad/s), and ``inertia`` (kg m^2).
         drive: motion of the stator other than the sine: a :class:`Drive`, or the table ``[drive]`` of a file.
@@ -223,7 +223,8 @@ class Motor(Parameters):
     def paper_70_khz() -> Motor:
         """The motor of the paper's Table III, driven at 70 kHz.
 
-        The paper does not print its mass, which is taken for a solid steel ball of the printed 20 mm.
+        The paper does not print its mass, which is taken to be that of a solid steel ball with the printed diameter
+        of 20 mm.
         """
         return Motor._holding(native.known_motor("70", ""))
 
@@ -252,7 +253,7 @@ class Motor(Parameters):
 
     @classmethod
     def from_json(cls, json: str) -> Motor:
-        """The motor of such a text; errors name the line."""
+        """The motor from a text as returned by :meth:`to_json`; errors name the line."""
         return Motor._holding(native.known_motor("json", readable(json)))
 
 
@@ -260,8 +261,8 @@ class OperatingSettings(TypedDict, total=False):
     """Settings of a steady operation: keywords of all functions that run a motor.
 
     Args:
-        relative_error: requested standard error of the mean speed, relative to the larger of the no-load
-            speed and itself, in [1e-6, 0.5]; by default 0.01.
+        relative_error: requested standard error of the mean speed, relative to this speed or, if it is larger, the
+            no-load speed, in [1e-6, 0.5]; by default 0.01.
         members: vertical motions to average over, in [4, 4096]; by default 16.
         most_impacts: largest number of impacts of all members together, in [1, 1e15]; by default 20 million.
         relaunch_perturbation: size of the relaunch perturbation in units of g/omega, in (0, 1]; by default
@@ -290,18 +291,18 @@ class OperatingPoints(Result):
         restitution_loss, restitution_loss_error, friction_loss, friction_loss_error: power lost in impacts
             and in friction (W).
         efficiency, efficiency_error: mechanical power over supplied power.
-        speed_deviation, speed_deviation_error: standard deviation of the speed over time (rad/s); NaN for a
-            rotor that acts back on its stator, like all below up to the blocked torque.
-        speed_low, speed_low_error, speed_high, speed_high_error: range of speeds (rad/s) that holds the rotor
-            for 95 % of the time, or always if its motion repeats itself.
-        time_constant, time_constant_error: time constant of the speed (s), from its change to the nearest
-            other requested load; NaN for a locked motor and for a single load.
+        speed_deviation, speed_deviation_error: standard deviation of the speed over time (rad/s); NaN for a rotor
+            that acts back on its stator, like all fields below up to the blocked torque.
+        speed_low, speed_low_error, speed_high, speed_high_error: range (rad/s) in which the speed of the rotor lies
+            for 95 % of the time, or always if the motion repeats itself.
+        time_constant, time_constant_error: time constant of the speed (s), from the difference in speed to the
+            nearest other requested load; NaN for a locked motor and for a single load.
         unstable_speed, unstable_speed_error: under a load that falls with the speed and allows two steady
             speeds, the speed between them (rad/s) that separates their ranges of attraction; else NaN.
         blocked_torque, blocked_torque_error: mean torque (N m) of friction on a rotor held at rest.
-        stator_amplitude, stator_amplitude_error: amplitude of a compliant stator under load (m), else NaN,
-            like the next three: 2^(1/2) times the root mean square of the speed of its axial mode over the
-            angular frequency of the drive, without any static sag.
+        stator_amplitude, stator_amplitude_error: amplitude of a compliant stator under load (m): 2^(1/2) times the
+            root mean square speed of its axial mode over the angular frequency of the drive, without any static sag.
+            This field and the next three are NaN for other stators.
         drive_power, drive_power_error: power supplied by the drive to a compliant stator (W).
         damping_loss, damping_loss_error: power lost in the damping of its modes (W).
         electrical_efficiency, electrical_efficiency_error: mechanical power over drive power.
@@ -314,8 +315,8 @@ class OperatingPoints(Result):
         status: an index into :attr:`STATUSES`.
         motion: vertical motion of the rotor, an index into :attr:`MOTIONS`.
         life: mean lifetime (s) of an irregular motion that ended, else NaN.
-        others: the same for coexisting motions, most frequent from rest first; NaN and the status
-            ``none`` if there are fewer.
+        others: the same fields for coexisting motions, the most frequent from rest first; NaN and the status ``none``
+            if there are fewer.
     """
 
     STATUSES: ClassVar[tuple[str, ...]] = ("steady", "unsettled", "runaway", "depends-on-start", "none")
@@ -405,7 +406,7 @@ class StallLoad:
     Attributes:
         torque, torque_error: the torque and its standard error (N m).
         share: the torque as a share of the largest mean torque of friction.
-        bracket: loads (N m) under which it certainly keeps turning, and is certainly driven back.
+        bracket: loads (N m) under which the motor certainly keeps turning, and is certainly driven back.
         no_load_speed, no_load_speed_error: mean speed without load and its standard error (rad/s).
         blocked_torque, blocked_torque_error: mean torque (N m) on a rotor held at rest, and its standard error;
             NaN for a rotor that acts back on its stator.
@@ -453,7 +454,7 @@ class InputSpread:
             their statistical errors, and its standard error.
         from_to: the least and the largest sample: with n samples, a further one lies between them with
             probability (n - 1)/(n + 1).
-        draws, without: samples with the number, and without it.
+        draws, without: number of samples with a value, and without one.
         unsettled: samples in which the remaining start-up exceeds the standard deviation.
         trapped: samples in a low-period trap.
     """
@@ -590,13 +591,13 @@ def motor_map(
     ``preload_force`` of a motor with a ``preload_acceleration`` uses only the force.
 
     Args:
-        axes: one or two arguments of :class:`Motor` with their values (SI), shape (n,); the first
-            gives the rows.
+        axes: one or two arguments of :class:`Motor` with their values (SI), shape (n,); the values of the first
+            correspond to the rows.
         continued: whether each cell of one axis starts from the final state of its predecessor instead of
             from rest: for a compliant ``stator``, whose state may depend on its history. Height and modes
-            continue; the speed of the rotor restarts. All other fields of the sheet are held: over
-            ``drive_frequency`` its volts, its force or its amplitude without a rotor, the preload and the
-            phase lag. If members are in several states, their mean describes none of them.
+            continue; the speed of the rotor restarts. All other fields of the sheet are held; in a sweep over
+            ``drive_frequency`` these include its volts, its force or its amplitude without a rotor, the preload and
+            the phase lag. If members are in several states, their mean describes none of them.
         settings: the fields of :class:`OperatingSettings`, as keywords.
 
     >>> import bouncing_disk as bd
@@ -621,8 +622,8 @@ class LowPeriodTraps(Result):
         is_trap: whether the perturbed motor repeats the short cycle, shape (n,).
         impacts, platform_periods, long_flights: numbers of the unperturbed cycle from one separation to the
             next, if it has at most eight long flights; 0 without such a cycle, shape (n,).
-        relaunches, returns: number of perturbed relaunches, and of those that led through such a
-            cycle, shape (n,).
+        relaunches, returns: number of perturbed relaunches, and how many of them led through such a cycle, shape
+            (n,).
         mean_platform_periods: mean number of the stator's periods from one perturbed relaunch to the next;
             NaN without a cycle, shape (n,).
     """
@@ -641,7 +642,7 @@ class LowPeriodTraps(Result):
 def low_period_traps(
     motor: Motor, *, preload_accelerations: ArrayLike, progress: Progress = None
 ) -> LowPeriodTraps:
-    """Which preloads trap a motor in a short cycle of flights and rest, with its own speed.
+    """Which preloads trap a motor in a short cycle of flights and rest, at a speed of its own.
 
     Only the vertical motion matters.
 

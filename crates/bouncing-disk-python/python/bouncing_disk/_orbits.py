@@ -42,7 +42,7 @@ class ImpactMap(Parameters):
     ``"drive-not-sine"`` or ``"soft-contact"``.
 
     Args:
-        axial_forcing: axial forcing parameter Gamma = A omega^2/(pi g). Give this or the next.
+        axial_forcing: axial forcing parameter Gamma = A omega^2/(pi g). Give this or ``peak_acceleration``.
         peak_acceleration: peak acceleration A omega^2/g of the platform (with a drive, of the sine of the
             same amplitude).
         restitution: coefficient of restitution, in [0, 1).
@@ -166,7 +166,7 @@ class ImpactMap(Parameters):
         impact_phase: ArrayLike,
         axial_impact_velocity: ArrayLike,
     ) -> PeriodicOrbit:
-        """The periodic orbit next to a guess, stable or not, by Newton's method on all impacts.
+        """The periodic orbit near a guess, stable or not, by Newton's method on all impacts.
 
         Args:
             impact_phase: phases of the impacts of one period (rad), in their order, shape (n,).
@@ -249,8 +249,8 @@ class PeriodicOrbit(Stored):
 
         Raises:
             InvalidError: ``"not-an-orbit"`` for an orbit of another map.
-            ComputationError: ``"not-attracting"`` unless the orbit attracts; ``"nothing-proven"`` next to a
-                graze, if samples find no radius either.
+            ComputationError: ``"not-attracting"`` unless the orbit attracts; ``"nothing-proven"`` near a graze, if
+                samples find no radius either.
         """
         return native.trapping_radius(locals())
 
@@ -402,7 +402,7 @@ def continued(
             contact time also ``"contact_periods"`` and each number of the drive's height by its index, such
             as ``"fourier[1][0]"`` for the amplitude of the second harmonic, or ``"sawtooth"``.
         parameter_range: its lowest and highest value.
-        rising: whether it begins towards higher values.
+        rising: whether the branch begins towards higher values.
         settings: the steps along the branch: :class:`Continuation`, as keywords.
 
     Raises:
@@ -449,11 +449,12 @@ class Curve(Result):
 
     Attributes:
         kind: ``"fold"``, ``"doubling"`` or ``"graze"``.
-        bifurcation: the place of its start in the branch's :attr:`Branch.bifurcations`.
+        bifurcation: index in the branch's :attr:`Branch.bifurcations` of the bifurcation at which the curve starts.
         parameters: the parameter of the branch and the second one.
         values: both parameters of each point, shape (n, 2).
         errors: how far rounding may have moved the curve: along the first parameter at this value of the second, and
-            along the second at this value of the first; the largest double where the curve runs along it, shape (n, 2).
+            along the second at this value of the first; the largest double where the curve runs along that parameter,
+            shape (n, 2).
         arclength: arclength from the start of the curve, shape (n,).
         impact_phase: phases of the impacts of each orbit (rad), shape (n, period).
         axial_impact_velocity: relative velocities of the impacts, not positive, in units of g/omega, shape (n, period).
@@ -488,7 +489,7 @@ def curves(
     progress: Progress = None,
     **settings: Unpack[Continuation],
 ) -> list[Curve]:
-    """Where the folds, doublings and grazes of a branch are as a second parameter varies.
+    """The curves of the folds, doublings and grazes of a branch as a second parameter varies.
 
     From each of these bifurcations one curve goes towards higher values of the second parameter at first, and one
     towards lower values unless the first is closed.
@@ -526,7 +527,7 @@ class DoublingCascade(Result):
         width: the largest distance (rad) of an impact from the one half a period later, shape (n,).
         graze_margin: smallest gap by which a flight misses an earlier impact, in units of g/omega^2; infinite
             if none comes near, NaN on another drive, shape (n,).
-        feigenbaum_number: the last doubling used for each estimate, from 1, shape (m,).
+        feigenbaum_number: the last doubling used for each estimate, counted from 1, shape (m,).
         delta, delta_error, alpha, alpha_error: Feigenbaum's numbers, extrapolated, and their errors,
             shape (m,).
         ended_by: why there are fewer doublings than requested; ``None`` if there are not.

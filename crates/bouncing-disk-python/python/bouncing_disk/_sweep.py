@@ -137,7 +137,7 @@ def sweep(
     if chunk is not None and chunk < 1:
         raise OutOfRangeError(f"chunk is {chunk}, outside [1, infinity)", "chunk", float(chunk), "[1, infinity)")
     if not axes:
-        raise InvalidError("a grid needs one axis at least", "no-axis", {})
+        raise InvalidError("a grid needs at least one axis", "no-axis", {})
     grid = {name: _axis(name, values) for name, values in axes.items()}
     job = _Job(function, grid, dict(arguments or {}), chunk, native.VERSION)
     with nullcontext() if journal is None else closing(_Journal(journal, job.header())) as kept:
@@ -148,7 +148,7 @@ def sweep(
 def _axis(name: str, values: npt.ArrayLike) -> Array:
     axis = np.array(values)
     if axis.ndim != 1 or not len(axis):
-        message = f"axis {name!r} must be a 1-d array with values, and has the shape {axis.shape}"
+        message = f"axis {name!r} must be a 1-d array with values, but has the shape {axis.shape}"
         raise InvalidError(message, "axis-shape", {"axis": name})
     if axis.dtype.char not in _AXIS_TYPES or np.ma.is_masked(values):
         message = f"axis {name!r} must hold numbers or texts, not {axis.dtype} or masked values"
@@ -196,9 +196,9 @@ class _Job:
         for name, result in self._named(self.function(**values, **self.arguments)).items():
             array = arrays[name] = np.asarray(result if self.chunk else [result])
             if array.dtype.char not in _RESULT_TYPES or np.ma.is_masked(result):
-                raise TypeError(f"{name} is {array.dtype} or masked: return numbers, texts or arrays of them")
+                raise TypeError(f"{name} is of type {array.dtype} or masked: return numbers, texts or arrays of them")
             if array.shape[:1] != (len(points),):
-                raise TypeError(f"{name} has the shape {array.shape}, whose first axis is not that of {len(points)} points")
+                raise TypeError(f"{name} has the shape {array.shape}: its first axis must have {len(points)} points")
             if name in self.axes:
                 raise TypeError(f"{name} is the name of an axis and of a result")
         return arrays
@@ -220,7 +220,7 @@ class _Job:
         function = self.function
         name = f"{getattr(function, '__module__', None)}.{getattr(function, '__qualname__', None)}"
         if not inspect.isroutine(function) or inspect.ismethod(function) or "<" in name:
-            message = f"a journal recognises a function by its name and text, and cannot recognise {function!r}: define a "
+            message = f"a journal recognises a function by its name and text, but cannot recognise {function!r}: define a "
             message += "function at the top of a module or notebook, and pass constants as `arguments`"
             raise InvalidError(message, "function", {"function": name})
         try:

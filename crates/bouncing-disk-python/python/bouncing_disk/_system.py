@@ -60,7 +60,7 @@ class System(Parameters):
         angular_forcing: angular forcing parameter Gamma_T = a_g^2 Phi omega^2/(a_e pi g mu); None without
             friction.
         peak_acceleration: peak acceleration A omega^2/g of the platform in units of the preload acceleration.
-        rise_time: time (s) in which friction acting in one direction gives the disk the platform's largest
+        rise_time: time (s) in which friction acting in one direction accelerates the disk to the platform's largest
             angular speed.
 
     >>> import bouncing_disk as bd
@@ -132,7 +132,7 @@ class System(Parameters):
 
     @classmethod
     def from_dict(cls, parameters: dict[str, Any]) -> System:
-        """The system of such a dictionary."""
+        """The system from a dictionary as returned by :meth:`to_dict`."""
         tables = dict(parameters) if isinstance(parameters, dict) else {}
         platform, disk = tables.pop("platform", None), tables.pop("disk", None)
         if platform is None or disk is None or not set(tables) <= {"contact", "stator"}:
@@ -148,8 +148,8 @@ class Drive(Parameters):
     construction; unlikely samples, such as a last one that repeats the first, give a warning.
 
     Args:
-        height, angle: the shapes; the angle leads by the phase lag. A missing one is the plain sine, whatever
-            the other: a recorded motion needs both.
+        height, angle: the shapes; the angle leads by the phase lag. A missing shape is the plain sine, whatever the
+            other shape: a recorded motion needs both.
         start_phase: phase (rad) at which the command line's toss starts; the calls of this package reject it.
 
     >>> import bouncing_disk as bd

@@ -51,7 +51,7 @@ class TossPerformance(NamedTuple):
 
     Attributes:
         airborne_speed: rotary speed of the disk in the air (rad/s).
-        efficiency: rotary energy gained by the disk over the energy put in; NaN if none was.
+        efficiency: rotary energy gained by the disk over the energy put in; NaN if none was put in.
         speed_ratio: airborne speed over the largest rotary speed of the platform; None without twist.
         separation_phase: phase of the separation (rad).
         sliding_at_separation: whether the disk slides as it leaves.

@@ -66,7 +66,7 @@ def orbit_diagram(
         restitution: coefficient of restitution, without a diagram.
         axial_forcing: lowest and highest axial forcing parameter Gamma.
         columns: number of forcings, at least 1.
-        transient, recorded: impacts to discard, and to draw, at each of them.
+        transient, recorded: impacts to discard, and to draw, at each forcing.
         quantity: the quantity to draw over the forcing: the phase of the impacts in periods, or their normalised
             speed.
         ax: axes to draw into.
@@ -134,7 +134,7 @@ def forcing_ends(axial_forcing: tuple[float, float]) -> tuple[float, float]:
     ends = tuple(axial_forcing)
     if len(ends) != 2:
         raise bd.InvalidError(
-            f"axial_forcing must be two numbers, the lowest and the highest, and has {len(ends)}; for other "
+            f"axial_forcing must be two numbers, the lowest and the highest, but has {len(ends)}; for other "
             "forcings pass bd.orbit_diagram(...)",
             "axial-forcing",
             {},
@@ -351,7 +351,7 @@ def basins(
     for ever.
 
     Args:
-        basins: the basins to draw; from attractors or a map, the basins of all attractors that
+        basins: the basins to draw; for attractors or a map, the basins of all attractors that
             :func:`bouncing_disk.attractors` finds.
         phases, speeds: cells along the impact phase and speed, for attractors or a map.
         speed_range: lowest and highest normalised speed, for attractors or a map.
