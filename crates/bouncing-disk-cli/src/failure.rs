@@ -48,7 +48,7 @@ pub(crate) fn unreadable(path: &Path, why: impl Display) -> Failure {
     Failure::Usage(format!("{} cannot be read: {why}", path.display()))
 }
 
-/// The failure of a file of measured speeds or points that has none.
+/// The failure of a file of measured speeds or points that contains none.
 pub(crate) fn unmeasured(path: &Path, error: MeasuredSpeedsError) -> Failure {
     match error {
         MeasuredSpeedsError::Unreadable { source, .. } => unreadable(path, source),

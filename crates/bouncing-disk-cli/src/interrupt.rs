@@ -13,11 +13,12 @@ static SIGNAL: LazyLock<Arc<AtomicUsize>> = LazyLock::new(Arc::default);
 /// The status that a shell reports for a process ended by a signal.
 const BASE: usize = 128;
 
-/// From now on Ctrl-C and the signal that schedulers send before they kill are noted. A computation that does
-/// not look at [`came`] is ended by a second one: files are renamed when they are complete, so that none is
-/// torn.
+/// From now on Ctrl-C and the signal that schedulers send before they kill are noted. A second signal ends a
+/// computation that does not look at [`came`]: files are renamed when they are complete, so no file is left
+/// incomplete.
 pub(crate) fn listen() -> io::Result<()> {
-    // Either is a second one of the other, too. What ends the process is registered, and so runs, first.
+    // Either signal also counts as the second after the other. The handler that ends the process is registered
+    // first, and so runs first.
     let again = Arc::new(AtomicBool::new(false));
     for signal in [SIGINT, SIGTERM] {
         flag::register_conditional_shutdown(signal, signal + BASE as i32, Arc::clone(&again))?;

@@ -1,6 +1,6 @@
 //! The arguments of a call by their names, each checked as it is read.
 //!
-//! Python owns the signatures: a function there hands over its `locals()`, and its result is made here.
+//! Python defines the signatures: a function there passes its `locals()`, and this crate makes its result.
 
 use std::fmt::{self, Display, Formatter};
 
@@ -471,12 +471,12 @@ pub(crate) struct Numbers {
 }
 
 impl Numbers {
-    /// The number for an item of a call: a single number holds for all.
+    /// The number for an item of a call: a single number applies to all items.
     pub(crate) fn get(&self, index: usize) -> f64 {
         if self.scalar { self.values[0] } else { self.values[index] }
     }
 
-    /// The length; `None` for a single number, which goes with any.
+    /// The length; `None` for a single number, which fits any length.
     pub(crate) fn len(&self) -> Option<usize> {
         (!self.scalar).then_some(self.values.len())
     }

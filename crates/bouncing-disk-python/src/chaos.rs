@@ -1,4 +1,4 @@
-//! The long-term behaviour of orbits: diagrams, lives, exponents, verdicts, manifolds and crises.
+//! The long-term behaviour of orbits: diagrams, lifetimes, exponents, verdicts, manifolds and crises.
 
 use bouncing_disk::Error;
 use bouncing_disk::core::{
@@ -101,15 +101,15 @@ pub(crate) fn lyapunov_exponents(a: Arguments<'_>) -> PyResult<Bound<'_, PyArray
     Ok(column(a.py(), &exponents, |exponent| exponent.unwrap_or(f64::NAN)))
 }
 
-/// The exponents of one orbit: the place in `LyapunovSpectra.OUTCOMES`; the largest with its error, the second
-/// and the sum; the impacts; the phase of a graze. NaN where there are none.
+/// The exponents of one orbit: the index into `LyapunovSpectra.OUTCOMES`; the largest exponent with its error, the
+/// second and the sum; the impacts; the phase of a graze. Missing numbers are NaN.
 type Exponents = (u8, [f64; 4], i64, f64);
 
 fn exponents(outcome: &LyapunovOutcome) -> Exponents {
     let (none, forgotten) = (f64::NAN, f64::NEG_INFINITY);
     match outcome {
         LyapunovOutcome::Exponents(found) => {
-            // A contact that takes time has two exponents, whose sum is not known.
+            // A compliant contact has two exponents, whose sum is not known.
             let unknown = if found.second.is_some() { none } else { forgotten };
             let (second, sum) = (found.second.unwrap_or(forgotten), found.exact_sum.unwrap_or(unknown));
             (0, [found.largest, found.standard_error, second, sum], signed(found.impacts), none)
@@ -150,12 +150,12 @@ pub(crate) fn lyapunov_spectra(a: Arguments<'_>) -> Made<'_> {
     )
 }
 
-/// The numbers of one verdict; those that it does not have are 0 or NaN.
+/// The numbers of one verdict; numbers that it lacks are 0 or NaN.
 #[derive(Debug, Clone, Copy)]
 struct Evidence {
-    /// The place in `Verdicts.KINDS`.
+    /// The index into `Verdicts.KINDS`.
     kind: u8,
-    /// The place in `Verdicts.REASONS`.
+    /// The index into `Verdicts.REASONS`.
     reason: u8,
     period: u64,
     platform_periods: u64,
@@ -181,7 +181,7 @@ const NOTHING: Evidence = Evidence {
     multipliers: [Complex64::new(f64::NAN, f64::NAN); 2],
 };
 
-/// The place of the reason in `Verdicts.REASONS`, with the exponent that it has.
+/// The index of the reason into `Verdicts.REASONS`, with its numbers.
 fn undecided(reason: &UndecidedReason, rests: u64) -> Evidence {
     let nothing = Evidence { rests, ..NOTHING };
     match *reason {
@@ -262,7 +262,7 @@ pub(crate) fn verdicts(a: Arguments<'_>) -> Made<'_> {
         let count = starts.axial_forcing.len();
         let mut all = room_for(count)?;
         on_any_platform!(starts, &platform, |start| {
-            // A start that is not legal is refused before any is followed.
+            // An illegal start is rejected before any orbit is followed.
             (0..count).try_for_each(|index| start(index).map(|_| ()))?;
             let start = |index: usize| start(index).map(Some);
             let each = |verdict: Option<Verdict>| all.extend(verdict.as_ref().map(evidence));
@@ -289,7 +289,7 @@ pub(crate) fn verdicts(a: Arguments<'_>) -> Made<'_> {
     )
 }
 
-/// The place in `Manifold.PIECE_ENDS`.
+/// The index into `Manifold.PIECE_ENDS`.
 fn piece_end(end: PieceEnd) -> u8 {
     match end {
         PieceEnd::Saddle => 0,
@@ -301,7 +301,7 @@ fn piece_end(end: PieceEnd) -> u8 {
     }
 }
 
-/// The place in `Manifold.BRANCH_ENDS`.
+/// The index into `Manifold.BRANCH_ENDS`.
 fn branch_end(end: ManifoldEnd) -> u8 {
     match end {
         ManifoldEnd::Arclength => 0,
@@ -420,7 +420,7 @@ pub(crate) fn crisis(a: Arguments<'_>) -> Made<'_> {
     shown_crisis(a.py(), found.map_err(none)?)
 }
 
-/// How long orbits live beyond a crisis.
+/// Lifetimes of orbits beyond a crisis.
 #[pyfunction]
 pub(crate) fn lives(a: Arguments<'_>) -> Made<'_> {
     let (crisis, beyond, py) = (a.held::<Crisis>("self")?, a.row("beyond")?, a.py());

@@ -115,7 +115,8 @@ const ARGUMENTS: [(&str, &[&str]); 22] = [
 ];
 
 /// The argument of a call for a quantity of the library: `longest period`, `points of a branch` and
-/// `number of ranges` are `longest_period`, `max_points` and `ranges`. `None` if it follows from several.
+/// `number of ranges` are `longest_period`, `max_points` and `ranges`. `None` if the quantity follows from several
+/// arguments.
 fn argument(quantity: &'static str, call: &Bound<'_, PyDict>) -> Option<String> {
     // A table `load` is not a number: a load outside its range is a torque.
     let is_given = |name: &String| {
@@ -141,7 +142,7 @@ fn argument(quantity: &'static str, call: &Bound<'_, PyDict>) -> Option<String> 
     let plurals = ["s", "_torque", "_torques"].map(|suffix| format!("{head}{suffix}"));
     let others = ARGUMENTS.iter().filter(|(library, _)| *library == head).flat_map(|(_, names)| *names);
     let ranged = call.get_item("ranges").ok().flatten().filter(|all| all.contains(&head).unwrap_or(false));
-    // What is illegal of one of many comes from the argument that holds them.
+    // An illegal value of one of many items comes from the argument that contains them.
     let containers = ["basins", "ranges", "over"];
     spellings
         .into_iter()
@@ -162,7 +163,7 @@ pub(crate) fn of_call(py: Python<'_>, error: impl Into<FitError>, call: &Bound<'
         return of(py, error);
     };
     let Some(name) = argument(field, call) else {
-        let message = format!("{error}; it follows from several arguments");
+        let message = format!("{error}; this quantity follows from several arguments");
         return together(message, field, value, legal, call).unwrap_or_else(|failure| failure);
     };
     // The caller's number if the library uses other units, and its range in the caller's units.

@@ -69,7 +69,7 @@ impl Arguments<'_> {
         self.run_fit(work)
     }
 
-    /// The same for a fit, which may be refused.
+    /// The same for a fit, which may be rejected.
     pub(crate) fn run_fit<T: Send, E: Into<FitError> + Send>(
         &self,
         work: impl FnOnce(&dyn Observer) -> Result<T, E> + Send,
@@ -82,7 +82,7 @@ impl Arguments<'_> {
         value.ok_or_else(errors::defect)
     }
 
-    /// The one body of these for all kinds of results, which is long to compile.
+    /// The common body of these functions for all kinds of results, because it takes long to compile.
     fn watch(&self, work: Work<'_>) -> PyResult<()> {
         let py = self.py();
         let progress = self.0.get_item(intern!(py, "progress"))?.filter(|callable| !callable.is_none());

@@ -64,14 +64,14 @@ pub(crate) fn stator_report(a: Arguments<'_>) -> PyResult<Option<Bound<'_, PyDic
     Ok(Some(rows))
 }
 
-/// The place in `OperatingPoints.STATUSES` of a branch that is not there.
+/// The index into `OperatingPoints.STATUSES` of a missing branch.
 const NO_BRANCH: u8 = 4;
 
-/// How many doubles an operation has.
+/// Number of doubles of an operation.
 const COLUMNS: usize = 7 + 2 * SweepQuantity::WITH_STATOR.len();
 
-/// The numbers of an operation in the order of the fields of `OperatingPoints`, NaN where there are none; its
-/// impacts, and the place in `OperatingPoints.STATUSES`.
+/// The numbers of an operation in the order of the fields of `OperatingPoints`, NaN if missing; its impacts, and
+/// the index into `OperatingPoints.STATUSES`.
 type Numbers = ([f64; COLUMNS], i64, u8);
 
 fn of_point(operation: &Operation, point: &OperatingPoint) -> [f64; COLUMNS] {
@@ -108,7 +108,7 @@ fn numbers(operation: &Operation) -> Numbers {
 /// `OperatingPoints.MOTIONS`.
 const MOTIONS: [&str; 4] = ["none", "irregular", "periodic", "contact"];
 
-/// The place in `MOTIONS`, and the mean life (s), of an operation that has them.
+/// The index into `MOTIONS` and the mean lifetime (s) of an operation, if known.
 fn motion_of(operation: Option<&Operation>) -> (u8, f64) {
     named(operation.and_then(Operation::point).map(|point| point.motion))
 }
@@ -184,7 +184,7 @@ pub(crate) fn torque_speed_curve(a: Arguments<'_>) -> Made<'_> {
     let motor = a.moved(&motor)?;
     let loads = match a.given("load_torques")? {
         Some(loads) => row(&loads, "load_torques")?,
-        // As the command line: a law of the load has a torque already.
+        // As on the command line: a load law already contains a torque.
         None if motor.load().is_some() => vec![0.0],
         None => (0..=10).map(|tenths| 0.1 * f64::from(tenths) * motor.largest_torque()).collect(),
     };
@@ -239,7 +239,7 @@ fn shown_spread<'py>(py: Python<'py>, spread: &InputSpread) -> Made<'py> {
     )
 }
 
-/// How far a motor's speed or its stall load lies apart over the tolerances of its inputs.
+/// The spread of a motor's speed or stall load over the tolerances of its inputs.
 #[pyfunction]
 pub(crate) fn input_spreads(a: Arguments<'_>) -> PyResult<Vec<Option<Bound<'_, PyAny>>>> {
     let (motor, settings, tolerance) = (a.motor()?, settings(&a)?, a.real("tolerance")?);
@@ -336,7 +336,7 @@ fn round(verdict: &TrapVerdict) -> [i64; 3] {
     })
 }
 
-/// Which preloads trap a motor in a short round of flights and rest.
+/// Which preloads trap a motor in a short cycle of flights and rest.
 #[pyfunction]
 pub(crate) fn low_period_traps(a: Arguments<'_>) -> Made<'_> {
     let (motor, preloads, py) = (a.motor()?, a.row("preload_accelerations")?, a.py());
@@ -415,7 +415,7 @@ fn estimates<'py, T>(py: Python<'py>, all: &[T], of: fn(&T) -> Estimate) -> Esti
     [column(py, all, |one| of(one).value), column(py, all, |one| of(one).standard_error)]
 }
 
-/// How a motor depends on its parameters next to its data sheet.
+/// The sensitivities of a motor to its parameters near its data sheet.
 #[pyfunction]
 pub(crate) fn local_sensitivities(a: Arguments<'_>) -> Made<'_> {
     let (motor, operating, py) = (a.motor()?, settings(&a)?, a.py());

@@ -31,7 +31,7 @@ holders! {
 #[derive(Debug, PartialEq)]
 pub(crate) struct DrivenBranch(BranchModel<DrivenFamily>, String);
 
-/// A periodic orbit as Python has it.
+/// A periodic orbit for Python.
 pub(crate) fn shown_orbit(py: Python<'_>, orbit: OrbitModel) -> Made<'_> {
     let states = &orbit.states;
     let (x, y) = (orbit.monodromy.x_axis, orbit.monodromy.y_axis);
@@ -63,7 +63,7 @@ pub(crate) fn iterate(a: Arguments<'_>) -> PyResult<(f64, f64)> {
     })
 }
 
-/// The periodic orbit next to a guess.
+/// The periodic orbit near a guess.
 #[pyfunction]
 pub(crate) fn refine(a: Arguments<'_>) -> Made<'_> {
     let (map, phases) = (a.map()?, a.row("impact_phase")?);
@@ -116,7 +116,7 @@ pub(crate) fn periodic_orbits(a: Arguments<'_>) -> PyResult<Vec<Bound<'_, PyAny>
 const PARAMETERS: [(&str, ContinuationParameter); 2] =
     [("axial_forcing", ContinuationParameter::Forcing), ("restitution", ContinuationParameter::Restitution)];
 
-/// A kind by its name, and the impact that it is about.
+/// The name of a kind, and the impact that it refers to.
 fn kind(kind: BifurcationKind) -> (String, Option<usize>) {
     let impact = match kind {
         BifurcationKind::Graze { flight } => Some(flight),
@@ -343,7 +343,7 @@ pub(crate) fn doubling_cascade(a: Arguments<'_>) -> Made<'_> {
             return Ok(doubling_cascade_of(restitution, count, observer)?);
         };
         let sine = move |forcing| ImpactMap::new(Vibration::from_axial_forcing(forcing)?, restitution);
-        // What is wrong with the map, before the search asks for many.
+        // Finds a fault of the map before the search builds many.
         platform.map(&sine(1.0)?)?;
         let maps = move |forcing| platform.map(&sine(forcing).ok()?).ok();
         Ok(driven_doubling_cascade(maps, count, observer)?)

@@ -449,8 +449,8 @@ pub(crate) fn excluded_by(name: &str) -> Vec<&'static str> {
     field.map_or_else(Vec::new, |field| field.excluded().iter().map(|other| other.name()).collect())
 }
 
-/// A map by its arguments, one of the two forcings missing. They come one by one, which takes half the time
-/// of a dictionary; the last two are there only if one of them is given.
+/// A map from its arguments; one of the two forcings is missing. The arguments are passed one by one, which takes
+/// half the time of a dictionary; the last two are passed only if one of them is given.
 #[pyfunction]
 #[pyo3(signature = (axial_forcing, peak_acceleration, restitution, drive=None, contact_periods=None))]
 pub(crate) fn impact_map<'py>(
@@ -467,7 +467,7 @@ pub(crate) fn impact_map<'py>(
     let Real(restitution) = extracted(restitution, "restitution")?;
     let periods =
         contact_periods.map(|given| extracted::<Real>(given, contact)).transpose()?.map(|real| real.0);
-    // Of the sine, which loops make, no shape is moved about.
+    // For the sine, which loops make, no shape is moved.
     let is_sine = drive.is_none() && periods.is_none();
     let drive = drive.map(drive_of).transpose()?.flatten().map(Box::new);
     let sine = || {

@@ -66,7 +66,7 @@ pub(crate) fn column<'py, I, T: numpy::Element>(
     items: &[I],
     of: impl Fn(&I) -> T,
 ) -> Bound<'py, PyArray1<T>> {
-    // One loop for all columns of a type: each of its own would be compiled apart.
+    // One loop for all columns of a type: a loop for each column would be compiled separately.
     fn collected<I, T>(items: &[I], of: &dyn Fn(&I) -> T) -> Vec<T> {
         items.iter().map(of).collect()
     }

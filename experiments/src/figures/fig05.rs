@@ -91,7 +91,7 @@ pub(crate) fn fig05(fig: &mut Paper<'_>) -> Result<(), ExperimentError> {
     fig.record("grid_point", &point)?;
     fig.claim(
         Claim::printed("section3.amplitude_angle_of_fig5c", point.amplitude_angle_rad)
-            .fitted("the number of intervals, the fewest that hold all three printed angles")
+            .fitted("the number of intervals, the smallest whose points include all three printed angles")
             .note(format!(
                 "point {} of {} from 0 to arccos(g/cω²) = {:.4}π with ω = {:.3} rad/s of Eq. (14), see fig04",
                 point.index,

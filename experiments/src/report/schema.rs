@@ -25,7 +25,7 @@ pub(super) fn schema() -> Value {
                 "printed": {"type": "string", "description": "The number as printed; \"true\" for a statement."},
                 "computed": {"type": ["number", "boolean", "string", "null"],
                     "description": "Our number, whether the statement holds, or in how many cases; null: none."},
-                "tolerance": {"type": ["number", "null"], "description": "The largest difference that agrees."},
+                "tolerance": {"type": ["number", "null"], "description": "The largest difference that counts as agreement."},
                 "verdict": verdict,
                 "class": {"enum": Class::ALL, "description": "Only \"paper\" counts for or against the paper."},
                 "kind": {"enum": Kind::ALL, "description": "The rule that decides the verdict (docs/reproducing.md)."},

@@ -1,8 +1,8 @@
-//! Every command that the documentation names is one that the parser takes, also where no test runs it.
+//! The parser accepts every command that the documentation names, even if no test runs it.
 //!
 //! A command is a line of a shell in a code block, or a piece of code in the text that begins with the name of
-//! the program, or with a command and an option (`fit --parameter`). A piece in the text may leave out what the
-//! command needs, and the value of its last option. `FILE`, `FIRST:LAST` and `...` stand for values.
+//! the program, or with a command and an option (`fit --parameter`). A piece in the text may omit required
+//! arguments and the value of its last option. `FILE`, `FIRST:LAST` and `...` stand for values.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,7 +14,7 @@ use super::CommandLine;
 
 const PROGRAM: &str = "bouncing-disk";
 
-/// Where a command stands.
+/// Where a command occurs.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Place {
     Block,
@@ -40,8 +40,8 @@ fn collect(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// The lines of a shell in code blocks, those that go on in the next one joined, without prompts; and the text
-/// of the page as one line, without what begins a comment of a source.
+/// The shell lines of code blocks, with continued lines joined and without prompts; and the text of the page as one
+/// line, without the comment markers of a source.
 fn blocks_and_text(page: &str) -> (Vec<String>, String) {
     let (mut blocks, mut text) = (Vec::<String>::new(), String::new());
     let (mut block, mut goes_on) = (None, false);

@@ -102,7 +102,7 @@ fn fitted(text: &str) -> Result<FitRange, String> {
 pub(super) fn run(args: &FitArgs, context: Context) -> Result<()> {
     let inputs: Vec<&Path> =
         [Some(&args.file), args.motor.as_ref()].into_iter().flatten().map(PathBuf::as_path).collect();
-    // A parameter fit needs its own motor: data of another fit the paper's motor badly, without a visible
+    // A parameter fit needs its own motor: data of another motor fit the paper's motor badly, without a visible
     // reason.
     if !args.parameter.is_empty() && args.motor.is_none() && args.preset.is_none() {
         let message = "--parameter needs a motor: give its data sheet (--motor FILE) or one of the \
@@ -164,7 +164,7 @@ fn rise(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Result<Repo
 }
 
 pub(super) fn estimates(fit: &TransientFit, list: &mut Quantities) {
-    // From the form that fits: the other may rise beyond every speed of the run.
+    // From the form that fits: the other form may rise beyond every speed of the run.
     list.push_interval("steady_speed", fit.better().steady_speed, "rad/s");
     list.push_interval("time_constant", fit.time_constant(), "s");
     list.push_interval("stall_acceleration", fit.stall_acceleration(), "rad/s^2");

@@ -114,7 +114,7 @@ test("motions that coexist are curves, sentences and lines of their own", async 
     [{ Periodic: { periods: 3, impacts: 2 } }, "periodic: 2 impacts in 3 periods of the drive"],
     [{ Periodic: { periods: 1, impacts: 1 } }, "periodic: 1 impact per period of the drive"],
     [irregular, "irregular, for 250 ms on average until another motion follows"],
-    [{ Irregular: { life: { NoneEndedIn: 4 } } }, "irregular; none ended within 4.00 s"],
+    [{ Irregular: { life: { NoneEndedIn: 4 } } }, "irregular; no such motion ended within 4.00 s"],
   ];
   for (const [motion, said] of told) assert.equal(words.describeMotion(motion), said);
   const known = { sheet: {}, text: "", transient: null, operations: rows };

@@ -127,8 +127,8 @@ pub(crate) struct SweepJob {
 }
 
 impl SweepJob {
-    /// The line on a continued sweep: where its cells start, and which inputs it holds. These are the given
-    /// ones, except the swept one and those that it replaces.
+    /// The line on a continued sweep: where its cells start, and which inputs it holds. The held inputs are the
+    /// given ones, except the swept input and those that it replaces.
     fn held(&self, replaced: &[MotorField]) -> String {
         if !self.up_and_down {
             return String::new();
