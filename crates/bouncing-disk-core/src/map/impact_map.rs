@@ -208,7 +208,8 @@ impl<L: RestitutionLaw> ImpactMap<L> {
     /// # Errors
     /// [`Error::NoLiftOff`] if the disk stays on the platform (restitution or speed zero), errors of
     /// [`Vibration::first_impact`], and [`Error::IllegalRestitution`].
-    #[inline]
+    // Each loop needs its own copy, in which the state stays in registers.
+    #[inline(always)]
     pub fn step(&self, state: ImpactState) -> Result<Impact, Error> {
         self.vibration.impact_after(state.phase, self.rebound_speed(state.velocity)?)
     }
