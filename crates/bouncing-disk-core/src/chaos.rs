@@ -25,7 +25,9 @@ pub(crate) mod manifold;
 pub use crate::sweep::lyapunov::spectrum::{LyapunovOutcome, LyapunovSpectrum, lyapunov_spectra};
 pub use crate::sweep::lyapunov::{LyapunovEstimate, TangentGrowth, lyapunov_exponents};
 pub use crisis::lifetimes::{CrisisLives, MeanLife};
-pub use crisis::{Crisis, CrisisKind, CrisisSearch, LifeAfterRest, NoCrisis, NoTangency, Tangency};
+pub use crisis::{
+    AfterCrisis, Crisis, CrisisEvent, CrisisKind, CrisisSearch, LifeAfterRest, NoCrisis, NoTangency, Tangency,
+};
 pub use manifold::{
     Manifold, ManifoldBranch, ManifoldEnd, ManifoldKind, ManifoldPiece, ManifoldSettings, PieceEnd, Side,
 };

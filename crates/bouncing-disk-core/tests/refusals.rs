@@ -6,7 +6,7 @@ const NAN: f64 = f64::NAN;
 use bouncing_disk_core::attractors::{
     AttractorSearch, Axis, Basins, Grid, KnownOrbit, VerdictSettings, verdicts,
 };
-use bouncing_disk_core::chaos::{CrisisSearch, ManifoldSettings, lyapunov_spectra};
+use bouncing_disk_core::chaos::{CrisisEvent, CrisisSearch, ManifoldSettings, lyapunov_spectra};
 use bouncing_disk_core::flight::MAX_FLIGHT_DURATION;
 use bouncing_disk_core::map::{Constant, KuwabaraKono};
 use bouncing_disk_core::numerics::power_law::{PowerLawPoint, fit_power_law};
@@ -179,6 +179,7 @@ fn of_chaos_and_laws() {
         ("forcing beyond a crisis", each([(0.6, 0.6), (0.5, INF)], between)),
         ("samples of a crisis", each([15], |samples| crisis.with_samples(samples, 100_000))),
         ("impacts of a crisis", each([9_999], |impacts| crisis.with_samples(64, impacts))),
+        ("bands of a crisis", each([0, 17], |bands| crisis.for_event(CrisisEvent::BandMerging { bands }))),
     ]);
     for bad in [0.0, -1.0, NAN, INF, 5e-324] {
         for point in [

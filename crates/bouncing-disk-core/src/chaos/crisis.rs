@@ -22,6 +22,16 @@
 //! 0.3994755 to 0.3994770 at 0.8. In 24 searches for each restitution, from starts over a fifth of the range,
 //! all brackets contain these results at 0.3, 0.6 and 0.7 and the tangency at 0.5; at 0.8, 22 brackets do.
 //!
+//! At 0.25 it gives 0.87914656 to 0.87914657, at 0.35 0.74502883 to 0.74502891 and at 0.45 0.60551764 to 0.60551768
+//! (no rest in 2e7 impacts, and rests), which the brackets contain; the tangency at 0.45 is at 0.6055176549.
+//!
+//! Two bands merge into one, by means of every second phase over 1e7 to 4e7 impacts, between 0.903358313 and 0.903358326 at
+//! restitution 0.2, 0.758713476 and 0.758713489 at 0.3, 0.550064858 and 0.550064871 at 0.5, 0.478694030 and 0.478694123
+//! at 0.6; four into two between 0.748192700 and 0.748192725 at 0.3, 0.544964978 and 0.544964991 at 0.5. At 0.7 and 0.8
+//! both bands are lost to rest. The cells of 1e6 impacts become more by the growths at 0.767062222 and 0.774656274 at
+//! 0.3, at 0.547556395 and 0.552497334 at 0.5, each within 3e-7. Of 24 searches each for mergings (0.3, 0.5, 0.6; four
+//! into two at 0.5) and growths (0.3, 0.5), from random starts, all brackets contain these.
+//!
 //! Beyond the crisis of Fig. 6 lives were measured with 200 orbits at each of 14 distances. The unstable
 //! manifold of the period-1 orbit touches at 0.560753164.
 
@@ -33,16 +43,18 @@ use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::elementary::ln;
 use crate::numerics::error::{Error, within};
 use crate::orbits::periodic::{Multipliers, PeriodicOrbit};
-use crate::run::{Observer, Progress, Watch};
+use crate::run::{Observer, Progress, Unobserved, Watch};
 
+mod exit;
 mod following;
 pub(crate) mod lifetimes;
 mod tangency;
 
-use following::End;
+use exit::{Exit, ExitTest};
+use following::{End, until};
 use tangency::{Pair, tangencies};
 
-/// The range of forcings in which to find a crisis, and the number of impacts to follow.
+/// The range of forcings in which to find a crisis, its event, and the number of impacts to follow.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CrisisSearch {
     restitution: f64,
@@ -50,6 +62,38 @@ pub struct CrisisSearch {
     high: f64,
     samples: u32,
     impacts: u64,
+    event: CrisisEvent,
+}
+
+/// The event that ends the life of an orbit on the attractor, and so the crisis that is sought. A rest always ends it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[non_exhaustive]
+pub enum CrisisEvent {
+    /// The orbit comes to rest.
+    Rest,
+    /// The orbit changes from one band to another: an attractor of twice as many `bands` merges into one of `bands`.
+    /// Before, every impact in one band is followed, `bands` impacts later, by one on the other side of a saddle of
+    /// that many impacts. The range must begin where the attractor has these bands: beyond the doubling in which the
+    /// saddle ceased to attract.
+    BandMerging {
+        /// The number of bands after the merging, in [1, 16].
+        bands: u32,
+    },
+    /// The orbit leaves the part of the plane that the attractor occupied at all forcings followed before. Changes of
+    /// less than 1/128 of a turn in the phase, or as much in units of 1 + P in the velocity, go unnoticed.
+    Growth,
+}
+
+impl CrisisEvent {
+    const fn verb(self) -> &'static str {
+        match self {
+            Self::Rest => "comes to rest",
+            Self::BandMerging { .. } => "comes to rest or changes its band",
+            Self::Growth => "comes to rest or leaves the attractor's part of the plane",
+        }
+    }
 }
 
 impl CrisisSearch {
@@ -59,7 +103,8 @@ impl CrisisSearch {
     /// # Errors
     /// [`Error::OutOfRange`] for any of these numbers.
     pub fn new(restitution: f64, (low, high): (f64, f64)) -> Result<Self, Error> {
-        let search = Self { restitution, low, high, samples: 64, impacts: 2_000_000 };
+        let search =
+            Self { restitution, low, high, samples: 64, impacts: 2_000_000, event: CrisisEvent::Rest };
         search.check().map(|()| search)
     }
 
@@ -70,6 +115,26 @@ impl CrisisSearch {
     /// [`Error::OutOfRange`] for either number.
     pub fn with_samples(self, samples: u32, impacts: u64) -> Result<Self, Error> {
         let search = Self { samples, impacts, ..self };
+        search.check().map(|()| search)
+    }
+
+    /// The same search for a crisis of another kind than the loss to rest.
+    ///
+    /// ```
+    /// # use bouncing_disk_core::chaos::{CrisisEvent, CrisisKind, CrisisSearch};
+    /// # use bouncing_disk_core::Unobserved;
+    /// // The two bands of the attractor of Fig. 6 become one where they touch the period-1 orbit.
+    /// let search = CrisisSearch::new(0.5, (0.548, 0.552))?.with_samples(64, 400_000)?;
+    /// let merging = search.for_event(CrisisEvent::BandMerging { bands: 1 })?;
+    /// let crisis = merging.crisis(None, &Unobserved)?.expect("a crisis");
+    /// assert_eq!(crisis.kind(), CrisisKind::BandMerging { bands: 1 });
+    /// # Ok::<(), bouncing_disk_core::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for the number of bands.
+    pub fn for_event(self, event: CrisisEvent) -> Result<Self, Error> {
+        let search = Self { event, ..self };
         search.check().map(|()| search)
     }
 
@@ -86,6 +151,9 @@ impl CrisisSearch {
         within("forcing beyond a crisis", self.high, self.low.next_up(), most, "(low end, 3.18e7]")?;
         within("samples of a crisis", f64::from(self.samples), 16.0, 1.0e6, "[16, 1000000]")?;
         within("impacts of a crisis", self.impacts as f64, 1.0e4, 1.0e12, "[1e4, 1e12]")?;
+        if let CrisisEvent::BandMerging { bands } = self.event {
+            within("bands of a crisis", f64::from(bands), 1.0, 16.0, "[1, 16]")?;
+        }
         Ok(())
     }
 
@@ -95,7 +163,7 @@ impl CrisisSearch {
     }
 }
 
-/// A crisis: a chaotic attractor whose orbits begin to come to rest.
+/// A crisis: a chaotic attractor whose orbits begin to come to rest, or to undergo another [`CrisisEvent`].
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Crisis {
@@ -115,10 +183,31 @@ pub struct Crisis {
     pub bracket: (f64, f64),
     /// An impact on the attractor near the lower end of the bracket.
     pub attractor: ImpactState,
-    /// The motion of the disk after a rest just beyond the crisis.
-    pub after_rest: LifeAfterRest,
+    /// The motion of the disk just beyond the crisis, after it has left the attractor.
+    pub after: AfterCrisis,
     /// The tangency of manifolds that causes the crisis, or the reason why none is known.
     pub tangency: Result<Tangency, NoTangency>,
+}
+
+/// The motion of a disk just beyond a crisis, after it has left the attractor.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub enum AfterCrisis {
+    /// It comes to rest, and moves on like this.
+    Rest(LifeAfterRest),
+    /// It is in the band into which two have merged.
+    Merged {
+        /// The number of bands after the merging.
+        bands: u32,
+    },
+    /// It leaves the part of the plane that the attractor occupied, without coming to rest.
+    Left {
+        /// The orbits that were followed, each for as long as a life could have been.
+        orbits: u32,
+        /// Those of them that came back and stayed for 100 impacts or more.
+        returned: u32,
+    },
 }
 
 /// The motion of a disk after a rest just beyond a crisis. The disk always leaves a rest in the same state,
@@ -157,8 +246,33 @@ pub enum CrisisKind {
     Boundary,
     /// The attractor becomes larger: rest is a part of it, and chaos follows each rest.
     Interior,
-    /// Some forcings just beyond are of the first kind, others of the second.
+    /// Some forcings just beyond are of the first kind, others of the second; without rests, some orbits return to the
+    /// attractor and others do not.
     Undecided,
+    /// Twice as many bands of the attractor merge into `bands`.
+    BandMerging {
+        /// The number of bands after the merging.
+        bands: u32,
+    },
+    /// The attractor becomes larger without rests: orbits that leave it return.
+    Growth,
+    /// The attractor is lost to another one that does not rest: orbits that leave it do not return.
+    OtherAttractor,
+}
+
+impl CrisisKind {
+    /// Its name: `band merging`.
+    #[must_use]
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::Boundary => "boundary",
+            Self::Interior => "interior",
+            Self::Undecided => "undecided",
+            Self::BandMerging { .. } => "band merging",
+            Self::Growth => "growth",
+            Self::OtherAttractor => "other attractor",
+        }
+    }
 }
 
 /// The tangency of a crisis: the unstable manifold of a saddle on an attractor touches the stable manifold of
@@ -184,13 +298,17 @@ pub struct Tangency {
 }
 
 impl Crisis {
-    /// Whether the attractor is lost or becomes larger, as far as [`Self::after_rest`] decides it.
+    /// Whether the attractor is lost, becomes larger or merges its bands, as far as [`Self::after`] decides it.
     #[must_use]
     pub const fn kind(&self) -> CrisisKind {
-        match self.after_rest {
-            LifeAfterRest::Short { .. } => CrisisKind::Boundary,
-            LifeAfterRest::Long { .. } => CrisisKind::Interior,
-            LifeAfterRest::Varied { .. } => CrisisKind::Undecided,
+        match self.after {
+            AfterCrisis::Rest(LifeAfterRest::Short { .. }) => CrisisKind::Boundary,
+            AfterCrisis::Rest(LifeAfterRest::Long { .. }) => CrisisKind::Interior,
+            AfterCrisis::Rest(LifeAfterRest::Varied { .. }) => CrisisKind::Undecided,
+            AfterCrisis::Merged { bands } => CrisisKind::BandMerging { bands },
+            AfterCrisis::Left { returned: 0, .. } => CrisisKind::OtherAttractor,
+            AfterCrisis::Left { orbits, returned } if orbits == returned => CrisisKind::Growth,
+            AfterCrisis::Left { .. } => CrisisKind::Undecided,
         }
     }
 
@@ -269,7 +387,7 @@ pub enum NoCrisis {
     },
     /// No orbit comes to rest at the upper end of the range: the attractor is still there, perhaps larger
     /// (after an interior crisis), or has been lost to an attractor that does not come to rest.
-    #[error("none of {samples} orbits comes to rest at Gamma = {forcing} within {impacts} impacts in total")]
+    #[error("none of {samples} orbits {} at Gamma = {forcing} within {impacts} impacts in total", event.verb())]
     NoneRests {
         /// The upper end.
         forcing: f64,
@@ -277,14 +395,28 @@ pub enum NoCrisis {
         samples: u32,
         /// The total number of their impacts.
         impacts: u64,
+        /// The event that was sought.
+        event: CrisisEvent,
     },
     /// Some orbits come to rest at the start of the search.
-    #[error("an orbit already comes to rest at Gamma = {forcing}, after {life} impacts")]
+    #[error("an orbit already {} at Gamma = {forcing}, after {life} impacts", event.verb())]
     RestsBefore {
         /// The lower end.
         forcing: f64,
         /// The impacts of the first orbit that comes to rest.
         life: u64,
+        /// The event that was sought.
+        event: CrisisEvent,
+    },
+    /// The attractor at the start of the search does not have the bands that are to merge.
+    #[error(
+        "the attractor does not have {bands} bands at Gamma = {forcing}, alternating about a saddle of half as many impacts"
+    )]
+    NoBands {
+        /// The lower end.
+        forcing: f64,
+        /// The number of bands before the merging.
+        bands: usize,
     },
     /// The lost attractor is not chaotic but a periodic orbit that ends.
     #[error(
@@ -333,6 +465,11 @@ const WIDENINGS: u32 = 3;
 /// Number of forcings near a crisis at which a disk is followed after a rest.
 const FORCINGS_AFTER_REST: u32 = 16;
 
+/// Orbits that are followed after they have left an attractor, and the impacts in its part of the plane, one after the
+/// other, with which they have returned.
+const ORBITS_AFTER_EXIT: usize = 24;
+const STAY: u32 = 100;
+
 /// How far beyond a tangency these forcings reach, as a share of the distance to the upper end of the
 /// bracket.
 const NEXT_TO: f64 = 1.0 / 16.0;
@@ -375,7 +512,13 @@ impl CrisisSearch {
             of_saddle(orbit.multipliers())?;
         }
         let watch = Watch::begin(observer, 0, 60 * self.impacts)?;
-        let found = self.sought(saddles, &watch)?;
+        let found = match self.sought(saddles, &watch) {
+            // The saddle between the bands is needed at the upper end.
+            Err(Error::NoBranch { parameter: reached, .. }) => {
+                Err(NoCrisis::NotFollowed { forcing: self.high, reached })
+            }
+            found => found?,
+        };
         watch.end();
         Ok(found)
     }
@@ -454,6 +597,11 @@ impl CrisisSearch {
             Err(reason) => return Ok(Err(reason)),
         };
         let bracket = end.bracket;
+        if matches!(end.exit, Exit::Bands(_))
+            && let Some((forcing, life)) = self.rest_after_bands(&end)?
+        {
+            return Ok(Err(NoCrisis::RestsBefore { forcing, life, event: CrisisEvent::Rest }));
+        }
         let pairs = match saddles {
             Some((inside, touched)) => {
                 let followed = |orbit| self.followed_to(orbit, bracket.1);
@@ -469,7 +617,7 @@ impl CrisisSearch {
         let tangency = if pairs.is_empty() {
             Err(NoTangency::NoSaddle { orbits: end.lost.len() })
         } else {
-            tangencies(self, &pairs, bracket, watch)?
+            tangencies(self, &pairs, &end, watch)?
         };
         if let (Some(_), Err(reason)) = (saddles, &tangency) {
             return Ok(Err(NoCrisis::OtherReason { bracket, reason: *reason }));
@@ -490,7 +638,7 @@ impl CrisisSearch {
             forcing_error,
             bracket,
             attractor: end.attractor[0],
-            after_rest: self.after_rest(&end, forcing, beyond)?,
+            after: self.after(&end, forcing, beyond)?,
             tangency: tangency.map(|own| own.tangency),
         }))
     }
@@ -499,6 +647,10 @@ impl CrisisSearch {
     /// may touch its stable manifold.
     fn pairs(&self, end: &End) -> Result<Vec<Pair>, Error> {
         let map = self.map(end.bracket.1)?;
+        if let Exit::Bands(saddle) = &end.exit {
+            let Ok(saddle) = self.followed_to(saddle, end.bracket.1)? else { return Ok(Vec::new()) };
+            return Ok(vec![Pair { inside: saddle.clone(), touched: saddle }]);
+        }
         let node = map.period_one(1).and_then(|state| map.refine(&[state]).ok());
         let node = node.filter(|orbit| of_saddle(orbit.multipliers()).is_ok());
         let touched = self.saddles_passed(&map, end)?;
@@ -507,6 +659,50 @@ impl CrisisSearch {
             inside.map(|inside| Pair { inside: inside.clone(), touched: touched.clone() })
         });
         Ok(pairs.collect())
+    }
+
+    /// The forcing and the life of an orbit that comes to rest instead of changing its band, or after it: the attractor
+    /// is then lost and not merged. The orbits are those farthest beyond, which change their bands most often.
+    fn rest_after_bands(&self, end: &End) -> Result<Option<(f64, u64)>, Error> {
+        for lost in end.lost.iter().rev().take(ORBITS_AFTER_EXIT) {
+            let map = self.map(lost.forcing)?;
+            let start = map.steps(lost.start, lost.impacts as u64)?;
+            let lived = until(&map, &ExitTest::Rest, &[start], self.each(), &Unobserved)?;
+            if lived[0].rests {
+                return Ok(Some((lost.forcing, (lost.impacts + lived[0].lived) as u64)));
+            }
+        }
+        Ok(None)
+    }
+
+    /// The motion after the event at forcings from `low` to `high`.
+    fn after(&self, end: &End, low: f64, high: f64) -> Result<AfterCrisis, Error> {
+        let region = match &end.exit {
+            Exit::Rest => return self.after_rest(end, low, high).map(AfterCrisis::Rest),
+            Exit::Bands(saddle) => return Ok(AfterCrisis::Merged { bands: saddle.period() as u32 }),
+            Exit::Region(region) => region,
+        };
+        let (mut orbits, mut returned, mut rested) = (0, 0, 0);
+        for lost in end.lost.iter().take(ORBITS_AFTER_EXIT) {
+            let map = self.map(lost.forcing)?;
+            let (mut state, mut stay, mut rests) =
+                (map.steps(lost.start, lost.impacts as u64)?, 0, lost.rests);
+            for _ in 0..self.each() {
+                rests = rests || map.rests_after(state);
+                if rests || stay == STAY {
+                    break;
+                }
+                state = map.step(state)?.into();
+                stay = if region.occupies(state) { stay + 1 } else { 0 };
+            }
+            orbits += 1;
+            rested += u32::from(rests);
+            returned += u32::from(stay == STAY);
+        }
+        if 2 * rested >= orbits {
+            return self.after_rest(end, low, high).map(AfterCrisis::Rest);
+        }
+        Ok(AfterCrisis::Left { orbits, returned })
     }
 
     /// The motion after a rest at forcings from `low` to `high`.

@@ -1,7 +1,10 @@
 //! The forcing at which orbits on an attractor begin to come to rest, found by following them.
 
+use std::collections::BTreeSet;
+
+use crate::chaos::crisis::exit::{Exit, ExitTest, Track};
 use crate::chaos::crisis::lifetimes::MeanLife;
-use crate::chaos::crisis::{CrisisSearch, NoCrisis};
+use crate::chaos::crisis::{CrisisEvent, CrisisSearch, NoCrisis};
 use crate::chaos::manifold::saddle::Saddle;
 use crate::chaos::manifold::{ManifoldKind, ManifoldSettings, Side, grower::Grower, of_saddle};
 use crate::chatter::policy::ChatterPolicy;
@@ -13,7 +16,7 @@ use crate::numerics::error::Error;
 use crate::numerics::random::SplitMix64;
 use crate::orbits::periodic::newton::same_orbit;
 use crate::orbits::periodic::{PeriodicOrbit, phase_difference};
-use crate::run::{Progress, Unobserved, Watch};
+use crate::run::{Observer, Progress, Unobserved, Watch};
 use crate::sweep::lyapunov::lyapunov_exponents;
 use crate::sweep::{SweepEvent, sweep};
 use core::ops::ControlFlow;
@@ -46,6 +49,9 @@ const FEWEST_RESTS: u64 = 8;
 /// The fewest impacts of an orbit.
 const FEWEST_IMPACTS: usize = 200;
 
+/// Lower ends after which the search gives up: events happen by chance at any forcing.
+const MOST_LOWER_ENDS: u32 = 40;
+
 /// Largest number of forcings with surviving orbits whose states are kept.
 const KEPT: usize = 24;
 
@@ -71,6 +77,18 @@ const LONGEST_MOVE: f64 = 0.2;
 /// The shortest step along such a branch, relative to Gamma.
 const SHORTEST_STEP: f64 = 1.0e-6;
 
+/// An orbit that was followed.
+pub(super) struct Followed {
+    /// Its impacts before it came to rest or the event of the search happened, at most those followed.
+    pub(super) lived: usize,
+    /// The last of them.
+    pub(super) state: ImpactState,
+    /// Whether it came to rest.
+    pub(super) rests: bool,
+    /// The cells of the plane that it entered, if the event is about them.
+    pub(super) seen: BTreeSet<(u16, u32)>,
+}
+
 /// Orbits at a forcing.
 struct Herd {
     forcing: f64,
@@ -82,6 +100,7 @@ pub(super) struct Lost {
     pub(super) forcing: f64,
     pub(super) start: ImpactState,
     pub(super) impacts: usize,
+    pub(super) rests: bool,
 }
 
 /// The end of an attractor, where orbits begin to come to rest.
@@ -95,12 +114,14 @@ pub(super) struct End {
     pub(super) lost: Vec<Lost>,
     /// The mean survival time at the distance where 8 of them come to rest.
     pub(super) life: f64,
+    /// The event.
+    pub(super) exit: Exit,
 }
 
 impl CrisisSearch {
     /// Impacts of each orbit.
     pub(super) fn each(&self) -> usize {
-        ((self.impacts / u64::from(self.samples)) as usize).max(FEWEST_IMPACTS)
+        ((self.impacts / u64::from(self.samples)) as usize).max(FEWEST_IMPACTS * self.bands())
     }
 
     /// The forcing at which the attractor to which `inside` or the period-1 orbit leads begins to lose
@@ -114,23 +135,33 @@ impl CrisisSearch {
             Ok(herd) => vec![herd],
             Err(reason) => return Ok(Err(reason)),
         };
+        let mut exit = match self.exit_beside(&reached[0], watch)? {
+            Ok(exit) => exit,
+            Err(reason) => return Ok(Err(reason)),
+        };
         let (each, all) = (self.each(), self.each() as f64 * f64::from(self.samples));
         let longest = LONGEST_STEP * (self.high - reached[0].forcing);
         let mut step = longest;
         let (mut shortest_life, mut halvings, mut lower_ends) = (usize::MAX, MORE_HALVINGS, 0);
         while let Some(here) = reached.last() {
             let next = here.forcing + step;
-            let (forcing, most) =
-                if next < self.high { (next, (each / 4).max(FEWEST_IMPACTS)) } else { (self.high, each) };
-            let lived = self.follow(forcing, &shaken(&here.states)?, most, watch)?;
+            let (forcing, most) = if next < self.high {
+                (next, (each / 4).max(FEWEST_IMPACTS * self.bands()))
+            } else {
+                (self.high, each)
+            };
+            let lived = self.follow(forcing, &exit, &shaken(&here.states)?, most, watch)?;
             let life = life_of(&lived, most, forcing - here.forcing);
             if life.ended == 0 {
                 if forcing >= self.high {
                     let (samples, impacts) = (self.samples, all as u64);
-                    return Ok(Err(NoCrisis::NoneRests { forcing, samples, impacts }));
+                    return Ok(Err(NoCrisis::NoneRests { forcing, samples, impacts, event: self.event }));
                 }
                 if reached.len() == KEPT {
                     reached.remove(0);
+                }
+                if let Exit::Region(region) = &mut exit {
+                    region.extend(&lived);
                 }
                 reached.push(Herd { forcing, states: ends(lived) });
                 step = (2.0 * step).min(longest);
@@ -144,10 +175,13 @@ impl CrisisSearch {
             }
             // The lower end again with all impacts: so far its orbits made only a quarter of them.
             lower_ends += 1;
-            let lived = self.follow(here.forcing, &here.states, each, watch)?;
-            if lived.iter().all(|own| own.0 == each) {
+            let lived = self.follow(here.forcing, &exit, &here.states, each, watch)?;
+            if lived.iter().all(|own| own.lived == each) {
+                if let Exit::Region(region) = &mut exit {
+                    region.extend(&lived);
+                }
                 let below = Herd { forcing: here.forcing, states: ends(lived) };
-                match self.end(below, forcing, lower_ends, watch)? {
+                match self.end(below, &exit, forcing, lower_ends, watch)? {
                     // The attractor of some orbits has ended: follow the other orbits further.
                     Err((_, Some(survivors))) if survivors.forcing < self.high => reached = vec![survivors],
                     found => return Ok(found.map_err(|(reason, _)| reason)),
@@ -155,12 +189,53 @@ impl CrisisSearch {
                 (step, halvings, lower_ends) = (longest, MORE_HALVINGS, 0);
                 continue;
             }
-            shortest_life = lived.iter().fold(shortest_life, |least, own| least.min(own.0));
+            shortest_life = lived.iter().fold(shortest_life, |least, own| least.min(own.lived));
             let lost = here.forcing;
+            if lower_ends >= MOST_LOWER_ENDS {
+                return Ok(Err(self.ends_before(lost, shortest_life)));
+            }
             reached.pop();
             step = reached.last().map_or(step, |before| 0.5 * (lost - before.forcing));
         }
-        Ok(Err(NoCrisis::RestsBefore { forcing: self.low, life: shortest_life as u64 }))
+        Ok(Err(self.ends_before(self.low, shortest_life)))
+    }
+
+    pub(super) fn ends_before(&self, forcing: f64, life: usize) -> NoCrisis {
+        NoCrisis::RestsBefore { forcing, life: life as u64, event: self.event }
+    }
+
+    /// The event of the search, for the attractor on which these orbits are.
+    fn exit_beside(&self, herd: &Herd, watch: &Watch<'_>) -> Result<Result<Exit, NoCrisis>, Error> {
+        let (forcing, each) = (herd.forcing, self.each().max(10 * FEWEST_IMPACTS));
+        let exit = match self.exit(forcing, &herd.states)? {
+            Some(Exit::Region(mut region)) => {
+                let map = self.map(forcing)?;
+                let lived = self.lives(&map, &ExitTest::Recorded(&region), &herd.states, each, watch)?;
+                if let Some(life) = lived.iter().map(|own| own.lived).min().filter(|life| *life < each) {
+                    return Ok(Err(self.ends_before(forcing, life)));
+                }
+                region.extend(&lived);
+                Exit::Region(region)
+            }
+            Some(exit @ Exit::Bands(_)) => {
+                let lived = self.follow(forcing, &exit, &herd.states, each, watch)?;
+                if lived.iter().any(|own| own.lived < each) {
+                    return Ok(Err(NoCrisis::NoBands { forcing, bands: 2 * self.bands() }));
+                }
+                exit
+            }
+            Some(exit) => exit,
+            None => return Ok(Err(NoCrisis::NoBands { forcing, bands: 2 * self.bands() })),
+        };
+        Ok(Ok(exit))
+    }
+
+    /// Impacts of the saddle between the bands; 1 if the event is another.
+    pub(super) fn bands(&self) -> usize {
+        match self.event {
+            CrisisEvent::BandMerging { bands } => bands as usize,
+            _ => 1,
+        }
     }
 
     /// The end of an attractor on which orbits survive at `below` and begin to come to rest at `forcing`; or
@@ -170,6 +245,7 @@ impl CrisisSearch {
     fn end(
         &self,
         below: Herd,
+        exit: &Exit,
         forcing: f64,
         lower_ends: u32,
         watch: &Watch<'_>,
@@ -185,7 +261,7 @@ impl CrisisSearch {
             let (mut lives, mut lost) = (Vec::new(), Vec::new());
             for share in DISTANCES {
                 let (beyond, width) = (below.forcing + share * width, share * width);
-                let lived = self.follow(beyond, &below.states, each, watch)?;
+                let lived = self.follow(beyond, exit, &below.states, each, watch)?;
                 lives.push(life_of(&lived, each, width));
                 lost.extend(self.lost(&below.states, beyond, &lived));
                 if !chaotic && !lost.is_empty() {
@@ -193,7 +269,7 @@ impl CrisisSearch {
                     let impacts = EXPONENT_IMPACTS as f64;
                     if exponent.is_nan() || exponent <= 5.0 * ln(impacts) / impacts {
                         let left: Vec<_> =
-                            lived.iter().filter(|own| own.0 == each).map(|own| own.1).collect();
+                            lived.iter().filter(|own| own.lived == each).map(|own| own.state).collect();
                         let states = left.iter().copied().cycle().take(below.states.len()).collect();
                         let survivors = (!left.is_empty()).then_some(Herd { forcing: beyond, states });
                         let reason = NoCrisis::NotChaotic { forcing: below.forcing, exponent };
@@ -230,13 +306,14 @@ impl CrisisSearch {
             least.min(life.beyond / (exp(ln(seen.max(LEAST_SEEN)) / steepest) - 1.0))
         });
         let bracket = (below.forcing - margin, forcing);
-        Ok(Ok(End { bracket, lost, attractor: below.states, life: lives[0].impacts }))
+        let exit = exit.clone();
+        Ok(Ok(End { bracket, lost, attractor: below.states, life: lives[0].impacts, exit }))
     }
 
     /// The orbits that come to rest.
-    fn lost(&self, starts: &[ImpactState], forcing: f64, lived: &[(usize, ImpactState)]) -> Vec<Lost> {
-        let ended = starts.iter().zip(lived).filter(|(_, own)| own.0 < self.each());
-        ended.map(|(&start, own)| Lost { forcing, start, impacts: own.0 }).collect()
+    fn lost(&self, starts: &[ImpactState], forcing: f64, lived: &[Followed]) -> Vec<Lost> {
+        let ended = starts.iter().zip(lived).filter(|(_, own)| own.lived < self.each());
+        ended.map(|(&start, own)| Lost { forcing, start, impacts: own.lived, rests: own.rests }).collect()
     }
 
     /// The mean of the largest exponents of some of these orbits at a forcing at which they survive.
@@ -271,13 +348,13 @@ impl CrisisSearch {
         let mut life = usize::MAX;
         for starts in self.starts_beside(&map, &orbit)? {
             let each = self.each().max(10 * FEWEST_IMPACTS);
-            let lived = self.follow(forcing, &starts, each, watch)?;
-            if lived.iter().all(|own| own.0 == each) {
+            let lived = self.follow(forcing, &Exit::Rest, &starts, each, watch)?;
+            if lived.iter().all(|own| own.lived == each) {
                 return Ok(Ok(Herd { forcing, states: ends(lived) }));
             }
-            life = lived.iter().fold(life, |least, own| least.min(own.0));
+            life = lived.iter().fold(life, |least, own| least.min(own.lived));
         }
-        Ok(Err(NoCrisis::RestsBefore { forcing, life: life as u64 }))
+        Ok(Err(NoCrisis::RestsBefore { forcing, life: life as u64, event: CrisisEvent::Rest }))
     }
 
     /// Starts on either side of a saddle, on its unstable manifold; about an orbit of another kind, all
@@ -302,34 +379,33 @@ impl CrisisSearch {
         Ok(vec![side(Side::Later)?, side(Side::Earlier)?])
     }
 
-    /// The number of impacts of each orbit before it comes to rest, up to the limit, and the last of them.
+    /// The orbits from these starts until they come to rest or the event happens, at most for `most` impacts.
     fn follow(
         &self,
         forcing: f64,
+        exit: &Exit,
         starts: &[ImpactState],
         most: usize,
         watch: &Watch<'_>,
-    ) -> Result<Vec<(usize, ImpactState)>, Error> {
-        let map = self.map(forcing)?;
-        let orbits: Vec<_> = starts.iter().map(|&start| map.orbit(start, ChatterPolicy::Complete)).collect();
+    ) -> Result<Vec<Followed>, Error> {
+        self.lives(&self.map(forcing)?, &exit.at(self, forcing)?, starts, most, watch)
+    }
+
+    fn lives(
+        &self,
+        map: &ImpactMap,
+        exit: &ExitTest<'_>,
+        starts: &[ImpactState],
+        most: usize,
+        watch: &Watch<'_>,
+    ) -> Result<Vec<Followed>, Error> {
         let observer = |_: Progress| match watch.ask() {
             Ok(()) => ControlFlow::Continue(()),
             Err(_) => ControlFlow::Break(()),
         };
-        let lives = sweep(
-            &orbits,
-            |index| (0, starts[index]),
-            |(lived, state): &mut (usize, ImpactState), event| match event {
-                SweepEvent::Impact(impact) => {
-                    (*lived, *state) = (*lived + 1, impact.state);
-                    if *lived < most { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-                }
-                _ => ControlFlow::Break(()),
-            },
-            &observer,
-        );
+        let lives = until(map, exit, starts, most, &observer);
         let Progress { done, total } = watch.progress();
-        watch.set_done((done + (most * orbits.len()) as u64).min(total));
+        watch.set_done((done + (most * starts.len()) as u64).min(total));
         watch.ask()?;
         lives
     }
@@ -401,12 +477,46 @@ fn moved(from: &PeriodicOrbit, to: &PeriodicOrbit) -> f64 {
     })
 }
 
-fn life_of(lived: &[(usize, ImpactState)], most: usize, beyond: f64) -> MeanLife {
-    MeanLife::of(lived.iter().map(|own| own.0), most, beyond)
+fn life_of(lived: &[Followed], most: usize, beyond: f64) -> MeanLife {
+    MeanLife::of(lived.iter().map(|own| own.lived), most, beyond)
 }
 
-fn ends(lived: Vec<(usize, ImpactState)>) -> Vec<ImpactState> {
-    lived.into_iter().map(|(_, state)| state).collect()
+fn ends(lived: Vec<Followed>) -> Vec<ImpactState> {
+    lived.into_iter().map(|own| own.state).collect()
+}
+
+/// The orbits from these starts until they come to rest or the event happens, at most for `most` >= 1 impacts.
+pub(super) fn until(
+    map: &ImpactMap,
+    exit: &ExitTest<'_>,
+    starts: &[ImpactState],
+    most: usize,
+    observer: &dyn Observer,
+) -> Result<Vec<Followed>, Error> {
+    let orbits: Vec<_> = starts.iter().map(|&start| map.orbit(start, ChatterPolicy::Complete)).collect();
+    let followed = sweep(
+        &orbits,
+        |index| (0, starts[index], false, Track::default()),
+        |(lived, state, rests, track), event| match event {
+            SweepEvent::Impact(impact) => {
+                if exit.happens(track, impact.state) {
+                    return ControlFlow::Break(());
+                }
+                (*lived, *state) = (*lived + 1, impact.state);
+                if *lived < most { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+            }
+            _ => {
+                *rests = true;
+                ControlFlow::Break(())
+            }
+        },
+        observer,
+    )?;
+    let shown = |(lived, state, rests, track): (usize, ImpactState, bool, Track)| {
+        let seen = track.seen;
+        Followed { lived, state, rests, seen }
+    };
+    Ok(followed.into_iter().map(shown).collect())
 }
 
 /// The same states, each moved slightly by a different amount.

@@ -1,6 +1,8 @@
 //! How long orbits live beyond a crisis, and the power law of their mean life.
 
-use super::Crisis;
+use super::exit::{Exit, ExitTest};
+use super::following::until;
+use super::{AfterCrisis, Crisis, CrisisEvent, CrisisSearch};
 use crate::chatter::policy::ChatterPolicy;
 use crate::flight::platform::vibration::Vibration;
 use crate::map::impact_map::{ImpactMap, ImpactState};
@@ -8,7 +10,6 @@ use crate::numerics::error::{Error, within};
 use crate::numerics::lifetime::Lifetime;
 use crate::numerics::power_law::{NoPowerLaw, PowerLaw, PowerLawPoint, fit_power_law};
 use crate::run::Observer;
-use crate::sweep::survival_times;
 
 /// Impacts of the orbit on the attractor from one start to the next.
 const BETWEEN_STARTS: usize = 37;
@@ -30,7 +31,7 @@ pub struct MeanLife {
     pub impacts: f64,
     /// Its standard error, relative to the mean; the largest double if none came to rest.
     pub relative_error: f64,
-    /// Orbits that came to rest.
+    /// Orbits that came to rest or underwent the event of the crisis.
     pub ended: u64,
     /// All orbits.
     pub orbits: u64,
@@ -85,14 +86,13 @@ impl Crisis {
         within("impacts beyond a crisis", impacts as f64, 1.0, f64::MAX, "at least 1")?;
         let map = |forcing| ImpactMap::new(Vibration::from_axial_forcing(forcing)?, self.restitution);
         let starts = self.starts(&map(self.bracket.0)?, orbits, observer)?;
+        let (search, exit) = self.exit(&starts, impacts, observer)?;
         let mut lives = Vec::with_capacity(beyond.len());
         for &beyond in beyond {
             within("distance from a crisis", beyond, f64::MIN_POSITIVE, f64::MAX, "(0, inf)")?;
-            let map = map(self.forcing + beyond)?;
-            let batch: Vec<_> =
-                starts.iter().map(|&start| map.orbit(start, ChatterPolicy::Complete)).collect();
-            let lived = survival_times(&batch, impacts, observer)?;
-            lives.push(MeanLife::of(lived.into_iter(), impacts, beyond));
+            let forcing = self.forcing + beyond;
+            let lived = until(&map(forcing)?, &exit.at(&search, forcing)?, &starts, impacts, observer)?;
+            lives.push(MeanLife::of(lived.iter().map(|own| own.lived), impacts, beyond));
         }
         let points: Vec<_> = lives
             .iter()
@@ -105,6 +105,30 @@ impl Crisis {
             .collect();
         let scaling = fit_power_law(&points)?;
         Ok(CrisisLives { lives, scaling })
+    }
+
+    /// The event that ends a life, from these states on the attractor, and a search for it.
+    fn exit(
+        &self,
+        starts: &[ImpactState],
+        impacts: usize,
+        observer: &dyn Observer,
+    ) -> Result<(CrisisSearch, Exit), Error> {
+        let event = match self.after {
+            AfterCrisis::Rest(_) => CrisisEvent::Rest,
+            AfterCrisis::Merged { bands } => CrisisEvent::BandMerging { bands },
+            AfterCrisis::Left { .. } => CrisisEvent::Growth,
+        };
+        let search = CrisisSearch::new(self.restitution, self.bracket)?.for_event(event)?;
+        let forcing = self.bracket.0;
+        let what = "the bands of the attractor below a crisis";
+        let mut exit = search.exit(forcing, starts)?.ok_or(Error::NoBranch { what, parameter: forcing })?;
+        if let Exit::Region(region) = &mut exit {
+            let map = search.map(forcing)?;
+            let lived = until(&map, &ExitTest::Recorded(region), starts, impacts, observer)?;
+            region.extend(&lived);
+        }
+        Ok((search, exit))
     }
 
     /// States on the attractor just below the crisis.

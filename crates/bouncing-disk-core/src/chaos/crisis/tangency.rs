@@ -12,16 +12,16 @@
 
 use glam::DVec2;
 
+use super::exit::Exit;
+use super::following::{End, until};
 use super::{CrisisSearch, NoTangency, Tangency};
 use crate::chaos::manifold::grower::Grower;
 use crate::chaos::manifold::saddle::Saddle;
 use crate::chaos::manifold::{ManifoldKind, ManifoldSettings, Side};
-use crate::chatter::policy::ChatterPolicy;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::error::Error;
 use crate::orbits::periodic::{PeriodicOrbit, phase_difference};
 use crate::run::{Unobserved, Watch, WorkCount};
-use crate::sweep::survival_times;
 
 /// Samples of the first piece among which folds are looked for.
 const SAMPLES: u32 = 2_048;
@@ -93,16 +93,16 @@ pub(super) struct Solution {
 pub(super) fn tangencies(
     search: &CrisisSearch,
     pairs: &[Pair],
-    bracket: (f64, f64),
+    end: &End,
     watch: &Watch<'_>,
 ) -> Result<Result<Solution, NoTangency>, Error> {
-    let mut work = watch.work();
+    let (mut work, bracket) = (watch.work(), end.bracket);
     let off = |forcing: f64| (bracket.0 - forcing).max(forcing - bracket.1).max(0.0);
     let mut failure = NoTangency::NoFold;
     let mut within: Vec<(Solution, Sought<'_>, u32)> = Vec::new();
     for pair in pairs {
         for side in [Side::Later, Side::Earlier] {
-            let sought = Sought { search, pair, side, bracket };
+            let sought = Sought { search, pair, side, bracket, exit: &end.exit };
             if !sought.lives()? {
                 continue;
             }
@@ -147,11 +147,14 @@ struct Sought<'s> {
     pair: &'s Pair,
     side: Side,
     bracket: (f64, f64),
+    exit: &'s Exit,
 }
 
 /// The map and the saddles at one Gamma.
 struct Setting {
     side: Side,
+    /// Impacts of the saddle between the bands, or 1.
+    bands: usize,
     map: ImpactMap,
     inside: PeriodicOrbit,
     touched: PeriodicOrbit,
@@ -225,12 +228,13 @@ impl Setting {
             .collect::<Result<_, _>>()?;
         let piece = self.first_piece()?;
         let width = 1.0 / f64::from(SAMPLES);
-        let nowhere = || vec![None; MOST_FLIGHTS as usize * saddles.len()];
+        let most = MOST_FLIGHTS * self.bands as u32;
+        let nowhere = || vec![None; most as usize * saddles.len()];
         let (mut tips, mut last) = (Vec::new(), nowhere());
         for sample in 0..=SAMPLES {
             let mut spots: Vec<Option<Spot>> = nowhere();
             if let Some((mut state, mut along)) = piece.first_piece(width * f64::from(sample))? {
-                for flights in 0..MOST_FLIGHTS {
+                for flights in 0..most {
                     if self.map.chatters_to_rest(self.map.rebound(state)) {
                         break;
                     }
@@ -241,7 +245,7 @@ impl Setting {
                     (state, along) = (next.into(), derivative * along);
                 }
             }
-            work.spend(u64::from(MOST_FLIGHTS))?;
+            work.spend(u64::from(most))?;
             for (index, pair) in last.iter().zip(&spots).enumerate() {
                 let (Some(before), Some(spot)) = pair else { continue };
                 let turns = (before.along.x < 0.0) != (spot.along.x < 0.0);
@@ -269,16 +273,11 @@ impl Setting {
         Ok(distinct)
     }
 
-    /// How many orbits from shares of the first piece come to rest within `most` impacts.
-    fn rests(&self, shares: impl Iterator<Item = f64>, most: u32) -> Result<usize, Error> {
+    /// The states at shares of the first piece.
+    fn starts(&self, shares: impl Iterator<Item = f64>) -> Result<Vec<ImpactState>, Error> {
         let piece = self.first_piece()?;
-        let mut orbits = Vec::new();
-        for share in shares {
-            let start = piece.first_piece(share)?;
-            orbits.extend(start.map(|(state, _)| self.map.orbit(state, ChatterPolicy::Complete)));
-        }
-        let lives = survival_times(&orbits, most as usize, &Unobserved)?;
-        Ok(lives.into_iter().filter(|life| *life < most as usize).count())
+        let starts = shares.filter_map(|share| piece.first_piece(share).transpose());
+        starts.map(|found| found.map(|(state, _)| state)).collect()
     }
 
     /// The point to which a share of the first piece is mapped by `flights` flights; `None` if it is not near
@@ -354,7 +353,7 @@ impl Sought<'_> {
     /// rests at the lower end of the bracket.
     fn lives(&self) -> Result<bool, Error> {
         let shares = (0..PROBES).map(|probe| f64::from(probe) / f64::from(PROBES));
-        Ok(self.setting(self.bracket.0, 0)?.rests(shares, LOST)? == 0)
+        Ok(self.lost(self.bracket.0, shares, LOST)? == 0)
     }
 
     /// Whether orbits from near the tangency come to rest beyond the tangency and not before it: only then
@@ -367,8 +366,17 @@ impl Sought<'_> {
         let half = (2.0 * aside / curvature.abs()).sqrt();
         let shares = |probe| share + half * (f64::from(2 * probe + 1) / f64::from(PROBES) - 1.0);
         let shares = (0..PROBES).map(shares).filter(|share| (0.0..=1.0).contains(share));
-        let rests = |forcing| self.setting(forcing, 0)?.rests(shares.clone(), flights + LOST);
-        Ok(rests(solution.forcing + aside)? > 0 && rests(solution.forcing - aside)? == 0)
+        let lost = |forcing| self.lost(forcing, shares.clone(), flights + LOST);
+        Ok(lost(solution.forcing + aside)? > 0 && lost(solution.forcing - aside)? == 0)
+    }
+
+    /// How many orbits from shares of the first piece come to rest, or undergo the event of the search, within
+    /// so many impacts (as often as there are bands).
+    fn lost(&self, forcing: f64, shares: impl Iterator<Item = f64>, most: u32) -> Result<usize, Error> {
+        let (setting, most) = (self.setting(forcing, 0)?, most as usize * self.search.bands());
+        let exit = self.exit.at(self.search, forcing)?;
+        let lives = until(&setting.map, &exit, &setting.starts(shares)?, most, &Unobserved)?;
+        Ok(lives.into_iter().filter(|own| own.lived < most).count())
     }
 
     /// The setting at a forcing, with the coordinates of this impact of the second saddle.
@@ -377,7 +385,8 @@ impl Sought<'_> {
         let inside = map.refine(&self.pair.inside.states)?;
         let touched = map.refine(&self.pair.touched.states)?;
         let saddle = Saddle::of(&map, &touched, impact)?;
-        Ok(Setting { side: self.side, map, inside, touched, saddle })
+        let bands = self.search.bands();
+        Ok(Setting { side: self.side, bands, map, inside, touched, saddle })
     }
 
     /// The fold, with its distance from the straight stable manifold, at one Gamma. `None` if the fold or one
@@ -392,10 +401,10 @@ impl Sought<'_> {
         let mut tip = *tip;
         let Some(mut fold) = self.distance(start, &tip) else { return Err(NoTangency::NoFold) };
         let (mut last, mut forcing, mut change) = (start, start + step, step);
-        let mut shortened = 0;
+        let (mut shortened, mut drift) = (0, 0.0);
         for _ in 0..MAX_STEPS {
-            // The fold moves along the first piece.
-            tip = tip.around(fold.share);
+            // The fold moves along the first piece, at first by an unknown amount.
+            tip = tip.around(fold.share + drift * (forcing - last));
             let Some(next) = self.distance(forcing, &tip) else {
                 // The step was so long that the fold is lost: a shorter step.
                 shortened += 1;
@@ -408,6 +417,7 @@ impl Sought<'_> {
             };
             let rate = (next.spot.at.x - fold.spot.at.x) / (forcing - last);
             change = -next.spot.at.x / rate;
+            drift = (next.share - fold.share) / (forcing - last);
             (last, fold) = (forcing, next);
             if !change.is_finite() {
                 break;

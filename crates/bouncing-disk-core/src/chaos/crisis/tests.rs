@@ -43,7 +43,11 @@ fn the_attractor_of_fig_6_touches_a_saddle_of_three_impacts() {
     let crisis = stored(&found());
     let (low, high) = crisis.bracket;
     assert!(low < CRISIS && CRISIS < high && (crisis.forcing - CRISIS).abs() <= crisis.forcing_error);
-    assert!(matches!(crisis.after_rest, LifeAfterRest::Short { impacts: 1.. }), "{:?}", crisis.after_rest);
+    assert!(
+        matches!(crisis.after, AfterCrisis::Rest(LifeAfterRest::Short { impacts: 1.. })),
+        "{:?}",
+        crisis.after
+    );
     let tangency = crisis.tangency.as_ref().expect("found");
     assert!((crisis.forcing - CRISIS).abs() <= 1e-13, "{}", crisis.forcing);
     assert!(tangency.curvature.abs() > 0.1, "a quadratic tangency: {}", tangency.curvature);
@@ -114,7 +118,9 @@ fn a_crisis_without_a_saddle_has_a_bracket() {
     // By direct iteration of another program.
     assert!(crisis.bracket.0 < 0.809_135_30 && crisis.bracket.1 > 0.809_135_29, "{crisis:?}");
     assert!((crisis.forcing - 0.809_135_3).abs() <= crisis.forcing_error && crisis.forcing_error < 2e-5);
-    assert!(matches!(crisis.after_rest, LifeAfterRest::Long { .. }) && crisis.tangency.is_err());
+    assert!(
+        matches!(crisis.after, AfterCrisis::Rest(LifeAfterRest::Long { .. })) && crisis.tangency.is_err()
+    );
     assert_eq!(crisis.life_exponent(), None);
 }
 
@@ -128,7 +134,7 @@ fn a_periodic_attractor_that_ends_beside_is_no_crisis() {
     // By direct iteration of another program.
     assert!(crisis.bracket.0 < 0.957_192_30 && crisis.bracket.1 > 0.957_192_29, "{crisis:?}");
     assert!((crisis.forcing - 0.957_192_295).abs() <= crisis.forcing_error + 5e-9, "{crisis:?}");
-    assert!(!matches!(crisis.after_rest, LifeAfterRest::Short { .. }), "{:?}", crisis.after_rest);
+    assert!(crisis.kind() != CrisisKind::Boundary, "{:?}", crisis.after);
 }
 
 /// Ranges that begin or end near the crisis: it is found there or not at all. The lower end of the bracket
@@ -189,6 +195,126 @@ fn a_search_without_a_crisis_says_why() {
     assert!(matches!(refused, Err(Error::OutOfRange { .. })));
 }
 
+/// A search for another event, in a range about it.
+fn search_for(event: CrisisEvent, restitution: f64, range: (f64, f64)) -> CrisisSearch {
+    search_of(restitution, range).for_event(event).expect("legal")
+}
+
+fn found_for(event: CrisisEvent, restitution: f64, range: (f64, f64)) -> Crisis {
+    let found = search_for(event, restitution, range).crisis(None, &Unobserved).expect("no failure");
+    stored(&found.unwrap_or_else(|error| panic!("{restitution}: {error}")))
+}
+
+/// From direct iteration of another program, by means of every second or fourth phase: the last forcing at which they
+/// differ for 1e7 impacts or more, and the first at which they do not.
+#[test]
+fn bands_merge_where_another_program_sees_them_mix() {
+    for (restitution, bands, range, between) in [
+        (0.2, 1, (0.87, 0.95), (0.903_358_313, 0.903_358_326)),
+        (0.3, 1, (0.73, 0.8), (0.758_713_476, 0.758_713_489)),
+        (0.5, 1, (0.53, 0.558), (0.550_064_858, 0.550_064_871)),
+        (0.6, 1, (0.45, 0.482), (0.478_694_030, 0.478_694_123)),
+        (0.3, 2, (0.7313, 0.757), (0.748_192_700, 0.748_192_725)),
+        (0.5, 2, (0.5415, 0.549), (0.544_964_978, 0.544_964_991)),
+    ] {
+        let crisis = found_for(CrisisEvent::BandMerging { bands }, restitution, range);
+        let (low, high) = crisis.bracket;
+        assert_eq!(crisis.kind(), CrisisKind::BandMerging { bands }, "{restitution}");
+        assert!(low < between.1 && high > between.0 && high - low < 3e-6, "{crisis:?}");
+        assert!(
+            (crisis.forcing - between.0).abs() <= crisis.forcing_error + between.1 - between.0,
+            "{crisis:?}"
+        );
+        // At 0.6 no fold of the saddle's own manifold touches.
+        let Ok(tangency) = &crisis.tangency else {
+            assert!(restitution > 0.55, "{restitution}: {:?}", crisis.tangency);
+            continue;
+        };
+        assert!(
+            between.0 < crisis.forcing && crisis.forcing < between.1,
+            "{restitution}: {}",
+            crisis.forcing
+        );
+        assert_eq!((tangency.touched.period(), &tangency.inside), (bands as usize, &tangency.touched));
+        let Multipliers::Real(large, small) = tangency.touched.multipliers() else { panic!("a saddle") };
+        assert!(large < -1.0 && small < 0.0 && crisis.life_exponent().is_some(), "{large} {small}");
+    }
+}
+
+/// Beyond the merging orbits change their band the later the nearer it is; before it never.
+#[test]
+fn lives_in_a_band_shrink_beyond_a_merging() {
+    let crisis = found_for(CrisisEvent::BandMerging { bands: 1 }, 0.5, (0.545, 0.553));
+    let beyond = [1e-6, 1e-5, 1e-4];
+    let lives = crisis.lives(&beyond, 32, 40_000, &Unobserved).expect("followed").lives;
+    assert!(lives.iter().all(|life| life.ended > 8), "{lives:?}");
+    assert!(lives.windows(2).all(|pair| pair[0].impacts > 2.0 * pair[1].impacts), "{lives:?}");
+    let before = Crisis { forcing: crisis.bracket.0 - 2e-5, ..crisis };
+    let lives = before.lives(&[1e-6, 1e-5], 32, 40_000, &Unobserved).expect("followed").lives;
+    assert!(lives.iter().all(|life| life.ended == 0), "{lives:?}");
+}
+
+/// From direct iteration of another program: the last forcing at which 1e6 impacts fill few cells, and the first at which
+/// they fill many.
+#[test]
+fn attractors_grow_where_another_program_sees_them_large() {
+    for (restitution, range, between, period) in [
+        // The end of the window of an orbit of five impacts.
+        (0.3, (0.7668, 0.7675), (0.767_062_12, 0.767_062_26), 5),
+        // Chaos of several bands becomes larger at once.
+        (0.3, (0.774, 0.776), (0.774_656_24, 0.774_656_51), 3),
+        (0.5, (0.547, 0.548), (0.547_556_37, 0.547_556_51), 6),
+    ] {
+        let crisis = found_for(CrisisEvent::Growth, restitution, range);
+        assert!(between.0 < crisis.forcing && crisis.forcing < between.1, "{crisis:?}");
+        assert!(crisis.bracket.0 < crisis.forcing && crisis.forcing < crisis.bracket.1, "{crisis:?}");
+        assert_eq!(crisis.kind(), CrisisKind::Growth);
+        assert!(matches!(crisis.after, AfterCrisis::Left { orbits: 8..=24, .. }), "{:?}", crisis.after);
+        assert_eq!(crisis.tangency.as_ref().expect("found").touched.period(), period);
+        let lives = crisis.lives(&[1e-6, 1e-4], 32, 40_000, &Unobserved).expect("followed").lives;
+        assert!(lives[0].impacts > lives[1].impacts && lives[1].ended > 16, "{lives:?}");
+    }
+    // Without growth the loss to rest is found as such.
+    let crisis = found_for(CrisisEvent::Growth, 0.5, (0.5595, 0.5615));
+    assert!((crisis.forcing - CRISIS).abs() <= crisis.forcing_error && crisis.kind() == CrisisKind::Boundary);
+}
+
+/// At restitution 0.95 two small bands end at 0.396: half of the orbits that leave them find other motions.
+#[test]
+fn orbits_that_do_not_return_are_not_called_growth() {
+    let crisis = found_for(CrisisEvent::Growth, 0.95, (0.34, 0.4));
+    let AfterCrisis::Left { orbits, returned } = crisis.after else { panic!("{crisis:?}") };
+    assert!(returned < orbits && crisis.kind() != CrisisKind::Growth, "{crisis:?}");
+}
+
+#[test]
+fn a_search_for_other_events_says_why_it_finds_none() {
+    let merging = CrisisEvent::BandMerging { bands: 1 };
+    let reason = |event, restitution, range| refused(&search_for(event, restitution, range), None);
+    // Before the doubling there is one band, and beyond the merging.
+    for range in [(0.46, 0.48), (0.555, 0.558)] {
+        let reason = reason(merging, 0.5, range);
+        assert!(matches!(reason, NoCrisis::NoBands { bands: 2, .. }), "{reason}");
+    }
+    let four = reason(CrisisEvent::BandMerging { bands: 2 }, 0.5, (0.546, 0.549));
+    assert!(matches!(four, NoCrisis::NoBands { bands: 4, .. }), "{four}");
+    for event in [merging, CrisisEvent::Growth] {
+        let reason = reason(event, 0.5, (0.49, 0.495));
+        assert!(
+            matches!(reason, NoCrisis::NoneRests { .. }) && !reason.to_string().contains("orbit already")
+        );
+    }
+    // These two bands are lost to rest before they merge.
+    for (restitution, range) in [(0.7, (0.4, 0.45)), (0.8, (0.37, 0.41))] {
+        let reason = reason(merging, restitution, range);
+        assert!(matches!(reason, NoCrisis::RestsBefore { event: CrisisEvent::Rest, .. }), "{reason}");
+    }
+    for bands in [0, 17] {
+        let refused = search().for_event(CrisisEvent::BandMerging { bands });
+        assert!(matches!(refused, Err(Error::OutOfRange { field: "bands of a crisis", .. })));
+    }
+}
+
 #[test]
 fn mean_lives_follow_a_power_law() {
     let crisis = found();
@@ -232,8 +358,11 @@ fn mean_lives_scatter_as_their_errors_say() {
 #[test]
 fn the_curve_over_the_restitution_is_that_of_another_program() {
     let known = [
+        (0.25, 0.879_146_56, 0.879_146_57),
         (0.3, 0.809_135_30, 0.809_135_31),
+        (0.35, 0.745_028_83, 0.745_028_91),
         (0.4, 0.655_712_5, 0.655_713_5),
+        (0.45, 0.605_517_64, 0.605_517_68),
         (0.5, CRISIS, CRISIS),
         (0.6, 0.485_820_0, 0.485_820_5),
         (0.7, 0.429_606_5, 0.429_607_0),
@@ -257,7 +386,7 @@ fn the_curve_over_the_restitution_is_that_of_another_program() {
     }
     let kind =
         |restitution: f64| kinds.iter().find(|own| (own.0 - restitution).abs() < 1e-9).map(|own| own.1);
-    assert_eq!(kinds.len(), 7);
+    assert_eq!(kinds.len(), 10);
     // At 0.5 the attractor is lost, at 0.3 rest becomes a part of it.
     assert_eq!((kind(0.5), kind(0.3)), (Some(CrisisKind::Boundary), Some(CrisisKind::Interior)));
 }
