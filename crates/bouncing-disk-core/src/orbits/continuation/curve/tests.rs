@@ -115,6 +115,10 @@ fn curves_of_random_maps_end_with_a_reason_and_have_the_points_of_another_progra
     let (mut checked, mut grazing) = (0, Vec::new());
     random_curves(30, 4, |branch, curve| {
         *ends.entry((curve.kind.name(), curve.end.name())).or_default() += 1;
+        // A gap has a minimum only where the platform accelerates upwards against the disk by more than its weight.
+        let lift_off = core::f64::consts::FRAC_1_PI;
+        let grazes = matches!(curve.kind, BifurcationKind::Graze { .. });
+        assert!(!grazes || curve.points.iter().all(|point| point.parameters[0] > lift_off - point.errors[0]));
         for special in &curve.special {
             let CurvePoint { parameters, errors, .. } = special.point;
             for (index, exact) in CUSPS.iter().chain(&CRITICALITY_CHANGES).enumerate() {
@@ -226,6 +230,73 @@ fn curves_reach_the_limits_of_the_restitution() {
             gaps.fold(f64::INFINITY, f64::min)
         };
         assert!(lowest(restitution - 1e-7) < 0.0 && lowest(restitution + 1e-7) > 0.0, "{restitution}");
+    }
+}
+
+/// Where the platform begins to throw a disk off, Gamma = 1/pi, nothing happens to orbits that bounce: their folds pass,
+/// and their doublings come down to it at restitution 1, where 2 (1 + r^2) = (1 + r)^2. Maps and ends of ranges lie
+/// within a few units in the last place of it.
+#[test]
+fn curves_pass_lift_off_as_by_hand() {
+    let lift_off = core::f64::consts::FRAC_1_PI;
+    let around = |value: f64, ulps: i64| f64::from_bits(value.to_bits().wrapping_add_signed(ulps));
+    for k in 1..=3 {
+        // By hand: the fold of k periods is at this restitution.
+        let there = |forcing: f64| (k as f64 - forcing) / (k as f64 + forcing);
+        let up = Continuation::new(Restitution, (0.3, 0.999), true).expect("legal");
+        let down = Continuation::new(Restitution, (0.3, 0.999), false).expect("legal");
+        for ulps in -4..=4 {
+            let end = around(lift_off, ulps);
+            // From above the curve of folds falls to the end of its range, from below it rises to it.
+            for (restitution, range, settings) in [(0.4, (end, 6.0), &up), (0.99, (1e-6, end), &down)] {
+                let branch = branch(k, restitution);
+                let curve = branch.curve(index(&branch, BifurcationKind::Fold), range, settings, &Unobserved);
+                let curve = curve.expect("continued");
+                let last = curve.points.last().expect("some");
+                assert_eq!(curve.end, CurveEnd::RangeLimit { parameter: Forcing, value: end }, "{ulps}");
+                let off = [(last.parameters[0] - end).abs(), (last.parameters[1] - there(end)).abs()];
+                assert!(off[0] <= 1e-15 && off[1] <= 1e-14 + last.errors[1], "{ulps}: {off:?}");
+                let by_hand = curve.points.iter().map(|point| (k as f64 * loss(point.parameters[1]), point));
+                for (by_hand, point) in by_hand {
+                    let off = (point.parameters[0] - by_hand).abs();
+                    assert!(off <= point.errors[0] && off < 1e-14, "{ulps} {off:e} {point:?}");
+                }
+            }
+            // A branch over the restitution at lift-off has the same fold, and its curve leaves both ways.
+            let map = map(end, 0.5 * (1.0 + there(end)));
+            let node = map.period_one_pair(k).expect("above its birth").node;
+            let orbit: PeriodicOrbit = node.orbit(&map).expect("no failure").expect("admissible");
+            let falling = Continuation::new(Restitution, (0.1, 0.9999), false).expect("legal");
+            let branch = map.continued(&orbit, &falling, &Unobserved).expect("continued");
+            let fold = index(&branch, BifurcationKind::Fold);
+            let off = (branch.bifurcations[fold].point.parameter - there(end)).abs();
+            assert!(off <= 1e-14, "{ulps}: {off:e}");
+            for (rising, value) in [(true, 0.4), (false, 0.25)] {
+                let settings = Continuation::new(Forcing, (0.25, 0.4), rising).expect("legal");
+                let curve = branch.curve(fold, (0.1, 0.9999), &settings, &Unobserved).expect("continued");
+                assert_eq!(curve.end, CurveEnd::RangeLimit { parameter: Forcing, value }, "{ulps}");
+                for CurvePoint { parameters: [restitution, forcing], errors, .. } in &curve.points {
+                    let off = (restitution - there(*forcing)).abs();
+                    assert!(off <= errors[0] && off < 1e-14, "{ulps}: {off:e} {restitution} {forcing}");
+                }
+            }
+        }
+        // The doublings stay above it: with rho of the fold Gamma^2 is k^2 rho^2 + (1 + rho^2)^2/pi^2.
+        let branch = branch(k, 0.5);
+        let most = 1.0 - f64::EPSILON / 2.0;
+        let settings = Continuation::new(Restitution, (0.5, most), true).expect("legal");
+        let doublings =
+            branch.curve(index(&branch, BifurcationKind::Doubling), (0.2, 6.0), &settings, &Unobserved);
+        let doublings = doublings.expect("continued");
+        for CurvePoint { parameters: [forcing, restitution], errors, .. } in &doublings.points {
+            assert!(*forcing >= lift_off - errors[0], "{forcing} {restitution}");
+            assert!(
+                (forcing - doubling(k, *restitution)).abs() <= errors[0].min(1e-14),
+                "{forcing} {restitution}"
+            );
+        }
+        let [forcing, restitution] = doublings.points.last().expect("some").parameters;
+        assert!((forcing - lift_off).abs() <= 1e-15 && 1.0 - restitution < 1e-7, "{forcing} {restitution}");
     }
 }
 
