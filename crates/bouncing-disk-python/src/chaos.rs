@@ -4,8 +4,8 @@ use bouncing_disk::Error;
 use bouncing_disk::core::{
     attractors::{CycleTrust, UndecidedReason, Verdict, VerdictSettings, each_verdict},
     chaos::{
-        Crisis as CrisisModel, CrisisSearch, LifeAfterRest, LyapunovOutcome, Manifold, ManifoldBranch,
-        ManifoldEnd, ManifoldKind, ManifoldSettings, NoCrisis, PieceEnd, Side,
+        Crisis as CrisisModel, CrisisEvent, CrisisKind, CrisisSearch, LyapunovOutcome, Manifold,
+        ManifoldBranch, ManifoldEnd, ManifoldKind, ManifoldSettings, NoCrisis, PieceEnd, Side,
     },
 };
 use numpy::{Complex64, PyArray1};
@@ -361,10 +361,10 @@ pub(crate) fn manifold(a: Arguments<'_>) -> Made<'_> {
 
 fn shown_crisis(py: Python<'_>, crisis: CrisisModel) -> Made<'_> {
     let own = crisis.tangency.as_ref().ok();
-    let is_boundary_crisis = match crisis.after_rest {
-        LifeAfterRest::Short { .. } => Some(true),
-        LifeAfterRest::Long { .. } => Some(false),
-        LifeAfterRest::Varied { .. } => None,
+    let kind = crisis.kind();
+    let is_boundary_crisis = match kind {
+        CrisisKind::Undecided => None,
+        kind => Some(matches!(kind, CrisisKind::Boundary | CrisisKind::OtherAttractor)),
     };
     let side = |side| if side == Side::Later { "later" } else { "earlier" };
     let made = make!(
@@ -374,6 +374,7 @@ fn shown_crisis(py: Python<'_>, crisis: CrisisModel) -> Made<'_> {
         crisis.forcing,
         crisis.forcing_error,
         crisis.bracket,
+        kind.name(),
         is_boundary_crisis,
         crisis.tangency.as_ref().err().map(ToString::to_string),
         own.map(|own| shown_orbit(py, own.inside.clone())).transpose()?,
@@ -388,15 +389,22 @@ fn shown_crisis(py: Python<'_>, crisis: CrisisModel) -> Made<'_> {
     holding(made, Crisis(crisis))
 }
 
+/// The search that these arguments describe.
+fn crisis_search(a: &Arguments<'_>, restitution: f64) -> PyResult<CrisisSearch> {
+    let (samples, impacts) = (a.u32("samples")?, a.u64("impacts")?);
+    let merging = CrisisEvent::BandMerging { bands: a.u32("bands")? };
+    let events = [("rest", CrisisEvent::Rest), ("band merging", merging), ("growth", CrisisEvent::Growth)];
+    let event = a.choice("event", &events)?;
+    CrisisSearch::new(restitution, a.pair("axial_forcing")?)
+        .and_then(|search| search.with_samples(samples, impacts)?.for_event(event))
+        .map_err(|error| a.refused(error))
+}
+
 /// The crisis at each restitution, or `None`.
 #[pyfunction]
 pub(crate) fn crises(a: Arguments<'_>) -> PyResult<Vec<Option<Bound<'_, PyAny>>>> {
-    let (restitutions, range) = (a.row("restitution")?, a.pair("axial_forcing")?);
-    let (samples, impacts) = (a.u32("samples")?, a.u64("impacts")?);
-    let first = restitutions.first().copied().unwrap_or(f64::NAN);
-    let search = CrisisSearch::new(first, range)
-        .and_then(|search| search.with_samples(samples, impacts))
-        .map_err(|error| a.refused(error))?;
+    let restitutions = a.row("restitution")?;
+    let search = crisis_search(&a, restitutions.first().copied().unwrap_or(f64::NAN))?;
     let found = a.run(|observer| Ok(search.over_restitution(&restitutions, observer)?))?;
     found
         .into_iter()
@@ -404,13 +412,10 @@ pub(crate) fn crises(a: Arguments<'_>) -> PyResult<Vec<Option<Bound<'_, PyAny>>>
         .collect()
 }
 
-/// Where a chaotic attractor begins to lose orbits to rest.
+/// Where a chaotic attractor begins to lose orbits, merges its bands or becomes larger.
 #[pyfunction]
 pub(crate) fn crisis(a: Arguments<'_>) -> Made<'_> {
-    let (samples, impacts) = (a.u32("samples")?, a.u64("impacts")?);
-    let search = CrisisSearch::new(a.real("restitution")?, a.pair("axial_forcing")?)
-        .and_then(|search| search.with_samples(samples, impacts))
-        .map_err(|error| a.refused(error))?;
+    let search = crisis_search(&a, a.real("restitution")?)?;
     let saddle = |name: &str| a.given(name)?.map(|_| a.held::<PeriodicOrbit>(name)).transpose();
     let (inside, touched) = (saddle("inside")?, saddle("touched")?);
     let first = inside.as_ref().or(touched.as_ref());

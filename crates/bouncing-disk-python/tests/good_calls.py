@@ -170,6 +170,8 @@ def good() -> list[tuple[Callable[..., Any], list[Any], dict[str, Any]]]:
             {
                 "restitution": 0.5,
                 "axial_forcing": (0.4, 0.5),
+                "event": "growth",
+                "bands": 1,
                 "samples": 16,
                 "impacts": 10_000,
                 "progress": None,

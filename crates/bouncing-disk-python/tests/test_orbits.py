@@ -112,6 +112,16 @@ def test_a_crisis_lies_where_the_attractor_of_fig_6_is_lost() -> None:
     assert refused.value.field == "beyond"
 
 
+def test_bands_merge_below_the_crisis() -> None:
+    found = bd.crisis(restitution=0.5, axial_forcing=(0.548, 0.552), event="band merging", impacts=200_000)
+    assert found.kind == "band merging" and found.is_boundary_crisis is False
+    assert abs(found.axial_forcing - 0.5500648590699) < 1e-12 and found.touched is not None and found.touched.period == 1
+    with pytest.raises(bd.ComputationError, match="bands"):
+        bd.crisis(restitution=0.5, axial_forcing=(0.46, 0.48), event="band merging", impacts=20_000)
+    with pytest.raises(bd.OutOfRangeError):
+        bd.crisis(restitution=0.5, axial_forcing=(0.46, 0.48), event="band merging", bands=17)
+
+
 def test_no_crisis_says_why() -> None:
     with pytest.raises(bd.ComputationError) as failed:
         bd.crisis(edge(), restitution=0.5, axial_forcing=(0.559, 0.5600), impacts=20_000)

@@ -418,7 +418,7 @@ class CrisisLives(Result):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Crisis(Stored):
-    """The crisis in which a chaotic attractor begins to lose orbits to rest.
+    """A crisis: a chaotic attractor begins to lose orbits, merges its bands or becomes larger.
 
     Made by :func:`crisis`.
 
@@ -428,8 +428,11 @@ class Crisis(Stored):
         forcing_error: its error: half of the bracket, or the part below the tangency.
         bracket: the values of Gamma between which lifetimes place the crisis; the lower bound holds in 95
             of 100 searches.
-        is_boundary_crisis: true if the attractor is lost: a disk that came to rest soon rests for ever. False if the
-            disk bounces on after a rest, which is now part of the attractor. None if this depends on the forcing.
+        kind: ``"boundary"`` (the attractor is lost to rest), ``"interior"`` (rest becomes a part of it),
+            ``"undecided"``, ``"band merging"``, ``"growth"`` (it becomes larger without rest) or ``"other
+            attractor"`` (orbits leave and do not return).
+        is_boundary_crisis: whether the attractor is lost: kind ``"boundary"`` or ``"other attractor"``. None if
+            undecided.
         no_tangency: why no tangency is known as the cause; None if one is.
         inside: the saddle on the attractor, at the crisis; None without a tangency, like all attributes below.
         touched: the saddle whose stable manifold is touched, at the crisis.
@@ -448,6 +451,7 @@ class Crisis(Stored):
     axial_forcing: float
     forcing_error: float
     bracket: tuple[float, float]
+    kind: str
     is_boundary_crisis: bool | None
     no_tangency: str | None
     inside: PeriodicOrbit | None
@@ -478,11 +482,13 @@ def crisis(
     *,
     restitution: Float,
     axial_forcing: Pair,
+    event: Literal["rest", "band merging", "growth"] = "rest",
+    bands: Int = 1,
     samples: Int = 64,
     impacts: Int = 2_000_000,
     progress: Progress = None,
 ) -> Crisis:
-    """The forcing at which a chaotic attractor begins to lose orbits to rest.
+    """The forcing at which a chaotic attractor begins to lose orbits to rest, merges its bands or becomes larger.
 
     Orbits on the attractor are followed to a bracket; a tangency of manifolds within it refines the result.
 
@@ -492,13 +498,16 @@ def crisis(
         touched: the saddle whose stable manifold is touched; by default the saddle `inside`.
         restitution: coefficient of restitution, in (0, 1).
         axial_forcing: Gamma below the crisis and beyond it.
+        event: what to look for: orbits that come to rest, that change between the bands of the attractor, or that
+            leave the part of the plane that it occupied at lower forcings.
+        bands: number of bands, in [1, 16], into which twice as many merge.
         samples: orbits followed at each forcing, in [16, 1e6].
         impacts: impacts of all orbits together, in [1e4, 1e12]; at least 200 per orbit. More impacts narrow the
             bracket.
 
     Raises:
         ComputationError: There is no crisis, with the reason as its kind: ``"not-born"``, ``"not-followed"``,
-            ``"none-rests"``, ``"rests-before"``, ``"not-chaotic"``, ``"lives-do-not-shrink"`` or
+            ``"none-rests"``, ``"rests-before"``, ``"no-bands"``, ``"not-chaotic"``, ``"lives-do-not-shrink"`` or
             ``"other-reason"``.
 
     >>> import bouncing_disk as bd
@@ -513,6 +522,8 @@ def crises(
     *,
     restitution: ArrayLike,
     axial_forcing: Pair,
+    event: Literal["rest", "band merging", "growth"] = "rest",
+    bands: Int = 1,
     samples: Int = 64,
     impacts: Int = 2_000_000,
     progress: Progress = None,
@@ -524,7 +535,7 @@ def crises(
     Args:
         restitution: coefficients of restitution, in (0, 1), each close to the one before, shape (n,).
         axial_forcing: Gamma below the first crisis and beyond it.
-        samples, impacts: as for :func:`crisis`.
+        event, bands, samples, impacts: as for :func:`crisis`.
 
     Returns:
         A crisis for each restitution; None where none is found.
