@@ -76,7 +76,7 @@ impl Range {
         (self.first, self.last)
     }
 
-    /// The value with this index; beyond the last one, the last one.
+    /// The value with this index, or the last value if the index is too large.
     pub(crate) fn value(&self, index: usize) -> f64 {
         if index + 1 >= self.count {
             return self.last;

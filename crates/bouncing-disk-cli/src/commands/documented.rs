@@ -103,7 +103,7 @@ fn simple_commands(line: &str) -> Vec<Vec<String>> {
     commands
 }
 
-/// The commands of this program on a page, without its name.
+/// This program's commands that a page quotes, without the program's name.
 fn commands(page: &str) -> Vec<(Place, Vec<String>)> {
     let own = CommandLine::command();
     let is_command = |word: &str| own.get_subcommands().any(|known| known.get_name() == word);

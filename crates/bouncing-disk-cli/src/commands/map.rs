@@ -146,7 +146,7 @@ pub(crate) const STARTS: &str = "`rest`, at rest on the platform when it rises f
                                  phase in periods (tau/2pi) and the normalised impact speed |w_A Gamma/(omega A)|";
 
 impl Start {
-    /// The impact in a map, on a platform that rises fastest at the phase `rise` (0 for the sine); `None` if the
+    /// The impact for a map, on a platform that rises fastest at the phase `rise` (0 for the sine); `None` if the
     /// map has no such start.
     pub(crate) fn of(self, map: &ImpactMap, rise: f64) -> Result<Option<ImpactState>, Error> {
         match self {

@@ -48,7 +48,7 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// An axis from `low` < `high` with 1 to 100 000 cells.
+    /// An axis from `low` up to `high`, with 1 to 100 000 cells.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for an empty, reversed or non-finite axis, or one whose length overflows.

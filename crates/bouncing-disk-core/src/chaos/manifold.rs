@@ -152,7 +152,7 @@ pub struct ManifoldPiece {
     pub end: PieceEnd,
 }
 
-/// The reason why a branch of a manifold is not longer.
+/// Why a branch of a manifold ends where it does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]

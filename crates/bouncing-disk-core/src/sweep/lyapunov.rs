@@ -134,7 +134,8 @@ impl LyapunovEstimate {
         BatchMeans::with_resolution(GROWTH_RESOLUTION)
     }
 
-    /// The estimate from such a mean; `None` for fewer than 16 growths or if one was unbounded.
+    /// The estimate from a mean begun by [`Self::growths`]; `None` for fewer than 16 growths or if one was
+    /// unbounded.
     #[must_use]
     pub fn of(growths: &BatchMeans) -> Option<Self> {
         let (exponent, standard_error) = (growths.mean()?, growths.standard_error()?);

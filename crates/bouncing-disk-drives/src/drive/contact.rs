@@ -85,8 +85,8 @@ impl Drive {
     }
 
     /// The time from a launch at `time` with relative `speed` to the rest after infinitely many impacts,
-    /// provided that a bound on the acceleration proves the pull to stay positive until then and that no kink
-    /// comes before.
+    /// provided that a bound on the acceleration proves that the pull stays positive until then, and that there is
+    /// no kink before.
     ///
     /// For a launch at w, with the pull A = 1 + s'' and its derivative B, the sum of the flights is 2 w/(A (1 -
     /// r)) [1 - (2/3) B w/(A^2 (1 - r))] plus higher terms. If the pull is between A1 and A2, a flight

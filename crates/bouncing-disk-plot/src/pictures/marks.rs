@@ -18,7 +18,7 @@ pub struct CellMarks {
     pub unsettled: bool,
     /// There is no steady motion: the load overpowers the motor.
     pub runaway: bool,
-    /// A motor with rigid impacts is locked on a short cycle.
+    /// A motor with rigid impacts is locked to a short cycle.
     pub locked: bool,
     /// Whether a bound is satisfied; `None` if there is no bound, or if this is not known.
     pub keeps: Option<bool>,
@@ -58,7 +58,7 @@ const MARKS: [Mark; 5] = [
         of: |cell| cell.periodic,
     },
     Mark {
-        words: "locked on a short cycle at exactly these inputs",
+        words: "locked to a short cycle at exactly these inputs",
         marker: Marker::Square,
         place: (0.3, -0.3),
         around_point: 8.4,

@@ -117,7 +117,7 @@ class Parameters:
 
     @classmethod
     def from_json(cls: type[Own], json: str) -> Own:
-        """The object from a text as returned by :meth:`to_json`."""
+        """The object from a string as returned by :meth:`to_json`."""
         text = readable(json)
         try:
             return cls.from_dict(json_module.loads(text, parse_constant=_refused))
@@ -289,7 +289,7 @@ class Stored(Result):
 
     @classmethod
     def from_json(cls: type[Kept], json: str) -> Kept:
-        """The result from a text as returned by :meth:`to_json`."""
+        """The result from a string as returned by :meth:`to_json`."""
         return getattr(native, cls.__name__).from_json(readable(json))
 
     def __reduce__(self) -> tuple[Any, ...]:

@@ -255,8 +255,8 @@ def read_speeds(
     """Measured speeds from a file of separated values, as instruments write them.
 
     The first line that names the columns is the header; units are in the names, in the row below, or given
-    here. Remarks, semicolons, tabs and decimal commas are legal; anything ambiguous is an error with its line
-    and field.
+    here. Remarks, semicolons, tabs and decimal commas are legal; anything ambiguous raises an error that names
+    line and field.
 
     Args:
         path: the file: times, speeds and, for repeated runs, the number of the run (``member``).

@@ -253,7 +253,7 @@ class Motor(Parameters):
 
     @classmethod
     def from_json(cls, json: str) -> Motor:
-        """The motor from a text as returned by :meth:`to_json`; errors name the line."""
+        """The motor from a string as returned by :meth:`to_json`; errors name the line."""
         return Motor._holding(native.known_motor("json", readable(json)))
 
 

@@ -676,7 +676,7 @@ impl Computed {
 
 /// The transformation that makes the means of a transient independent near the truth. It accounts for the
 /// scatter of runs, and for the differences between neighbouring motors that no smooth response explains (a
-/// motor that locks on a cycle is faster or slower in all windows together).
+/// motor that locks to a cycle is faster or slower in all windows together).
 struct Basis {
     root: Cholesky<f64, Dyn>,
     turn: DMatrix<f64>,

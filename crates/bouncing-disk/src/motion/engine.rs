@@ -1,5 +1,5 @@
-//! The event engine: the motion of a disk from event to event, on a platform that moves as a sine or with any
-//! periodic motion.
+//! The event engine: the motion of a disk from event to event, on a platform that moves sinusoidally or
+//! with any periodic motion.
 //!
 //! A [`Ground`] finds the next event, in closed form or as a first root. The effect of an event on the disk,
 //! and its record with the energy, are the same on every ground and implemented here.

@@ -74,7 +74,7 @@ impl Motor {
         &self.stator_motion
     }
 
-    /// The system of a motor whose stator moves as a sine, with rigid impacts and a constant load.
+    /// The system of a motor whose stator moves sinusoidally, with rigid impacts and a constant load.
     ///
     /// # Errors
     /// [`Error::YieldingStator`], [`Error::LoadLaw`], [`Error::DriveNotSine`] or [`Error::SoftContact`] for a

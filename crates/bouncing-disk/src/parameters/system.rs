@@ -137,8 +137,7 @@ impl System {
         self.stator.and_then(|stator| stator.of_platform(&self.platform).ok())
     }
 
-    /// The same system, if its platform moves as a sine that the disk does not change and the load is
-    /// constant.
+    /// The same system, if its platform moves sinusoidally, unaffected by the disk, and the load is constant.
     ///
     /// # Errors
     /// [`Error::YieldingStator`], [`Error::LoadLaw`], [`Error::DriveNotSine`].
@@ -231,7 +230,7 @@ impl TryFrom<System> for DimensionlessSystem {
 impl TryFrom<&System> for DimensionlessSystem {
     type Error = Error;
 
-    /// The system, if its impacts are rigid and its platform moves as a sine.
+    /// The system, if its impacts are rigid and its platform moves sinusoidally.
     ///
     /// # Errors
     /// [`Error::SoftContact`], [`Error::YieldingStator`]; for the system of a [`Motor`](crate::Motor) also

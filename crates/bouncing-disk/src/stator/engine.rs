@@ -20,8 +20,8 @@ use crate::motion::stator_ledger::StatorLedger;
 
 impl StatorEngine {
     /// An engine for a disk that starts in contact, with a launch or in the air, on a stator in its steady
-    /// motion without a disk. A disk in contact whose angular speed equals the stator's within rounding
-    /// sticks or begins to slide.
+    /// motion without a disk. If a disk in contact has the stator's angular speed within rounding, it sticks
+    /// or begins to slide.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for an illegal start.

@@ -8,8 +8,8 @@ use std::fmt;
 /// than on the motion.
 pub const LONG_FLIGHT: f64 = PI;
 
-/// Largest relative difference between the mean time between separations and the unperturbed cycle for which
-/// the cycle is judged to survive the perturbation. Cycles of more long flights than [`LOCKED_FLIGHTS`]
+/// A cycle is judged to survive the perturbation if the mean interval from one separation to the next differs from
+/// the unperturbed one by at most this fraction. Cycles of more long flights than [`LOCKED_FLIGHTS`]
 /// approach the mean by chance.
 pub const LOCKED_WITHIN: f64 = 0.05;
 /// Largest number of long flights of a cycle to which [`LOCKED_WITHIN`] applies.

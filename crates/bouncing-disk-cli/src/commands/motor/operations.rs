@@ -1,5 +1,5 @@
 //! `bouncing-disk motor stall`, `motor best` and `motor traps`: the load that stops the motor, the best of a
-//! quantity, and the preloads at which the motor is locked on a short cycle.
+//! quantity, and the preloads at which the motor is locked to a short cycle.
 
 use bouncing_disk::Motor;
 use bouncing_disk::core::Unobserved;
@@ -184,7 +184,7 @@ pub(super) fn best(args: &BestArgs, context: Context) -> Result<()> {
     }
     if let Some(share) = trap_beside(&motor, &best)? {
         note += &format!(
-            "a preload or amplitude {:.2} % away locks the motor on a short cycle; `motor traps` lists such values\n",
+            "a preload or amplitude {:.2} % away locks the motor to a short cycle; `motor traps` lists such values\n",
             100.0 * share
         );
     }

@@ -242,7 +242,7 @@ impl GridJob for SweepJob {
 /// Maps with more vertical motions do not mark locked cells.
 const MOST_REGIMES: usize = 2_000;
 
-/// Whether the motor of each cell locks on a short cycle. The cells of a group share their vertical motion.
+/// Whether the motor of each cell locks to a short cycle. The cells of a group share their vertical motion.
 fn locked(sweep: &MotorSweep) -> Result<Vec<bool>> {
     let mut locked = vec![false; sweep.cells()];
     if sweep.motor().rigid_sine().is_err() || sweep.groups().len() > MOST_REGIMES {

@@ -81,10 +81,10 @@ impl AttractorSearch {
         search.check().map(|()| search)
     }
 
-    /// The same search with these numbers of impacts: `transient` in [1, 2^40] that are skipped (default
+    /// The same search with these numbers of impacts: `transient` in [1, 2^40], which are skipped (default
     /// 2,000), and then `impacts` in [64, 2^40] (default 100,000). Orbits of each aperiodic motion are
-    /// followed for the sum of the two numbers, and so are all starts if one orbit leaves its motion. All
-    /// other starts are followed for at most twice the transient.
+    /// followed for the sum of the two numbers. If one of them leaves its motion, all starts are followed as
+    /// far; otherwise the other starts are followed for at most twice the transient.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for either number.
@@ -112,8 +112,8 @@ impl AttractorSearch {
         search.check().map(|()| search)
     }
 
-    /// The same search with this search for periodic orbits; attracting ones become candidates however small
-    /// their basins. `None` leaves only one-impact orbits, whose closed form costs nothing. Default: two
+    /// The same search with the periodic orbits that `orbits` finds: attracting ones become candidates however
+    /// small their basins. `None` leaves only one-impact orbits, whose closed form costs nothing. Default: two
     /// impacts and 64 periods of the platform, from 48 x 48 starts.
     #[must_use]
     pub const fn with_orbits(self, orbits: Option<OrbitSearch>) -> Self {

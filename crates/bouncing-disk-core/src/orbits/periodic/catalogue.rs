@@ -53,8 +53,8 @@ impl OrbitSearch {
     /// The largest number of starts along each axis.
     pub const MAX_STARTS: u32 = 4_096;
 
-    /// A search for all orbits of at most `max_impacts` in [1, 64] impacts and `max_platform_periods` in [1,
-    /// 10000] periods of the platform, from 96 x 96 starts.
+    /// A search, from 96 x 96 starts, for all orbits with at most `max_impacts` impacts (in [1, 64]) in at most
+    /// `max_platform_periods` periods of the platform (in [1, 10000]).
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for either number.

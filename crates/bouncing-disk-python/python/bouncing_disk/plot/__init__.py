@@ -1,4 +1,4 @@
-"""The paper's figures for your own system, by Matplotlib: ``from bouncing_disk import plot``.
+"""The paper's figures for your own system, with Matplotlib: ``from bouncing_disk import plot``.
 
 Each function takes a system, a map or a motor, computes its data and draws them, or takes existing results.
 It returns ``(fig, ax)``, and draws into `ax` if that is given. The style is that of

@@ -65,7 +65,7 @@ def toss(
 ) -> tuple[Figure, np.ndarray[Any, Any]]:
     """Height and angle of disk and platform over time, with the events, as in Fig. 5 of the paper.
 
-    Events of a motion with more than 400 are omitted: they would cover the curves.
+    More than 400 events are omitted: they would cover the curves.
 
     Args:
         motion: the motion to draw; for a system, its toss until the disk lands.

@@ -2,7 +2,7 @@
 //! variance v states the possible error far from these points.
 //!
 //! The errors of the computed values are known, the covariance is Matern's of order 5/2 with a length along
-//! each coordinate, and a rough variance represents motions that lock on a cycle. Lengths and variances
+//! each coordinate, and a rough variance represents motions that lock to a cycle. Lengths and variances
 //! maximise the likelihood. Motions may lock only in part of the ranges. Therefore v and the rough variance
 //! are multiplied by the ratio of the mean square of nearby leave-one-out errors to its expectation, if above
 //! one, and by the square of Student's factor for the number of points.
@@ -50,7 +50,7 @@ pub(crate) struct Emulator {
     scatters: Vec<f64>,
     mean: f64,
     /// Logarithms of a length along each coordinate, of the variance of the smooth part, and of the rough
-    /// variance (motions that lock on a cycle).
+    /// variance (motions that lock to a cycle).
     scales: Vec<f64>,
     /// Inverse squares of the lengths along each coordinate, and both variances.
     rates: Vec<f64>,
@@ -125,7 +125,7 @@ impl Emulator {
     }
 
     /// The factor of the variances at a point. If values near it are further from their predictions than
-    /// expected, the response is rougher there than elsewhere (motions lock on a cycle only in part of the
+    /// expected, the response is rougher there than elsewhere (motions lock to a cycle only in part of the
     /// ranges). Student's factor allows for scales determined by few values.
     fn inflation(&self, place: &DVector<f64>) -> f64 {
         let (mut sum, mut weights) = (0.0, 0.0);

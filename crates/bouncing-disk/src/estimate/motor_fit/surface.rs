@@ -416,7 +416,7 @@ impl Surface {
 
     /// How far deviations from a smooth response may move the parameters. Computed points near the best one are
     /// treated as if they had been measured; the result is the deviance that parameters can imitate and that
-    /// one point in twenty exceeds. If a response is rough (motions lock on cycles), a measured motor deviates
+    /// one point in twenty exceeds. If a response is rough (motions lock to cycles), a measured motor deviates
     /// from it as much as these points do, and the deviations are not normally distributed.
     fn roughest(&self) -> f64 {
         let is_near = |node: &&DVector<f64>| (*node - &self.best).amax() <= NEAR;

@@ -1,4 +1,4 @@
-//! The ground of Eq. (1), a platform that moves as a sine.
+//! The ground of Eq. (1), a platform that moves sinusoidally.
 //!
 //! The vertical half of Eq. (2) comes entirely from the core's [`Orbit`] (for the parabola of a flight see
 //! its `flight/gap.rs`). The rotary half (`rotary_change.rs`) and the changes between sticking and sliding
@@ -24,7 +24,7 @@ use crate::motion::segment::Segment;
 use crate::motion::state::{DiskState, LongSum, PlatformState, SlipDirection, Snapshot};
 use crate::parameters::dimensionless::DimensionlessSystem;
 
-/// A platform that moves as a sine, with a law of restitution.
+/// A platform that moves sinusoidally, with a law of restitution.
 #[derive(Debug, Clone)]
 pub struct SineGround<L = Constant> {
     friction: Friction,

@@ -99,7 +99,7 @@ impl Search<'_> {
         all.into_iter().map(|at| Place { at, found: None }).collect()
     }
 
-    /// Scans the whole range of a field through the best point, because motions lock on cycles in windows
+    /// Scans the whole range of a field through the best point, because motions lock to cycles in windows
     /// that a grid over two fields misses.
     fn scan(&mut self, field: usize, all: &mut Vec<Place>) -> Result<(), Error> {
         let (middle, side) = (all[self.best_of(all)?].at.clone(), CHEAP_PLACES[0]);

@@ -14,7 +14,7 @@ use crate::motor::stator::{Stator, on_shaft};
 use crate::parameters::system::System;
 
 impl LoadedMotor<'static> {
-    /// A motor whose stator moves as a sine, with rigid impacts and a constant load.
+    /// A motor whose stator moves sinusoidally, with rigid impacts and a constant load.
     pub(crate) fn of_sine(motor: &Motor) -> Result<Self, Error> {
         Ok(Self::on_sine(*motor.rigid_sine()?, motor.mass(), motor.load_torque()))
     }

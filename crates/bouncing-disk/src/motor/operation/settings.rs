@@ -30,7 +30,7 @@ pub struct OperatingSettings {
     /// case. Default 20 million, which takes a few seconds.
     pub most_impacts: u64,
     /// Size of the relaunch perturbation in units of g/omega, in (0, 1]. It cannot be zero: without it the
-    /// motor locks on a cycle selected by rounding, whose speed may be wrong by a third. Default 1e-3.
+    /// motor locks to a cycle selected by rounding, whose speed may be wrong by a third. Default 1e-3.
     pub relaunch_perturbation: f64,
     /// Seed of the perturbations. Default 1.
     pub seed: u64,

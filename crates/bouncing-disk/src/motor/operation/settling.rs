@@ -11,7 +11,7 @@ use crate::motor::operation::point::{Estimate, Shortfall, error_of_mean};
 /// merely followed for longer.
 const DRIFT: f64 = NORMAL_975;
 
-/// Motors that lock on one motion have almost no scatter, and the remainder of their start-up decays for
+/// Motors that lock to one motion have almost no scatter, and the remainder of their start-up decays for
 /// ever. A drift below this share of the requested error is ignored.
 const NEGLIGIBLE: f64 = 1e-3;
 

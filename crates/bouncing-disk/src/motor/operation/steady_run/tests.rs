@@ -163,7 +163,7 @@ fn a_load_above_the_largest_torque_of_friction_runs_away() {
     assert!(matches!(operated(&[pushed], &settings)[0], Operation::Runaway { .. }));
 }
 
-/// The engine without perturbation locks on a cycle selected by rounding, with a perfect energy balance,
+/// The engine without perturbation locks to a cycle selected by rounding, with a perfect energy balance,
 /// which a new user took for the motor's speed.
 #[test]
 fn the_cycle_of_the_rounding_is_not_mistaken_for_the_motor() {
@@ -400,7 +400,7 @@ fn stated_errors_hold_where_loose_ones_are_asked_for() {
         };
         let (loose, long) = (speed(0.5, seed), speed(0.02, 100 + seed));
         let error = hypot(loose.standard_error, long.standard_error);
-        // A motor that locks on one motion, and is known far better than requested, is not judged.
+        // A motor that locks to one motion, and is known far better than requested, is not judged.
         if error > 1e-4 * long.value.abs() {
             let errors = (loose.value - long.value) / error;
             assert!(errors.abs() < 4.0, "{system:?} {loose:?} {long:?}");
