@@ -220,7 +220,7 @@ fn stators() {
         "{reports:?}"
     );
     for (name, table, told) in [
-        ("switched", "speeds = [0]\ntorques = [0]\noff = 1", "needs a table [stator]"),
+        ("switched", "speeds = [0]\ntorques = [0]\noff = 1", "need a table [stator]"),
         ("short", "speeds = [0, 1]\ntorques = [1e-6]", "they need the same length"),
     ] {
         let sheet = folder.done("motor report --template") + &format!("\n[load]\n{table}\n");
@@ -266,7 +266,7 @@ fn stators() {
         ),
         (
             "motor best times.toml --over phase_lag",
-            "a steady operation has no time axis, but the table [load] has times",
+            "a steady operation has no time axis, but load.times, load.on or load.off is given",
         ),
         ("motor curve times.toml", "a steady operation has no time axis"),
         ("motor stall times.toml", "a steady operation has no time axis"),

@@ -156,7 +156,7 @@ fn a_load_that_a_motor_holds_bounds_the_friction() {
     let motor = Motor::paper_70_khz();
     let load = 0.5 * motor.largest_torque();
     let points = printed(&motor, &[under(load, 0.0, 0.3)], 1);
-    let few = MotorFitSettings { most_evaluations: 24, ..settings(1) };
+    let few = MotorFitSettings { most_evaluations: 24, members: 16, ..settings(1) };
     let fit = MotorFit::new(&motor, &points, &[], &[FRICTION, RESTITUTION], &few, &Unobserved).expect("fits");
     let friction = &fit.estimate(FitParameter::Friction).expect("fitted").accepted[0];
     // At half the friction nothing holds the load; the emulator is smooth across that transition.
@@ -166,7 +166,7 @@ fn a_load_that_a_motor_holds_bounds_the_friction() {
     let beyond =
         RatedPoint { speed: 2.0 * motor.system().platform().peak_angular_speed(), ..points[0].clone() };
     let error =
-        MotorFit::new(&motor, &[beyond], &[], &[FRICTION], &settings(1), &Unobserved).expect_err("too fast");
+        MotorFit::new(&motor, &[beyond], &[], &[FRICTION], &few, &Unobserved).expect_err("too fast");
     assert!(matches!(error, FitError::Refused(FitRefusal::Misfit { .. })), "{error}");
 }
 

@@ -110,7 +110,7 @@ fn law_and_system(
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(30))]
+    #![proptest_config(ProptestConfig::with_cases(12))]
 
     #[test]
     fn an_integration_in_small_steps_finds_the_same_events(
