@@ -141,7 +141,10 @@ fn periodic_orbits() {
     );
     check(
         &KnownOrbit::new(orbit, 0.1).expect("legal"),
-        &[("/radius", json!(-1.0), "attraction radius"), ("/orbit/platform_periods", json!(0), "less than one period")],
+        &[
+            ("/radius", json!(-1.0), "attraction radius"),
+            ("/orbit/platform_periods", json!(0), "less than one period"),
+        ],
     );
     check(&Multipliers::Real(-0.5, 0.25), &[("/Real/0", json!(0.2), "second multiplier")]);
     check(

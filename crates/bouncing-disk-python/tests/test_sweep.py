@@ -266,7 +266,7 @@ def test_results_that_do_not_fit_name_their_point() -> None:
     functions: list[tuple[Any, int | None, str]] = [
         (lambda a, b: a if a > b else b, 12, "a = 1.0, b = 10.0: for 12 points .* none of them alone: ValueError: The truth"),
         (lambda a, b: np.zeros(13), 12, r"result has the shape \(13,\)"),
-        (lambda a, b: object(), None, "result is object"),
+        (lambda a, b: object(), None, "result is of type object"),
         (lambda a, b: {"a": 1.0}, None, "a is the name of an axis and of a result"),
         (lambda a, b: "text" if a == 2.0 else 1.0, None, "a = 2.0, b = 10.0: TypeError: returned .*texts.*numbers"),
         (lambda a, b: {"x": 1.0} if a >= 2.0 else 1.0, None, "a = 2.0, b = 10.0.*; and 6 more"),

@@ -165,8 +165,7 @@ fn a_load_that_a_motor_holds_bounds_the_friction() {
     // And no parameter explains a speed above the stator's.
     let beyond =
         RatedPoint { speed: 2.0 * motor.system().platform().peak_angular_speed(), ..points[0].clone() };
-    let error =
-        MotorFit::new(&motor, &[beyond], &[], &[FRICTION], &few, &Unobserved).expect_err("too fast");
+    let error = MotorFit::new(&motor, &[beyond], &[], &[FRICTION], &few, &Unobserved).expect_err("too fast");
     assert!(matches!(error, FitError::Refused(FitRefusal::Misfit { .. })), "{error}");
 }
 
