@@ -50,7 +50,7 @@ test("tour: the third attractor of the plane of starts", async () => {
   assert.equal(told(third.text), "periodic orbit: 4 impacts in 2 periods");
   const cells = await cellsOf(state);
   const share = cells.filter((label) => label === third.label).length / cells.length;
-  says(`a third attractor, 4 impacts in 2 periods, with ${(100 * share).toFixed(0)} % of these starts`);
+  says(`a third attractor of 4 impacts in 2 periods, which attracts ${(100 * share).toFixed(0)} % of these starts`);
 });
 
 test("doubling: period one, period two, and the multiplier between them", async () => {
