@@ -1,5 +1,6 @@
-//! The crisis in which a chaotic attractor is lost to rest: where orbits on it begin to come to rest, and the
-//! tangency of manifolds that is the reason (docs/numerics-dynamics.md, "Crises").
+//! Crises of a chaotic attractor: where its orbits begin to come to rest, to change their band or to leave its
+//! part of the plane, and the tangency of manifolds that is the reason (docs/numerics-dynamics.md, "Crises").
+//! Below, a rest stands for any of these events.
 //!
 //! The margin of the bracket: at its lower end no orbit rests in all M impacts, but the crisis may lie a
 //! distance m below this end, because lives near the crisis exceed any M. So lives are measured at the
@@ -22,15 +23,19 @@
 //! 0.3994755 to 0.3994770 at 0.8. In 24 searches for each restitution, from starts over a fifth of the range,
 //! all brackets contain these results at 0.3, 0.6 and 0.7 and the tangency at 0.5; at 0.8, 22 brackets do.
 //!
-//! At 0.25 it gives 0.87914656 to 0.87914657, at 0.35 0.74502883 to 0.74502891 and at 0.45 0.60551764 to 0.60551768
-//! (no rest in 2e7 impacts, and rests), which the brackets contain; the tangency at 0.45 is at 0.6055176549.
+//! The range is 0.87914656 to 0.87914657 at 0.25, 0.74502883 to 0.74502891 at 0.35 and 0.60551764 to 0.60551768
+//! at 0.45 (no rest in 2e7 impacts below, rests above). The brackets contain these ranges; the tangency at 0.45
+//! lies at 0.6055176549.
 //!
-//! Two bands merge into one, by means of every second phase over 1e7 to 4e7 impacts, between 0.903358313 and 0.903358326 at
-//! restitution 0.2, 0.758713476 and 0.758713489 at 0.3, 0.550064858 and 0.550064871 at 0.5, 0.478694030 and 0.478694123
-//! at 0.6; four into two between 0.748192700 and 0.748192725 at 0.3, 0.544964978 and 0.544964991 at 0.5. At 0.7 and 0.8
-//! both bands are lost to rest. The cells of 1e6 impacts become more by the growths at 0.767062222 and 0.774656274 at
-//! 0.3, at 0.547556395 and 0.552497334 at 0.5, each within 3e-7. Of 24 searches each for mergings (0.3, 0.5, 0.6; four
-//! into two at 0.5) and growths (0.3, 0.5), from random starts, all brackets contain these.
+//! For mergings of 2b bands the program takes the mean phases of every 2b-th impact in blocks of 200 such impacts.
+//! Bands have merged if these means change places within 1e7 to 4e7 impacts. Two bands merge into one between 0.903358313 and 0.903358326 at restitution 0.2,
+//! 0.758713476 and 0.758713489 at 0.3, 0.550064858 and 0.550064871 at 0.5, 0.478694030 and 0.478694123 at 0.6.
+//! Four merge into two between 0.748192700 and 0.748192725 at 0.3, 0.544964978 and 0.544964991 at 0.5. At 0.7
+//! and 0.8 both bands are lost to rest first.
+//!
+//! For growths the program counts the cells that 1e6 impacts visit. The count rises within 3e-7 of 0.767062222
+//! and 0.774656274 at 0.3, and of 0.547556395 and 0.552497334 at 0.5. In 24 searches each from random starts, all
+//! brackets contain these mergings (0.3, 0.5, 0.6; four into two at 0.5) and growths (0.3, 0.5).
 //!
 //! Beyond the crisis of Fig. 6 lives were measured with 200 orbits at each of 14 distances. The unstable
 //! manifold of the period-1 orbit touches at 0.560753164.
@@ -176,8 +181,8 @@ pub struct Crisis {
     /// change of the forcing along the saddle and by rounding.
     pub forcing_error: f64,
     /// The values of Gamma between which followed orbits place the crisis. The crisis certainly lies below
-    /// the second, at which an orbit came to rest. It lies above the first with a confidence of 95 %:
-    /// otherwise 95 of 100 searches would have seen an orbit come to rest at a forcing where this one saw
+    /// the second, at which the event happened to an orbit. It lies above the first with a confidence of 95 %:
+    /// otherwise 95 of 100 searches would have seen the event at a forcing where this one saw
     /// none. This assumes that mean survival times rise no more steeply towards the crisis than the measured
     /// ones.
     pub bracket: (f64, f64),

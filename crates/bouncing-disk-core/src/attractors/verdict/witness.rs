@@ -116,7 +116,7 @@ pub(crate) struct Witness<'m, M> {
     /// The phase at which a disk came to rest that has not separated since, and its error.
     attached: Option<(Phase, f64)>,
     round: Option<Round>,
-    /// The earlier rounds: there are none unless the disk leaves the platform at several phases.
+    /// The earlier rounds; empty if the disk always leaves the platform at one phase.
     earlier: Vec<Round>,
     verdict: Option<Verdict>,
 }

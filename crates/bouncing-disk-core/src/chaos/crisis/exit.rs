@@ -38,7 +38,7 @@ const CELLS: u16 = 256;
 
 type Cell = (u16, u32);
 
-/// The event of a search, with what it takes to see it.
+/// The event of a search, with the data by which it is recognised.
 #[derive(Debug, Clone)]
 pub(super) enum Exit {
     Rest,

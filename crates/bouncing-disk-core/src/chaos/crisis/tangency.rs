@@ -115,7 +115,7 @@ pub(super) fn tangencies(
                     Ok((Solution { forcing, .. }, _)) => NoTangency::Elsewhere { forcing },
                     Err(other) => other,
                 };
-                // Of the tangencies elsewhere, the nearest is reported.
+                // The nearest tangency elsewhere is reported.
                 failure = match (other, failure) {
                     (NoTangency::Elsewhere { forcing: new }, NoTangency::Elsewhere { forcing })
                         if off(new) >= off(forcing) =>
