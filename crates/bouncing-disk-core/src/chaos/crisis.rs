@@ -28,8 +28,9 @@
 //! lies at 0.6055176549.
 //!
 //! For mergings of 2b bands the program takes the mean phases of every 2b-th impact in blocks of 200 such impacts.
-//! Bands have merged if these means change places within 1e7 to 4e7 impacts. Two bands merge into one between 0.903358313 and 0.903358326 at restitution 0.2,
-//! 0.758713476 and 0.758713489 at 0.3, 0.550064858 and 0.550064871 at 0.5, 0.478694030 and 0.478694123 at 0.6.
+//! Bands have merged if these means change places within 1e7 to 4e7 impacts. Two bands merge into one between
+//! 0.903358313 and 0.903358326 at restitution 0.2, 0.758713476 and 0.758713489 at 0.3, 0.550064858 and
+//! 0.550064871 at 0.5, 0.478694030 and 0.478694123 at 0.6.
 //! Four merge into two between 0.748192700 and 0.748192725 at 0.3, 0.544964978 and 0.544964991 at 0.5. At 0.7
 //! and 0.8 both bands are lost to rest first.
 //!
